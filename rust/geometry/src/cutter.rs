@@ -1,0 +1,353 @@
+//! The convex body that planning and verification ask: a profile with a flat at its tip, grown by a ball.
+//!
+//! Sheet of constant thickness and safety margins are balls added to the tool (Minkowski sum), so a
+//! formed sheet needs no algorithm of its own. Above the base the body goes straight up.
+
+use std::f64::consts::FRAC_PI_2;
+
+use crate::Profile;
+
+/// Cells of the table over the radius; one tangent each. At 1024 a bound costs one look-up and is
+/// within micrometres of the curve except at a vertical tangent, where it stays on the safe side.
+const RADIUS_CELLS: usize = 1024;
+/// Cells of the table over the rise: interpolated, the radius is good to a 1e-5 of the tool.
+const RISE_CELLS: usize = 512;
+/// Cells of the table over the slope.
+const SLOPE_CELLS: usize = 128;
+
+/// A line below the profile: `height + rise * (d - radius)` is never above it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SupportingLine {
+    /// Radius at which it touches, mm.
+    pub radius: f64,
+    /// Height there, mm.
+    pub height: f64,
+    /// Its steepness dz/dr.
+    pub rise: f64,
+}
+
+/// Profile + flat + ball, with tables for quick and safe bounds. Tip at the origin, axis up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cutter {
+    profile: Profile,
+    flat: f64,
+    ball: f64,
+    max_radius: f64,
+    max_height: f64,
+    cells_per_mm: f64,
+    lines: Vec<SupportingLine>,
+    /// Radius by rise / (1 + rise).
+    rises: Vec<f64>,
+    slopes: Vec<SlopeNode>,
+}
+
+/// The profile at one slope of the table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct SlopeNode {
+    slope: f64,
+    sin: f64,
+    cos: f64,
+    radius: f64,
+    height: f64,
+}
+
+impl Cutter {
+    /// `flat` and `ball` are radii, mm, not negative.
+    #[must_use]
+    pub fn new(profile: Profile, flat: f64, ball: f64) -> Self {
+        let mut cutter = Self {
+            profile,
+            flat,
+            ball,
+            max_radius: 0.0,
+            max_height: 0.0,
+            cells_per_mm: 0.0,
+            lines: Vec::new(),
+            rises: Vec::new(),
+            slopes: Vec::new(),
+        };
+        (cutter.max_radius, cutter.max_height) = cutter.point_at(FRAC_PI_2);
+        cutter.slopes = (0..=SLOPE_CELLS).map(|i| cutter.slope_node(i)).collect();
+        cutter.cells_per_mm = RADIUS_CELLS as f64 / cutter.max_radius;
+        cutter.lines = (0..RADIUS_CELLS).map(|i| cutter.tangent_at(i as f64 / cutter.cells_per_mm)).collect();
+        cutter.rises = (0..=RISE_CELLS).map(|i| cutter.rise_node(i)).collect();
+        cutter
+    }
+
+    fn rise_node(&self, i: usize) -> f64 {
+        let share = i as f64 / RISE_CELLS as f64;
+        self.point_at(libm::atan2(share, 1.0 - share)).0
+    }
+
+    fn slope_node(&self, i: usize) -> SlopeNode {
+        let slope = FRAC_PI_2 * i as f64 / SLOPE_CELLS as f64;
+        let (sin, cos) = if i == SLOPE_CELLS { (1.0, 0.0) } else { libm::sincos(slope) };
+        let (radius, height) = self.point_at(slope);
+        SlopeNode { slope, sin, cos, radius, height }
+    }
+
+    fn tangent_at(&self, radius: f64) -> SupportingLine {
+        let slope = self.slope_at_radius(radius);
+        SupportingLine { radius, height: self.point_at(slope).1, rise: libm::tan(slope) }
+    }
+
+    /// Radius and height at a slope from 0 to a right angle, mm; the outer end of a flat.
+    ///
+    /// Where the profile ends below a right angle, its rim serves all steeper slopes.
+    #[must_use]
+    pub fn point_at(&self, slope: f64) -> (f64, f64) {
+        let (r, z) = self.profile.point_at(slope.min(self.profile.max_slope()));
+        if self.ball == 0.0 {
+            return (self.flat + r, z);
+        }
+        let half = libm::sin(slope / 2.0);
+        (self.flat + r + self.ball * libm::sin(slope), z + self.ball * 2.0 * half * half)
+    }
+
+    /// Radius of curvature of the meridian, mm.
+    #[must_use]
+    pub fn curvature_radius_at(&self, slope: f64) -> f64 {
+        let bare = if slope <= self.profile.max_slope() { self.profile.curvature_radius_at(slope) } else { 0.0 };
+        bare + self.ball
+    }
+
+    /// The steepest slope at which the bare profile still is smooth, rad.
+    #[must_use]
+    pub fn max_slope(&self) -> f64 {
+        self.profile.max_slope()
+    }
+
+    /// Radius of the base, mm.
+    #[must_use]
+    pub fn max_radius(&self) -> f64 {
+        self.max_radius
+    }
+
+    /// Height of the base over the tip, mm.
+    #[must_use]
+    pub fn max_height(&self) -> f64 {
+        self.max_height
+    }
+
+    /// Slope at a radius from 0 to the base's, rad; 0 on the flat.
+    #[must_use]
+    pub fn slope_at_radius(&self, radius: f64) -> f64 {
+        let u = radius - self.flat;
+        if u <= 0.0 {
+            return 0.0;
+        }
+        if let Profile::Ball(ball) = &self.profile {
+            return libm::asin((u / (ball.radius() + self.ball)).min(1.0));
+        }
+        if self.ball == 0.0 {
+            return self.profile.slope_at_radius(u);
+        }
+        self.grown_slope_at(u)
+    }
+
+    /// Solves r(slope) + ball sin(slope) = u. Newton in x = sqrt(slope), where a clothoid's radius is smooth.
+    fn grown_slope_at(&self, u: f64) -> f64 {
+        let (mut low, mut high) = self.slope_bracket(u + self.flat);
+        let mut x = 0.5 * (low + high);
+        for _ in 0..80 {
+            let slope = x * x;
+            let excess = self.point_at(slope).0 - self.flat - u;
+            if excess > 0.0 {
+                high = x;
+            } else {
+                low = x;
+            }
+            let rate = 2.0 * x * libm::cos(slope) * self.curvature_radius_at(slope);
+            let next = x - excess / rate;
+            let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+            let step = (next - x).abs();
+            x = next;
+            if step <= 1e-15 * x || high - low <= 1e-15 * high {
+                break;
+            }
+        }
+        x * x
+    }
+
+    /// Square roots of two table slopes that enclose the one at `radius`.
+    fn slope_bracket(&self, radius: f64) -> (f64, f64) {
+        if self.slopes.is_empty() {
+            return (0.0, FRAC_PI_2.sqrt());
+        }
+        let above = self.slopes.partition_point(|n| n.radius <= radius).clamp(1, self.slopes.len() - 1);
+        (self.slopes[above - 1].slope.sqrt(), self.slopes[above].slope.sqrt())
+    }
+
+    /// Height over the tip at a radius, mm; infinite beyond the base.
+    #[must_use]
+    pub fn height_at_radius(&self, radius: f64) -> f64 {
+        let u = radius - self.flat;
+        if u <= 0.0 {
+            return 0.0;
+        }
+        if radius > self.max_radius {
+            return f64::INFINITY;
+        }
+        if let Profile::Ball(ball) = &self.profile {
+            let whole = ball.radius() + self.ball;
+            return u * u / (whole + (whole * whole - u * u).max(0.0).sqrt());
+        }
+        self.point_at(self.slope_at_radius(radius)).1
+    }
+
+    /// A line that the profile does not fall below, touching near `radius` (mm, up to the base's).
+    #[inline]
+    #[must_use]
+    pub fn supporting_line(&self, radius: f64) -> SupportingLine {
+        let cell = (radius * self.cells_per_mm) as usize;
+        self.lines[cell.min(RADIUS_CELLS - 1)]
+    }
+
+    /// A radius near which the profile rises by `rise` (dz/dr), mm: by table, for bounds.
+    #[inline]
+    #[must_use]
+    pub fn radius_of_rise(&self, rise: f64) -> f64 {
+        let place = rise / (1.0 + rise) * RISE_CELLS as f64;
+        let cell = (place as usize).min(RISE_CELLS - 1);
+        let (a, b) = (self.rises[cell], self.rises[cell + 1]);
+        a + (place - cell as f64) * (b - a)
+    }
+
+    /// A height that the profile does not fall below at `radius`, mm; infinite beyond the base.
+    #[inline]
+    #[must_use]
+    pub fn height_bound(&self, radius: f64) -> f64 {
+        if radius > self.max_radius {
+            return f64::INFINITY;
+        }
+        let line = self.supporting_line(radius);
+        line.height + line.rise * (radius - line.radius)
+    }
+
+    /// Signed distance from the body to a point `radius` off the axis and `height` over the tip, mm.
+    ///
+    /// Negative inside. Outside and near the surface it is exact; the slope of the nearest point comes with it.
+    /// It is the largest gap that any supporting plane of the body leaves: max over the slope of
+    /// r sin - z cos - H, with H the support function.
+    #[must_use]
+    pub fn distance(&self, radius: f64, height: f64) -> (f64, f64) {
+        let cell = self.distance_cell(radius, height);
+        let (mut low, mut high) = (self.slopes[cell].slope, self.slopes[cell + 1].slope);
+        // the first and last plane are the horizontal and the vertical one: exact at the table's ends
+        let mut slope = 0.5 * (low + high);
+        for _ in 0..60 {
+            let (sin, cos) = libm::sincos(slope);
+            let (r, z) = self.point_at(slope);
+            let along = (radius - r) * cos + (height - z) * sin;
+            if along > 0.0 {
+                low = slope;
+            } else {
+                high = slope;
+            }
+            let rate = (height - z) * cos - (radius - r) * sin - self.curvature_radius_at(slope);
+            let next = slope - along / rate;
+            let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+            let step = (next - slope).abs();
+            slope = next;
+            // the gap is stationary in the slope: 1e-9 rad leaves 1e-18 of it
+            if step < 1e-9 {
+                break;
+            }
+        }
+        let ends = [low, slope, high].map(|s| (self.gap(radius, height, s), s));
+        ends.into_iter().fold((f64::NEG_INFINITY, 0.0), |a, b| if b.0 > a.0 { b } else { a })
+    }
+
+    /// How far a point lies outside the supporting plane of `slope`, mm: a lower bound of its distance.
+    #[must_use]
+    pub fn gap(&self, radius: f64, height: f64, slope: f64) -> f64 {
+        let (sin, cos) = libm::sincos(slope);
+        let (r, z) = self.point_at(slope);
+        (radius - r) * sin - (height - z) * cos
+    }
+
+    /// Sine and cosine of a slope whose supporting plane nearly separates the point best, and the gap it leaves.
+    ///
+    /// One search in a table: every plane gives a valid lower bound of the distance, this one a good one.
+    #[must_use]
+    pub fn separating_plane(&self, radius: f64, height: f64) -> (f64, f64, f64) {
+        let cell = self.distance_cell(radius, height);
+        let gap = |n: &SlopeNode| (radius - n.radius) * n.sin - (height - n.height) * n.cos;
+        let (a, b) = (&self.slopes[cell], &self.slopes[cell + 1]);
+        let (ga, gb) = (gap(a), gap(b));
+        if ga >= gb {
+            (a.sin, a.cos, ga)
+        } else {
+            (b.sin, b.cos, gb)
+        }
+    }
+
+    /// The cell of the slope table in which the nearest point's slope lies.
+    fn distance_cell(&self, radius: f64, height: f64) -> usize {
+        let ahead = |n: &SlopeNode| (radius - n.radius) * n.cos + (height - n.height) * n.sin > 0.0;
+        self.slopes.partition_point(ahead).clamp(1, SLOPE_CELLS) - 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ProfileDocument;
+    use proptest::prelude::*;
+
+    fn clothoid(diameter: f64) -> Profile {
+        ProfileDocument::Clothoid { diameter: Some(diameter), scale: None, end_slope_deg: None, tip_flat: 0.0 }
+            .build()
+            .unwrap()
+    }
+
+    fn any_cutter() -> impl Strategy<Value = Cutter> {
+        (any::<bool>(), 1.0..40.0_f64, prop_oneof![Just(0.0), 0.0..3.0_f64], prop_oneof![Just(0.0), 0.0..3.0_f64])
+            .prop_map(|(ball, diameter, flat, grown)| {
+                let profile = if ball {
+                    ProfileDocument::Ball { diameter, tip_flat: 0.0 }.build().unwrap()
+                } else {
+                    clothoid(diameter)
+                };
+                Cutter::new(profile, flat, grown)
+            })
+    }
+
+    proptest! {
+        #[test]
+        fn a_grown_cutter_is_the_offset_curve(diameter in 1.0..40.0_f64, ball in 0.0..5.0_f64, slope in 0.0..FRAC_PI_2) {
+            let bare = Cutter::new(clothoid(diameter), 0.0, 0.0).point_at(slope);
+            let grown = Cutter::new(clothoid(diameter), 0.0, ball).point_at(slope);
+            prop_assert!((grown.0 - bare.0 - ball * slope.sin()).abs() < 1e-12);
+            prop_assert!((grown.1 - bare.1 - ball * (1.0 - slope.cos())).abs() < 1e-12);
+        }
+
+        #[test]
+        fn radius_gives_back_the_point(cutter in any_cutter(), share in 0.0..1.0_f64) {
+            let radius = share * cutter.max_radius();
+            let slope = cutter.slope_at_radius(radius);
+            if radius > cutter.flat {
+                prop_assert!((cutter.point_at(slope).0 - radius).abs() < 1e-12 * cutter.max_radius());
+            }
+            let height = cutter.height_at_radius(radius);
+            prop_assert!((cutter.point_at(slope).1 - height).abs() < 1e-7 || slope > 1.57);
+        }
+
+        #[test]
+        fn bounds_are_below_the_profile(cutter in any_cutter(), share in 0.0..1.0_f64) {
+            let radius = share * cutter.max_radius();
+            prop_assert!(cutter.height_bound(radius) <= cutter.height_at_radius(radius) + 1e-12);
+        }
+
+        #[test]
+        fn distance_is_to_the_nearest_point(cutter in any_cutter(), slope in 0.01..1.57_f64, away in -0.3..5.0_f64) {
+            let away = if away < 0.0 { away * cutter.curvature_radius_at(slope).min(1.0) } else { away };
+            let (r, z) = cutter.point_at(slope);
+            let (distance, at) = cutter.distance(r + away * slope.sin(), z - away * slope.cos());
+            prop_assert!((distance - away).abs() < 1e-9, "{distance} {away}");
+            prop_assert!((at - slope).abs() < 1e-4);
+            let (_, _, bound) = cutter.separating_plane(r + away * slope.sin(), z - away * slope.cos());
+            prop_assert!(bound <= distance + 1e-12);
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! What can be wrong with a shape.
+
+use thiserror::Error;
+
+/// A shape that cannot be used.
+///
+/// Each variant says when it occurs and what to do about it; `code` is stable.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum GeometryError {
+    /// A number of a tool or sheet is out of its range. Correct the key named.
+    #[error("{key} = {value}: {allowed}")]
+    OutOfRange {
+        /// The key of the document.
+        key: &'static str,
+        /// Its value, as given.
+        value: f64,
+        /// What is allowed, in words.
+        allowed: &'static str,
+    },
+    /// Keys that are missing or exclude each other. Follow the hint.
+    #[error("{0}")]
+    Keys(String),
+    /// An array holds NaN or infinity: the reader or the model is at fault.
+    #[error("{what} {index} is not a finite number")]
+    NotFinite {
+        /// Vertex, normal, ...
+        what: &'static str,
+        /// Its index in the array, from 0.
+        index: usize,
+    },
+    /// A triangle names a vertex that does not exist: the arrays do not belong together.
+    #[error("triangle {triangle} names vertex {vertex}, but there are {count} vertices")]
+    NoSuchVertex {
+        /// The triangle's index, from 0.
+        triangle: usize,
+        /// The vertex that it names.
+        vertex: i64,
+        /// How many there are.
+        count: usize,
+    },
+    /// Two arrays that belong together differ in length.
+    #[error("{what}: {count} given, {expected} expected")]
+    Length {
+        /// Which array.
+        what: &'static str,
+        /// Its length.
+        count: usize,
+        /// The length that fits.
+        expected: usize,
+    },
+    /// No triangle of positive area is left: the selection or the file is empty.
+    #[error("the mesh has no triangle of positive area")]
+    EmptyMesh,
+    /// The part is larger than any machine: most likely its units are wrong.
+    #[error("the mesh reaches {reach:.3e} mm from the origin, more than {limit:.0e} mm: check its units")]
+    Huge {
+        /// Largest absolute coordinate, mm.
+        reach: f64,
+        /// What is allowed, mm.
+        limit: f64,
+    },
+}
+
+impl GeometryError {
+    /// A stable name for scripts.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::OutOfRange { .. } => "out-of-range",
+            Self::Keys(_) => "keys",
+            Self::NotFinite { .. } => "not-finite",
+            Self::NoSuchVertex { .. } => "no-such-vertex",
+            Self::Length { .. } => "length",
+            Self::EmptyMesh => "empty-mesh",
+            Self::Huge { .. } => "huge-mesh",
+        }
+    }
+}
+
+/// Refuses a length that is not positive, finite and of this world.
+pub(crate) fn positive_length(key: &'static str, value: f64) -> Result<f64, GeometryError> {
+    if value > 1e-6 && value <= 1e4 {
+        Ok(value)
+    } else {
+        Err(GeometryError::OutOfRange { key, value, allowed: "a length above 0 and up to 10000 mm" })
+    }
+}
+
+/// Refuses a length that is negative, infinite or absurd.
+pub(crate) fn length(key: &'static str, value: f64) -> Result<f64, GeometryError> {
+    if (0.0..=1e4).contains(&value) {
+        Ok(value)
+    } else {
+        Err(GeometryError::OutOfRange { key, value, allowed: "a length from 0 to 10000 mm" })
+    }
+}

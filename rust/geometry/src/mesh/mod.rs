@@ -1,0 +1,135 @@
+//! The part as triangles, checked once, with the index that searches it.
+
+mod bvh;
+
+pub use bvh::{Bvh, Node};
+
+use crate::{Frame, GeometryError, Vector};
+
+/// Largest coordinate accepted, mm: beyond it units are wrong.
+const LIMIT: f64 = 1e6;
+
+/// A triangle mesh with a face of the model behind each triangle.
+///
+/// Triangles are wound so that their normals point out of the material.
+#[derive(Clone, Debug)]
+pub struct Mesh {
+    vertices: Vec<Vector>,
+    triangles: Vec<[u32; 3]>,
+    faces: Vec<u32>,
+    dropped: usize,
+}
+
+impl Mesh {
+    /// Checks and takes arrays: `vertices` in mm, `triangles` of vertex indices, `faces` the model's face number of
+    /// each triangle (empty: all 1). Triangles without area are dropped and counted.
+    ///
+    /// # Errors
+    /// Numbers that are not finite or absurd, indices out of range, lengths that do not match, nothing left.
+    pub fn new(vertices: Vec<Vector>, triangles: &[[i64; 3]], faces: &[u32]) -> Result<Self, GeometryError> {
+        check_vertices(&vertices)?;
+        if !faces.is_empty() && faces.len() != triangles.len() {
+            return Err(GeometryError::Length { what: "face ids", count: faces.len(), expected: triangles.len() });
+        }
+        let mut mesh = Self { vertices, triangles: Vec::with_capacity(triangles.len()), faces: Vec::new(), dropped: 0 };
+        for (i, triangle) in triangles.iter().enumerate() {
+            let corners = mesh.checked_indices(i, *triangle)?;
+            if mesh.area_vector(corners).norm() > 0.0 {
+                mesh.triangles.push(corners);
+                mesh.faces.push(faces.get(i).copied().unwrap_or(1));
+            } else {
+                mesh.dropped += 1;
+            }
+        }
+        if mesh.triangles.is_empty() {
+            return Err(GeometryError::EmptyMesh);
+        }
+        Ok(mesh)
+    }
+
+    fn checked_indices(&self, i: usize, triangle: [i64; 3]) -> Result<[u32; 3], GeometryError> {
+        let count = self.vertices.len();
+        let mut corners = [0; 3];
+        for (corner, vertex) in corners.iter_mut().zip(triangle) {
+            *corner = u32::try_from(vertex)
+                .ok()
+                .filter(|v| (*v as usize) < count)
+                .ok_or(GeometryError::NoSuchVertex { triangle: i, vertex, count })?;
+        }
+        Ok(corners)
+    }
+
+    fn area_vector(&self, [a, b, c]: [u32; 3]) -> Vector {
+        let [a, b, c] = [a, b, c].map(|i| self.vertices[i as usize]);
+        (b - a).cross(&(c - a))
+    }
+
+    /// Corner points.
+    #[must_use]
+    pub fn vertices(&self) -> &[Vector] {
+        &self.vertices
+    }
+
+    /// Vertex indices of each triangle.
+    #[must_use]
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// The model's face behind each triangle.
+    #[must_use]
+    pub fn faces(&self) -> &[u32] {
+        &self.faces
+    }
+
+    /// How many triangles without area were left out.
+    #[must_use]
+    pub fn dropped(&self) -> usize {
+        self.dropped
+    }
+
+    /// The corners of a triangle.
+    #[must_use]
+    pub fn corners(&self, triangle: usize) -> [Vector; 3] {
+        self.triangles[triangle].map(|i| self.vertices[i as usize])
+    }
+
+    /// Unit normal of a triangle, out of the material.
+    #[must_use]
+    pub fn normal(&self, triangle: usize) -> Vector {
+        self.area_vector(self.triangles[triangle]).normalize()
+    }
+
+    /// Area of a triangle, mm^2.
+    #[must_use]
+    pub fn area(&self, triangle: usize) -> f64 {
+        0.5 * self.area_vector(self.triangles[triangle]).norm()
+    }
+
+    /// Lower and upper corner of the box around all triangles.
+    #[must_use]
+    pub fn bounds(&self) -> (Vector, Vector) {
+        let infinite = Vector::repeat(f64::INFINITY);
+        let used = self.triangles.iter().flatten().map(|i| self.vertices[*i as usize]);
+        used.fold((infinite, -infinite), |(low, high), p| (low.inf(&p), high.sup(&p)))
+    }
+
+    /// The same mesh in another frame.
+    #[must_use]
+    pub fn placed(&self, frame: &Frame) -> Self {
+        Self { vertices: self.vertices.iter().map(|p| frame.point(*p)).collect(), ..self.clone() }
+    }
+}
+
+fn check_vertices(vertices: &[Vector]) -> Result<(), GeometryError> {
+    for (index, vertex) in vertices.iter().enumerate() {
+        if !vertex.iter().all(|x| x.is_finite()) {
+            return Err(GeometryError::NotFinite { what: "vertex", index });
+        }
+        let reach = vertex.amax();
+        if reach > LIMIT {
+            return Err(GeometryError::Huge { reach, limit: LIMIT });
+        }
+    }
+    Ok(())
+}
