@@ -1,0 +1,17 @@
+//! The machine-independent program: what planning writes, posting turns into text, and verification judges.
+//!
+//! Positions are the controlled point in work coordinates (mm); in a planned program the
+//! controlled point is the tool's tip. Nothing here knows shapes or controllers.
+
+mod program;
+mod record;
+mod statistics;
+mod watch;
+
+pub use program::{Event, EventKind, Move, MoveKind, Program, SpindleDirection};
+pub use record::{OperationRecord, SetupRecord, ToolRecord, ToolReference};
+pub use statistics::Statistics;
+pub use watch::{Cancelled, Watch};
+
+/// Version of the program document; older ones migrate, newer ones are refused.
+pub const PROGRAM_SCHEMA: u32 = 1;

@@ -1,0 +1,54 @@
+//! Progress and cancel: a flag and a figure that long work and the one who waits for it share.
+
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::Mutex;
+
+/// Shared between the thread that works and the one that waits. Work polls it; it costs a few nanoseconds.
+#[derive(Debug, Default)]
+pub struct Watch {
+    cancelled: AtomicBool,
+    done: AtomicU64,
+    total: AtomicU64,
+    phase: Mutex<&'static str>,
+}
+
+/// The work was stopped from outside. Nothing is wrong; there is no result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cancelled;
+
+impl Watch {
+    /// Begins a phase of `total` steps.
+    pub fn begin(&self, phase: &'static str, total: usize) {
+        if let Ok(mut current) = self.phase.lock() {
+            *current = phase;
+        }
+        self.done.store(0, Ordering::Relaxed);
+        self.total.store(total as u64, Ordering::Relaxed);
+    }
+
+    /// Counts `steps` more as done.
+    ///
+    /// # Errors
+    /// `Cancelled` when somebody asked to stop: give up at once.
+    pub fn advance(&self, steps: usize) -> Result<(), Cancelled> {
+        self.done.fetch_add(steps as u64, Ordering::Relaxed);
+        if self.cancelled.load(Ordering::Relaxed) {
+            Err(Cancelled)
+        } else {
+            Ok(())
+        }
+    }
+
+    /// Asks the work to stop; it does within a fraction of a second.
+    pub fn cancel(&self) {
+        self.cancelled.store(true, Ordering::Relaxed);
+    }
+
+    /// The phase and the share of it that is done, 0 to 1.
+    #[must_use]
+    pub fn state(&self) -> (&'static str, f64) {
+        let phase = self.phase.lock().map_or("", |p| *p);
+        let total = self.total.load(Ordering::Relaxed).max(1);
+        (phase, (self.done.load(Ordering::Relaxed) as f64 / total as f64).min(1.0))
+    }
+}
