@@ -1,0 +1,68 @@
+//! Why a path could not be planned.
+
+use styluscam_motion::Cancelled;
+use thiserror::Error;
+
+/// Planning failed; nothing was planned.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum PlanError {
+    /// No position of the tool touches the selected faces: the selection, the heights or the tool do not fit.
+    #[error("the tool reaches none of the selected faces{0}")]
+    NothingReached(String),
+    /// Levels exist, but no loop lies on the selected faces at any of them. Check z_top, z_bottom and the faces.
+    #[error("no path lies on the selected faces between Z {bottom:.3} and Z {top:.3}")]
+    Empty {
+        /// Lowest level asked for, mm.
+        bottom: f64,
+        /// Highest level, mm.
+        top: f64,
+    },
+    /// What the part's tessellation and the machine's rounding leave of the tolerance is not enough to fit a path.
+    #[error(
+        "tolerance = {tolerance}: tessellation ({tessellation:.4}) and the machine's rounding ({rounding:.4}) leave \
+         nothing to fit the path with; raise tolerance or lower part.tolerance"
+    )]
+    Budget {
+        /// The tolerance asked for, mm.
+        tolerance: f64,
+        /// What the tessellation takes, mm.
+        tessellation: f64,
+        /// What rounding takes, mm.
+        rounding: f64,
+    },
+    /// The path would have more points than a program can hold: the step is too small for the part.
+    #[error("{what} = {value} makes {count} passes, more than {limit}: raise it")]
+    TooMany {
+        /// The key.
+        what: &'static str,
+        /// Its value, mm.
+        value: f64,
+        /// Passes that would result.
+        count: usize,
+        /// Passes at most.
+        limit: usize,
+    },
+    /// Stopped from outside.
+    #[error("cancelled")]
+    Cancelled,
+}
+
+impl From<Cancelled> for PlanError {
+    fn from(_: Cancelled) -> Self {
+        Self::Cancelled
+    }
+}
+
+impl PlanError {
+    /// A stable name for scripts.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::NothingReached(_) => "nothing-reached",
+            Self::Empty { .. } => "empty-path",
+            Self::Budget { .. } => "tolerance-budget",
+            Self::TooMany { .. } => "too-many-passes",
+            Self::Cancelled => "cancelled",
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! Strategies that ride on the envelope: Z-levels and zig-zag.
+
+mod contour;
+mod grid;
+mod level_curve;
+mod levels;
+mod z_level;
+mod zig_zag;
+
+pub use grid::Grid;
+pub use levels::{levels, LevelRange};
+pub use z_level::{waterline, z_levels};
+pub use zig_zag::{zig_zag, Rows};

@@ -1,0 +1,23 @@
+//! From geometry to motion: where the tool may stand, and in which order it goes there.
+
+mod error;
+mod fitting;
+pub mod forming;
+mod linking;
+pub mod offset;
+mod surface;
+
+pub use error::PlanError;
+pub use linking::{link, Heights, Links, Rates};
+pub use surface::{PathPoint, Surface};
+
+/// A run of the tool along the surface: what a strategy makes and linking joins.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pass {
+    /// Tip positions in order; the first is repeated at the end when closed.
+    pub points: Vec<PathPoint>,
+    /// Whether it ends where it begins.
+    pub closed: bool,
+    /// Number of the level or row, from 0.
+    pub group: usize,
+}

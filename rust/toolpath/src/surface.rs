@@ -1,0 +1,78 @@
+//! The surface on which paths run: the envelope, and which of its contacts were asked for.
+
+use styluscam_geometry::Vector;
+
+use crate::offset::{Contact, Envelope};
+
+/// A contact on an unselected face's border still counts while its normal is this close to a selected facet's, rad:
+/// wide enough for tessellated tangent joins, too narrow to roll round an edge.
+const SPREAD: f64 = 0.0175;
+
+/// An exact position of the tool on the envelope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathPoint {
+    /// The tool's tip, mm.
+    pub tip: Vector,
+    /// Unit normal of the contact, into the tool: the direction in which it comes free.
+    pub normal: Vector,
+    /// Whether the contact lies on a selected face.
+    pub selected: bool,
+}
+
+/// Envelope and selection, asked point by point.
+pub struct Surface<'a> {
+    envelope: &'a Envelope<'a>,
+    selected: &'a [bool],
+}
+
+impl<'a> Surface<'a> {
+    /// `selected` says of each triangle whether its face was asked for.
+    #[must_use]
+    pub fn new(envelope: &'a Envelope<'a>, selected: &'a [bool]) -> Self {
+        Self { envelope, selected }
+    }
+
+    /// The envelope.
+    #[must_use]
+    pub fn envelope(&self) -> &'a Envelope<'a> {
+        self.envelope
+    }
+
+    /// The position over (x, y); none where the tool meets nothing.
+    #[must_use]
+    pub fn at(&self, x: f64, y: f64, hint: &mut Option<u32>) -> Option<PathPoint> {
+        self.envelope.contact_near(x, y, hint).map(|c| self.path_point(x, y, &c))
+    }
+
+    /// The position over the middle of two others.
+    #[must_use]
+    pub fn between(&self, a: &PathPoint, b: &PathPoint, hint: &mut Option<u32>) -> Option<PathPoint> {
+        let middle = (a.tip + b.tip) * 0.5;
+        self.at(middle.x, middle.y, hint)
+    }
+
+    /// A contact over (x, y) as a path point.
+    #[must_use]
+    pub fn path_point(&self, x: f64, y: f64, contact: &Contact) -> PathPoint {
+        PathPoint {
+            tip: Vector::new(x, y, contact.tip),
+            normal: contact.normal,
+            selected: self.envelope.belongs(contact, self.selected, SPREAD),
+        }
+    }
+
+    /// Lower and upper corner in plan of the places from which the tool can touch a selected face, if any.
+    #[must_use]
+    pub fn domain(&self) -> Option<([f64; 2], [f64; 2])> {
+        let mesh = self.envelope.mesh();
+        let reach = self.envelope.cutter().max_radius();
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for t in (0..self.selected.len()).filter(|t| self.selected[*t]) {
+            for p in mesh.corners(t) {
+                low = [low[0].min(p.x - reach), low[1].min(p.y - reach)];
+                high = [high[0].max(p.x + reach), high[1].max(p.y + reach)];
+            }
+        }
+        (low[0] <= high[0]).then_some((low, high))
+    }
+}
