@@ -1,0 +1,51 @@
+//! Prints a short program as every shipped machine is given it.
+
+use styluscam_motion::{
+    Event, EventKind, Move, MoveKind, OperationRecord, Program, SetupRecord, ToolRecord, ToolReference, PROGRAM_SCHEMA,
+};
+use styluscam_post::{post, shipped, Machine};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    for name in shipped() {
+        let posted = post(&cone(), &Machine::shipped(name)?)?;
+        println!("{}", posted.text);
+    }
+    Ok(())
+}
+
+fn cone() -> Program {
+    let step = |kind, end, feed| Move { kind, end, feed, operation: 0, line: 0 };
+    let tool = ToolRecord {
+        name: "stylus".into(),
+        number: 1,
+        length_offset: 1,
+        description: "clothoid D10".into(),
+        reference: ToolReference::Tip,
+        reference_height: 0.0,
+        diameter: 10.0,
+    };
+    let setup = SetupRecord {
+        title: "cone".into(),
+        wcs: "G54".into(),
+        zero: "sheet top, centre of the blank".into(),
+        part_min: [-50.0, -50.0, -20.0],
+        part_max: [50.0, 50.0, 0.0],
+        clearance: 10.0,
+        notes: vec!["sheet 1 mm (constant law), steepest wall 60°".into()],
+    };
+    Program {
+        schema: PROGRAM_SCHEMA,
+        setup,
+        tools: vec![tool],
+        operations: vec![OperationRecord { id: "walls".into(), kind: "z-level".into(), tool: 0 }],
+        moves: vec![
+            step(MoveKind::Rapid, [10.0, -5.0, 10.0], 0.0),
+            step(MoveKind::Rapid, [12.0, -5.0, 1.0], 0.0),
+            step(MoveKind::Feed, [12.0, -5.0, -0.5], 100.0),
+            step(MoveKind::Feed, [20.125, -5.0, -0.5], 1500.0),
+            step(MoveKind::Feed, [20.125, 7.5, -0.5], 1500.0),
+            step(MoveKind::Rapid, [20.125, 7.5, 10.0], 0.0),
+        ],
+        events: vec![Event { before: 0, kind: EventKind::ToolChange { tool: 0 } }],
+    }
+}

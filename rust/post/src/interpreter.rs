@@ -1,0 +1,462 @@
+//! The controller's state while a program is read, and the motion that its blocks make.
+
+use std::ops::Range;
+
+use styluscam_motion::{
+    Event, EventKind, Move, MoveKind, OperationRecord, Program, SetupRecord, SpindleDirection, ToolRecord,
+    ToolReference, PROGRAM_SCHEMA,
+};
+
+use crate::block::{Block, Motion, Spindle, Stop};
+use crate::lexer::Word;
+use crate::machine::{LengthUnit, Machine, TimeUnit, ToolChange};
+use crate::read_error::ReadFault;
+
+const AXES: [char; 3] = ['X', 'Y', 'Z'];
+const Z: usize = 2;
+
+/// A fault and the word that has it.
+pub(crate) type Flaw = (ReadFault, Option<Word>);
+
+/// One axis: where the posted point stands, in mm.
+#[derive(Clone, Copy, Debug, Default)]
+struct Axis {
+    /// The last place commanded.
+    place: f64,
+    /// Whether it stands there still.
+    known: bool,
+    /// Whether it was ever placed.
+    ever: bool,
+    /// The first move since it is not known; that move and the following ones take the next place commanded.
+    pending: usize,
+}
+
+/// The controller's state.
+pub(crate) struct Interpreter<'m> {
+    machine: &'m Machine,
+    units: Option<LengthUnit>,
+    incremental: bool,
+    motion: Option<Motion>,
+    /// mm/min.
+    feed: Option<f64>,
+    /// rev/min.
+    speed: f64,
+    direction: Option<SpindleDirection>,
+    selected: Option<u32>,
+    tool: Option<u32>,
+    /// Height of the posted point above the tip, mm.
+    height: f64,
+    tools_given: bool,
+    axes: [Axis; 3],
+    unplaced_since: Option<usize>,
+    unplaced: Vec<Range<usize>>,
+    wcs: Option<String>,
+    label: Option<(String, String)>,
+    operation_due: bool,
+    program: Program,
+}
+
+impl<'m> Interpreter<'m> {
+    pub(crate) fn new(machine: &'m Machine, tools: &[ToolRecord], typical_moves: usize) -> Self {
+        Self {
+            machine,
+            units: machine.reader.default_units,
+            incremental: false,
+            motion: None,
+            feed: None,
+            speed: 0.0,
+            direction: None,
+            selected: None,
+            tool: None,
+            height: 0.0,
+            tools_given: !tools.is_empty(),
+            axes: [Axis::default(); 3],
+            unplaced_since: Some(0),
+            unplaced: Vec::new(),
+            wcs: None,
+            label: None,
+            operation_due: true,
+            program: empty_program(tools, typical_moves),
+        }
+    }
+
+    /// Notes a remark; one as the shipped templates write them, `operation ID: KIND`, names what follows.
+    pub(crate) fn remark(&mut self, text: &str) {
+        if let Some((id, kind)) = text.strip_prefix("operation ").and_then(|t| t.split_once(": ")) {
+            self.label = Some((id.into(), kind.into()));
+            self.operation_due = true;
+        }
+        self.event(EventKind::Comment { text: text.into() });
+    }
+
+    /// Carries out a block, in the order in which controllers do; says whether it ended the program.
+    pub(crate) fn run(&mut self, block: &Block, line: u32) -> Result<bool, Flaw> {
+        self.set_units(block)?;
+        self.set_feed(block)?;
+        self.set_speed(block)?;
+        self.set_tool(block)?;
+        self.set_spindle(block);
+        self.set_coolant(block);
+        self.dwell(block)?;
+        self.set_length(block)?;
+        self.set_wcs(block)?;
+        self.incremental = block.incremental.unwrap_or(self.incremental);
+        self.go(block, line)?;
+        Ok(self.stop(block))
+    }
+
+    fn event(&mut self, kind: EventKind) {
+        self.program.events.push(Event { before: self.program.moves.len(), kind });
+    }
+
+    fn set_units(&mut self, block: &Block) -> Result<(), Flaw> {
+        let Some(units) = block.units else { return Ok(()) };
+        let changes = self.units.is_some_and(|u| u != units);
+        if changes && block.feed.is_some() {
+            return Err((ReadFault::FeedWithUnits, block.feed));
+        }
+        self.units = Some(units);
+        Ok(())
+    }
+
+    fn mm(&self, word: Word) -> Result<f64, Flaw> {
+        let units = self.units.ok_or((ReadFault::NoUnits, Some(word)))?;
+        Ok(word.number.value() * units.in_mm())
+    }
+
+    fn set_feed(&mut self, block: &Block) -> Result<(), Flaw> {
+        let Some(word) = block.feed else { return Ok(()) };
+        let feed = self.mm(word)?;
+        if feed <= 0.0 {
+            return Err((ReadFault::ZeroFeed, Some(word)));
+        }
+        self.feed = Some(feed);
+        Ok(())
+    }
+
+    fn set_speed(&mut self, block: &Block) -> Result<(), Flaw> {
+        let Some(word) = block.speed.filter(|_| !dwells_by(block, self.machine, 'S')) else { return Ok(()) };
+        let rpm = word.number.value();
+        if rpm < 0.0 {
+            return Err((ReadFault::Negative, Some(word)));
+        }
+        self.speed = rpm;
+        if let (Some(direction), None) = (self.direction, block.spindle) {
+            self.event(EventKind::SpindleOn { rpm, direction });
+        }
+        Ok(())
+    }
+
+    // Tools
+
+    fn set_tool(&mut self, block: &Block) -> Result<(), Flaw> {
+        if let Some(word) = block.tool {
+            self.selected = Some(word.number.natural().ok_or((ReadFault::NotNatural, Some(word)))?);
+        }
+        // Without M6 the T word is all that the text says about a change.
+        let by_word = if self.machine.tool.change == ToolChange::M6 { None } else { block.tool };
+        let Some(word) = block.change.or(by_word) else { return Ok(()) };
+        let number = self.selected.ok_or((ReadFault::NoToolSelected, Some(word)))?;
+        let index =
+            self.tool_of_number(number).ok_or((ReadFault::UnknownTool { number }, block.tool.or(Some(word))))?;
+        self.load(index);
+        self.event(EventKind::ToolChange { tool: index });
+        Ok(())
+    }
+
+    /// The index of a tool; without tools from the job, a record that says nothing but the number is added.
+    fn tool_of_number(&mut self, number: u32) -> Option<u32> {
+        let known = self.program.tools.iter().position(|t| t.number == number);
+        if let Some(index) = known {
+            return u32::try_from(index).ok();
+        }
+        if self.tools_given {
+            return None;
+        }
+        self.program.tools.push(bare_tool(number));
+        u32::try_from(self.program.tools.len() - 1).ok()
+    }
+
+    /// Takes the tool for the active one. Its length differs from the last one's: Z is not known until it is commanded.
+    fn load(&mut self, index: u32) {
+        self.tool = Some(index);
+        self.height = self.program.tools.get(index as usize).map_or(0.0, |t| t.reference_height);
+        self.operation_due = true;
+        self.forget(Z);
+    }
+
+    fn set_length(&mut self, block: &Block) -> Result<(), Flaw> {
+        let Some((true, _)) = block.length else { return Ok(()) };
+        let Some(word) = block.h else { return Ok(()) };
+        let found = word.number.natural().ok_or((ReadFault::NotNatural, Some(word)))?;
+        let tool = self.tool.filter(|_| self.tools_given).and_then(|i| self.program.tools.get(i as usize));
+        match tool {
+            Some(tool) if tool.length_offset != found => {
+                Err((ReadFault::LengthOffset { found, expected: tool.length_offset }, Some(word)))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    // Spindle, coolant, waiting, stops
+
+    fn set_spindle(&mut self, block: &Block) {
+        let Some((spindle, _)) = block.spindle else { return };
+        self.direction = match spindle {
+            Spindle::Clockwise => Some(SpindleDirection::Clockwise),
+            Spindle::Counterclockwise => Some(SpindleDirection::Counterclockwise),
+            Spindle::Off => None,
+        };
+        let rpm = self.speed;
+        self.event(self.direction.map_or(EventKind::SpindleOff, |direction| EventKind::SpindleOn { rpm, direction }));
+    }
+
+    fn set_coolant(&mut self, block: &Block) {
+        if block.mist.is_some() {
+            self.event(EventKind::Comment { text: "M7: mist on".into() });
+        }
+        if block.flood.is_some() {
+            self.event(EventKind::Flood { on: true });
+        }
+        if block.coolant_off.is_some() {
+            self.event(EventKind::Flood { on: false });
+        }
+    }
+
+    fn dwell(&mut self, block: &Block) -> Result<(), Flaw> {
+        let Some(code) = block.dwell else { return Ok(()) };
+        let Some(rules) = &self.machine.dwell else { return Err((self.refusal(), Some(code))) };
+        let (word, what) = match rules.word {
+            'X' => (block.x_of_dwell, "the time (X) of G4"),
+            'S' => (block.speed, "the time (S) of G4"),
+            _ => (block.p, "the time (P) of G4"),
+        };
+        let word = word.ok_or((ReadFault::MissingWord { what }, Some(code)))?;
+        let per_second = if rules.unit == TimeUnit::S { 1.0 } else { 1000.0 };
+        let seconds = word.number.value() / per_second;
+        if seconds < 0.0 {
+            return Err((ReadFault::Negative, Some(word)));
+        }
+        self.event(EventKind::Dwell { seconds });
+        Ok(())
+    }
+
+    fn refusal(&self) -> ReadFault {
+        ReadFault::Refused { machine: self.machine.name.clone() }
+    }
+
+    fn stop(&mut self, block: &Block) -> bool {
+        let Some((stop, _)) = block.stop else { return false };
+        match stop {
+            Stop::Pause => self.event(EventKind::Comment { text: "M0: program stop".into() }),
+            Stop::OptionalPause => self.event(EventKind::Comment { text: "M1: optional stop".into() }),
+            Stop::End => {}
+        }
+        stop == Stop::End
+    }
+
+    fn set_wcs(&mut self, block: &Block) -> Result<(), Flaw> {
+        let Some(word) = block.wcs else { return Ok(()) };
+        let tenths = word.number.tenths().unwrap_or_default();
+        let name =
+            if tenths % 10 == 0 { format!("G{}", tenths / 10) } else { format!("G{}.{}", tenths / 10, tenths % 10) };
+        if !self.machine.wcs.contains(&name) {
+            return Err((ReadFault::Wcs, Some(word)));
+        }
+        // Before the first G54 to G59 the controller is in its first work offset.
+        let now = self.wcs.as_deref().or(self.machine.wcs.first().map(String::as_str));
+        if !self.program.moves.is_empty() && now != Some(name.as_str()) {
+            return Err((ReadFault::WcsChanged, Some(word)));
+        }
+        self.wcs = Some(name);
+        Ok(())
+    }
+
+    // Motion
+
+    fn go(&mut self, block: &Block, line: u32) -> Result<(), Flaw> {
+        if let Some((motion, _)) = block.motion {
+            self.motion = Some(motion);
+        }
+        if let Some(code) = block.machine_coordinates {
+            return self.go_to_machine_place(block, code);
+        }
+        let Some(first) = block.any_axis() else { return Ok(()) };
+        let kind = match self.motion {
+            Some(Motion::Rapid) => MoveKind::Rapid,
+            Some(Motion::Feed) => MoveKind::Feed,
+            _ => return Err((ReadFault::NoMotionMode, Some(first))),
+        };
+        self.load_only_tool(first)?;
+        let feed = match kind {
+            MoveKind::Rapid => 0.0,
+            MoveKind::Feed => self.feed.ok_or((ReadFault::NoFeed, Some(first)))?,
+        };
+        self.place_axes(block)?;
+        if kind == MoveKind::Feed {
+            self.require_places(first)?;
+        }
+        self.push_move(kind, feed, line);
+        Ok(())
+    }
+
+    /// A job with one tool may run it without calling it; without any tool from the job, the tool is unknown.
+    fn load_only_tool(&mut self, word: Word) -> Result<(), Flaw> {
+        if self.tool.is_some() {
+            return Ok(());
+        }
+        if self.program.tools.len() > 1 {
+            return Err((ReadFault::NoToolLoaded, Some(word)));
+        }
+        if self.program.tools.is_empty() {
+            self.program.tools.push(bare_tool(0));
+        }
+        self.load(0);
+        Ok(())
+    }
+
+    fn place_axes(&mut self, block: &Block) -> Result<(), Flaw> {
+        for (index, word) in block.axes.iter().enumerate() {
+            let Some(word) = *word else { continue };
+            let value = self.mm(word)?;
+            let axis = self.axes.get(index).copied().unwrap_or_default();
+            if self.incremental && !axis.known {
+                return Err((ReadFault::IncrementalFromUnknown, Some(word)));
+            }
+            self.place(index, if self.incremental { axis.place + value } else { value });
+        }
+        Ok(())
+    }
+
+    fn place(&mut self, index: usize, place: f64) {
+        let moves = self.program.moves.len();
+        let tip = place - if index == Z { self.height } else { 0.0 };
+        let Some(axis) = self.axes.get_mut(index) else { return };
+        if !axis.known {
+            let since = axis.pending.min(moves);
+            self.program.moves.iter_mut().skip(since).for_each(|m| m.end[index] = tip);
+        }
+        *axis = Axis { place, known: true, ever: true, pending: moves };
+    }
+
+    /// The place of this axis is not known from the next move on.
+    fn forget(&mut self, index: usize) {
+        let moves = self.program.moves.len();
+        let Some(axis) = self.axes.get_mut(index) else { return };
+        if axis.known {
+            axis.known = false;
+            axis.pending = moves;
+        }
+        self.unplaced_since = self.unplaced_since.or(Some(moves));
+    }
+
+    fn require_places(&self, word: Word) -> Result<(), Flaw> {
+        match self.axes.iter().zip(AXES).find(|(axis, _)| !axis.known) {
+            Some((_, axis)) => Err((ReadFault::FeedFromUnknown { axis }, Some(word))),
+            None => Ok(()),
+        }
+    }
+
+    fn push_move(&mut self, kind: MoveKind, feed: f64, line: u32) {
+        self.close_unplaced();
+        let operation = self.operation();
+        let [x, y, z] = self.axes;
+        let end = [x.place, y.place, z.place - self.height];
+        self.program.moves.push(Move { kind, end, feed, operation, line });
+    }
+
+    /// Ends the run of moves that lack a place, once every axis has one.
+    fn close_unplaced(&mut self) {
+        let Some(since) = self.unplaced_since else { return };
+        if self.axes.iter().all(|a| a.known) {
+            self.note_unplaced(since);
+        }
+    }
+
+    fn note_unplaced(&mut self, since: usize) {
+        self.unplaced_since = None;
+        let moves = self.program.moves.len();
+        if since < moves {
+            self.unplaced.push(since..moves);
+        }
+    }
+
+    /// The index of the operation that the next move belongs to: a new one after a tool change or an operation's remark.
+    fn operation(&mut self) -> u32 {
+        if self.operation_due {
+            self.operation_due = false;
+            let tool = self.tool.unwrap_or_default();
+            let number = self.program.tools.get(tool as usize).map_or(0, |t| t.number);
+            let count = self.program.operations.len() + 1;
+            let (id, kind) = self.label.take().unwrap_or_else(|| (format!("{count}-T{number}"), "text".into()));
+            self.program.operations.push(OperationRecord { id, kind, tool });
+        }
+        u32::try_from(self.program.operations.len().saturating_sub(1)).unwrap_or(u32::MAX)
+    }
+
+    /// A move in the machine's own coordinates ends at a place that the work's zero says nothing about.
+    fn go_to_machine_place(&mut self, block: &Block, code: Word) -> Result<(), Flaw> {
+        let moves = matches!(self.motion, Some(Motion::Rapid | Motion::Feed));
+        if !moves || self.incremental {
+            return Err((ReadFault::MachineCoordinates, Some(code)));
+        }
+        if block.any_axis().is_none() {
+            return Err((ReadFault::MissingWord { what: "an axis word of G53" }, Some(code)));
+        }
+        let mut text = String::from("G53, place in the work unknown:");
+        for (index, (word, name)) in block.axes.iter().zip(AXES).enumerate() {
+            let Some(word) = *word else { continue };
+            let place = self.mm(word)?;
+            text.push_str(&format!(" {name}{place} mm"));
+            self.forget(index);
+        }
+        self.event(EventKind::Comment { text });
+        Ok(())
+    }
+
+    /// The program and the runs of moves that lack a commanded place.
+    pub(crate) fn finish(mut self) -> Result<(Program, Vec<Range<usize>>), ReadFault> {
+        if let Some(since) = self.unplaced_since {
+            self.note_unplaced(since);
+        }
+        if !self.program.moves.is_empty() {
+            if let Some((_, axis)) = self.axes.iter().zip(AXES).find(|(axis, _)| !axis.ever) {
+                return Err(ReadFault::NeverPlaced { axis });
+            }
+        }
+        let first = self.machine.wcs.first().cloned().unwrap_or_default();
+        self.program.setup.wcs = self.wcs.unwrap_or(first);
+        Ok((self.program, self.unplaced))
+    }
+}
+
+fn dwells_by(block: &Block, machine: &Machine, letter: char) -> bool {
+    block.dwell.is_some() && machine.dwell.as_ref().is_some_and(|d| d.word == letter)
+}
+
+fn empty_program(tools: &[ToolRecord], typical_moves: usize) -> Program {
+    let setup = SetupRecord {
+        title: String::new(),
+        wcs: String::new(),
+        zero: String::new(),
+        part_min: [0.0; 3],
+        part_max: [0.0; 3],
+        clearance: 0.0,
+        notes: Vec::new(),
+    };
+    let moves = Vec::with_capacity(typical_moves);
+    Program { schema: PROGRAM_SCHEMA, setup, tools: tools.to_vec(), operations: Vec::new(), moves, events: Vec::new() }
+}
+
+/// A tool of which the text gives the number only: its tip is what moves.
+fn bare_tool(number: u32) -> ToolRecord {
+    ToolRecord {
+        name: format!("T{number}"),
+        number,
+        length_offset: number,
+        description: String::new(),
+        reference: ToolReference::Tip,
+        reference_height: 0.0,
+        diameter: 0.0,
+    }
+}

@@ -1,0 +1,25 @@
+//! Between motion and text: machine files, templates, writers and readers of G-code.
+//!
+//! [`post`] writes a [`Program`](styluscam_motion::Program) for a [`Machine`]; [`read`] reads text as that machine
+//! would. A controller of this family is a TOML file; nothing here knows geometry, clocks or files.
+
+mod block;
+mod comment;
+mod inspect;
+mod interpreter;
+mod lexer;
+pub mod machine;
+mod number;
+mod post_error;
+mod read_error;
+mod reader;
+mod template;
+mod trial;
+mod writer;
+
+pub use machine::{shipped, Machine, MachineError, OptionRule, OptionValue};
+pub use post_error::PostError;
+pub use read_error::{ReadError, ReadFault};
+pub use reader::{read, Reading};
+pub use trial::{try_out, TrialError};
+pub use writer::{post, Posted};

@@ -1,0 +1,168 @@
+//! Checks on a machine file that its types do not make.
+
+use super::{LengthOffset, Machine, MachineError, ToolChange, MACHINE_SCHEMA};
+use crate::comment::{ranges, CommentFormat};
+use crate::number::MAX_DECIMALS;
+use crate::template::Templater;
+
+/// Finds the first thing that is wrong.
+pub(super) fn check(machine: &Machine) -> Result<(), MachineError> {
+    check_schema(machine.schema)?;
+    check_names(machine)?;
+    check_numbers(machine)?;
+    check_lines(machine)?;
+    check_words(machine)?;
+    check_tools(machine)?;
+    check_smoothing(machine)?;
+    check_limits(machine)?;
+    check_options(machine)?;
+    check_reader(machine)?;
+    Templater::new(machine).check()
+}
+
+fn wrong(key: &str, problem: impl Into<String>) -> MachineError {
+    MachineError::Value { key: key.into(), problem: problem.into() }
+}
+
+fn require(holds: bool, key: &str, problem: &str) -> Result<(), MachineError> {
+    if holds {
+        Ok(())
+    } else {
+        Err(wrong(key, problem))
+    }
+}
+
+fn check_schema(found: u32) -> Result<(), MachineError> {
+    require(found >= 1, "schema", "schemas count from 1")?;
+    if found > MACHINE_SCHEMA {
+        return Err(MachineError::Schema { found, known: MACHINE_SCHEMA });
+    }
+    Ok(())
+}
+
+fn check_names(machine: &Machine) -> Result<(), MachineError> {
+    require(!machine.name.trim().is_empty(), "name", "it is empty")?;
+    require(!machine.wcs.is_empty(), "wcs", "list at least one work offset")?;
+    for (index, wcs) in machine.wcs.iter().enumerate() {
+        check_code(&format!("wcs[{index}]"), wcs)?;
+    }
+    check_code("end", &machine.end)?;
+    require(machine.units_word().is_some(), "units", "the word for the output's unit is missing")
+}
+
+/// A single word, a letter and a number: `G54`, `G59.1`, `M2`.
+fn check_code(key: &str, code: &str) -> Result<(), MachineError> {
+    require(crate::lexer::code(code).is_some(), key, "write one word: a capital letter and a number, as in G54")
+}
+
+fn check_numbers(machine: &Machine) -> Result<(), MachineError> {
+    let number = &machine.number;
+    for (key, places) in [
+        ("number.mm.linear", number.mm.linear),
+        ("number.mm.feed", number.mm.feed),
+        ("number.inch.linear", number.inch.linear),
+        ("number.inch.feed", number.inch.feed),
+        ("number.rpm", number.rpm),
+    ] {
+        require(places <= MAX_DECIMALS, key, "at most 8 decimal places")?;
+    }
+    Ok(())
+}
+
+fn check_lines(machine: &Machine) -> Result<(), MachineError> {
+    let line = &machine.line;
+    require((20..=100_000).contains(&line.max_chars), "line.max_chars", "20 to 100000")?;
+    let needed = "GMTSFXYZHNPQ0123456789.-";
+    require(
+        !line.forbidden.contains(|c| needed.contains(c)),
+        "line.forbidden",
+        "letters and digits of G-code must be allowed",
+    )?;
+    if let Some(length) = machine.comment.max_len {
+        require((10..=100_000).contains(&length), "comment.max_len", "10 to 100000")?;
+    }
+    let set = machine.comment.charset.as_deref().unwrap_or(" -~");
+    require(ranges(set).iter().all(|(a, b)| a <= b), "comment.charset", "a range runs backwards")?;
+    let probe = CommentFormat::new(machine).lines("A 0");
+    let silent = machine.comment.form == super::CommentForm::None;
+    require(silent || !probe.is_empty(), "comment.charset", "neither letters nor digits are left")?;
+    let Some(number) = machine.block_number else { return Ok(()) };
+    require(number.step >= 1, "block_number.step", "at least 1; leave the table out for none")?;
+    require(number.start <= number.max, "block_number.max", "it is below the start")
+}
+
+fn check_words(machine: &Machine) -> Result<(), MachineError> {
+    let optional = [
+        ("units.mm", &machine.units.mm),
+        ("units.inch", &machine.units.inch),
+        ("spindle.clockwise", &machine.spindle.clockwise),
+        ("spindle.counterclockwise", &machine.spindle.counterclockwise),
+        ("spindle.off", &machine.spindle.off),
+        ("coolant.flood", &machine.coolant.flood),
+        ("coolant.off", &machine.coolant.off),
+    ];
+    for (key, word) in optional {
+        if let Some(word) = word {
+            check_code(key, word)?;
+        }
+    }
+    let turns = machine.spindle.clockwise.is_some() || machine.spindle.counterclockwise.is_some();
+    require(!turns || machine.spindle.off.is_some(), "spindle.off", "a spindle that starts needs a word to stop")?;
+    let floods = machine.coolant.flood.is_some();
+    require(!floods || machine.coolant.off.is_some(), "coolant.off", "coolant that starts needs a word to stop")?;
+    let dwell = machine.dwell.as_ref().map_or('P', |d| d.word);
+    require(matches!(dwell, 'P' | 'X' | 'S'), "dwell.word", "P, X or S")
+}
+
+fn check_tools(machine: &Machine) -> Result<(), MachineError> {
+    let tool = &machine.tool;
+    require(tool.max_number >= 1, "tool.max_number", "at least 1")?;
+    let lengths_matter = tool.change == ToolChange::Pause && tool.length == LengthOffset::G43H;
+    require(
+        !lengths_matter || machine.templates.tool_change.is_some(),
+        "templates.tool_change",
+        "a pause with length offsets needs a template",
+    )
+}
+
+fn check_smoothing(machine: &Machine) -> Result<(), MachineError> {
+    let smoothing = &machine.smoothing;
+    require((0.0..=10.0).contains(&smoothing.tolerance), "smoothing.tolerance", "0 to 10 mm")?;
+    let exact = smoothing.tolerance <= 0.0;
+    require(exact || smoothing.on.is_some(), "smoothing.on", "a tolerance needs the block that sets it")?;
+    let rounded_away = !exact && crate::template::tolerance_words(machine).is_none();
+    require(!rounded_away, "smoothing.tolerance", "it is smaller than the numbers can say; take 0 for an exact path")
+}
+
+fn check_limits(machine: &Machine) -> Result<(), MachineError> {
+    let limits = &machine.limits;
+    for (key, range) in [("limits.x", limits.x), ("limits.y", limits.y), ("limits.z", limits.z)] {
+        let holds = range.is_none_or(|[a, b]| a.is_finite() && b.is_finite() && a < b);
+        require(holds, key, "lowest, then highest, in mm")?;
+    }
+    let travel = limits.travel.is_none_or(|t| t.iter().all(|l| positive(*l)));
+    require(travel, "limits.travel", "three lengths above 0, in mm")?;
+    require(limits.max_feed.is_none_or(positive), "limits.max_feed", "above 0, in mm/min")?;
+    require(positive(limits.rapid_rate), "limits.rapid_rate", "above 0, in mm/min")?;
+    require(limits.max_rpm.is_none_or(positive), "limits.max_rpm", "above 0, in rev/min")
+}
+
+fn positive(value: f64) -> bool {
+    value.is_finite() && value > 0.0
+}
+
+fn check_options(machine: &Machine) -> Result<(), MachineError> {
+    for (name, rule) in &machine.options {
+        if let Some(problem) = rule.refuses(&rule.value) {
+            return Err(MachineError::Option { name: name.clone(), problem });
+        }
+    }
+    Ok(())
+}
+
+fn check_reader(machine: &Machine) -> Result<(), MachineError> {
+    for (index, code) in machine.reader.refused.iter().enumerate() {
+        check_code(&format!("reader.refused[{index}]"), code)?;
+    }
+    Ok(())
+}

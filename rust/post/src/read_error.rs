@@ -1,0 +1,287 @@
+//! What keeps text from being read.
+
+use thiserror::Error;
+
+use crate::machine::MachineError;
+
+/// Text that could not be read, and where.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("line {line}, column {column}: {fault}{}", shown(.word))]
+pub struct ReadError {
+    /// The line, from 1; 0 when no line is at fault.
+    pub line: u32,
+    /// The character in it, from 1; 0 when the whole line is meant.
+    pub column: u32,
+    /// The word as written; empty when no word is at fault.
+    pub word: String,
+    /// What is wrong.
+    pub fault: ReadFault,
+}
+
+fn shown(word: &str) -> String {
+    if word.is_empty() {
+        String::new()
+    } else {
+        format!(": {word:?}")
+    }
+}
+
+/// What is wrong with a line.
+///
+/// Each variant says when it occurs and what to do about it.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ReadFault {
+    /// The machine's own values are at fault. Correct the machine file.
+    #[error(transparent)]
+    Machine(#[from] MachineError),
+    /// A character that starts no word. Remove it.
+    #[error("this character starts no word")]
+    Character,
+    /// A letter without a number. Write the number.
+    #[error("a number is expected after the letter")]
+    NumberExpected,
+    /// More than 15 digits. Shorten the number.
+    #[error("the number has too many digits")]
+    NumberTooLong,
+    /// A `(` without its `)`. Close the comment on its line.
+    #[error("the comment is not closed")]
+    UnclosedComment,
+    /// A `(` inside a comment. Replace it.
+    #[error("a comment inside a comment")]
+    NestedComment,
+    /// The line is longer than the machine reads. Break or shorten it.
+    #[error("the line has {length} characters, and the machine reads {max}")]
+    LineTooLong {
+        /// Its length, as the machine counts.
+        length: usize,
+        /// The machine's longest.
+        max: u32,
+    },
+    /// More lines than a 32-bit number counts. Split the program.
+    #[error("the text has too many lines")]
+    TooManyLines,
+    /// A `%` where the machine takes none: anywhere on some machines, elsewhere than alone on its line on the others. Remove it.
+    #[error("a % is not taken here")]
+    Percent,
+    /// A `/` where the machine takes none. Remove the mark, or the block.
+    #[error("the machine takes no / before a block")]
+    BlockDelete,
+    /// A letter that means nothing on three axes: A, B, C, U, V, W are further axes. Take the word out.
+    #[error("no such word on a machine with three axes")]
+    UnknownWord,
+    /// A G or M code that this reader does not know. Take it out, or post the program again.
+    #[error("this code is not known")]
+    UnknownCode,
+    /// Something that this release does not read: arcs, canned cycles, parameters. Post the program with straight moves.
+    #[error("{what} are not read yet")]
+    NotRead {
+        /// What it is, in the plural.
+        what: &'static str,
+    },
+    /// A code that this controller refuses. Take it out, or take the machine file of the controller that it is for.
+    #[error("{machine} refuses this code")]
+    Refused {
+        /// The machine.
+        machine: String,
+    },
+    /// Two codes of one modal group in a block. Put them in two blocks.
+    #[error("a second code of the same group in one block")]
+    SameGroup,
+    /// One letter twice in a block. Put them in two blocks.
+    #[error("the same word twice in one block")]
+    WordTwice,
+    /// A P, Q or H that belongs to no code of its block. Take it out.
+    #[error("no code of this block takes this word")]
+    StrayWord,
+    /// A code lacks a word: P of G4, axes of G53. Write the word.
+    #[error("{what} is missing")]
+    MissingWord {
+        /// The word.
+        what: &'static str,
+    },
+    /// A number that must be whole and not negative. Correct it.
+    #[error("a whole number of 0 or more is expected")]
+    NotNatural,
+    /// A number below zero where none may be: dwell, speed. Correct it.
+    #[error("the number must not be negative")]
+    Negative,
+    /// A feed of zero or less. Write a feed above zero.
+    #[error("the feed must be above zero")]
+    ZeroFeed,
+    /// Motion or a feed before G20 or G21, and the machine file names no unit to begin with. Write G21 (or G20) in a block before.
+    #[error("the unit is not known: neither G20 nor G21 came before")]
+    NoUnits,
+    /// A block changes the unit and gives a feed: controllers differ in which comes first. Put G20 or G21 in a block before.
+    #[error("the unit changes in the block of a feed")]
+    FeedWithUnits,
+    /// A feed move and no F before it. Write a feed.
+    #[error("no feed came before this feed move")]
+    NoFeed,
+    /// Axis words and neither G0 nor G1 before them, or G80 after. Write the motion code.
+    #[error("axis words without G0 or G1")]
+    NoMotionMode,
+    /// M6 and no T before it. Write the tool's number.
+    #[error("no T came before the tool change")]
+    NoToolSelected,
+    /// Motion before any tool change, and the job has several tools. Write the tool change.
+    #[error("no tool is loaded, and the job has several")]
+    NoToolLoaded,
+    /// The job has no tool of this number. Correct the number, or the job.
+    #[error("the job has no tool {number}")]
+    UnknownTool {
+        /// The number.
+        number: u32,
+    },
+    /// H names another offset than the loaded tool's: the tip would be at another height than programmed. Correct one of them.
+    #[error("length offset {found} is not that of the loaded tool, {expected}")]
+    LengthOffset {
+        /// What is written.
+        found: u32,
+        /// The tool's.
+        expected: u32,
+    },
+    /// A work offset that the machine does not have. Take one that it has.
+    #[error("the machine has no such work offset")]
+    Wcs,
+    /// The work offset changes between moves: one program has one zero point here. Split the program.
+    #[error("the work offset changes between moves")]
+    WcsChanged,
+    /// G91 on an axis whose place is not known: at the start, after a tool change or G53. Give it a place with G90 first.
+    #[error("an incremental move of an axis whose place is not known")]
+    IncrementalFromUnknown,
+    /// A feed move while the place of an axis is not known: at the start, after a tool change (Z) or G53. Place it with G0 first.
+    #[error("a feed move while the place of {axis} is not known")]
+    FeedFromUnknown {
+        /// The axis.
+        axis: char,
+    },
+    /// G53 without G0 or G1, or with G91. Write `G53 G0` with G90 active.
+    #[error("G53 needs G0 or G1 and G90")]
+    MachineCoordinates,
+    /// The program moves and never gives a place to this axis. Place it with G0.
+    #[error("the program never places {axis}")]
+    NeverPlaced {
+        /// The axis.
+        axis: char,
+    },
+    /// The text ends and the machine asks for M2 or M30 (or a closing %): it may be cut off. Write the end, or get the whole file.
+    #[error("the program has no end")]
+    NoEnd,
+    /// Code after the end, which the machine would run. Remove it.
+    #[error("code after the program's end, which the machine would run")]
+    AfterEnd,
+}
+
+impl ReadError {
+    /// A stable name for scripts.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        self.fault.code()
+    }
+
+    /// Where: line and column.
+    #[must_use]
+    pub fn place(&self) -> String {
+        match (self.line, self.column) {
+            (0, _) => "text".into(),
+            (line, 0) => format!("line {line}"),
+            (line, column) => format!("line {line}, column {column}"),
+        }
+    }
+
+    /// What to do, in a sentence.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        self.fault.hint()
+    }
+}
+
+impl ReadFault {
+    /// A stable name for scripts.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Machine(error) => error.code(),
+            Self::Character => "read-character",
+            Self::NumberExpected => "read-number-expected",
+            Self::NumberTooLong => "read-number-too-long",
+            Self::UnclosedComment => "read-unclosed-comment",
+            Self::NestedComment => "read-nested-comment",
+            Self::LineTooLong { .. } => "read-line-too-long",
+            Self::TooManyLines => "read-too-many-lines",
+            Self::Percent => "read-percent",
+            Self::BlockDelete => "read-block-delete",
+            Self::UnknownWord => "read-unknown-word",
+            Self::UnknownCode => "read-unknown-code",
+            Self::NotRead { .. } => "read-not-read",
+            Self::Refused { .. } => "read-refused",
+            Self::SameGroup => "read-same-group",
+            Self::WordTwice => "read-word-twice",
+            Self::StrayWord => "read-stray-word",
+            Self::MissingWord { .. } => "read-missing-word",
+            Self::NotNatural => "read-not-natural",
+            Self::Negative => "read-negative",
+            Self::ZeroFeed => "read-zero-feed",
+            Self::NoUnits => "read-no-units",
+            Self::FeedWithUnits => "read-feed-with-units",
+            Self::NoFeed => "read-no-feed",
+            Self::NoMotionMode => "read-no-motion-mode",
+            Self::NoToolSelected => "read-no-tool-selected",
+            Self::NoToolLoaded => "read-no-tool-loaded",
+            Self::UnknownTool { .. } => "read-unknown-tool",
+            Self::LengthOffset { .. } => "read-length-offset",
+            Self::Wcs => "read-wcs",
+            Self::WcsChanged => "read-wcs-changed",
+            Self::IncrementalFromUnknown => "read-incremental-from-unknown",
+            Self::FeedFromUnknown { .. } => "read-feed-from-unknown",
+            Self::MachineCoordinates => "read-machine-coordinates",
+            Self::NeverPlaced { .. } => "read-never-placed",
+            Self::NoEnd => "read-no-end",
+            Self::AfterEnd => "read-after-end",
+        }
+    }
+
+    /// What to do, in a sentence.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        let hint = match self {
+            Self::Machine(error) => return error.hint(),
+            Self::Character => "remove the character",
+            Self::NumberExpected => "write a number after the letter",
+            Self::NumberTooLong => "shorten the number to 15 digits",
+            Self::UnclosedComment => "close the comment on its line",
+            Self::NestedComment => "replace the inner parentheses",
+            Self::LineTooLong { .. } => "break or shorten the line",
+            Self::TooManyLines => "split the program",
+            Self::Percent => "remove the %, or take the machine file of the controller that the program is for",
+            Self::BlockDelete => "remove the / or the block",
+            Self::UnknownWord => "take the word out: only X, Y and Z are axes here",
+            Self::UnknownCode => "take the code out, or post the program again for this machine",
+            Self::NotRead { .. } => "post the program with straight moves and plain numbers only",
+            Self::Refused { .. } => {
+                "take the code out, or take the machine file of the controller that the program is for"
+            }
+            Self::SameGroup | Self::WordTwice => "put them in two blocks",
+            Self::StrayWord => "take the word out, or write the code that it belongs to",
+            Self::MissingWord { .. } => "write the missing word",
+            Self::NotNatural => "write a whole number of 0 or more",
+            Self::Negative => "write a number of 0 or more",
+            Self::ZeroFeed => "write a feed above zero",
+            Self::NoUnits | Self::FeedWithUnits => "write G21 (mm) or G20 (inch) in a block before",
+            Self::NoFeed => "write a feed (F) with the first feed move",
+            Self::NoMotionMode => "write G0 or G1",
+            Self::NoToolSelected => "write T and the tool's number",
+            Self::NoToolLoaded => "write the tool change before the first move",
+            Self::UnknownTool { .. } => "correct the tool number, or add the tool to the job",
+            Self::LengthOffset { .. } => "correct H, or the tool's length_offset in the job",
+            Self::Wcs => "take a work offset that the machine has",
+            Self::WcsChanged => "split the program: one zero point each",
+            Self::IncrementalFromUnknown => "place the axis with G90 G0 first",
+            Self::FeedFromUnknown { .. } | Self::NeverPlaced { .. } => "place the axis with G0 first",
+            Self::MachineCoordinates => "write G53 G0 and an axis, with G90 active",
+            Self::NoEnd => "the file may be cut off: get the whole file, or write M2 at its end",
+            Self::AfterEnd => "remove what follows the end, or the end before it",
+        };
+        hint.into()
+    }
+}

@@ -1,0 +1,211 @@
+//! Text to motion: the reader of G-code.
+
+use std::ops::Range;
+
+use styluscam_motion::{Program, ToolRecord};
+
+use crate::block::Block;
+use crate::interpreter::{Flaw, Interpreter};
+use crate::lexer::{code, Line, Misfit, Word};
+use crate::machine::{AfterEnd, BlockDelete, Machine};
+use crate::read_error::{ReadError, ReadFault};
+use crate::writer::counted_length;
+
+/// A program read from text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reading {
+    /// The program; places are those of the tips, mm. The set-up holds the work offset only.
+    pub program: Program,
+    /// Index of the first move at whose end all three axes have been commanded; the number of moves when none is.
+    pub first_placed_move: usize,
+    /// Moves at whose end the place of some axis is not known, in runs: at the start, after a tool change (Z), after G53.
+    ///
+    /// There the axis stands at the next place commanded, or at the last one when none follows.
+    pub unplaced: Vec<Range<usize>>,
+}
+
+/// Typical length of a line, to reserve memory.
+const TYPICAL_LINE: usize = 20;
+
+/// Reads `text` as `machine` would, strictly: what is not understood is an error, never skipped.
+///
+/// `tools` are the job's: places are those of the active tool's tip, `reference_height` below the coordinates. Without
+/// any, tools are made up from their numbers and coordinates are taken for the tip's. A job's only tool need not be
+/// called. An axis that has not been commanded takes the first place commanded for it; feed moves are refused until all
+/// three have a place. After a tool change that holds for Z, after G53 for its axes: its move is a remark only.
+/// M0, M1 and M7 become remarks too. On machines without M6 a T word is the tool change.
+///
+/// # Errors
+/// [`ReadError`] for the first thing that cannot be read.
+pub fn read(text: &str, machine: &Machine, tools: &[ToolRecord]) -> Result<Reading, ReadError> {
+    machine.check().map_err(|e| whole_text(e.into()))?;
+    let mut reader = Reader::new(text, machine, tools);
+    let mut line_number = 0_u32;
+    for line in text.lines() {
+        line_number = line_number.checked_add(1).ok_or_else(|| whole_text(ReadFault::TooManyLines))?;
+        if reader.read_line(line, line_number)? == Progress::Done {
+            break;
+        }
+    }
+    reader.finish(line_number)
+}
+
+#[derive(PartialEq, Eq)]
+enum Progress {
+    Going,
+    Done,
+}
+
+/// Where the reader is in the file.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Stage {
+    /// Before the first line that is not empty.
+    Start,
+    /// In the program.
+    Inside,
+    /// After M2 or M30.
+    Ended,
+}
+
+struct Reader<'t> {
+    machine: &'t Machine,
+    refused: Vec<(u8, i64)>,
+    dwell_word: char,
+    line: Line<'t>,
+    interpreter: Interpreter<'t>,
+    stage: Stage,
+    /// Whether the first line was `%`.
+    framed: bool,
+}
+
+impl<'t> Reader<'t> {
+    fn new(text: &str, machine: &'t Machine, tools: &[ToolRecord]) -> Self {
+        Self {
+            machine,
+            refused: machine.reader.refused.iter().filter_map(|c| code(c)).collect(),
+            dwell_word: machine.dwell.as_ref().map_or('P', |d| d.word),
+            line: Line::default(),
+            interpreter: Interpreter::new(machine, tools, text.len() / TYPICAL_LINE),
+            stage: Stage::Start,
+            framed: false,
+        }
+    }
+
+    fn read_line(&mut self, text: &'t str, number: u32) -> Result<Progress, ReadError> {
+        if text.trim() == "%" {
+            return self.read_percent(text, number);
+        }
+        self.check_length(text).map_err(|fault| whole_line(number, fault))?;
+        self.line.cut(text).map_err(|misfit| misfit_at(text, number, misfit))?;
+        if !self.runs().map_err(|fault| whole_line(number, fault))? {
+            return Ok(Progress::Going);
+        }
+        for comment in &self.line.comments {
+            self.interpreter.remark(comment);
+        }
+        let empty = self.line.words.is_empty();
+        if empty && self.line.comments.is_empty() {
+            return Ok(Progress::Going);
+        }
+        if self.stage == Stage::Ended && !empty {
+            return Err(whole_line(number, ReadFault::AfterEnd));
+        }
+        if self.stage == Stage::Start {
+            self.stage = Stage::Inside;
+        }
+        if empty || !self.run_block(number).map_err(|(fault, word)| flaw_at(text, number, fault, word))? {
+            return Ok(Progress::Going);
+        }
+        self.stage = Stage::Ended;
+        Ok(if self.machine.reader.after_end == AfterEnd::Ignore { Progress::Done } else { Progress::Going })
+    }
+
+    /// The first `%` opens the program when nothing comes before it, the second ends the text.
+    fn read_percent(&mut self, text: &str, number: u32) -> Result<Progress, ReadError> {
+        let opens = self.stage == Stage::Start && !self.framed;
+        if !self.machine.reader.percent || !(opens || self.framed) {
+            let start = text.find('%').unwrap_or_default();
+            return Err(misfit_at(text, number, Misfit { fault: ReadFault::Percent, start, end: start + 1 }));
+        }
+        if opens {
+            self.framed = true;
+            return Ok(Progress::Going);
+        }
+        self.stage = Stage::Ended;
+        Ok(Progress::Done)
+    }
+
+    fn check_length(&self, text: &str) -> Result<(), ReadFault> {
+        let max = self.machine.line.max_chars;
+        if text.len() <= max as usize {
+            return Ok(());
+        }
+        let length = counted_length(text.trim_end_matches('\r'), self.machine.line.counted);
+        if length <= max as usize {
+            return Ok(());
+        }
+        Err(ReadFault::LineTooLong { length, max })
+    }
+
+    /// Whether the machine runs this line.
+    fn runs(&self) -> Result<bool, ReadFault> {
+        match self.machine.reader.block_delete {
+            _ if !self.line.deleted => Ok(true),
+            BlockDelete::Run => Ok(true),
+            BlockDelete::Skip => Ok(false),
+            BlockDelete::Error => Err(ReadFault::BlockDelete),
+        }
+    }
+
+    fn run_block(&mut self, number: u32) -> Result<bool, Flaw> {
+        let mut block = Block::default();
+        for word in &self.line.words {
+            self.check_refused(*word)?;
+            block.take(*word).map_err(|fault| (fault, Some(*word)))?;
+        }
+        block.settle(self.dwell_word).map_err(|(fault, word)| (fault, Some(word)))?;
+        self.interpreter.run(&block, number)
+    }
+
+    fn check_refused(&self, word: Word) -> Result<(), Flaw> {
+        if !matches!(word.letter, b'G' | b'M') || self.refused.is_empty() {
+            return Ok(());
+        }
+        let refused = word.number.tenths().is_some_and(|t| self.refused.contains(&(word.letter, t)));
+        if refused {
+            return Err((ReadFault::Refused { machine: self.machine.name.clone() }, Some(word)));
+        }
+        Ok(())
+    }
+
+    fn finish(self, lines: u32) -> Result<Reading, ReadError> {
+        if self.machine.reader.end_required && self.stage != Stage::Ended {
+            return Err(whole_line(lines, ReadFault::NoEnd));
+        }
+        let (program, unplaced) = self.interpreter.finish().map_err(whole_text)?;
+        let first_placed_move = unplaced.first().filter(|run| run.start == 0).map_or(0, |run| run.end);
+        Ok(Reading { program, first_placed_move, unplaced })
+    }
+}
+
+fn whole_text(fault: ReadFault) -> ReadError {
+    ReadError { line: 0, column: 0, word: String::new(), fault }
+}
+
+fn whole_line(line: u32, fault: ReadFault) -> ReadError {
+    ReadError { line, column: 0, word: String::new(), fault }
+}
+
+fn misfit_at(text: &str, line: u32, misfit: Misfit) -> ReadError {
+    let before = text.get(..misfit.start).unwrap_or_default().chars().count() + 1;
+    let column = u32::try_from(before).unwrap_or(u32::MAX);
+    let word = text.get(misfit.start..misfit.end).unwrap_or_default().chars().take(40).collect();
+    ReadError { line, column, word, fault: misfit.fault }
+}
+
+fn flaw_at(text: &str, line: u32, fault: ReadFault, word: Option<Word>) -> ReadError {
+    match word {
+        Some(Word { start, end, .. }) => misfit_at(text, line, Misfit { fault, start, end }),
+        None => whole_line(line, fault),
+    }
+}

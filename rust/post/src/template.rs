@@ -1,0 +1,247 @@
+//! The text around the moves: a machine's templates, filled in by minijinja with bounded work and no names undefined.
+
+use std::collections::BTreeMap;
+
+use minijinja::{Environment, Error, UndefinedBehavior, Value};
+use styluscam_motion::{EventKind, MoveKind, OperationRecord, Program, ToolRecord, ToolReference};
+
+use crate::comment::CommentFormat;
+use crate::machine::{LengthOffset, LengthUnit, Machine, MachineError, OptionValue, ToolChange};
+use crate::number::NumberFormat;
+
+/// Most steps that one template may take: a header of a thousand lines needs a fiftieth of it.
+const FUEL: u64 = 1_000_000;
+
+/// Most recursion that one template may take.
+const RECURSION: usize = 50;
+
+const HEADER: &str = include_str!("../templates/header.jinja");
+const CHANGE_M6: &str = include_str!("../templates/change_m6.jinja");
+const CHANGE_PAUSE: &str = include_str!("../templates/change_pause.jinja");
+const CHANGE_NONE: &str = include_str!("../templates/change_none.jinja");
+
+/// Names and values that a template may use.
+type Names = BTreeMap<String, Value>;
+
+/// Fills in one machine's templates.
+pub(crate) struct Templater<'m> {
+    machine: &'m Machine,
+    environment: Environment<'m>,
+}
+
+impl<'m> Templater<'m> {
+    /// Templates of `machine`.
+    pub(crate) fn new(machine: &'m Machine) -> Self {
+        let mut environment = Environment::new();
+        environment.set_undefined_behavior(UndefinedBehavior::Strict);
+        environment.set_fuel(Some(FUEL));
+        environment.set_recursion_limit(RECURSION);
+        environment.set_auto_escape_callback(|_| minijinja::AutoEscape::None);
+        let mut syntax = minijinja::syntax::SyntaxConfig::builder();
+        syntax.trim_blocks(true).lstrip_blocks(true);
+        if let Ok(syntax) = syntax.build() {
+            environment.set_syntax(syntax);
+        }
+        add_functions(&mut environment, machine);
+        Self { machine, environment }
+    }
+
+    /// Compiles every template.
+    pub(crate) fn check(&self) -> Result<(), MachineError> {
+        self.all().into_iter().try_for_each(|(name, source)| self.compile(name, source).map(|_| ()))
+    }
+
+    fn all(&self) -> Vec<(&'static str, &'m str)> {
+        let templates = &self.machine.templates;
+        vec![
+            ("templates.header", self.header_source()),
+            ("templates.program_start", &templates.program_start),
+            ("templates.tool_change", self.tool_change_source()),
+            ("templates.operation_start", &templates.operation_start),
+            ("templates.program_end", &templates.program_end),
+            ("smoothing.on", self.machine.smoothing.on.as_deref().unwrap_or_default()),
+        ]
+    }
+
+    fn compile(&self, name: &'m str, source: &'m str) -> Result<minijinja::Template<'_, 'm>, MachineError> {
+        self.environment.template_from_named_str(name, source).map_err(|e| failure(name, &e))
+    }
+
+    fn fill(&self, name: &'m str, source: &'m str, names: &Names) -> Result<String, MachineError> {
+        self.compile(name, source)?.render(Value::from(names.clone())).map_err(|e| failure(name, &e))
+    }
+
+    fn header_source(&self) -> &'m str {
+        self.machine.templates.header.as_deref().unwrap_or(HEADER)
+    }
+
+    fn tool_change_source(&self) -> &'m str {
+        self.machine.templates.tool_change.as_deref().unwrap_or(match self.machine.tool.change {
+            ToolChange::M6 => CHANGE_M6,
+            ToolChange::Pause => CHANGE_PAUSE,
+            ToolChange::LoadBeforeStart => CHANGE_NONE,
+        })
+    }
+
+    /// What every template may use.
+    pub(crate) fn names(&self, program: &Program) -> Result<Names, MachineError> {
+        let machine = self.machine;
+        let mut names = Names::new();
+        let mut name = |key: &str, value: Value| names.insert(key.into(), value);
+        name(
+            "machine",
+            map([("name", machine.name.as_str().into()), ("description", machine.description.as_str().into())]),
+        );
+        name("program", program_value(program));
+        name("tools", program.tools.iter().map(tool_value).collect());
+        name("units", unit_name(machine.units.output).into());
+        name("units_word", machine.units_word().unwrap_or_default().into());
+        name("wcs", program.setup.wcs.as_str().into());
+        name("end", machine.end.as_str().into());
+        name("options", Value::from(options(machine)));
+        name("has_length_offsets", (machine.tool.length == LengthOffset::G43H).into());
+        let smoothing = self.smoothing()?;
+        names.insert("smoothing".into(), smoothing.into());
+        let header = self.fill("templates.header", self.header_source(), &names)?;
+        names.insert("header".into(), header.into());
+        Ok(names)
+    }
+
+    fn smoothing(&self) -> Result<String, MachineError> {
+        let smoothing = &self.machine.smoothing;
+        match (&smoothing.on, tolerance_words(self.machine)) {
+            (Some(source), Some(tolerance)) => {
+                let names = Names::from([("tolerance".to_string(), tolerance.into())]);
+                self.fill("smoothing.on", source, &names)
+            }
+            _ => Ok(smoothing.off.clone().unwrap_or_default()),
+        }
+    }
+
+    /// The text before everything else.
+    pub(crate) fn program_start(&self, names: &Names) -> Result<String, MachineError> {
+        self.fill("templates.program_start", &self.machine.templates.program_start, names)
+    }
+
+    /// The text after everything else.
+    pub(crate) fn program_end(&self, names: &Names) -> Result<String, MachineError> {
+        self.fill("templates.program_end", &self.machine.templates.program_end, names)
+    }
+
+    /// The text of a tool change; `first` when no tool was called before.
+    pub(crate) fn tool_change(&self, names: &Names, tool: &ToolRecord, first: bool) -> Result<String, MachineError> {
+        let mut names = names.clone();
+        names.insert("tool".into(), tool_value(tool));
+        names.insert("first".into(), first.into());
+        self.fill("templates.tool_change", self.tool_change_source(), &names)
+    }
+
+    /// The text where an operation begins.
+    pub(crate) fn operation_start(&self, names: &Names, operation: &OperationRecord) -> Result<String, MachineError> {
+        let mut names = names.clone();
+        let record = [("id", operation.id.as_str().into()), ("kind", operation.kind.as_str().into())];
+        names.insert("operation".into(), map(record));
+        self.fill("templates.operation_start", &self.machine.templates.operation_start, &names)
+    }
+}
+
+fn failure(name: &str, error: &Error) -> MachineError {
+    let message = error.detail().map_or_else(|| error.kind().to_string(), |d| format!("{}: {d}", error.kind()));
+    MachineError::Template { name: name.into(), line: error.line().unwrap_or(1), message }
+}
+
+fn add_functions(environment: &mut Environment, machine: &Machine) {
+    let comments = CommentFormat::new(machine);
+    environment.add_function("comment", move |text: String| comments.lines(&text).join("\n"));
+    let (linear, unit) = (machine.linear_format(), machine.units.output);
+    environment.add_function("length", move |mm: f64| words(linear, mm / unit.in_mm()));
+    let feed = machine.feed_format();
+    environment.add_function("feed", move |mm_per_min: f64| words(feed, mm_per_min / unit.in_mm()));
+}
+
+fn words(format: NumberFormat, value: f64) -> String {
+    let mut out = String::new();
+    match format.count(value) {
+        Some(count) => format.write(&mut out, count),
+        None => out.push_str("unknown"),
+    }
+    out
+}
+
+/// The smoothing tolerance in output units, rounded down; none when nothing is left of it.
+///
+/// It carries two places more than coordinates do, so that rounding takes little of it.
+pub(crate) fn tolerance_words(machine: &Machine) -> Option<String> {
+    let format = NumberFormat::plain(machine.decimals().linear.saturating_add(2));
+    let exact = machine.smoothing.tolerance / machine.units.output.in_mm() * format.per_one();
+    // A part in 1e9 keeps 0.002 from becoming 0.00199 by the rounding of binary fractions.
+    let count = crate::number::whole((exact * (1.0 + 1e-9)).floor()).filter(|c| *c > 0)?;
+    let mut out = String::new();
+    format.write(&mut out, count);
+    Some(out)
+}
+
+fn map<const N: usize>(entries: [(&str, Value); N]) -> Value {
+    Value::from(entries.into_iter().map(|(k, v)| (k.to_string(), v)).collect::<Names>())
+}
+
+fn program_value(program: &Program) -> Value {
+    let setup = &program.setup;
+    map([
+        ("title", setup.title.as_str().into()),
+        ("wcs", setup.wcs.as_str().into()),
+        ("zero", setup.zero.as_str().into()),
+        ("part_min", setup.part_min.into_iter().collect()),
+        ("part_max", setup.part_max.into_iter().collect()),
+        ("clearance", setup.clearance.into()),
+        ("deepest_z", deepest(program).into()),
+        ("notes", setup.notes.iter().map(String::as_str).collect()),
+        ("uses_spindle", program.events.iter().any(|e| matches!(e.kind, EventKind::SpindleOn { .. })).into()),
+    ])
+}
+
+fn tool_value(tool: &ToolRecord) -> Value {
+    let reference = if tool.reference == ToolReference::Tip { "tip" } else { "center" };
+    map([
+        ("name", tool.name.as_str().into()),
+        ("number", tool.number.into()),
+        ("length_offset", tool.length_offset.into()),
+        ("description", tool.description.as_str().into()),
+        ("reference", reference.into()),
+        ("reference_height", tool.reference_height.into()),
+        ("diameter", tool.diameter.into()),
+    ])
+}
+
+fn options(machine: &Machine) -> Names {
+    machine.options.iter().map(|(name, rule)| (name.clone(), option_value(&rule.value))).collect()
+}
+
+fn option_value(value: &OptionValue) -> Value {
+    match value {
+        OptionValue::Switch(on) => (*on).into(),
+        OptionValue::Number(number) => (*number).into(),
+        OptionValue::Text(text) => text.as_str().into(),
+    }
+}
+
+fn unit_name(unit: LengthUnit) -> &'static str {
+    match unit {
+        LengthUnit::Mm => "mm",
+        LengthUnit::Inch => "inch",
+    }
+}
+
+/// Lowest Z of a tip at feed, mm; of any move when none is at feed.
+fn deepest(program: &Program) -> f64 {
+    let lowest = |at_feed: bool| {
+        let moves = program.moves.iter().filter(|m| !at_feed || m.kind == MoveKind::Feed);
+        moves.map(|m| m.end[2]).fold(f64::INFINITY, f64::min)
+    };
+    let at_feed = lowest(true);
+    if at_feed.is_finite() {
+        at_feed
+    } else {
+        lowest(false)
+    }
+}

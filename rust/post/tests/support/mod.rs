@@ -1,0 +1,98 @@
+//! Programs and machines for the tests.
+
+#![allow(dead_code, clippy::unwrap_used)] // each test file uses a part of it; a helper that fails fails its test
+
+use styluscam_motion::{
+    Event, EventKind, Move, MoveKind, OperationRecord, Program, SetupRecord, SpindleDirection, ToolRecord,
+    ToolReference, PROGRAM_SCHEMA,
+};
+use styluscam_post::machine::ToolChange;
+use styluscam_post::Machine;
+
+pub fn linuxcnc() -> Machine {
+    Machine::shipped("linuxcnc").unwrap()
+}
+
+pub fn grbl() -> Machine {
+    Machine::shipped("grbl").unwrap()
+}
+
+/// GRBL whose operator has tools of equal length.
+pub fn grbl_with_pauses() -> Machine {
+    let mut machine = grbl();
+    machine.tool.change = ToolChange::Pause;
+    machine
+}
+
+pub fn rapid(x: f64, y: f64, z: f64) -> Move {
+    Move { kind: MoveKind::Rapid, end: [x, y, z], feed: 0.0, operation: 0, line: 0 }
+}
+
+pub fn feed(x: f64, y: f64, z: f64, feed: f64) -> Move {
+    Move { kind: MoveKind::Feed, end: [x, y, z], feed, operation: 0, line: 0 }
+}
+
+pub fn event(before: usize, kind: EventKind) -> Event {
+    Event { before, kind }
+}
+
+pub fn change(before: usize, tool: u32) -> Event {
+    event(before, EventKind::ToolChange { tool })
+}
+
+pub fn spindle(before: usize, rpm: f64) -> Event {
+    event(before, EventKind::SpindleOn { rpm, direction: SpindleDirection::Clockwise })
+}
+
+pub fn stylus(number: u32) -> ToolRecord {
+    ToolRecord {
+        name: format!("stylus{number}"),
+        number,
+        length_offset: number,
+        description: "clothoid D10".into(),
+        reference: ToolReference::Tip,
+        reference_height: 0.0,
+        diameter: 10.0,
+    }
+}
+
+pub fn ball_by_center(number: u32, height: f64) -> ToolRecord {
+    ToolRecord {
+        reference: ToolReference::Center,
+        reference_height: height,
+        description: "ball D6".into(),
+        ..stylus(number)
+    }
+}
+
+pub fn program(moves: Vec<Move>, events: Vec<Event>, tools: Vec<ToolRecord>) -> Program {
+    Program {
+        schema: PROGRAM_SCHEMA,
+        setup: SetupRecord {
+            title: "cone, first side".into(),
+            wcs: "G54".into(),
+            zero: "sheet top, centre of the blank".into(),
+            part_min: [-50.0, -50.0, -20.0],
+            part_max: [50.0, 50.0, 0.0],
+            clearance: 10.0,
+            notes: vec!["Sheet 1 mm, wall angle at most 60°; clamp the blank (M6 screws) before the start.".into()],
+        },
+        tools,
+        operations: vec![OperationRecord { id: "walls".into(), kind: "z-level".into(), tool: 0 }],
+        moves,
+        events,
+    }
+}
+
+/// A short program of one tool.
+pub fn cone() -> Program {
+    let moves = vec![
+        rapid(10.0, -5.0, 10.0),
+        rapid(10.0, -5.0, 1.0),
+        feed(10.0, -5.0, -0.5, 100.0),
+        feed(20.125, -5.0, -0.5, 1500.0),
+        feed(20.125, 7.5, -0.5, 1500.0),
+        rapid(20.125, 7.5, 10.0),
+    ];
+    program(moves, vec![change(0, 0)], vec![stylus(1)])
+}
