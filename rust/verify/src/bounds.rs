@@ -1,0 +1,80 @@
+//! Bounds, from below, of the distance between the body on its way and whatever a node of the index holds.
+//!
+//! Every plane that touches the body gives one; a body on a straight way has the support of the end that
+//! reaches farther.
+
+use styluscam_geometry::Node;
+
+use crate::body::{length, Body, Plane};
+use crate::sweep::Stroke;
+use crate::Vector;
+
+/// A bound for a node; the cheap ones first, until one is above `limit`. `hint` is a plane worth trying.
+pub(crate) fn node_bound(body: &Body, node: &Node, stroke: Stroke, limit: f64, hint: Option<&Plane>) -> f64 {
+    let gap = |plane: &Plane| {
+        let position = stroke.farther(plane);
+        patch_gap(node, plane, position).max(box_gap(node, plane, position))
+    };
+    let hinted = hint.map_or(f64::NEG_INFINITY, gap);
+    if hinted > limit {
+        return hinted;
+    }
+    let sloped = sloped_bound(body, node, stroke).max(hinted);
+    if sloped > limit {
+        return sloped;
+    }
+    let position = stroke.at(stroke.share_near(0.5 * (node.low + node.high)));
+    let patch = gap(&patch_plane(body, node, position)).max(sloped);
+    if patch > limit {
+        return patch;
+    }
+    patch.max(gap(&box_plane(body, node, position)))
+}
+
+/// The bound by the plane that lies over all the node's points.
+fn sloped_bound(body: &Body, node: &Node, stroke: Stroke) -> f64 {
+    let [gx, gy] = node.gradient;
+    let [mx, my] = node.middle();
+    let steep = length(gx, gy);
+    let over = |p: Vector| p.z - node.lift - gx * (p.x - mx) - gy * (p.y - my);
+    let lowest = over(stroke.from).min(over(stroke.to));
+    (lowest - body.support_bound(steep, 1.0)) / (1.0 + steep * steep).sqrt()
+}
+
+/// A plane that keeps the middle of the node's upper plane off the body.
+fn patch_plane(body: &Body, node: &Node, position: Vector) -> Plane {
+    let [x, y] = node.middle();
+    body.separating(Vector::new(x, y, node.lift) - position)
+}
+
+/// A plane that keeps the box off the body, nearly as far as any can.
+///
+/// The box's nearest place is on its top: the body only grows upwards.
+fn box_plane(body: &Body, node: &Node, position: Vector) -> Plane {
+    let near = |low: f64, high: f64, at: f64| at.clamp(low, high) - at;
+    let x = near(node.low.x, node.high.x, position.x);
+    let y = near(node.low.y, node.high.y, position.y);
+    body.separating(Vector::new(x, y, node.high.z - position.z))
+}
+
+/// The gap that a plane leaves between body and box, mm.
+fn box_gap(node: &Node, plane: &Plane, position: Vector) -> f64 {
+    let side = |a: f64, low: f64, high: f64, at: f64| a * (if a > 0.0 { low } else { high } - at);
+    side(plane.away.x, node.low.x, node.high.x, position.x)
+        + side(plane.away.y, node.low.y, node.high.y, position.y)
+        + side(plane.away.z, node.low.z, node.high.z, position.z)
+        - plane.support
+}
+
+/// The gap that a plane leaves between body and what lies in the box and under the node's upper plane, mm.
+///
+/// The plane's direction never points up, so the highest points count: those of the upper plane, over the box.
+fn patch_gap(node: &Node, plane: &Plane, position: Vector) -> f64 {
+    let [x, y] = node.middle();
+    let away = plane.away;
+    let middle = away.x * (x - position.x) + away.y * (y - position.y) + away.z * (node.lift - position.z);
+    let tilt_x = (away.x + away.z * node.gradient[0]).abs();
+    let tilt_y = (away.y + away.z * node.gradient[1]).abs();
+    let fall = tilt_x * (node.high.x - node.low.x) + tilt_y * (node.high.y - node.low.y);
+    middle - 0.5 * fall - plane.support
+}

@@ -1,0 +1,173 @@
+//! The judgement: moves in, report out.
+
+use styluscam_motion::{Cancelled, Program, Watch};
+
+use crate::findings::{merge, Fault};
+use crate::legs::{placed, Leg, LegKind};
+use crate::measure::{highest, measure, Measured, Sample};
+use crate::{diagnosis, travel, ContactRecord, FindingKind, Limits, Place, Report, Severity, Subject, SLACK};
+
+/// Contacts in a report at most.
+const CONTACTS: usize = 4000;
+
+/// Judges a program read back from posted text against the part.
+///
+/// Positions are the tool's tip in work coordinates. The same input gives the same report on any number of threads.
+///
+/// # Errors
+/// `Cancelled` when the watch says so; it is polled at every move.
+pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watch) -> Result<Report, Cancelled> {
+    let legs = placed(program, subject, limits);
+    let measured = measure(&legs, subject, limits, watch)?;
+    let mut tally = Tally { subject, limits, faults: Vec::new(), gouge: Worst::default(), excess: Worst::default() };
+    for (leg, found) in legs.iter().zip(&measured) {
+        tally.take(leg, found);
+    }
+    let contacts = Contacts::of(&legs, &measured, subject, limits);
+    let mut faults = tally.faults;
+    faults.extend(travel::faults(program, &legs, subject, limits));
+    let (mut findings, mut counts) = merge(&faults);
+    let nothing = contacts.nothing_touches().then(|| diagnosis::no_contact(program, &legs, &contacts.samples, subject));
+    for whole in travel::no_feed_moves(program).into_iter().chain(nothing) {
+        counts.insert(whole.kind, 1);
+        findings.insert(0, whole);
+    }
+    Ok(Report {
+        ok: findings.iter().all(|f| f.severity != Severity::Error),
+        findings,
+        counts,
+        gouge_max: tally.gouge.value,
+        gouge_at: tally.gouge.at,
+        excess_max: tally.excess.value,
+        excess_at: tally.excess.at,
+        contact_share: contacts.share(),
+        samples: measured.iter().map(|m| m.samples).sum(),
+        contacts: contacts.records(subject),
+    })
+}
+
+/// The largest value so far and its place.
+#[derive(Clone, Copy, Default)]
+struct Worst {
+    value: f64,
+    at: Option<Place>,
+}
+
+impl Worst {
+    fn take(&mut self, value: f64, line: u32, position: [f64; 3]) {
+        if value > 0.0 && (self.at.is_none() || value > self.value + SLACK) {
+            *self = Self { value, at: Some(Place { line, position }) };
+        }
+    }
+}
+
+/// Collects what the measured moves show.
+struct Tally<'a> {
+    subject: &'a Subject<'a>,
+    limits: &'a Limits,
+    faults: Vec<Fault>,
+    gouge: Worst,
+    excess: Worst,
+}
+
+impl Tally<'_> {
+    fn take(&mut self, leg: &Leg, found: &Measured) {
+        if let Some(deepest) = &found.deepest {
+            self.depth(leg, deepest);
+        }
+        if let Some(landing) = &found.landing {
+            let air = landing.touch.value;
+            let limit = self.limits.rapid_gap;
+            self.fault(FindingKind::RapidPlunge, leg, landing, (air, limit), limit - air);
+        }
+        if let (Some(limit), Some(sample)) = (leg.excess, highest(&found.contacts)) {
+            let excess = sample.touch.value + self.subject.deviation_outward;
+            self.excess.take(excess, leg.line, sample.tip);
+            if excess > limit + SLACK {
+                self.fault(FindingKind::Excess, leg, &sample, (excess, limit), excess);
+            }
+        }
+    }
+
+    /// A rapid that is deepest where it starts only leaves a place that the move before it is blamed for.
+    fn depth(&mut self, leg: &Leg, deepest: &Sample) {
+        let depth = self.subject.deviation_inward - deepest.touch.value;
+        self.gouge.take(depth, leg.line, deepest.tip);
+        let brought_here = leg.kind == LegKind::Rapid && leg.starts_at(deepest.tip);
+        if depth <= self.limits.gouge + SLACK || brought_here {
+            return;
+        }
+        let (kind, value) = match leg.kind {
+            LegKind::Rapid if leg.descends() && !leg.travels() => (FindingKind::RapidPlunge, -depth),
+            LegKind::Rapid => (FindingKind::RapidIntoMaterial, depth),
+            _ => (FindingKind::Gouge, depth),
+        };
+        self.fault(kind, leg, deepest, (value, self.limits.gouge), depth);
+    }
+
+    fn fault(&mut self, kind: FindingKind, leg: &Leg, at: &Sample, measure: (f64, f64), weight: f64) {
+        self.faults.push(Fault {
+            kind,
+            severity: Severity::Error,
+            index: leg.index,
+            line: leg.line,
+            position: at.tip,
+            measure: Some(measure),
+            weight,
+        });
+    }
+}
+
+/// The contact moves' samples, each place once.
+struct Contacts {
+    samples: Vec<Sample>,
+    lines: Vec<u32>,
+    touching: Vec<usize>,
+}
+
+impl Contacts {
+    /// The middle and the end of every contact move: its start is the end of another.
+    fn of(legs: &[Leg], measured: &[Measured], subject: &Subject, limits: &Limits) -> Self {
+        let mut contacts = Self { samples: Vec::new(), lines: Vec::new(), touching: Vec::new() };
+        for (leg, found) in legs.iter().zip(measured) {
+            let Some(excess) = leg.excess else { continue };
+            for sample in found.contacts[1..].iter().flatten() {
+                let value = sample.touch.value;
+                let shallow = value - subject.deviation_inward >= -limits.gouge - SLACK;
+                if shallow && value + subject.deviation_outward <= excess + SLACK {
+                    contacts.touching.push(contacts.samples.len());
+                }
+                contacts.samples.push(*sample);
+                contacts.lines.push(leg.line);
+            }
+        }
+        contacts
+    }
+
+    fn nothing_touches(&self) -> bool {
+        self.touching.is_empty() && !self.samples.is_empty()
+    }
+
+    fn share(&self) -> f64 {
+        self.touching.len() as f64 / self.samples.len().max(1) as f64
+    }
+
+    /// Touching samples, spread evenly.
+    fn records(&self, subject: &Subject) -> Vec<ContactRecord> {
+        let count = self.touching.len().min(CONTACTS);
+        let chosen = (0..count).map(|i| self.touching[i * self.touching.len() / count]);
+        chosen.map(|i| record(&self.samples[i], self.lines[i], subject)).collect()
+    }
+}
+
+fn record(sample: &Sample, line: u32, subject: &Subject) -> ContactRecord {
+    let touch = &sample.touch;
+    ContactRecord {
+        line,
+        tip: sample.tip,
+        point: touch.point.into(),
+        clearance: touch.value,
+        triangle: touch.triangle,
+        face: subject.mesh.faces().get(touch.triangle as usize).copied().unwrap_or(0),
+    }
+}

@@ -1,0 +1,124 @@
+//! The moves as the judge sees them: what each is meant to do, with which tool, from where.
+
+use styluscam_motion::{Event, EventKind, MoveKind, Program};
+
+use crate::{Limits, Subject};
+
+/// Two coordinates this close are the same, mm: below what any machine resolves.
+const SAME: f64 = 1e-6;
+
+/// Largest coordinate that is judged, mm.
+const FARTHEST: f64 = 1e7;
+
+/// What a move is meant to do, told from its text and geometry alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum LegKind {
+    /// Positioning at the rapid rate.
+    Rapid,
+    /// Straight down at a feed.
+    Plunge,
+    /// Straight up at a feed.
+    Retract,
+    /// A feed move that goes nowhere.
+    Still,
+    /// Any other feed move: it should touch the part.
+    Contact,
+}
+
+/// One move.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Leg {
+    /// Index of the move in the program.
+    pub index: usize,
+    pub kind: LegKind,
+    /// The tool's tip where the move starts, when it is known.
+    pub start: Option<[f64; 3]>,
+    /// The tool's tip where it ends.
+    pub end: [f64; 3],
+    /// Line of the text, 0 when there is none.
+    pub line: u32,
+    /// Index of the tool; none is loaded or known otherwise.
+    pub tool: Option<usize>,
+    /// Distance at which it still touches, when it is meant to, mm.
+    pub excess: Option<f64>,
+}
+
+impl Leg {
+    /// Whether the tip moves sideways.
+    pub fn travels(&self) -> bool {
+        self.start.is_some_and(|s| !same_plan(s, self.end))
+    }
+
+    /// Whether it starts at a place.
+    pub fn starts_at(&self, place: [f64; 3]) -> bool {
+        self.start.is_some_and(|s| same_plan(s, place) && (s[2] - place[2]).abs() <= SAME)
+    }
+
+    /// Whether the tip goes down.
+    pub fn descends(&self) -> bool {
+        self.start.is_some_and(|s| self.end[2] < s[2] - SAME)
+    }
+}
+
+/// The moves that have a place in space, in order.
+pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> Vec<Leg> {
+    let mut tools = LoadedTool::new(program, subject.tools.len());
+    let mut legs = Vec::with_capacity(program.moves.len());
+    let mut start = None;
+    for (index, step) in program.moves.iter().enumerate() {
+        let tool = tools.before(index);
+        let known = index >= subject.first_placed_move && in_this_world(step.end);
+        if known {
+            let kind = kind(step.kind, start, step.end);
+            let excess = limits.excess_of(step.operation).filter(|_| kind == LegKind::Contact);
+            legs.push(Leg { index, kind, start, end: step.end, line: step.line, tool, excess });
+        }
+        start = known.then_some(step.end);
+    }
+    legs
+}
+
+fn kind(kind: MoveKind, start: Option<[f64; 3]>, end: [f64; 3]) -> LegKind {
+    let Some(start) = start.filter(|_| kind != MoveKind::Rapid) else {
+        return if kind == MoveKind::Rapid { LegKind::Rapid } else { LegKind::Contact };
+    };
+    let rise = end[2] - start[2];
+    match same_plan(start, end) {
+        false => LegKind::Contact,
+        true if rise > SAME => LegKind::Retract,
+        true if rise < -SAME => LegKind::Plunge,
+        true => LegKind::Still,
+    }
+}
+
+/// Whether a place's coordinates are numbers, and not absurd: arithmetic holds up to there.
+pub(crate) fn in_this_world(place: [f64; 3]) -> bool {
+    place.iter().all(|x| x.abs() <= FARTHEST)
+}
+
+fn same_plan(a: [f64; 3], b: [f64; 3]) -> bool {
+    (a[0] - b[0]).abs() <= SAME && (a[1] - b[1]).abs() <= SAME
+}
+
+/// Follows the tool changes.
+struct LoadedTool<'a> {
+    events: std::iter::Peekable<std::slice::Iter<'a, Event>>,
+    count: usize,
+    loaded: Option<usize>,
+}
+
+impl<'a> LoadedTool<'a> {
+    /// Before the first change the first tool is taken to be loaded: the check for a missing change says so.
+    fn new(program: &'a Program, count: usize) -> Self {
+        Self { events: program.events.iter().peekable(), count, loaded: (count > 0).then_some(0) }
+    }
+
+    fn before(&mut self, index: usize) -> Option<usize> {
+        while let Some(event) = self.events.next_if(|e| e.before <= index) {
+            if let EventKind::ToolChange { tool } = event.kind {
+                self.loaded = Some(tool as usize).filter(|t| *t < self.count);
+            }
+        }
+        self.loaded
+    }
+}

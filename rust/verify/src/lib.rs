@@ -1,0 +1,48 @@
+//! The judge of posted text: moves read back from it, held against the part.
+//!
+//! It works with distances. The signed distance of a point to the tool (a convex body) is a convex
+//! function of the point; the clearance at a position is that function's minimum over the part's
+//! triangles. Nothing here lowers a tool onto a surface: that is how planning finds its paths, and a
+//! judge that shared the way would share the mistakes.
+//!
+//! What is proved, what is sampled:
+//!
+//! - *Gouge* is proved, not sampled: a straight move sweeps a convex body, so the deepest place over
+//!   the whole move is the minimum of one convex function per triangle. Only triangles that a
+//!   supporting plane of the swept body cannot keep away are measured.
+//! - *Depth* is measured along the triangle's normal where the tool's lowest point lies over the
+//!   triangle. Where the tool is in deeper than its own radius of curvature, depth is a lower bound.
+//! - *Excess* is sampled: at the start, the middle and the end of every contact move.
+//! - The tool is its profile, and above its base a straight cylinder upwards without end: so a tool
+//!   wholly inside the material still meets the surface above it. A shank of another diameter and the
+//!   holder are not judged.
+//!
+//! The triangles stand for the part; their checked deviation from it is counted against the program
+//! on both sides (see [`Subject`]).
+
+mod body;
+mod bounds;
+mod clearance;
+mod convex;
+mod diagnosis;
+mod findings;
+mod judge;
+mod legs;
+mod measure;
+mod report;
+mod subject;
+mod sweep;
+mod travel;
+mod words;
+
+pub use findings::{Finding, FindingKind, Severity};
+pub use judge::judge;
+pub use report::{ContactRecord, Place, Report};
+pub use subject::{Limits, Subject};
+
+/// A point or vector of space, mm.
+type Vector = styluscam_geometry::Vector;
+
+/// What arithmetic may cost, mm: comparisons with limits allow it, and of two places whose values
+/// differ by less the earlier one is named.
+const SLACK: f64 = 1e-6;

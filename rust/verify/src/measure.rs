@@ -1,0 +1,206 @@
+//! Distances along each move: the exact part of the judgement, in parallel.
+
+use rayon::prelude::*;
+use styluscam_motion::{Cancelled, Watch};
+
+use crate::body::Body;
+use crate::clearance::{Prober, Touch};
+use crate::legs::{Leg, LegKind};
+use crate::sweep::{Passed, Question, Seen, Stroke};
+use crate::{Limits, Subject, Vector, SLACK};
+
+/// Moves in a piece of work. Fixed, so that the result does not depend on the number of threads.
+const CHUNK: usize = 64;
+
+/// The clearance at one place of a contact move.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sample {
+    /// The tool's tip.
+    pub tip: [f64; 3],
+    pub touch: Touch,
+}
+
+/// Length of a move, as a share of the tool's radius, up to which one search answers for all its places.
+const JOINT: f64 = 0.3;
+
+/// What was found along one move.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Measured {
+    /// The deepest place, when it could matter.
+    pub deepest: Option<Sample>,
+    /// Start, middle and end of a contact move, as far as they are known.
+    pub contacts: [Option<Sample>; 3],
+    /// Too little air under a rapid that comes down: the place where it ends.
+    pub landing: Option<Sample>,
+    /// Positions at which the clearance was measured.
+    pub samples: usize,
+}
+
+/// Measures every leg; the results stand in the legs' order.
+pub(crate) fn measure(
+    legs: &[Leg],
+    subject: &Subject,
+    limits: &Limits,
+    watch: &Watch,
+) -> Result<Vec<Measured>, Cancelled> {
+    watch.begin("verifying", legs.len());
+    let bodies: Vec<Body> = subject.tools.iter().map(|t| Body::new(t, subject.sheet.as_ref())).collect();
+    let top = subject.mesh.bounds().1.z;
+    let chunks: Result<Vec<_>, _> = legs
+        .par_chunks(CHUNK)
+        .map(|chunk| {
+            let mut walk = Walk { subject, limits, bodies: &bodies, top, last: None };
+            let measured = chunk.iter().map(|leg| {
+                let measured = walk.along(leg);
+                watch.advance(1).map(|()| measured)
+            });
+            measured.collect::<Result<Vec<_>, _>>()
+        })
+        .collect();
+    Ok(chunks?.into_iter().flatten().collect())
+}
+
+/// A walk along consecutive moves, which remembers the last contact.
+struct Walk<'a> {
+    subject: &'a Subject<'a>,
+    limits: &'a Limits,
+    bodies: &'a [Body],
+    /// Height of the part's highest point.
+    top: f64,
+    /// The last sample and its tool.
+    last: Option<(usize, Sample)>,
+}
+
+impl Walk<'_> {
+    fn along(&mut self, leg: &Leg) -> Measured {
+        let Some((tool, body)) = leg.tool.and_then(|t| Some((t, self.bodies.get(t)?))) else {
+            return Measured::default();
+        };
+        let prober = Prober { body, mesh: self.subject.mesh, bvh: self.subject.bvh };
+        if leg.excess.is_some() {
+            self.along_contact(leg, tool, &prober)
+        } else {
+            self.along_air(leg, &prober)
+        }
+    }
+
+    /// A move that should touch: three samples, and a proof that nothing between them is deeper.
+    fn along_contact(&mut self, leg: &Leg, tool: usize, prober: &Prober) -> Measured {
+        let mut found = Measured::default();
+        let start = leg.start.and_then(|tip| self.start(tip, tool, prober, &mut found));
+        let stroke = stroke_of(leg, prober.body);
+        let middle = leg.start.map(|_| stroke.at(0.5));
+        let asked = Question { stroke, places: [middle, Some(stroke.to)], below: self.below(start) };
+        let seen = if stroke.length() > JOINT * prober.body.radius() {
+            self.one_by_one(asked, prober)
+        } else {
+            prober.survey(asked, self.warm())
+        };
+        let sample = |position: Option<Vector>, touch: Option<Touch>| {
+            Some(Sample { tip: prober.body.tip(position?), touch: touch? })
+        };
+        let end = seen.places[1].map(|touch| Sample { tip: leg.end, touch });
+        found.contacts = [start, sample(middle, seen.places[0]), end];
+        found.samples += found.contacts[1..].iter().flatten().count();
+        self.last = end.map(|end| (tool, end));
+        let passed = seen.deepest.map(|p| sample_of(p, prober.body));
+        found.deepest = passed.or_else(|| lowest(&found.contacts));
+        found
+    }
+
+    /// On a long move one search for all would look at too much.
+    fn one_by_one(&self, asked: Question, prober: &Prober) -> Seen {
+        let at = |place: Option<Vector>, warm: Option<u32>| {
+            let asked = Question { stroke: Stroke::still(place?), places: [place, None], below: f64::NEG_INFINITY };
+            prober.survey(asked, warm).places[0]
+        };
+        let middle = at(asked.places[0], self.warm());
+        let end = at(asked.places[1], middle.map(|t| t.triangle).or(self.warm()));
+        let sampled = [middle, end].iter().flatten().fold(f64::INFINITY, |a, t| a.min(t.value));
+        let below = asked.below.min(sampled - SLACK);
+        let passed = prober.survey(Question { places: [None; 2], below, ..asked }, end.map(|t| t.triangle));
+        Seen { places: [middle, end], deepest: passed.deepest }
+    }
+
+    /// The start's sample: mostly the end of the move before.
+    fn start(&self, tip: [f64; 3], tool: usize, prober: &Prober, found: &mut Measured) -> Option<Sample> {
+        if let Some((_, sample)) = self.last.filter(|(t, sample)| *t == tool && same(sample.tip, tip)) {
+            return Some(sample);
+        }
+        found.samples += 1;
+        let position = prober.body.position(tip);
+        let places = [Some(position), None];
+        let asked = Question { stroke: Stroke::still(position), places, below: f64::NEG_INFINITY };
+        prober.survey(asked, self.warm()).places[0].map(|touch| Sample { tip, touch })
+    }
+
+    /// The depth from which on a place between the samples matters.
+    fn below(&self, start: Option<Sample>) -> f64 {
+        self.gouge_level().min(start.map_or(f64::INFINITY, |s| s.touch.value - SLACK))
+    }
+
+    fn warm(&self) -> Option<u32> {
+        self.last.map(|(_, sample)| sample.touch.triangle)
+    }
+
+    /// A move that need not touch: only what goes too deep is looked for.
+    fn along_air(&self, leg: &Leg, prober: &Prober) -> Measured {
+        let mut found = Measured::default();
+        let lowest = leg.start.map_or(leg.end[2], |s| s[2].min(leg.end[2]));
+        let over = prober.body.position([0.0, 0.0, lowest]).z - self.top;
+        if over > self.limits.rapid_gap.max(self.gouge_level()) {
+            return found;
+        }
+        let stroke = stroke_of(leg, prober.body);
+        found.deepest = deepest(stroke, self.gouge_level(), prober);
+        found.samples = usize::from(found.deepest.is_some());
+        if leg.kind == LegKind::Rapid && leg.descends() && found.deepest.is_none() {
+            found.landing = deepest(Stroke::still(stroke.to), self.limits.rapid_gap, prober);
+        }
+        found
+    }
+
+    /// The clearance at and below which a place counts as a gouge.
+    fn gouge_level(&self) -> f64 {
+        self.subject.deviation_inward - self.limits.gouge
+    }
+}
+
+/// The deepest place of a stroke, if it is below `below`.
+fn deepest(stroke: Stroke, below: f64, prober: &Prober) -> Option<Sample> {
+    let passed = prober.survey(Question { stroke, places: [None; 2], below }, None).deepest;
+    passed.map(|p| sample_of(p, prober.body))
+}
+
+/// The way of the body's tip; a point when the start is not known.
+fn stroke_of(leg: &Leg, body: &Body) -> Stroke {
+    let to = body.position(leg.end);
+    Stroke { from: leg.start.map_or(to, |s| body.position(s)), to }
+}
+
+/// Whether two tips are the same numbers.
+fn same(a: [f64; 3], b: [f64; 3]) -> bool {
+    a.map(f64::to_bits) == b.map(f64::to_bits)
+}
+
+fn sample_of(passed: Passed, body: &Body) -> Sample {
+    Sample { tip: body.tip(passed.position), touch: passed.touch }
+}
+
+/// The deepest of the samples; the latest of those that are equal but for arithmetic, because the place that
+/// two moves share belongs to the one that ends there.
+fn lowest(samples: &[Option<Sample>; 3]) -> Option<Sample> {
+    let deeper = |a: Sample, b: Sample| if b.touch.value <= a.touch.value + SLACK { b } else { a };
+    samples.iter().flatten().copied().reduce(deeper)
+}
+
+/// The sample farthest off; the latest of those that are equal but for arithmetic.
+pub(crate) fn highest(samples: &[Option<Sample>; 3]) -> Option<Sample> {
+    let higher = |a: Sample, b: Sample| if b.touch.value >= a.touch.value - SLACK { b } else { a };
+    samples.iter().flatten().copied().reduce(higher)
+}
+
+/// The direction in which the part lies, as a unit normal out of it.
+pub(crate) fn normal_of(touch: &Touch) -> Vector {
+    -touch.away
+}

@@ -1,0 +1,59 @@
+//! What the judge hands back.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::{Finding, FindingKind};
+
+/// A place of the program.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Place {
+    /// Line of the text, from 1; 0 when it was not read from text.
+    pub line: u32,
+    /// The tool's tip, work coordinates, mm.
+    pub position: [f64; 3],
+}
+
+/// A contact, for a check against the exact model.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ContactRecord {
+    /// Line of the text, from 1; 0 when it was not read from text.
+    pub line: u32,
+    /// The tool's tip, work coordinates, mm.
+    pub tip: [f64; 3],
+    /// The nearest point of the triangles, work coordinates, mm.
+    pub point: [f64; 3],
+    /// Distance between tool (with sheet) and triangles, mm; negative when the tool is in.
+    pub clearance: f64,
+    /// The triangle, index into the mesh.
+    pub triangle: u32,
+    /// The model's face behind the triangle.
+    pub face: u32,
+}
+
+/// The judgement. Places of equal value: the first one in the program.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Report {
+    /// No finding is an error.
+    pub ok: bool,
+    /// What is wrong, kind by kind in the order of the lines, at most 20 of each kind.
+    pub findings: Vec<Finding>,
+    /// How many findings of each kind there are in all.
+    pub counts: BTreeMap<FindingKind, usize>,
+    /// Deepest entry into the part by any move, with the mesh's inward deviation, mm; 0 when nothing enters.
+    pub gouge_max: f64,
+    /// Where that is.
+    pub gouge_at: Option<Place>,
+    /// Largest distance of a contact move from the part, with the mesh's outward deviation, mm; 0 when there is none.
+    pub excess_max: f64,
+    /// Where that is.
+    pub excess_at: Option<Place>,
+    /// Share of the contact samples that touch within the limits, 0 to 1.
+    pub contact_share: f64,
+    /// Positions at which the clearance was measured. Gouges between them are excluded by proof.
+    pub samples: usize,
+    /// Contacts spread evenly over the program, at most 4000.
+    pub contacts: Vec<ContactRecord>,
+}

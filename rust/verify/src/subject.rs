@@ -1,0 +1,56 @@
+//! What a program is judged against, and how strictly.
+
+use styluscam_geometry::{Bvh, Mesh, Sheet, Tool};
+
+/// The part and the tools, in the program's work coordinates.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'a> {
+    /// The whole part as triangles, work coordinates, mm.
+    pub mesh: &'a Mesh,
+    /// The mesh's index.
+    pub bvh: &'a Bvh,
+    /// Tools in the order of the program's `tools`.
+    pub tools: &'a [Tool],
+    /// The sheet between tool and part, when there is one.
+    pub sheet: Option<Sheet>,
+    /// How far the triangles lie inside the true surface at most, mm: taken off every clearance
+    /// before it is judged as a gouge.
+    pub deviation_inward: f64,
+    /// How far the triangles lie outside the true surface at most, mm: added to every clearance
+    /// before it is judged as an excess.
+    pub deviation_outward: f64,
+    /// Index of the first move whose end is known in all three axes. Moves before it have no place
+    /// in space; it has no start.
+    pub first_placed_move: usize,
+}
+
+/// What is allowed. Comparisons allow another 1e-6 mm for arithmetic.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limits {
+    /// Depth below the surface that is still no gouge, mm.
+    pub gouge: f64,
+    /// Distance from the surface at which a contact move still touches, mm; `None` when the program
+    /// is not meant to touch the part (collisions only).
+    pub excess: Option<f64>,
+    /// The same for single operations, by index of the program's operations; those beyond the list
+    /// take `excess`.
+    pub excess_by_operation: Vec<Option<f64>>,
+    /// Height Z at and above which rapids may travel sideways, work coordinates, mm.
+    pub clearance: f64,
+    /// Air that must be left under a rapid that comes down, mm.
+    pub rapid_gap: f64,
+}
+
+impl Limits {
+    /// The usual strictness: gouge 0.001 mm, excess 0.005 mm, 0.05 mm under a rapid.
+    #[must_use]
+    pub fn new(clearance: f64) -> Self {
+        Self { gouge: 0.001, excess: Some(0.005), excess_by_operation: Vec::new(), clearance, rapid_gap: 0.05 }
+    }
+
+    /// The excess allowed for an operation, mm.
+    #[must_use]
+    pub fn excess_of(&self, operation: u32) -> Option<f64> {
+        self.excess_by_operation.get(operation as usize).copied().unwrap_or(self.excess)
+    }
+}

@@ -1,0 +1,76 @@
+//! Findings in words: what, where, what to do.
+
+use crate::findings::Fault;
+use crate::FindingKind;
+
+/// The whole sentence of a fault at its worst place.
+pub(crate) fn message(fault: &Fault, first_line: u32, last_line: u32, moves: usize) -> String {
+    let what = what(fault);
+    let place = place(fault.line, fault.index, fault.position);
+    let extent = extent(first_line, last_line, moves);
+    let remedy = remedy(fault.kind);
+    format!("{place}: {what}{extent}; {remedy}")
+}
+
+/// Line (or move) and coordinates.
+fn place(line: u32, index: usize, [x, y, z]: [f64; 3]) -> String {
+    let counted = if line > 0 { format!("line {line}") } else { format!("move {}", index + 1) };
+    if [x, y, z].iter().all(|v| v.is_finite()) {
+        format!("{counted}, X{x:.3} Y{y:.3} Z{z:.3}")
+    } else {
+        counted
+    }
+}
+
+fn extent(first_line: u32, last_line: u32, moves: usize) -> String {
+    match moves {
+        0 | 1 => String::new(),
+        _ if first_line > 0 => format!(" (lines {first_line} to {last_line}, {moves} moves)"),
+        _ => format!(" ({moves} moves in a row)"),
+    }
+}
+
+fn what(fault: &Fault) -> String {
+    let (value, limit) = fault.measure.unwrap_or((0.0, 0.0));
+    match fault.kind {
+        FindingKind::Gouge => format!("the tool enters the part by {value:.4} mm (limit {limit:.4} mm)"),
+        FindingKind::RapidIntoMaterial => format!("a rapid enters the part by {value:.4} mm"),
+        FindingKind::RapidPlunge if value < 0.0 => {
+            format!("a rapid goes straight down into the part by {:.4} mm", -value)
+        }
+        FindingKind::RapidPlunge => {
+            format!("a rapid comes down to {value:.4} mm from the part ({limit:.4} mm are kept)")
+        }
+        FindingKind::DogLegRapid => {
+            format!("a rapid goes sideways and down at once to Z{value:.3}, below the clearance height {limit:.3}")
+        }
+        FindingKind::LowRapid => format!("a rapid goes sideways at Z{value:.3}, below the clearance height {limit:.3}"),
+        FindingKind::Excess => {
+            format!("the tool is {value:.4} mm off the part where it should touch (limit {limit:.4} mm)")
+        }
+        FindingKind::MissingFeed => "a feed move has no feed".to_owned(),
+        FindingKind::UnplacedFeed => "a feed move starts where not all axes are known".to_owned(),
+        FindingKind::MissingToolChange => "a feed move comes before any tool change".to_owned(),
+        FindingKind::UnknownTool => "the tool loaded here is not one of the job's".to_owned(),
+        FindingKind::NotFinite => "a coordinate is not a number, or absurd".to_owned(),
+        FindingKind::NoFeedMoves => "the program has no feed move".to_owned(),
+        FindingKind::NoContact => "nothing touches the part".to_owned(),
+    }
+}
+
+fn remedy(kind: FindingKind) -> &'static str {
+    match kind {
+        FindingKind::Gouge => "correct this coordinate, or plan again with this tool, sheet and zero point",
+        FindingKind::RapidIntoMaterial | FindingKind::RapidPlunge => "retract first, and come down at a feed",
+        FindingKind::DogLegRapid => "go across above the clearance height, then straight down",
+        FindingKind::LowRapid => "retract to the clearance height first",
+        FindingKind::Excess => "correct this coordinate, or plan again with this tool, sheet and zero point",
+        FindingKind::MissingFeed => "give F before the first feed move",
+        FindingKind::UnplacedFeed => "give X, Y and Z in rapids first",
+        FindingKind::MissingToolChange => "load the tool and its length before the first feed move",
+        FindingKind::UnknownTool => "add the tool to the job, or correct the T word",
+        FindingKind::NotFinite => "correct the coordinate",
+        FindingKind::NoFeedMoves => "post an operation that has a path",
+        FindingKind::NoContact => "check zero, units and tool reference",
+    }
+}
