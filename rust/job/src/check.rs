@@ -1,0 +1,215 @@
+//! What serde cannot know: ranges, and keys that belong together.
+
+use crate::{JobDocument, JobError, MachineSection, OperationKind, OperationSection, Process, Selection, Step, Zero};
+
+/// A key, the range of its value (the lower end excluded where `open`), and the range in words.
+struct Range {
+    key: &'static str,
+    low: f64,
+    open: bool,
+    high: f64,
+    words: &'static str,
+}
+
+const fn above_zero(key: &'static str, high: f64, words: &'static str) -> Range {
+    Range { key, low: 0.0, open: true, high, words }
+}
+
+/// Ranges by the end of the key's path.
+const RANGES: &[Range] = &[
+    Range { key: "part.tolerance", low: 1e-5, open: false, high: 1.0, words: "0.00001 to 1 mm" },
+    Range { key: "setup.rotation", low: -360.0, open: false, high: 360.0, words: "-360 to 360 degrees" },
+    above_zero("setup.clearance", 1000.0, "above 0 and up to 1000 mm"),
+    above_zero("setup.retract", 1000.0, "above 0 and up to 1000 mm"),
+    above_zero("sheet.thickness", 50.0, "above 0 and up to 50 mm"),
+    above_zero("step.height", 100.0, "above 0 and up to 100 mm"),
+    above_zero("stepover", 100.0, "above 0 and up to 100 mm"),
+    Range { key: "angle_deg", low: -360.0, open: false, high: 360.0, words: "-360 to 360 degrees" },
+    Range { key: "tolerance", low: 1e-4, open: false, high: 1.0, words: "0.0001 to 1 mm" },
+    Range { key: "smallest_feature", low: 0.01, open: false, high: 100.0, words: "0.01 to 100 mm" },
+    above_zero("feeds.cut", 1e5, "above 0 and up to 100000 mm/min"),
+    above_zero("feeds.plunge", 1e5, "above 0 and up to 100000 mm/min"),
+    above_zero("spindle.rpm", 1e6, "above 0 and up to 1000000 rev/min"),
+    Range { key: "z_top", low: -1e4, open: false, high: 1e4, words: "-10000 to 10000 mm" },
+    Range { key: "z_bottom", low: -1e4, open: false, high: 1e4, words: "-10000 to 10000 mm" },
+];
+
+/// What is allowed at a path of the document, in words, where it is a number with a range.
+pub fn allowed(place: &str) -> Option<&'static str> {
+    range_of(place).map(|range| range.words)
+}
+
+fn range_of(place: &str) -> Option<&'static Range> {
+    RANGES.iter().find(|range| place == range.key || place.ends_with(&format!(".{}", range.key)))
+}
+
+/// Checks ranges and combinations.
+pub fn document(job: &JobDocument) -> Result<(), JobError> {
+    number("part.tolerance", job.part.tolerance)?;
+    setup(job)?;
+    machine(&job.machine)?;
+    tools(job)?;
+    if job.operations.is_empty() {
+        return Err(JobError::document(
+            "empty",
+            "operations",
+            "the job has no operation",
+            "add an [[operations]] table",
+        ));
+    }
+    for (i, operation) in job.operations.iter().enumerate() {
+        self::operation(job, &format!("operations[{i}]"), operation)?;
+    }
+    Ok(())
+}
+
+fn number(place: &str, value: f64) -> Result<(), JobError> {
+    let Some(range) = range_of(place) else { return Ok(()) };
+    let low = if range.open { value > range.low } else { value >= range.low };
+    if low && value <= range.high {
+        return Ok(());
+    }
+    let key = place.rsplit('.').next().unwrap_or(place);
+    Err(JobError::document(
+        "out-of-range",
+        place,
+        format!("{key} = {value}: allowed is {}", range.words),
+        "correct the value",
+    ))
+}
+
+fn setup(job: &JobDocument) -> Result<(), JobError> {
+    let setup = &job.setup;
+    number("setup.rotation", setup.rotation)?;
+    number("setup.clearance", setup.clearance)?;
+    number("setup.retract", setup.retract)?;
+    if setup.retract > setup.clearance {
+        let message = format!("retract = {} is above clearance = {}", setup.retract, setup.clearance);
+        return Err(JobError::document("conflict", "setup.retract", message, "lower retract or raise clearance"));
+    }
+    if let Some(Zero::Point(point)) = setup.zero {
+        if !point.iter().all(|x| x.is_finite() && x.abs() <= 1e5) {
+            return Err(JobError::document(
+                "out-of-range",
+                "setup.zero",
+                "zero is not a point of this world",
+                "give mm",
+            ));
+        }
+    }
+    match (job.process.kind, setup.sheet) {
+        (Process::Spif, None) => Err(JobError::document(
+            "conflict",
+            "setup.sheet",
+            "process.kind = \"spif\" forms a sheet, and there is none",
+            "add [setup.sheet] with its thickness, or set process.kind = \"milling\"",
+        )),
+        (Process::Milling, Some(_)) => Err(JobError::document(
+            "conflict",
+            "setup.sheet",
+            "process.kind = \"milling\" has no sheet",
+            "remove [setup.sheet], or set process.kind = \"spif\"",
+        )),
+        (_, Some(sheet)) => {
+            number("setup.sheet.thickness", sheet.thickness)?;
+            if job.part.model_face.is_none() {
+                return Err(JobError::document(
+                    "missing",
+                    "part.model_face",
+                    "with a sheet, model_face must say which of its faces the model shows",
+                    "add model_face = \"tool\", \"back\" or \"mid\" to [part]",
+                ));
+            }
+            Ok(())
+        }
+        (_, None) => without_sheet(job),
+    }
+}
+
+fn without_sheet(job: &JobDocument) -> Result<(), JobError> {
+    if job.setup.zero == Some(Zero::SheetTop) {
+        let message = "zero = \"sheet-top\" without a sheet";
+        return Err(JobError::document("conflict", "setup.zero", message, "write \"model\" or a point [x, y, z]"));
+    }
+    if job.part.model_face.is_some() {
+        let message = "model_face says which face of the sheet the model shows, and there is no sheet";
+        return Err(JobError::document("conflict", "part.model_face", message, "remove it, or add [setup.sheet]"));
+    }
+    Ok(())
+}
+
+fn machine(section: &MachineSection) -> Result<(), JobError> {
+    match (&section.name, &section.file) {
+        (Some(_), None) | (None, Some(_)) => Ok(()),
+        _ => Err(JobError::document(
+            "conflict",
+            "machine",
+            "a machine has either a name or a file",
+            format!("write name = one of {}", styluscam_post::shipped().join(", ")),
+        )),
+    }
+}
+
+fn tools(job: &JobDocument) -> Result<(), JobError> {
+    let mut numbers = std::collections::BTreeMap::new();
+    for (name, tool) in &job.tools {
+        if let Some(other) = numbers.insert(tool.number, name) {
+            let message = format!("tools {other} and {name} have the same number {}", tool.number);
+            return Err(JobError::document("conflict", format!("tools.{name}.number"), message, "give each its own"));
+        }
+    }
+    Ok(())
+}
+
+fn operation(job: &JobDocument, place: &str, operation: &OperationSection) -> Result<(), JobError> {
+    let at = |key: &str| format!("{place}.{key}");
+    if !job.tools.contains_key(&operation.tool) {
+        let known: Vec<&str> = job.tools.keys().map(String::as_str).collect();
+        let message = format!("no tool is called {:?}", operation.tool);
+        return Err(JobError::document("unknown", at("tool"), message, format!("the job has {}", known.join(", "))));
+    }
+    if let Some(Selection::Named(names)) = &operation.faces {
+        if names.is_empty() {
+            return Err(JobError::document("empty", at("faces"), "no face is named", "name one, or write \"all\""));
+        }
+    }
+    number(&at("angle_deg"), operation.angle_deg)?;
+    number(&at("tolerance"), operation.tolerance)?;
+    number(&at("smallest_feature"), operation.smallest_feature)?;
+    number(&at("feeds.cut"), operation.feeds.cut)?;
+    number(&at("feeds.plunge"), operation.feeds.plunge)?;
+    if let crate::Spindle::Fixed { rpm, .. } = operation.spindle {
+        number(&at("spindle.rpm"), rpm)?;
+    }
+    if let Some(Step::Height(height)) = operation.step {
+        number(&at("step.height"), height)?;
+    }
+    if let Some(stepover) = operation.stepover {
+        number(&at("stepover"), stepover)?;
+    }
+    heights(place, operation)?;
+    match operation.kind {
+        OperationKind::ZLevel if operation.step.is_none() => {
+            Err(JobError::document("missing", at("step"), "z-level needs a step", "add step = { height = 0.5 }"))
+        }
+        OperationKind::ZigZag if operation.stepover.is_none() => {
+            Err(JobError::document("missing", at("stepover"), "zig-zag needs a stepover", "add stepover = 0.5"))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn heights(place: &str, operation: &OperationSection) -> Result<(), JobError> {
+    for (key, value) in [("z_top", operation.z_top), ("z_bottom", operation.z_bottom)] {
+        number(&format!("{place}.{key}"), value.unwrap_or(0.0))?;
+    }
+    match (operation.z_top, operation.z_bottom) {
+        (Some(top), Some(bottom)) if bottom >= top => Err(JobError::document(
+            "conflict",
+            format!("{place}.z_bottom"),
+            format!("z_bottom = {bottom} is not below z_top = {top}"),
+            "lower z_bottom or raise z_top",
+        )),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,107 @@
+//! Which triangles a selection means, and what the model's faces look like to the tool.
+
+use std::collections::BTreeMap;
+
+use styluscam_geometry::Mesh;
+
+use crate::{JobError, Selection};
+
+/// Normals whose Z is above this look up; a wall of 89.9 degrees still does.
+const UP: f64 = 1e-3;
+/// Normals whose Z is below this look down.
+const DOWN: f64 = -1e-6;
+
+/// A face of the model as its triangles show it in work coordinates.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FaceView {
+    /// Area, mm^2.
+    pub area: f64,
+    /// Area that looks up, mm^2.
+    pub up: f64,
+    /// Area that looks down, mm^2.
+    pub down: f64,
+    /// Largest slope, rad.
+    pub steepest: f64,
+}
+
+/// All faces by number.
+pub fn views(mesh: &Mesh) -> BTreeMap<u32, FaceView> {
+    let mut views: BTreeMap<u32, FaceView> = BTreeMap::new();
+    for (t, face) in mesh.faces().iter().enumerate() {
+        let (normal, area) = (mesh.normal(t), mesh.area(t));
+        let view = views.entry(*face).or_default();
+        view.area += area;
+        view.up += if normal.z > UP { area } else { 0.0 };
+        view.down += if normal.z < DOWN { area } else { 0.0 };
+        view.steepest = view.steepest.max(libm::atan2(normal.x.hypot(normal.y), normal.z));
+    }
+    views
+}
+
+/// The faces that a selection means, in order of their numbers.
+///
+/// # Errors
+/// A name that no face has, a face with nothing to form, an undercut that was not allowed.
+pub fn chosen(
+    selection: &Selection,
+    views: &BTreeMap<u32, FaceView>,
+    allow_undercuts: bool,
+    place: &str,
+) -> Result<Vec<u32>, JobError> {
+    match selection {
+        Selection::All => {
+            let up: Vec<u32> = views.iter().filter(|(_, v)| v.up > 0.0).map(|(n, _)| *n).collect();
+            if up.is_empty() {
+                return Err(JobError::document(
+                    "nothing-up",
+                    place,
+                    "no face of the part looks up",
+                    "turn the part with setup.up, or check that its triangles are not inside out",
+                ));
+            }
+            Ok(up)
+        }
+        Selection::Named(names) => {
+            let mut faces = names
+                .iter()
+                .enumerate()
+                .map(|(i, name)| named(name, views, allow_undercuts, &format!("{place}[{i}]")))
+                .collect::<Result<Vec<u32>, JobError>>()?;
+            faces.sort_unstable();
+            faces.dedup();
+            Ok(faces)
+        }
+    }
+}
+
+fn named(name: &str, views: &BTreeMap<u32, FaceView>, allow_undercuts: bool, place: &str) -> Result<u32, JobError> {
+    let number = name.strip_prefix("Face").unwrap_or(name).parse::<u32>().ok();
+    let Some((number, view)) = number.and_then(|n| views.get(&n).map(|v| (n, v))) else {
+        return Err(JobError::document(
+            "no-such-face",
+            place,
+            format!("the part has no face {name:?}"),
+            format!("it has {}; see `styluscam part show`", listed(views)),
+        ));
+    };
+    if view.down > 0.0 && !allow_undercuts {
+        let share = 100.0 * view.down / view.area;
+        return Err(JobError::document(
+            "undercut",
+            place,
+            format!("Face{number} looks down on {share:.1} % of its area: no vertical tool reaches that"),
+            "turn the part with setup.up, choose other faces, or set part.allow_undercuts = true",
+        ));
+    }
+    Ok(number)
+}
+
+/// "Face1 to Face9", or the names one by one where some are missing.
+fn listed(views: &BTreeMap<u32, FaceView>) -> String {
+    match (views.first_key_value(), views.last_key_value()) {
+        (Some((first, _)), Some((last, _))) if (last - first) as usize + 1 == views.len() && first != last => {
+            format!("Face{first} to Face{last}")
+        }
+        _ => views.keys().map(|n| format!("Face{n}")).collect::<Vec<_>>().join(", "),
+    }
+}

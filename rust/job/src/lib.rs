@@ -1,0 +1,28 @@
+//! The job document: one schema, filled in alike by CLI, Python and FreeCAD; plans and judges, touches no files.
+
+mod check;
+mod document;
+mod error;
+mod faces;
+mod judge;
+mod parse;
+mod plan;
+mod scene;
+mod starter;
+mod summary;
+
+pub use document::{
+    Coolant, Direction, Feeds, JobDocument, MachineSection, OperationKind, OperationSection, OutputSection,
+    PartSection, Process, ProcessSection, Selection, SetupSection, SheetSection, Spindle, Step, ToolSection, Units,
+    UpAxis, Zero,
+};
+pub use error::JobError;
+pub use judge::{judge, read_back, Judgement};
+pub use parse::{from_json, from_toml, schema};
+pub use plan::{plan, OperationSummary, Plan};
+pub use scene::{Part, Scene};
+pub use starter::{starter, StarterPart};
+pub use summary::Summary;
+
+/// Version of the job document; older ones migrate, newer ones are refused.
+pub const JOB_SCHEMA: u32 = 1;

@@ -1,0 +1,339 @@
+//! From a resolved job to a program: one operation at a time.
+
+use styluscam_geometry::Tool;
+use styluscam_motion::{Event, EventKind, Move, OperationRecord, Program, ToolRecord, Watch, PROGRAM_SCHEMA};
+use styluscam_post::Machine;
+use styluscam_toolpath::{
+    forming::{levels, z_levels, zig_zag, Grid, LevelRange, Rows},
+    link,
+    offset::{bridges, Envelope},
+    Heights, Links, Pass, PlanError, Rates, Surface,
+};
+
+use crate::{
+    faces, scene, Coolant, Direction, JobDocument, JobError, OperationKind, OperationSection, Scene, Spindle, Step,
+};
+
+/// Triangles of a face that are asked whether the tool bridges them: enough to find every fillet.
+const BRIDGE_SAMPLES: usize = 200;
+/// What is left for fitting must be at least this, mm, or paths would have millions of points.
+const LEAST_DEVIATION: f64 = 2e-4;
+/// Links are ridden up to so many steps or stepovers.
+const RIDE: f64 = 4.0;
+
+/// A planned program and what there is to say about it.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The program.
+    pub program: Program,
+    /// What each operation amounts to.
+    pub operations: Vec<OperationSummary>,
+}
+
+/// What an operation amounts to.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct OperationSummary {
+    /// Its id.
+    pub id: String,
+    /// Its kind.
+    pub kind: &'static str,
+    /// Levels or rows that hold a path.
+    pub groups: usize,
+    /// Loops or runs.
+    pub passes: usize,
+    /// Faces planned.
+    pub faces: Vec<u32>,
+    /// Largest wall angle of those faces, degrees.
+    pub wall_angle_max_deg: f64,
+    /// Smallest disc that a loop must hold to be sure of being found, mm; levels only.
+    pub smallest_feature: f64,
+    /// Faces with places that the tool cannot touch, worst first.
+    pub bridged: Vec<BridgedFace>,
+    /// Faces with area that looks down, mm^2: not reached.
+    pub undercut: Vec<(u32, f64)>,
+}
+
+/// A face that the tool bridges.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct BridgedFace {
+    /// The face.
+    pub face: u32,
+    /// Most that is left between it and the tool, along the normal, mm.
+    pub excess: f64,
+    /// Where, work coordinates, mm.
+    pub at: [f64; 3],
+}
+
+/// Plans every operation of the job, in order.
+///
+/// # Errors
+/// Anything of [`JobError`]; nothing is planned then.
+pub fn plan(job: &JobDocument, scene: &Scene, machine: &Machine, watch: &Watch) -> Result<Plan, JobError> {
+    let tools = scene::tools(job)?;
+    let mut program = Program {
+        schema: PROGRAM_SCHEMA,
+        setup: scene.record(job),
+        tools: Vec::new(),
+        operations: Vec::new(),
+        moves: Vec::new(),
+        events: Vec::new(),
+    };
+    let mut summaries = Vec::new();
+    for (index, section) in job.operations.iter().enumerate() {
+        let Some((tool, record)) = tools.get(&section.tool) else { continue };
+        let id = operation_id(section, index);
+        let (moves, summary) = operation(job, scene, machine, section, tool, (index, &id), watch)?;
+        let tool = tool_index(&mut program, record);
+        program.events.extend(events_before(&program, section, tool, index));
+        program.operations.push(OperationRecord { id, kind: section.kind.name().to_owned(), tool });
+        program.moves.extend(moves);
+        summaries.push(summary);
+    }
+    program.events.extend(events_at_end(&program, job.operations.last()));
+    Ok(Plan { program, operations: summaries })
+}
+
+fn operation_id(section: &OperationSection, index: usize) -> String {
+    if section.id.is_empty() {
+        format!("{}-{}", section.kind.name(), index + 1)
+    } else {
+        section.id.clone()
+    }
+}
+
+fn tool_index(program: &mut Program, record: &ToolRecord) -> u32 {
+    let known = program.tools.iter().position(|t| t.number == record.number);
+    let index = known.unwrap_or_else(|| {
+        program.tools.push(record.clone());
+        program.tools.len() - 1
+    });
+    index as u32
+}
+
+/// Tool change, spindle and coolant as far as they differ from the operation before.
+fn events_before(program: &Program, section: &OperationSection, tool: u32, index: usize) -> Vec<Event> {
+    let before = program.moves.len();
+    let changes_tool = program.operations.last().is_none_or(|last| last.tool != tool);
+    let mut kinds = Vec::new();
+    if changes_tool {
+        kinds.push(EventKind::ToolChange { tool });
+    }
+    kinds.push(match section.spindle {
+        Spindle::Off => EventKind::SpindleOff,
+        Spindle::Fixed { rpm, direction } => EventKind::SpindleOn { rpm, direction },
+    });
+    if index > 0 || section.coolant == Coolant::Flood {
+        kinds.push(EventKind::Flood { on: section.coolant == Coolant::Flood });
+    }
+    kinds.into_iter().map(|kind| Event { before, kind }).collect()
+}
+
+fn events_at_end(program: &Program, last: Option<&OperationSection>) -> Vec<Event> {
+    let before = program.moves.len();
+    let mut kinds = Vec::new();
+    if let Some(section) = last {
+        if section.spindle != Spindle::Off {
+            kinds.push(EventKind::SpindleOff);
+        }
+        if section.coolant == Coolant::Flood {
+            kinds.push(EventKind::Flood { on: false });
+        }
+    }
+    kinds.into_iter().map(|kind| Event { before, kind }).collect()
+}
+
+/// How the tolerance is spent: what tessellation and rounding leave goes to fitting, half to either side.
+struct Budget {
+    /// Chords stray by at most this to either side of the planned surface, mm.
+    deviation: f64,
+    /// The planned surface lies this far outside the part's triangles, mm.
+    margin: f64,
+}
+
+impl Budget {
+    fn of(section: &OperationSection, scene: &Scene, machine: &Machine) -> Result<Self, PlanError> {
+        let tessellation = scene.inward + scene.outward;
+        // half a unit in each of three axes
+        let rounding = 0.5 * machine.resolution_mm() * 3.0_f64.sqrt();
+        let deviation = 0.5 * (section.tolerance - tessellation - rounding);
+        if deviation < LEAST_DEVIATION {
+            return Err(PlanError::Budget { tolerance: section.tolerance, tessellation, rounding });
+        }
+        Ok(Self { deviation, margin: scene.inward + deviation })
+    }
+}
+
+/// Plans one operation: its moves, and what they amount to.
+///
+/// # Errors
+/// As [`plan`].
+pub fn operation(
+    job: &JobDocument,
+    scene: &Scene,
+    machine: &Machine,
+    section: &OperationSection,
+    tool: &Tool,
+    (index, id): (usize, &str),
+    watch: &Watch,
+) -> Result<(Vec<Move>, OperationSummary), JobError> {
+    let place = format!("operations[{index}]");
+    let (selection, selection_place) = match &section.faces {
+        Some(selection) => (selection, format!("{place}.faces")),
+        None => (&job.part.faces, "part.faces".to_owned()),
+    };
+    let faces = faces::chosen(selection, &scene.views, job.part.allow_undercuts, &selection_place)?;
+    let selected: Vec<bool> =
+        (0..scene.mesh.faces().len()).map(|t| faces.contains(&scene.mesh.faces()[t]) && looks_up(scene, t)).collect();
+    let budget = Budget::of(section, scene, machine).map_err(JobError::planning(&place))?;
+    watch.begin("preparing", 1);
+    let envelope = Envelope::new(&scene.mesh, &scene.bvh, tool, scene.sheet.as_ref(), budget.margin);
+    let surface = Surface::new(&envelope, &selected);
+    let task = Task { job, scene, machine, section, index, budget: &budget };
+    let (passes, smallest_feature) = task.passes(&surface, watch).map_err(JobError::planning(&place))?;
+    let summary = OperationSummary {
+        id: id.to_owned(),
+        kind: section.kind.name(),
+        groups: count_groups(&passes),
+        passes: passes.len(),
+        wall_angle_max_deg: steepest(scene, &selected).to_degrees(),
+        smallest_feature,
+        bridged: bridged(scene, tool, &envelope, &selected, section.tolerance, watch)?,
+        undercut: faces
+            .iter()
+            .filter_map(|f| scene.views.get(f).filter(|v| v.down > 0.0).map(|v| (*f, v.down)))
+            .collect(),
+        faces,
+    };
+    Ok((link(&surface, passes, &task.links()), summary))
+}
+
+fn looks_up(scene: &Scene, triangle: usize) -> bool {
+    scene.mesh.normal(triangle).z > -1e-9
+}
+
+fn steepest(scene: &Scene, selected: &[bool]) -> f64 {
+    let slope = |t: usize| {
+        let n = scene.mesh.normal(t);
+        n.z.clamp(-1.0, 1.0).acos()
+    };
+    (0..selected.len()).filter(|t| selected[*t]).map(slope).fold(0.0, f64::max)
+}
+
+fn count_groups(passes: &[Pass]) -> usize {
+    let mut groups: Vec<usize> = passes.iter().map(|p| p.group).collect();
+    groups.dedup();
+    groups.len()
+}
+
+/// Faces that the tool bridges by more than the tolerance, worst first; up to [`BRIDGE_SAMPLES`] places of each are asked.
+fn bridged(
+    scene: &Scene,
+    tool: &Tool,
+    envelope: &Envelope<'_>,
+    selected: &[bool],
+    tolerance: f64,
+    watch: &Watch,
+) -> Result<Vec<BridgedFace>, JobError> {
+    let mut by_face: std::collections::BTreeMap<u32, Vec<u32>> = std::collections::BTreeMap::new();
+    for t in (0..selected.len()).filter(|t| selected[*t] && scene.mesh.normal(*t).z > 1e-3) {
+        by_face.entry(scene.mesh.faces()[t]).or_default().push(t as u32);
+    }
+    let sampled: Vec<u32> = by_face
+        .values()
+        .flat_map(|triangles| triangles.iter().step_by(triangles.len().div_ceil(BRIDGE_SAMPLES)).copied())
+        .collect();
+    let mut worst: Vec<BridgedFace> = Vec::new();
+    for bridge in bridges(envelope, tool, scene.sheet.as_ref(), &sampled, tolerance, watch)? {
+        let found = BridgedFace { face: bridge.face, excess: bridge.excess, at: bridge.point.into() };
+        match worst.iter_mut().find(|w| w.face == bridge.face) {
+            Some(known) if known.excess >= bridge.excess => {}
+            Some(known) => *known = found,
+            None => worst.push(found),
+        }
+    }
+    worst.sort_by(|a, b| b.excess.total_cmp(&a.excess).then(a.face.cmp(&b.face)));
+    Ok(worst)
+}
+
+struct Task<'a> {
+    job: &'a JobDocument,
+    scene: &'a Scene,
+    machine: &'a Machine,
+    section: &'a OperationSection,
+    index: usize,
+    budget: &'a Budget,
+}
+
+impl Task<'_> {
+    fn passes(&self, surface: &Surface<'_>, watch: &Watch) -> Result<(Vec<Pass>, f64), PlanError> {
+        match self.section.kind {
+            OperationKind::ZLevel => self.levels(surface, watch),
+            OperationKind::ZigZag => self.rows(surface, watch),
+        }
+    }
+
+    /// Distance between the grid's nodes that finds every feature asked for.
+    fn spacing(&self) -> f64 {
+        self.section.smallest_feature / std::f64::consts::SQRT_2
+    }
+
+    fn levels(&self, surface: &Surface<'_>, watch: &Watch) -> Result<(Vec<Pass>, f64), PlanError> {
+        let nothing = || PlanError::NothingReached(self.why_nothing());
+        let grid = Grid::sample(surface, self.spacing(), watch)?.ok_or_else(nothing)?;
+        let (lowest, highest) = grid.selected_range(surface).ok_or_else(nothing)?;
+        let Some(Step::Height(step)) = self.section.step else {
+            return Err(PlanError::NothingReached(String::new()));
+        };
+        // the flat top lies margin below what the grid saw
+        let top = self.section.z_top.unwrap_or_else(|| self.round(highest - self.budget.margin));
+        let bottom = self.section.z_bottom.unwrap_or(f64::NEG_INFINITY);
+        let resolution = self.machine.resolution_mm();
+        let range = LevelRange { top, bottom, reachable: lowest, step, resolution };
+        let heights = levels(&range)?;
+        let passes = z_levels(surface, &grid, &heights, self.budget.deviation, watch)?;
+        if passes.is_empty() {
+            return Err(PlanError::Empty { top, bottom: bottom.max(lowest) });
+        }
+        Ok((passes, grid.smallest_feature()))
+    }
+
+    fn rows(&self, surface: &Surface<'_>, watch: &Watch) -> Result<(Vec<Pass>, f64), PlanError> {
+        let stepover = self.section.stepover.unwrap_or(f64::INFINITY);
+        let rows = Rows { angle: self.section.angle_deg.to_radians(), stepover, spacing: self.spacing() };
+        let passes = zig_zag(surface, &rows, self.budget.deviation, watch)?;
+        if passes.is_empty() {
+            return Err(PlanError::NothingReached(self.why_nothing()));
+        }
+        Ok((passes, self.section.smallest_feature))
+    }
+
+    fn round(&self, z: f64) -> f64 {
+        let unit = self.machine.resolution_mm();
+        (z / unit).round() * unit
+    }
+
+    fn why_nothing(&self) -> String {
+        let (low, high) = self.scene.mesh.bounds();
+        let size = high - low;
+        format!(
+            " (part {:.3} x {:.3} x {:.3} mm): check its units, the tool's size and the selection",
+            size.x, size.y, size.z
+        )
+    }
+
+    fn links(&self) -> Links {
+        let clearance = self.scene.clearance(self.job);
+        let pitch = match self.section.kind {
+            OperationKind::ZLevel => self.section.step.map_or(0.0, |Step::Height(h)| h),
+            OperationKind::ZigZag => self.section.stepover.unwrap_or(0.0),
+        };
+        Links {
+            alternate: self.section.direction == Direction::Alternate,
+            ride: RIDE * pitch,
+            deviation: self.budget.deviation,
+            heights: Heights { clearance, retract: self.scene.top + self.job.setup.retract },
+            rates: Rates { cut: self.section.feeds.cut, plunge: self.section.feeds.plunge },
+            operation: self.index as u32,
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! What a person reads before pressing start, and what the program's header repeats.
+
+use serde::Serialize;
+use styluscam_motion::{Statistics, ToolReference};
+use styluscam_post::{machine::LengthUnit, Machine};
+
+use crate::{plan::OperationSummary, Judgement, Plan, Scene};
+
+/// The job in numbers. Lengths mm, time s, angles degrees.
+#[derive(Clone, Debug, Serialize)]
+pub struct Summary {
+    /// The zero point, in words.
+    pub zero: String,
+    /// Work offset.
+    pub wcs: String,
+    /// Lower corner of the part's box in work coordinates.
+    pub part_min: [f64; 3],
+    /// Upper corner.
+    pub part_max: [f64; 3],
+    /// Lowest posted coordinate at feed (of the reference point).
+    pub deepest_z: f64,
+    /// The machine.
+    pub machine: String,
+    /// "mm" or "inch": what the text is written in.
+    pub units: String,
+    /// Tools in order.
+    pub tools: Vec<ToolLine>,
+    /// Operations in order.
+    pub operations: Vec<OperationSummary>,
+    /// Length at feed.
+    pub length: f64,
+    /// Time without acceleration.
+    pub duration: f64,
+    /// Checked deviation of the part's triangles: inward and outward.
+    pub tessellation: [f64; 2],
+    /// Deepest gouge found in the posted text; absent before it is judged.
+    pub gouge_max: Option<f64>,
+    /// Largest excess found at its contact tracks.
+    pub excess_max: Option<f64>,
+    /// Whether the judge found nothing.
+    pub ok: Option<bool>,
+}
+
+/// A tool as the operator must find it.
+#[derive(Clone, Debug, Serialize)]
+pub struct ToolLine {
+    /// Place in the tool table.
+    pub number: u32,
+    /// Length offset.
+    pub length_offset: u32,
+    /// What it is.
+    pub description: String,
+    /// "tip", or "center, 5 above the tip".
+    pub reference: String,
+}
+
+impl Summary {
+    /// Sums up a plan for a machine, with the judgement of its text once there is one.
+    #[must_use]
+    pub fn new(plan: &Plan, scene: &Scene, machine: &Machine, judgement: Option<&Judgement>) -> Self {
+        let program = &plan.program;
+        let statistics = Statistics::of(program, machine.limits.rapid_rate);
+        let tools = program.tools.iter().map(|tool| ToolLine {
+            number: tool.number,
+            length_offset: tool.length_offset,
+            description: tool.description.clone(),
+            reference: match tool.reference {
+                ToolReference::Tip => "tip".to_owned(),
+                ToolReference::Center => format!("center, {} above the tip", tool.reference_height),
+            },
+        });
+        // with one reference height the deepest posted coordinate is the deepest tip moved up by it
+        let lift = program.tools.iter().map(|t| t.reference_height).fold(f64::INFINITY, f64::min);
+        Self {
+            zero: program.setup.zero.clone(),
+            wcs: program.setup.wcs.clone(),
+            part_min: program.setup.part_min,
+            part_max: program.setup.part_max,
+            deepest_z: statistics.lowest + if lift.is_finite() { lift } else { 0.0 },
+            machine: machine.name.clone(),
+            units: if machine.units.output == LengthUnit::Mm { "mm" } else { "inch" }.to_owned(),
+            tools: tools.collect(),
+            operations: plan.operations.clone(),
+            length: statistics.feed_length,
+            duration: statistics.duration,
+            tessellation: [scene.inward, scene.outward],
+            gouge_max: judgement.map(|j| j.report.gouge_max),
+            excess_max: judgement.map(|j| j.report.excess_max),
+            ok: judgement.map(|j| j.report.ok),
+        }
+    }
+
+    /// Lines for the program's header: what the set-up record does not say by itself.
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        for operation in &self.operations {
+            notes.push(format!(
+                "{}: {} {}, {} passes, largest wall angle {:.1} deg",
+                operation.id,
+                operation.groups,
+                if operation.kind == "z-level" { "levels" } else { "rows" },
+                operation.passes,
+                operation.wall_angle_max_deg
+            ));
+            notes.extend(operation.bridged.iter().map(|bridge| {
+                let [x, y, z] = bridge.at;
+                format!("bridged: Face{} by up to {:.3} at X{x:.2} Y{y:.2} Z{z:.2}", bridge.face, bridge.excess)
+            }));
+            notes.extend(operation.undercut.iter().map(|(face, area)| format!("undercut: Face{face}, {area:.1} mm2")));
+        }
+        notes.push(format!("length {:.0} mm, time {}", self.length, clock(self.duration)));
+        notes.push(self.verdict());
+        notes
+    }
+}
+
+impl Summary {
+    /// As long before the judgement as after it: the lines of the text keep their numbers.
+    fn verdict(&self) -> String {
+        let figure = |value: Option<f64>| value.map_or("-.----".to_owned(), |v| format!("{v:.4}"));
+        let [gouge, excess] = [self.gouge_max, self.excess_max].map(figure);
+        format!("judged from this text: worst gouge {gouge} mm, worst excess {excess} mm")
+    }
+}
+
+/// Hours, minutes and seconds.
+fn clock(seconds: f64) -> String {
+    let whole = seconds.round() as u64;
+    format!("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60)
+}
