@@ -1,0 +1,48 @@
+//! Between numpy arrays and the engine's vectors.
+
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+use styluscam_geometry::Vector;
+
+use crate::errors::raise;
+
+/// Rows of an (N, 3) array.
+pub fn vectors(array: &PyReadonlyArray2<'_, f64>, name: &str) -> PyResult<Vec<Vector>> {
+    Ok(rows::<f64, 3>(array, name)?.into_iter().map(Vector::from).collect())
+}
+
+/// Rows of an (N, K) array.
+pub fn rows<T: numpy::Element + Copy + Default, const K: usize>(
+    array: &PyReadonlyArray2<'_, T>,
+    name: &str,
+) -> PyResult<Vec<[T; K]>> {
+    let view = array.as_array();
+    if view.ncols() != K {
+        let message = format!("{name} has shape ({}, {}): (N, {K}) expected", view.nrows(), view.ncols());
+        return Err(raise("GeometryError", &message, "shape", name, ""));
+    }
+    let row = |row: numpy::ndarray::ArrayView1<'_, T>| {
+        let mut out = [T::default(); K];
+        out.iter_mut().zip(row).for_each(|(o, v)| *o = *v);
+        out
+    };
+    Ok(view.rows().into_iter().map(row).collect())
+}
+
+/// An (N, 3) array of points.
+pub fn matrix<'py>(
+    py: Python<'py>,
+    points: impl ExactSizeIterator<Item = [f64; 3]>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let count = points.len();
+    PyArray1::from_vec(py, points.flatten().collect::<Vec<f64>>()).reshape([count, 3])
+}
+
+/// A function applied to each entry.
+pub fn mapped<'py>(
+    array: &PyReadonlyArray1<'py, f64>,
+    py: Python<'py>,
+    f: impl Fn(f64) -> f64,
+) -> Bound<'py, PyArray1<f64>> {
+    PyArray1::from_vec(py, array.as_array().iter().map(|x| f(*x)).collect())
+}

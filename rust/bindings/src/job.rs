@@ -1,0 +1,234 @@
+//! Jobs: documents, scenes, plans, posted text and its judgement.
+
+use pyo3::prelude::*;
+use styluscam_job::{JobDocument, JobError, StarterPart, Summary};
+
+use crate::{
+    errors,
+    part::Part,
+    program::Program,
+    waiting::{watched, CancelToken},
+};
+
+fn json<T: serde::Serialize>(value: &T) -> PyResult<String> {
+    serde_json::to_string(value).map_err(|e| errors::raise("StylusError", &e.to_string(), "internal", "", ""))
+}
+
+#[allow(clippy::needless_pass_by_value)] // for map_err
+fn of_job(error: JobError) -> PyErr {
+    errors::of_job(&error)
+}
+
+/// A checked job document; see `styluscam.Job`.
+#[pyclass(frozen, module = "styluscam._engine")]
+pub struct Job {
+    document: JobDocument,
+}
+
+#[pymethods]
+impl Job {
+    #[staticmethod]
+    fn from_toml(text: &str) -> PyResult<Self> {
+        Ok(Self { document: styluscam_job::from_toml(text).map_err(of_job)? })
+    }
+
+    #[staticmethod]
+    fn from_json(text: &str) -> PyResult<Self> {
+        Ok(Self { document: styluscam_job::from_json(text).map_err(of_job)? })
+    }
+
+    /// The document with all defaults, as JSON.
+    fn to_json(&self) -> PyResult<String> {
+        json(&self.document)
+    }
+}
+
+/// A controller; see `styluscam.Machine`.
+#[pyclass(frozen, module = "styluscam._engine")]
+pub struct Machine {
+    machine: styluscam_post::Machine,
+}
+
+#[pymethods]
+impl Machine {
+    /// A shipped machine.
+    #[staticmethod]
+    fn shipped(name: &str) -> PyResult<Self> {
+        let machine = styluscam_post::Machine::shipped(name).map_err(|e| of_job(e.into()))?;
+        Ok(Self { machine })
+    }
+
+    #[staticmethod]
+    fn from_toml(text: &str) -> PyResult<Self> {
+        let machine = styluscam_post::Machine::from_toml(text).map_err(|e| of_job(e.into()))?;
+        Ok(Self { machine })
+    }
+
+    /// The same machine with values for the options that it declares, as a JSON object.
+    fn with_options(&self, options: &str) -> PyResult<Self> {
+        let options: std::collections::BTreeMap<String, styluscam_post::OptionValue> = serde_json::from_str(options)
+            .map_err(|e| errors::raise("MachineError", &e.to_string(), "document", "machine.options", ""))?;
+        let mut machine = self.machine.clone();
+        for (name, value) in options {
+            machine.set_option(&name, value).map_err(|e| of_job(e.into()))?;
+        }
+        Ok(Self { machine })
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.machine.name
+    }
+
+    #[getter]
+    fn description(&self) -> &str {
+        &self.machine.description
+    }
+
+    /// One unit of the last posted place, mm.
+    #[getter]
+    fn resolution_mm(&self) -> f64 {
+        self.machine.resolution_mm()
+    }
+}
+
+/// Names of the shipped machines.
+#[pyfunction]
+pub fn shipped_machines() -> Vec<&'static str> {
+    styluscam_post::shipped()
+}
+
+/// The part as it lies on the machine.
+#[pyclass(frozen, module = "styluscam._engine")]
+pub struct Scene {
+    scene: styluscam_job::Scene,
+}
+
+#[pymethods]
+impl Scene {
+    #[new]
+    fn new(py: Python<'_>, job: &Job, part: &Part) -> PyResult<Self> {
+        let scene = py.detach(|| styluscam_job::Scene::new(&job.document, &part.part)).map_err(of_job)?;
+        Ok(Self { scene })
+    }
+
+    /// Rows of the matrix from the file's frame to work coordinates.
+    #[getter]
+    fn frame(&self) -> [[f64; 4]; 3] {
+        self.scene.frame.rows()
+    }
+}
+
+/// A planned program.
+#[pyclass(frozen, module = "styluscam._engine")]
+pub struct Plan {
+    plan: styluscam_job::Plan,
+}
+
+#[pymethods]
+impl Plan {
+    #[getter]
+    fn program(&self) -> Program {
+        Program { program: self.plan.program.clone() }
+    }
+
+    /// The summary as JSON and the lines for the header; with the judgement of the text where there is one.
+    #[pyo3(signature = (scene, machine, judgement=None))]
+    fn summary(
+        &self,
+        scene: &Scene,
+        machine: &Machine,
+        judgement: Option<&Judgement>,
+    ) -> PyResult<(String, Vec<String>)> {
+        let summary = Summary::new(&self.plan, &scene.scene, &machine.machine, judgement.map(|j| &j.judgement));
+        Ok((json(&summary)?, summary.notes()))
+    }
+}
+
+/// Plans every operation of a job.
+#[pyfunction]
+#[pyo3(signature = (job, scene, machine, progress=None, cancel=None))]
+pub fn plan(
+    py: Python<'_>,
+    job: &Job,
+    scene: &Scene,
+    machine: &Machine,
+    progress: Option<&Bound<'_, PyAny>>,
+    cancel: Option<&CancelToken>,
+) -> PyResult<Plan> {
+    let work = |watch: &_| styluscam_job::plan(&job.document, &scene.scene, &machine.machine, watch);
+    let plan = watched(py, progress, cancel, work)?.map_err(of_job)?;
+    Ok(Plan { plan })
+}
+
+/// The text of a program for a machine.
+#[pyfunction]
+pub fn post(py: Python<'_>, program: &Program, machine: &Machine) -> PyResult<String> {
+    let posted = py.detach(|| styluscam_post::post(&program.program, &machine.machine));
+    Ok(posted.map_err(|e| of_job(e.into()))?.text)
+}
+
+/// The program that a machine would read from a text; positions are those of the words.
+#[pyfunction]
+pub fn read_gcode(py: Python<'_>, text: &str, machine: &Machine) -> PyResult<Program> {
+    let reading = py.detach(|| styluscam_post::read(text, &machine.machine, &[]));
+    Ok(Program { program: reading.map_err(|e| of_job(e.into()))?.program })
+}
+
+/// The moves of a text as a machine would read it for this job.
+#[pyfunction]
+pub fn read_back(py: Python<'_>, job: &Job, machine: &Machine, text: &str) -> PyResult<Program> {
+    let program = py.detach(|| styluscam_job::read_back(&job.document, &machine.machine, text));
+    Ok(Program { program: program.map_err(of_job)? })
+}
+
+/// A judged text.
+#[pyclass(frozen, module = "styluscam._engine")]
+pub struct Judgement {
+    judgement: styluscam_job::Judgement,
+}
+
+#[pymethods]
+impl Judgement {
+    /// The report as JSON.
+    fn report(&self) -> PyResult<String> {
+        json(&self.judgement.report)
+    }
+
+    /// The moves as they were read back.
+    #[getter]
+    fn program(&self) -> Program {
+        Program { program: self.judgement.program.clone() }
+    }
+}
+
+/// Judges a text against a job's part.
+#[pyfunction]
+#[pyo3(signature = (job, scene, machine, text, progress=None, cancel=None))]
+pub fn judge(
+    py: Python<'_>,
+    job: &Job,
+    scene: &Scene,
+    machine: &Machine,
+    text: &str,
+    progress: Option<&Bound<'_, PyAny>>,
+    cancel: Option<&CancelToken>,
+) -> PyResult<Judgement> {
+    let work = |watch: &_| styluscam_job::judge(&job.document, &scene.scene, &machine.machine, text, watch);
+    let judgement = watched(py, progress, cancel, work)?.map_err(of_job)?;
+    Ok(Judgement { judgement })
+}
+
+/// The JSON Schema of the job document.
+#[pyfunction]
+pub fn job_schema() -> PyResult<String> {
+    json(&styluscam_job::schema())
+}
+
+/// A commented job for a part that has none yet.
+#[pyfunction]
+#[pyo3(signature = (file, stem, size, faces, units=None))]
+#[allow(clippy::needless_pass_by_value)]
+pub fn starter(file: &str, stem: &str, size: [f64; 3], faces: Vec<String>, units: Option<&str>) -> String {
+    styluscam_job::starter(&StarterPart { file, units, stem, size, faces: &faces })
+}

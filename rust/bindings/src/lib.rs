@@ -1,0 +1,39 @@
+//! PyO3 module `styluscam._engine`: conversions only, no algorithm.
+//!
+//! Documents cross as JSON text, arrays as numpy; the Python package gives both their types.
+
+mod arrays;
+mod errors;
+mod job;
+mod offset;
+mod part;
+mod program;
+mod tool;
+mod waiting;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+mod _engine {
+    #[pymodule_export]
+    use crate::job::{job_schema, judge, plan, post, read_back, read_gcode, shipped_machines, starter};
+    #[pymodule_export]
+    use crate::job::{Job, Judgement, Machine, Plan, Scene};
+    #[pymodule_export]
+    use crate::offset::{drop_cutter, slope_matched_offset, waterline};
+    #[pymodule_export]
+    use crate::part::Part;
+    #[pymodule_export]
+    use crate::program::Program;
+    #[pymodule_export]
+    use crate::tool::Tool;
+    #[pymodule_export]
+    use crate::waiting::CancelToken;
+
+    use super::{Bound, PyModule, PyModuleMethods, PyResult};
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

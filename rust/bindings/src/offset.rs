@@ -1,0 +1,127 @@
+//! Offsets and envelopes point by point.
+
+use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
+use pyo3::prelude::*;
+use styluscam_geometry::{Bvh, Sheet};
+use styluscam_toolpath::{
+    forming::{waterline as level, Grid},
+    offset::Envelope,
+    Surface,
+};
+
+use crate::{
+    arrays, errors,
+    part::Part,
+    tool::Tool,
+    waiting::{watched, CancelToken},
+};
+
+/// Spacing of the grid that finds loops, as a share of the diameter.
+const SPACING_SHARE: f64 = 0.08;
+
+fn sheet(document: Option<&str>) -> PyResult<Option<Sheet>> {
+    let Some(text) = document else { return Ok(None) };
+    let sheet: Sheet = serde_json::from_str(text)
+        .map_err(|e| errors::raise("GeometryError", &e.to_string(), "document", "sheet", ""))?;
+    sheet.checked().map(Some).map_err(|e| errors::of_geometry(&e))
+}
+
+/// CL points and flags.
+type Offsets<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<u8>>);
+
+/// CL points (N, 3) and flags (N,) of contacts with unit normals.
+#[pyfunction]
+#[pyo3(signature = (tool, points, normals, sheet=None))]
+#[allow(clippy::needless_pass_by_value)] // PyO3 hands arrays by value
+pub fn slope_matched_offset<'py>(
+    py: Python<'py>,
+    tool: &Tool,
+    points: PyReadonlyArray2<'py, f64>,
+    normals: PyReadonlyArray2<'py, f64>,
+    sheet: Option<&str>,
+) -> PyResult<Offsets<'py>> {
+    let sheet = self::sheet(sheet)?;
+    let points = arrays::vectors(&points, "points")?;
+    let normals = arrays::vectors(&normals, "normals")?;
+    if points.len() != normals.len() {
+        let message = format!("{} normals for {} points", normals.len(), points.len());
+        return Err(errors::raise("GeometryError", &message, "length", "normals", ""));
+    }
+    let results: Vec<_> = py.detach(|| {
+        let pairs = points.iter().zip(&normals);
+        pairs
+            .map(|(p, n)| {
+                let (tip, flag) =
+                    styluscam_toolpath::offset::slope_matched_offset(&tool.tool, sheet.as_ref(), *p, n.normalize());
+                (<[f64; 3]>::from(tip), flag as u8)
+            })
+            .collect()
+    });
+    let flags = PyArray1::from_vec(py, results.iter().map(|r| r.1).collect());
+    Ok((arrays::matrix(py, results.into_iter().map(|r| r.0))?, flags))
+}
+
+/// Tip heights (N,) at places (N, 2): never into the part, its checked inward deviation included.
+#[pyfunction]
+#[pyo3(signature = (part, tool, xy, sheet=None, floor=None, progress=None, cancel=None))]
+#[allow(clippy::too_many_arguments, clippy::needless_pass_by_value)]
+pub fn drop_cutter<'py>(
+    py: Python<'py>,
+    part: &Part,
+    tool: &Tool,
+    xy: PyReadonlyArray2<'py, f64>,
+    sheet: Option<&str>,
+    floor: Option<f64>,
+    progress: Option<&Bound<'py, PyAny>>,
+    cancel: Option<&CancelToken>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let sheet = self::sheet(sheet)?;
+    let places = arrays::rows::<f64, 2>(&xy, "xy")?;
+    if let Some(i) = places.iter().position(|p| !(p[0].is_finite() && p[1].is_finite())) {
+        return Err(errors::raise("GeometryError", &format!("xy[{i}] is not a finite place"), "not-finite", "xy", ""));
+    }
+    let part = &part.part;
+    let tips = watched(py, progress, cancel, |watch| {
+        let bvh = Bvh::new(&part.mesh);
+        let envelope = Envelope::new(&part.mesh, &bvh, &tool.tool, sheet.as_ref(), part.inward);
+        watch.begin("drop-cutter", places.len());
+        envelope.tips(&places, watch)
+    })?;
+    let tips = tips.map_err(errors::cancelled)?;
+    let floored = |z: f64| floor.map_or(z, |f| if z.is_nan() { f } else { z.max(f) });
+    Ok(PyArray1::from_vec(py, tips.into_iter().map(floored).collect()))
+}
+
+/// Loops at height `z`: arrays (M, 3) with whether each is closed.
+#[pyfunction]
+#[pyo3(signature = (part, tool, z, sheet=None, tolerance=0.005, progress=None, cancel=None))]
+#[allow(clippy::too_many_arguments)]
+pub fn waterline<'py>(
+    py: Python<'py>,
+    part: &Part,
+    tool: &Tool,
+    z: f64,
+    sheet: Option<&str>,
+    tolerance: f64,
+    progress: Option<&Bound<'py, PyAny>>,
+    cancel: Option<&CancelToken>,
+) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
+    let sheet = self::sheet(sheet)?;
+    let part = &part.part;
+    let deviation = 0.5 * (tolerance - part.inward - part.outward);
+    if !(z.is_finite() && deviation > 0.0) {
+        let message =
+            format!("z = {z}, tolerance = {tolerance}: the tolerance must exceed the part's checked deviation");
+        return Err(errors::raise("PlanError", &message, "tolerance-budget", "tolerance", "raise tolerance"));
+    }
+    let passes = watched(py, progress, cancel, |watch| {
+        let bvh = Bvh::new(&part.mesh);
+        let envelope = Envelope::new(&part.mesh, &bvh, &tool.tool, sheet.as_ref(), part.inward + deviation);
+        let everything = vec![true; part.mesh.triangles().len()];
+        let surface = Surface::new(&envelope, &everything);
+        let grid = Grid::sample(&surface, SPACING_SHARE * tool.tool.diameter(), watch)?;
+        grid.map_or(Ok(Vec::new()), |grid| level(&surface, &grid, z, deviation, watch))
+    })?;
+    let passes = passes.map_err(|e| errors::raise("PlanError", &e.to_string(), e.code(), "", ""))?;
+    passes.into_iter().map(|pass| arrays::matrix(py, pass.points.into_iter().map(|p| p.tip.into()))).collect()
+}

@@ -1,0 +1,76 @@
+//! Tools.
+
+use numpy::{PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+use styluscam_geometry::ToolDocument;
+
+use crate::{arrays::mapped, errors};
+
+/// A checked tool; see `styluscam.Tool`.
+#[pyclass(frozen, module = "styluscam._engine")]
+pub struct Tool {
+    pub(crate) tool: styluscam_geometry::Tool,
+    cutter: styluscam_geometry::Cutter,
+}
+
+#[pymethods]
+impl Tool {
+    /// From a tool document as JSON.
+    #[new]
+    fn new(document: &str) -> PyResult<Self> {
+        let document: ToolDocument = serde_json::from_str(document)
+            .map_err(|e| errors::raise("ToolError", &e.to_string(), "document", "", "see the tool reference"))?;
+        let tool = styluscam_geometry::Tool::new(document).map_err(|e| errors::of_tool(&e))?;
+        Ok(Self { cutter: tool.cutter(), tool })
+    }
+
+    fn to_json(&self) -> PyResult<String> {
+        serde_json::to_string(self.tool.document())
+            .map_err(|e| errors::raise("ToolError", &e.to_string(), "document", "", ""))
+    }
+
+    #[getter]
+    fn description(&self) -> String {
+        self.tool.description()
+    }
+
+    #[getter]
+    fn max_slope(&self) -> f64 {
+        self.tool.profile().max_slope()
+    }
+
+    #[getter]
+    fn diameter(&self) -> f64 {
+        self.tool.diameter()
+    }
+
+    fn radius_at<'py>(&self, py: Python<'py>, slope: PyReadonlyArray1<'py, f64>) -> Bound<'py, PyArray1<f64>> {
+        mapped(&slope, py, |s| self.tool.point_at(s).0)
+    }
+
+    /// Inner and outer radius at a slope: they differ where the profile is straight.
+    fn radius_range_at<'py>(
+        &self,
+        py: Python<'py>,
+        slope: PyReadonlyArray1<'py, f64>,
+    ) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
+        let inner = mapped(&slope, py, |s| if s <= 0.0 { 0.0 } else { self.tool.point_at(s).0 });
+        (inner, mapped(&slope, py, |s| self.tool.point_at(s).0))
+    }
+
+    fn height_at<'py>(&self, py: Python<'py>, slope: PyReadonlyArray1<'py, f64>) -> Bound<'py, PyArray1<f64>> {
+        mapped(&slope, py, |s| self.tool.point_at(s).1)
+    }
+
+    fn curvature_radius_at<'py>(
+        &self,
+        py: Python<'py>,
+        slope: PyReadonlyArray1<'py, f64>,
+    ) -> Bound<'py, PyArray1<f64>> {
+        mapped(&slope, py, |s| self.cutter.curvature_radius_at(s))
+    }
+
+    fn height_at_radius<'py>(&self, py: Python<'py>, radius: PyReadonlyArray1<'py, f64>) -> Bound<'py, PyArray1<f64>> {
+        mapped(&radius, py, |r| self.cutter.height_at_radius(r))
+    }
+}
