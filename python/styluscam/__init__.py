@@ -1,0 +1,64 @@
+"""StylusCAM: toolpaths for tools of any convex shape, from CAD faces to verified G-code.
+
+Lengths are mm, angles rad (degrees where a name ends in ``_deg``), feeds mm/min. Arrays are float64 numpy,
+C order. Every long call takes ``progress(phase, fraction)``, which is called on the calling thread and cancels by
+returning ``False``, and ``cancel``, a :class:`CancelToken`; the GIL is released meanwhile, and the
+same input gives the same bytes for any number of threads.
+"""
+
+from __future__ import annotations
+
+from styluscam._engine import CancelToken, __version__
+from styluscam.errors import (
+    Cancelled,
+    GeometryError,
+    JobError,
+    MachineError,
+    PlanError,
+    StylusError,
+    ToolError,
+    VerifyError,
+)
+from styluscam.job import Job, job_schema, starter_job
+from styluscam.judging import Report, check_program, verify, verify_file
+from styluscam.machine import Machine
+from styluscam.offsets import drop_cutter, slope_matched_offset, waterline
+from styluscam.part import Part
+from styluscam.planning import Plan, Posted, plan, post, read_gcode
+from styluscam.program import Program
+from styluscam.running import RunResult, run
+from styluscam.tool import Tool
+
+__all__ = [
+    "CancelToken",
+    "Cancelled",
+    "GeometryError",
+    "Job",
+    "JobError",
+    "Machine",
+    "MachineError",
+    "Part",
+    "Plan",
+    "PlanError",
+    "Posted",
+    "Program",
+    "Report",
+    "RunResult",
+    "StylusError",
+    "Tool",
+    "ToolError",
+    "VerifyError",
+    "__version__",
+    "check_program",
+    "drop_cutter",
+    "job_schema",
+    "plan",
+    "post",
+    "read_gcode",
+    "run",
+    "slope_matched_offset",
+    "starter_job",
+    "verify",
+    "verify_file",
+    "waterline",
+]

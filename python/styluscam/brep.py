@@ -1,0 +1,52 @@
+"""Contacts held against the exact model: what triangles, planning and judging share could be wrong for all three."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from styluscam import _engine
+from styluscam.job import Job
+from styluscam.types import Document
+
+ROUNDING = 1e-6
+"""What arithmetic may cost, mm."""
+
+
+def recheck(report: Document, job: Job, scene: _engine.Scene) -> None:
+    """Adds ``brep_checked`` and ``brep_max`` (mm) to the report, and a finding where contacts miss the model.
+
+    The contacts come in work coordinates; they are taken back to the file's frame here, by the inverse of the
+    set-up, and measured against the model's own surfaces. Parts that are nothing but triangles have none.
+    """
+    arrays = job.part().arrays
+    contacts = report["contacts"]
+    if arrays is None or not arrays.surfaces or not contacts:
+        report["brep_checked"] = 0
+        return
+    rows = np.array(scene.frame)
+    points = (np.array([c["point"] for c in contacts]) - rows[:, 3]) @ rows[:, :3]
+    distances = arrays.surface_distance(points, np.array([c["face"] for c in contacts]))
+    worst = int(np.argmax(np.abs(distances)))
+    limit = arrays.tolerance + ROUNDING
+    report["brep_checked"] = len(contacts)
+    report["brep_max"] = float(abs(distances[worst]))
+    if report["brep_max"] > limit:
+        report["ok"] = False
+        report["findings"].append(_finding(contacts[worst], report["brep_max"], limit))
+
+
+def _finding(contact: Document, value: float, limit: float) -> Document:
+    place = " ".join(f"{axis}{value:.3f}" for axis, value in zip("XYZ", contact["tip"], strict=True))
+    return {
+        "kind": "model",
+        "severity": "error",
+        "line": contact["line"],
+        "first_line": contact["line"],
+        "last_line": contact["line"],
+        "moves": 1,
+        "position": contact["tip"],
+        "value_mm": value,
+        "limit": limit,
+        "message": f"line {contact['line']}, {place}: the contact on Face{contact['face']} misses the model's surface by "
+        f"{value:.4f} mm: the part's triangles or its set-up are wrong",
+    }

@@ -1,0 +1,90 @@
+"""The commands, and what every one of them has in common: exit codes, errors in one line, a clean stdout."""
+
+from __future__ import annotations
+
+import logging
+import sys
+import traceback
+import warnings
+from collections.abc import Sequence
+from typing import Annotated, NoReturn
+
+import typer
+
+from styluscam import __version__
+from styluscam.cli import console, doctor, machine, new, part, plan, run, schema, verify
+from styluscam.cli.failures import failure_of
+
+app = typer.Typer(
+    name="styluscam",
+    help="Toolpaths for tools of any convex shape: from CAD faces to verified G-code.",
+    epilog="Exit codes: 0 done, 1 verification found something, 2 the input is wrong, 3 cancelled, 4 a fault of ours.",
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
+)
+app.command("run")(run.run)
+app.command("plan")(plan.plan)
+app.command("new")(new.new)
+app.command("verify")(verify.verify)
+app.command("schema")(schema.schema)
+app.command("doctor")(doctor.doctor)
+app.add_typer(part.app, name="part")
+app.add_typer(machine.app, name="machine")
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        console.say(f"styluscam {__version__}")
+        raise typer.Exit
+
+
+@app.callback(invoke_without_command=True)
+def _top(
+    context: typer.Context,
+    version: Annotated[
+        bool, typer.Option("--version", help="Print the version.", callback=_print_version, is_eager=True)
+    ] = False,
+) -> None:
+    if context.invoked_subcommand is None:
+        console.say(context.get_help())
+
+
+def main() -> NoReturn:
+    """The entry point: runs the command line and ends the process with its exit code."""
+    sys.exit(invoke(sys.argv[1:]))
+
+
+def invoke(arguments: Sequence[str]) -> int:
+    """Runs a command line; the exit code. Nothing is raised."""
+    with console.shielded(), warnings.catch_warnings():
+        if "--debug" not in arguments:
+            warnings.simplefilter("ignore")
+            logging.disable(logging.WARNING)
+        try:
+            return _dispatch(list(arguments))
+        except BaseException as error:
+            return _failed(error, arguments)
+        finally:
+            logging.disable(logging.NOTSET)
+
+
+def _dispatch(arguments: list[str]) -> int:
+    code = app(arguments, prog_name="styluscam", standalone_mode=False)
+    if code == 130:  # newer typer's way to say Ctrl-C
+        raise KeyboardInterrupt
+    return int(code or 0)
+
+
+def _failed(error: BaseException, arguments: Sequence[str]) -> int:
+    if isinstance(error, SystemExit):
+        return int(error.code or 0) if isinstance(error.code, int | None) else 2
+    failure = failure_of(error)
+    if "--debug" in arguments:
+        console.complain("".join(traceback.format_exception(error)))
+    if "--json" in arguments:
+        console.say_json(failure.to_dict())
+    else:
+        console.complain(failure.line)
+    return failure.exit_code

@@ -1,0 +1,25 @@
+"""Arguments and options that several commands share."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, TypeAlias
+
+import typer
+
+JobFile: TypeAlias = Annotated[Path, typer.Argument(metavar="JOB.toml", help="The job file.", show_default=False)]
+PartFile: TypeAlias = Annotated[
+    Path,
+    typer.Argument(metavar="PART", help="STEP, BREP, IGES, STL, OBJ, PLY or 3MF.", show_default=False),
+]
+Units: TypeAlias = Annotated[
+    str | None,
+    typer.Option("--units", help="Unit of a file that states none: mm, cm, m, um, in, ft.", show_default=False),
+]
+Picture: TypeAlias = Annotated[
+    Path | None,
+    typer.Option("--picture", metavar="FILE.png", help="Also draw a picture.", show_default=False),
+]
+Json: TypeAlias = Annotated[bool, typer.Option("--json", help="Print one JSON document, errors included.")]
+Quiet: TypeAlias = Annotated[bool, typer.Option("--quiet", "-q", help="No progress, and no summary when all is well.")]
+Debug: TypeAlias = Annotated[bool, typer.Option("--debug", help="Show the traceback of a fault.")]

@@ -1,0 +1,78 @@
+"""``styluscam run``: plan, post, read back, verify, write."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from styluscam import files, running
+from styluscam.cli import console, findings, progress, summary
+from styluscam.cli.failures import FOUND, naming
+from styluscam.cli.options import Debug, JobFile, Json, Picture, Quiet
+from styluscam.job import Job
+from styluscam.types import Document
+
+Despite = Annotated[
+    bool, typer.Option("--write-despite-findings", help="Write the files even where verification found something.")
+]
+
+
+def run(
+    job: JobFile,
+    write_despite_findings: Despite = False,
+    picture: Picture = None,
+    json: Json = False,
+    quiet: Quiet = False,
+    debug: Debug = False,
+) -> int:
+    """Plan, post, verify, and write a job's program.
+
+    The posted text is read back and judged; it is written only if nothing was found.
+    """
+    with naming(job), progress.shown(not (json or quiet)) as report:
+        work = Job.read(job)
+        if picture is not None:
+            files.require_writable([picture])
+        result = running.run(work, write_despite_findings=write_despite_findings, progress=report)
+        written = list(result.written)
+        if picture is not None:
+            _draw(result, picture)
+            written.append(picture)
+    if json:
+        console.say_json(_document(result, written))
+    else:
+        _tell(result, written, quiet)
+    return 0 if result.report.ok else FOUND
+
+
+def _draw(result: running.RunResult, path: Path) -> None:
+    from styluscam.picture import plan_picture
+
+    plan_picture(result.plan, path)
+
+
+def _document(result: running.RunResult, written: list[Path]) -> Document:
+    return {
+        "ok": result.report.ok,
+        "summary": result.summary,
+        "report": findings.document(result.report),
+        "written": [str(path) for path in written],
+    }
+
+
+def _tell(result: running.RunResult, written: list[Path], quiet: bool) -> None:
+    if not quiet or not result.report.ok:
+        rows = summary.lines_of(result.summary, result.plan.job.document)
+        rows += [("written", summary.shown_path(path)) for path in written]
+        console.say(summary.title(result.plan.job.document))
+        console.fields(rows)
+    if result.report.ok:
+        if not quiet:
+            console.say("verified: the written text was read back and judged, nothing was found")
+        return
+    for line in findings.lines(result.report):
+        console.complain(line)
+    if not result.written:
+        console.complain("nothing was written (--write-despite-findings writes it all the same)")

@@ -1,0 +1,95 @@
+"""The short summary: what a person at the machine checks first stands first."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from styluscam.types import Document
+
+
+def lines_of(summary: Document, job: Document) -> list[tuple[str, str]]:
+    """Names and values: zero, offset, box, depth, tools, sheet, units and machine; then operations and figures."""
+    rows = [
+        ("zero", summary["zero"]),
+        ("work offset", summary["wcs"]),
+        ("part box", _box(summary)),
+        ("deepest Z", f"{summary['deepest_z']:.3f}"),
+        *(("tool", _tool(tool)) for tool in summary["tools"]),
+        *_sheet(job),
+        ("units", f"{summary['units']} in the program; here mm"),
+        ("machine", summary["machine"]),
+    ]
+    for operation in summary["operations"]:
+        rows += _operation(operation)
+    rows.append(("length", f"{summary['length']:.0f} mm at feed, {clock(summary['duration'])} without acceleration"))
+    if summary["gouge_max"] is not None:
+        rows.append(("worst gouge", f"{summary['gouge_max']:.4f} mm"))
+        rows.append(("worst excess", f"{summary['excess_max']:.4f} mm where the tool should touch"))
+    return rows
+
+
+def title(job: Document) -> str:
+    """The job's name, or its part's."""
+    return str(job["title"] or Path(job["part"]["file"]).name)
+
+
+def shown_path(path: Path) -> str:
+    """A path as short as it can be from here."""
+    try:
+        return str(path.resolve().relative_to(Path.cwd()))
+    except (ValueError, OSError):
+        return str(path)
+
+
+def clock(seconds: float) -> str:
+    """Hours, minutes and seconds."""
+    whole = round(seconds)
+    return f"{whole // 3600}:{whole // 60 % 60:02}:{whole % 60:02}"
+
+
+def place(point: Sequence[float]) -> str:
+    """Coordinates as G-code names them."""
+    return " ".join(f"{axis}{value:.3f}" for axis, value in zip("XYZ", point, strict=True))
+
+
+def _box(summary: Document) -> str:
+    pairs = zip("XYZ", summary["part_min"], summary["part_max"], strict=True)
+    return ", ".join(f"{axis} {low:.3f} to {high:.3f}" for axis, low, high in pairs)
+
+
+def _sheet(job: Document) -> list[tuple[str, str]]:
+    """Which face of the sheet the model shows: a flipped one is a fault that no check of numbers can see."""
+    sheet, face = job["setup"].get("sheet"), job["part"].get("model_face")
+    if not sheet or not face:
+        return []
+    meaning = {"tool": "facing the tool", "back": "away from the tool", "mid": "its middle"}
+    law = sheet.get("law", "constant")
+    return [("sheet", f"{sheet['thickness']:g} mm, {law} law; the model is its {face} face ({meaning[face]})")]
+
+
+def _tool(tool: Document) -> str:
+    return f"T{tool['number']} H{tool['length_offset']}: {tool['description']}, programmed at its {tool['reference']}"
+
+
+def _operation(operation: Document) -> list[tuple[str, str]]:
+    level = operation["kind"] == "z-level"
+    what = f"{_count(operation['passes'], 'loop')} on {_count(operation['groups'], 'level')}"
+    if not level:
+        what = f"{_count(operation['passes'], 'pass', 'passes')} on {_count(operation['groups'], 'row')}"
+    faces = ", ".join(f"Face{number}" for number in operation["faces"][:12])
+    more = len(operation["faces"]) - 12
+    rows = [
+        ("operation", f"{operation['id']}: {operation['kind']}, {what}"),
+        ("faces", f"{faces} and {more} more" if more > 0 else faces),
+        ("wall angle", f"{operation['wall_angle_max_deg']:.1f} deg at most"),
+    ]
+    for bridge in operation["bridged"]:
+        rows.append(("bridged", f"Face{bridge['face']} by up to {bridge['excess']:.3f} mm at {place(bridge['at'])}"))
+    for face, area in operation["undercut"]:
+        rows.append(("undercut", f"Face{face}, {area:.1f} mm2 are not reached"))
+    return rows
+
+
+def _count(number: int, one: str, many: str = "") -> str:
+    return f"{number} {one if number == 1 else many or one + 's'}"

@@ -1,0 +1,42 @@
+"""The errors that reach a user: one tree, each with a stable code, a place and a hint."""
+
+from __future__ import annotations
+
+
+class StylusError(Exception):
+    """Base of all; the message is one line: what, where, what to do."""
+
+    def __init__(self, message: str, *, code: str, where: str = "", hint: str = "") -> None:
+        """`code` is stable; `where` is a path in the job document or file:line; `hint` says what to do."""
+        super().__init__(message)
+        self.code = code
+        self.where = where
+        self.hint = hint
+
+
+class JobError(StylusError):
+    """The job document is wrong."""
+
+
+class GeometryError(StylusError):
+    """A part cannot be read, or its geometry cannot be used."""
+
+
+class ToolError(StylusError):
+    """A tool's profile or measures are wrong."""
+
+
+class PlanError(StylusError):
+    """No path can be planned."""
+
+
+class MachineError(StylusError):
+    """A machine file, a post or a program for a machine is wrong."""
+
+
+class VerifyError(StylusError):
+    """Verification could not be carried out."""
+
+
+class Cancelled(StylusError):
+    """The user stopped the work."""

@@ -1,0 +1,86 @@
+"""Outputs appear whole or not at all."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import os
+import tempfile
+from collections.abc import Iterable
+from pathlib import Path
+
+from styluscam.errors import StylusError
+
+
+def write_whole(path: Path, text: str) -> None:
+    """Writes ``text`` beside ``path`` and renames it: a reader sees the old file or the new one, never a part."""
+    write_all_whole({path: text})
+
+
+def write_all_whole(files: dict[Path, str]) -> None:
+    """As :func:`write_whole` for several files: none is renamed before all are written. Missing folders are made.
+
+    Raises:
+        StylusError: a place that must not be written to, or a full disk; no file has changed then.
+    """
+    require_writable(files)
+    written: list[tuple[str, Path]] = []
+    try:
+        for path, text in files.items():
+            path.parent.mkdir(parents=True, exist_ok=True)
+            written.append((_write_beside(path, text), path))
+        while written:
+            temporary, path = written[0]
+            os.replace(temporary, path)
+            written.pop(0)
+    except OSError as error:
+        raise _unwritable(path, error) from error
+    finally:
+        for temporary, _ in written:
+            with contextlib.suppress(OSError):
+                os.unlink(temporary)
+
+
+def require_writable(paths: Iterable[Path]) -> None:
+    """Asks before long work whether its outputs can be written; folders that do not exist will be made.
+
+    Raises:
+        StylusError: a folder or a regular file stands in the way, or permission is missing.
+    """
+    for path in paths:
+        try:
+            _look(path)
+        except OSError as error:
+            raise _unwritable(path, error) from error
+
+
+def _look(path: Path) -> None:
+    if path.is_dir():
+        raise IsADirectoryError(errno.EISDIR, "a folder has this name", str(path))
+    folder = next((parent for parent in path.absolute().parents if parent.exists()), path.absolute().parent)
+    if not folder.is_dir():
+        raise NotADirectoryError(errno.ENOTDIR, f"{folder} is a file, not a folder", str(path))
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise PermissionError(errno.EACCES, f"no permission to write to {folder}", str(path))
+
+
+def _unwritable(path: Path, error: OSError) -> StylusError:
+    message = f"{path}: cannot be written: {error.strerror or error}"
+    return StylusError(message, code="unwritable", where=str(path), hint="choose another place")
+
+
+def _write_beside(path: Path, text: str) -> str:
+    """The name of a temporary file in the same folder that holds ``text``."""
+    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8", newline="") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        umask = os.umask(0)
+        os.umask(umask)
+        os.chmod(name, 0o666 & ~umask)
+    except BaseException:
+        os.unlink(name)
+        raise
+    return name

@@ -1,0 +1,88 @@
+"""The job document: the only way in."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from styluscam import _engine
+from styluscam.errors import JobError
+from styluscam.machine import Machine
+from styluscam.part import Part
+from styluscam.parts import PartArrays
+from styluscam.types import Document, Progress
+
+
+class Job:
+    """A checked job. Relative paths in it resolve against ``folder``."""
+
+    def __init__(self, engine: _engine.Job, folder: Path, name: str = "job", part: Part | None = None) -> None:
+        self.engine = engine
+        self.folder = folder
+        self.name = name
+        self._part = part
+        self.document: Document = json.loads(engine.to_json())
+
+    @classmethod
+    def read(cls, path: str | Path) -> Job:
+        """From a TOML (or JSON) file.
+
+        Raises:
+            JobError: with the key, its value and what is allowed.
+        """
+        path = Path(path)
+        try:
+            text = path.read_text(encoding="utf-8")
+        except FileNotFoundError as error:
+            message = f"{path}: no such file"
+            raise JobError(message, code="no-such-file", where=str(path), hint="check the path") from error
+        except OSError as error:
+            message = f"{path}: cannot be read: {error.strerror or error}"
+            raise JobError(message, code="unreadable", where=str(path), hint="name a job file") from error
+        except UnicodeDecodeError as error:
+            message = f"{path}: not a job: it is not text in UTF-8"
+            raise JobError(message, code="unreadable", where=str(path), hint="name a job file") from error
+        parse = _engine.Job.from_json if path.suffix == ".json" else _engine.Job.from_toml
+        return cls(parse(text), path.resolve().parent, path.stem)
+
+    @classmethod
+    def from_dict(cls, document: Document, folder: str | Path = ".", part: Part | None = None) -> Job:
+        """From a dict; ``part`` stands for the file that the document names, where a caller has it at hand."""
+        return cls(_engine.Job.from_json(json.dumps(document)), Path(folder), part=part)
+
+    @staticmethod
+    def check(text: str) -> None:
+        """Raises what :meth:`read` would raise for a file with this TOML."""
+        _engine.Job.from_toml(text)
+
+    def to_dict(self) -> Document:
+        """The document with all its defaults."""
+        return self.document
+
+    def part(self, progress: Progress | None = None) -> Part:
+        """The part, read once."""
+        if self._part is None:
+            section = self.document["part"]
+            self._part = Part.read(self.folder / section["file"], section["tolerance"], section.get("units"), progress)
+        return self._part
+
+    def machine(self) -> Machine:
+        """The machine that the job names."""
+        return Machine.of_section(self.document["machine"], self.folder)
+
+
+def job_schema() -> Document:
+    """The JSON Schema of the job document."""
+    schema: Document = json.loads(_engine.job_schema())
+    return schema
+
+
+def starter_job(arrays: PartArrays, file: str, units: str | None = None) -> str:
+    """A commented job (TOML) for a part that has none: it runs as it stands."""
+    up = [f for f in arrays.faces if f.slope_min_deg < 89.9]
+    faces = [
+        f"{f.name}: {f.kind}, {f.area_mm2:.0f} mm2, slope {f.slope_min_deg:.0f} to {f.slope_max_deg:.0f} deg" for f in up
+    ]
+    low, high = arrays.box
+    size = tuple(float(b - a) for a, b in zip(low, high, strict=True))
+    return _engine.starter(file, Path(file).stem, size, faces, units)

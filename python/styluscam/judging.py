@@ -1,0 +1,100 @@
+"""Verification: posted text, read back, against the part."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from styluscam import _engine
+from styluscam.brep import recheck
+from styluscam.errors import VerifyError
+from styluscam.job import Job
+from styluscam.machine import Machine
+from styluscam.planning import Plan, Posted
+from styluscam.program import Program
+from styluscam.types import Document, Progress
+
+
+class Report:
+    """What the judge found in a text."""
+
+    def __init__(self, document: Document, judgement: _engine.Judgement) -> None:
+        self._document = document
+        self.judgement = judgement
+        self.program = Program(judgement.program)
+
+    @property
+    def ok(self) -> bool:
+        """Nothing was found that must not be."""
+        return bool(self._document["ok"])
+
+    @property
+    def findings(self) -> list[Document]:
+        """Each with kind, severity, line, position, value, limit and a message."""
+        findings: list[Document] = self._document["findings"]
+        return findings
+
+    @property
+    def gouge_max(self) -> float:
+        """Deepest entry into the part, mm."""
+        return float(self._document["gouge_max"])
+
+    @property
+    def excess_max(self) -> float:
+        """Largest distance from the part along the contact tracks, mm."""
+        return float(self._document["excess_max"])
+
+    def to_dict(self) -> Document:
+        """Everything, as plain data."""
+        return self._document
+
+
+def judge_plan(plan: Plan, text: str, progress: Progress | None = None, cancel: _engine.CancelToken | None = None) -> Report:
+    """Judges ``text`` against a plan's part, and its contacts against the exact model."""
+    return _judge(plan.job, plan.scene, plan.machine, text, progress, cancel)
+
+
+def verify(
+    text: str | Posted,
+    job: Job,
+    machine: Machine | None = None,
+    *,
+    progress: Progress | None = None,
+    cancel: _engine.CancelToken | None = None,
+) -> Report:
+    """Judges posted text: gouge, excess, rapids, order; nothing of planning is used.
+
+    Raises:
+        VerifyError: the text is not what the machine understands.
+    """
+    scene = _engine.Scene(job.engine, job.part(progress).engine)
+    words = text.text if isinstance(text, Posted) else text
+    return _judge(job, scene, machine or job.machine(), words, progress, cancel)
+
+
+def verify_file(path: str | Path, job: Job, *, progress: Progress | None = None) -> Report:
+    """As :func:`verify`, for a file."""
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise VerifyError(f"{path}: cannot be read: {error}", code="unreadable", where=str(path)) from error
+    return verify(text, job, progress=progress)
+
+
+def check_program(plan: Plan, *, progress: Progress | None = None) -> Report:
+    """The same probes on a program that was not posted for its machine yet; never called verified."""
+    return judge_plan(plan, _engine.post(plan.engine.program, plan.machine.engine), progress)
+
+
+def _judge(
+    job: Job,
+    scene: _engine.Scene,
+    machine: Machine,
+    text: str,
+    progress: Progress | None,
+    cancel: _engine.CancelToken | None,
+) -> Report:
+    judgement = _engine.judge(job.engine, scene, machine.engine, text, progress=progress, cancel=cancel)
+    document: Document = json.loads(judgement.report())
+    recheck(document, job, scene)
+    return Report(document, judgement)

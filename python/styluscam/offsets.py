@@ -1,0 +1,85 @@
+"""Where the tool stands: slope-matched offset, drop-cutter, waterlines."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from styluscam import _engine
+from styluscam.part import Part
+from styluscam.tool import Tool
+from styluscam.types import Document, FloatArray, Progress, points
+
+REGULAR, RIM, UNDERCUT = 0, 1, 2
+"""Flags of :class:`Offsets`."""
+
+
+class Offsets(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
+    """CL points (N, 3), mm. ``.flags`` (N,) says of each: regular, rim (steeper than the profile), undercut.
+
+    What is computed from it is a plain array again, with numpy's own ``flags``.
+    """
+
+    _by_point: npt.NDArray[np.uint8] | None = None
+
+    @property
+    def flags(self) -> Any:
+        """Flag by point (N,)."""
+        return super().flags if self._by_point is None else self._by_point
+
+
+def _sheet(sheet: Document | None) -> str | None:
+    return None if sheet is None else json.dumps(sheet)
+
+
+def slope_matched_offset(
+    tool: Tool, points_: npt.ArrayLike, normals: npt.ArrayLike, sheet: Document | None = None
+) -> Offsets:
+    """Tips (N, 3) of the tool touching ``points_`` (N, 3) with outward ``normals`` (N, 3), exact to rounding.
+
+    ``sheet = {"thickness": 1.0, "law": "constant", "model_face": "back"}``. The tool may interfere elsewhere: see
+    :func:`drop_cutter`. Source: US 2023/0035585.
+    """
+    tips, flags = _engine.slope_matched_offset(tool._engine, points(points_, 3), points(normals, 3), _sheet(sheet))
+    result = tips.view(Offsets)
+    result._by_point = flags
+    return result
+
+
+def drop_cutter(
+    part: Part,
+    tool: Tool,
+    xy: npt.ArrayLike,
+    sheet: Document | None = None,
+    floor: float | None = None,
+    *,
+    progress: Progress | None = None,
+    cancel: _engine.CancelToken | None = None,
+) -> FloatArray:
+    """Lowest tip heights (N,) at ``xy`` (N, 2) at which the tool does not enter the part, mm.
+
+    Exact for the triangles; the part's checked inward deviation is added, so that a part that was read from a
+    file is never entered. Where the tool meets nothing: ``floor``, else NaN.
+    """
+    return _engine.drop_cutter(
+        part.engine, tool._engine, points(xy, 2), _sheet(sheet), floor, progress=progress, cancel=cancel
+    )
+
+
+def waterline(
+    part: Part,
+    tool: Tool,
+    z: float,
+    sheet: Document | None = None,
+    tolerance: float = 0.005,
+    *,
+    progress: Progress | None = None,
+    cancel: _engine.CancelToken | None = None,
+) -> list[FloatArray]:
+    """Loops (M, 3) of the tip at height ``z``, the first point repeated when closed; 0 to ``tolerance`` mm free."""
+    return _engine.waterline(
+        part.engine, tool._engine, z, _sheet(sheet), tolerance, progress=progress, cancel=cancel
+    )

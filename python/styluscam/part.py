@@ -1,0 +1,73 @@
+"""Parts: what readers and callers hand to the engine."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from styluscam import _engine
+from styluscam.parts import PartArrays, read_part
+from styluscam.types import FloatArray, Progress, points
+
+
+class Part:
+    """A part as triangles, with the exact surfaces behind them where a reader knew those."""
+
+    def __init__(self, engine: _engine.Part, arrays: PartArrays | None = None) -> None:
+        self.engine = engine
+        self.arrays = arrays
+
+    @classmethod
+    def from_mesh(
+        cls,
+        vertices: npt.ArrayLike,
+        triangles: npt.ArrayLike,
+        normals: npt.ArrayLike | None = None,
+        face_ids: npt.ArrayLike | None = None,
+    ) -> Part:
+        """From arrays: (V, 3) mm, (T, 3) indices wound outward, corner normals (T, 3, 3), face id per triangle (T,).
+
+        The triangles are taken for the part itself. Normals are checked for their shape and not needed beyond.
+
+        Raises:
+            GeometryError: numbers that are not finite or absurd, indices out of range, nothing left.
+        """
+        corners = np.ascontiguousarray(triangles, dtype=np.int64)
+        if normals is not None:
+            np.asarray(normals, dtype=np.float64).reshape(*corners.shape, 3)
+        ids = None if face_ids is None else np.ascontiguousarray(face_ids, dtype=np.int64)
+        return cls(_engine.Part(points(vertices, 3), corners, ids))
+
+    @classmethod
+    def from_arrays(cls, arrays: PartArrays) -> Part:
+        """From what a reader made: triangles with their checked deviation."""
+        engine = _engine.Part(
+            arrays.vertices, arrays.triangles, arrays.face_ids, arrays.deviation_inward, arrays.deviation_outward
+        )
+        return cls(engine, arrays)
+
+    @classmethod
+    def read(
+        cls, path: str | Path, tolerance: float = 0.001, units: str | None = None, progress: Progress | None = None
+    ) -> Part:
+        """From a file: STEP, BREP, IGES, STL, OBJ, PLY, 3MF by its ending.
+
+        ``tolerance`` (mm) bounds the triangles' deviation from the surfaces, checked by sampling; ``units``
+        ("mm", "cm", "m", "inch") is required where the format has none.
+
+        Raises:
+            GeometryError: the file cannot be read or holds no usable part.
+        """
+        return cls.from_arrays(read_part(path, tolerance=tolerance, units=units, progress=progress))
+
+    @property
+    def bounds(self) -> FloatArray:
+        """Lower and upper corner of the box, (2, 3), mm."""
+        return np.array(self.engine.bounds)
+
+    @property
+    def triangle_count(self) -> int:
+        """Triangles of positive area."""
+        return self.engine.triangle_count

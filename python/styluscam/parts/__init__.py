@@ -1,0 +1,109 @@
+"""Readers that turn a part file (STEP, BREP, IGES, STL, OBJ, PLY, 3MF) into arrays. No engine needed."""
+
+from __future__ import annotations
+
+import math
+import os
+from pathlib import Path
+
+from ..errors import GeometryError
+from .arrays import FaceInfo, PartArrays
+from .progress import Progress
+
+__all__ = ["BREP_ENDINGS", "MESH_ENDINGS", "UNITS", "FaceInfo", "PartArrays", "read_part"]
+
+BREP_ENDINGS = (".step", ".stp", ".brep", ".brp", ".iges", ".igs")
+MESH_ENDINGS = (".stl", ".obj", ".ply", ".3mf")
+UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "um": 0.001, "in": 25.4, "ft": 304.8}
+
+LARGEST, SMALLEST = 1e6, 1e-3  # mm: a part beyond is a mistake of units
+
+
+def read_part(
+    path: str | os.PathLike[str],
+    tolerance: float = 0.001,
+    units: str | None = None,
+    progress: Progress | None = None,
+) -> PartArrays:
+    """Read the part in a file into arrays, in mm.
+
+    `tolerance` (mm) bounds the mesh's checked deviation from the exact surfaces, inward and outward each.
+    `units` (one of UNITS) is required for STL, OBJ and PLY, which carry none; other formats refuse it.
+    Raises GeometryError for every file that cannot be used, Cancelled when `progress` answers False.
+    """
+    file = Path(path)
+    if not (math.isfinite(tolerance) and 1e-6 <= tolerance <= 10.0):
+        raise GeometryError(
+            f"tolerance {tolerance:g} mm is out of range: give 0.000001 to 10 mm",
+            code="part-tolerance-range",
+            where="part.tolerance",
+            hint="0.001",
+        )
+    if units is not None and units not in UNITS:
+        known = ", ".join(UNITS)
+        raise GeometryError(
+            f"units {units!r} are not known: use one of {known}",
+            code="part-units-unknown",
+            where="part.units",
+            hint=known,
+        )
+    _check_readable(file)
+    ending = file.suffix.lower()
+    if ending in BREP_ENDINGS:
+        if units is not None:
+            raise GeometryError(
+                f"{file}: a {ending} file carries its units: remove units = {units!r}",
+                code="part-units-not-wanted",
+                where=str(file),
+                hint="remove units",
+            )
+        from .step import read_brep
+
+        part = read_brep(file, tolerance, progress)
+    elif ending in MESH_ENDINGS:
+        from .mesh import read_mesh
+
+        part = read_mesh(file, tolerance, units, progress)
+    else:
+        known = " ".join(BREP_ENDINGS + MESH_ENDINGS)
+        raise GeometryError(
+            f"{file}: ending {ending!r} is not a part format known here: use one of {known}",
+            code="part-ending-unknown",
+            where=str(file),
+            hint=known,
+        )
+    _check_size(part)
+    return part
+
+
+def _check_readable(file: Path) -> None:
+    """Refuse what is not a readable, non-empty file."""
+    where = str(file)
+    if not file.exists():
+        raise GeometryError(f"{where}: no such file: check the path", code="part-not-found", where=where)
+    if not file.is_file():
+        raise GeometryError(f"{where}: not a file: name the part file", code="part-not-a-file", where=where)
+    try:
+        with file.open("rb") as stream:
+            first = stream.read(1)
+    except OSError as error:
+        raise GeometryError(
+            f"{where}: cannot be read ({error.strerror}): check its permissions", code="part-unreadable", where=where
+        ) from error
+    if not first:
+        raise GeometryError(f"{where}: the file is empty: export the part again", code="part-empty", where=where)
+
+
+def _check_size(part: PartArrays) -> None:
+    """Refuse a part whose size can only be a mistake."""
+    low, high = part.box
+    size = max(b - a for a, b in zip(low, high, strict=True))
+    reach = max(abs(c) for c in (*low, *high))
+    if reach > LARGEST or size < SMALLEST:
+        what = f"reaches {reach:.3g} mm from the origin" if reach > LARGEST else f"is only {size:.3g} mm across"
+        raise GeometryError(
+            f"{part.source}: the part {what}: check its units (read as {part.units})",
+            code="part-too-large" if reach > LARGEST else "part-too-small",
+            where=part.source,
+            hint="check the units",
+        )

@@ -1,0 +1,330 @@
+"""Triangle meshes of exact surfaces: refining inside faces, checking the deviation by sampling, welding."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import GeometryError
+from .arrays import Ints
+from .surfaces import ExactSurface, Floats, Parametric, Plane
+
+# Samples lie on a barycentric grid of this order, and at the centroid. A surface's distance over a small triangle
+# whose corners lie on it is a quadratic form that vanishes at the corners; over each cell of the grid it differs from
+# its own linear interpolation by 1/ORDER^2 of its maximum over the whole triangle (the same form, scaled). So the
+# largest sample is at least (1 - 1/ORDER^2) = 0.9375 of the true maximum. The rest down to 0.93 is for the terms of
+# higher order. Dividing by it bounds the true maximum: at most 7.5 % too high.
+ORDER = 4
+SHORTFALL = 0.93
+# The grid's points on a triangle's sides, three each: corner 0 to 1, 1 to 2, 2 to 0. One in the middle is not enough: a
+# surface that swings from one side of an edge to the other crosses it there.
+ON_SIDES = np.array([np.roll((1.0 - share, share, 0.0), side) for side in range(3) for share in (0.25, 0.5, 0.75)])
+INSIDE = np.array([(0.5, 0.25, 0.25), (0.25, 0.5, 0.25), (0.25, 0.25, 0.5), (1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0)])
+# More triangles than this on one face are a mistake of units or tolerance.
+MOST_TRIANGLES = 10_000_000
+# The mesher's deflection, as a part of the tolerance, at the first attempt.
+FIRST_SHARE = 0.9
+# Splitting a side quarters its deviation: 40 rounds are far more than a face that can be refined needs.
+REFINEMENTS = 40
+ROUNDS = 4
+
+
+@dataclass(frozen=True)
+class FaceMesh:
+    """One face's triangles: nodes (n,3) mm, triangles (t,3) wound outward, and each node's parameters (n,2) if any."""
+
+    nodes: Floats
+    triangles: Ints
+    uv: Floats | None = None
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """How far a mesh leaves the exact surface, mm, both >= 0: into the material, and out of it."""
+
+    inward: float
+    outward: float
+
+    @property
+    def worst(self) -> float:
+        """The larger of the two."""
+        return max(self.inward, self.outward)
+
+
+@dataclass(frozen=True)
+class Tessellation:
+    """Meshes of all faces that hold the tolerance, with each face's checked deviation."""
+
+    meshes: tuple[FaceMesh, ...]
+    deviations: tuple[Deviation, ...]
+    deflection: float  # with which the mesher was called at last
+    rounds: int
+
+
+MeshAt = Callable[[float], Sequence[FaceMesh]]
+
+
+def refine_until(mesh_at: MeshAt, surfaces: Sequence[ExactSurface], tolerance: float, where: str = "") -> Tessellation:
+    """Make meshes whose checked deviation is <= `tolerance` (mm), inward and outward each.
+
+    `mesh_at(deflection)` meshes the whole shape so that neighbouring faces share their border nodes, with borders
+    within `deflection`; the insides may be coarser, they are refined here. Borders are never touched here (the mesh
+    stays conforming): where they do not hold, the whole shape is meshed again with a smaller deflection.
+    Raises GeometryError when the tolerance does not hold after ROUNDS attempts.
+    """
+    deflection = FIRST_SHARE * tolerance
+    for attempt in range(1, ROUNDS + 1):
+        refined = [refine(m, s, tolerance) for m, s in zip(mesh_at(deflection), surfaces, strict=True)]
+        meshes, deviations = [m for m, _ in refined], [d for _, d in refined]
+        worst = max(d.worst for d in deviations)
+        if worst <= tolerance:
+            return Tessellation(tuple(meshes), tuple(deviations), deflection, attempt)
+        deflection *= min(0.5, max(0.25, 0.8 * tolerance / worst))
+    raise _missed(meshes, surfaces, deviations, tolerance, where)
+
+
+def _missed(
+    meshes: Sequence[FaceMesh],
+    surfaces: Sequence[ExactSurface],
+    deviations: Sequence[Deviation],
+    tolerance: float,
+    where: str,
+) -> GeometryError:
+    """Make the error for a part that cannot be meshed within the tolerance, naming the face and the likely cause."""
+    at = int(np.argmax([d.worst for d in deviations]))
+    place = f"{where}:Face{at + 1}"
+    offset = float(np.abs(_distance(meshes[at], surfaces[at], np.eye(3))).max())
+    if offset > 0.5 * tolerance:
+        return GeometryError(
+            f"{place}: the face's edges lie up to {offset:.2g} mm off its surface, more than the tolerance of "
+            f"{tolerance:g} mm allows: repair the part, or ask for a tolerance above {2 * offset:.2g} mm",
+            code="part-inexact-edges",
+            where=place,
+            hint=f"tolerance = {2 * offset:.2g}",
+        )
+    return GeometryError(
+        f"{place}: its mesh stays {deviations[at].worst:.2g} mm off the surface, the tolerance is {tolerance:g} mm: "
+        "repair the face, or ask for a larger tolerance",
+        code="part-tolerance-missed",
+        where=place,
+        hint="a larger tolerance",
+    )
+
+
+def deviation(mesh: FaceMesh, surface: ExactSurface) -> Deviation:
+    """Bound the deviation of a face's mesh from its surface, by samples on every triangle (see ORDER)."""
+    return _largest(_bounds(mesh, surface))
+
+
+def _largest(bounds: Floats) -> Deviation:
+    inward, outward = bounds[:, :2].max(axis=0, initial=0.0)
+    return Deviation(float(inward), float(outward))
+
+
+def _bounds(mesh: FaceMesh, surface: ExactSurface, hopeless: float = np.inf) -> Floats:
+    """Return for each triangle the bounds inward and outward, and how far each side is off at most, (t,5) mm >= 0.
+
+    Side k runs from corner k to corner k + 1. A triangle with a side that is more than `hopeless` off is not sampled
+    further: its bounds are then only known to exceed that.
+    """
+    out = np.empty((len(mesh.triangles), 5))
+    for start in range(0, len(mesh.triangles), 2048):
+        part = slice(start, start + 2048)
+        triangles = mesh.triangles[part]
+        sides = _distance(FaceMesh(mesh.nodes, triangles, mesh.uv), surface, ON_SIDES)
+        bounds = np.stack([-sides.min(axis=1), sides.max(axis=1)], axis=1)
+        full = np.abs(sides).max(axis=1) <= hopeless
+        bounds[full] = _full_bounds(FaceMesh(mesh.nodes, triangles[full], mesh.uv), surface, sides[full])
+        off = np.abs(sides).reshape(-1, 3, 3).max(axis=2)
+        out[part] = np.concatenate([np.maximum(bounds, 0.0), off], axis=1)
+    return out
+
+
+def _full_bounds(mesh: FaceMesh, surface: ExactSurface, sides: Floats) -> Floats:
+    """Return bounds inward and outward (t,2) from the whole grid of samples, those on the sides (t,9) being known."""
+    corners = _distance(mesh, surface, np.eye(3))
+    if isinstance(surface, Plane):  # the distance is linear: the corners are the extremes
+        return np.stack([-corners.min(axis=1), corners.max(axis=1)], axis=1)
+    distances = np.concatenate([corners, sides, _distance(mesh, surface, INSIDE)], axis=1)
+    # Corners off the surface (by the file's own edge tolerance) add a linear part, that the samples see fully.
+    slack = np.abs(corners).max(axis=1) / ORDER**2
+    extremes = np.stack([-distances.min(axis=1), distances.max(axis=1)], axis=1)
+    return np.asarray((extremes + slack[:, None]) / SHORTFALL)
+
+
+def _distance(mesh: FaceMesh, surface: ExactSurface, weights: Floats) -> Floats:
+    """Return signed distances (t, S) at barycentric weights (S,3) of each triangle."""
+    points = (weights @ mesh.nodes[mesh.triangles]).reshape(-1, 3)
+    if isinstance(surface, Parametric) and mesh.uv is not None:
+        uv = (weights @ mesh.uv[mesh.triangles]).reshape(-1, 2)
+        return surface.distance_from(points, uv).reshape(-1, len(weights))
+    return surface.distance(points).reshape(-1, len(weights))
+
+
+def refine(mesh: FaceMesh, surface: ExactSurface, tolerance: float) -> tuple[FaceMesh, Deviation]:
+    """Split triangles until each is within `tolerance` (mm) of the surface; return also the deviation left.
+
+    New nodes lie on the surface. Sides on the face's border stay: a neighbour shares them. Where they alone are the
+    cause, the deviation left exceeds the tolerance.
+    """
+    nodes, triangles, uv = mesh.nodes, mesh.triangles, mesh.uv
+    bounds = _bounds(mesh, surface, hopeless=tolerance)
+    border = _border(triangles)
+    on_border = np.isin(_keys(np.sort(_half_edges(triangles), axis=1)), border).reshape(-1, 3)
+    if (on_border & (bounds[:, 2:] > tolerance)).any():  # to be meshed again: refining would chase the border
+        return mesh, _largest(bounds)
+    node_off = np.zeros(len(nodes))
+    node_off[triangles] = np.abs(_distance(mesh, surface, np.eye(3)))
+    for _ in range(REFINEMENTS):
+        failing = bounds[:, :2].max(axis=1) > tolerance
+        if isinstance(surface, Plane) or not failing.any():
+            break
+        ends, of_triangle = _edges(triangles)
+        inner = ~np.isin(_keys(ends), border)
+        sides = of_triangle[failing]
+        length = np.linalg.norm(nodes[ends[:, 0]] - nodes[ends[:, 1]], axis=1)
+        bow = bounds[failing, 2:] - node_off[ends].max(axis=1)[sides]
+        off = node_off[triangles[failing]].max(axis=1)
+        split = _sides_to_split(bow, inner[sides], length[sides], off, tolerance)
+        marked = np.zeros(len(ends), dtype=bool)
+        marked[sides[split]] = True
+        if not marked.any() or len(triangles) > MOST_TRIANGLES:
+            break
+        new_ids = np.full(len(ends), -1, dtype=np.int64)
+        new_ids[marked] = len(nodes) + np.arange(np.count_nonzero(marked))
+        new_nodes, new_uv = _middles_on_surface(nodes, uv, ends[marked], surface)
+        nodes = np.concatenate([nodes, new_nodes])
+        node_off = np.concatenate([node_off, np.zeros(len(new_nodes))])
+        uv = np.concatenate([uv, new_uv]) if uv is not None and new_uv is not None else None
+        touched = marked[of_triangle].any(axis=1)
+        parts = _subdivide(triangles[touched], new_ids[of_triangle[touched]], nodes)
+        triangles = np.concatenate([triangles[~touched], parts])
+        bounds = np.concatenate([bounds[~touched], _bounds(FaceMesh(nodes, parts, uv), surface, hopeless=tolerance)])
+    return FaceMesh(nodes, triangles, uv), _largest(bounds)
+
+
+def _sides_to_split(
+    bow: Floats, inner: NDArray[np.bool_], length: Floats, corners_off: Floats, tolerance: float
+) -> NDArray[np.bool_]:
+    """Tell which sides (F,3) of failing triangles to split: the one that bows most, and those that bow about as much.
+
+    `bow` (F,3) is how much farther each side is off the surface than its ends: what splitting removes. A side much
+    longer than that one goes too when it bows half as much, or slivers would be cut into ever finer slivers.
+    Where no side bows, the surface swings about the triangle: the longest side goes. A side on the border (not
+    `inner`) stays, and a triangle that only its border or its corners keep off the surface is not split.
+    """
+    inner_bow = np.where(inner, bow, 0.0)
+    most, worst = inner_bow.max(axis=1)[:, None], np.argmax(inner_bow, axis=1)[:, None]
+    much_longer = length > 1.5 * np.take_along_axis(length, worst, axis=1)
+    split = (inner_bow >= np.where(much_longer, 0.5, 0.9) * most) & (inner_bow > 0.1 * tolerance)
+    swings = ~split.any(axis=1) & (bow.max(axis=1) < 0.5 * tolerance) & (corners_off < 0.5 * tolerance)
+    inner_length = np.where(inner, length, 0.0)
+    longest = (inner_length == inner_length.max(axis=1)[:, None]) & inner
+    return np.asarray(np.where(swings[:, None], longest, split))
+
+
+def _keys(ends: Ints) -> Ints:
+    """Return one number per edge, from its sorted end nodes (E,2)."""
+    return np.asarray(ends[:, 0] * np.int64(2**31) + ends[:, 1])
+
+
+def _half_edges(triangles: Ints) -> Ints:
+    """Return the sides of each triangle, from corner k to corner k + 1, (3T,2)."""
+    return np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2).reshape(-1, 2)
+
+
+def _border(triangles: Ints) -> Ints:
+    """Return keys of the edges that only one triangle of the face has."""
+    keys, counts = np.unique(_keys(np.sort(_half_edges(triangles), axis=1)), return_counts=True)
+    return np.asarray(keys[counts != 2])
+
+
+def _edges(triangles: Ints) -> tuple[Ints, Ints]:
+    """Return the edges' sorted end nodes (E,2), and for each triangle its three edges (T,3)."""
+    keys, inverse = np.unique(_keys(np.sort(_half_edges(triangles), axis=1)), return_inverse=True)
+    return np.stack([keys >> 31, keys & (2**31 - 1)], axis=1), inverse.reshape(-1, 3)
+
+
+def _middles_on_surface(
+    nodes: Floats, uv: Floats | None, ends: Ints, surface: ExactSurface
+) -> tuple[Floats, Floats | None]:
+    """Return the surface points (E,3) nearest to the middles of edges (E,2), and their parameters if any."""
+    middle = nodes[ends].mean(axis=1)
+    if isinstance(surface, Parametric):
+        near = uv[ends].mean(axis=1) if uv is not None else surface.nearest_seed(middle)
+        foot = surface.project(middle, near)
+        return surface.evaluate(foot)[0], foot
+    return middle - surface.distance(middle)[:, None] * surface.normal(middle), None
+
+
+def _subdivide(triangles: Ints, middles: Ints, nodes: Floats) -> Ints:
+    """Return triangles cut at the middles of their sides, (T,3) with -1 for a side that stays whole."""
+    parts: list[Ints] = []
+    count = (middles >= 0).sum(axis=1)
+
+    a, b, c = triangles[count == 3].T
+    ab, bc, ca = middles[count == 3].T
+    parts += [np.stack(p, axis=1) for p in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
+
+    one, one_middle = _turned(triangles[count == 1], middles[count == 1], np.argmax(middles[count == 1], axis=1))
+    a, b, c = one.T
+    ab = one_middle[:, 0]
+    parts += [np.stack((a, ab, c), axis=1), np.stack((ab, b, c), axis=1)]
+
+    whole_side = np.argmin(middles[count == 2], axis=1)  # turned so that the side c-a stays whole
+    two, two_middle = _turned(triangles[count == 2], middles[count == 2], (whole_side + 1) % 3)
+    a, b, c = two.T
+    ab, bc = two_middle[:, 0], two_middle[:, 1]
+    from_a = np.linalg.norm(nodes[a] - nodes[bc], axis=1) <= np.linalg.norm(nodes[c] - nodes[ab], axis=1)
+    parts.append(np.stack((ab, b, bc), axis=1))
+    parts.append(np.where(from_a[:, None], np.stack((a, ab, bc), axis=1), np.stack((a, ab, c), axis=1)))
+    parts.append(np.where(from_a[:, None], np.stack((a, bc, c), axis=1), np.stack((ab, bc, c), axis=1)))
+    return np.concatenate(parts)
+
+
+def _turned(triangles: Ints, middles: Ints, first: Ints) -> tuple[Ints, Ints]:
+    """Return triangles and their sides, renumbered so that side `first` (T,) comes first."""
+    order = (first[:, None] + np.arange(3)) % 3
+    return np.take_along_axis(triangles, order, axis=1), np.take_along_axis(middles, order, axis=1)
+
+
+def weld(points: Floats, triangles: Ints, distance: float = 1e-9) -> tuple[Floats, Ints, Ints]:
+    """Merge points that share a place.
+
+    Returns the vertices, the triangles with new indexes, and which triangles (indexes) remain: those that collapse
+    to an edge go. Points merge when their coordinates agree within about `distance` (mm).
+    """
+    place = np.zeros(len(points), dtype=np.int64)
+    for axis in range(3):
+        along = _clusters(points[:, axis], distance)
+        _, place = np.unique(place * (along.max(initial=0) + 1) + along, return_inverse=True)
+    _, keep, index = np.unique(place, return_index=True, return_inverse=True)
+    welded = index[triangles]
+    remaining = np.flatnonzero(
+        (welded[:, 0] != welded[:, 1]) & (welded[:, 1] != welded[:, 2]) & (welded[:, 2] != welded[:, 0])
+    )
+    return np.ascontiguousarray(points[keep]), np.ascontiguousarray(welded[remaining]), remaining
+
+
+def _clusters(values: Floats, distance: float) -> Ints:
+    """Return numbers (N,) for values (N,): the same one where a chain of steps <= `distance` connects them."""
+    order = np.argsort(values, kind="stable")
+    numbers = np.zeros(len(values), dtype=np.int64)
+    numbers[order[1:]] = np.cumsum(np.diff(values[order]) > distance)
+    return numbers
+
+
+def is_closed(triangles: Ints) -> bool:
+    """Tell whether each edge is shared by exactly two triangles that run it in opposite directions."""
+    half = _half_edges(triangles)
+    forward = half[:, 0] < half[:, 1]
+    ahead, ahead_counts = np.unique(_keys(half[forward]), return_counts=True)
+    back, back_counts = np.unique(_keys(half[~forward][:, ::-1]), return_counts=True)
+    return (
+        len(triangles) > 0
+        and bool((ahead_counts == 1).all() and (back_counts == 1).all())
+        and np.array_equal(ahead, back)
+    )

@@ -1,0 +1,69 @@
+"""The whole job: plan, post, read back, verify, write."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from styluscam import _engine
+from styluscam.errors import VerifyError
+from styluscam.files import require_writable, write_all_whole
+from styluscam.job import Job
+from styluscam.judging import Report, judge_plan
+from styluscam.planning import Plan, Posted, output_name, plan, post
+from styluscam.types import Document, Progress
+
+
+@dataclass(frozen=True)
+class RunResult:
+    """What a run made: written unless the judge objected."""
+
+    plan: Plan
+    posted: Posted
+    report: Report
+    summary: Document
+    written: tuple[Path, ...]
+
+
+def run(
+    job: Job,
+    *,
+    write_despite_findings: bool = False,
+    progress: Progress | None = None,
+    cancel: _engine.CancelToken | None = None,
+) -> RunResult:
+    """Plans, posts, reads the text back, judges it, and writes it only if nothing was found.
+
+    The judge's figures go into the header: the text is posted again with them, and must hold the very same moves.
+    """
+    require_writable(_names(job))
+    planned = plan(job, progress=progress, cancel=cancel)
+    report = judge_plan(planned, post(planned).text, progress, cancel)
+    summary, notes = planned.summary(report.judgement)
+    posted = post(planned, notes=notes)
+    _require_same_moves(report, planned, posted)
+    written: tuple[Path, ...] = ()
+    if report.ok or write_despite_findings:
+        files = _outputs(job, planned, posted, notes)
+        write_all_whole(files)
+        written = tuple(files)
+    return RunResult(planned, posted, report, summary, written)
+
+
+def _require_same_moves(report: Report, planned: Plan, posted: Posted) -> None:
+    """Comments differ between the judged text and the written one; nothing else may."""
+    again = _engine.read_back(planned.job.engine, planned.machine.engine, posted.text)
+    if not again.same_moves(report.judgement.program):
+        raise VerifyError("the header changed the program's moves", code="internal", hint="please report this")
+
+
+def _outputs(job: Job, planned: Plan, posted: Posted, notes: list[str]) -> dict[Path, str]:
+    gcode, program = _names(job)
+    return {gcode: posted.text, program: planned.engine.program.with_notes(notes).to_json()}
+
+
+def _names(job: Job) -> tuple[Path, Path]:
+    """The G-code's file and the program's."""
+    gcode = job.folder / output_name(job)
+    named = job.document["output"]["program"]
+    return gcode, job.folder / named if named else gcode.with_suffix(".program.json")
