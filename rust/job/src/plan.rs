@@ -18,6 +18,9 @@ use crate::{
 const BRIDGE_SAMPLES: usize = 200;
 /// What is left for fitting must be at least this, mm, or paths would have millions of points.
 const LEAST_DEVIATION: f64 = 2e-4;
+/// Share of what is left that a chord may stray to either side; the rest is a reserve, because between the points that
+/// are checked a facetted surface strays a little more.
+const EACH_SIDE: f64 = 0.4;
 /// Links are ridden up to so many steps or stepovers.
 const RIDE: f64 = 4.0;
 
@@ -142,7 +145,7 @@ fn events_at_end(program: &Program, last: Option<&OperationSection>) -> Vec<Even
     kinds.into_iter().map(|kind| Event { before, kind }).collect()
 }
 
-/// How the tolerance is spent: what tessellation and rounding leave goes to fitting, half to either side.
+/// How the tolerance is spent: what tessellation and rounding leave goes to fitting, to either side.
 struct Budget {
     /// Chords stray by at most this to either side of the planned surface, mm.
     deviation: f64,
@@ -155,7 +158,7 @@ impl Budget {
         let tessellation = scene.inward + scene.outward;
         // half a unit in each of three axes
         let rounding = 0.5 * machine.resolution_mm() * 3.0_f64.sqrt();
-        let deviation = 0.5 * (section.tolerance - tessellation - rounding);
+        let deviation = EACH_SIDE * (section.tolerance - tessellation - rounding);
         if deviation < LEAST_DEVIATION {
             return Err(PlanError::Budget { tolerance: section.tolerance, tessellation, rounding });
         }
@@ -214,7 +217,7 @@ fn looks_up(scene: &Scene, triangle: usize) -> bool {
 fn steepest(scene: &Scene, selected: &[bool]) -> f64 {
     let slope = |t: usize| {
         let n = scene.mesh.normal(t);
-        n.z.clamp(-1.0, 1.0).acos()
+        libm::acos(n.z.clamp(-1.0, 1.0))
     };
     (0..selected.len()).filter(|t| selected[*t]).map(slope).fold(0.0, f64::max)
 }

@@ -11,7 +11,8 @@
 //!   the whole move is the minimum of one convex function per triangle. Only triangles that a
 //!   supporting plane of the swept body cannot keep away are measured.
 //! - *Depth* is measured along the triangle's normal where the tool's lowest point lies over the
-//!   triangle. Where the tool is in deeper than its own radius of curvature, depth is a lower bound.
+//!   triangle. Where the tool is in deeper than its own radius of curvature (at a sharp rim: anywhere),
+//!   the depth given is a lower bound; that it is in is certain.
 //! - *Excess* is sampled: at the start, the middle and the end of every contact move.
 //! - The tool is its profile, and above its base a straight cylinder upwards without end: so a tool
 //!   wholly inside the material still meets the surface above it. A shank of another diameter and the

@@ -200,7 +200,7 @@ fn text_faults_are_found() {
 fn a_feed_move_from_an_unknown_place_is_found() {
     let (part, tool) = (part(true), ball(8.0));
     let program = levels(&tool, true, None).path().program(&tool);
-    let tools = [tool.clone()];
+    let tools = [tool];
     let mut subject = part.subject(&tools);
     subject.first_placed_move = 3;
     let report = judge(&program, &subject, &limits(), &Watch::default()).unwrap();
@@ -212,7 +212,7 @@ fn a_feed_move_from_an_unknown_place_is_found() {
 fn the_meshs_own_error_counts_against_the_program() {
     let (part, tool) = (part(true), ball(8.0));
     let program = levels(&tool, true, None).path().program(&tool);
-    let tools = [tool.clone()];
+    let tools = [tool];
     let mut subject = part.subject(&tools);
     let bare = judge(&program, &subject, &limits(), &Watch::default()).unwrap();
     subject.deviation_inward = 0.004;
@@ -229,7 +229,7 @@ fn a_program_that_need_not_touch_is_only_held_clear() {
     let mut program = levels(&tool, true, None).path().program(&tool);
     program.moves.iter_mut().for_each(|m| m.end[2] += 1.0);
     let free = Limits { excess: None, ..limits() };
-    let tools = [tool.clone()];
+    let tools = [tool];
     let report = judge(&program, &part.subject(&tools), &free, &Watch::default()).unwrap();
     assert!(report.ok && report.contacts.is_empty());
     program.moves[500].end[2] -= 1.5;

@@ -64,14 +64,21 @@ impl Bvh {
         Self { nodes, order: items.iter().map(|i| i.triangle).collect() }
     }
 
+    /// All nodes, parents before children.
+    #[must_use]
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
     /// Searches for the triangle of largest value, starting from `best`.
     ///
-    /// `bound` must not be below the value of any triangle in the node; `visit` is given a triangle and the best value
-    /// so far and returns the better of the two. Nodes are entered in order of their bounds.
+    /// `bound` is given a node, its index and the best value so far, and must not be below the value of any triangle in
+    /// the node; `visit` is given a triangle and the best value so far and returns the better of the two. Of two
+    /// children the one of the higher bound is entered first.
     pub fn maximise(
         &self,
         best: f64,
-        mut bound: impl FnMut(&Node, f64) -> f64,
+        mut bound: impl FnMut(usize, &Node, f64) -> f64,
         mut visit: impl FnMut(u32, f64) -> f64,
     ) -> f64 {
         let mut best = best;
@@ -92,8 +99,8 @@ impl Bvh {
                 continue;
             }
             let (first, second) = (index + 1, node.start);
-            let a = (first, bound(&self.nodes[first as usize], best));
-            let b = (second, bound(&self.nodes[second as usize], best));
+            let a = (first, bound(first as usize, &self.nodes[first as usize], best));
+            let b = (second, bound(second as usize, &self.nodes[second as usize], best));
             let (near, far) = if a.1 >= b.1 { (a, b) } else { (b, a) };
             for child in [far, near] {
                 if child.1 >= best {
@@ -109,7 +116,7 @@ impl Bvh {
     pub fn overlapping(&self, mut touches: impl FnMut(&Node) -> bool, mut visit: impl FnMut(u32)) {
         self.maximise(
             0.0,
-            |node, _| if touches(node) { 1.0 } else { -1.0 },
+            |_, node, _| if touches(node) { 1.0 } else { -1.0 },
             |triangle, best| {
                 visit(triangle);
                 best
@@ -123,7 +130,7 @@ impl Item {
         let [a, b, c] = mesh.corners(i);
         let centre = (a + b + c) / 3.0;
         let normal = (b - a).cross(&(c - a));
-        let steepness = normal.x.hypot(normal.y);
+        let steepness = libm::hypot(normal.x, normal.y);
         // in plan, where the tool looks from; walls keep their direction, but not their infinite gradient
         let scale = if normal.z.abs() * STEEPEST > steepness {
             -1.0 / normal.z

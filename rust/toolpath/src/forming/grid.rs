@@ -62,6 +62,15 @@ impl Grid {
         self.contacts[row * self.columns + column].is_some_and(|c| c.tip > z)
     }
 
+    /// Where the level `z` most likely is between two nodes, as a share of the way: on the straight line between their tips.
+    pub(super) fn share_at(&self, above: (usize, usize), free: (usize, usize), z: f64) -> f64 {
+        let tip = |(column, row): (usize, usize)| self.contacts[row * self.columns + column].map(|c| c.tip);
+        match (tip(above), tip(free)) {
+            (Some(high), Some(low)) if high > low => ((high - z) / (high - low)).clamp(0.01, 0.99),
+            _ => 0.5,
+        }
+    }
+
     /// Lowest and highest tip among the nodes whose contact is selected.
     #[must_use]
     pub fn selected_range(&self, surface: &Surface<'_>) -> Option<(f64, f64)> {

@@ -4,13 +4,16 @@ use styluscam_geometry::Vector;
 
 use crate::{PathPoint, Surface};
 
-/// A point counts as on the level within this distance along the normal, mm.
-const ON_LEVEL: f64 = 1e-9;
-/// Steps at most; Newton takes three to five, bisection across a jump thirty-five.
+/// A point counts as on the level within this distance along the normal, mm: a thousandth of what is posted.
+const ON_LEVEL: f64 = 1e-7;
+/// Steps at most; Newton takes two or three, bisection across a jump thirty.
 const STEPS: usize = 60;
+/// Steps from a chord's middle before a bracket is sought; one does, on a smooth surface.
+const FREE_STEPS: usize = 3;
 
 /// A place in plan.
 pub type Place = [f64; 2];
+type Plan = nalgebra::Vector2<f64>;
 
 /// The level set of one height, asked along straight lines in plan.
 pub struct LevelCurve<'a> {
@@ -37,11 +40,12 @@ impl<'a> LevelCurve<'a> {
     ///
     /// The contact gives the slope, hence Newton's step along the line; a step out of the bracket is replaced by
     /// bisection, which also settles on the jump at the part's border. The point lies on the free side of it.
-    pub fn crossing(&mut self, above: Place, free: Place) -> Option<PathPoint> {
+    /// `guess` is where to look first, as a share of the way.
+    pub fn crossing(&mut self, above: Place, free: Place, guess: f64) -> Option<PathPoint> {
         let along = [free[0] - above[0], free[1] - above[1]];
-        let length = along[0].hypot(along[1]);
+        let length = libm::hypot(along[0], along[1]);
         let (mut low, mut high) = (0.0, 1.0);
-        let mut share = 0.5;
+        let mut share = guess;
         let mut last_above = None;
         for _ in 0..STEPS {
             let place = [above[0] + share * along[0], above[1] + share * along[1]];
@@ -82,25 +86,43 @@ impl<'a> LevelCurve<'a> {
 
     /// The point of the level nearest to the middle of a chord: along the slope there, as far as the chord is long.
     pub fn between(&mut self, a: &PathPoint, b: &PathPoint) -> Option<PathPoint> {
-        let middle = (a.tip + b.tip) * 0.5;
-        let start = self.at([middle.x, middle.y]);
-        if let Some(p) = start.filter(|p| (p.tip.z - self.z).abs() * p.normal.z < ON_LEVEL) {
-            return Some(self.levelled(p));
+        let middle = ((a.tip + b.tip) * 0.5).xy();
+        let reach = (b.tip - a.tip).norm();
+        self.stepped(middle, reach).or_else(|| self.bracketed(a, b, middle, reach))
+    }
+
+    /// By Newton's steps alone; none when they leave the reach or take too long.
+    fn stepped(&mut self, middle: Plan, reach: f64) -> Option<PathPoint> {
+        let mut place = middle;
+        for _ in 0..=FREE_STEPS {
+            let point = self.at([place.x, place.y])?;
+            if (point.tip.z - self.z).abs() * point.normal.z < ON_LEVEL {
+                return Some(self.levelled(point));
+            }
+            let outward = point.normal.xy().try_normalize(1e-9)?;
+            place += outward * self.newton_step(&point, [outward.x, outward.y])?;
+            if (place - middle).norm() > reach {
+                return None;
+            }
         }
+        None
+    }
+
+    /// By walking to the other side of the level first.
+    fn bracketed(&mut self, a: &PathPoint, b: &PathPoint, middle: Plan, reach: f64) -> Option<PathPoint> {
+        let here = [middle.x, middle.y];
+        let start = self.at(here);
         let outward = start.map_or(a.normal, |p| p.normal).xy();
         let outward = if outward.norm() > 1e-9 { outward } else { (a.normal + b.normal).xy() };
         let outward = outward.try_normalize(1e-12)?;
         let is_above = start.is_some_and(|p| p.tip.z > self.z);
-        let reach = (b.tip - a.tip).norm();
-        let towards = |d: f64| [middle.x + d * outward.x, middle.y + d * outward.y];
-        let newton = start.and_then(|p| self.newton_step(&p, [outward.x, outward.y])).unwrap_or(reach);
-        // just past Newton's point, then twice as far each time, until the other side is reached
-        let mut distance = (1.5 * newton.abs()).clamp(1e-9, reach);
+        let mut distance = (1e-3 * reach).max(1e-9);
         loop {
-            let other = towards(if is_above { distance } else { -distance });
+            let side = if is_above { distance } else { -distance };
+            let other = [middle.x + side * outward.x, middle.y + side * outward.y];
             if self.is_above(other) != is_above {
-                let here = [middle.x, middle.y];
-                return if is_above { self.crossing(here, other) } else { self.crossing(other, here) };
+                let (above, free) = if is_above { (here, other) } else { (other, here) };
+                return self.crossing(above, free, 0.5);
             }
             if distance >= reach {
                 return None;

@@ -78,7 +78,8 @@ fn crossings(curve: &mut LevelCurve<'_>, grid: &Grid, chain: &contour::Chain, z:
         let [a, b] = edge.nodes();
         let above = grid.is_above(a.0, a.1, z);
         let (above, free) = if above { (a, b) } else { (b, a) };
-        curve.crossing(grid.place(above.0, above.1), grid.place(free.0, free.1))
+        let guess = grid.share_at(above, free, z);
+        curve.crossing(grid.place(above.0, above.1), grid.place(free.0, free.1), guess)
     };
     let mut points: Vec<PathPoint> = chain.edges.iter().filter_map(crossing).collect();
     if chain.closed {

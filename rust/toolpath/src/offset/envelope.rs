@@ -64,6 +64,18 @@ struct Facet {
     overhang: [f64; 3],
 }
 
+/// The plane over a node, made ready for one cutter.
+#[derive(Clone, Copy)]
+struct NodePlane {
+    gradient: [f64; 2],
+    /// Where the cutter would touch the plane, relative to the axis, in plan.
+    offset: [f64; 2],
+    /// Tip height over (0, 0) with the cutter on the plane: no tip in the node is above it.
+    lift: f64,
+    /// What of `lift` is the cutter's: tip over the plane at the axis.
+    peak: f64,
+}
+
 /// A mesh and a tool (with sheet and margin), ready to be asked.
 pub struct Envelope<'a> {
     mesh: &'a Mesh,
@@ -74,6 +86,7 @@ pub struct Envelope<'a> {
     /// What the cutter is grown by beyond tool and sheet.
     margin: f64,
     facets: Vec<Facet>,
+    planes: Vec<NodePlane>,
     owned: Vec<Owned>,
     neighbours: Vec<Neighbours>,
     slack: f64,
@@ -103,9 +116,21 @@ impl<'a> Envelope<'a> {
             .into_par_iter()
             .map(|t| Facet::of(mesh, t, &cutter, OVERHANG * reach))
             .collect();
+        let planes = bvh.nodes().par_iter().map(|node| NodePlane::of(node, &cutter)).collect();
         let (owned, neighbours) = features::of(mesh);
         let slack = SLACK * reach;
-        Self { mesh, bvh, cutter, above: Tool::tip_above(sheet, margin), margin, facets, owned, neighbours, slack }
+        Self {
+            mesh,
+            bvh,
+            cutter,
+            above: Tool::tip_above(sheet, margin),
+            margin,
+            facets,
+            planes,
+            owned,
+            neighbours,
+            slack,
+        }
     }
 
     /// The cutter: tool, sheet and margin as one.
@@ -135,7 +160,7 @@ impl<'a> Envelope<'a> {
         let start = found.tip;
         self.bvh.maximise(
             start,
-            |node, _| self.bound(node, x, y),
+            |index, node, best| self.bound(index, node, x, y, best),
             |triangle, _| {
                 self.try_triangle(triangle, x, y, &mut found);
                 found.tip
@@ -195,41 +220,40 @@ impl<'a> Envelope<'a> {
         triangle
     }
 
-    /// A tip height that no triangle of the node exceeds by more than the slack.
-    ///
+    /// A tip height that no triangle of the node exceeds by more than the slack, or any below `best`.
+    #[inline]
+    fn bound(&self, index: usize, node: &Node, x: f64, y: f64, best: f64) -> f64 {
+        let plane = &self.planes[index];
+        let free = plane.lift + plane.gradient[0] * x + plane.gradient[1] * y - self.slack;
+        if free < best {
+            return free;
+        }
+        let dx = (node.low.x - x).max(x - node.high.x).max(0.0);
+        let dy = (node.low.y - y).max(y - node.high.y).max(0.0);
+        let by_box = node.high.z - self.cutter.height_bound((dx * dx + dy * dy).sqrt()) - self.slack;
+        if by_box < best {
+            return by_box;
+        }
+        by_box.min(free).min(self.bound_in_box(plane, node, x, y) - self.slack)
+    }
+
     /// For a point p of the node under a plane of gradient g, tip <= plane(p) - Z(|p - axis|). The best p of the plane
     /// is where the profile has slope g; clamped into the box (q), the function, concave in p, lies
     /// below its tangent at q. Z is replaced by a line below it, which only raises the bound.
     #[inline]
-    fn bound(&self, node: &Node, x: f64, y: f64) -> f64 {
-        let dx = (node.low.x - x).max(x - node.high.x).max(0.0);
-        let dy = (node.low.y - y).max(y - node.high.y).max(0.0);
-        let nearest = (dx * dx + dy * dy).sqrt();
-        if nearest > self.cutter.max_radius() {
-            return f64::NEG_INFINITY;
-        }
-        let by_box = node.high.z - self.cutter.height_bound(nearest);
-        by_box.min(self.bound_by_plane(node, x, y)) - self.slack
-    }
-
-    #[inline]
-    fn bound_by_plane(&self, node: &Node, x: f64, y: f64) -> f64 {
-        let [gx, gy] = node.gradient;
-        let steepness = (gx * gx + gy * gy).sqrt();
-        let reach = self.cutter.radius_of_rise(steepness);
-        let share = if steepness > 0.0 { reach / steepness } else { 0.0 };
-        let px = (x + share * gx).clamp(node.low.x, node.high.x);
-        let py = (y + share * gy).clamp(node.low.y, node.high.y);
+    fn bound_in_box(&self, plane: &NodePlane, node: &Node, x: f64, y: f64) -> f64 {
+        let [gx, gy] = plane.gradient;
+        let px = (x + plane.offset[0]).clamp(node.low.x, node.high.x);
+        let py = (y + plane.offset[1]).clamp(node.low.y, node.high.y);
         let (rx, ry) = (px - x, py - y);
         let distance = (rx * rx + ry * ry).sqrt();
         let line = self.cutter.supporting_line(distance);
-        let [mx, my] = node.middle();
-        let plane = node.lift + gx * (px - mx) + gy * (py - my);
         let fall = if distance > 0.0 { line.rise / distance } else { 0.0 };
         let (tx, ty) = (gx - fall * rx, gy - fall * ry);
         let rest_x = if tx > 0.0 { node.high.x - px } else { node.low.x - px };
         let rest_y = if ty > 0.0 { node.high.y - py } else { node.low.y - py };
-        plane - (line.height + line.rise * (distance - line.radius)) + tx * rest_x + ty * rest_y
+        let height = plane.lift - plane.peak + gx * px + gy * py;
+        height - (line.height + line.rise * (distance - line.radius)) + tx * rest_x + ty * rest_y
     }
 
     #[inline]
@@ -272,13 +296,13 @@ impl<'a> Envelope<'a> {
     #[must_use]
     pub fn gap(&self, point: Vector, x: f64, y: f64, tip: f64) -> f64 {
         let height = point.z - (tip - self.above);
-        self.cutter.distance((point.x - x).hypot(point.y - y), height).0 + self.margin
+        self.cutter.distance(libm::hypot(point.x - x, point.y - y), height).0 + self.margin
     }
 
     fn contact_of(&self, best: &Best, x: f64, y: f64) -> Contact {
         let (sin, cos) = libm::sincos(best.slope);
         let [cx, cy] = best.contact;
-        let distance = (x - cx).hypot(y - cy);
+        let distance = libm::hypot(x - cx, y - cy);
         let outward = if distance > 0.0 { [(x - cx) / distance, (y - cy) / distance] } else { [0.0; 2] };
         let height = best.tip + self.cutter.point_at(best.slope).1;
         Contact {
@@ -354,6 +378,23 @@ impl Best {
     }
 }
 
+impl NodePlane {
+    fn of(node: &Node, cutter: &Cutter) -> Self {
+        let [gx, gy] = node.gradient;
+        let steepness = (gx * gx + gy * gy).sqrt();
+        let (r, z) = cutter.point_at(libm::atan(steepness));
+        let share = if steepness > 0.0 { r / steepness } else { 0.0 };
+        let [mx, my] = node.middle();
+        let peak = steepness * r - z;
+        Self {
+            gradient: node.gradient,
+            offset: [share * gx, share * gy],
+            lift: node.lift - gx * mx - gy * my + peak,
+            peak,
+        }
+    }
+}
+
 impl Facet {
     fn of(mesh: &Mesh, triangle: usize, cutter: &Cutter, overhang: f64) -> Self {
         let [a, b, c] = mesh.corners(triangle);
@@ -363,7 +404,7 @@ impl Facet {
         if normal.z < 0.0 {
             normal = -normal; // a tool from above meets the upper side of the point set
         }
-        let across = normal.x.hypot(normal.y);
+        let across = libm::hypot(normal.x, normal.y);
         let slope = libm::atan2(across, normal.z);
         let (r, height) = cutter.point_at(slope);
         let outward = if across > 0.0 { [normal.x / across, normal.y / across] } else { [0.0; 2] };
@@ -376,7 +417,7 @@ impl Facet {
             inverse: [[v.y / determinant, -v.x / determinant], [-u.y / determinant, u.x / determinant]],
             height: if wall { f64::NAN } else { height },
             slope,
-            overhang: [v, u, v - u].map(|side| overhang * side.x.hypot(side.y) / determinant.abs()),
+            overhang: [v, u, v - u].map(|side| overhang * libm::hypot(side.x, side.y) / determinant.abs()),
         }
     }
 

@@ -4,8 +4,6 @@
 //! a facet does not carry as well, and is left out. Every other edge is tried once, by the
 //! first triangle that has it. Corners are tried by all their triangles: they cost little and are good first tips.
 
-use std::collections::HashMap;
-
 use rayon::prelude::*;
 use styluscam_geometry::Mesh;
 
@@ -29,18 +27,19 @@ pub fn of(mesh: &Mesh) -> (Vec<Owned>, Vec<Neighbours>) {
 }
 
 fn neighbours(mesh: &Mesh) -> Vec<Neighbours> {
-    let mut sides: HashMap<(u32, u32), Vec<(u32, u8)>> = HashMap::with_capacity(mesh.triangles().len() * 3 / 2);
-    for (t, triangle) in mesh.triangles().iter().enumerate() {
-        for i in 0..3 {
-            let (a, b) = (triangle[i], triangle[(i + 1) % 3]);
-            sides.entry((a.min(b), a.max(b))).or_default().push((t as u32, i as u8));
-        }
-    }
+    let mut sides: Vec<(u32, u32, u32, u8)> = (0..mesh.triangles().len() as u32)
+        .into_par_iter()
+        .flat_map_iter(|t| {
+            let [a, b, c] = mesh.triangles()[t as usize];
+            [(a, b, 0), (b, c, 1), (c, a, 2)].map(|(p, q, i)| (p.min(q), p.max(q), t, i))
+        })
+        .collect();
+    sides.par_sort_unstable();
     let mut out = vec![[NO_NEIGHBOUR; 3]; mesh.triangles().len()];
-    for pair in sides.values() {
-        if let [(t, i), (u, j)] = pair[..] {
-            out[t as usize][i as usize] = u;
-            out[u as usize][j as usize] = t;
+    for meeting in sides.chunk_by(|m, n| (m.0, m.1) == (n.0, n.1)) {
+        if let [(_, _, t, i), (_, _, u, j)] = meeting {
+            out[*t as usize][*i as usize] = *u;
+            out[*u as usize][*j as usize] = *t;
         }
     }
     out

@@ -21,7 +21,7 @@ pub enum OffsetFlag {
 /// On a floor r = 0 by symmetry: with a flat tip the axis stands over the point.
 #[must_use]
 pub fn slope_matched_offset(tool: &Tool, sheet: Option<&Sheet>, point: Vector, normal: Vector) -> (Vector, OffsetFlag) {
-    let across = normal.x.hypot(normal.y);
+    let across = libm::hypot(normal.x, normal.y);
     let slope = libm::atan2(across, normal.z);
     let flag = if normal.z < -1e-12 {
         OffsetFlag::Undercut

@@ -1,0 +1,477 @@
+"""Pictures of parts and paths (extra ``plot``): shaded by the exact normals, drawn with matplotlib."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from styluscam.errors import GeometryError, StylusError
+from styluscam.part import Part
+from styluscam.parts import PartArrays
+from styluscam.planning import Plan
+from styluscam.program import RAPID, Program
+from styluscam.raster import Raster, View, rasterise
+from styluscam.tool import Tool
+from styluscam.types import FloatArray, IntArray
+
+SIZE, DPI = (1200, 800), 100
+FINER = 2
+"""Pixels are computed at this many times the size and averaged: smooth edges."""
+STEEL, BRASS = (0.80, 0.83, 0.87), (0.93, 0.76, 0.42)
+PASTELS = (
+    (0.96, 0.80, 0.66), (0.70, 0.83, 0.93), (0.78, 0.90, 0.70), (0.93, 0.75, 0.80), (0.84, 0.78, 0.93),
+    (0.97, 0.91, 0.66), (0.68, 0.89, 0.86), (0.90, 0.83, 0.74),
+)  # fmt: skip
+"""Neighbours in the numbering differ."""
+INK, SOFT = "#1f2933", "#7b8794"
+LIGHT = np.array([-0.45, 0.55, 0.70])
+"""Towards the lamp: right, up and towards the eye."""
+LABELS = 60
+"""Names on one picture at most: the largest faces get theirs."""
+
+
+@dataclass(frozen=True, eq=False)
+class Solid:
+    """What is drawn: triangles with normals at their corners (T, 3, 3) and a face number each."""
+
+    vertices: FloatArray
+    triangles: IntArray
+    normals: FloatArray
+    faces: IntArray
+
+    @classmethod
+    def of(cls, arrays: PartArrays, frame: FloatArray | None = None) -> Solid:
+        """A part, moved by the rows (3, 4) of ``frame``."""
+        if frame is None:
+            return cls(arrays.vertices, arrays.triangles, arrays.normals, arrays.face_ids)
+        turn = frame[:, :3]
+        return cls(arrays.vertices @ turn.T + frame[:, 3], arrays.triangles, arrays.normals @ turn.T, arrays.face_ids)
+
+    def with_tool(self, tool: Tool, tip: FloatArray, top: float) -> Solid:
+        """The same with a tool standing at ``tip`` (3,), its shank ending at the height ``top``; it is face 0."""
+        vertices, triangles, normals = _revolved(tool, max(top - float(tip[2]), 2.0 * tool.diameter))
+        return Solid(
+            np.concatenate([self.vertices, vertices + tip]),
+            np.concatenate([self.triangles, triangles + len(self.vertices)]),
+            np.concatenate([self.normals, normals]),
+            np.concatenate([self.faces, np.zeros(len(triangles), dtype=np.int64)]),
+        )
+
+    @property
+    def box(self) -> FloatArray:
+        """Lower and upper corner, (2, 3)."""
+        return np.array([self.vertices.min(axis=0), self.vertices.max(axis=0)])
+
+
+def part_picture(part: Part | PartArrays, path: str | Path) -> None:
+    """Draws a part from above and from below, each face with its name where it is seen; PNG, 1200 x 800.
+
+    Raises:
+        StylusError: matplotlib is missing, or the file cannot be written.
+        GeometryError: the part is nothing but an engine's mesh.
+    """
+    arrays = _arrays(part)
+    solid = Solid.of(arrays)
+    views = [View(-58.0, 52.0, SIZE[0] // 2, 660), View(122.0, -30.0, SIZE[0] // 2, 660)]
+    frames = [view.framed(solid.vertices, 42.0) for view in views]
+    scale = min(view.scale for view in frames)
+    frames = [View(v.azimuth_deg, v.elevation_deg, v.width, v.height, scale, v.middle) for v in frames]
+    rasters = [rasterise(view.finer(FINER), solid.vertices, solid.triangles) for view in frames]
+    names = {face.id: face.name for face in arrays.faces}
+    shown = _shares(rasters, solid.faces)
+
+    figure = _figure()
+    for column, (view, raster) in enumerate(zip(frames, rasters, strict=True)):
+        axes = _pane(figure, (column * 600, 60, 600, 660))
+        axes.imshow(_shaded(view, raster, solid, by_face=True), extent=(0, view.width, view.height, 0))
+        _triad(axes, view)
+        numbers = [face for face, best in shown.items() if best == column]
+        _name_faces(axes, raster, solid.faces, {face: names.get(face, f"Face{face}") for face in numbers})
+        axes.text(300, 22, ("from above", "from below")[column], ha="center", va="center", color=SOFT, fontsize=11)
+    low, high = solid.box
+    size = " x ".join(f"{b - a:.4g}" for a, b in zip(low, high, strict=True))
+    figure.text(0.5, 0.955, Path(arrays.source).name, ha="center", va="center", color=INK, fontsize=16, weight="bold")
+    figure.text(0.5, 0.915, f"{size} mm, {len(names)} faces", ha="center", va="center", color=SOFT, fontsize=12)
+    unseen = [name for face, name in names.items() if face not in shown]
+    if unseen:
+        listed = ", ".join(unseen[:12]) + (f" and {len(unseen) - 12} more" if len(unseen) > 12 else "")
+        figure.text(0.5, 0.03, f"not seen from here: {listed}", ha="center", va="center", color=SOFT, fontsize=10)
+    _save(figure, Path(path))
+
+
+def program_picture(
+    part: Part | PartArrays,
+    program: Program,
+    path: str | Path,
+    frame: npt.ArrayLike | None = None,
+    tool: Tool | None = None,
+) -> None:
+    """Draws a part and the path of a tool's tip over it, coloured by Z; PNG, 1200 x 800.
+
+    ``frame`` holds the rows (3, 4) from the part's coordinates to the program's. What the part hides of the path
+    is left out; rapids are thin. ``tool`` is drawn where it stands halfway.
+
+    Raises:
+        StylusError: matplotlib is missing, or the file cannot be written.
+        GeometryError: the part is nothing but an engine's mesh.
+    """
+    arrays = _arrays(part)
+    solid = Solid.of(arrays, None if frame is None else np.asarray(frame, dtype=np.float64))
+    view = View(-62.0, 54.0, SIZE[0] - 120, SIZE[1] - 80)
+    box, tip = solid.box, _halfway(program, view)
+    view = view.framed(_corners(box), 62.0)
+    if tool is not None and tip is not None:
+        solid = solid.with_tool(tool, tip, box[1, 2] + 0.2 * float(np.linalg.norm(box[1] - box[0])))
+    raster = rasterise(view.finer(FINER), solid.vertices, solid.triangles)
+
+    figure = _figure()
+    axes = _pane(figure, (0, 0, view.width, view.height))
+    axes.imshow(_shaded(view, raster, solid, by_face=False), extent=(0, view.width, view.height, 0))
+    _rulers(axes, view, box)
+    drawn = _path(axes, view, raster, program, box)
+    _titles(figure, program)
+    if drawn is not None:
+        _scale(figure, drawn)
+    _save(figure, Path(path))
+
+
+def plan_picture(plan: Plan, path: str | Path) -> None:
+    """As :func:`program_picture`, for a plan's part and program."""
+    program = plan.programs["main"]
+    section = plan.job.document["tools"][program.tools[0]["name"]] if program.tools else None
+    keys = ("profile", "shank_diameter", "length")
+    tool = Tool.from_dict({key: section[key] for key in keys if key in section}) if section else None
+    program_picture(plan.job.part(), program, path, plan.scene.frame, tool)
+
+
+def _arrays(part: Part | PartArrays) -> PartArrays:
+    arrays = part.arrays if isinstance(part, Part) else part
+    if arrays is None:
+        message = "a part made from arrays keeps none to draw: read it from a file"
+        raise GeometryError(message, code="no-arrays", hint="use Part.read or Part.from_arrays")
+    return arrays
+
+
+# --- the canvas ----------------------------------------------------------------------------------------------------
+
+
+def _figure() -> Any:
+    try:
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+    except ImportError as error:
+        message = "pictures need matplotlib: pip install 'styluscam[plot]'"
+        raise StylusError(message, code="extra-plot", hint="pip install 'styluscam[plot]'") from error
+    figure = Figure(figsize=(SIZE[0] / DPI, SIZE[1] / DPI), dpi=DPI, facecolor="white")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def _pane(figure: Any, place: tuple[int, int, int, int]) -> Any:
+    """Axes whose data are pixels, right and down; ``place`` is left, bottom, width, height."""
+    left, bottom, width, height = place
+    axes = figure.add_axes((left / SIZE[0], bottom / SIZE[1], width / SIZE[0], height / SIZE[1]))
+    axes.set(xlim=(0, width), ylim=(height, 0))
+    axes.set_axis_off()
+    axes.set_autoscale_on(False)
+    return axes
+
+
+def _save(figure: Any, path: Path) -> None:
+    """Writes the PNG to a temporary name and renames it; without the name of the program that made it."""
+    from styluscam.files import require_writable
+
+    require_writable([path])
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    os.close(handle)
+    try:
+        figure.savefig(name, format="png", dpi=DPI, metadata={"Software": None})
+        os.chmod(name, 0o644)
+        os.replace(name, path)
+    except BaseException:
+        os.unlink(name)
+        raise
+
+
+# --- the part ------------------------------------------------------------------------------------------------------
+
+
+def _shaded(view: View, raster: Raster, solid: Solid, by_face: bool) -> npt.NDArray[np.float64]:
+    """The image (H, W, 4): lit surfaces, dark lines where faces meet, nothing where there is no part."""
+    hit = raster.triangle >= 0
+    triangle = raster.triangle[hit]
+    normals = np.einsum("pk,pkc->pc", raster.weights[hit], solid.normals[triangle]) @ view.axes.T
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    normals *= np.where(normals[:, 2:] < 0.0, -1.0, 1.0)
+    faces = solid.faces[triangle]
+    base = np.array(PASTELS)[faces % len(PASTELS)] if by_face else np.where(faces[:, None] > 0, STEEL, BRASS)
+    image = np.zeros((*hit.shape, 4))
+    image[hit, :3] = np.clip(base * _light(normals)[:, None] + _gloss(normals)[:, None], 0.0, 1.0)
+    image[hit, 3] = 1.0
+    edge = _borders(np.where(hit, solid.faces[np.where(hit, raster.triangle, 0)], -1))
+    image[edge] = np.where(hit[edge][:, None], image[edge] * [0.35, 0.37, 0.40, 1.0], [0.3, 0.33, 0.37, 1.0])
+    return _averaged(image)
+
+
+def _light(normals: FloatArray) -> FloatArray:
+    lamp = LIGHT / np.linalg.norm(LIGHT)
+    return np.asarray(0.46 + 0.42 * np.clip(normals @ lamp, 0.0, None) + 0.16 * normals[:, 2])
+
+
+def _gloss(normals: FloatArray) -> FloatArray:
+    half = LIGHT / np.linalg.norm(LIGHT) + np.array([0.0, 0.0, 1.0])
+    return np.asarray(0.10 * np.clip(normals @ (half / np.linalg.norm(half)), 0.0, None) ** 24)
+
+
+def _borders(faces: IntArray) -> npt.NDArray[np.bool_]:
+    """Pixels (H, W) beside another face."""
+    edge = np.zeros(faces.shape, dtype=bool)
+    for axis in (0, 1):
+        differs = np.diff(faces, axis=axis) != 0
+        ahead = (slice(1, None), slice(None)) if axis == 0 else (slice(None), slice(1, None))
+        behind = (slice(None, -1), slice(None)) if axis == 0 else (slice(None), slice(None, -1))
+        edge[ahead] |= differs
+        edge[behind] |= differs
+    return edge
+
+
+def _averaged(image: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """Blocks of pixels become one; colour counts as much as it covers."""
+    height, width = image.shape[0] // FINER, image.shape[1] // FINER
+    image = image.copy()
+    image[..., :3] *= image[..., 3:]
+    small: npt.NDArray[np.float64] = image.reshape(height, FINER, width, FINER, 4).mean(axis=(1, 3))
+    small[..., :3] /= np.maximum(small[..., 3:], 1e-9)
+    return np.clip(small, 0.0, 1.0)
+
+
+# --- names of faces ------------------------------------------------------------------------------------------------
+
+
+def _shares(rasters: Sequence[Raster], faces: IntArray) -> dict[int, int]:
+    """Each visible face, largest first, with the picture that shows most of it."""
+    size = int(faces.max()) + 1
+    counts = np.array([np.bincount(faces[r.triangle[r.triangle >= 0]], minlength=size) for r in rasters])
+    order = np.argsort(-counts.max(axis=0), kind="stable")
+    visible = [int(face) for face in order if counts[:, face].max() > 8 * FINER * FINER]
+    return {face: int(counts[:, face].argmax()) for face in visible}
+
+
+def _name_faces(axes: Any, raster: Raster, faces: IntArray, names: dict[int, str]) -> None:
+    """Each face's name on it where it fits, else beside it with a line to it; names do not overlap."""
+    seen = np.where(raster.triangle >= 0, faces[np.where(raster.triangle >= 0, raster.triangle, 0)], 0)
+    coarse = 4 * FINER
+    seen = seen[coarse // 2 :: coarse, coarse // 2 :: coarse]
+    spots = {face: _spot(seen == face) for face in list(names)[:LABELS]}
+    limits = (axes.get_xlim()[1], axes.get_ylim()[0])
+    taken = [(4.0 * spot[0][0] + 2.0, 4.0 * spot[0][1] + 2.0, 2.0, 2.0) for spot in spots.values() if spot is not None]
+    for face, spot in spots.items():
+        if spot is None:
+            continue
+        x, y, room = 4.0 * spot[0][0] + 2.0, 4.0 * spot[0][1] + 2.0, 4.0 * spot[1]
+        half = (4.2 * len(names[face]) + 4.0, 10.0)
+        taken.remove((x, y, 2.0, 2.0))
+        at = _free_place((x, y), room, half, taken, limits)
+        taken += [(x, y, 2.0, 2.0), (at[0], at[1], *half)]
+        style = {"boxstyle": "round,pad=0.25", "facecolor": "white", "edgecolor": SOFT, "linewidth": 0.6, "alpha": 0.92}
+        if at != (x, y):
+            axes.plot([x, at[0]], [y, at[1]], color=INK, linewidth=0.8, zorder=3)
+            axes.plot([x], [y], marker="o", markersize=3.0, color=INK, zorder=4)
+        axes.text(*at, names[face], ha="center", va="center", fontsize=9, color=INK, bbox=style, zorder=5)
+
+
+def _spot(mask: npt.NDArray[np.bool_]) -> tuple[tuple[int, int], int] | None:
+    """The column and row farthest inside a mask, and how far inside that is."""
+    if not mask.any():
+        return None
+    depth, inside = 0, np.pad(mask, 1)
+    last = inside
+    while inside.any():
+        last, depth = inside, depth + 1
+        cross = inside[1:-1, :-2] & inside[1:-1, 2:] & inside[:-2, 1:-1] & inside[2:, 1:-1] & inside[1:-1, 1:-1]
+        inside = np.pad(cross, 1)
+    rows, columns = np.nonzero(last[1:-1, 1:-1])
+    nearest = int(np.argmin((rows - rows.mean()) ** 2 + (columns - columns.mean()) ** 2))
+    return (int(columns[nearest]), int(rows[nearest])), depth
+
+
+def _free_place(
+    spot: tuple[float, float],
+    room: float,
+    half: tuple[float, float],
+    taken: list[tuple[float, float, float, float]],
+    limits: tuple[float, float],
+) -> tuple[float, float]:
+    """The spot itself, or the nearest place around it that is free."""
+
+    def free(x: float, y: float) -> bool:
+        inside = half[0] < x < limits[0] - half[0] and half[1] < y < limits[1] - half[1]
+        return inside and all(abs(x - tx) > half[0] + tw + 3 or abs(y - ty) > half[1] + th + 3 for tx, ty, tw, th in taken)
+
+    if room >= half[1] and free(*spot):
+        return spot
+    for radius in range(26, 400, 12):
+        for turn in np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False):
+            x, y = spot[0] + 1.4 * radius * np.cos(turn), spot[1] + radius * np.sin(turn)
+            if free(x, y):
+                return float(x), float(y)
+    return spot
+
+
+def _triad(axes: Any, view: View) -> None:
+    """Where X, Y and Z point."""
+    origin = np.array([46.0, view.height - 46.0])
+    for vector, name, color in zip(np.eye(3), "XYZ", ("#c0392b", "#2e8b57", "#2563eb"), strict=True):
+        right, up, _ = view.axes @ vector
+        tip = origin + 32.0 * np.array([right, -up])
+        axes.annotate("", tip, origin, arrowprops={"arrowstyle": "-|>", "color": color, "lw": 1.6, "shrinkA": 0, "shrinkB": 0})
+        axes.text(*(origin + 42.0 * np.array([right, -up])), name, color=color, ha="center", va="center", fontsize=9)
+
+
+# --- the path ------------------------------------------------------------------------------------------------------
+
+
+def _halfway(program: Program, view: View) -> FloatArray | None:
+    """Halfway along the path, and at that depth where the tool hides least: at the back."""
+    ends = program.positions[program.moves["kind"] != RAPID]
+    ends = ends[np.isfinite(ends).all(axis=1)]
+    if not len(ends):
+        return None
+    level = ends[len(ends) // 3]
+    same = ends[np.abs(ends[:, 2] - level[2]) < 1e-6]
+    right, up, towards = view.axes
+    return np.asarray(same[int(np.argmax(same @ (0.6 * right - towards)))])
+
+
+def _revolved(tool: Tool, height: float) -> tuple[FloatArray, IntArray, FloatArray]:
+    """A tool with its tip at the origin: vertices, triangles, normals at their corners."""
+    slopes = np.linspace(0.0, tool.max_slope, 40)
+    radii, heights = tool.radius_at(slopes), tool.height_at(slopes)
+    slopes = np.concatenate([slopes, [np.pi / 2.0, np.pi / 2.0]])
+    radii = np.concatenate([radii, [tool.diameter / 2.0] * 2])
+    heights = np.concatenate([heights, [heights[-1], max(height, float(heights[-1]))]])
+    turns = np.linspace(0.0, 2.0 * np.pi, 97)[:-1]
+    rings, sides = len(radii), len(turns)
+    circle = np.stack([np.cos(turns), np.sin(turns)], axis=1)
+    flat = np.repeat(heights[:, None], sides, axis=1)[..., None]
+    vertices = np.concatenate([radii[:, None, None] * circle, flat], axis=2).reshape(-1, 3)
+    down = np.repeat(-np.cos(slopes)[:, None], sides, axis=1)[..., None]
+    out = np.concatenate([np.sin(slopes)[:, None, None] * circle, down], axis=2).reshape(-1, 3)
+    i, j = (grid.ravel() for grid in np.meshgrid(np.arange(rings - 1), np.arange(sides), indexing="ij"))
+    k = (j + 1) % sides
+    a, b, c, d = i * sides + j, i * sides + k, (i + 1) * sides + k, (i + 1) * sides + j
+    triangles = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
+    rim = np.arange((rings - 1) * sides, rings * sides)
+    lid = np.stack([np.full(sides, len(vertices)), rim, np.roll(rim, -1)], axis=1)
+    normals = np.concatenate([out[triangles], np.tile([0.0, 0.0, 1.0], (sides, 3, 1))])
+    return np.concatenate([vertices, [[0.0, 0.0, heights[-1]]]]), np.concatenate([triangles, lid]), normals
+
+
+def _corners(box: FloatArray) -> FloatArray:
+    return np.array([[box[i, 0], box[j, 1], box[k, 2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+
+
+def _path(axes: Any, view: View, raster: Raster, program: Program, box: FloatArray) -> Any:
+    """Draws what is seen of the moves; the lines by Z, for their scale."""
+    from matplotlib.collections import LineCollection
+
+    ends, kinds = program.positions, program.moves["kind"]
+    placed = np.isfinite(ends).all(axis=1)
+    ends, kinds = ends[placed], kinds[placed]
+    if len(ends) < 2:
+        return None
+    size = float(np.linalg.norm(box[1] - box[0]))
+    starts, stops, rapid = _pieces(ends, kinds[1:] == RAPID, size / 150.0)
+    middles = (starts + stops) / 2.0
+    hidden = raster.hides(view.finer(FINER).project(middles), size / 250.0)
+    lines = np.stack([view.project(starts)[:, :2], view.project(stops)[:, :2]], axis=1)
+    thin = rapid & ~hidden & (middles[:, 2] <= box[1, 2] + 0.2 * size)
+    axes.add_collection(LineCollection(lines[thin], colors=SOFT, linewidths=0.5, alpha=0.6, zorder=2))
+    fat = ~rapid & ~hidden
+    depth = ends[1:][kinds[1:] != RAPID, 2]
+    drawn = LineCollection(lines[fat], cmap=_colours(), linewidths=_width(lines[fat]), capstyle="round", zorder=3)
+    drawn.set_array(middles[fat, 2])
+    drawn.set_clim(*((depth.min(), depth.max()) if len(depth) else (0.0, 1.0)))
+    axes.add_collection(drawn)
+    return drawn
+
+
+def _colours() -> Any:
+    """Turbo without its dark ends, which look alike on steel."""
+    from matplotlib import colormaps
+    from matplotlib.colors import LinearSegmentedColormap
+
+    return LinearSegmentedColormap.from_list("depth", colormaps["turbo"](np.linspace(0.07, 0.93, 64)))
+
+
+def _width(lines: FloatArray) -> float:
+    """Points: long paths get thin lines, so that neighbours stay apart."""
+    pixels = float(np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1).sum())
+    return float(np.clip(30_000.0 / max(pixels, 1.0), 0.6, 1.5))
+
+
+def _pieces(
+    ends: FloatArray, rapid: npt.NDArray[np.bool_], longest: float
+) -> tuple[FloatArray, FloatArray, npt.NDArray[np.bool_]]:
+    """Starts and ends of the moves, cut so that a wall can hide a part of one."""
+    count = np.maximum(1, np.ceil(np.linalg.norm(np.diff(ends, axis=0), axis=1) / longest)).astype(np.int64)
+    move = np.repeat(np.arange(len(count)), count)
+    step = np.arange(len(move)) - np.repeat(np.cumsum(count) - count, count)
+    way = ends[move + 1] - ends[move]
+    share = count[move][:, None]
+    return ends[move] + way * step[:, None] / share, ends[move] + way * (step[:, None] + 1) / share, rapid[move]
+
+
+def _rulers(axes: Any, view: View, box: FloatArray) -> None:
+    """Ticks along three edges of the part's box, on the side of the reader."""
+    from matplotlib.ticker import MaxNLocator
+
+    middle = view.project(box.mean(axis=0)[None])[0, :2]
+    for axis, start in ((0, (0, 0, 0)), (1, (1, 0, 0)), (2, (0, 0, 0))):
+        ends = np.array([[box[start[k], k] for k in range(3)]] * 2)
+        ends[:, axis] = box[:, axis]
+        a, b = view.project(ends)[:, :2]
+        along = (b - a) / max(float(np.linalg.norm(b - a)), 1e-9)
+        out = np.array([along[1], -along[0]])
+        out *= 1.0 if np.dot(out, (a + b) / 2.0 - middle) > 0.0 else -1.0
+        axes.plot(*np.array([a, b]).T + 6.0 * out[:, None], color=SOFT, linewidth=0.9)
+        side = "right" if out[0] < -0.75 else "left" if out[0] > 0.75 else "center"
+        low, high = box[:, axis]
+        pixels = float(np.linalg.norm(b - a))
+        steps = MaxNLocator(max(2, int(pixels / 70)), steps=[1, 2, 5, 10]).tick_values(low, high)
+        ticks = [tick for tick in steps if low <= tick <= high]
+        for tick in ticks:
+            at = a + (b - a) * (tick - low) / max(high - low, 1e-9)
+            axes.plot(*np.array([at + 6.0 * out, at + 11.0 * out]).T, color=SOFT, linewidth=0.9)
+            far = at + (14.0 if side != "center" else 22.0) * out
+            axes.text(*far, f"{tick:g}", ha=side, va="center", fontsize=10, color=INK)
+        name = f"{'XYZ'[axis]} mm"
+        axes.text(*((a + b) / 2.0 + 48.0 * out), name, ha=side, va="center", fontsize=11, color=INK, weight="bold")
+
+
+def _titles(figure: Any, program: Program) -> None:
+    tools = ", ".join(dict.fromkeys(str(tool["description"]) for tool in program.tools))
+    strategies = ", ".join(dict.fromkeys(str(operation["kind"]) for operation in program.operations))
+    seconds = round(program.duration)
+    time = f"{seconds // 60} min {seconds % 60:02} s" if seconds < 3600 else f"{seconds // 3600} h {seconds // 60 % 60:02} min"
+    facts = [strategies, tools, f"{program.length / 1000.0:.3g} m in {time}"]
+    title = str(program.setup.get("title", ""))
+    figure.text(0.03, 0.955, title, ha="left", va="center", color=INK, fontsize=18, weight="bold")
+    line = ", ".join(fact for fact in facts if fact)
+    figure.text(0.03, 0.912, line, ha="left", va="center", color=SOFT, fontsize=12.5)
+
+
+def _scale(figure: Any, drawn: Any) -> None:
+    """What the colours mean."""
+    bar = figure.colorbar(drawn, cax=figure.add_axes((0.915, 0.16, 0.016, 0.62)))
+    bar.outline.set_visible(False)
+    bar.ax.tick_params(labelsize=10, colors=INK, length=3)
+    bar.ax.set_title("Z of the tip\nmm", fontsize=11, color=INK, pad=10)
