@@ -20,7 +20,7 @@ def recheck(report: Document, job: Job, scene: _engine.Scene) -> None:
     """
     arrays = job.part().arrays
     contacts = report["contacts"]
-    if arrays is None or not arrays.surfaces or not contacts:
+    if arrays is None or all(face.kind == "mesh" for face in arrays.faces) or not contacts:
         report["brep_checked"] = 0
         return
     rows = np.array(scene.frame)
@@ -36,17 +36,18 @@ def recheck(report: Document, job: Job, scene: _engine.Scene) -> None:
 
 
 def _finding(contact: Document, value: float, limit: float) -> Document:
+    line, face = contact["line"], contact["face"]
     place = " ".join(f"{axis}{value:.3f}" for axis, value in zip("XYZ", contact["tip"], strict=True))
     return {
         "kind": "model",
         "severity": "error",
-        "line": contact["line"],
-        "first_line": contact["line"],
-        "last_line": contact["line"],
+        "line": line,
+        "first_line": line,
+        "last_line": line,
         "moves": 1,
         "position": contact["tip"],
         "value_mm": value,
         "limit": limit,
-        "message": f"line {contact['line']}, {place}: the contact on Face{contact['face']} misses the model's surface by "
+        "message": f"line {line}, {place}: the contact on Face{face} misses the model's surface by "
         f"{value:.4f} mm: the part's triangles or its set-up are wrong",
     }

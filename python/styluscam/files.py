@@ -31,14 +31,14 @@ def write_all_whole(files: dict[Path, str]) -> None:
             written.append((_write_beside(path, text), path))
         while written:
             temporary, path = written[0]
-            os.replace(temporary, path)
+            Path(temporary).replace(path)
             written.pop(0)
     except OSError as error:
         raise _unwritable(path, error) from error
     finally:
         for temporary, _ in written:
             with contextlib.suppress(OSError):
-                os.unlink(temporary)
+                Path(temporary).unlink()
 
 
 def require_writable(paths: Iterable[Path]) -> None:
@@ -79,8 +79,8 @@ def _write_beside(path: Path, text: str) -> str:
             os.fsync(file.fileno())
         umask = os.umask(0)
         os.umask(umask)
-        os.chmod(name, 0o666 & ~umask)
+        Path(name).chmod(0o666 & ~umask)
     except BaseException:
-        os.unlink(name)
+        Path(name).unlink()
         raise
     return name

@@ -55,7 +55,7 @@ class Part:
         """From a file: STEP, BREP, IGES, STL, OBJ, PLY, 3MF by its ending.
 
         ``tolerance`` (mm) bounds the triangles' deviation from the surfaces, checked by sampling; ``units``
-        ("mm", "cm", "m", "inch") is required where the format has none.
+        ("mm", "cm", "m", "in", "ft", "um") is required where the format has none.
 
         Raises:
             GeometryError: the file cannot be read or holds no usable part.

@@ -7,7 +7,7 @@ import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +20,12 @@ from styluscam.program import RAPID, Program
 from styluscam.raster import Raster, View, rasterise
 from styluscam.tool import Tool
 from styluscam.types import FloatArray, IntArray
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.collections import LineCollection
+    from matplotlib.colors import Colormap
+    from matplotlib.figure import Figure
 
 SIZE, DPI = (1200, 800), 100
 FINER = 2
@@ -162,7 +168,7 @@ def _arrays(part: Part | PartArrays) -> PartArrays:
 # --- the canvas ----------------------------------------------------------------------------------------------------
 
 
-def _figure() -> Any:
+def _figure() -> Figure:
     try:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
@@ -174,7 +180,7 @@ def _figure() -> Any:
     return figure
 
 
-def _pane(figure: Any, place: tuple[int, int, int, int]) -> Any:
+def _pane(figure: Figure, place: tuple[int, int, int, int]) -> Axes:
     """Axes whose data are pixels, right and down; ``place`` is left, bottom, width, height."""
     left, bottom, width, height = place
     axes = figure.add_axes((left / SIZE[0], bottom / SIZE[1], width / SIZE[0], height / SIZE[1]))
@@ -184,7 +190,7 @@ def _pane(figure: Any, place: tuple[int, int, int, int]) -> Any:
     return axes
 
 
-def _save(figure: Any, path: Path) -> None:
+def _save(figure: Figure, path: Path) -> None:
     """Writes the PNG to a temporary name and renames it; without the name of the program that made it."""
     from styluscam.files import require_writable
 
@@ -194,10 +200,10 @@ def _save(figure: Any, path: Path) -> None:
     os.close(handle)
     try:
         figure.savefig(name, format="png", dpi=DPI, metadata={"Software": None})
-        os.chmod(name, 0o644)
-        os.replace(name, path)
+        Path(name).chmod(0o644)
+        Path(name).replace(path)
     except BaseException:
-        os.unlink(name)
+        Path(name).unlink()
         raise
 
 
@@ -265,7 +271,7 @@ def _shares(rasters: Sequence[Raster], faces: IntArray) -> dict[int, int]:
     return {face: int(counts[:, face].argmax()) for face in visible}
 
 
-def _name_faces(axes: Any, raster: Raster, faces: IntArray, names: dict[int, str]) -> None:
+def _name_faces(axes: Axes, raster: Raster, faces: IntArray, names: dict[int, str]) -> None:
     """Each face's name on it where it fits, else beside it with a line to it; names do not overlap."""
     seen = np.where(raster.triangle >= 0, faces[np.where(raster.triangle >= 0, raster.triangle, 0)], 0)
     coarse = 4 * FINER
@@ -314,7 +320,9 @@ def _free_place(
 
     def free(x: float, y: float) -> bool:
         inside = half[0] < x < limits[0] - half[0] and half[1] < y < limits[1] - half[1]
-        return inside and all(abs(x - tx) > half[0] + tw + 3 or abs(y - ty) > half[1] + th + 3 for tx, ty, tw, th in taken)
+        return inside and all(
+            abs(x - tx) > half[0] + tw + 3 or abs(y - ty) > half[1] + th + 3 for tx, ty, tw, th in taken
+        )
 
     if room >= half[1] and free(*spot):
         return spot
@@ -326,14 +334,14 @@ def _free_place(
     return spot
 
 
-def _triad(axes: Any, view: View) -> None:
+def _triad(axes: Axes, view: View) -> None:
     """Where X, Y and Z point."""
-    origin = np.array([46.0, view.height - 46.0])
+    x, y = 46.0, view.height - 46.0
     for vector, name, color in zip(np.eye(3), "XYZ", ("#c0392b", "#2e8b57", "#2563eb"), strict=True):
         right, up, _ = view.axes @ vector
-        tip = origin + 32.0 * np.array([right, -up])
-        axes.annotate("", tip, origin, arrowprops={"arrowstyle": "-|>", "color": color, "lw": 1.6, "shrinkA": 0, "shrinkB": 0})
-        axes.text(*(origin + 42.0 * np.array([right, -up])), name, color=color, ha="center", va="center", fontsize=9)
+        style = {"arrowstyle": "-|>", "color": color, "lw": 1.6, "shrinkA": 0, "shrinkB": 0}
+        axes.annotate("", (x + 32.0 * right, y - 32.0 * up), (x, y), arrowprops=style)
+        axes.text(x + 42.0 * right, y - 42.0 * up, name, color=color, ha="center", va="center", fontsize=9)
 
 
 # --- the path ------------------------------------------------------------------------------------------------------
@@ -347,7 +355,7 @@ def _halfway(program: Program, view: View) -> FloatArray | None:
         return None
     level = ends[len(ends) // 3]
     same = ends[np.abs(ends[:, 2] - level[2]) < 1e-6]
-    right, up, towards = view.axes
+    right, _, towards = view.axes
     return np.asarray(same[int(np.argmax(same @ (0.6 * right - towards)))])
 
 
@@ -379,7 +387,7 @@ def _corners(box: FloatArray) -> FloatArray:
     return np.array([[box[i, 0], box[j, 1], box[k, 2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
 
 
-def _path(axes: Any, view: View, raster: Raster, program: Program, box: FloatArray) -> Any:
+def _path(axes: Axes, view: View, raster: Raster, program: Program, box: FloatArray) -> LineCollection | None:
     """Draws what is seen of the moves; the lines by Z, for their scale."""
     from matplotlib.collections import LineCollection
 
@@ -394,17 +402,17 @@ def _path(axes: Any, view: View, raster: Raster, program: Program, box: FloatArr
     hidden = raster.hides(view.finer(FINER).project(middles), size / 250.0)
     lines = np.stack([view.project(starts)[:, :2], view.project(stops)[:, :2]], axis=1)
     thin = rapid & ~hidden & (middles[:, 2] <= box[1, 2] + 0.2 * size)
-    axes.add_collection(LineCollection(lines[thin], colors=SOFT, linewidths=0.5, alpha=0.6, zorder=2))
+    axes.add_collection(LineCollection(list(lines[thin]), colors=SOFT, linewidths=0.5, alpha=0.6, zorder=2))
     fat = ~rapid & ~hidden
     depth = ends[1:][kinds[1:] != RAPID, 2]
-    drawn = LineCollection(lines[fat], cmap=_colours(), linewidths=_width(lines[fat]), capstyle="round", zorder=3)
+    drawn = LineCollection(list(lines[fat]), cmap=_colours(), linewidths=_width(lines[fat]), capstyle="round", zorder=3)
     drawn.set_array(middles[fat, 2])
     drawn.set_clim(*((depth.min(), depth.max()) if len(depth) else (0.0, 1.0)))
     axes.add_collection(drawn)
     return drawn
 
 
-def _colours() -> Any:
+def _colours() -> Colormap:
     """Turbo without its dark ends, which look alike on steel."""
     from matplotlib import colormaps
     from matplotlib.colors import LinearSegmentedColormap
@@ -430,7 +438,7 @@ def _pieces(
     return ends[move] + way * step[:, None] / share, ends[move] + way * (step[:, None] + 1) / share, rapid[move]
 
 
-def _rulers(axes: Any, view: View, box: FloatArray) -> None:
+def _rulers(axes: Axes, view: View, box: FloatArray) -> None:
     """Ticks along three edges of the part's box, on the side of the reader."""
     from matplotlib.ticker import MaxNLocator
 
@@ -451,17 +459,21 @@ def _rulers(axes: Any, view: View, box: FloatArray) -> None:
         for tick in ticks:
             at = a + (b - a) * (tick - low) / max(high - low, 1e-9)
             axes.plot(*np.array([at + 6.0 * out, at + 11.0 * out]).T, color=SOFT, linewidth=0.9)
-            far = at + (14.0 if side != "center" else 22.0) * out
-            axes.text(*far, f"{tick:g}", ha=side, va="center", fontsize=10, color=INK)
-        name = f"{'XYZ'[axis]} mm"
-        axes.text(*((a + b) / 2.0 + 48.0 * out), name, ha=side, va="center", fontsize=11, color=INK, weight="bold")
+            x, y = at + (14.0 if side != "center" else 22.0) * out
+            axes.text(x, y, f"{tick:g}", ha=side, va="center", fontsize=10, color=INK)
+        x, y = (a + b) / 2.0 + 48.0 * out
+        axes.text(x, y, f"{'XYZ'[axis]} mm", ha=side, va="center", fontsize=11, color=INK, weight="bold")
 
 
-def _titles(figure: Any, program: Program) -> None:
+def _titles(figure: Figure, program: Program) -> None:
     tools = ", ".join(dict.fromkeys(str(tool["description"]) for tool in program.tools))
     strategies = ", ".join(dict.fromkeys(str(operation["kind"]) for operation in program.operations))
     seconds = round(program.duration)
-    time = f"{seconds // 60} min {seconds % 60:02} s" if seconds < 3600 else f"{seconds // 3600} h {seconds // 60 % 60:02} min"
+    time = (
+        f"{seconds // 60} min {seconds % 60:02} s"
+        if seconds < 3600
+        else f"{seconds // 3600} h {seconds // 60 % 60:02} min"
+    )
     facts = [strategies, tools, f"{program.length / 1000.0:.3g} m in {time}"]
     title = str(program.setup.get("title", ""))
     figure.text(0.03, 0.955, title, ha="left", va="center", color=INK, fontsize=18, weight="bold")
@@ -469,7 +481,7 @@ def _titles(figure: Any, program: Program) -> None:
     figure.text(0.03, 0.912, line, ha="left", va="center", color=SOFT, fontsize=12.5)
 
 
-def _scale(figure: Any, drawn: Any) -> None:
+def _scale(figure: Figure, drawn: LineCollection) -> None:
     """What the colours mean."""
     bar = figure.colorbar(drawn, cax=figure.add_axes((0.915, 0.16, 0.016, 0.62)))
     bar.outline.set_visible(False)

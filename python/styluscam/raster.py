@@ -101,12 +101,13 @@ def _fragments(corners: FloatArray, width: int, height: int) -> Iterator[tuple[I
     high = np.clip(np.ceil(corners[:, :, 1].max(axis=1) - 0.5), 0, height).astype(np.int64)
     wide = np.clip(np.ptp(corners[:, :, 0], axis=1), 1.0, width)
     cost = np.cumsum((high - low) * (wide + 4.0))
-    parts = np.searchsorted(cost, np.arange(FRAGMENTS, cost[-1] + FRAGMENTS, FRAGMENTS)) if len(cost) else []
+    total = float(cost[-1]) if len(cost) else 0.0
+    parts = np.searchsorted(cost, np.arange(FRAGMENTS, total + FRAGMENTS, FRAGMENTS))
     start = 0
-    for stop in np.minimum(np.asarray(parts, dtype=np.int64) + 1, len(corners)):
+    for stop in np.minimum(parts + 1, len(corners)):
         if stop > start:
             index, row = _ranges(np.arange(start, stop), low[start:stop], high[start:stop])
-            left, right = _spans(corners[index], row + 0.5)
+            left, right = _spans(corners[index], np.asarray(row + 0.5, dtype=np.float64))
             first = np.clip(np.ceil(left - 0.5), 0, width).astype(np.int64)
             last = np.clip(np.ceil(right - 0.5), 0, width).astype(np.int64)
             span, column = _ranges(np.arange(len(index)), first, np.maximum(first, last))
@@ -127,10 +128,12 @@ def _spans(corners: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Where triangles (N, 3, 3) begin and end along the rows ``y`` (N,)."""
     left, right = np.full(len(y), np.inf), np.full(len(y), -np.inf)
     for a, b in ((0, 1), (1, 2), (2, 0)):
-        ya, yb = corners[:, a, 1], corners[:, b, 1]
-        crosses = (ya <= y) != (yb <= y)
+        # from its upper end always: neighbours find the same border, and no pixel between them is missed
+        swap = (corners[:, a, 1] > corners[:, b, 1])[:, None]
+        p, q = np.where(swap, corners[:, b], corners[:, a]), np.where(swap, corners[:, a], corners[:, b])
+        crosses = (p[:, 1] <= y) & (y < q[:, 1])
         with np.errstate(divide="ignore", invalid="ignore"):
-            x = corners[:, a, 0] + (y - ya) / (yb - ya) * (corners[:, b, 0] - corners[:, a, 0])
+            x = p[:, 0] + (y - p[:, 1]) / (q[:, 1] - p[:, 1]) * (q[:, 0] - p[:, 0])
         left = np.where(crosses, np.minimum(left, x), left)
         right = np.where(crosses, np.maximum(right, x), right)
     empty = left > right

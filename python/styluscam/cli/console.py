@@ -12,7 +12,7 @@ import json
 import os
 import sys
 from collections.abc import Iterator
-from typing import Any, TextIO
+from typing import TextIO
 
 WIDTH = 110
 """Columns of tables where stdout is no terminal."""
@@ -64,7 +64,7 @@ def say(text: str = "") -> None:
         stdout().flush()
 
 
-def say_json(document: Any) -> None:
+def say_json(document: object) -> None:
     """The one document that ``--json`` prints."""
     say(json.dumps(document, indent=2, ensure_ascii=False))
 

@@ -23,7 +23,7 @@ REPORT = "please report this, with --debug, at https://github.com/styluscam/styl
 _IN_DOCUMENT = ("schema", "title", "part", "setup", "process", "tools", "operations", "machine", "output", "line", "")
 
 
-class InJob(Exception):
+class JobFailedError(Exception):
     """Carries an error, its cause, past the command that was working on a job file."""
 
     def __init__(self, job: Path) -> None:
@@ -64,12 +64,12 @@ def naming(job: Path) -> Iterator[None]:
     try:
         yield
     except StylusError as error:
-        raise InJob(job) from error
+        raise JobFailedError(job) from error
 
 
 def failure_of(error: BaseException) -> Failure:
     """What to say of an error that came out of a command."""
-    if isinstance(error, InJob) and error.__cause__ is not None:
+    if isinstance(error, JobFailedError) and error.__cause__ is not None:
         failure = failure_of(error.__cause__)
         in_document = failure.exit_code == INPUT and _top_key(failure.where) in _IN_DOCUMENT
         return replace(failure, file=str(error.job)) if in_document else failure

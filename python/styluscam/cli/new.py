@@ -28,6 +28,7 @@ Force = Annotated[bool, typer.Option("--force", help="Replace a file that is the
 
 def new(
     part: PartFile,
+    *,
     units: Units = None,
     out: Out = None,
     force: Force = False,

@@ -29,6 +29,7 @@ def _top(context: typer.Context) -> None:
 @app.command("show")
 def show(
     part: PartFile,
+    *,
     units: Units = None,
     tolerance: Tolerance = 0.01,
     picture: Picture = None,

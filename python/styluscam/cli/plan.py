@@ -21,6 +21,7 @@ ProgramFile = Annotated[
 
 def plan(
     job: JobFile,
+    *,
     program: ProgramFile = None,
     picture: Picture = None,
     json: Json = False,

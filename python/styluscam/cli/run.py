@@ -21,6 +21,7 @@ Despite = Annotated[
 
 def run(
     job: JobFile,
+    *,
     write_despite_findings: Despite = False,
     picture: Picture = None,
     json: Json = False,

@@ -14,7 +14,7 @@ __all__ = ["BREP_ENDINGS", "MESH_ENDINGS", "UNITS", "FaceInfo", "PartArrays", "r
 
 BREP_ENDINGS = (".step", ".stp", ".brep", ".brp", ".iges", ".igs")
 MESH_ENDINGS = (".stl", ".obj", ".ply", ".3mf")
-UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "um": 0.001, "in": 25.4, "ft": 304.8}
+UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "um": 0.001, "in": 25.4, "inch": 25.4, "ft": 304.8}
 
 LARGEST, SMALLEST = 1e6, 1e-3  # mm: a part beyond is a mistake of units
 

@@ -345,6 +345,20 @@ pub(crate) mod tests {
         slopes.map(|s| body.cutter.gap(radius, height, s)).fold(f64::NEG_INFINITY, f64::max)
     }
 
+    #[test]
+    fn deep_inside_the_nearest_way_out_counts() {
+        let profile =
+            ProfileDocument::Clothoid { diameter: Some(20.0), scale: None, end_slope_deg: None, tip_flat: 3.0 };
+        let body = Body::new(&tool(profile), None);
+        for radius in [0.0, 0.5, 2.0, 4.0, 6.0, 8.0, 9.5] {
+            for height in [0.1, 1.0, 2.5, 4.0, 6.0, 8.0, 10.0, 14.0, 40.0] {
+                let (value, gap) =
+                    (body.distance(Vector::new(0.0, radius, height)).value, by_definition(&body, radius, height));
+                assert!((value - gap).abs() < 1e-6, "{radius} {height}: {value} {gap}");
+            }
+        }
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(64))]
 

@@ -3,8 +3,8 @@
 
 mod common;
 
-use common::{ball, clothoid, limits, Levels, Part, Path, CLEARANCE};
-use styluscam_geometry::{ModelFace, Sheet, SheetLaw, Tool};
+use common::{ball, clothoid, limits, tip_on_cone, Levels, Part, Path, CLEARANCE};
+use styluscam_geometry::{ModelFace, Sheet, SheetLaw, Tool, Vector};
 use styluscam_motion::{MoveKind, Program, Watch};
 use styluscam_verify::{judge, Finding, FindingKind, Limits, Report, Severity};
 
@@ -91,6 +91,24 @@ fn a_gouge_between_the_ends_of_a_move_is_found() {
     assert_eq!(found[0].line, 13);
     assert!(found[0].position.unwrap()[0].abs() < 0.5, "{:?}", found[0].position);
     assert!(report.gouge_max > 2.0);
+}
+
+#[test]
+fn a_shallow_gouge_off_the_samples_is_found() {
+    // past the hill's flank: 0.02 mm deep at X0, which is neither an end nor the middle
+    let (part, tool) = (part(false), ball(8.0));
+    let contact = Vector::new(0.0, 20.0, LOW - 20.0);
+    let [_, y, z] = tip_on_cone(&tool.cutter(), None, false, contact, -0.02);
+    let program = Path::new().rapid([-40.0, y, CLEARANCE]).feed([-40.0, y, z]).feed([10.0, y, z]).program(&tool);
+    let tools = [tool];
+    for excess in [Some(0.005), None] {
+        let limits = Limits { excess, ..limits() };
+        let report = judge(&program, &part.subject(&tools), &limits, &Watch::default()).unwrap();
+        let found = of_kind(&report, FindingKind::Gouge);
+        assert_eq!((found.len(), found[0].line), (1, 13));
+        assert!((found[0].value_mm.unwrap() - 0.02).abs() < 0.001, "{}", found[0].message);
+        assert!(found[0].position.unwrap()[0].abs() < 0.2, "{}", found[0].message);
+    }
 }
 
 #[test]

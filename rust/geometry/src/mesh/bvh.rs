@@ -73,7 +73,7 @@ impl Bvh {
     /// Searches for the triangle of largest value, starting from `best`.
     ///
     /// `bound` is given a node, its index and the best value so far, and must not be below the value of any triangle in
-    /// the node; `visit` is given a triangle and the best value so far and returns the better of the two. Of two
+    /// the node (minus infinity: nothing there); `visit` is given a triangle and the best value so far and returns the better of the two. Of two
     /// children the one of the higher bound is entered first.
     pub fn maximise(
         &self,
@@ -103,7 +103,8 @@ impl Bvh {
             let b = (second, bound(second as usize, &self.nodes[second as usize], best));
             let (near, far) = if a.1 >= b.1 { (a, b) } else { (b, a) };
             for child in [far, near] {
-                if child.1 >= best {
+                // minus infinity is never worth a look, not even when nothing was found yet
+                if child.1 >= best && child.1 > f64::NEG_INFINITY {
                     stack[depth] = child;
                     depth += 1;
                 }

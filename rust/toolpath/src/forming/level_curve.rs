@@ -8,6 +8,8 @@ use crate::{PathPoint, Surface};
 const ON_LEVEL: f64 = 1e-7;
 /// Steps at most; Newton takes two or three, bisection across a jump thirty.
 const STEPS: usize = 60;
+/// Steps after which a crossing that met no selected contact is left where it is: it only parts those that count.
+const UNSELECTED_STEPS: usize = 4;
 /// Steps from a chord's middle before a bracket is sought; one does, on a smooth surface.
 const FREE_STEPS: usize = 3;
 
@@ -46,10 +48,11 @@ impl<'a> LevelCurve<'a> {
         let length = libm::hypot(along[0], along[1]);
         let (mut low, mut high) = (0.0, 1.0);
         let mut share = guess;
-        let mut last_above = None;
-        for _ in 0..STEPS {
+        let (mut last_above, mut met_selected) = (None, false);
+        for step in 0..STEPS {
             let place = [above[0] + share * along[0], above[1] + share * along[1]];
             let point = self.at(place);
+            met_selected |= point.is_some_and(|p| p.selected);
             let newton = point.and_then(|p| self.newton_step(&p, along));
             match point {
                 Some(p) if (p.tip.z - self.z).abs() * p.normal.z < ON_LEVEL => return Some(self.levelled(p)),
@@ -59,7 +62,7 @@ impl<'a> LevelCurve<'a> {
                 }
                 _ => high = share,
             }
-            if (high - low) * length < ON_LEVEL {
+            if (high - low) * length < ON_LEVEL || (step >= UNSELECTED_STEPS && !met_selected) {
                 break;
             }
             share = newton

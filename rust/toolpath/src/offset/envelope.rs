@@ -593,4 +593,19 @@ mod tests {
         assert_eq!(envelope.contact(3.5, 1.0), None);
         assert!(envelope.contact(2.5, 1.0).is_some());
     }
+
+    #[test]
+    fn beside_the_part_nothing_is_searched() {
+        let mesh = terrain(&[0.0; 400], 20);
+        let mut visited = 0;
+        Bvh::new(&mesh).maximise(
+            f64::NEG_INFINITY,
+            |_, _, _| f64::NEG_INFINITY,
+            |_, best| {
+                visited += 1;
+                best
+            },
+        );
+        assert_eq!(visited, 0);
+    }
 }

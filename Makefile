@@ -1,0 +1,132 @@
+# Every command a person needs; `make help` lists them.
+# Nothing outside the checkout and the cache changes: foreign programs live in $(STYLUSCAM_CACHE).
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+
+PYTHON ?= python3
+export STYLUSCAM_CACHE ?= $(HOME)/.cache/styluscam
+VENV := .venv
+BIN := $(VENV)/bin
+WHEELS := target/wheels
+PYTEST := $(BIN)/python -m pytest
+# The roots with FreeCAD and LinuxCNC are built while cargo is busy; this is where their log goes.
+ROOTS_LOG := target/roots.log
+
+.PHONY: help
+help: ## Lists these targets
+	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sort | awk -F':.*## ' '{printf "  %-14s %s\n", $$1, $$2}'
+
+.PHONY: demo
+demo: tools ## A STEP part becomes verified G-code, from nothing
+	$(PYTHON) -m venv --clear .venv-demo
+	.venv-demo/bin/python -m pip install --quiet --upgrade pip
+	.venv-demo/bin/python -m pip wheel --quiet --no-deps --wheel-dir target/demo .
+	.venv-demo/bin/python -m pip install --quiet "$$(ls -t target/demo/styluscam-*.whl | head -n 1)[step]"
+	.venv-demo/bin/styluscam run examples/first-light/job.toml --picture examples/first-light/out/cone_cup.svg
+	@echo
+	@echo "G-code:  examples/first-light/out/cone_cup.ngc"
+	@echo "picture: examples/first-light/out/cone_cup.svg"
+
+.PHONY: tools
+tools: ## Checks that Rust and Python are new enough
+	@command -v cargo >/dev/null || { echo "Rust is missing: install it from rustup.rs, 1.88 or later" >&2; exit 1; }
+	@rustc --version | awk '{split($$2, v, "."); exit !(v[1] > 1 || v[2] >= 88)}' \
+	  || { echo "Rust 1.88 or later is needed; this is $$(rustc --version): run rustup update" >&2; exit 1; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10))' \
+	  || { echo "Python 3.10 or later is needed: set PYTHON=python3.x" >&2; exit 1; }
+	@$(PYTHON) -c 'import venv, ensurepip' 2>/dev/null \
+	  || { echo "Python's venv module is missing: install the package python3-venv" >&2; exit 1; }
+
+$(VENV)/.ready: pyproject.toml
+	@$(MAKE) --no-print-directory tools
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --upgrade pip
+	$(BIN)/python -m pip install --quiet "maturin>=1.9,<2" --group lint --group test
+	$(BIN)/python -c 'import tomllib' 2>/dev/null || $(BIN)/python -m pip install --quiet tomli
+	$(BIN)/python -m pip install --quiet $$($(BIN)/python -c "$$READ_DEPENDENCIES")
+	touch $@
+
+# The package's own dependencies and its extras, so that the environment is whole before the wheel exists.
+define READ_DEPENDENCIES
+import shlex
+try:
+    import tomllib
+except ImportError:
+    import tomli as tomllib
+with open("pyproject.toml", "rb") as file:
+    project = tomllib.load(file)["project"]
+extras = project["optional-dependencies"].values()
+print("\n".join(project["dependencies"] + [name for extra in extras for name in extra]).replace(" ", ""))
+endef
+export READ_DEPENDENCIES
+
+.PHONY: dev
+dev: $(VENV)/.ready ## Environment, and the engine built into it
+	VIRTUAL_ENV=$(CURDIR)/$(VENV) $(BIN)/maturin develop --release --quiet
+
+.PHONY: wheel
+wheel: $(VENV)/.ready ## The wheel, in target/wheels
+	rm -rf $(WHEELS)
+	$(BIN)/maturin build --release --quiet --locked --out $(WHEELS)
+
+.PHONY: test
+test: ## Everything: what CI runs
+	@mkdir -p target
+	@$(MAKE) --no-print-directory $(VENV)/.ready
+	@$(PYTHON) tests/oracles/roots.py ensure trixie forky >$(ROOTS_LOG) 2>&1 & roots=$$!; \
+	  tests/timed.sh lint $(MAKE) --no-print-directory lint; \
+	  tests/timed.sh cargo cargo test --workspace --locked --quiet; \
+	  tests/timed.sh wheel $(MAKE) --no-print-directory wheel dev; \
+	  wait $$roots || { cat $(ROOTS_LOG); [ -z "$${CI:-}" ] || exit 1; }; \
+	  tests/timed.sh pytest $(PYTEST) -n 2 --ignore=tests/freecad; \
+	  tests/timed.sh freecad $(PYTEST) tests/freecad
+	@tests/timed.sh --report
+
+.PHONY: quick
+quick: dev ## Cargo and Python tests that need nothing from outside
+	cargo test --workspace --locked --quiet
+	$(PYTEST) -n 2 -q -m "not world and not freecad"
+
+.PHONY: test-freecad
+test-freecad: wheel ## FreeCAD tests: V=1.1 K=name
+	$(PYTEST) tests/freecad $(if $(V)$(K),-k "$(V) $(K)")
+
+.PHONY: lint
+lint: $(VENV)/.ready ## All linters
+	cargo fmt --all --check
+	cargo clippy --workspace --all-targets --locked --quiet -- -D warnings
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy
+	$(BIN)/taplo fmt --check
+	$(BIN)/typos
+
+.PHONY: fmt
+fmt: $(VENV)/.ready ## Formats everything
+	cargo fmt --all
+	$(BIN)/ruff check --fix-only
+	$(BIN)/ruff format
+	$(BIN)/taplo fmt
+
+.PHONY: bench
+bench: dev ## Measures ours and others side by side; writes docs/performance.md
+	$(BIN)/python bench/drop_cutter.py
+
+.PHONY: fixtures
+fixtures: ## Rebuilds the STEP parts and their exact answers (Python 3.11 or later)
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
+	  || { echo "cadquery needs Python 3.11 or later: set PYTHON=python3.x" >&2; exit 1; }
+	test -x $(STYLUSCAM_CACHE)/fixtures-venv/bin/python || $(PYTHON) -m venv $(STYLUSCAM_CACHE)/fixtures-venv
+	$(STYLUSCAM_CACHE)/fixtures-venv/bin/python -m pip install --quiet -r fixtures/requirements.txt
+	$(STYLUSCAM_CACHE)/fixtures-venv/bin/python fixtures/make.py
+
+.PHONY: addon
+addon: ## The FreeCAD addon as a zip with package.xml at its root
+	rm -rf target/addon && mkdir -p target/addon
+	cd freecad_workbench && $(PYTHON) -m zipfile -c ../target/addon/styluscam_wb.zip $$(ls)
+
+.PHONY: picture
+picture: dev ## The picture in the README
+	$(BIN)/styluscam run examples/first-light/job.toml --quiet --picture docs/first-light.svg

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Every difference between FreeCAD's versions, and nothing else of them anywhere."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from pathlib import Path as FilePath
+from typing import Any
+
+import FreeCAD
+
+POSTS = FilePath(__file__).parent / "posts"
+
+
+def package_dir() -> str:
+    """Where FreeCAD looks for Python packages that a user adds."""
+    version = f"py{sys.version_info.major}{sys.version_info.minor}"
+    return f"{FreeCAD.getUserAppDataDir()}AdditionalPythonPackages/{version}"
+
+
+def make_toolbit(document: Any, label: str, parameters: dict[str, Any]) -> Any:
+    """A stylus tool bit in the document; `parameters` are the properties of `tools.SHAPE_PROPERTIES`.
+
+    FreeCAD 1.1 has classes for shapes and bits; 1.0 has one class of bits over shape files.
+    """
+    if importlib.util.find_spec("Path.Tool.toolbit") is not None:
+        from .stylus_asset import create
+    else:
+        from .stylus_bit import create
+    return create(document, label, parameters)
+
+
+def tool_kind(bit: Any) -> str:
+    """The shape of a tool bit in lower case: `stylus`, or FreeCAD's own: `ballend`, `endmill`."""
+    for name in ("ShapeType", "ShapeName"):  # 1.1, 1.0
+        kind = getattr(bit, name, "")
+        if kind:
+            return str(kind).lower()
+    return ""
+
+
+def register_posts() -> None:
+    """Makes FreeCAD look for posts in our directory too."""
+    import Path.Preferences as Preferences
+
+    theirs = Preferences.searchPathsPost
+    if getattr(theirs, "styluscam", False):
+        return
+
+    def search_paths() -> list[str]:
+        return [str(POSTS), *theirs()]
+
+    search_paths.styluscam = True  # type: ignore[attr-defined]
+    Preferences.searchPathsPost = search_paths

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""From operations and their CAM job to the engine's job document.
+
+The program's zero is FreeCAD's: `setup.zero` is "model" and the part is given in the document's coordinates, so a
+height, a depth or a coordinate means the same in the operation, in its path and in the posted text. Where that origin
+lies on the machine is the work offset's business (the job's fixture, G54).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from . import tools
+
+if TYPE_CHECKING:
+    from styluscam import Part as EnginePart
+
+Document = dict[str, Any]
+
+POST_PREFIX = "styluscam_"
+DEFAULT_MACHINE = "linuxcnc"
+"""The machine whose rounding planning reckons with when the job has no post of ours."""
+
+AUTOMATIC = 1e-6
+"""Depths this near to FreeCAD's automatic ones (mm) leave the end of the path to the engine."""
+
+
+class DocumentError(ValueError):
+    """Operations that make no job; the message says why."""
+
+
+def machine_of(job: Any) -> str:
+    """The machine that the job's post is for."""
+    post = str(getattr(job, "PostProcessor", "") or "")
+    return post.removeprefix(POST_PREFIX) if post.startswith(POST_PREFIX) else DEFAULT_MACHINE
+
+
+def sheet_raise(obj: Any) -> float:
+    """How far the sheet lifts the tool over a horizontal face of the model, mm."""
+    share = {"back": 1.0, "mid": 0.5}.get(str(obj.ModelFace), 0.0)
+    return share * obj.SheetThickness.Value if obj.Process == "spif" else 0.0
+
+
+def job_document(
+    job: Any, operations: list[Any], part: EnginePart, machine: str, wcs: str | None = None
+) -> Document:
+    """The document of these operations of ours, in this order; they must agree on sheet, process and model.
+
+    `wcs` is the work offset, the job's first unless it is given.
+
+    Raises:
+        DocumentError: they do not.
+        tools.ToolError: a tool bit that has no profile.
+    """
+    first = operations[0]
+    for other in operations[1:]:
+        for name in ("Process", "SheetThickness", "SheetLaw", "ModelFace", "ModelTolerance", "AllowUndercuts"):
+            if getattr(first, name) != getattr(other, name):
+                raise DocumentError(f"{first.Label} and {other.Label} differ in {name}: they cannot be one program")
+    top = float(part.bounds[1][2]) + sheet_raise(first)
+    return {
+        "schema": 1,
+        "title": job.Label,
+        "part": _part_section(first),
+        "setup": {
+            "zero": "model",
+            "wcs": wcs or str(job.Fixtures[0]),
+            "clearance": min(obj.ClearanceHeight.Value for obj in operations) - top,
+            "retract": min(obj.SafeHeight.Value for obj in operations) - top,
+            **_sheet_section(first),
+        },
+        "process": {"kind": first.Process},
+        "tools": {tool_name(obj.ToolController): _tool_section(obj.ToolController) for obj in operations},
+        "operations": [operation_section(obj) for obj in operations],
+        "machine": {"name": machine},
+    }
+
+
+def _part_section(obj: Any) -> Document:
+    section: Document = {
+        "file": model_of(obj).Label,
+        "tolerance": obj.ModelTolerance.Value,
+        "allow_undercuts": obj.AllowUndercuts,
+    }
+    if obj.Process == "spif" and obj.ModelFace:
+        section["model_face"] = obj.ModelFace
+    return section
+
+
+def _sheet_section(obj: Any) -> Document:
+    if obj.Process != "spif":
+        return {}
+    return {"sheet": {"thickness": obj.SheetThickness.Value, "law": obj.SheetLaw}}
+
+
+def model_of(obj: Any) -> Any:
+    """The model that an operation works on: the clone in its job."""
+    from PathScripts import PathUtils
+
+    return PathUtils.findParentJob(obj).Model.Group[0]
+
+
+def tool_name(controller: Any) -> str:
+    """The tool's name in the document."""
+    return f"T{controller.ToolNumber}"
+
+
+def _tool_section(controller: Any) -> Document:
+    return {"number": int(controller.ToolNumber), **tools.tool_document(controller.Tool)}
+
+
+def operation_section(obj: Any) -> Document:
+    """One [[operations]] entry from the operation's properties."""
+    controller = obj.ToolController
+    section: Document = {
+        "id": obj.Label,
+        "kind": obj.Strategy,
+        "tool": tool_name(controller),
+        "faces": face_names(obj),
+        "angle_deg": obj.Angle.Value,
+        "direction": obj.Direction,
+        "tolerance": obj.Tolerance.Value,
+        "smallest_feature": obj.SmallestFeature.Value,
+        "feeds": {"cut": controller.HorizFeed.Value * 60.0, "plunge": controller.VertFeed.Value * 60.0},
+        "spindle": _spindle(controller),
+        "coolant": {"None": "off"}.get(obj.CoolantMode, str(obj.CoolantMode).lower()),
+    }
+    if obj.Step.Value > 0.0:
+        section["step"] = {"height": obj.Step.Value}
+    if obj.Stepover.Value > 0.0:
+        section["stepover"] = obj.Stepover.Value
+    for key, depth, automatic in (
+        ("z_top", obj.StartDepth.Value, obj.OpStartDepth.Value),
+        ("z_bottom", obj.FinalDepth.Value, obj.OpFinalDepth.Value),
+    ):
+        if abs(depth - automatic) > AUTOMATIC:
+            section[key] = depth
+    return section
+
+
+def face_names(obj: Any) -> list[str] | str:
+    """The chosen faces, or "all" where the operation says the whole model."""
+    if obj.WholeModel:
+        return "all"
+    return [name for _, names in obj.Base for name in names if name]
+
+
+def _spindle(controller: Any) -> Document:
+    """What the tool controller's own commands do to the spindle."""
+    senses = {"M3": "clockwise", "M03": "clockwise", "M4": "counterclockwise", "M04": "counterclockwise"}
+    for command in controller.Path.Commands:
+        if command.Name in senses:
+            return {"mode": "fixed", "rpm": command.Parameters.get("S", 0.0), "direction": senses[command.Name]}
+    return {"mode": "off"}

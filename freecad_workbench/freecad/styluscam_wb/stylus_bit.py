@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The stylus as a tool bit of FreeCAD 1.0: its own class of bits, with the solid made here and not by a shape file."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from Path.Tool.Bit import ToolBit
+
+from . import compat, tools
+
+compat.register_posts()
+
+
+class StylusBit(ToolBit):
+    """A bit whose properties are set up here; a shape file is neither looked for nor needed."""
+
+    def _setupBitShape(self, obj: Any, path: Any = None) -> None:  # noqa: N802, ARG002 - FreeCAD's names
+        for name, (kind, text) in tools.SHAPE_PROPERTIES.items():
+            if not hasattr(obj, name):
+                obj.addProperty(kind, name, "Shape", text)
+        if not hasattr(obj, "SpindlePower"):
+            obj.addProperty("App::PropertyBool", "SpindlePower", "Attributes", "A stylus slides: the spindle stays off")
+            obj.SpindlePower = False
+        obj.ShapeName = "stylus"
+        obj.BitPropertyNames = [*tools.SHAPE_PROPERTIES, "SpindlePower"]
+
+    def _updateBitShape(self, obj: Any, properties: Any = None) -> None:  # noqa: N802, ARG002
+        values = {name: getattr(obj, name) for name in tools.SHAPE_PROPERTIES}
+        obj.Shape = tools.solid_of({name: getattr(value, "Value", value) for name, value in values.items()})
+
+    def loadBitBody(self, obj: Any, force: bool = False) -> None:  # noqa: N802
+        """There is no body beside the bit."""
+
+    def onChanged(self, obj: Any, prop: str) -> None:  # noqa: N802
+        """The lengths that follow from the profile follow it, and the solid all of them."""
+        if "Restore" in obj.State or prop not in getattr(obj, "BitPropertyNames", ()) or prop == "SpindlePower":
+            return
+        if prop == tools.PROFILE:
+            for name, value in tools.derived_lengths(obj.Profile).items():
+                setattr(obj, name, value)
+        if all(getattr(obj, name) for name in tools.SHAPE_PROPERTIES):
+            self._updateBitShape(obj)
+
+
+def create(document: Any, label: str, parameters: dict[str, Any]) -> Any:
+    """A stylus in the document."""
+    obj = document.addObject("Part::FeaturePython", label)
+    proxy = StylusBit(obj, "stylus.fcstd")
+    for name, value in parameters.items():
+        setattr(obj, name, value)
+    obj.Proxy = proxy
+    proxy._updateBitShape(obj)
+    obj.Label = label
+    return obj

@@ -1,0 +1,187 @@
+"""`styluscam run` and `plan`: what is written, what is said, and what other interpreters make of it."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import styluscam as sc
+
+from .conftest import CHECKOUT, COARSE_CUP, changed
+
+HALF_OF_THE_LAST_PLACE = 0.0005  # mm: shipped machines post three decimals
+PRINTED = 0.00005  # mm: rs274 prints four
+
+ZIG_ZAG = ('kind = "z-level"', 'kind = "zig-zag"')
+GRBL = ('name = "linuxcnc"', 'name = "grbl"')
+BALL = ('kind = "clothoid"', 'kind = "ball"')
+COMBINATIONS = {
+    f"{'zig-zag' if rows else 'z-level'}-{'grbl' if grbl else 'linuxcnc'}-{'ball' if ball else 'clothoid'}": tuple(
+        change for change, wanted in ((ZIG_ZAG, rows), (GRBL, grbl), (BALL, ball)) if wanted
+    )
+    for rows in (False, True)
+    for grbl in (False, True)
+    for ball in (False, True)
+}
+
+
+@pytest.mark.parametrize("changes", COMBINATIONS.values(), ids=COMBINATIONS)
+def test_every_combination_runs_and_is_verified(coarse, cli, changes):
+    run = coarse(*changes)
+    assert run.ran.code == 0, run.ran.out
+    document = run.ran.json
+    assert document["ok"] and document["report"]["findings"] == []
+    assert document["report"]["gouge_max"] <= 0.001
+    assert [Path(path).name for path in document["written"]] == ["cup.ngc", "cup.program.json"]
+    again = cli("verify", run.gcode, "--job", run.job, "--json")
+    assert again.code == 0 and again.json["gouge_max"] == document["report"]["gouge_max"]
+
+
+@pytest.mark.world
+@pytest.mark.parametrize("changes", COMBINATIONS.values(), ids=COMBINATIONS)
+def test_linuxcnc_moves_as_planned(coarse, changes):
+    from rs274 import interpret
+
+    run = coarse(*changes)
+    said = interpret(run.gcode.read_text())
+    assert said.returncode == 0 and said.ok, said.error
+    planned = sc.Program.load(run.folder / "cup.program.json").moves
+    # the tool's place before the program is not known: the first rapid is posted as Z, then X and Y
+    up, *spoken = said.moves
+    assert up.kind == "STRAIGHT_TRAVERSE" and up.mm[2] == pytest.approx(
+        planned["end"][0, 2], abs=HALF_OF_THE_LAST_PLACE
+    )
+    kinds = np.array([call.kind == "STRAIGHT_FEED" for call in spoken])
+    assert np.array_equal(kinds, planned["kind"] == 1)
+    ends = np.array([call.mm for call in spoken])
+    assert np.abs(ends - planned["end"]).max() <= HALF_OF_THE_LAST_PLACE + PRINTED
+    feeds = np.array([call.feed for call in spoken])
+    cutting = planned["kind"] == 1
+    assert np.array_equal(feeds[cutting], planned["feed"][cutting])
+
+
+def test_summary_says_first_what_is_mis_zeroed(coarse, cli):
+    run = coarse()
+    ran = cli("run", run.job)
+    assert ran.code == 0 and ran.err == ""
+    lines = ran.out.splitlines()
+    assert lines[0] == "Coarse cup"
+    said = [line.split("  ")[0] for line in lines[1:]]
+    assert said[:8] == ["zero", "work offset", "part box", "deepest Z", "tool", "sheet", "units", "machine"]
+    for word in ("operation", "faces", "wall angle", "bridged", "length", "worst gouge", "worst excess", "written"):
+        assert word in said
+    assert "Z top of the sheet" in lines[1] and "G54" in lines[2]
+    assert "X -50.000 to 50.000, Y -50.000 to 50.000, Z -31.000 to -1.000" in lines[3]
+    assert "T1 H1: clothoid D10, programmed at its tip" in lines[5]
+    assert len(lines) < 26
+
+
+def test_summary_equals_the_header(coarse):
+    run = coarse()
+    header = run.gcode.read_text()
+    summary = run.ran.json["summary"]
+    assert f"deepest Z of a tip: {summary['deepest_z']:.3f}" in header
+    assert f"worst gouge {summary['gouge_max']:.4f} mm, worst excess {summary['excess_max']:.4f} mm" in header
+
+
+def test_quiet_says_nothing(coarse, cli):
+    ran = cli("run", coarse().job, "--quiet")
+    assert (ran.code, ran.out, ran.err) == (0, "", "")
+
+
+def test_missing_output_folders_are_made(tmp_path, cli):
+    job = tmp_path / "job.toml"
+    job.write_text(changed(COARSE_CUP, ('"cup.ngc"', '"new/folder/cup.ngc"'), ('"cup.program.json"', '"other/p.json"')))
+    assert cli("run", job, "--quiet").code == 0
+    assert (tmp_path / "new/folder/cup.ngc").is_file() and (tmp_path / "other/p.json").is_file()
+
+
+@pytest.fixture
+def objecting(tmp_path, monkeypatch):
+    """A job whose posted text has one coordinate moved: the judge objects."""
+    from styluscam import running
+
+    post = running.post
+
+    def spoilt(*args, **kwargs):
+        posted = post(*args, **kwargs)
+        return sc.Posted({name: text.replace("G1 Z-4 ", "G1 Z-4.3 ", 1) for name, text in posted.files.items()})
+
+    monkeypatch.setattr(running, "post", spoilt)
+    job = tmp_path / "job.toml"
+    job.write_text(COARSE_CUP)
+    return job
+
+
+def test_nothing_is_written_where_the_judge_objects(objecting, cli):
+    ran = cli("run", objecting)
+    assert ran.code == 1
+    assert [path.name for path in objecting.parent.iterdir()] == ["job.toml"]
+    assert "line " in ran.err and "gouge" not in ran.out.splitlines()[0]
+    assert ran.err.splitlines()[-1].startswith("nothing was written")
+    as_json = cli("run", objecting, "--json")
+    assert as_json.code == 1 and not as_json.json["ok"] and as_json.json["written"] == []
+    assert as_json.json["report"]["findings"][0]["line"] > 0
+
+
+def test_findings_can_be_overruled_by_name(objecting, cli):
+    ran = cli("run", objecting, "--write-despite-findings")
+    assert ran.code == 1 and "nothing was written" not in ran.err
+    assert (objecting.parent / "cup.ngc").is_file()
+
+
+def test_plan_writes_nothing_but_what_is_asked_for(tmp_path, cli):
+    job = tmp_path / "job.toml"
+    job.write_text(COARSE_CUP)
+    ran = cli("plan", job)
+    assert ran.code == 0 and "planned only" in ran.out and "worst gouge" not in ran.out
+    assert list(tmp_path.iterdir()) == [job]
+    ran = cli("plan", job, "--program", tmp_path / "p.json", "--json")
+    assert ran.code == 0 and ran.json["summary"]["operations"][0]["groups"] > 4
+    assert sc.Program.load(tmp_path / "p.json").length == pytest.approx(ran.json["summary"]["length"])
+
+
+def test_pictures_are_drawn(tmp_path, cli):
+    from matplotlib.image import imread
+
+    job = tmp_path / "job.toml"
+    job.write_text(COARSE_CUP)
+    assert cli("run", job, "--picture", tmp_path / "pics/cup.png", "--quiet").code == 0
+    image = imread(tmp_path / "pics/cup.png")
+    assert image.shape[:2] == (800, 1200)
+    assert image[..., :3].std() > 0.05
+
+
+def test_ctrl_c_ends_with_130_and_no_file(tmp_path):
+    job = tmp_path / "job.toml"
+    job.write_text(changed(COARSE_CUP, ("height = 4.0", "height = 0.002")))
+    environment = os.environ | {"PYTHONPATH": str(CHECKOUT / "python")}
+    command = [sys.executable, "-m", "styluscam", "run", str(job)]
+    started = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment)
+    time.sleep(6.0)
+    assert started.poll() is None, "the job was done before it could be interrupted"
+    started.send_signal(signal.SIGINT)
+    out, err = started.communicate(timeout=30)
+    assert started.returncode == 130
+    assert (out, err) == ("", "error: interrupted\n")
+    assert list(tmp_path.iterdir()) == [job]
+
+
+def test_json_of_a_cancelled_run(coarse, cli, monkeypatch):
+    from styluscam.cli import run
+
+    def cancelled(*args, **kwargs):
+        raise sc.Cancelled("cancelled", code="cancelled")
+
+    monkeypatch.setattr(run.running, "run", cancelled)
+    ran = cli("run", coarse().job, "--json")
+    assert ran.code == 3
+    assert json.loads(ran.out)["error"]["class"] == "Cancelled"
+    assert ran.err == ""

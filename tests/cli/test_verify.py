@@ -1,0 +1,145 @@
+"""`styluscam verify`: sound programs pass, seeded faults are found at their line, or stand plainly in the summary."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from .conftest import COARSE_CUP, changed
+
+MOVED = 0.05
+
+
+@pytest.fixture(scope="module")
+def sound(coarse):
+    """A run whose program is sound."""
+    run = coarse()
+    assert run.ran.code == 0, run.ran.out
+    return run
+
+
+def judged(cli, run, text, job=None):
+    """What `verify` says of a text: (exit code, document)."""
+    spoilt = run.folder / "spoilt.ngc"
+    spoilt.write_text(text)
+    ran = cli("verify", spoilt, "--job", job or run.job, "--json")
+    assert ran.err == ""
+    return ran.code, ran.json
+
+
+def test_sound_program_passes(sound, cli):
+    ran = cli("verify", sound.gcode, "--job", sound.job)
+    assert ran.code == 0 and ran.err == ""
+    assert "nothing was found" in ran.out.splitlines()[0]
+    assert "worst gouge" in ran.out and "worst excess" in ran.out
+    assert cli("verify", sound.gcode, "--job", sound.job, "--quiet").out == ""
+
+
+def feed_lines(text, axis):
+    """Numbers (from 1) of the lines of pure motion that name an axis, and the words there."""
+    found = []
+    for number, line in enumerate(text.splitlines(), start=1):
+        word = re.search(rf"{axis}(-?\d+(?:\.\d+)?)", line)
+        if word and re.fullmatch(r"(G1 )?(X\S+ ?)?(Y\S+ ?)?(Z\S+ ?)?(F\S+)?", line):
+            found.append((number, word))
+    return found
+
+
+def shifted(text, number, word, by):
+    """The text with one coordinate moved."""
+    lines = text.splitlines(keepends=True)
+    line = lines[number - 1]
+    lines[number - 1] = f"{line[: word.start(1)]}{float(word.group(1)) + by:.3f}{line[word.end(1) :]}"
+    return "".join(lines)
+
+
+@pytest.mark.parametrize("share", [0.1, 0.35, 0.6, 0.85])
+def test_one_coordinate_moved_into_the_part_is_named(sound, cli, share):
+    text = sound.gcode.read_text()
+    lines = feed_lines(text, "X")
+    number, word = next((n, w) for n, w in lines[int(share * len(lines)) :] if abs(float(w.group(1))) > 10.0)
+    outwards = MOVED if float(word.group(1)) > 0.0 else -MOVED  # the wall is outside the loop
+    code, document = judged(cli, sound, shifted(text, number, word, outwards))
+    assert code == 1 and not document["ok"]
+    gouges = [finding for finding in document["findings"] if finding["kind"] == "gouge"]
+    assert len(gouges) == 1
+    assert gouges[0]["first_line"] <= number <= gouges[0]["last_line"] <= gouges[0]["first_line"] + 1
+    assert document["gouge_max"] == pytest.approx(gouges[0]["value_mm"])
+    ran = cli("verify", sound.folder / "spoilt.ngc", "--job", sound.job)
+    assert ran.code == 1 and "must not run" in ran.out.splitlines()[0]
+    assert re.search(rf"lines? ({number}|{number + 1})\b", ran.out) and "limit 0.0010 mm" in ran.out
+
+
+def test_one_coordinate_moved_out_of_the_part_is_named(sound, cli):
+    text = sound.gcode.read_text()
+    number, word = next((n, w) for n, w in feed_lines(text, "X")[200:] if float(w.group(1)) > 15.0)
+    code, document = judged(cli, sound, shifted(text, number, word, -MOVED))
+    assert code == 1
+    assert any(
+        finding["kind"] == "excess" and finding["first_line"] <= number <= finding["last_line"]
+        for finding in document["findings"]
+    )
+
+
+def test_one_depth_moved_is_named(sound, cli):
+    text = sound.gcode.read_text()
+    number, word = next((n, w) for n, w in feed_lines(text, "Z") if float(w.group(1)) < -10.0)
+    code, document = judged(cli, sound, shifted(text, number, word, -MOVED))
+    assert code == 1
+    assert any(f["kind"] == "gouge" and number in (f["line"], f["first_line"]) for f in document["findings"])
+
+
+def test_rapid_through_the_part_is_named(sound, cli):
+    text = changed(sound.gcode.read_text(), ("M2\n", "G0 X40 Y40 Z-5\nM2\n"))
+    number = text.splitlines().index("G0 X40 Y40 Z-5") + 1
+    code, document = judged(cli, sound, text)
+    assert code == 1
+    assert any(finding["line"] == number and "rapid" in finding["kind"] for finding in document["findings"])
+
+
+def test_inch_for_mm_is_found(sound, cli):
+    code, document = judged(cli, sound, changed(sound.gcode.read_text(), ("G21", "G20")))
+    assert code == 1 and document["findings"]
+
+
+def test_mm_for_inch_is_found(sound, cli):
+    text = sound.gcode.read_text()
+    small = re.sub(r"([XYZ])(-?\d+\.?\d*)", lambda word: f"{word[1]}{float(word[2]) / 25.4:.4f}", text)
+    code, _ = judged(cli, sound, small)
+    assert code == 1
+
+
+def test_tip_taken_for_centre_is_found(coarse, cli):
+    """A program for the ball's centre, run with the tip set to zero: 5 mm too high, and the other way round."""
+    ball = ('kind = "clothoid"', 'kind = "ball"')
+    centre = ('reference = "tip"', 'reference = "center"')
+    by_tip, by_centre = coarse(ball), coarse(ball, centre)
+    assert by_tip.ran.code == 0 and by_centre.ran.code == 0
+    assert judged(cli, by_tip, by_centre.gcode.read_text())[0] == 1
+    assert judged(cli, by_centre, by_tip.gcode.read_text())[0] == 1
+    said = cli("run", by_centre.job).out
+    assert "programmed at its center, 5 above the tip" in said
+    depths = [run.ran.json["summary"]["deepest_z"] for run in (by_tip, by_centre)]
+    assert depths[1] - depths[0] == pytest.approx(5.0, abs=0.002)
+
+
+@pytest.mark.parametrize(("face", "meaning"), [("tool", "facing the tool"), ("mid", "its middle")])
+def test_flipped_sheet_is_found_and_stands_in_the_summary(coarse, sound, cli, face, meaning):
+    other = coarse(('model_face = "back"', f'model_face = "{face}"'))
+    code, document = judged(cli, sound, other.gcode.read_text())
+    assert code == 1 and document["findings"]
+    assert meaning in cli("run", other.job).out
+    assert "away from the tool" in cli("run", sound.job).out
+
+
+def test_another_zero_is_found_and_stands_in_the_summary(coarse, sound, cli):
+    other = coarse(('zero = "sheet-top"', "zero = [0.0, 0.0, 2.0]"))
+    assert judged(cli, sound, other.gcode.read_text())[0] == 1
+    assert other.ran.json["summary"]["zero"] != sound.ran.json["summary"]["zero"]
+
+
+def test_program_of_another_part_is_found(sound, cli, tmp_path):
+    job = tmp_path / "job.toml"
+    job.write_text(changed(COARSE_CUP, ("cone_cup.step", "vwaf.step")))
+    assert judged(cli, sound, sound.gcode.read_text(), job)[0] == 1

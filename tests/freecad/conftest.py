@@ -1,0 +1,144 @@
+"""FreeCAD, started few times: what the tests ask of it is computed in a handful of sessions and read from JSON."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import tomllib
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+import roots
+import styluscam as sc
+
+CHECKOUT = Path(__file__).resolve().parents[2]
+ADDON = CHECKOUT / "freecad_workbench"
+EXAMPLE = CHECKOUT / "examples" / "first-light" / "freecad_job.py"
+JOB = EXAMPLE.with_name("job.toml")
+STEP = CHECKOUT / "fixtures" / "cone_cup.step"
+INSIDE = Path(__file__).parent / "inside"
+
+COARSE = 5.0
+"""Step and stepover (mm) where a test needs a path and not this job's: planning is then quick."""
+
+
+@dataclass(frozen=True)
+class FreeCad:
+    """One version, ready to run scripts."""
+
+    version: str
+    engine: Path
+    folder: Path
+
+    def run(
+        self, script: Path, *args: str, engine: bool = True, timeout: float = 170.0
+    ) -> subprocess.CompletedProcess[str]:
+        """Runs a script with the addon, and with the engine unless it is to do without."""
+        return roots.run_freecad(
+            self.version,
+            script,
+            *args,
+            python_path=[self.engine] if engine else [],
+            mod_path=[ADDON],
+            binds=[roots.Bind.same(self.folder, writable=True)],
+            timeout=timeout,
+        )
+
+
+@pytest.fixture(scope="session", params=["1.1", "1.0"])
+def freecad(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, engine: Path) -> FreeCad:
+    """Each FreeCAD that the addon is made for."""
+    try:
+        roots.freecadcmd(request.param)
+    except roots.Unavailable as reason:
+        if os.environ.get("CI"):
+            pytest.fail(f"FreeCAD {request.param} is needed: {reason}")
+        pytest.skip(f"NOT TESTED in FreeCAD {request.param}: {reason}")
+    return FreeCad(request.param, engine, tmp_path_factory.mktemp(f"freecad-{request.param}"))
+
+
+@pytest.fixture(scope="session")
+def engine(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The package that these tests import, alone in a directory: its engine is for every Python."""
+    folder = tmp_path_factory.mktemp("engine")
+    package = Path(sc.__file__).parent
+    shutil.copytree(package, folder / "styluscam", ignore=shutil.ignore_patterns("__pycache__"))
+    return folder
+
+
+@dataclass(frozen=True)
+class Example:
+    """What the example left behind."""
+
+    done: subprocess.CompletedProcess[str]
+    text: str
+
+
+@pytest.fixture(scope="session")
+def example(freecad: FreeCad) -> Example:
+    """The example, run as its first line says."""
+    out = freecad.folder / "cone_cup.ngc"
+    done = freecad.run(EXAMPLE, str(STEP), str(out))
+    return Example(done, out.read_text(encoding="utf-8") if out.exists() else "")
+
+
+@dataclass(frozen=True)
+class Session:
+    """What `inside/scenarios.py` found."""
+
+    done: subprocess.CompletedProcess[str]
+    results: dict[str, Any]
+    document: Path
+
+    def __getitem__(self, name: str) -> Any:
+        """A scenario's result; its traceback where it broke."""
+        assert name in self.results, f"the session ended early:\n{self.done.stdout[-3000:]}\n{self.done.stderr[-3000:]}"
+        result = self.results[name]
+        assert "broke" not in result, result["broke"]
+        return result
+
+
+@pytest.fixture(scope="session")
+def session(freecad: FreeCad) -> Session:
+    """All scenarios, in one FreeCAD."""
+    return _session(freecad, "scenarios.py", ["--", str(EXAMPLE), str(STEP), str(freecad.folder), str(COARSE)])
+
+
+@pytest.fixture(scope="session")
+def bare_session(freecad: FreeCad, session: Session) -> Session:
+    """The document that the scenarios saved, opened where there is no engine."""
+    return _session(freecad, "without_engine.py", ["--", str(session.document)], engine=False)
+
+
+def _session(freecad: FreeCad, script: str, args: Sequence[str], engine: bool = True) -> Session:
+    done = freecad.run(INSIDE / script, *args, engine=engine)
+    lines = [line for line in done.stdout.splitlines() if line.startswith("RESULT ")]
+    pairs = [json.loads(line.removeprefix("RESULT ")) for line in lines]
+    return Session(done, dict(pairs), freecad.folder / "saved.FCStd")
+
+
+Reference = Callable[..., sc.RunResult]
+
+
+@pytest.fixture(scope="session")
+def reference(tmp_path_factory: pytest.TempPathFactory) -> Reference:
+    """The command line's result of the same job; `changes` go into its only operation."""
+    known: dict[str, sc.RunResult] = {}
+
+    def run(machine: str = "linuxcnc", **changes: Any) -> sc.RunResult:
+        key = json.dumps([machine, changes], sort_keys=True)
+        if key not in known:
+            document = tomllib.loads(JOB.read_text(encoding="utf-8"))
+            document["operations"][0] |= changes
+            document["machine"] = {"name": machine}
+            document["part"]["file"] = str(STEP)
+            document["output"] = {"file": str(tmp_path_factory.mktemp("reference") / "out.ngc")}
+            known[key] = sc.run(sc.Job.from_dict(document))
+        return known[key]
+
+    return run

@@ -1,0 +1,55 @@
+"""Inside FreeCAD, where there is no engine: a saved document opens, keeps its paths, and says what is missing."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import traceback
+from typing import Any
+
+(DOCUMENT,) = sys.argv[sys.argv.index("--") + 1 :]
+
+
+def tell(name: str, result: dict[str, Any]) -> None:
+    print("\nRESULT " + json.dumps([name, result]), flush=True)
+
+
+def main() -> None:
+    import FreeCAD
+
+    document = FreeCAD.openDocument(DOCUMENT)
+    operation = next(o for o in document.Objects if o.Label == "cup")
+    tell(
+        "opened",
+        {
+            "commands": [[c.Name, c.Parameters] for c in operation.Path.Commands],
+            "state": list(operation.State),
+            "loaded": "styluscam" in sys.modules,
+            "volume": operation.ToolController.Tool.Shape.Volume,
+        },
+    )
+    print("\nOPENED", flush=True)
+    operation.touch()
+    document.recompute()
+    commands = operation.Path.Commands
+    tell("computed", {"state": list(operation.State), "names": [c.Name for c in commands]})
+    from freecad.styluscam_wb import ops
+
+    count = len(document.Objects)
+    try:
+        ops.Create("Another", parentJob=next(o for o in document.Objects if o.Name == "Job"))
+        said = "nothing"
+    except Exception as error:
+        said = str(error)
+    tell("created", {"said": said, "objects": [count, len(document.Objects)]})
+
+
+try:
+    main()
+except BaseException:
+    tell("broke", {"broke": traceback.format_exc()})
+finally:
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(0)
