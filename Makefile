@@ -23,11 +23,11 @@ demo: tools ## A STEP part becomes verified G-code, from nothing
 	$(PYTHON) -m venv --clear .venv-demo
 	.venv-demo/bin/python -m pip install --quiet --upgrade pip
 	.venv-demo/bin/python -m pip wheel --quiet --no-deps --wheel-dir target/demo .
-	.venv-demo/bin/python -m pip install --quiet "$$(ls -t target/demo/styluscam-*.whl | head -n 1)[step]"
-	.venv-demo/bin/styluscam run examples/first-light/job.toml --picture examples/first-light/out/cone_cup.svg
+	.venv-demo/bin/python -m pip install --quiet "$$(ls -t target/demo/styluscam-*.whl | head -n 1)[step,plot]"
+	.venv-demo/bin/styluscam run examples/first-light/job.toml --picture examples/first-light/out/cone_cup.png
 	@echo
 	@echo "G-code:  examples/first-light/out/cone_cup.ngc"
-	@echo "picture: examples/first-light/out/cone_cup.svg"
+	@echo "picture: examples/first-light/out/cone_cup.png"
 
 .PHONY: tools
 tools: ## Checks that Rust and Python are new enough
@@ -129,4 +129,4 @@ addon: ## The FreeCAD addon as a zip with package.xml at its root
 
 .PHONY: picture
 picture: dev ## The picture in the README
-	$(BIN)/styluscam run examples/first-light/job.toml --quiet --picture docs/first-light.svg
+	$(BIN)/styluscam run examples/first-light/job.toml --quiet --picture docs/first-light.png

@@ -9,9 +9,10 @@ from __future__ import annotations
 import os
 import sys
 import tempfile
-import tomllib
 from pathlib import Path
 from typing import Any
+
+import tomllib
 
 JOB = Path(__file__).with_name("job.toml")
 
@@ -22,7 +23,7 @@ def main(part: Path, out: Path) -> str:
 
     settings = tomllib.loads(JOB.read_text(encoding="utf-8"))
     document = FreeCAD.newDocument("FirstLight")
-    job = make_job(document, part, settings)
+    job = make_job(document, read_shape(part), settings)
     operation = make_operation(job, settings)
     document.recompute()
     if "Invalid" in operation.State:
@@ -32,16 +33,22 @@ def main(part: Path, out: Path) -> str:
     return "\n".join([f"{out}: {len(text.splitlines())} lines, cycle time {operation.CycleTime}", *operation.Notes])
 
 
-def make_job(document: Any, part: Path, settings: dict[str, Any]) -> Any:
-    """A CAM job on the part's solid, with one tool controller that holds the stylus."""
+def read_shape(part: Path) -> Any:
+    """The solid in a STEP file."""
     import Part
-    import Path.Main.Job as PathJob
-    from freecad.styluscam_wb import compat, tools
 
-    compat.register_posts()
     shape = Part.Shape()
     shape.read(str(part))
-    model = document.addObject("Part::Feature", part.stem)
+    return shape
+
+
+def make_job(document: Any, shape: Any, settings: dict[str, Any]) -> Any:
+    """A CAM job on the part's solid, with one tool controller that holds the stylus."""
+    import Path.Main.Job as PathJob
+
+    from freecad.styluscam_wb import tools
+
+    model = document.addObject("Part::Feature", "Model")
     model.Shape = shape
     document.recompute()
     job = PathJob.Create("Job", [model])
@@ -107,11 +114,24 @@ def write_whole(path: Path, text: str) -> None:
     Path(file.name).replace(path)
 
 
+def arguments() -> tuple[Path, Path]:
+    """The part and the output: what follows this script in FreeCAD's command line."""
+    at = max(i for i, word in enumerate(sys.argv) if Path(word).name == Path(__file__).name)
+    words = [word for word in sys.argv[at + 1 :] if word != "--"]
+    if len(words) != 2:
+        raise RuntimeError("give a STEP file and the G-code file to write")
+    part, out = (Path(word).resolve() for word in words)
+    if not part.is_file():
+        raise RuntimeError(f"{part}: no such file")
+    if not out.parent.is_dir() or not os.access(out.parent, os.W_OK):
+        raise RuntimeError(f"{out.parent}: not a folder that can be written to")
+    return part, out
+
+
 def run() -> int:
     """The exit code; FreeCAD itself would end with 0 whatever happens."""
     try:
-        part, out = (Path(word) for word in sys.argv[-2:])
-        print(main(part, out))
+        print(main(*arguments()))
     except BaseException as error:
         if os.environ.get("STYLUSCAM_DEBUG"):
             raise

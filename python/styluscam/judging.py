@@ -49,9 +49,11 @@ class Report:
         return self._document
 
 
-def judge_plan(plan: Plan, text: str, progress: Progress | None = None, cancel: _engine.CancelToken | None = None) -> Report:
+def judge_plan(
+    plan: Plan, text: str, progress: Progress | None = None, cancel: _engine.CancelToken | None = None
+) -> Report:
     """Judges ``text`` against a plan's part, and its contacts against the exact model."""
-    return _judge(plan.job, plan.scene, plan.machine, text, progress, cancel)
+    return _judge(plan.job, plan.scene, plan.machine, text, progress=progress, cancel=cancel)
 
 
 def verify(
@@ -69,7 +71,7 @@ def verify(
     """
     scene = _engine.Scene(job.engine, job.part(progress).engine)
     words = text.text if isinstance(text, Posted) else text
-    return _judge(job, scene, machine or job.machine(), words, progress, cancel)
+    return _judge(job, scene, machine or job.machine(), words, progress=progress, cancel=cancel)
 
 
 def verify_file(path: str | Path, job: Job, *, progress: Progress | None = None) -> Report:
@@ -91,6 +93,7 @@ def _judge(
     scene: _engine.Scene,
     machine: Machine,
     text: str,
+    *,
     progress: Progress | None,
     cancel: _engine.CancelToken | None,
 ) -> Report:

@@ -26,7 +26,7 @@ class Offsets(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
     _by_point: npt.NDArray[np.uint8] | None = None
 
     @property
-    def flags(self) -> Any:
+    def flags(self) -> Any:  # noqa: ANN401 - numpy's own flags have no public type
         """Flag by point (N,)."""
         return super().flags if self._by_point is None else self._by_point
 
@@ -80,6 +80,4 @@ def waterline(
     cancel: _engine.CancelToken | None = None,
 ) -> list[FloatArray]:
     """Loops (M, 3) of the tip at height ``z``, the first point repeated when closed; 0 to ``tolerance`` mm free."""
-    return _engine.waterline(
-        part.engine, tool._engine, z, _sheet(sheet), tolerance, progress=progress, cancel=cancel
-    )
+    return _engine.waterline(part.engine, tool._engine, z, _sheet(sheet), tolerance, progress=progress, cancel=cancel)

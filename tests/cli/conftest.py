@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
 import styluscam as sc
 from styluscam.cli import invoke
 
@@ -149,6 +150,7 @@ def box_step(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def write_step(shape: Any, path: Path) -> None:
     """Writes a shape as STEP, without the kernel's chatter."""
     from OCP.STEPControl import STEPControl_StepModelType, STEPControl_Writer
+
     from styluscam.parts.step import quiet_kernel
 
     with quiet_kernel():

@@ -236,6 +236,18 @@ def test_picture_that_cannot_be_written_stops_before_the_work(folder, cli, comma
     assert files_in(folder) == before
 
 
+def test_output_that_cannot_be_written_stops_before_the_work(folder, cli, monkeypatch):
+    from styluscam import running
+
+    def planned(*args, **kwargs):
+        raise AssertionError("planned in vain")
+
+    monkeypatch.setattr(running, "plan", planned)
+    job = folder / "job.toml"
+    job.write_text(changed(JOB, ("out.ngc", "text.doc/out.ngc")))
+    is_one_helpful_line(cli("run", job), ["out.ngc", "cannot be written"])
+
+
 USAGE = {
     "no such command": (["rnu"], ["rnu", "run"]),
     "no job": (["run"], ["JOB.toml"]),
@@ -246,7 +258,7 @@ USAGE = {
     "no such machine file": (["machine", "show", "none.toml"], ["none.toml"]),
     "no such part": (["part", "show", "none.step"], ["none.step", "no such file"]),
     "new for no such part": (["new", "none.step"], ["none.step", "no such file"]),
-    "unknown units": (["part", "show", "none.stl", "--units", "miles"], ["miles", "mm, cm, m, um, in, ft"]),
+    "unknown units": (["part", "show", "none.stl", "--units", "miles"], ["miles", "mm, cm, m, um, in"]),
 }
 
 

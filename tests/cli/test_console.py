@@ -9,6 +9,7 @@ import subprocess
 import sys
 
 import pytest
+
 import styluscam as sc
 
 from .conftest import CHECKOUT, FIXTURES
@@ -90,6 +91,30 @@ def test_stdout_is_one_json_document_whatever_the_kernel_prints(cli, monkeypatch
     assert ran.code == 0 and ran.err == ""
     assert len(json.loads(ran.out)["faces"]) == 10
     assert "**" not in cli("part", "show", FIXTURES / "cone_cup.step").out
+
+
+def test_what_c_code_still_holds_does_not_come_out_later():
+    code = """
+import ctypes
+from styluscam.cli import invoke, schema
+def chattering():
+    ctypes.CDLL(None).puts(b"** still in the buffer **")
+    return {"a": 1}
+schema.job_schema = chattering
+invoke(["schema"])
+print("after")
+"""
+    assert python("-c", code).stdout == '{\n  "a": 1\n}\nafter\n'
+
+
+def test_a_message_of_many_lines_becomes_one(cli, monkeypatch):
+    from styluscam.cli import part
+
+    def failing(*arguments):
+        raise sc.GeometryError("first\n  second", code="lines", where="part.step", hint="do\nthis")
+
+    monkeypatch.setattr(part, "read_part", failing)
+    assert cli("part", "show", "part.step").err == "error: part.step: first second; do this\n"
 
 
 def test_stdout_is_given_back(cli):

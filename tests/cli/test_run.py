@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 import styluscam as sc
 
 from .conftest import CHECKOUT, COARSE_CUP, changed

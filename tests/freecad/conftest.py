@@ -5,49 +5,16 @@ from __future__ import annotations
 import json
 import os
 import shutil
-import subprocess
-import tomllib
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pytest
+import tomllib
+from freecad_host import COARSE, EXAMPLE, INSIDE, JOB, STEP, Example, FreeCad, Session
+
 import roots
 import styluscam as sc
-
-CHECKOUT = Path(__file__).resolve().parents[2]
-ADDON = CHECKOUT / "freecad_workbench"
-EXAMPLE = CHECKOUT / "examples" / "first-light" / "freecad_job.py"
-JOB = EXAMPLE.with_name("job.toml")
-STEP = CHECKOUT / "fixtures" / "cone_cup.step"
-INSIDE = Path(__file__).parent / "inside"
-
-COARSE = 5.0
-"""Step and stepover (mm) where a test needs a path and not this job's: planning is then quick."""
-
-
-@dataclass(frozen=True)
-class FreeCad:
-    """One version, ready to run scripts."""
-
-    version: str
-    engine: Path
-    folder: Path
-
-    def run(
-        self, script: Path, *args: str, engine: bool = True, timeout: float = 170.0
-    ) -> subprocess.CompletedProcess[str]:
-        """Runs a script with the addon, and with the engine unless it is to do without."""
-        return roots.run_freecad(
-            self.version,
-            script,
-            *args,
-            python_path=[self.engine] if engine else [],
-            mod_path=[ADDON],
-            binds=[roots.Bind.same(self.folder, writable=True)],
-            timeout=timeout,
-        )
 
 
 @pytest.fixture(scope="session", params=["1.1", "1.0"])
@@ -71,36 +38,12 @@ def engine(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@dataclass(frozen=True)
-class Example:
-    """What the example left behind."""
-
-    done: subprocess.CompletedProcess[str]
-    text: str
-
-
 @pytest.fixture(scope="session")
 def example(freecad: FreeCad) -> Example:
     """The example, run as its first line says."""
     out = freecad.folder / "cone_cup.ngc"
     done = freecad.run(EXAMPLE, str(STEP), str(out))
     return Example(done, out.read_text(encoding="utf-8") if out.exists() else "")
-
-
-@dataclass(frozen=True)
-class Session:
-    """What `inside/scenarios.py` found."""
-
-    done: subprocess.CompletedProcess[str]
-    results: dict[str, Any]
-    document: Path
-
-    def __getitem__(self, name: str) -> Any:
-        """A scenario's result; its traceback where it broke."""
-        assert name in self.results, f"the session ended early:\n{self.done.stdout[-3000:]}\n{self.done.stderr[-3000:]}"
-        result = self.results[name]
-        assert "broke" not in result, result["broke"]
-        return result
 
 
 @pytest.fixture(scope="session")

@@ -8,9 +8,10 @@ from typing import Any, TypeAlias
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
+
 import styluscam as sc
 from meridian import FIXTURES, Meridian
-from numpy.typing import NDArray
 
 Floats: TypeAlias = NDArray[np.float64]
 

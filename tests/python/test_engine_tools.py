@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 import styluscam as sc
 
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459")

@@ -7,6 +7,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+
 import styluscam as sc
 from meridian import Meridian, Profile, fresnel
 from styluscam.offsets import REGULAR, RIM, UNDERCUT

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import styluscam as sc
 from conftest import CELL, Floats, job_document, made_part, milling_document
+
+import styluscam as sc
 from meridian import Meridian
 from styluscam.program import FEED, RAPID
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from styluscam.errors import GeometryError
 from styluscam.parts import read_part
 from styluscam.parts.mesh import Facets

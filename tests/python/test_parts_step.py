@@ -33,6 +33,7 @@ from OCP.Interface import Interface_Static
 from OCP.STEPControl import STEPControl_StepModelType, STEPControl_Writer
 from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS_Compound, TopoDS_Shell
+
 from styluscam.errors import Cancelled, GeometryError
 from styluscam.parts import PartArrays, read_part
 from styluscam.parts.step import faces_of, quiet_kernel

@@ -20,6 +20,7 @@ from OCP.Geom import (
 from OCP.GeomAPI import GeomAPI_PointsToBSplineSurface, GeomAPI_ProjectPointOnSurf
 from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt, gp_Vec
 from OCP.TColgp import TColgp_Array2OfPnt
+
 from styluscam.parts.step import nurbs_of
 from styluscam.parts.surfaces import Cone, Cylinder, ExactSurface, Parametric, Plane, Sphere, Torus
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+
 from styluscam.errors import GeometryError
 from styluscam.parts.surfaces import Cylinder, Parametric, Plane, Sphere
 from styluscam.parts.tessellation import FaceMesh, deviation, is_closed, refine, refine_until, weld

@@ -42,7 +42,7 @@ def tool_kind(bit: Any) -> str:
 
 def register_posts() -> None:
     """Makes FreeCAD look for posts in our directory too."""
-    import Path.Preferences as Preferences
+    from Path import Preferences
 
     theirs = Preferences.searchPathsPost
     if getattr(theirs, "styluscam", False):

@@ -41,9 +41,7 @@ def sheet_raise(obj: Any) -> float:
     return share * obj.SheetThickness.Value if obj.Process == "spif" else 0.0
 
 
-def job_document(
-    job: Any, operations: list[Any], part: EnginePart, machine: str, wcs: str | None = None
-) -> Document:
+def job_document(job: Any, operations: list[Any], part: EnginePart, machine: str, wcs: str | None = None) -> Document:
     """The document of these operations of ours, in this order; they must agree on sheet, process and model.
 
     `wcs` is the work offset, the job's first unless it is given.

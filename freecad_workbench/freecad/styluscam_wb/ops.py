@@ -68,7 +68,7 @@ class ObjectStylus(PathOp.ObjectOp):
     _choosing = False
     _chosen: Any = None
 
-    def __init__(self, obj: Any, name: str, parentJob: Any = None) -> None:  # noqa: N803
+    def __init__(self, obj: Any, name: str, parentJob: Any = None) -> None:
         # Without a window nobody can be asked, and FreeCAD's search fails over two suitable tools (its issue 31849):
         # while the operation is made it hears of the first one only.
         self._choosing = not FreeCAD.GuiUp
@@ -77,7 +77,7 @@ class ObjectStylus(PathOp.ObjectOp):
 
     # What FreeCAD asks of an operation
 
-    def opFeatures(self, obj: Any) -> int:  # noqa: N802, ARG002
+    def opFeatures(self, obj: Any) -> int:
         """Which of FreeCAD's standard properties it has."""
         return (
             PathOp.FeatureTool
@@ -87,11 +87,11 @@ class ObjectStylus(PathOp.ObjectOp):
             | PathOp.FeatureCoolant
         )
 
-    def initOperation(self, obj: Any) -> None:  # noqa: N802
+    def initOperation(self, obj: Any) -> None:
         """Adds the properties."""
         update_properties(obj)
 
-    def opSetDefaultValues(self, obj: Any, job: Any) -> None:  # noqa: N802, ARG002
+    def opSetDefaultValues(self, obj: Any, job: Any) -> None:
         """What the document's schema says."""
         definitions = engine.styluscam().job_schema()["$defs"]
         for field in FIELDS:
@@ -100,7 +100,7 @@ class ObjectStylus(PathOp.ObjectOp):
                 setattr(obj, field.name, value)
         obj.WholeModel = False
 
-    def isToolSupported(self, obj: Any, tool: Any) -> bool:  # noqa: N802, ARG002
+    def isToolSupported(self, obj: Any, tool: Any) -> bool:
         """Whether there is a profile for the tool."""
         supported = hasattr(tool, tools.PROFILE) or compat.tool_kind(tool) in tools.NATIVE
         if not (supported and self._choosing):
@@ -108,15 +108,15 @@ class ObjectStylus(PathOp.ObjectOp):
         self._chosen = self._chosen or tool
         return bool(tool == self._chosen)
 
-    def sanitizeBase(self, obj: Any) -> bool:  # noqa: N802, ARG002
+    def sanitizeBase(self, obj: Any) -> bool:
         """Keeps a Base whose faces are gone: computing says so, instead of planning something else."""
         return False
 
-    def updateDepths(self, obj: Any, ignoreErrors: bool = False) -> Any:  # noqa: N802, N803
+    def updateDepths(self, obj: Any, ignoreErrors: bool = False) -> Any:
         """Leaves the depths alone while Base is not whole."""
         return None if stale_faces(obj) else super().updateDepths(obj, ignoreErrors)
 
-    def opUpdateDepths(self, obj: Any) -> None:  # noqa: N802
+    def opUpdateDepths(self, obj: Any) -> None:
         """The automatic depths: where the tool's tip stands on the highest and on the lowest place of the faces."""
         boxes = [face.BoundBox for face in _chosen_faces(obj)]
         if not boxes:
@@ -128,7 +128,7 @@ class ObjectStylus(PathOp.ObjectOp):
         if abs(obj.OpFinalDepth.Value - bottom) > documents.AUTOMATIC:
             obj.OpFinalDepth = bottom
 
-    def opOnChanged(self, obj: Any, prop: str) -> None:  # noqa: N802
+    def opOnChanged(self, obj: Any, prop: str) -> None:
         """A change of the sheet moves the automatic depths."""
         if prop in ("Process", "SheetThickness", "ModelFace", "WholeModel") and "Restore" not in obj.State:
             self.updateDepths(obj, True)
@@ -143,12 +143,12 @@ class ObjectStylus(PathOp.ObjectOp):
             update_properties(obj)
             return super().execute(obj)
         except BaseException as error:
-            obj.Path = _only_comment(str(error) or type(error).__name__)
+            obj.Path = _only_comment(reason(error))
             obj.CycleTime = ""
             obj.Notes = []
             raise
 
-    def opExecute(self, obj: Any) -> None:  # noqa: N802
+    def opExecute(self, obj: Any) -> None:
         """Plans the operation and fills the command list."""
         sc = engine.styluscam()
         part = engine_part(obj)
@@ -223,7 +223,9 @@ def check(obj: Any) -> None:
         raise OperationError("the operation belongs to no CAM job: create it in one")
     models = job.Model.Group if job.Model else []
     if len(models) != 1:
-        raise OperationError(f"the job has {len(models)} models: StylusCAM plans for one; fuse them or make jobs of them")
+        raise OperationError(
+            f"the job has {len(models)} models: StylusCAM plans for one; fuse them or make jobs of them"
+        )
     _check_tool(obj)
     if not obj.WholeModel and not documents.face_names(obj):
         raise OperationError("no face is chosen: choose faces of the model, or set WholeModel")
@@ -252,7 +254,7 @@ def stale_faces(obj: Any) -> list[str]:
     missing = []
     for base, names in getattr(obj, "Base", None) or ():
         count = len(base.Shape.Faces)
-        for name in filter(None, names):
+        for name in (name.lstrip("?") for name in names if name):  # FreeCAD marks those that it misses
             number = name.removeprefix("Face")
             if not (name.startswith("Face") and number.isdecimal() and 1 <= int(number) <= count):
                 missing.append(name)
@@ -267,6 +269,13 @@ def _chosen_faces(obj: Any) -> list[Any]:
     return chosen
 
 
+def reason(error: BaseException) -> str:
+    """What an error says, and what its hint says to do."""
+    hint = getattr(error, "hint", "")
+    said = str(error) or type(error).__name__
+    return f"{said}: {hint}" if hint and hint not in said else said
+
+
 def _only_comment(text: str) -> Any:
     return Path.Path([Path.Command(motion.comment(text))])
 
@@ -274,12 +283,12 @@ def _only_comment(text: str) -> Any:
 # --- creation ----------------------------------------------------------------------------------------------------
 
 
-def SetupProperties() -> list[str]:  # noqa: N802
+def SetupProperties() -> list[str]:
     """Properties that a job's setup sheet may set for new operations."""
     return [field.name for field in FIELDS]
 
 
-def Create(name: str = NAME, obj: Any = None, parentJob: Any = None) -> Any:  # noqa: N802, N803
+def Create(name: str = NAME, obj: Any = None, parentJob: Any = None) -> Any:
     """A new operation in a job, the only one of the document unless it is given.
 
     Raises:

@@ -31,6 +31,9 @@ ANGLE = 0.35
 ANY_DEFLECTION = 1e3
 """Asked of a face that is meshed already, the kernel gives back what it has."""
 
+KERNEL_ALGORITHM = "CSF_MeshAlgo"
+"""OpenCASCADE's variable."""
+
 _known: OrderedDict[tuple[int, float], tuple[Any, EnginePart]] = OrderedDict()
 
 
@@ -128,12 +131,12 @@ def _mesher(algorithm: str) -> Iterator[None]:
 
     Delabella is up to ten times faster than the default, Watson, on fine meshes, but leaves some freeform faces empty.
     """
-    before = os.environ.get("CSF_MeshAlgo")
-    os.environ["CSF_MeshAlgo"] = algorithm
+    before = os.environ.get(KERNEL_ALGORITHM)
+    os.environ[KERNEL_ALGORITHM] = algorithm
     try:
         yield
     finally:
         if before is None:
-            del os.environ["CSF_MeshAlgo"]
+            del os.environ[KERNEL_ALGORITHM]
         else:
-            os.environ["CSF_MeshAlgo"] = before
+            os.environ[KERNEL_ALGORITHM] = before

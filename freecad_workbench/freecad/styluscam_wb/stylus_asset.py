@@ -56,7 +56,7 @@ class ToolBitStylus(ToolBit, RotaryToolBitMixin):
         """A stylus slides: the spindle stays off."""
         return False
 
-    def onChanged(self, obj: Any, prop: str) -> None:  # noqa: N802 - FreeCAD's name
+    def onChanged(self, obj: Any, prop: str) -> None:
         """The lengths that follow from the profile follow it."""
         updating = getattr(self, "_suppress_visual_update", False) or getattr(self, "_in_update", False)
         if prop == tools.PROFILE and not updating and "Restore" not in obj.State:

@@ -15,7 +15,7 @@ compat.register_posts()
 class StylusBit(ToolBit):
     """A bit whose properties are set up here; a shape file is neither looked for nor needed."""
 
-    def _setupBitShape(self, obj: Any, path: Any = None) -> None:  # noqa: N802, ARG002 - FreeCAD's names
+    def _setupBitShape(self, obj: Any, path: Any = None) -> None:
         for name, (kind, text) in tools.SHAPE_PROPERTIES.items():
             if not hasattr(obj, name):
                 obj.addProperty(kind, name, "Shape", text)
@@ -25,14 +25,14 @@ class StylusBit(ToolBit):
         obj.ShapeName = "stylus"
         obj.BitPropertyNames = [*tools.SHAPE_PROPERTIES, "SpindlePower"]
 
-    def _updateBitShape(self, obj: Any, properties: Any = None) -> None:  # noqa: N802, ARG002
+    def _updateBitShape(self, obj: Any, properties: Any = None) -> None:
         values = {name: getattr(obj, name) for name in tools.SHAPE_PROPERTIES}
         obj.Shape = tools.solid_of({name: getattr(value, "Value", value) for name, value in values.items()})
 
-    def loadBitBody(self, obj: Any, force: bool = False) -> None:  # noqa: N802
+    def loadBitBody(self, obj: Any, force: bool = False) -> None:
         """There is no body beside the bit."""
 
-    def onChanged(self, obj: Any, prop: str) -> None:  # noqa: N802
+    def onChanged(self, obj: Any, prop: str) -> None:
         """The lengths that follow from the profile follow it, and the solid all of them."""
         if "Restore" in obj.State or prop not in getattr(obj, "BitPropertyNames", ()) or prop == "SpindlePower":
             return

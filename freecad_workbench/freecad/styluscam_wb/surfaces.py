@@ -34,6 +34,7 @@ def surface_of(face: Any) -> ExactSurface:
 def _closed_form(surface: Any) -> tuple[Any, tuple[Any, ...]] | None:
     """The engine's class and its arguments; None for a freeform surface."""
     import Part
+
     from styluscam.parts.surfaces import Cone, Cylinder, Plane, Sphere, Torus
 
     if isinstance(surface, Part.Plane):

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 from typing import Any
@@ -139,7 +140,7 @@ def solid_of(parameters: dict[str, Any]) -> Any:
     foot, rim = meridian[0], meridian[-1]
     corners = [rim, Vector(shank, 0.0, rim.z), Vector(shank, 0.0, top), Vector(0.0, 0.0, top), Vector(), foot]
     edges = [curve.toShape()]
-    for a, b in zip(corners, corners[1:], strict=False):
+    for a, b in itertools.pairwise(corners):
         if a.distanceToPoint(b) > 1e-7:
             edges.append(Part.makeLine(a, b))
     turned = Part.Face(Part.Wire(edges)).revolve(Vector(), Vector(0.0, 0.0, 1.0), 360.0)

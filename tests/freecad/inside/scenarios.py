@@ -6,15 +6,19 @@ import importlib.util
 import json
 import os
 import sys
-import tomllib
+import time
 import traceback
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import tomllib
+
 EXAMPLE, STEP, FOLDER, COARSE = sys.argv[sys.argv.index("--") + 1 :]
 
 Scenario = Callable[[], dict[str, Any]]
+
+MODEL: dict[str, Any] = {}
 
 
 def example() -> Any:
@@ -31,6 +35,13 @@ def settings(machine: str = "linuxcnc", **changes: Any) -> dict[str, Any]:
     return found
 
 
+def make_job(document: Any, numbers: dict[str, Any]) -> Any:
+    """The example's job, on a model that was read once: its triangles are then made once as well."""
+    if not MODEL:
+        MODEL["shape"] = example().read_shape(Path(STEP))
+    return example().make_job(document, MODEL["shape"], numbers)
+
+
 class Stage:
     """A new document with the example's job, at a coarse step; computed."""
 
@@ -38,7 +49,7 @@ class Stage:
         import FreeCAD
 
         self.document = FreeCAD.newDocument("Stage")
-        self.job = example().make_job(self.document, Path(STEP), settings(machine, **changes))
+        self.job = make_job(self.document, settings(machine, **changes))
         self.operation = example().make_operation(self.job, settings(machine, **changes))
         self.document.recompute()
 
@@ -235,6 +246,31 @@ def native_ball() -> dict[str, Any]:
     return seen
 
 
+def native_bits() -> dict[str, Any]:
+    """FreeCAD's own ball end mill, turning; and its end mill, which has no profile here."""
+    stage = Stage()
+    controller = stage.operation.ToolController
+    result = {}
+    for shape in ("ballend", "endmill"):
+        controller.Tool = native_bit(stage.document, f"{shape}.fcstd")
+        controller.SpindleSpeed, controller.SpindleDir = 5000.0, "Forward"
+        stage.operation.Process = "milling"
+        stage.operation.CoolantMode = "Flood"
+        result[shape] = stage.again().seen()
+    stage.close()
+    return result
+
+
+def native_bit(document: Any, shape: str) -> Any:
+    try:
+        from Path.Tool.toolbit import ToolBit
+    except ImportError:
+        from Path.Tool.Bit import Factory
+
+        return Factory.Create("Native", shape)
+    return ToolBit.from_shape_id(shape).attach_to_doc(document)
+
+
 def depths() -> dict[str, Any]:
     """Automatic depths, then a range of one's own."""
     stage = Stage()
@@ -251,10 +287,14 @@ def depths() -> dict[str, Any]:
 
 def tool_bit() -> dict[str, Any]:
     import FreeCAD
+
     from freecad.styluscam_wb import compat, tools
 
     stage = Stage()
-    bit = stage.operation.ToolController.Tool
+    controller = stage.operation.ToolController
+    controller.SpindleSpeed, controller.SpindleDir = 3000.0, "Forward"
+    stage.document.recompute()
+    bit = controller.Tool
     box = bit.Shape.BoundBox
     from styluscam import Tool
 
@@ -266,7 +306,7 @@ def tool_bit() -> dict[str, Any]:
         "box": [box.XLength, box.YLength, box.ZMin, box.ZMax],
         "volume": bit.Shape.Volume,
         "valid": bit.Shape.isValid(),
-        "commands": [c.Name for c in stage.operation.ToolController.Path.Commands],
+        "commands": [c.Name for c in controller.Path.Commands],
         "odd": Tool.from_dict(tools.tool_document(odd)).diameter,
     }
     bit.Profile = json.dumps({"kind": "ball", "diameter": 6.0})
@@ -280,30 +320,32 @@ def tool_bit() -> dict[str, Any]:
 def shapes() -> dict[str, Any]:
     """Parts of each kind of surface: what the mesh says of itself and what the exact shape says of it."""
     import Part
+    from FreeCAD import Placement, Rotation
+    from FreeCAD import Vector as At
+
     from freecad.styluscam_wb import part
     from styluscam.parts.arrays import signed_volume
 
-    Vector = __import__("FreeCAD").Vector
     cup = Part.Shape()
     cup.read(STEP)
-    square = Part.makePolygon([Vector(*p) for p in ((0, 0, 0), (10, 0, 0), (10, 10, 0), (0, 10, 0), (0, 0, 0))])
+    square = Part.makePolygon([At(*p) for p in ((0, 0, 0), (10, 0, 0), (10, 10, 0), (0, 10, 0), (0, 0, 0))])
     wave = Part.BSplineCurve()
-    wave.interpolate([Vector(*p) for p in ((4, 0, 3), (6, 0, 5), (9, 0, 4), (12, 0, 5))])
-    foot = Part.makePolygon([Vector(*p) for p in ((12, 0, 5), (12, 0, 0), (4, 0, 0), (4, 0, 3))])
+    wave.interpolate([At(*p) for p in ((4, 0, 3), (6, 0, 5), (9, 0, 4), (12, 0, 5))])
+    foot = Part.makePolygon([At(*p) for p in ((12, 0, 5), (12, 0, 0), (4, 0, 0), (4, 0, 3))])
     waved = Part.Face(Part.Wire([wave.toShape(), *foot.Edges]))
     moved = Part.makeCone(8, 3, 10)
-    moved.Placement = __import__("FreeCAD").Placement(Vector(5, 6, 7), __import__("FreeCAD").Rotation(10, 20, 30))
+    moved.Placement = Placement(At(5, 6, 7), Rotation(10, 20, 30))
     found = {}
     for name, shape in {
         "cup": cup,
-        "cylinder": Part.makeBox(20, 20, 20).cut(Part.makeCylinder(5, 30, Vector(10, 10, -5))),
+        "cylinder": Part.makeBox(20, 20, 20).cut(Part.makeCylinder(5, 30, At(10, 10, -5))),
         "cone, moved": moved,
         "sphere": Part.makeSphere(10),
         "torus": Part.makeTorus(10, 3),
         "sphere as nurbs": Part.makeSphere(10).toNurbs(),
-        "loft": Part.makeLoft([square, Part.Wire(Part.makeCircle(4, Vector(5, 5, 10)))], True),
-        "extrusion": waved.extrude(Vector(0, 5, 0)),
-        "revolution": waved.revolve(Vector(0, 0, 0), Vector(0, 0, 1), 360),
+        "loft": Part.makeLoft([square, Part.Wire(Part.makeCircle(4, At(5, 5, 10)))], True),
+        "extrusion": waved.extrude(At(0, 5, 0)),
+        "revolution": waved.revolve(At(0, 0, 0), At(0, 0, 1), 360),
     }.items():
         arrays = part.arrays_of(shape, 0.01, name)
         found[name] = {
@@ -313,8 +355,9 @@ def shapes() -> dict[str, Any]:
             "volume": [signed_volume(arrays.vertices, arrays.triangles), shape.Volume],
             "area": shape.Area,
             "apart": max(
-                abs(mine.area_mm2 - face.Area) + sum(abs(a - b) for a, b in zip(mine.centre, face.CenterOfMass))
-                for mine, face in zip(arrays.faces, shape.Faces)
+                abs(mine.area_mm2 - face.Area)
+                + sum(abs(a - b) for a, b in zip(mine.centre, face.CenterOfMass, strict=True))
+                for mine, face in zip(arrays.faces, shape.Faces, strict=True)
             ),
         }
     return found
@@ -332,6 +375,7 @@ def once_a_session() -> dict[str, Any]:
         return real(*args)
 
     part.arrays_of = counted
+    MODEL.clear()
     try:
         stage = Stage()
         stage.operation.Angle = 5
@@ -344,9 +388,8 @@ def once_a_session() -> dict[str, Any]:
 
 def faces_as_in_the_file() -> dict[str, Any]:
     """How the model's faces are numbered, and how long its triangles take."""
-    import time
-
     import Part
+
     from freecad.styluscam_wb import part
 
     shape = Part.Shape()
@@ -363,10 +406,13 @@ def faces_as_in_the_file() -> dict[str, Any]:
 def two_tools() -> dict[str, Any]:
     """Two operations of ours with a tool each: FreeCAD cannot choose between controllers by itself."""
     import Path.Tool.Controller as Controller
+
     from freecad.styluscam_wb import tools
 
     stage = Stage()
-    other = Controller.Create("Other", tool=tools.create_stylus(stage.document, "Six", {"kind": "ball", "diameter": 6.0}))
+    other = Controller.Create(
+        "Other", tool=tools.create_stylus(stage.document, "Six", {"kind": "ball", "diameter": 6.0})
+    )
     other.ToolNumber = 2
     other.HorizFeed = other.VertFeed = "600 mm/min"
     stage.job.Proxy.addToolController(other)
@@ -386,10 +432,11 @@ def first_of_two_tools() -> dict[str, Any]:
     """The first operation of a job that has two controllers."""
     import FreeCAD
     import Path.Tool.Controller as Controller
+
     from freecad.styluscam_wb import ops, tools
 
     document = FreeCAD.newDocument("Two")
-    job = example().make_job(document, Path(STEP), settings())
+    job = make_job(document, settings())
     other = Controller.Create("Other", tool=tools.create_stylus(document, "Six", {"kind": "ball", "diameter": 6.0}))
     job.Proxy.addToolController(other)
     operation = ops.Create("First", parentJob=job)
@@ -429,6 +476,7 @@ def saved() -> dict[str, Any]:
 SCENARIOS: dict[str, Scenario] = {
     "zig-zag grbl": zig_zag_grbl,
     "milling ball": native_ball,
+    "native bits": native_bits,
     "depths": depths,
     "tool bit": tool_bit,
     "shapes": shapes,

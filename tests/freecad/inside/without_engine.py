@@ -18,6 +18,11 @@ def tell(name: str, result: dict[str, Any]) -> None:
 def main() -> None:
     import FreeCAD
 
+    early = "Path" in sys.modules
+    import Path.Main.Job
+    import Path.Preferences
+
+    tell("started", {"early": early, "posts": Path.Preferences.allAvailablePostProcessors()})
     document = FreeCAD.openDocument(DOCUMENT)
     operation = next(o for o in document.Objects if o.Label == "cup")
     tell(

@@ -26,10 +26,10 @@ def post_for(machine: str) -> type[PostProcessor]:
 
         @property
         def tooltip(self) -> str:
-            return str(engine.styluscam().Machine.shipped(machine).description)
+            return f"StylusCAM's post for the machine {machine}: judges what it posts where all of it is StylusCAM's."
 
         @property
-        def tooltipArgs(self) -> str:  # noqa: N802 - FreeCAD's name
+        def tooltipArgs(self) -> str:
             return "It takes no arguments."
 
         def export(self) -> list[tuple[str, str]]:
@@ -51,7 +51,9 @@ def refuse_unfinished(job: Any) -> None:
             if "Invalid" in ours.State:
                 raise PostError(f"{ours.Label} has failed ({_reason(ours)}): correct it before posting")
             if "Touched" in ours.State:
-                raise PostError(f"{ours.Label} has changed since it was computed: recompute the document before posting")
+                raise PostError(
+                    f"{ours.Label} has changed since it was computed: recompute the document before posting"
+                )
             if ours.ToolController is None or ours.ToolController.Tool is None:
                 raise PostError(f"{ours.Label} has no tool: choose one and recompute before posting")
             if not has_motion(ours):

@@ -1,0 +1,67 @@
+"""Where things are, and what a session in FreeCAD gives back."""
+
+from __future__ import annotations
+
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import roots
+
+CHECKOUT = Path(__file__).resolve().parents[2]
+ADDON = CHECKOUT / "freecad_workbench"
+EXAMPLE = CHECKOUT / "examples" / "first-light" / "freecad_job.py"
+JOB = EXAMPLE.with_name("job.toml")
+STEP = CHECKOUT / "fixtures" / "cone_cup.step"
+INSIDE = Path(__file__).parent / "inside"
+
+COARSE = 5.0
+"""Step and stepover (mm) where a test needs a path and not this job's: planning is then quick."""
+
+
+@dataclass(frozen=True)
+class FreeCad:
+    """One version, ready to run scripts."""
+
+    version: str
+    engine: Path
+    folder: Path
+
+    def run(
+        self, script: Path, *args: str, engine: bool = True, timeout: float = 170.0
+    ) -> subprocess.CompletedProcess[str]:
+        """Runs a script with the addon, and with the engine unless it is to do without."""
+        return roots.run_freecad(
+            self.version,
+            script,
+            *args,
+            python_path=[self.engine] if engine else [],
+            mod_path=[ADDON],
+            binds=[roots.Bind.same(self.folder, writable=True)],
+            timeout=timeout,
+        )
+
+
+@dataclass(frozen=True)
+class Example:
+    """What the example left behind."""
+
+    done: subprocess.CompletedProcess[str]
+    text: str
+
+
+@dataclass(frozen=True)
+class Session:
+    """What `inside/scenarios.py` found."""
+
+    done: subprocess.CompletedProcess[str]
+    results: dict[str, Any]
+    document: Path
+
+    def __getitem__(self, name: str) -> Any:
+        """A scenario's result; its traceback where it broke."""
+        assert name in self.results, f"the session ended early:\n{self.done.stdout[-3000:]}\n{self.done.stderr[-3000:]}"
+        result = self.results[name]
+        assert "broke" not in result, result["broke"]
+        return result
