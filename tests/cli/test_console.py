@@ -14,7 +14,7 @@ import styluscam as sc
 
 from .conftest import CHECKOUT, FIXTURES
 
-ENVIRONMENT = os.environ | {"PYTHONPATH": str(CHECKOUT / "python")}
+ENVIRONMENT = os.environ | {"PYTHONPATH": str(CHECKOUT / "python"), "PYTHONUNBUFFERED": ""}
 
 
 def python(*arguments):

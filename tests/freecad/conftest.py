@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import shutil
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,18 +15,39 @@ import tomllib
 from freecad_host import COARSE, EXAMPLE, INSIDE, JOB, STEP, Example, FreeCad, Session
 
 import roots
+import rs274
 import styluscam as sc
+
+
+@contextlib.contextmanager
+def needed(what: str) -> Iterator[None]:
+    """Fails where everything must be tested; elsewhere says loudly what was not."""
+    try:
+        yield
+    except roots.Unavailable as reason:
+        if os.environ.get("CI"):
+            pytest.fail(f"{what} is needed: {reason}")
+        pytest.skip(f"NOT TESTED with {what}: {reason}")
+
+
+@pytest.fixture
+def linuxcnc() -> Callable[[str], rs274.Interpretation]:
+    """LinuxCNC's own interpreter: asserts that it takes a text."""
+
+    def read(text: str) -> rs274.Interpretation:
+        with needed("LinuxCNC's interpreter"):
+            result = rs274.interpret(text)
+        assert result.ok, result.error
+        return result
+
+    return read
 
 
 @pytest.fixture(scope="session", params=["1.1", "1.0"])
 def freecad(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, engine: Path) -> FreeCad:
     """Each FreeCAD that the addon is made for."""
-    try:
+    with needed(f"FreeCAD {request.param}"):
         roots.freecadcmd(request.param)
-    except roots.Unavailable as reason:
-        if os.environ.get("CI"):
-            pytest.fail(f"FreeCAD {request.param} is needed: {reason}")
-        pytest.skip(f"NOT TESTED in FreeCAD {request.param}: {reason}")
     return FreeCad(request.param, engine, tmp_path_factory.mktemp(f"freecad-{request.param}"))
 
 

@@ -10,7 +10,6 @@ import pytest
 from freecad_host import EXAMPLE
 from program_loops import hausdorff, levels, runs, turns
 
-import rs274
 import styluscam as sc
 
 pytestmark = [pytest.mark.world, pytest.mark.freecad]
@@ -52,10 +51,8 @@ def test_loops_alternate(example: Any) -> None:
     assert all(a == -b for a, b in itertools.pairwise(senses))
 
 
-def test_linuxcnc_reads_the_text(example: Any) -> None:
-    result = rs274.interpret(example.text)
-    assert result.ok, result.error
-    ends = np.array([move.mm for move in result.moves])
+def test_linuxcnc_reads_the_text(example: Any, linuxcnc: Any) -> None:
+    ends = np.array([move.mm for move in linuxcnc(example.text).moves])
     positions = read(example.text, "linuxcnc").positions
     assert len(ends) == len(positions) > 1000
     assert np.abs(ends[1:] - positions[1:]).max() <= 5e-4  # the first goes up from a place that is not known

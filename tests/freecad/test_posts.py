@@ -6,8 +6,6 @@ from typing import Any
 
 import pytest
 
-import rs274
-
 pytestmark = [pytest.mark.world, pytest.mark.freecad]
 
 
@@ -17,24 +15,22 @@ def test_posts_are_listed_and_cost_no_start(bare_session: Any) -> None:
     assert {"styluscam_linuxcnc", "styluscam_grbl"} <= set(seen["posts"])
 
 
-def test_two_tools_are_changed_in_order(session: Any) -> None:
+def test_two_tools_are_changed_in_order(session: Any, linuxcnc: Any) -> None:
     text = session["two tools"]["post"]["text"]
     assert [line for line in text.splitlines() if "M6" in line] == ["T1 M6", "T2 M6"]
     assert "judged from this text" in text
-    result = rs274.interpret(text)
-    assert result.ok, result.error
+    linuxcnc(text)
 
 
 def test_operations_of_two_sheets_are_no_program(session: Any) -> None:
     assert "differ in SheetThickness" in session["two tools"]["differ"]["refused"]
 
 
-def test_a_straight_native_operation_is_posted_and_said_not_to_be_judged(session: Any) -> None:
+def test_a_straight_native_operation_is_posted_and_said_not_to_be_judged(session: Any, linuxcnc: Any) -> None:
     text = session["native straight"]["post"]["text"]
     assert "not judged" in text
     assert "X1 Y2" in text
-    result = rs274.interpret(text)
-    assert result.ok, result.error
+    linuxcnc(text)
 
 
 @pytest.mark.parametrize(("name", "what"), [("native arc", "arcs (G2)"), ("native cycle", "drilling cycles (G81)")])
@@ -42,12 +38,11 @@ def test_what_cannot_be_posted_yet_names_its_operation(session: Any, name: str, 
     assert session[name]["post"]["refused"].startswith(f"Own lines: {what}")
 
 
-def test_work_offsets_go_to_files_of_their_own(session: Any) -> None:
+def test_work_offsets_go_to_files_of_their_own(session: Any, linuxcnc: Any) -> None:
     seen = session["two fixtures"]
     assert "G54 and G55 in one program" in seen["together"]["refused"]
     assert sorted(seen["apart"]) == ["G54", "G55"]
     for offset, text in seen["apart"].items():
         assert offset in text.splitlines()
         assert "T1 M6" in text.splitlines()
-        result = rs274.interpret(text)
-        assert result.ok, result.error
+        linuxcnc(text)

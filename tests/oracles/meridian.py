@@ -8,6 +8,7 @@ intersection of the free sides of the pieces that meet there.
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 from dataclasses import dataclass
@@ -131,7 +132,8 @@ class Meridian:
         axis = self.distance(np.asarray(xy, dtype=np.float64))
         columns = [column for piece in self.pieces for column in self._columns(piece, profile, axis)]
         return Envelope(
-            np.stack([tip for tip, _ in columns], axis=1) + thickness, np.stack([cosine for _, cosine in columns], axis=1)
+            np.stack([tip for tip, _ in columns], axis=1) + thickness,
+            np.stack([cosine for _, cosine in columns], axis=1),
         )
 
     def _columns(self, piece: dict[str, Any], profile: Profile, axis: Floats) -> list[tuple[Floats, Floats]]:
@@ -171,7 +173,7 @@ def _arc(piece: dict[str, Any], profile: Profile, axis: Floats) -> list[tuple[Fl
     turn = profile.curve / (np.pi * (reach - profile.ball)) if reach > profile.ball else np.inf
     knots = [ends[0], *([turn] if ends[0] < turn < ends[1] else []), ends[1]]
     found = []
-    for low, high in zip(knots, knots[1:], strict=False):
+    for low, high in itertools.pairwise(knots):
         grid = np.linspace(low, high, 4001)
         places = place(grid)
         order = slice(None, None, 1 if places[-1] > places[0] else -1)

@@ -326,9 +326,7 @@ def _fill(name: str, target: Path, tools: Builder) -> None:
     shutil.rmtree(temporary, ignore_errors=True)
     if code:
         tail = "\n".join(log.read_text().splitlines()[-15:])
-        raise RootsError(
-            f"Building {name} failed (mmdebstrap said {code}; all of it in {log}):\n{tail}"
-        )
+        raise RootsError(f"Building {name} failed (mmdebstrap said {code}; all of it in {log}):\n{tail}")
 
 
 def _remove(path: Path) -> None:
@@ -552,9 +550,7 @@ def run(
         )
 
 
-def _enter(
-    name: str, argv: Sequence[str], binds: Sequence[Bind], cwd: str, env: Mapping[str, str]
-) -> int:
+def _enter(name: str, argv: Sequence[str], binds: Sequence[Bind], cwd: str, env: Mapping[str, str]) -> int:
     """Runs a program inside a root on this terminal; it dies with us, however we are ended."""
     _ready(name)
 
@@ -588,9 +584,7 @@ class FreeCadCmd:
 def _host_version(command: tuple[str, ...]) -> str | None:
     """The `1.1` of a FreeCAD on the host, or None when it does not answer."""
     with contextlib.suppress(OSError, subprocess.SubprocessError):
-        done = subprocess.run(
-            [*command, "--version"], capture_output=True, text=True, timeout=60, check=False
-        )
+        done = subprocess.run([*command, "--version"], capture_output=True, text=True, timeout=60, check=False)
         found = re.search(r"FreeCAD (\d+\.\d+)", done.stdout)
         return found[1] if found else None
     return None
@@ -681,9 +675,7 @@ def run_freecad(
 
     FreeCAD says 0 after an uncaught exception and after a script that is not there: here it is 1.
     """
-    command = freecad_argv(
-        version, script, *args, python_path=python_path, mod_path=mod_path, binds=binds
-    )
+    command = freecad_argv(version, script, *args, python_path=python_path, mod_path=mod_path, binds=binds)
     done = subprocess.run(
         command,
         stdin=subprocess.DEVNULL,
@@ -719,9 +711,7 @@ def install_wheel(root_name: str, wheel_path: Path) -> Path:
     if found:
         wanted, have = (int(found[1]), int(found[2])), _root_python(root_name)
         if wanted > have or (tags[1] != "abi3" and wanted != have):
-            raise RootsError(
-                f"{wheel_path.name} does not fit the Python {have[0]}.{have[1]} of {root_name}."
-            )
+            raise RootsError(f"{wheel_path.name} does not fit the Python {have[0]}.{have[1]} of {root_name}.")
     digest = hashlib.sha256(wheel_path.read_bytes()).hexdigest()[:16]
     target = cache_dir() / "wheels" / digest
     if not target.is_dir():

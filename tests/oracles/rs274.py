@@ -112,9 +112,7 @@ class Interpretation:
         return tuple(call for call in self.calls if call.kind in kinds)
 
 
-def _call(
-    where: tuple[int, int | None], kind: str, words: tuple[str, ...], state: tuple[str, float, str]
-) -> Call:
+def _call(where: tuple[int, int | None], kind: str, words: tuple[str, ...], state: tuple[str, float, str]) -> Call:
     """Makes the record of one call; a move gets its end, and an arc its centre and turns."""
     unit, feed, plane = state
     call = Call(*where, kind, words, unit, feed)
@@ -174,9 +172,7 @@ def interpret(
             "".join(f"T{number} P{number} Z{length:.6f}\n" for number, length in tools.items())
         )
         (job / "job.var").touch()
-        (job / "job.ini").write_text(
-            f"[TRAJ]\nLINEAR_UNITS = {'inch' if inch else 'mm'}\nANGULAR_UNITS = degree\n"
-        )
+        (job / "job.ini").write_text(f"[TRAJ]\nLINEAR_UNITS = {'inch' if inch else 'mm'}\nANGULAR_UNITS = degree\n")
         done = roots.run(
             ROOT,
             [

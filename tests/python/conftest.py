@@ -41,9 +41,11 @@ def meridian_of() -> Callable[[str], Meridian]:
     return lru_cache(maxsize=4)(Meridian.of)
 
 
-def job_document(part: str, kind: str, profile: dict[str, Any], *, machine: str = "linuxcnc", **operation: Any) -> dict[str, Any]:
+def job_document(
+    part: str, kind: str, profile: dict[str, Any], *, machine: str = "linuxcnc", **operation: Any
+) -> dict[str, Any]:
     """A coarse job on a 1 mm sheet of constant thickness; `operation` overrides."""
-    pitch = {"step": {"height": 2.5}} if kind == "z-level" else {"stepover": 2.5, "angle_deg": 0.0}
+    pitch = {"step": {"height": 2.5}} if kind == "z-level" else {"stepover": 2.5, "angle_deg": 30.0}
     return {
         "schema": 1,
         "part": {"file": f"{part}.step", "faces": FACES.get(part, "all"), "model_face": "back"},
@@ -54,7 +56,9 @@ def job_document(part: str, kind: str, profile: dict[str, Any], *, machine: str 
     }
 
 
-def milling_document(kind: str, profile: dict[str, Any], *, machine: str = "linuxcnc", **operation: Any) -> dict[str, Any]:
+def milling_document(
+    kind: str, profile: dict[str, Any], *, machine: str = "linuxcnc", **operation: Any
+) -> dict[str, Any]:
     """The same without a sheet, for parts that are handed over as they are."""
     document = job_document("made", kind, profile, machine=machine, **operation)
     document["part"] = {"file": "made.stl", "units": "mm"}
@@ -67,7 +71,9 @@ CELL = 6.0
 """Side of a cell of the made part, mm."""
 
 
-def made_part(rows: int, widths: Floats, shifts: Floats, depth: float, wall_deg: float) -> tuple[Floats, NDArray[np.int64]]:
+def made_part(
+    rows: int, widths: Floats, shifts: Floats, depth: float, wall_deg: float
+) -> tuple[Floats, NDArray[np.int64]]:
     """Vertices and triangles of a plate of square cells, each with a square pit (`depth` < 0 in odd cells) or bump.
 
     `widths` (N,) are the squares' half sides at half their depth, `shifts` (N, 2) their places off the cells' middles.

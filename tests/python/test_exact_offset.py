@@ -138,7 +138,7 @@ def test_a_ridge_touches_along_its_edge(profile: dict[str, object], rise: float)
     # two walls of 85 deg across a ridge along X that climbs by `rise`: the contact never lies on a facet near it
     drop = np.tan(np.radians(89.5)) * 3.0
     ends = np.array([[-30.0, 0.0, -30.0 * rise], [30.0, 0.0, 30.0 * rise]])
-    left, right = ends + [0.0, 3.0, -drop], ends + [0.0, -3.0, -drop]
+    left, right = ends + np.array([0.0, 3.0, -drop]), ends + np.array([0.0, -3.0, -drop])
     part = sc.Part.from_mesh(np.concatenate([ends, left, right]), [[0, 1, 3], [0, 3, 2], [1, 0, 4], [1, 4, 5]])
     rng = np.random.default_rng(3)
     shape = Profile.of(profile)
@@ -146,7 +146,10 @@ def test_a_ridge_touches_along_its_edge(profile: dict[str, object], rise: float)
     q = rng.uniform(-0.9, 0.9, 40) * reach * np.cos(np.arctan(abs(rise)))
     x = rng.uniform(-10.0, 10.0, 40)
     found = sc.drop_cutter(part, tool_of(profile), np.column_stack([x, q]))
-    exact = [rise * x0 + highest(lambda s, q0=q0: rise * s - shape.height_at_radius(np.hypot(q0, s))[0], reach) for x0, q0 in zip(x, q, strict=True)]
+    exact = [
+        rise * x0 + highest(lambda s, q0=q0: rise * s - shape.height_at_radius(np.hypot(q0, s))[0], reach)
+        for x0, q0 in zip(x, q, strict=True)
+    ]
     assert np.abs(found - exact).max() < 1e-9
 
 
@@ -168,7 +171,9 @@ def test_a_needle_touches_at_its_point(profile: dict[str, object]) -> None:
     reach = float(profile["diameter"]) / 2  # type: ignore[arg-type]
     distance = np.linspace(0.0, 0.98 * reach, 60)
     angle = np.linspace(0.0, 20.0, 60)
-    found = sc.drop_cutter(part, tool_of(profile), np.column_stack([distance * np.cos(angle), distance * np.sin(angle)]))
+    found = sc.drop_cutter(
+        part, tool_of(profile), np.column_stack([distance * np.cos(angle), distance * np.sin(angle)])
+    )
     exact = 7.0 - Profile.of(profile).height_at_radius(distance)[0]
     assert np.abs(found - exact).max() < 1e-9
 

@@ -34,9 +34,20 @@ const RANGES: &[Range] = &[
     Range { key: "z_bottom", low: -1e4, open: false, high: 1e4, words: "-10000 to 10000 mm" },
 ];
 
-/// What is allowed at a path of the document, in words, where it is a number with a range.
+/// Keys that hold tables, by the end of their path, and what such a table looks like.
+const TABLES: &[(&str, &str)] = &[
+    ("step", "a table like { height = 0.5 }"),
+    ("feeds", "a table like { cut = 1500.0, plunge = 300.0 }"),
+    ("spindle", "a table like { mode = \"off\" }"),
+    ("profile", "a table like { kind = \"ball\", diameter = 10.0 }"),
+    ("sheet", "a table like { thickness = 1.0 }"),
+];
+
+/// What is allowed at a path of the document, in words, where that is known.
 pub fn allowed(place: &str) -> Option<&'static str> {
-    range_of(place).map(|range| range.words)
+    let key = place.rsplit('.').next().unwrap_or(place);
+    let table = TABLES.iter().find(|(name, _)| *name == key).map(|(_, words)| *words);
+    range_of(place).map(|range| range.words).or(table)
 }
 
 fn range_of(place: &str) -> Option<&'static Range> {
@@ -46,6 +57,7 @@ fn range_of(place: &str) -> Option<&'static Range> {
 /// Checks ranges and combinations.
 pub fn document(job: &JobDocument) -> Result<(), JobError> {
     number("part.tolerance", job.part.tolerance)?;
+    some_face("part.faces", &job.part.faces)?;
     setup(job)?;
     machine(&job.machine)?;
     tools(job)?;
@@ -61,6 +73,15 @@ pub fn document(job: &JobDocument) -> Result<(), JobError> {
         self::operation(job, &format!("operations[{i}]"), operation)?;
     }
     Ok(())
+}
+
+fn some_face(place: &str, selection: &Selection) -> Result<(), JobError> {
+    match selection {
+        Selection::Named(names) if names.is_empty() => {
+            Err(JobError::document("empty", place, "no face is named", "name one, or write \"all\""))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn number(place: &str, value: f64) -> Result<(), JobError> {
@@ -168,10 +189,8 @@ fn operation(job: &JobDocument, place: &str, operation: &OperationSection) -> Re
         let message = format!("no tool is called {:?}", operation.tool);
         return Err(JobError::document("unknown", at("tool"), message, format!("the job has {}", known.join(", "))));
     }
-    if let Some(Selection::Named(names)) = &operation.faces {
-        if names.is_empty() {
-            return Err(JobError::document("empty", at("faces"), "no face is named", "name one, or write \"all\""));
-        }
+    if let Some(selection) = &operation.faces {
+        some_face(&at("faces"), selection)?;
     }
     number(&at("angle_deg"), operation.angle_deg)?;
     number(&at("tolerance"), operation.tolerance)?;

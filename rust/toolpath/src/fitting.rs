@@ -29,7 +29,8 @@ pub fn densified(
         pending.push(*end);
         while let Some(b) = pending.pop() {
             let a = out[out.len() - 1];
-            let middle = if (b.tip - a.tip).xy().norm() > SHORTEST { between(&a, &b) } else { None };
+            let long = (b.tip - a.tip).xy().norm() > SHORTEST;
+            let middle = if long { between(&a, &b).filter(|m| divides(m, &a, &b)) } else { None };
             match middle {
                 Some(m) if stray(&m, a.tip, b.tip) > deviation => pending.extend([b, m]),
                 Some(m) => out.extend([m, b]),
@@ -38,6 +39,12 @@ pub fn densified(
         }
     }
     out
+}
+
+/// Whether a point is nearer to both ends than they are to each other: dividing there comes to an end.
+fn divides(m: &PathPoint, a: &PathPoint, b: &PathPoint) -> bool {
+    let whole = 0.95 * (b.tip - a.tip).norm();
+    (m.tip - a.tip).norm() < whole && (b.tip - m.tip).norm() < whole
 }
 
 /// Leaves out points as long as all that a chord passes over stay within `deviation` of it. Ends are kept.
@@ -108,7 +115,7 @@ fn border(
 ) -> PathPoint {
     let (mut inside, mut outside) = (*inside, *outside);
     while (outside.tip - inside.tip).norm() > BORDER {
-        match between(&inside, &outside) {
+        match between(&inside, &outside).filter(|m| divides(m, &inside, &outside)) {
             Some(middle) if middle.selected => inside = middle,
             Some(middle) => outside = middle,
             None => break,
@@ -123,4 +130,56 @@ fn stray(exact: &PathPoint, a: Vector, b: Vector) -> f64 {
     let length = chord.norm_squared();
     let share = if length > 0.0 { ((exact.tip - a).dot(&chord) / length).clamp(0.0, 1.0) } else { 0.0 };
     (exact.tip - a - chord * share).dot(&exact.normal).abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn point(x: f64, z: f64, selected: bool) -> PathPoint {
+        PathPoint { tip: Vector::new(x, 0.0, z), normal: Vector::z(), selected }
+    }
+
+    fn parabola(a: &PathPoint, b: &PathPoint) -> Option<PathPoint> {
+        let x = 0.5 * (a.tip.x + b.tip.x);
+        Some(point(x, 0.1 * x * x, x < 2.0))
+    }
+
+    #[test]
+    fn chords_stay_within_the_deviation_and_are_few() {
+        let ends = [point(-3.0, 0.9, true), point(3.0, 0.9, true)];
+        let dense = densified(&ends, 1e-3, parabola);
+        let thin = thinned(&dense, 1e-3);
+        for pair in thin.windows(2) {
+            // the sagitta of z = 0.1 x^2 over a chord of length c is 0.1 c^2 / 4
+            let chord = pair[1].tip.x - pair[0].tip.x;
+            assert!(0.1 * chord * chord / 4.0 <= 1.001e-3, "{chord}");
+        }
+        assert!(thin.len() < 45, "{}", thin.len());
+    }
+
+    #[test]
+    fn a_middle_that_lies_elsewhere_ends_the_division() {
+        let ends = [point(0.0, 0.0, true), point(1.0, 0.0, false)];
+        let astray = |_: &PathPoint, _: &PathPoint| Some(point(5.0, 7.0, true));
+        assert_eq!(densified(&ends, 1e-3, astray).len(), 2);
+        assert_eq!(selected_runs(&ends, false, astray).len(), 1);
+    }
+
+    #[test]
+    fn runs_end_at_the_border_of_the_selection() {
+        let points: Vec<PathPoint> =
+            (0..8).map(|i| f64::from(i) - 3.0).map(|x| point(x, 0.1 * x * x, x < 2.0)).collect();
+        let runs = selected_runs(&points, false, parabola);
+        assert_eq!(runs.len(), 1);
+        assert!((runs[0].last().unwrap().tip.x - 2.0).abs() < 2e-3);
+    }
+
+    #[test]
+    fn a_run_across_the_seam_of_a_loop_is_one() {
+        let ring = [(0.0, true), (1.0, true), (2.0, false), (1.0, true), (0.0, true)];
+        let points: Vec<PathPoint> = ring.iter().map(|(x, on)| point(*x, 0.0, *on)).collect();
+        let runs = selected_runs(&points, true, |_, _| None);
+        assert_eq!(runs.len(), 1);
+    }
 }

@@ -1,0 +1,268 @@
+"""Measures drop-cutter beside OpenCAMLib, and the main job by phase; writes docs/performance.md between its markers.
+
+    python bench/drop_cutter.py [--large] [--repeats 3] [--dry]
+
+Nothing here is a test: figures are the best of a few repeats, wall time and CPU time of all threads.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import platform
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from meshes import places, wavy
+
+import styluscam as sc
+from styluscam.judging import judge_plan
+
+HERE = Path(__file__).resolve().parent
+CHECKOUT = HERE.parent
+PAGE = CHECKOUT / "docs" / "performance.md"
+BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
+
+PROFILES = {"ball D6": {"kind": "ball", "diameter": 6.0}, "clothoid D8": {"kind": "clothoid", "diameter": 8.0}}
+ORDERS = ("raster", "random")
+THREADS = (1, 2)
+POINTS = 200_000
+PEER = "opencamlib==2023.1.11"
+PEER_POINTS = {20_000: 400, 200_000: 60}
+
+
+def best(work: Callable[[], object], repeats: int) -> tuple[float, float]:
+    """Least wall and CPU seconds of some repeats."""
+    walls, cpus = [], []
+    for _ in range(repeats):
+        wall, cpu = time.perf_counter(), time.process_time()
+        work()
+        walls.append(time.perf_counter() - wall)
+        cpus.append(time.process_time() - cpu)
+    return min(walls), min(cpus)
+
+
+# --- ours -------------------------------------------------------------------------------------------------------
+
+
+def ours(triangles: int, repeats: int) -> list[dict[str, Any]]:
+    """All figures of one mesh with the number of threads that this process has."""
+    part = sc.Part.from_mesh(*wavy(triangles))
+    rows = []
+    for name, profile in PROFILES.items():
+        tool = sc.Tool.from_dict({"profile": profile})
+        for order in ORDERS:
+            chosen = places(order, POINTS)
+            setup, setup_cpu = best(lambda t=tool, p=chosen: sc.drop_cutter(part, t, p[:1]), repeats)
+            wall, cpu = best(lambda t=tool, p=chosen: sc.drop_cutter(part, t, p), repeats)
+            rows.append(
+                {
+                    "tool": name,
+                    "order": order,
+                    "points": len(chosen),
+                    "setup": setup,
+                    "setup_cpu": setup_cpu,
+                    "wall": wall,
+                    "cpu": cpu,
+                }
+            )
+    return rows
+
+
+def ours_in_process(triangles: int, threads: int, repeats: int) -> list[dict[str, Any]]:
+    """The same in a process of its own: the engine takes its threads once."""
+    command = [sys.executable, __file__, "--ours", str(triangles), "--repeats", str(repeats)]
+    done = subprocess.run(
+        command, env={**os.environ, "RAYON_NUM_THREADS": str(threads)}, capture_output=True, text=True, check=True
+    )
+    rows: list[dict[str, Any]] = json.loads(done.stdout)
+    return rows
+
+
+def main_job(repeats: int) -> list[tuple[str, float, float]]:
+    """Seconds of the main job's phases: wall and CPU."""
+    job = sc.Job.read(CHECKOUT / "examples" / "first-light" / "job.toml")
+
+    def read() -> None:
+        job._part = None
+        job.part()
+
+    phases = [("read STEP, tessellate, check", *best(read, repeats))]
+    phases.append(("plan", *best(lambda: sc.plan(job), repeats)))
+    plan = sc.plan(job)
+    phases.append(("post", *best(lambda: sc.post(plan), repeats)))
+    text = sc.post(plan).text
+    phases.append(("read back and judge", *best(lambda: judge_plan(plan, text), repeats)))
+    with tempfile.TemporaryDirectory() as folder:
+        whole = sc.Job.from_dict({**job.to_dict(), "output": {"file": f"{folder}/out.ngc"}}, job.folder, job.part())
+        phases.append(("plan, post, judge, write: all", *best(lambda: sc.run(whole), repeats)))
+    return phases
+
+
+# --- the peer ---------------------------------------------------------------------------------------------------
+
+
+def peer_python() -> tuple[Path | None, str]:
+    """Python with OpenCAMLib in an environment of its own, or why there is none."""
+    cache = Path(os.environ.get("STYLUSCAM_CACHE") or Path.home() / ".cache" / "styluscam")
+    python = cache / "bench-venv" / "bin" / "python"
+    if not python.exists():
+        base = shutil.which("python3.11")
+        if base is None:
+            return None, "OpenCAMLib has wheels for Python 3.11 and older only, and there is no python3.11 on the PATH"
+        try:
+            subprocess.run([base, "-m", "venv", str(cache / "bench-venv")], check=True)
+            subprocess.run([str(python), "-m", "pip", "install", "--quiet", PEER, "numpy"], check=True)
+        except subprocess.CalledProcessError as error:
+            shutil.rmtree(cache / "bench-venv", ignore_errors=True)
+            return None, f"OpenCAMLib could not be installed: {error}"
+    return python, ""
+
+
+def peer(python: Path, triangles: int, order: str, threads: int, repeats: int) -> dict[str, Any]:
+    """OpenCAMLib's figures of one case."""
+    words = [triangles, order, PEER_POINTS[triangles], threads, repeats]
+    command = [str(python), str(HERE / "opencamlib_worker.py"), *map(str, words)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    found: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
+    return found
+
+
+def largest_difference(triangles: int, found: dict[str, Any]) -> float:
+    """How far the two programs' tips are apart, mm: both must have done the same work."""
+    part = sc.Part.from_mesh(*wavy(triangles))
+    tips = sc.drop_cutter(part, sc.Tool.from_dict({"profile": PROFILES["ball D6"]}), np.array(found["places"]))
+    return float(np.abs(tips - np.array(found["tips"])).max())
+
+
+# --- the report -------------------------------------------------------------------------------------------------
+
+
+def rate(row: dict[str, Any], clock: str = "wall") -> float:
+    """Points a second, set-up left out."""
+    setup = row["setup" if clock == "wall" else "setup_cpu"]
+    return float(row["points"] / max(row[clock] - setup, 1e-9))
+
+
+def figure(value: float) -> str:
+    """With three digits and thin groups."""
+    digits = max(0, 2 - int(np.floor(np.log10(max(value, 1e-9)))))
+    return f"{round(value, digits):,.{digits}f}" if value < 100 else f"{float(f'{value:.3g}'):,.0f}"
+
+
+def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def machine() -> str:
+    name = platform.processor() or platform.machine()
+    cpuinfo = Path("/proc/cpuinfo")
+    if cpuinfo.exists():
+        models = [
+            line.split(":", 1)[1].strip() for line in cpuinfo.read_text().splitlines() if line.startswith("model name")
+        ]
+        name = models[0] if models else name
+    return f"{name}, {os.cpu_count()} threads, {platform.system()} {platform.machine()}"
+
+
+def measured(large: bool, repeats: int) -> str:
+    """The section between the markers."""
+    load = os.getloadavg()[0]
+    python, reason = peer_python()
+    sizes = [20_000, 200_000, *([2_000_000] if large else [])]
+    rows, setups, version, differences = [], [], "", []
+    for triangles in sizes:
+        for threads in THREADS:
+            found = ours_in_process(triangles, threads, repeats)
+            setups.append(
+                [
+                    f"{triangles:,}",
+                    str(threads),
+                    *(f"{1e3 * min(r[c] for r in found):.0f}" for c in ("setup", "setup_cpu")),
+                ]
+            )
+            for row in found:
+                line = [
+                    f"{triangles:,}",
+                    row["tool"],
+                    row["order"],
+                    str(threads),
+                    figure(rate(row)),
+                    figure(rate(row, "cpu")),
+                ]
+                if python and triangles in PEER_POINTS and row["tool"] == "ball D6":
+                    other = peer(python, triangles, row["order"], threads, repeats)
+                    version = other["version"]
+                    differences.append(largest_difference(triangles, other))
+                    line += [figure(rate(other)), figure(rate(other, "cpu")), f"{figure(rate(row) / rate(other))} x"]
+                else:
+                    line += ["", "", ""]
+                rows.append(line)
+                print(" ".join(line), file=sys.stderr)
+    heads = [
+        "triangles",
+        "tool",
+        "order",
+        "threads",
+        "points/s",
+        "per CPU s",
+        "OpenCAMLib points/s",
+        "per CPU s",
+        "ratio",
+    ]
+    parts = [
+        f"Machine: {machine()}; load average {load:.1f} when the run began. styluscam {sc.__version__}, "
+        f"Python {platform.python_version()}, numpy {np.__version__}"
+        + (f", OpenCAMLib {version}." if version else f". OpenCAMLib was left out: {reason}."),
+        f"Best of {repeats}. Wall-clock rates suffer from other work on the machine; CPU time less.",
+        "### Drop-cutter",
+        f"Wavy surface of 100 x 100 mm; ours {POINTS:,} points a call, OpenCAMLib "
+        + " and ".join(f"{n} at {t:,}" for t, n in PEER_POINTS.items())
+        + " triangles (`BatchDropCutter`). Set-up is measured by a call with one point and left out on both sides.",
+        table(heads, rows),
+        *(
+            [f"Largest difference between the two programs' ball tips: {max(differences):.1e} mm."]
+            if differences
+            else []
+        ),
+        "### Set-up of a call",
+        "Index, neighbours, facets made ready for the tool; each call of `drop_cutter` does it anew.",
+        table(["triangles", "threads", "wall ms", "CPU ms"], setups),
+        "### The main job",
+        "`examples/first-light/job.toml`, Z-levels of 0.5 mm.",
+        table(
+            ["phase", "wall s", "CPU s"], [[name, f"{wall:.3f}", f"{cpu:.3f}"] for name, wall, cpu in main_job(repeats)]
+        ),
+    ]
+    return "\n\n".join(parts)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--large", action="store_true", help="2 million triangles too, ours only")
+    parser.add_argument("--repeats", type=int, default=3, help="of each measurement; the best counts")
+    parser.add_argument("--dry", action="store_true", help="print only")
+    parser.add_argument("--ours", type=int, metavar="TRIANGLES", help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    if options.ours:
+        print(json.dumps(ours(options.ours, options.repeats)))
+        return
+    section = measured(options.large, options.repeats)
+    print(section)
+    if not options.dry:
+        page = PAGE.read_text(encoding="utf-8")
+        head, rest = page.split(BEGIN)
+        PAGE.write_text(f"{head}{BEGIN}\n\n{section}\n\n{END}{rest.split(END)[1]}", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
