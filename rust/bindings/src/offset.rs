@@ -16,6 +16,8 @@ use crate::{
     waiting::{watched, CancelToken},
 };
 
+/// Share of what the tolerance leaves that a chord may stray to either side of the surface in its middle.
+const EACH_SIDE: f64 = 0.4;
 /// Spacing of the grid that finds loops, as a share of the diameter.
 const SPACING_SHARE: f64 = 0.08;
 
@@ -108,19 +110,19 @@ pub fn waterline<'py>(
 ) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
     let sheet = self::sheet(sheet)?;
     let part = &part.part;
-    let deviation = 0.5 * (tolerance - part.inward - part.outward);
-    if !(z.is_finite() && deviation > 0.0) {
+    let left = tolerance - part.inward - part.outward;
+    if !(z.is_finite() && left > 0.0) {
         let message =
             format!("z = {z}, tolerance = {tolerance}: the tolerance must exceed the part's checked deviation");
         return Err(errors::raise("PlanError", &message, "tolerance-budget", "tolerance", "raise tolerance"));
     }
     let passes = watched(py, progress, cancel, |watch| {
         let bvh = Bvh::new(&part.mesh);
-        let envelope = Envelope::new(&part.mesh, &bvh, &tool.tool, sheet.as_ref(), part.inward + deviation);
+        let envelope = Envelope::new(&part.mesh, &bvh, &tool.tool, sheet.as_ref(), part.inward + 0.5 * left);
         let everything = vec![true; part.mesh.triangles().len()];
         let surface = Surface::new(&envelope, &everything);
         let grid = Grid::sample(&surface, SPACING_SHARE * tool.tool.diameter(), watch)?;
-        grid.map_or(Ok(Vec::new()), |grid| level(&surface, &grid, z, deviation, watch))
+        grid.map_or(Ok(Vec::new()), |grid| level(&surface, &grid, z, EACH_SIDE * left, watch))
     })?;
     let passes = passes.map_err(|e| errors::raise("PlanError", &e.to_string(), e.code(), "", ""))?;
     passes.into_iter().map(|pass| arrays::matrix(py, pass.points.into_iter().map(|p| p.tip.into()))).collect()

@@ -5,6 +5,7 @@ use std::sync::{mpsc, Arc};
 use std::time::Duration;
 
 use pyo3::prelude::*;
+use pyo3::types::PyBool;
 use styluscam_motion::Watch;
 
 /// Progress is reported, and Ctrl-C and cancellation are looked at, this often.
@@ -91,7 +92,7 @@ fn look_around(
     }
     let Some(progress) = progress else { return Ok(()) };
     let answer = progress.call1(watch.state())?;
-    if !answer.is_none() && !answer.is_truthy()? {
+    if answer.is_exact_instance_of::<PyBool>() && !answer.is_truthy()? {
         return Err(crate::errors::cancelled(styluscam_motion::Cancelled));
     }
     Ok(())

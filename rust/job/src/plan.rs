@@ -14,12 +14,13 @@ use crate::{
     faces, scene, Coolant, Direction, JobDocument, JobError, OperationKind, OperationSection, Scene, Spindle, Step,
 };
 
-/// Triangles of a face that are asked whether the tool bridges them: enough to find every fillet.
+/// Triangles of a face that are asked whether the tool bridges them, of its border and of its inside: enough to find
+/// every fillet and every valley.
 const BRIDGE_SAMPLES: usize = 200;
 /// What is left for fitting must be at least this, mm, or paths would have millions of points.
 const LEAST_DEVIATION: f64 = 2e-4;
-/// Share of what is left that a chord may stray to either side; the rest is a reserve, because between the points that
-/// are checked a facetted surface strays a little more.
+/// Share of what is left that a chord may stray to either side. The planned surface lies in the middle; the rest is a
+/// reserve on both sides, because between the points that are checked a facetted surface strays a little more.
 const EACH_SIDE: f64 = 0.4;
 /// Links are ridden up to so many steps or stepovers.
 const RIDE: f64 = 4.0;
@@ -158,11 +159,12 @@ impl Budget {
         let tessellation = scene.inward + scene.outward;
         // half a unit in each of three axes
         let rounding = 0.5 * machine.resolution_mm() * 3.0_f64.sqrt();
-        let deviation = EACH_SIDE * (section.tolerance - tessellation - rounding);
+        let left = section.tolerance - tessellation - rounding;
+        let deviation = EACH_SIDE * left;
         if deviation < LEAST_DEVIATION {
             return Err(PlanError::Budget { tolerance: section.tolerance, tessellation, rounding });
         }
-        Ok(Self { deviation, margin: scene.inward + deviation })
+        Ok(Self { deviation, margin: scene.inward + 0.5 * left })
     }
 }
 
@@ -241,19 +243,21 @@ fn bridged(
     for t in (0..selected.len()).filter(|t| selected[*t] && scene.mesh.normal(*t).z > 1e-3) {
         by_face.entry(scene.mesh.faces()[t]).or_default().push(t as u32);
     }
-    let sampled: Vec<u32> = by_face
-        .values()
-        .flat_map(|triangles| triangles.iter().step_by(triangles.len().div_ceil(BRIDGE_SAMPLES)).copied())
-        .collect();
-    let mut worst: Vec<BridgedFace> = Vec::new();
-    for bridge in bridges(envelope, tool, scene.sheet.as_ref(), &sampled, tolerance, watch)? {
-        let found = BridgedFace { face: bridge.face, excess: bridge.excess, at: bridge.point.into() };
-        match worst.iter_mut().find(|w| w.face == bridge.face) {
-            Some(known) if known.excess >= bridge.excess => {}
-            Some(known) => *known = found,
-            None => worst.push(found),
+    let is_border = |t: &u32| {
+        let faces = scene.mesh.faces();
+        envelope.neighbours(*t).into_iter().any(|n| faces.get(n as usize) != Some(&faces[*t as usize]))
+    };
+    let mut sampled = Vec::new();
+    for triangles in by_face.values() {
+        // a sharp valley between two faces is worst at their border
+        let (border, inner): (Vec<u32>, Vec<u32>) = triangles.iter().partition(|t| is_border(t));
+        for triangles in [border, inner] {
+            sampled.extend(triangles.iter().step_by(triangles.len().div_ceil(BRIDGE_SAMPLES).max(1)).copied());
         }
     }
+    let found = bridges(envelope, tool, scene.sheet.as_ref(), &sampled, tolerance, watch)?;
+    let worst = found.into_iter().map(|b| BridgedFace { face: b.face, excess: b.excess, at: b.point.into() });
+    let mut worst: Vec<BridgedFace> = worst.collect();
     worst.sort_by(|a, b| b.excess.total_cmp(&a.excess).then(a.face.cmp(&b.face)));
     Ok(worst)
 }

@@ -118,7 +118,8 @@ fn described(zero: Zero, low: Vector, high: Vector, raise: f64) -> String {
         Zero::SheetTop => {
             format!(
                 "XY model origin ({:.3} from the part's left, {:.3} from its front), Z top of the sheet",
-                -low.x, -low.y
+                0.0 - low.x,
+                0.0 - low.y
             )
         }
         Zero::Model => format!("model origin: {from_top:.3} below the highest point"),

@@ -41,10 +41,10 @@ pub fn densified(
     out
 }
 
-/// Whether a point is nearer to both ends than they are to each other: dividing there comes to an end.
+/// Whether a point is nearer in plan to both ends than they are to each other: dividing there comes to an end.
 fn divides(m: &PathPoint, a: &PathPoint, b: &PathPoint) -> bool {
-    let whole = 0.95 * (b.tip - a.tip).norm();
-    (m.tip - a.tip).norm() < whole && (b.tip - m.tip).norm() < whole
+    let whole = 0.95 * (b.tip - a.tip).xy().norm();
+    (m.tip - a.tip).xy().norm() < whole && (b.tip - m.tip).xy().norm() < whole
 }
 
 /// Leaves out points as long as all that a chord passes over stay within `deviation` of it. Ends are kept.
@@ -124,12 +124,16 @@ fn border(
     inside
 }
 
-/// How far a chord passes beside an exact point, along the point's normal.
+/// How far a chord passes beside an exact point, along the point's normal; at least a quarter of its distance in any
+/// direction, so that it neither cuts a step nor drifts far over gentle ground.
+///
+/// The two are compared at the same place in plan: there the tool stands over the one and over the other.
 fn stray(exact: &PathPoint, a: Vector, b: Vector) -> f64 {
     let chord = b - a;
-    let length = chord.norm_squared();
-    let share = if length > 0.0 { ((exact.tip - a).dot(&chord) / length).clamp(0.0, 1.0) } else { 0.0 };
-    (exact.tip - a - chord * share).dot(&exact.normal).abs()
+    let run = chord.xy().norm_squared();
+    let share = if run > 0.0 { ((exact.tip - a).xy().dot(&chord.xy()) / run).clamp(0.0, 1.0) } else { 0.0 };
+    let aside = exact.tip - a - chord * share;
+    aside.dot(&exact.normal).abs().max(aside.norm() / 4.0)
 }
 
 #[cfg(test)]
@@ -173,6 +177,19 @@ mod tests {
         let runs = selected_runs(&points, false, parabola);
         assert_eq!(runs.len(), 1);
         assert!((runs[0].last().unwrap().tip.x - 2.0).abs() < 2e-3);
+    }
+
+    #[test]
+    fn a_step_is_not_cut() {
+        let step = |a: &PathPoint, b: &PathPoint| {
+            let x = 0.5 * (a.tip.x + b.tip.x);
+            Some(point(x, if x < 0.3 { 0.0 } else { 20.0 }, true))
+        };
+        let dense = densified(&[point(0.0, 0.0, true), point(1.0, 20.0, true)], 1e-3, step);
+        for pair in thinned(&dense, 1e-3).windows(2) {
+            let climbs = pair[1].tip.z - pair[0].tip.z > 1e-3;
+            assert!(!climbs || pair[1].tip.x - pair[0].tip.x < 2.0 * SHORTEST);
+        }
     }
 
     #[test]

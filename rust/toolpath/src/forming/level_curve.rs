@@ -8,6 +8,8 @@ use crate::{PathPoint, Surface};
 const ON_LEVEL: f64 = 1e-7;
 /// Steps at most; Newton takes two or three, bisection across a jump thirty.
 const STEPS: usize = 60;
+/// An envelope that passes the level by more than this within a step's last bracket has jumped, mm.
+const JUMP: f64 = 0.01;
 /// Steps after which a crossing that met no selected contact is left where it is: it only parts those that count.
 const UNSELECTED_STEPS: usize = 4;
 /// Steps from a chord's middle before a bracket is sought; one does, on a smooth surface.
@@ -73,7 +75,8 @@ impl<'a> LevelCurve<'a> {
         // a jump: the free side, with the normal of what is touched on the other
         let at = [above[0] + high * along[0], above[1] + high * along[1]];
         let on_free_side = self.at(at);
-        on_free_side.or(last_above).map(|p| self.levelled(PathPoint { tip: Vector::new(at[0], at[1], 0.0), ..p }))
+        let found = on_free_side.or(last_above)?;
+        Some(self.levelled(PathPoint { tip: Vector::new(at[0], at[1], found.tip.z), ..found }))
     }
 
     /// Newton's step as a share of the line: the envelope's gradient is -tan(slope) along the normal's plan.
@@ -83,8 +86,12 @@ impl<'a> LevelCurve<'a> {
         step.is_finite().then_some(step)
     }
 
+    /// The point at the level's height. Where the envelope jumps past it, what is touched there is a vertical wall
+    /// below the contact that the envelope knows: not that contact, and so not selected.
     fn levelled(&self, point: PathPoint) -> PathPoint {
-        PathPoint { tip: Vector::new(point.tip.x, point.tip.y, self.z), ..point }
+        let touches = (point.tip.z - self.z).abs() < JUMP;
+        let tip = Vector::new(point.tip.x, point.tip.y, self.z);
+        PathPoint { tip, selected: point.selected && touches, ..point }
     }
 
     /// The point of the level nearest to the middle of a chord: along the slope there, as far as the chord is long.

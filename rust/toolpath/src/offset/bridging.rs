@@ -21,7 +21,13 @@ pub struct Bridge {
 const STEPS: usize = 20;
 const RATIO: f64 = 0.618_033_988_749_894_9;
 
-/// The places among `triangles` (their middles) that stay more than `limit` mm away from every free position.
+/// A point counts as on the tool within this, mm.
+const ON_TOOL: f64 = 1e-5;
+/// Steps of a climb at most: across a face of 200 samples it is one or two dozen.
+const CLIMB: usize = 200;
+
+/// The places among `triangles` (their middles and corners) that stay more than `limit` mm away from every free position, each
+/// followed uphill to the worst place of its face nearby.
 ///
 /// A place is touched where the envelope is as low as the slope-matched offset. Elsewhere the nearest free
 /// position is looked for along the steepest line through the place, on both sides.
@@ -37,35 +43,101 @@ pub fn bridges(
     watch: &Watch,
 ) -> Result<Vec<Bridge>, Cancelled> {
     watch.begin("bridging", triangles.len());
-    let found: Result<Vec<Option<Bridge>>, Cancelled> = triangles
+    let probe = Probe { envelope, tool, sheet, limit };
+    let found: Result<Vec<Option<(u32, Bridge)>>, Cancelled> = triangles
         .par_iter()
         .with_min_len(16)
         .map(|triangle| {
             watch.advance(1)?;
-            Ok(bridge(envelope, tool, sheet, *triangle, limit))
+            Ok(probe.worst(*triangle).map(|bridge| (*triangle, bridge)))
         })
         .collect();
-    Ok(found?.into_iter().flatten().collect())
+    let mut worst: Vec<(u32, Bridge)> = Vec::new();
+    for (triangle, bridge) in found?.into_iter().flatten() {
+        match worst.iter_mut().find(|w| w.1.face == bridge.face) {
+            Some(known) if known.1.excess >= bridge.excess => {}
+            Some(known) => *known = (triangle, bridge),
+            None => worst.push((triangle, bridge)),
+        }
+    }
+    watch.advance(0)?;
+    Ok(worst.into_par_iter().map(|(triangle, bridge)| probe.climbed(triangle, bridge)).collect())
 }
 
-fn bridge(envelope: &Envelope<'_>, tool: &Tool, sheet: Option<&Sheet>, triangle: u32, limit: f64) -> Option<Bridge> {
-    let mesh = envelope.mesh();
-    let [a, b, c] = mesh.corners(triangle as usize);
-    let (point, normal) = ((a + b + c) / 3.0, mesh.normal(triangle as usize));
-    let (matched, _) = slope_matched_offset(tool, sheet, point, normal);
-    let mut hint = Some(triangle);
-    let free = envelope.contact_near(matched.x, matched.y, &mut hint)?;
-    if (free.tip - matched.z) * normal.z.abs() <= limit {
-        return None;
+struct Probe<'a> {
+    envelope: &'a Envelope<'a>,
+    tool: &'a Tool,
+    sheet: Option<&'a Sheet>,
+    limit: f64,
+}
+
+impl Probe<'_> {
+    /// The worst of a triangle's corners and its middle.
+    fn worst(&self, triangle: u32) -> Option<Bridge> {
+        let [a, b, c] = self.envelope.mesh().corners(triangle as usize);
+        let places = [(a + b + c) / 3.0, a, b, c];
+        let bridges = places.into_iter().filter_map(|place| self.at(triangle, place));
+        bridges.max_by(|a, b| a.excess.total_cmp(&b.excess))
     }
-    let direction = if normal.xy().norm() > 1e-9 { normal.xy().normalize() } else { free.normal.xy() };
-    let mut gap = |s: f64| {
-        let (x, y) = (matched.x + s * direction.x, matched.y + s * direction.y);
-        envelope.contact_near(x, y, &mut hint).map_or(f64::INFINITY, |c| envelope.gap(point, x, y, c.tip))
-    };
-    let reach = envelope.cutter().max_radius();
-    let excess = least(&mut gap, -reach, reach).min(gap(0.0));
-    (excess > limit).then(|| Bridge { point, face: mesh.faces()[triangle as usize], excess })
+
+    /// From triangle to neighbour as long as the excess grows; the excess found is then measured along the normal.
+    fn climbed(&self, from: u32, bridge: Bridge) -> Bridge {
+        let faces = self.envelope.mesh().faces();
+        let (mut triangle, mut best) = (from, bridge);
+        for _ in 0..CLIMB {
+            let beside = self.envelope.neighbours(triangle).into_iter();
+            let beside = beside.filter(|t| faces.get(*t as usize).is_some_and(|face| *face == bridge.face));
+            let next = beside.filter_map(|t| self.worst(t).map(|b| (t, b)));
+            match next.max_by(|p, q| p.1.excess.total_cmp(&q.1.excess)) {
+                Some((t, higher)) if higher.excess > best.excess => (triangle, best) = (t, higher),
+                _ => break,
+            }
+        }
+        Bridge { excess: self.along_normal(triangle, &best), ..best }
+    }
+
+    /// From the point along the normal, each time as far as nothing of the tool can be: that ends on the tool.
+    fn along_normal(&self, triangle: u32, bridge: &Bridge) -> f64 {
+        let normal = self.envelope.mesh().normal(triangle as usize);
+        let mut way = bridge.excess;
+        for _ in 0..CLIMB {
+            let Some(gap) = self.nearest(triangle, bridge.point + normal * way) else { break };
+            if gap < ON_TOOL {
+                break;
+            }
+            way += gap;
+        }
+        way
+    }
+
+    /// What stays between a point of a triangle and the nearest free position, if it is more than the limit.
+    fn at(&self, triangle: u32, point: Vector) -> Option<Bridge> {
+        let mesh = self.envelope.mesh();
+        let normal = mesh.normal(triangle as usize);
+        let (matched, _) = slope_matched_offset(self.tool, self.sheet, point, normal);
+        let free = self.envelope.contact_near(matched.x, matched.y, &mut Some(triangle))?;
+        if (free.tip - matched.z) * normal.z.abs() <= self.limit {
+            return None;
+        }
+        let excess = self.nearest(triangle, point)?;
+        (excess > self.limit).then(|| Bridge { point, face: mesh.faces()[triangle as usize], excess })
+    }
+
+    /// Distance from a point over a triangle to the nearest free position of the tool, along the steepest line there.
+    fn nearest(&self, triangle: u32, point: Vector) -> Option<f64> {
+        let normal = self.envelope.mesh().normal(triangle as usize);
+        let (matched, _) = slope_matched_offset(self.tool, self.sheet, point, normal);
+        let mut hint = Some(triangle);
+        let free = self.envelope.contact_near(matched.x, matched.y, &mut hint)?;
+        let direction = if normal.xy().norm() > 1e-9 { normal.xy().normalize() } else { free.normal.xy() };
+        let mut gap = |s: f64| {
+            let (x, y) = (matched.x + s * direction.x, matched.y + s * direction.y);
+            let contact = self.envelope.contact_near(x, y, &mut hint);
+            contact.map_or(f64::INFINITY, |c| self.envelope.gap(point, x, y, c.tip))
+        };
+        let reach = self.envelope.cutter().max_radius();
+        Some(least(&mut gap, -reach, reach).min(gap(0.0)))
+    }
 }
 
 /// The least value of a function that falls and then rises, by golden sections.

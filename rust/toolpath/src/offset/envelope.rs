@@ -333,21 +333,33 @@ impl<'a> Envelope<'a> {
         }
     }
 
-    /// Triangles around the corner touched, found through the edges of the one that owns it.
+    /// Triangles around the corner touched, found through the edges of the one that was asked; where the mesh ends
+    /// there, [`NO_NEIGHBOUR`] is among them.
     fn around(&self, contact: &Contact) -> Vec<u32> {
         let vertex = self.mesh.triangles()[contact.triangle as usize][usize::from(contact.feature - 3).min(2)];
         let mut fan = vec![contact.triangle];
         let mut next = 0;
         while next < fan.len() {
-            for neighbour in self.neighbours[fan[next] as usize] {
-                let meets = neighbour != NO_NEIGHBOUR && self.mesh.triangles()[neighbour as usize].contains(&vertex);
+            let triangle = fan[next];
+            next += 1;
+            if triangle == NO_NEIGHBOUR {
+                continue;
+            }
+            let corners = self.mesh.triangles()[triangle as usize];
+            for (i, neighbour) in self.neighbours(triangle).into_iter().enumerate() {
+                let meets = corners[i] == vertex || corners[(i + 1) % 3] == vertex;
                 if meets && !fan.contains(&neighbour) {
                     fan.push(neighbour);
                 }
             }
-            next += 1;
         }
         fan
+    }
+
+    /// The triangles beyond the three edges of one; `u32::MAX` where the mesh ends.
+    #[must_use]
+    pub fn neighbours(&self, triangle: u32) -> Neighbours {
+        self.neighbours[triangle as usize]
     }
 
     /// Whether the contact's normal lies within `spread` of a selected triangle's, or all triangles are selected.
