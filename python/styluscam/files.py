@@ -1,4 +1,4 @@
-"""Outputs appear whole or not at all."""
+"""Text in and out: outputs appear whole or not at all."""
 
 from __future__ import annotations
 
@@ -10,6 +10,14 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from styluscam.errors import StylusError
+
+
+def read_text(path: str | Path, failure: type[StylusError]) -> str:
+    """The text of a file; what keeps it from being read raises ``failure``."""
+    try:
+        return Path(path).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise failure(f"{path}: cannot be read: {error}", code="unreadable", where=str(path)) from error
 
 
 def write_whole(path: Path, text: str) -> None:

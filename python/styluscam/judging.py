@@ -8,6 +8,7 @@ from pathlib import Path
 from styluscam import _engine
 from styluscam.brep import recheck
 from styluscam.errors import VerifyError
+from styluscam.files import read_text
 from styluscam.job import Job
 from styluscam.machine import Machine
 from styluscam.planning import Plan, Posted
@@ -76,10 +77,7 @@ def verify(
 
 def verify_file(path: str | Path, job: Job, *, progress: Progress | None = None) -> Report:
     """As :func:`verify`, for a file."""
-    try:
-        text = Path(path).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise VerifyError(f"{path}: cannot be read: {error}", code="unreadable", where=str(path)) from error
+    text = read_text(path, VerifyError)
     return verify(text, job, progress=progress)
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from styluscam import _engine
 from styluscam.errors import MachineError
+from styluscam.files import read_text
 from styluscam.types import Document
 
 
@@ -24,10 +25,7 @@ class Machine:
     @classmethod
     def read(cls, path: str | Path) -> Machine:
         """From a machine file (TOML)."""
-        try:
-            text = Path(path).read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
-            raise MachineError(f"{path}: cannot be read: {error}", code="unreadable", where=str(path)) from error
+        text = read_text(path, MachineError)
         return cls(_engine.Machine.from_toml(text))
 
     @classmethod

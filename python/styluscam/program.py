@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from styluscam import _engine
 from styluscam.errors import JobError
-from styluscam.files import write_whole
+from styluscam.files import read_text, write_whole
 from styluscam.types import Document, FloatArray
 
 MOVE = np.dtype(
@@ -64,8 +64,5 @@ class Program:
     @classmethod
     def load(cls, path: str | Path) -> Program:
         """Reads what :meth:`save` wrote."""
-        try:
-            text = Path(path).read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
-            raise JobError(f"{path}: cannot be read: {error}", code="unreadable", where=str(path)) from error
+        text = read_text(path, JobError)
         return cls(_engine.Program.from_json(text))

@@ -6,7 +6,7 @@ use styluscam_motion::{Program, ToolRecord, Watch};
 use styluscam_post::{read, Machine};
 use styluscam_verify::{Limits, Report, Subject};
 
-use crate::{scene, JobDocument, JobError, OperationKind, Scene};
+use crate::{scene, JobDocument, JobError, Scene};
 
 /// Deepest gouge allowed, mm: the posted path may lie this far inside the exact envelope, and not more.
 const GOUGE: f64 = 0.001;
@@ -64,8 +64,6 @@ fn tools_in_order(job: &JobDocument) -> Result<(Vec<Tool>, Vec<ToolRecord>), Job
 
 /// Text does not say which operation a move belongs to: the widest tolerance of the job holds for all of it.
 fn limits(job: &JobDocument, scene: &Scene) -> Limits {
-    let excess = job.operations.iter().map(|o| match o.kind {
-        OperationKind::ZLevel | OperationKind::ZigZag => o.tolerance,
-    });
+    let excess = job.operations.iter().map(|operation| operation.tolerance);
     Limits { gouge: GOUGE, excess: excess.reduce(f64::max), ..Limits::new(scene.clearance(job)) }
 }

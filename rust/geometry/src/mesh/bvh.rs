@@ -112,18 +112,6 @@ impl Bvh {
         }
         best
     }
-
-    /// Calls `visit` with every triangle whose box `touches` accepts.
-    pub fn overlapping(&self, mut touches: impl FnMut(&Node) -> bool, mut visit: impl FnMut(u32)) {
-        self.maximise(
-            0.0,
-            |_, node, _| if touches(node) { 1.0 } else { -1.0 },
-            |triangle, best| {
-                visit(triangle);
-                best
-            },
-        );
-    }
 }
 
 impl Item {

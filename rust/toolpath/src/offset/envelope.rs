@@ -177,8 +177,7 @@ impl<'a> Envelope<'a> {
     /// # Errors
     /// `Cancelled` when `watch` says so.
     pub fn tips(&self, places: &[[f64; 2]], watch: &Watch) -> Result<Vec<f64>, Cancelled> {
-        let contacts = self.map_places(places, watch, |contact| contact.map_or(f64::NAN, |c| c.tip))?;
-        Ok(contacts)
+        self.map_places(places, watch, |contact| contact.map_or(f64::NAN, |c| c.tip))
     }
 
     /// Contacts at many places, in parallel.
