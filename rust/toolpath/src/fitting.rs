@@ -15,30 +15,36 @@ const PASSED: usize = 512;
 
 /// Adds exact points between those given until every chord's middle is within `deviation` of the exact path.
 ///
-/// `between` gives the exact point over the middle of two others, or none where there is none.
-/// The middles are kept: they are the witnesses of [`thinned`].
+/// `between` gives the exact point over the middle of two others, or none where there is none: there the path has
+/// no middle to keep to, and ends; what follows is another run. The middles are kept: they are the witnesses of
+/// [`thinned`].
 pub fn densified(
     points: &[PathPoint],
     deviation: f64,
     mut between: impl FnMut(&PathPoint, &PathPoint) -> Option<PathPoint>,
-) -> Vec<PathPoint> {
+) -> Vec<Vec<PathPoint>> {
     let Some(first) = points.first() else { return Vec::new() };
-    let mut out = vec![*first];
+    let mut runs = Vec::new();
+    let mut run = vec![*first];
     let mut pending = Vec::new();
     for end in &points[1..] {
         pending.push(*end);
         while let Some(b) = pending.pop() {
-            let a = out[out.len() - 1];
-            let long = (b.tip - a.tip).xy().norm() > SHORTEST;
-            let middle = if long { between(&a, &b).filter(|m| divides(m, &a, &b)) } else { None };
-            match middle {
+            let a = run[run.len() - 1];
+            if (b.tip - a.tip).xy().norm() <= SHORTEST {
+                run.push(b);
+                continue;
+            }
+            match between(&a, &b).filter(|m| divides(m, &a, &b)) {
                 Some(m) if stray(&m, a.tip, b.tip) > deviation => pending.extend([b, m]),
-                Some(m) => out.extend([m, b]),
-                None => out.push(b),
+                Some(m) => run.extend([m, b]),
+                None => runs.push(std::mem::replace(&mut run, vec![b])),
             }
         }
     }
-    out
+    runs.push(run);
+    runs.retain(|run| run.len() > 1);
+    runs
 }
 
 /// Whether a point is nearer in plan to both ends than they are to each other: dividing there comes to an end.
@@ -153,7 +159,8 @@ mod tests {
     fn chords_stay_within_the_deviation_and_are_few() {
         let ends = [point(-3.0, 0.9, true), point(3.0, 0.9, true)];
         let dense = densified(&ends, 1e-3, parabola);
-        let thin = thinned(&dense, 1e-3);
+        assert_eq!(dense.len(), 1);
+        let thin = thinned(&dense[0], 1e-3);
         for pair in thin.windows(2) {
             // the sagitta of z = 0.1 x^2 over a chord of length c is 0.1 c^2 / 4
             let chord = pair[1].tip.x - pair[0].tip.x;
@@ -163,11 +170,20 @@ mod tests {
     }
 
     #[test]
-    fn a_middle_that_lies_elsewhere_ends_the_division() {
+    fn a_middle_that_lies_elsewhere_ends_the_run() {
         let ends = [point(0.0, 0.0, true), point(1.0, 0.0, false)];
         let astray = |_: &PathPoint, _: &PathPoint| Some(point(5.0, 7.0, true));
-        assert_eq!(densified(&ends, 1e-3, astray).len(), 2);
+        assert!(densified(&ends, 1e-3, astray).is_empty());
         assert_eq!(selected_runs(&ends, false, astray).len(), 1);
+    }
+
+    #[test]
+    fn a_chord_without_a_middle_parts_the_run() {
+        let points: Vec<PathPoint> = (0..5).map(|i| point(f64::from(i), 0.0, true)).collect();
+        let torn = |a: &PathPoint, b: &PathPoint| parabola(a, b).filter(|m| m.tip.x != 1.5).map(|m| point(m.tip.x, 0.0, true));
+        let runs = densified(&points, 1e-3, torn);
+        let ends: Vec<[f64; 2]> = runs.iter().map(|run| [run[0].tip.x, run[run.len() - 1].tip.x]).collect();
+        assert_eq!(ends, [[0.0, 1.0], [2.0, 4.0]]);
     }
 
     #[test]
@@ -186,7 +202,8 @@ mod tests {
             Some(point(x, if x < 0.3 { 0.0 } else { 20.0 }, true))
         };
         let dense = densified(&[point(0.0, 0.0, true), point(1.0, 20.0, true)], 1e-3, step);
-        for pair in thinned(&dense, 1e-3).windows(2) {
+        assert_eq!(dense.len(), 1);
+        for pair in thinned(&dense[0], 1e-3).windows(2) {
             let climbs = pair[1].tip.z - pair[0].tip.z > 1e-3;
             assert!(!climbs || pair[1].tip.x - pair[0].tip.x < 2.0 * SHORTEST);
         }

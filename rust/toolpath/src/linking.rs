@@ -121,12 +121,13 @@ impl Route<'_> {
         }
         let mut hint = None;
         let mut sound = true;
-        let dense = fitting::densified(&[*from, *to], self.links.deviation, |a, b| {
+        let runs = fitting::densified(&[*from, *to], self.links.deviation, |a, b| {
             let middle = self.surface.between(a, b, &mut hint);
             sound &= middle.is_some_and(|m| m.selected);
             middle
         });
-        sound.then(|| fitting::thinned(&dense, self.links.deviation)[1..].to_vec())
+        let way = runs.first().filter(|_| sound)?;
+        Some(fitting::thinned(way, self.links.deviation)[1..].to_vec())
     }
 
     /// Straight up to clearance, if the tool is down.

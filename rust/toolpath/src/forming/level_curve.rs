@@ -8,8 +8,9 @@ use crate::{PathPoint, Surface};
 const ON_LEVEL: f64 = 1e-7;
 /// Steps at most; Newton takes two or three, bisection across a jump thirty.
 const STEPS: usize = 60;
-/// An envelope that passes the level by more than this within a step's last bracket has jumped, mm.
-const JUMP: f64 = 0.01;
+/// An envelope that passes the level by more than this within the last bracket has jumped, mm along the normal: far
+/// less than any tolerance, because the point is then posted beside the surface that it should touch.
+const JUMP: f64 = 1e-4;
 /// Steps after which a crossing that met no selected contact is left where it is: it only parts those that count.
 const UNSELECTED_STEPS: usize = 4;
 /// Steps from a chord's middle before a bracket is sought; one does, on a smooth surface.
@@ -89,7 +90,7 @@ impl<'a> LevelCurve<'a> {
     /// The point at the level's height. Where the envelope jumps past it, what is touched there is a vertical wall
     /// below the contact that the envelope knows: not that contact, and so not selected.
     fn levelled(&self, point: PathPoint) -> PathPoint {
-        let touches = (point.tip.z - self.z).abs() < JUMP;
+        let touches = (point.tip.z - self.z).abs() * point.normal.z < JUMP;
         let tip = Vector::new(point.tip.x, point.tip.y, self.z);
         PathPoint { tip, selected: point.selected && touches, ..point }
     }

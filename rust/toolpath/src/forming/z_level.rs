@@ -61,12 +61,9 @@ fn level(
         watch.advance(0)?;
         let exact = crossings(&mut curve, grid, &chain, z);
         for run in fitting::selected_runs(&exact, chain.closed, |a, b| curve.between(a, b)) {
-            let closed = chain.closed && run.len() == exact.len();
-            let dense = fitting::densified(&run, deviation, |a, b| curve.between(a, b));
-            let points = fitting::thinned(&dense, deviation);
-            if points.len() > 1 {
-                passes.push(Pass { points, closed, group });
-            }
+            let runs = fitting::densified(&run, deviation, |a, b| curve.between(a, b));
+            let closed = chain.closed && run.len() == exact.len() && runs.len() == 1;
+            passes.extend(runs.iter().map(|run| Pass { points: fitting::thinned(run, deviation), closed, group }));
         }
     }
     Ok(passes)

@@ -93,11 +93,9 @@ impl Lines {
         for met in sampled.split(Option::is_none) {
             let exact: Vec<PathPoint> = met.iter().flatten().copied().collect();
             for run in fitting::selected_runs(&exact, false, &mut between) {
-                let dense = fitting::densified(&run, deviation, &mut between);
-                let points = fitting::thinned(&dense, deviation);
-                if points.len() > 1 {
-                    passes.push(Pass { points, closed: false, group: row });
-                }
+                let runs = fitting::densified(&run, deviation, &mut between);
+                let pass = |run| Pass { points: fitting::thinned(run, deviation), closed: false, group: row };
+                passes.extend(runs.iter().map(|run| pass(run)));
             }
         }
         passes
