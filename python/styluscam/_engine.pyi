@@ -1,6 +1,7 @@
 """Types of the Rust engine."""
 
 from collections.abc import Callable
+from typing import final
 
 import numpy as np
 import numpy.typing as npt
@@ -8,16 +9,18 @@ import numpy.typing as npt
 _F = npt.NDArray[np.float64]
 _I = npt.NDArray[np.int64]
 _Progress = Callable[[str, float], bool | None]
-ArrayFunction = Callable[[_F], _F]
 
+__all__: list[str]
 __version__: str
 
+@final
 class CancelToken:
     def __new__(cls) -> CancelToken: ...
     def cancel(self) -> None: ...
     @property
     def cancelled(self) -> bool: ...
 
+@final
 class Tool:
     def __new__(cls, document: str) -> Tool: ...
     def to_json(self) -> str: ...
@@ -33,6 +36,7 @@ class Tool:
     def curvature_radius_at(self, slope: _F) -> _F: ...
     def height_at_radius(self, radius: _F) -> _F: ...
 
+@final
 class Part:
     def __new__(
         cls, vertices: _F, triangles: _I, face_ids: _I | None = None, inward: float = 0.0, outward: float = 0.0
@@ -44,6 +48,7 @@ class Part:
     @property
     def dropped(self) -> int: ...
 
+@final
 class Program:
     @staticmethod
     def from_json(text: str) -> Program: ...
@@ -56,6 +61,7 @@ class Program:
     def same_moves(self, other: Program) -> bool: ...
     def statistics(self, rapid_rate: float = 3000.0) -> tuple[float, float]: ...
 
+@final
 class Job:
     @staticmethod
     def from_toml(text: str) -> Job: ...
@@ -63,6 +69,7 @@ class Job:
     def from_json(text: str) -> Job: ...
     def to_json(self) -> str: ...
 
+@final
 class Machine:
     @staticmethod
     def shipped(name: str) -> Machine: ...
@@ -76,16 +83,19 @@ class Machine:
     @property
     def resolution_mm(self) -> float: ...
 
+@final
 class Scene:
     def __new__(cls, job: Job, part: Part) -> Scene: ...
     @property
     def frame(self) -> list[list[float]]: ...
 
+@final
 class Plan:
     @property
     def program(self) -> Program: ...
     def summary(self, scene: Scene, machine: Machine, judgement: Judgement | None = None) -> tuple[str, list[str]]: ...
 
+@final
 class Judgement:
     def report(self) -> str: ...
     @property
@@ -131,5 +141,10 @@ def judge(
     cancel: CancelToken | None = None,
 ) -> Judgement: ...
 def job_schema() -> str: ...
-def starter(file: str, stem: str, size: tuple[float, ...], faces: list[str], units: str | None = None) -> str: ...
+def starter(
+    file: str,
+    size: tuple[float, ...],
+    faces: list[tuple[str, str, float, tuple[float, float]]],
+    units: str | None = None,
+) -> str: ...
 def shipped_machines() -> list[str]: ...

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 from pathlib import Path
 
 from styluscam import _engine
@@ -12,9 +11,6 @@ from styluscam.machine import Machine
 from styluscam.part import Part
 from styluscam.parts import PartArrays
 from styluscam.types import Document, Progress
-
-FLAT = 1.0
-"""Faces up to this slope have no levels worth their name, degrees."""
 
 
 class Job:
@@ -82,22 +78,8 @@ def job_schema() -> Document:
 
 
 def starter_job(arrays: PartArrays, file: str, units: str | None = None) -> str:
-    """A commented job (TOML) for a part that has none: it runs as it stands.
-
-    Levels where something slopes that looks up; rows where all that looks up is flat and has no level between.
-    """
-    up = [f for f in arrays.faces if f.slope_min_deg < 89.9]
-    faces = [
-        f"{f.name}: {f.kind}, {f.area_mm2:.0f} mm2, slope {f.slope_min_deg:.0f} to {f.slope_max_deg:.0f} deg"
-        for f in up
-    ]
+    """A commented job (TOML) for a part that has none: it runs as it stands."""
     low, high = arrays.box
     size = tuple(float(b - a) for a, b in zip(low, high, strict=True))
-    stem = "".join(letter if letter.isprintable() and letter not in '"\\' else "_" for letter in Path(file).stem)
-    text = _engine.starter(file, stem, size, faces, units)
-    if not any(f.slope_max_deg > FLAT for f in up):
-        text = text.replace('kind = "z-level"            # or "zig-zag"', 'kind = "zig-zag"            # or "z-level"')
-    diameter = re.search(r"diameter = ([0-9.]+)", text)
-    if diameter is not None and float(diameter[1]) < 3.0:  # a sheet must be thinner than its tool is long
-        text = text.replace("thickness = 1.0", f"thickness = {float(diameter[1]) / 5.0:g}")
-    return text
+    faces = [(f.name, f.kind, f.area_mm2, (f.slope_min_deg, f.slope_max_deg)) for f in arrays.faces]
+    return _engine.starter(file, size, faces, units)

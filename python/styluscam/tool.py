@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -80,6 +81,6 @@ class Tool:
         return _by_entry(self._engine.height_at_radius, radius)
 
 
-def _by_entry(function: _engine.ArrayFunction, values: npt.ArrayLike) -> FloatArray:
+def _by_entry(function: Callable[[FloatArray], FloatArray], values: npt.ArrayLike) -> FloatArray:
     array = np.asarray(values, dtype=np.float64)
     return function(np.ascontiguousarray(array.ravel())).reshape(array.shape)

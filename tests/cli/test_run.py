@@ -68,6 +68,14 @@ def test_linuxcnc_moves_as_planned(coarse, changes):
     assert np.array_equal(feeds[cutting], planned["feed"][cutting])
 
 
+def test_rows_stay_between_the_heights_asked_for(coarse):
+    heights = ('tool = "stylus"', 'tool = "stylus"\nz_top = -4.0\nz_bottom = -8.0')
+    moves = sc.Program.load(coarse(ZIG_ZAG, heights).folder / "cup.program.json").moves
+    tips = moves["end"][moves["kind"] == 1, 2]
+    assert -8.0 <= tips.min() < -7.9
+    assert -4.1 < tips.max() <= -4.0 + 0.005
+
+
 def test_summary_says_first_what_is_mis_zeroed(coarse, cli):
     run = coarse()
     ran = cli("run", run.job)

@@ -59,7 +59,8 @@ def part_of(shape: Any, tolerance: float, name: str, progress: Progress | None =
 
 def arrays_of(shape: Any, tolerance: float, name: str, progress: Progress | None = None) -> PartArrays:
     """The shape's faces as one welded mesh, with the exact surfaces behind it."""
-    from styluscam.parts import step
+    from styluscam.parts import assembly
+    from styluscam.parts.progress import report
     from styluscam.parts.surfaces import Parametric
     from styluscam.parts.tessellation import refine_until
 
@@ -71,20 +72,20 @@ def arrays_of(shape: Any, tolerance: float, name: str, progress: Progress | None
     surfaces = [surface_of(face) for face in faces]
 
     def mesh_at(deflection: float) -> list[FaceMesh]:
-        step.report(progress, "mesh", 0.3)
+        report(progress, "mesh", 0.3)
         meshes = _meshes(bare, faces, deflection, name)
         for i, (face, surface) in enumerate(zip(faces, surfaces, strict=True)):
             if isinstance(surface, Parametric):
                 surfaces[i], meshes[i] = with_uv(face, surface, meshes[i])
-        step.report(progress, "check", 0.6)
-        return [step._outward(mesh, surface) for mesh, surface in zip(meshes, surfaces, strict=True)]
+        report(progress, "check", 0.6)
+        return [assembly.outward(mesh, surface) for mesh, surface in zip(meshes, surfaces, strict=True)]
 
     tessellation = refine_until(mesh_at, surfaces, tolerance, name)
     areas = [(face.Area, tuple(face.CenterOfMass)) for face in faces]
-    kinds = [step._kind(surface) for surface in surfaces]
-    step._check_areas(source, tessellation, areas)
+    kinds = [assembly.kind_of(surface) for surface in surfaces]
+    assembly.check_areas(source, tessellation, areas)
     notes = () if bare.isClosed() else ("the model is not a closed solid: its material side is a guess",)
-    return step._assemble(
+    return assembly.assemble(
         source, tolerance, "mm", notes=notes, surfaces=surfaces, kinds=kinds, areas=areas, tessellation=tessellation
     )
 

@@ -1,7 +1,7 @@
 //! Jobs: documents, scenes, plans, posted text and its judgement.
 
 use pyo3::prelude::*;
-use styluscam_job::{JobDocument, JobError, StarterPart, Summary};
+use styluscam_job::{JobDocument, JobError, StarterFace, StarterPart, Summary};
 
 use crate::{
     errors,
@@ -227,8 +227,9 @@ pub fn job_schema() -> PyResult<String> {
 
 /// A commented job for a part that has none yet.
 #[pyfunction]
-#[pyo3(signature = (file, stem, size, faces, units=None))]
-#[allow(clippy::needless_pass_by_value)]
-pub fn starter(file: &str, stem: &str, size: [f64; 3], faces: Vec<String>, units: Option<&str>) -> String {
-    styluscam_job::starter(&StarterPart { file, units, stem, size, faces: &faces })
+#[pyo3(signature = (file, size, faces, units=None))]
+pub fn starter(file: &str, size: [f64; 3], faces: Vec<(String, String, f64, [f64; 2])>, units: Option<&str>) -> String {
+    let faces: Vec<StarterFace> =
+        faces.into_iter().map(|(name, kind, area, slope_deg)| StarterFace { name, kind, area, slope_deg }).collect();
+    styluscam_job::starter(&StarterPart { file, units, size, faces: &faces })
 }

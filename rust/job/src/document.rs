@@ -292,10 +292,10 @@ pub struct OperationSection {
     /// Faces of this operation alone; the part's when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub faces: Option<Selection>,
-    /// Height from which levels are counted, mm in work coordinates; the selected faces' top when left out (z-level).
+    /// Height from which levels are counted, mm in work coordinates; the selected faces' top when left out. Rows (zig-zag) end there.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub z_top: Option<f64>,
-    /// Lowest level, mm in work coordinates; as deep as the tool reaches when left out (z-level).
+    /// Lowest level, mm in work coordinates; as deep as the tool reaches when left out. Rows (zig-zag) end there.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub z_bottom: Option<f64>,
     /// Distance between levels (z-level).

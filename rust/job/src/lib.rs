@@ -21,7 +21,7 @@ pub use judge::{judge, read_back, Judgement};
 pub use parse::{from_json, from_toml, schema};
 pub use plan::{plan, OperationSummary, Plan};
 pub use scene::{Part, Scene};
-pub use starter::{starter, StarterPart};
+pub use starter::{starter, StarterFace, StarterPart};
 pub use summary::Summary;
 
 /// Version of the job document; older ones migrate, newer ones are refused.

@@ -11,7 +11,8 @@ use styluscam_toolpath::{
 };
 
 use crate::{
-    faces, scene, Coolant, Direction, JobDocument, JobError, OperationKind, OperationSection, Scene, Spindle, Step,
+    faces::{self, FaceView},
+    scene, Coolant, Direction, JobDocument, JobError, OperationKind, OperationSection, Scene, Spindle, Step,
 };
 
 /// Triangles of a face that are asked whether the tool bridges them, of its border and of its inside: enough to find
@@ -22,6 +23,8 @@ const LEAST_DEVIATION: f64 = 2e-4;
 /// Share of what is left that a chord may stray to either side. The planned surface lies in the middle; the rest is a
 /// reserve on both sides, because between the points that are checked a facetted surface strays a little more.
 const EACH_SIDE: f64 = 0.4;
+/// Area of a face that is worth a word, mm^2: it is shown with one decimal.
+const LEAST_AREA: f64 = 0.05;
 /// Links are ridden up to so many steps or stepovers.
 const RIDE: f64 = 4.0;
 
@@ -55,6 +58,8 @@ pub struct OperationSummary {
     pub bridged: Vec<BridgedFace>,
     /// Faces with area that looks down, mm^2: not reached.
     pub undercut: Vec<(u32, f64)>,
+    /// Faces with vertical area, mm^2, which levels do not follow: the tool passes it on the levels' way down.
+    pub vertical: Vec<(u32, f64)>,
 }
 
 /// A face that the tool bridges.
@@ -192,7 +197,7 @@ pub fn operation(
     let budget = Budget::of(section, scene, machine).map_err(JobError::planning(&place))?;
     watch.begin("preparing", 1);
     let envelope = Envelope::new(&scene.mesh, &scene.bvh, tool, scene.sheet.as_ref(), budget.margin);
-    let surface = Surface::new(&envelope, &selected);
+    let surface = Surface::new(&envelope, &selected).between_heights(heights(section));
     let task = Task { job, scene, machine, section, index, budget: &budget };
     let (passes, smallest_feature) = task.passes(&surface, watch).map_err(JobError::planning(&place))?;
     let summary = OperationSummary {
@@ -203,13 +208,27 @@ pub fn operation(
         wall_angle_max_deg: steepest(scene, &selected).to_degrees(),
         smallest_feature,
         bridged: bridged(scene, tool, &envelope, &selected, section.tolerance, watch)?,
-        undercut: faces
-            .iter()
-            .filter_map(|f| scene.views.get(f).filter(|v| v.down > 0.0).map(|v| (*f, v.down)))
-            .collect(),
+        undercut: areas(scene, &faces, |view| view.down),
+        vertical: if section.kind == OperationKind::ZLevel { areas(scene, &faces, |v| v.vertical) } else { Vec::new() },
         faces,
     };
     Ok((link(&surface, passes, &task.links()), summary))
+}
+
+/// Faces of which a part is of some sort, with its area.
+fn areas(scene: &Scene, faces: &[u32], of_sort: impl Fn(&FaceView) -> f64) -> Vec<(u32, f64)> {
+    let area = |face: &u32| scene.views.get(face).map(&of_sort).filter(|area| *area >= LEAST_AREA);
+    faces.iter().filter_map(|face| Some((*face, area(face)?))).collect()
+}
+
+/// Heights between which the tip stays on the surface: levels choose their own.
+fn heights(section: &OperationSection) -> [f64; 2] {
+    let (bottom, top) = match section.kind {
+        OperationKind::ZLevel => (None, None),
+        OperationKind::ZigZag => (section.z_bottom, section.z_top),
+    };
+    // what lies at the top is formed within the tolerance above it
+    [bottom.unwrap_or(f64::NEG_INFINITY), top.map_or(f64::INFINITY, |z| z + section.tolerance)]
 }
 
 fn looks_up(scene: &Scene, triangle: usize) -> bool {

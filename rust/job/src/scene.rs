@@ -76,12 +76,14 @@ impl Scene {
     #[must_use]
     pub fn record(&self, job: &JobDocument) -> SetupRecord {
         let (low, high) = self.mesh.bounds();
+        // arithmetic's last bits are nobody's measure, and -0 is none at all
+        let plain = |corner: Vector| <[f64; 3]>::from(corner).map(|x| (x * 1e9).round() / 1e9 + 0.0);
         SetupRecord {
             title: if job.title.is_empty() { job.part.file.clone() } else { job.title.clone() },
             wcs: job.setup.wcs.clone(),
             zero: self.zero.clone(),
-            part_min: low.into(),
-            part_max: high.into(),
+            part_min: plain(low),
+            part_max: plain(high),
             clearance: self.clearance(job),
             notes: Vec::new(),
         }

@@ -124,7 +124,7 @@ fn border(
         match between(&inside, &outside).filter(|m| divides(m, &inside, &outside)) {
             Some(middle) if middle.selected => inside = middle,
             Some(middle) => outside = middle,
-            None => break,
+            None => outside.tip = (inside.tip + outside.tip) * 0.5,
         }
     }
     inside
@@ -180,7 +180,8 @@ mod tests {
     #[test]
     fn a_chord_without_a_middle_parts_the_run() {
         let points: Vec<PathPoint> = (0..5).map(|i| point(f64::from(i), 0.0, true)).collect();
-        let torn = |a: &PathPoint, b: &PathPoint| parabola(a, b).filter(|m| m.tip.x != 1.5).map(|m| point(m.tip.x, 0.0, true));
+        let torn =
+            |a: &PathPoint, b: &PathPoint| parabola(a, b).filter(|m| (m.tip.x - 1.5).abs() > 0.1).map(|m| point(m.tip.x, 0.0, true));
         let runs = densified(&points, 1e-3, torn);
         let ends: Vec<[f64; 2]> = runs.iter().map(|run| [run[0].tip.x, run[run.len() - 1].tip.x]).collect();
         assert_eq!(ends, [[0.0, 1.0], [2.0, 4.0]]);

@@ -23,13 +23,20 @@ pub struct PathPoint {
 pub struct Surface<'a> {
     envelope: &'a Envelope<'a>,
     selected: &'a [bool],
+    heights: [f64; 2],
 }
 
 impl<'a> Surface<'a> {
     /// `selected` says of each triangle whether its face was asked for.
     #[must_use]
     pub fn new(envelope: &'a Envelope<'a>, selected: &'a [bool]) -> Self {
-        Self { envelope, selected }
+        Self { envelope, selected, heights: [f64::NEG_INFINITY, f64::INFINITY] }
+    }
+
+    /// The same surface, of which only what has its tip between two heights counts as selected.
+    #[must_use]
+    pub fn between_heights(&self, heights: [f64; 2]) -> Self {
+        Self { heights, ..*self }
     }
 
     /// The envelope.
@@ -57,7 +64,8 @@ impl<'a> Surface<'a> {
         PathPoint {
             tip: Vector::new(x, y, contact.tip),
             normal: contact.normal,
-            selected: self.envelope.belongs(contact, self.selected, SPREAD),
+            selected: (self.heights[0]..=self.heights[1]).contains(&contact.tip)
+                && self.envelope.belongs(contact, self.selected, SPREAD),
         }
     }
 

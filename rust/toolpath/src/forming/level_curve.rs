@@ -47,6 +47,11 @@ impl<'a> LevelCurve<'a> {
     /// bisection, which also settles on the jump at the part's border. The point lies on the free side of it.
     /// `guess` is where to look first, as a share of the way.
     pub fn crossing(&mut self, above: Place, free: Place, guess: f64) -> Option<PathPoint> {
+        self.search(above, free, guess).map(|p| self.levelled(p))
+    }
+
+    /// What the tool meets at the crossing: on the level, or below it where the envelope jumps past.
+    fn search(&mut self, above: Place, free: Place, guess: f64) -> Option<PathPoint> {
         let along = [free[0] - above[0], free[1] - above[1]];
         let length = libm::hypot(along[0], along[1]);
         let (mut low, mut high) = (0.0, 1.0);
@@ -58,7 +63,7 @@ impl<'a> LevelCurve<'a> {
             met_selected |= point.is_some_and(|p| p.selected);
             let newton = point.and_then(|p| self.newton_step(&p, along));
             match point {
-                Some(p) if (p.tip.z - self.z).abs() * p.normal.z < ON_LEVEL => return Some(self.levelled(p)),
+                Some(p) if (p.tip.z - self.z).abs() * p.normal.z < ON_LEVEL => return Some(p),
                 Some(p) if p.tip.z > self.z => {
                     low = share;
                     last_above = Some(p);
@@ -73,11 +78,11 @@ impl<'a> LevelCurve<'a> {
                 .filter(|next| *next > low && *next < high)
                 .unwrap_or(0.5 * (low + high));
         }
-        // a jump: the free side, with the normal of what is touched on the other
+        // a jump: the free side
         let at = [above[0] + high * along[0], above[1] + high * along[1]];
         let on_free_side = self.at(at);
         let found = on_free_side.or(last_above)?;
-        Some(self.levelled(PathPoint { tip: Vector::new(at[0], at[1], found.tip.z), ..found }))
+        Some(PathPoint { tip: Vector::new(at[0], at[1], found.tip.z), ..found })
     }
 
     /// Newton's step as a share of the line: the envelope's gradient is -tan(slope) along the normal's plan.
@@ -90,12 +95,16 @@ impl<'a> LevelCurve<'a> {
     /// The point at the level's height. Where the envelope jumps past it, what is touched there is a vertical wall
     /// below the contact that the envelope knows: not that contact, and so not selected.
     fn levelled(&self, point: PathPoint) -> PathPoint {
-        let touches = (point.tip.z - self.z).abs() * point.normal.z < JUMP;
         let tip = Vector::new(point.tip.x, point.tip.y, self.z);
-        PathPoint { tip, selected: point.selected && touches, ..point }
+        PathPoint { tip, selected: point.selected && self.touches(&point), ..point }
+    }
+
+    fn touches(&self, point: &PathPoint) -> bool {
+        (point.tip.z - self.z).abs() * point.normal.z < JUMP
     }
 
     /// The point of the level nearest to the middle of a chord: along the slope there, as far as the chord is long.
+    /// None where the envelope jumps past the level.
     pub fn between(&mut self, a: &PathPoint, b: &PathPoint) -> Option<PathPoint> {
         let middle = ((a.tip + b.tip) * 0.5).xy();
         let reach = (b.tip - a.tip).norm();
@@ -133,7 +142,8 @@ impl<'a> LevelCurve<'a> {
             let other = [middle.x + side * outward.x, middle.y + side * outward.y];
             if self.is_above(other) != is_above {
                 let (above, free) = if is_above { (here, other) } else { (other, here) };
-                return self.crossing(above, free, 0.5);
+                let found = self.search(above, free, 0.5).filter(|p| self.touches(p))?;
+                return Some(self.levelled(found));
             }
             if distance >= reach {
                 return None;
