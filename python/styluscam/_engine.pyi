@@ -10,7 +10,29 @@ _F = npt.NDArray[np.float64]
 _I = npt.NDArray[np.int64]
 _Progress = Callable[[str, float], bool | None]
 
-__all__: list[str]
+__all__ = [
+    "CancelToken",
+    "Job",
+    "Judgement",
+    "Machine",
+    "Part",
+    "Plan",
+    "Program",
+    "Scene",
+    "Tool",
+    "__version__",
+    "drop_cutter",
+    "job_schema",
+    "judge",
+    "plan",
+    "post",
+    "read_back",
+    "read_gcode",
+    "shipped_machines",
+    "slope_matched_offset",
+    "starter",
+    "waterline",
+]
 __version__: str
 
 @final
