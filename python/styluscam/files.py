@@ -29,7 +29,8 @@ def write_all_whole(files: dict[Path, str]) -> None:
     """As :func:`write_whole` for several files: none is renamed before all are written. Missing folders are made.
 
     Raises:
-        StylusError: a place that must not be written to, or a full disk; no file has changed then.
+        StylusError: a place that must not be written to, or a full disk; nothing was renamed then. Where the system
+            refuses a later renaming, the files before it are the new ones: each is whole.
     """
     require_writable(files)
     written: list[tuple[str, Path]] = []
@@ -49,22 +50,42 @@ def write_all_whole(files: dict[Path, str]) -> None:
                 Path(temporary).unlink()
 
 
-def require_writable(paths: Iterable[Path]) -> None:
+def require_writable(outputs: Iterable[Path], inputs: Iterable[Path] = ()) -> None:
     """Asks before long work whether its outputs can be written; folders that do not exist will be made.
 
     Raises:
-        StylusError: a folder or a regular file stands in the way, or permission is missing.
+        StylusError: a folder or a device stands in the way, permission is missing, or an output would replace one of
+            ``inputs`` or another output.
     """
-    for path in paths:
+    taken = {_place(path): "is read by this very job" for path in inputs}
+    for path in outputs:
         try:
             _look(path)
-        except OSError as error:
+            place = _place(path)
+        except (OSError, ValueError) as error:
             raise _unwritable(path, error) from error
+        if place in taken:
+            raise StylusError(
+                f"{path}: cannot be written: it {taken[place]}",
+                code="unwritable",
+                where=str(path),
+                hint="give it another name",
+            )
+        taken[place] = "is another output of this job"
+
+
+def _place(path: Path) -> str:
+    """The same for all names of a file."""
+    return os.path.normcase(path.resolve())
 
 
 def _look(path: Path) -> None:
+    if "\0" in str(path):
+        raise OSError(errno.EINVAL, "the name holds a character that no file name has", str(path))
     if path.is_dir():
         raise IsADirectoryError(errno.EISDIR, "a folder has this name", str(path))
+    if path.exists() and not path.is_file():
+        raise OSError(errno.EINVAL, "a device has this name", str(path))
     folder = next((parent for parent in path.absolute().parents if parent.exists()), path.absolute().parent)
     if not folder.is_dir():
         raise NotADirectoryError(errno.ENOTDIR, f"{folder} is a file, not a folder", str(path))
@@ -72,9 +93,10 @@ def _look(path: Path) -> None:
         raise PermissionError(errno.EACCES, f"no permission to write to {folder}", str(path))
 
 
-def _unwritable(path: Path, error: OSError) -> StylusError:
-    message = f"{path}: cannot be written: {error.strerror or error}"
-    return StylusError(message, code="unwritable", where=str(path), hint="choose another place")
+def _unwritable(path: Path, error: OSError | ValueError) -> StylusError:
+    name = str(path).replace("\0", "?")
+    message = f"{name}: cannot be written: {getattr(error, 'strerror', None) or error}"
+    return StylusError(message, code="unwritable", where=name, hint="choose another place")
 
 
 def _write_beside(path: Path, text: str) -> str:

@@ -16,10 +16,13 @@ from styluscam.types import Document, Progress
 class Job:
     """A checked job. Relative paths in it resolve against ``folder``."""
 
-    def __init__(self, engine: _engine.Job, folder: Path, name: str = "job", part: Part | None = None) -> None:
+    def __init__(
+        self, engine: _engine.Job, folder: Path, name: str = "job", part: Part | None = None, file: Path | None = None
+    ) -> None:
         self.engine = engine
         self.folder = folder
         self.name = name
+        self.file = file
         self._part = part
         self.document: Document = json.loads(engine.to_json())
 
@@ -43,7 +46,7 @@ class Job:
             message = f"{path}: not a job: it is not text in UTF-8"
             raise JobError(message, code="unreadable", where=str(path), hint="name a job file") from error
         parse = _engine.Job.from_json if path.suffix == ".json" else _engine.Job.from_toml
-        return cls(parse(text), path.resolve().parent, path.stem)
+        return cls(parse(text), path.resolve().parent, path.stem, file=path)
 
     @classmethod
     def from_dict(cls, document: Document, folder: str | Path = ".", part: Part | None = None) -> Job:
@@ -58,6 +61,12 @@ class Job:
     def to_dict(self) -> Document:
         """The document with all its defaults."""
         return self.document
+
+    def inputs(self) -> list[Path]:
+        """The files that the job is read from: itself, the part's and the machine's."""
+        named = [self.document["part"]["file"], self.document["machine"].get("file")]
+        own = [] if self.file is None else [self.file]
+        return own + [self.folder / name for name in named if name]
 
     def part(self, progress: Progress | None = None) -> Part:
         """The part, read once."""

@@ -26,7 +26,11 @@ class Machine:
     def read(cls, path: str | Path) -> Machine:
         """From a machine file (TOML)."""
         text = read_text(path, MachineError)
-        return cls(_engine.Machine.from_toml(text))
+        try:
+            return cls(_engine.Machine.from_toml(text))
+        except MachineError as error:
+            place = f"{path}: {error.where}" if error.where else str(path)
+            raise MachineError(f"{place}: {error}", code=error.code, where=place, hint=error.hint) from error
 
     @classmethod
     def of_section(cls, section: Document, folder: Path) -> Machine:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -31,12 +32,14 @@ def run(
     write_despite_findings: bool = False,
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
+    also: Sequence[Path] = (),
 ) -> RunResult:
     """Plans, posts, reads the text back, judges it, and writes it only if nothing was found.
 
+    ``also`` names files that the caller will write beside the program: asked about before the work begins.
     The judge's figures go into the header: the text is posted again with them, and must hold the very same moves.
     """
-    require_writable(_names(job))
+    require_writable([*_names(job), *also], job.inputs())
     planned = plan(job, progress=progress, cancel=cancel)
     report = judge_plan(planned, post(planned).text, progress, cancel)
     summary, notes = planned.summary(report.judgement)

@@ -97,7 +97,10 @@ IN_THE_DOCUMENT = {
     "no operation": ([("[[operations]]", "[[operation]]")], ["operation", 'did you mean "operations"']),
     "schema of the future": ([("schema = 1", "schema = 2")], ["schema = 2", "update"]),
     "no schema": ([("schema = 1", "")], ["schema is missing"]),
-    "feed 0": ([("stepover = 5.0", "stepover = 5.0\nfeeds = { cut = 0 }")], ["operations[0].feeds.cut", "above 0"]),
+    "feed 0": (
+        [("stepover = 5.0", "stepover = 5.0\nfeeds = { cut = 0 }")],
+        ["operations[0].feeds.cut", "0.1 to 100000 mm/min"],
+    ),
     "retract above clearance": ([('zero = "sheet-top"', "clearance = 1\nretract = 2")], ["setup.retract", "clearance"]),
     "zero misspelt": ([('"sheet-top"', '"sheettop"')], ["setup.zero", "sheet-top"]),
     "milling with a sheet": (
@@ -125,7 +128,28 @@ IN_THE_DOCUMENT = {
         ["cube.stl", "units"],
     ),
     "STEP with units": ([("[part]", '[part]\nunits = "mm"')], ["box.step", "units"]),
-    "part tolerance 0": ([("[part]", "[part]\ntolerance = 0")], ["part.tolerance", "0.00001 to 1 mm"]),
+    "part tolerance 0": ([("[part]", "[part]\ntolerance = 0")], ["part.tolerance", "0.0001 to 1 mm"]),
+    "outputs of one name": ([('"out.ngc"', '"out.ngc"\nprogram = "out.ngc"')], ["out.ngc", "another output"]),
+    "output over the part": ([("out.ngc", "box.step")], ["box.step", "read by this very job"]),
+    "output over the part by another way": ([("out.ngc", "folder/../box.step")], ["read by this very job"]),
+    "output over the job": ([("out.ngc", "job.toml")], ["job.toml", "read by this very job"]),
+    "output of no file name": ([("out.ngc", "\\u0000")], ["no file name"]),
+    "array for a table": ([(STEP, STEP + "\nfeeds = [1500.0, 300.0]")], ["operations[0].feeds", "table"]),
+    "number for a word": ([("[setup]", "[setup]\nup = 1")], ["setup.up", "word in quotes", '"+z"']),
+    "date for a word": ([("[part]", "title = 1979-05-27\n[part]")], ["title", "string"]),
+    "absurd number": ([("height = 5.0", "height = 1e308")], ["operations[0].step.height", "1e308", "100 mm"]),
+    "no length offset": (
+        [("number = 1", "number = 1\nlength_offset = 0")],
+        ["tools.stylus.length_offset", "leave it out"],
+    ),
+    "retract that the judge refuses": ([('zero = "sheet-top"', "retract = 0.04")], ["setup.retract", "0.1 to 1000 mm"]),
+    "two operations of one name": (
+        [
+            (STEP, STEP + '\nid = "a"'),
+            ("[machine]", '[[operations]]\nkind = "zig-zag"\nid = "a"\ntool = "stylus"\nstepover = 5.0\n[machine]'),
+        ],
+        ["operations[1].id", "operations[0]"],
+    ),
     "output below a file": ([("out.ngc", "text.doc/out.ngc")], ["out.ngc", "cannot be written", "text.doc"]),
     "output is a folder": ([("out.ngc", "folder")], ["folder", "cannot be written"]),
     "all but nothing looks up": ([('["Face6"]', '"al"')], ["part.faces", "al", "all"]),
@@ -258,13 +282,13 @@ def test_wrong_command_line(cli, arguments, words):
 
 
 GCODE = {
-    "unknown word": ("G21 G90\nG0 Z10\nG1 A5 F100\nM2\n", ["line 3", "A5"]),
-    "unknown code": ("G21 G90\nG0 Z10\nG99\nM2\n", ["line 3", "G99"]),
+    "unknown word": ("G21 G90\nF100\nG1 A5\nM2\n", ["line 3", "A5"]),
+    "unknown code": ("G21 G90\nF100\nG99\nM2\n", ["line 3", "G99"]),
     "junk": ("G21\n\x01\x02\nM2\n", ["line 2"]),
     "no unit": ("G0 X1\nM2\n", ["line 1"]),
     "wrong length offset": ("G21 G90 G54\nT1 M6\nG43 H9\nM2\n", ["line 3", "9"]),
     "another tool": ("G21 G90 G54\nT7 M6\nM2\n", ["line 2", "7"]),
-    "no end": ("G21 G90\nG0 Z10\n", ["end"]),
+    "no end": ("G21 G90\nF100\n", ["end"]),
 }
 
 
@@ -296,3 +320,19 @@ def test_fault_of_ours_is_one_line_and_a_traceback_only_on_request(folder, cli, 
     as_json = cli("run", folder / "good.toml", "--json")
     assert as_json.code == 4 and as_json.json["error"]["class"] == "RuntimeError"
     json.dumps(as_json.json)
+
+
+def test_pictures_do_not_replace_the_part(folder, cli, box_step):
+    before = box_step.read_bytes()
+    ran = cli("part", "show", box_step, "--picture", box_step)
+    assert ran.code == 2 and "read by this very job" in ran.err
+    assert box_step.read_bytes() == before
+
+
+def test_coordinates_that_are_no_numbers(tmp_path, cli, box_step):
+    spoilt = tmp_path / "nan.step"
+    text = box_step.read_text()
+    at = text.index("CARTESIAN_POINT('',(") + len("CARTESIAN_POINT('',(")
+    spoilt.write_text(text[:at] + "nan" + text[text.index(",", at) :])
+    ran = cli("part", "show", spoilt)
+    assert ran.code == 2 and "not a number" in ran.err and ran.err.count("\n") == 1

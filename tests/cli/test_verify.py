@@ -99,7 +99,7 @@ def test_rapid_through_the_part_is_named(sound, cli):
 
 
 def test_inch_for_mm_is_found(sound, cli):
-    code, document = judged(cli, sound, changed(sound.gcode.read_text(), ("G21", "G20")))
+    code, document = judged(cli, sound, changed(sound.gcode.read_text(), ("G21", "G20"), ("G64 P0.001", "G64 P0.00003")))
     assert code == 1 and document["findings"]
 
 
@@ -143,3 +143,40 @@ def test_program_of_another_part_is_found(sound, cli, tmp_path):
     job = tmp_path / "job.toml"
     job.write_text(changed(COARSE_CUP, ("cone_cup.step", "vwaf.step")))
     assert judged(cli, sound, sound.gcode.read_text(), job)[0] == 1
+
+
+def without_line(text, start):
+    lines = text.splitlines(keepends=True)
+    kept = [line for line in lines if not line.startswith(start)]
+    assert len(kept) == len(lines) - 1
+    return "".join(kept)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "words"),
+    [
+        (lambda text: without_line(text, "G43"), "length offset"),
+        (lambda text: changed(text, ("G43 H1", "G43 H1\nG49")), "length offset"),
+        (lambda text: changed(text, ("G43 H1", "G43 H2")), "length offset 2"),
+        (lambda text: without_line(text, "G64"), "path tolerance"),
+        (lambda text: changed(text, ("G64 P0.001 Q0", "G64")), "path tolerance"),
+        (lambda text: changed(text, ("G64 P0.001 Q0", "G64 P5")), "path tolerance"),
+    ],
+)
+def test_modes_that_move_the_tip_elsewhere_are_named(sound, cli, spoil, words):
+    spoilt = sound.folder / "modes.ngc"
+    spoilt.write_text(spoil(sound.gcode.read_text()))
+    ran = cli("verify", spoilt, "--job", sound.job)
+    assert ran.code == 2 and ran.err.count("\n") == 1
+    assert "modes.ngc: line" in ran.err and words in ran.err
+
+
+def test_an_exact_path_needs_no_tolerance(sound, cli):
+    code, _ = judged(cli, sound, changed(sound.gcode.read_text(), ("G64 P0.001 Q0", "G61")))
+    assert code == 0
+
+
+def test_another_work_offset_is_found(sound, cli):
+    code, report = judged(cli, sound, changed(sound.gcode.read_text(), ("\nG54\n", "\nG55\n")))
+    assert code == 1 and [f["kind"] for f in report["findings"]] == ["work-offset"]
+    assert "G55" in report["findings"][0]["message"]

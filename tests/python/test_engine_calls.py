@@ -21,7 +21,7 @@ import styluscam as sc
 
 STOP = 0.2
 """Long work stops within this of a cancel, s."""
-SLACK = 0.8
+SLACK = 3.0
 """What a machine with other work may add, s."""
 BALL = {"kind": "ball", "diameter": 6.0}
 TOOL = {"profile": BALL}

@@ -179,7 +179,7 @@ def level_runs(program: sc.Program) -> list[Floats]:
             runs.append([begin])
         runs[-1].append(end)
         last = end
-    return [np.array(run) for run in runs if len(run) > 8]
+    return [np.array(run) for run in runs if len(run) > 4]
 
 
 @pytest.mark.parametrize("direction", ("alternate", "same"))

@@ -59,12 +59,12 @@ class Failure:
 
 
 @contextlib.contextmanager
-def naming(job: Path) -> Iterator[None]:
-    """Errors that name a key of the job document get to name the job's file too."""
+def naming(file: Path, failures: type[StylusError] = StylusError) -> Iterator[None]:
+    """Errors that name a key of the job document, or a line, get to name the file too: the job, or the G-code."""
     try:
         yield
-    except StylusError as error:
-        raise JobFailedError(job) from error
+    except failures as error:
+        raise JobFailedError(file) from error
 
 
 def failure_of(error: BaseException) -> Failure:

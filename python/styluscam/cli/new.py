@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 from pathlib import Path
 from typing import Annotated
 
@@ -44,7 +45,7 @@ def new(
     if path.exists() and not path.is_dir() and not force:
         message = f"{path}: the file is there already"
         raise JobError(message, code="exists", where=str(path), hint="add --force to replace it, or name another --out")
-    files.require_writable([path])
+    files.require_writable([path], [part])
     with progress.shown(not (json or quiet)) as report:
         arrays = read_part(part, LOOK, units, report)
     text = starter_job(arrays, _relative(part, path.parent), units)
@@ -54,7 +55,7 @@ def new(
         console.say_json({"written": [str(path)]})
     elif not quiet:
         console.say(f"written: {shown_path(path)}")
-        console.say(f"next:    styluscam run {shown_path(path)}")
+        console.say(f"next:    styluscam run {shlex.quote(shown_path(path))}")
     return 0
 
 

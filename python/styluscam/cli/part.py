@@ -42,7 +42,7 @@ def show(
     Name, kind, area, centre, slopes against +Z (over 90: looks down).
     """
     if picture is not None:
-        files.require_writable([picture])
+        files.require_writable([picture], [part])
     with progress.shown(not (json or quiet)) as report:
         arrays = read_part(part, tolerance, units, report)
         if picture is not None:

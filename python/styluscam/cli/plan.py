@@ -28,14 +28,14 @@ def plan(
     quiet: Quiet = False,
     debug: Debug = False,
 ) -> int:
-    """Plan a job and sum it up; write nothing.
+    """Plan a job and sum it up.
 
-    Nothing is posted or verified; only the files that options ask for are written.
+    Nothing is posted or verified, and only the files that options ask for are written.
     """
     outputs = [path for path in (program, picture) if path is not None]
     with naming(job), progress.shown(not (json or quiet)) as report:
         work = Job.read(job)
-        files.require_writable(outputs)
+        files.require_writable(outputs, work.inputs())
         planned = planning.plan(work, progress=report)
         figures, notes = planned.summary()
         if program is not None:

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from styluscam import files, running
+from styluscam import running
 from styluscam.cli import console, findings, progress, summary
 from styluscam.cli.failures import FOUND, naming
 from styluscam.cli.options import Debug, JobFile, Json, Picture, Quiet
@@ -34,9 +34,8 @@ def run(
     """
     with naming(job), progress.shown(not (json or quiet)) as report:
         work = Job.read(job)
-        if picture is not None:
-            files.require_writable([picture])
-        result = running.run(work, write_despite_findings=write_despite_findings, progress=report)
+        also = [] if picture is None else [picture]
+        result = running.run(work, write_despite_findings=write_despite_findings, progress=report, also=also)
         written = list(result.written)
         if picture is not None:
             _draw(result, picture)

@@ -12,6 +12,7 @@ from styluscam.cli import console, findings, progress
 from styluscam.cli.failures import FOUND, naming
 from styluscam.cli.options import Debug, Json, Quiet
 from styluscam.cli.summary import place
+from styluscam.errors import VerifyError
 from styluscam.job import Job
 
 GcodeFile = Annotated[Path, typer.Argument(metavar="FILE.ngc", help="The G-code.", show_default=False)]
@@ -23,7 +24,7 @@ def verify(file: GcodeFile, job: ForJob, json: Json = False, quiet: Quiet = Fals
 
     The text is read as the job's machine reads it: gouges, excess, rapids, order.
     """
-    with naming(job), progress.shown(not (json or quiet)) as report:
+    with naming(job), naming(file, VerifyError), progress.shown(not (json or quiet)) as report:
         work = Job.read(job)
         judged = judging.verify_file(file, work, progress=report)
     if json:

@@ -47,6 +47,14 @@ def read_part(
             where="part.units",
             hint=known,
         )
+    try:
+        str(file).encode()
+    except UnicodeEncodeError as error:
+        shown = str(file).encode(errors="replace").decode()
+        cure = "give it a name in UTF-8"
+        raise GeometryError(
+            f"{shown}: the file's name is not UTF-8: {cure}", code="part-name", where=shown, hint=cure
+        ) from error
     _check_readable(file)
     ending = file.suffix.lower()
     if ending in BREP_ENDINGS:

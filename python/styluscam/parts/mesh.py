@@ -103,7 +103,9 @@ def _load(file: Path) -> tuple[Floats, Ints, tuple[float, str] | None]:
         if isinstance(error, ImportError) and file.suffix.lower() == ".3mf":
             cure = "pip install 'styluscam[mesh]'"
             raise _error(file, f"reading it needs {error.name}", cure, "part-extra-mesh") from error
-        what = f"not a whole {file.suffix.lower()[1:].upper()} file ({type(error).__name__})"
+        # a parser that asks for a package to guess a text's encoding was given no text
+        kind = "" if isinstance(error, ImportError) else f" ({type(error).__name__})"
+        what = f"not a whole {file.suffix.lower()[1:].upper()} file{kind}"
         raise _error(file, what, "export the part again", "part-damaged") from error
     if not meshes:
         raise _error(file, "holds no triangles", "export the part again", "part-no-triangles")

@@ -122,14 +122,15 @@ def _load_step(file: Path) -> tuple[Kernel, str]:
 
 def _check_step_text(file: Path) -> None:
     """Refuse what is not a whole STEP file, before the kernel reads half of it without a word."""
-    with file.open("rb") as stream:
-        head = stream.read(4096)
-        stream.seek(max(0, file.stat().st_size - 4096))
-        tail = stream.read()
-    if b"ISO-10303-21" not in head:
+    text = file.read_bytes()
+    if b"ISO-10303-21" not in text[:4096]:
         raise _damaged(file, "STEP", "it does not begin with ISO-10303-21")
-    if re.search(rb"END-ISO-10303-21\s*;", tail) is None:
+    if re.search(rb"END-ISO-10303-21\s*;", text[-4096:]) is None:
         raise _damaged(file, "STEP", "it is cut short: END-ISO-10303-21 is missing")
+    strange = re.search(rb"[(,]\s*[-+]?(?:nan|inf)\b", text, re.IGNORECASE)
+    if strange is not None:  # the kernel would mesh it forever
+        line = text.count(b"\n", 0, strange.end()) + 1
+        raise _damaged(file, "STEP", f"line {line} holds a coordinate that is not a number")
 
 
 def _load_iges(file: Path) -> tuple[Kernel, str]:

@@ -17,18 +17,18 @@ const fn above_zero(key: &'static str, high: f64, words: &'static str) -> Range 
 
 /// Ranges by the end of the key's path.
 const RANGES: &[Range] = &[
-    Range { key: "part.tolerance", low: 1e-5, open: false, high: 1.0, words: "0.00001 to 1 mm" },
+    Range { key: "part.tolerance", low: 1e-4, open: false, high: 1.0, words: "0.0001 to 1 mm" },
     Range { key: "setup.rotation", low: -360.0, open: false, high: 360.0, words: "-360 to 360 degrees" },
     above_zero("setup.clearance", 1000.0, "above 0 and up to 1000 mm"),
-    above_zero("setup.retract", 1000.0, "above 0 and up to 1000 mm"),
+    Range { key: "setup.retract", low: 0.1, open: false, high: 1000.0, words: "0.1 to 1000 mm" },
     above_zero("sheet.thickness", 50.0, "above 0 and up to 50 mm"),
     above_zero("step.height", 100.0, "above 0 and up to 100 mm"),
     above_zero("stepover", 100.0, "above 0 and up to 100 mm"),
     Range { key: "angle_deg", low: -360.0, open: false, high: 360.0, words: "-360 to 360 degrees" },
     Range { key: "tolerance", low: 1e-4, open: false, high: 1.0, words: "0.0001 to 1 mm" },
     Range { key: "smallest_feature", low: 0.01, open: false, high: 100.0, words: "0.01 to 100 mm" },
-    above_zero("feeds.cut", 1e5, "above 0 and up to 100000 mm/min"),
-    above_zero("feeds.plunge", 1e5, "above 0 and up to 100000 mm/min"),
+    Range { key: "feeds.cut", low: 0.1, open: false, high: 1e5, words: "0.1 to 100000 mm/min" },
+    Range { key: "feeds.plunge", low: 0.1, open: false, high: 1e5, words: "0.1 to 100000 mm/min" },
     above_zero("spindle.rpm", 1e6, "above 0 and up to 1000000 rev/min"),
     Range { key: "z_top", low: -1e4, open: false, high: 1e4, words: "-10000 to 10000 mm" },
     Range { key: "z_bottom", low: -1e4, open: false, high: 1e4, words: "-10000 to 10000 mm" },
@@ -72,6 +72,24 @@ pub fn document(job: &JobDocument) -> Result<(), JobError> {
     for (i, operation) in job.operations.iter().enumerate() {
         self::operation(job, &format!("operations[{i}]"), operation)?;
     }
+    ids(&job.operations)
+}
+
+/// No two operations have one name.
+fn ids(operations: &[OperationSection]) -> Result<(), JobError> {
+    let mut known = std::collections::BTreeMap::new();
+    for (index, operation) in operations.iter().enumerate() {
+        let id = crate::plan::operation_id(operation, index);
+        if let Some(other) = known.insert(id.clone(), index) {
+            let message = format!("operations[{other}] and operations[{index}] are both called {id:?}");
+            return Err(JobError::document(
+                "conflict",
+                format!("operations[{index}].id"),
+                message,
+                "give each its own",
+            ));
+        }
+    }
     Ok(())
 }
 
@@ -94,9 +112,18 @@ fn number(place: &str, value: f64) -> Result<(), JobError> {
     Err(JobError::document(
         "out-of-range",
         place,
-        format!("{key} = {value}: allowed is {}", range.words),
+        format!("{key} = {}: allowed is {}", shown(value), range.words),
         "correct the value",
     ))
+}
+
+/// A number as people write it, without hundreds of zeros.
+fn shown(value: f64) -> String {
+    if value == 0.0 || (1e-5..1e9).contains(&value.abs()) {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
 }
 
 fn setup(job: &JobDocument) -> Result<(), JobError> {
@@ -174,6 +201,11 @@ fn machine(section: &MachineSection) -> Result<(), JobError> {
 fn tools(job: &JobDocument) -> Result<(), JobError> {
     let mut numbers = std::collections::BTreeMap::new();
     for (name, tool) in &job.tools {
+        if tool.length_offset == Some(0) {
+            let place = format!("tools.{name}.length_offset");
+            let message = "length_offset = 0 means no length offset at all";
+            return Err(JobError::document("out-of-range", place, message, "give 1 or more, or leave it out"));
+        }
         if let Some(other) = numbers.insert(tool.number, name) {
             let message = format!("tools {other} and {name} have the same number {}", tool.number);
             return Err(JobError::document("conflict", format!("tools.{name}.number"), message, "give each its own"));

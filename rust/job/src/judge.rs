@@ -41,6 +41,7 @@ pub fn judge(
         sheet: scene.sheet,
         deviation_inward: scene.inward,
         deviation_outward: scene.outward,
+        wcs: &job.setup.wcs,
         first_placed_move: reading.first_placed_move,
     };
     let report = styluscam_verify::judge(&reading.program, &subject, &limits(job, scene), watch)?;

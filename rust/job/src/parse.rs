@@ -1,8 +1,15 @@
 //! Text to document, with errors that a person can act on.
 
 use serde::de::DeserializeOwned;
+use serde_json::Value;
 
 use crate::{check, JobDocument, JobError, JOB_SCHEMA};
+
+/// The key under which a TOML date is passed on.
+const DATE: &str = "$__toml_private_datetime";
+/// Keys that hold tables, wherever they stand.
+const TABLE_KEYS: &[&str] =
+    &["part", "setup", "sheet", "process", "tools", "profile", "step", "feeds", "spindle", "machine", "output"];
 
 /// Reads and checks a job written as TOML.
 ///
@@ -13,6 +20,9 @@ pub fn from_toml(text: &str) -> Result<JobDocument, JobError> {
         let line = error.span().map_or(0, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
         JobError::document("toml", format!("line {line}"), error.message().to_owned(), "correct the TOML there")
     })?;
+    let plain = serde_json::to_value(&value)
+        .map_err(|error| JobError::document("toml", "", error.to_string(), "correct the TOML"))?;
+    tables_only("", &plain)?;
     checked(deserialize(value)?)
 }
 
@@ -21,15 +31,38 @@ pub fn from_toml(text: &str) -> Result<JobDocument, JobError> {
 /// # Errors
 /// [`JobError::Document`] with the key, its value, what is allowed.
 pub fn from_json(text: &str) -> Result<JobDocument, JobError> {
-    let value: serde_json::Value = serde_json::from_str(text).map_err(|error| {
+    let value: Value = serde_json::from_str(text).map_err(|error| {
         JobError::document("json", format!("line {}", error.line()), error.to_string(), "correct the JSON there")
     })?;
+    tables_only("", &value)?;
     checked(deserialize(value)?)
+}
+
+/// Refuses arrays where tables stand, whose values serde would take in order, and TOML's dates.
+fn tables_only(place: &str, value: &Value) -> Result<(), JobError> {
+    let key = place.rsplit('.').next().unwrap_or(place);
+    let is_table = place.is_empty() || TABLE_KEYS.contains(&key) || place.starts_with("tools.") && key == &place[6..];
+    match value {
+        Value::Array(_) if is_table => {
+            Err(JobError::document("type", place, "an array, where a table is expected", "write keys and values"))
+        }
+        Value::Array(items) => {
+            items.iter().enumerate().try_for_each(|(i, item)| tables_only(&format!("{place}[{i}]"), item))
+        }
+        Value::Object(entries) if entries.contains_key(DATE) => {
+            Err(JobError::document("type", place, "a date, where a string is expected", "put it in quotes"))
+        }
+        Value::Object(entries) => entries.iter().try_for_each(|(key, item)| {
+            let place = if place.is_empty() { key.clone() } else { format!("{place}.{key}") };
+            tables_only(&place, item)
+        }),
+        _ => Ok(()),
+    }
 }
 
 /// The document's JSON Schema.
 #[must_use]
-pub fn schema() -> serde_json::Value {
+pub fn schema() -> Value {
     schemars::schema_for!(JobDocument).into()
 }
 
@@ -74,8 +107,44 @@ fn explained(place: &str, message: &str) -> JobError {
         let key = key.trim_matches('`');
         return JobError::document("missing", place, format!("{key} is missing"), format!("add {key}"));
     }
-    let allowed = check::allowed(place).map_or(String::new(), |words| format!("; allowed: {words}"));
+    let words = || words_at(place).map(|words| words.join(", "));
+    let allowed = check::allowed(place).map(str::to_owned).or_else(words);
+    let allowed = allowed.map_or(String::new(), |words| format!("; allowed: {words}"));
+    // serde's own terms for a word among given ones
+    let message = match message {
+        m if m.contains("unit variant")
+            || m.contains("expected string or map")
+            || m.contains("wanted exactly 1 element") =>
+        {
+            "a word in quotes is expected"
+        }
+        m => m,
+    };
     JobError::document("type", place, format!("{message}{allowed}"), "correct the value")
+}
+
+/// The words that the schema allows at a place.
+fn words_at(place: &str) -> Option<Vec<String>> {
+    let schema = schema();
+    let mut at = &schema;
+    for key in place.split('.').map(|key| key.split('[').next().unwrap_or(key)) {
+        let items = resolved(&schema, at);
+        let table = items.get("items").map_or(items, |items| resolved(&schema, items));
+        at = table.get("properties").and_then(|p| p.get(key)).or_else(|| table.get("additionalProperties"))?;
+    }
+    let choices = resolved(&schema, at);
+    let consts = choices.get("oneOf").or_else(|| choices.get("anyOf"))?.as_array()?;
+    let words = consts.iter().filter_map(|choice| choice.get("const")?.as_str());
+    let words: Vec<String> = words.map(|word| format!("{word:?}")).collect();
+    (!words.is_empty()).then_some(words)
+}
+
+/// A part of the schema, its reference followed.
+fn resolved<'a>(schema: &'a Value, part: &'a Value) -> &'a Value {
+    let alternatives = part.get("anyOf").and_then(Value::as_array);
+    let part = alternatives.and_then(|all| all.iter().find(|one| one.get("$ref").is_some())).unwrap_or(part);
+    let name = part.get("$ref").and_then(Value::as_str).and_then(|path| path.strip_prefix("#/$defs/"));
+    name.and_then(|name| schema.get("$defs")?.get(name)).unwrap_or(part)
 }
 
 /// The word and the known ones of serde's "unknown field `a`, expected one of `b`, `c`".

@@ -21,8 +21,8 @@ const BRIDGE_SAMPLES: usize = 200;
 /// What is left for fitting must be at least this, mm, or paths would have millions of points.
 const LEAST_DEVIATION: f64 = 2e-4;
 /// Share of what is left that a chord may stray to either side. The planned surface lies in the middle; the rest is a
-/// reserve on both sides, because between the points that are checked a facetted surface strays a little more.
-const EACH_SIDE: f64 = 0.4;
+/// reserve on both sides.
+const EACH_SIDE: f64 = 0.48;
 /// Area of a face that is worth a word, mm^2: it is shown with one decimal.
 const LEAST_AREA: f64 = 0.05;
 /// Links are ridden up to so many steps or stepovers.
@@ -102,7 +102,8 @@ pub fn plan(job: &JobDocument, scene: &Scene, machine: &Machine, watch: &Watch) 
     Ok(Plan { program, operations: summaries })
 }
 
-fn operation_id(section: &OperationSection, index: usize) -> String {
+/// The name of an operation: its own, or one made of its kind and number.
+pub(crate) fn operation_id(section: &OperationSection, index: usize) -> String {
     if section.id.is_empty() {
         format!("{}-{}", section.kind.name(), index + 1)
     } else {

@@ -46,17 +46,17 @@ pub fn starter(part: &StarterPart<'_>) -> String {
     let slopes = up.iter().any(|f| f.slope_deg[1] > FLAT);
     let (kind, other) = if slopes { ("z-level", "zig-zag") } else { ("zig-zag", "z-level") };
     let stem = stem_of(part.file);
-    let units = part.units.map_or(String::new(), |u| format!("units = {u:?}\n"));
+    let units = part.units.map_or(String::new(), |u| format!("units = {}\n", quoted(u)));
     let faces: String = up.iter().map(|f| described(f)).collect();
     let feature = round(f64::clamp(0.1 * diameter, 0.05, 1.0));
     format!(
         r#"# A StylusCAM job. Lengths are mm, angles degrees, feeds mm/min.
 # Run it:  styluscam run {stem}.toml
 schema = 1
-title = {title:?}
+title = {title}
 
 [part]
-file = {file:?}
+file = {file}
 {units}faces = "all"              # the faces that look up, or names: ["Face3", "Face4"]
 {faces}model_face = "tool"         # the model shows the sheet's face that the tool touches ("back", "mid")
 tolerance = 0.001           # largest deviation of triangles from surfaces, checked
@@ -95,11 +95,13 @@ feeds = {{ cut = 1500.0, plunge = 300.0 }}
 name = "linuxcnc"           # or "grbl"; see `styluscam machine list`
 
 [output]
-file = "{stem}.ngc"
-program = "{stem}.program.json"
+file = {gcode}
+program = {program}
 "#,
-        title = stem,
-        file = part.file,
+        title = quoted(&stem),
+        file = quoted(part.file),
+        gcode = quoted(&format!("{stem}.ngc")),
+        program = quoted(&format!("{stem}.program.json")),
         diameter = toml_number(diameter),
         thickness = toml_number(thickness),
         step = toml_number(step),
@@ -112,10 +114,15 @@ fn described(face: &StarterFace) -> String {
     format!("#   {}: {}, {:.0} mm2, slope {low:.0} to {high:.0} deg\n", face.name, face.kind, face.area)
 }
 
-/// The file's name without its ending, as it can stand between quotes.
+/// The file's name without its ending; what ends a line or a comment would break the job's text.
 fn stem_of(file: &str) -> String {
     let stem = Path::new(file).file_stem().unwrap_or_default().to_string_lossy();
-    stem.chars().map(|c| if c.is_control() || matches!(c, '"' | '\\') { '_' } else { c }).collect()
+    stem.chars().map(|c| if c.is_control() { '_' } else { c }).collect()
+}
+
+/// A TOML string.
+fn quoted(text: &str) -> String {
+    toml::Value::String(text.to_owned()).to_string()
 }
 
 /// Two significant places.

@@ -11,6 +11,7 @@ use crate::block::{Block, Motion, Spindle, Stop};
 use crate::lexer::Word;
 use crate::machine::{LengthUnit, Machine, TimeUnit, ToolChange};
 use crate::read_error::ReadFault;
+use crate::standing::Standing;
 
 const AXES: [char; 3] = ['X', 'Y', 'Z'];
 const Z: usize = 2;
@@ -47,6 +48,7 @@ pub(crate) struct Interpreter<'m> {
     /// Height of the posted point above the tip, mm.
     height: f64,
     tools_given: bool,
+    standing: Standing,
     axes: [Axis; 3],
     unplaced_since: Option<usize>,
     unplaced: Vec<Range<usize>>,
@@ -70,6 +72,7 @@ impl<'m> Interpreter<'m> {
             tool: None,
             height: 0.0,
             tools_given: !tools.is_empty(),
+            standing: Standing::new(),
             axes: [Axis::default(); 3],
             unplaced_since: Some(0),
             unplaced: Vec::new(),
@@ -98,7 +101,8 @@ impl<'m> Interpreter<'m> {
         self.set_spindle(block);
         self.set_coolant(block);
         self.dwell(block)?;
-        self.set_length(block)?;
+        self.standing.take_length(block, self.job_tool().map(|tool| tool.length_offset))?;
+        self.set_path(block)?;
         self.set_wcs(block)?;
         self.incremental = block.incremental.unwrap_or(self.incremental);
         self.go(block, line)?;
@@ -185,17 +189,21 @@ impl<'m> Interpreter<'m> {
         self.forget(Z);
     }
 
-    fn set_length(&mut self, block: &Block) -> Result<(), Flaw> {
-        let Some((true, _)) = block.length else { return Ok(()) };
-        let Some(word) = block.h else { return Ok(()) };
-        let found = word.number.natural().ok_or((ReadFault::NotNatural, Some(word)))?;
-        let tool = self.tool.filter(|_| self.tools_given).and_then(|i| self.program.tools.get(i as usize));
-        match tool {
-            Some(tool) if tool.length_offset != found => {
-                Err((ReadFault::LengthOffset { found, expected: tool.length_offset }, Some(word)))
-            }
-            _ => Ok(()),
-        }
+    fn set_path(&mut self, block: &Block) -> Result<(), Flaw> {
+        let mut standing = self.standing;
+        standing.take_path(block, |word| self.mm(word))?;
+        self.standing = standing;
+        Ok(())
+    }
+
+    /// For a job, every move needs its tool's length offset and the machine's path tolerance.
+    fn allow_motion(&self, word: Word) -> Result<(), Flaw> {
+        self.job_tool().map_or(Ok(()), |tool| self.standing.allows(self.machine, tool, word))
+    }
+
+    /// The loaded tool, where the job's tools are known.
+    fn job_tool(&self) -> Option<&ToolRecord> {
+        self.tool.filter(|_| self.tools_given).and_then(|i| self.program.tools.get(i as usize))
     }
 
     // Spindle, coolant, waiting, stops
@@ -288,6 +296,7 @@ impl<'m> Interpreter<'m> {
             _ => return Err((ReadFault::NoMotionMode, Some(first))),
         };
         self.load_only_tool(first)?;
+        self.allow_motion(first)?;
         let feed = match kind {
             MoveKind::Rapid => 0.0,
             MoveKind::Feed => self.feed.ok_or((ReadFault::NoFeed, Some(first)))?,

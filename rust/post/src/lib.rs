@@ -13,6 +13,7 @@ mod number;
 mod post_error;
 mod read_error;
 mod reader;
+mod standing;
 mod template;
 mod trial;
 mod writer;

@@ -140,6 +140,18 @@ pub enum ReadFault {
         /// The tool's.
         expected: u32,
     },
+    /// A move without the tool's length offset: the tip would be off by the tool's length. Write G43 with the tool's H.
+    #[error("a move without the tool's length offset")]
+    NoLengthOffset {
+        /// The tool's H.
+        expected: u32,
+    },
+    /// A move while the controller may round the path off by more than the machine's tolerance, or says nothing about it.
+    #[error("a move with no path tolerance of {limit} mm or less in force")]
+    PathTolerance {
+        /// What the machine allows, mm.
+        limit: f64,
+    },
     /// A work offset that the machine does not have. Take one that it has.
     #[error("the machine has no such work offset")]
     Wcs,
@@ -230,6 +242,8 @@ impl ReadFault {
             Self::NoToolLoaded => "read-no-tool-loaded",
             Self::UnknownTool { .. } => "read-unknown-tool",
             Self::LengthOffset { .. } => "read-length-offset",
+            Self::NoLengthOffset { .. } => "read-no-length-offset",
+            Self::PathTolerance { .. } => "read-path-tolerance",
             Self::Wcs => "read-wcs",
             Self::WcsChanged => "read-wcs-changed",
             Self::IncrementalFromUnknown => "read-incremental-from-unknown",
@@ -273,6 +287,12 @@ impl ReadFault {
             Self::NoToolSelected => "write T and the tool's number",
             Self::NoToolLoaded => "write the tool change before the first move",
             Self::UnknownTool { .. } => "correct the tool number, or add the tool to the job",
+            Self::NoLengthOffset { expected } => {
+                return format!("write G43 H{expected} after the tool change, or take a machine without length offsets")
+            }
+            Self::PathTolerance { limit } => {
+                return format!("write G64 P{limit} (or G61) before, or set the machine's option smoothing_tolerance")
+            }
             Self::LengthOffset { .. } => "correct H, or the tool's length_offset in the job",
             Self::Wcs => "take a work offset that the machine has",
             Self::WcsChanged => "split the program: one zero point each",

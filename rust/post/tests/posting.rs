@@ -27,7 +27,7 @@ fn linuxcnc_code() {
     let expected = [
         "G21 G90 G94 G17 G40 G49 G80",
         "G54",
-        "G64 P0.002 Q0",
+        "G64 P0.001 Q0",
         "T1 M6",
         "G43 H1",
         "G0 Z10",
@@ -84,7 +84,7 @@ fn inches() {
     machine.units.output = LengthUnit::Inch;
     let lines = code_lines(&cone(), &machine);
     assert!(lines.contains(&"G20 G90 G94 G17 G40 G49 G80".to_string()));
-    assert!(lines.contains(&"G64 P0.000078 Q0".to_string()), "rounded down: {lines:?}");
+    assert!(lines.contains(&"G64 P0.000039 Q0".to_string()), "rounded down: {lines:?}");
     assert!(lines.contains(&"G1 Z-0.0197 F3.94".to_string()), "{lines:?}");
     let text = post(&cone(), &machine).unwrap().text;
     assert!(text.contains("units: inch and inch/min") && text.contains("Z -0.7874 to 0"), "{text}");

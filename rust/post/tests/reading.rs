@@ -127,13 +127,13 @@ fn two_dialects() {
     let tools = [stylus(4)];
     let events = read("T4\nG21\nG0 X0 Y0 Z0", &grbl(), &tools).unwrap().program.events;
     assert_eq!(events[0].kind, EventKind::ToolChange { tool: 0 });
-    assert!(read("T4\nG21\nG0 X0 Y0 Z0\nM2", &linuxcnc(), &tools).unwrap().program.events.is_empty());
+    assert!(read("T4\nG21 G61\nG43 H4\nG0 X0 Y0 Z0\nM2", &linuxcnc(), &tools).unwrap().program.events.is_empty());
 }
 
 #[test]
 fn tips_below_their_centers() {
     let tools = [stylus(1), ball_by_center(2, 3.0)];
-    let text = "G21\nT1 M6\nG43 H1\nG0 X0 Y0 Z10\nT2 M6\nG43 H2\nX5\nZ10\nM2";
+    let text = "G21 G61\nT1 M6\nG43 H1\nG0 X0 Y0 Z10\nT2 M6\nG43 H2\nX5\nZ10\nM2";
     let reading = read(text, &linuxcnc(), &tools).unwrap();
     let ends: Vec<_> = reading.program.moves.iter().map(|m| m.end).collect();
     assert_eq!(ends, [[0.0, 0.0, 10.0], [5.0, 0.0, 7.0], [5.0, 0.0, 7.0]]);
@@ -141,7 +141,27 @@ fn tips_below_their_centers() {
     let operations: Vec<_> = reading.program.moves.iter().map(|m| m.operation).collect();
     assert_eq!(operations, [0, 1, 1]);
     assert_eq!(reading.program.operations[1].tool, 1);
-    assert_eq!(read("G21\nG0 X0 Y0 Z0\nM2", &linuxcnc(), &tools[1..]).unwrap().program.moves[0].end[2], -3.0);
+    assert_eq!(
+        read("G21 G61\nG43 H2\nG0 X0 Y0 Z0\nM2", &linuxcnc(), &tools[1..]).unwrap().program.moves[0].end[2],
+        -3.0
+    );
+}
+
+#[test]
+fn what_must_stand_before_a_move() {
+    let tools = [stylus(1)];
+    let of = |text: &str| read(&format!("G21\n{text}\nG0 X0 Y0 Z0\nM2"), &linuxcnc(), &tools).map_err(|e| e.fault);
+    for sound in ["T1 M6\nG43 H1\nG64 P0.001 Q0", "G61\nT1 M6\nG43", "G61.1\nG43 H1", "G64\nG64 P0.0005\nG43 H1"] {
+        assert!(of(sound).is_ok(), "{sound}");
+    }
+    for text in ["G61\nT1 M6", "G61\nT1 M6\nG43 H1\nG49"] {
+        assert_eq!(of(text).unwrap_err(), ReadFault::NoLengthOffset { expected: 1 }, "{text}");
+    }
+    for text in ["G43 H1", "G43 H1\nG64", "G43 H1\nG64 P0.1", "G61\nG43 H1\nG64 P0.0011"] {
+        assert_eq!(of(text).unwrap_err(), ReadFault::PathTolerance { limit: 0.001 }, "{text}");
+    }
+    // without the job's tools nothing is known of their lengths
+    assert!(read("G21\nG0 X0 Y0 Z0\nM2", &linuxcnc(), &[]).is_ok());
 }
 
 #[test]

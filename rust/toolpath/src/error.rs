@@ -10,7 +10,10 @@ pub enum PlanError {
     #[error("the tool reaches none of the selected faces{0}")]
     NothingReached(String),
     /// Levels exist, but no loop lies on the selected faces at any of them. Check z_top, z_bottom and the faces.
-    #[error("no path lies on the selected faces between Z {bottom:.3} and Z {top:.3}")]
+    #[error(
+        "no level meets the selected faces between Z {bottom:.3} and Z {top:.3}: flat faces want zig-zag; else check \
+         z_top, z_bottom, step and the faces"
+    )]
     Empty {
         /// Lowest level asked for, mm.
         bottom: f64,
@@ -19,8 +22,8 @@ pub enum PlanError {
     },
     /// What the part's tessellation and the machine's rounding leave of the tolerance is not enough to fit a path.
     #[error(
-        "tolerance = {tolerance}: tessellation ({tessellation:.4}) and the machine's rounding ({rounding:.4}) leave \
-         nothing to fit the path with; raise tolerance or lower part.tolerance"
+        "tolerance = {tolerance}: the triangles' deviation, inward and outward together ({tessellation:.4}), and the \
+         machine's rounding ({rounding:.4}) leave nothing to fit the path with; raise tolerance or lower part.tolerance"
     )]
     Budget {
         /// The tolerance asked for, mm.

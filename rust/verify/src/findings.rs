@@ -19,6 +19,8 @@ pub enum FindingKind {
     NoFeedMoves,
     /// Not one contact move touches the part: zero, units or tool reference are wrong.
     NoContact,
+    /// The program runs in another work offset than the one in which the part stands.
+    WorkOffset,
     /// A feed move enters the part.
     Gouge,
     /// A rapid enters the part.

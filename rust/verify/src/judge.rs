@@ -28,7 +28,8 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     faults.extend(travel::faults(program, &legs, subject, limits));
     let (mut findings, mut counts) = merge(&faults);
     let nothing = contacts.nothing_touches().then(|| diagnosis::no_contact(program, &legs, &contacts.samples, subject));
-    for whole in travel::no_feed_moves(program).into_iter().chain(nothing) {
+    let offset = travel::work_offset(program, subject.wcs);
+    for whole in travel::no_feed_moves(program).into_iter().chain(offset).chain(nothing) {
         counts.insert(whole.kind, 1);
         findings.insert(0, whole);
     }

@@ -19,6 +19,8 @@ pub struct Subject<'a> {
     /// How far the triangles lie outside the true surface at most, mm: added to every clearance
     /// before it is judged as an excess.
     pub deviation_outward: f64,
+    /// Work offset in which the part stands; the program must be in it.
+    pub wcs: &'a str,
     /// Index of the first move whose end is known in all three axes. Moves before it have no place
     /// in space; it has no start.
     pub first_placed_move: usize,

@@ -35,6 +35,24 @@ pub(crate) fn no_feed_moves(program: &Program) -> Option<Finding> {
     })
 }
 
+/// The finding of a program in another work offset than the part's.
+pub(crate) fn work_offset(program: &Program, wcs: &str) -> Option<Finding> {
+    let found = &program.setup.wcs;
+    let line = program.moves.first().map_or(0, |m| m.line);
+    (found != wcs).then(|| Finding {
+        kind: FindingKind::WorkOffset,
+        severity: Severity::Error,
+        line,
+        first_line: line,
+        last_line: line,
+        moves: program.moves.len(),
+        position: None,
+        value_mm: None,
+        limit: None,
+        message: format!("line {line}: the moves are in {found}, the part stands in {wcs}; write {wcs} before them"),
+    })
+}
+
 fn text_faults(index: usize, step: &Move, subject: &Subject) -> impl Iterator<Item = Fault> {
     let feeds = step.kind != MoveKind::Rapid;
     let absurd = !in_this_world(step.end);

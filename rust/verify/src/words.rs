@@ -55,6 +55,7 @@ fn what(fault: &Fault) -> String {
         FindingKind::NotFinite => "a coordinate is not a number, or absurd".to_owned(),
         FindingKind::NoFeedMoves => "the program has no feed move".to_owned(),
         FindingKind::NoContact => "nothing touches the part".to_owned(),
+        FindingKind::WorkOffset => "the work offset is not the part's".to_owned(),
     }
 }
 
@@ -69,6 +70,7 @@ fn remedy(kind: FindingKind) -> &'static str {
         FindingKind::UnplacedFeed => "give X, Y and Z in rapids first",
         FindingKind::MissingToolChange => "load the tool and its length before the first feed move",
         FindingKind::UnknownTool => "add the tool to the job, or correct the T word",
+        FindingKind::WorkOffset => "write the part's work offset before the moves",
         FindingKind::NotFinite => "correct the coordinate",
         FindingKind::NoFeedMoves => "post an operation that has a path",
         FindingKind::NoContact => "check zero, units and tool reference",

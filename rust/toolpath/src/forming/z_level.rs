@@ -60,9 +60,10 @@ fn level(
     for chain in contour::chains(grid, z, |place| curve.is_above(place)) {
         watch.advance(0)?;
         let exact = crossings(&mut curve, grid, &chain, z);
+        let whole = chain.closed && exact.iter().all(|p| p.selected);
         for run in fitting::selected_runs(&exact, chain.closed, |a, b| curve.between(a, b)) {
             let runs = fitting::densified(&run, deviation, |a, b| curve.between(a, b));
-            let closed = chain.closed && run.len() == exact.len() && runs.len() == 1;
+            let closed = whole && runs.len() == 1;
             passes.extend(runs.iter().map(|run| Pass { points: fitting::thinned(run, deviation), closed, group }));
         }
     }

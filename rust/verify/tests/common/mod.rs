@@ -59,6 +59,7 @@ impl Part {
             sheet: None,
             deviation_inward: 0.0,
             deviation_outward: 0.0,
+            wcs: "G54",
             first_placed_move: 0,
         }
     }

@@ -1,0 +1,76 @@
+//! What must stand before a program may move for its job: the tool's length offset, and how closely the path is kept.
+
+use styluscam_motion::ToolRecord;
+
+use crate::block::Block;
+use crate::interpreter::Flaw;
+use crate::lexer::Word;
+use crate::machine::{LengthOffset, Machine};
+use crate::read_error::ReadFault;
+
+/// G61 and G61.1 in tenths: the path is kept exactly.
+const EXACT: [i64; 2] = [610, 611];
+/// Tolerances are compared with this slack, mm: they were rounded to be posted.
+const ROUNDED: f64 = 1e-9;
+
+/// The controller's modal states that decide where the tip really goes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Standing {
+    /// H of the G43 in force.
+    length: Option<u32>,
+    /// How far the controller may round the path off, mm; infinite where nothing was said.
+    path: f64,
+}
+
+impl Standing {
+    pub(crate) fn new() -> Self {
+        Self { length: None, path: f64::INFINITY }
+    }
+
+    /// G43 and G49; a bare G43 takes `loaded`, the loaded tool's offset.
+    pub(crate) fn take_length(&mut self, block: &Block, loaded: Option<u32>) -> Result<(), Flaw> {
+        match (block.length, block.h) {
+            (Some((true, _)), Some(h)) => {
+                let found = h.number.natural().ok_or((ReadFault::NotNatural, Some(h)))?;
+                if let Some(expected) = loaded.filter(|expected| *expected != found) {
+                    return Err((ReadFault::LengthOffset { found, expected }, Some(h)));
+                }
+                self.length = Some(found);
+            }
+            (Some((true, _)), None) => self.length = loaded,
+            (Some((false, _)), _) => self.length = None,
+            (None, _) => {}
+        }
+        Ok(())
+    }
+
+    /// G61, G64; `mm` gives a word's length.
+    pub(crate) fn take_path(&mut self, block: &Block, mm: impl Fn(Word) -> Result<f64, Flaw>) -> Result<(), Flaw> {
+        let Some(code) = block.smoothing else { return Ok(()) };
+        let exact = code.number.tenths().is_some_and(|tenths| EXACT.contains(&tenths));
+        self.path = match block.p {
+            _ if exact => 0.0,
+            Some(p) => mm(p)?,
+            None => f64::INFINITY,
+        };
+        Ok(())
+    }
+
+    /// Whether `tool` may be moved on `machine` as things stand; `word` is the move's.
+    pub(crate) fn allows(&self, machine: &Machine, tool: &ToolRecord, word: Word) -> Result<(), Flaw> {
+        let expected = tool.length_offset;
+        match self.length {
+            _ if machine.tool.length != LengthOffset::G43H => {}
+            Some(found) if found != expected => {
+                return Err((ReadFault::LengthOffset { found, expected }, Some(word)));
+            }
+            Some(_) => {}
+            None => return Err((ReadFault::NoLengthOffset { expected }, Some(word))),
+        }
+        let limit = machine.path_tolerance_mm();
+        if machine.smoothing.on.is_some() && self.path > limit + ROUNDED {
+            return Err((ReadFault::PathTolerance { limit }, Some(word)));
+        }
+        Ok(())
+    }
+}
