@@ -29,6 +29,12 @@ impl Tool {
             .map_err(|e| errors::raise("ToolError", &e.to_string(), "document", "", ""))
     }
 
+    /// What was done to the document's curve, as JSON.
+    fn report(&self) -> PyResult<String> {
+        serde_json::to_string(self.tool.report())
+            .map_err(|e| errors::raise("ToolError", &e.to_string(), "document", "", ""))
+    }
+
     #[getter]
     fn description(&self) -> String {
         self.tool.description()
@@ -54,7 +60,7 @@ impl Tool {
         py: Python<'py>,
         slope: PyReadonlyArray1<'py, f64>,
     ) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
-        let inner = mapped(&slope, py, |s| if s <= 0.0 { 0.0 } else { self.tool.point_at(s).0 });
+        let inner = mapped(&slope, py, |s| self.tool.profile().inner_point_at(s).0);
         (inner, mapped(&slope, py, |s| self.tool.point_at(s).0))
     }
 

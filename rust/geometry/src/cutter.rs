@@ -1,11 +1,11 @@
-//! The convex body that planning and verification ask: a profile with a flat at its tip, grown by a ball.
+//! The convex body that planning and verification ask: a profile, grown by a ball.
 //!
 //! Sheet of constant thickness and safety margins are balls added to the tool (Minkowski sum), so a
 //! formed sheet needs no algorithm of its own. Above the base the body goes straight up.
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::Profile;
+use crate::profile::{Profile, Straight};
 
 /// Cells of the table over the radius; one tangent each. At 1024 a bound costs one look-up and is
 /// within micrometres of the curve except at a vertical tangent, where it stays on the safe side.
@@ -26,12 +26,14 @@ pub struct SupportingLine {
     pub rise: f64,
 }
 
-/// Profile + flat + ball, with tables for quick and safe bounds. Tip at the origin, axis up.
+/// Profile + ball, with tables for quick and safe bounds. Tip at the origin, axis up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cutter {
+    /// Grown, and up to a right angle.
     profile: Profile,
-    flat: f64,
-    ball: f64,
+    straights: Vec<Straight>,
+    /// The radius of the ball that it is, if it is one.
+    ball: Option<f64>,
     max_radius: f64,
     max_height: f64,
     cells_per_mm: f64,
@@ -52,13 +54,14 @@ struct SlopeNode {
 }
 
 impl Cutter {
-    /// `flat` and `ball` are radii, mm, not negative.
+    /// `profile` offset outwards by a ball of radius `ball`, mm, not negative.
     #[must_use]
-    pub fn new(profile: Profile, flat: f64, ball: f64) -> Self {
+    pub fn new(profile: &Profile, ball: f64) -> Self {
+        let profile = profile.grown(ball);
         let mut cutter = Self {
+            straights: profile.straights().collect(),
+            ball: profile.as_ball(),
             profile,
-            flat,
-            ball,
             max_radius: 0.0,
             max_height: 0.0,
             cells_per_mm: 0.0,
@@ -88,33 +91,28 @@ impl Cutter {
 
     fn tangent_at(&self, radius: f64) -> SupportingLine {
         let slope = self.slope_at_radius(radius);
-        SupportingLine { radius, height: self.point_at(slope).1, rise: libm::tan(slope) }
+        let (radius, height) = self.point_at(slope);
+        SupportingLine { radius, height, rise: libm::tan(slope) }
     }
 
-    /// Radius and height at a slope from 0 to a right angle, mm; the outer end of a flat.
+    /// Radius and height at a slope from 0 to a right angle, mm; the outer end of a straight part.
     ///
     /// Where the profile ends below a right angle, its rim serves all steeper slopes.
     #[must_use]
     pub fn point_at(&self, slope: f64) -> (f64, f64) {
-        let (r, z) = self.profile.point_at(slope.min(self.profile.max_slope()));
-        if self.ball == 0.0 {
-            return (self.flat + r, z);
-        }
-        let half = libm::sin(slope / 2.0);
-        (self.flat + r + self.ball * libm::sin(slope), z + self.ball * 2.0 * half * half)
+        self.profile.point_at(slope)
+    }
+
+    /// The straight parts: flats, cones, in the order of their slopes.
+    #[must_use]
+    pub fn straights(&self) -> &[Straight] {
+        &self.straights
     }
 
     /// Radius of curvature of the meridian, mm.
     #[must_use]
     pub fn curvature_radius_at(&self, slope: f64) -> f64 {
-        let bare = if slope <= self.profile.max_slope() { self.profile.curvature_radius_at(slope) } else { 0.0 };
-        bare + self.ball
-    }
-
-    /// The steepest slope at which the bare profile still is smooth, rad.
-    #[must_use]
-    pub fn max_slope(&self) -> f64 {
-        self.profile.max_slope()
+        self.profile.curvature_radius_at(slope)
     }
 
     /// Radius of the base, mm.
@@ -129,70 +127,34 @@ impl Cutter {
         self.max_height
     }
 
-    /// Slope at a radius from 0 to the base's, rad; 0 on the flat.
+    /// Slope at a radius from 0 to the base's, rad; 0 on a flat tip.
     #[must_use]
     pub fn slope_at_radius(&self, radius: f64) -> f64 {
-        let u = radius - self.flat;
-        if u <= 0.0 {
-            return 0.0;
+        match self.ball {
+            Some(ball) => libm::asin((radius / ball).clamp(0.0, 1.0)),
+            None => self.profile.slope_within(radius, self.slope_bracket(radius)),
         }
-        if let Profile::Ball(ball) = &self.profile {
-            return libm::asin((u / (ball.radius() + self.ball)).min(1.0));
-        }
-        if self.ball == 0.0 {
-            return self.profile.slope_at_radius(u);
-        }
-        self.grown_slope_at(u)
     }
 
-    /// Solves r(slope) + ball sin(slope) = u. Newton in x = sqrt(slope), where a clothoid's radius is smooth.
-    fn grown_slope_at(&self, u: f64) -> f64 {
-        let (mut low, mut high) = self.slope_bracket(u + self.flat);
-        let mut x = 0.5 * (low + high);
-        for _ in 0..80 {
-            let slope = x * x;
-            let excess = self.point_at(slope).0 - self.flat - u;
-            if excess > 0.0 {
-                high = x;
-            } else {
-                low = x;
-            }
-            let rate = 2.0 * x * libm::cos(slope) * self.curvature_radius_at(slope);
-            let next = x - excess / rate;
-            let next = if next > low && next < high { next } else { 0.5 * (low + high) };
-            let step = (next - x).abs();
-            x = next;
-            if step <= 1e-15 * x || high - low <= 1e-15 * high {
-                break;
-            }
-        }
-        x * x
-    }
-
-    /// Square roots of two table slopes that enclose the one at `radius`.
-    fn slope_bracket(&self, radius: f64) -> (f64, f64) {
+    /// Two slopes of the table that enclose the one at `radius`.
+    fn slope_bracket(&self, radius: f64) -> [f64; 2] {
         if self.slopes.is_empty() {
-            return (0.0, FRAC_PI_2.sqrt());
+            return [0.0, FRAC_PI_2];
         }
-        let above = self.slopes.partition_point(|n| n.radius <= radius).clamp(1, self.slopes.len() - 1);
-        (self.slopes[above - 1].slope.sqrt(), self.slopes[above].slope.sqrt())
+        let above = self.slopes.partition_point(|n| n.radius < radius).clamp(1, self.slopes.len() - 1);
+        [self.slopes[above - 1].slope, self.slopes[above].slope]
     }
 
     /// Height over the tip at a radius, mm; infinite beyond the base.
     #[must_use]
     pub fn height_at_radius(&self, radius: f64) -> f64 {
-        let u = radius - self.flat;
-        if u <= 0.0 {
-            return 0.0;
-        }
         if radius > self.max_radius {
             return f64::INFINITY;
         }
-        if let Profile::Ball(ball) = &self.profile {
-            let whole = ball.radius() + self.ball;
-            return u * u / (whole + (whole * whole - u * u).max(0.0).sqrt());
+        match self.ball {
+            Some(ball) => radius * radius / (ball + (ball * ball - radius * radius).max(0.0).sqrt()),
+            None => self.profile.height_within(radius, self.slope_bracket(radius)),
         }
-        self.point_at(self.slope_at_radius(radius)).1
     }
 
     /// A line that the profile does not fall below, touching near `radius` (mm, up to the base's).
@@ -266,22 +228,6 @@ impl Cutter {
         (radius - r) * sin - (height - z) * cos
     }
 
-    /// Sine and cosine of a slope whose supporting plane nearly separates the point best, and the gap it leaves.
-    ///
-    /// One search in a table: every plane gives a valid lower bound of the distance, this one a good one.
-    #[must_use]
-    pub fn separating_plane(&self, radius: f64, height: f64) -> (f64, f64, f64) {
-        let cell = self.distance_cell(radius, height);
-        let gap = |n: &SlopeNode| (radius - n.radius) * n.sin - (height - n.height) * n.cos;
-        let (a, b) = (&self.slopes[cell], &self.slopes[cell + 1]);
-        let (ga, gb) = (gap(a), gap(b));
-        if ga >= gb {
-            (a.sin, a.cos, ga)
-        } else {
-            (b.sin, b.cos, gb)
-        }
-    }
-
     /// The cell of the slope table in which the nearest point's slope lies.
     fn distance_cell(&self, radius: f64, height: f64) -> usize {
         let ahead = |n: &SlopeNode| (radius - n.radius) * n.cos + (height - n.height) * n.sin > 0.0;
@@ -292,62 +238,52 @@ impl Cutter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ProfileDocument;
+    use crate::profile::samples::any_profile;
     use proptest::prelude::*;
 
-    fn clothoid(diameter: f64) -> Profile {
-        ProfileDocument::Clothoid { diameter: Some(diameter), scale: None, end_slope_deg: None, tip_flat: 0.0 }
-            .build()
-            .unwrap()
-    }
-
-    fn any_cutter() -> impl Strategy<Value = Cutter> {
-        (any::<bool>(), 1.0..40.0_f64, prop_oneof![Just(0.0), 0.0..3.0_f64], prop_oneof![Just(0.0), 0.0..3.0_f64])
-            .prop_map(|(ball, diameter, flat, grown)| {
-                let profile = if ball {
-                    ProfileDocument::Ball { diameter, tip_flat: 0.0 }.build().unwrap()
-                } else {
-                    clothoid(diameter)
-                };
-                Cutter::new(profile, flat, grown)
-            })
+    fn any_ball() -> impl Strategy<Value = f64> {
+        prop_oneof![Just(0.0), 0.0..3.0_f64]
     }
 
     proptest! {
         #[test]
-        fn a_grown_cutter_is_the_offset_curve(diameter in 1.0..40.0_f64, ball in 0.0..5.0_f64, slope in 0.0..FRAC_PI_2) {
-            let bare = Cutter::new(clothoid(diameter), 0.0, 0.0).point_at(slope);
-            let grown = Cutter::new(clothoid(diameter), 0.0, ball).point_at(slope);
-            prop_assert!((grown.0 - bare.0 - ball * slope.sin()).abs() < 1e-12);
-            prop_assert!((grown.1 - bare.1 - ball * (1.0 - slope.cos())).abs() < 1e-12);
+        fn a_grown_cutter_is_the_offset_curve(profile in any_profile(), ball in any_ball(), slope in 0.0..FRAC_PI_2) {
+            let (bare, grown) = (profile.point_at(slope), Cutter::new(&profile, ball).point_at(slope));
+            prop_assert!((grown.0 - bare.0 - ball * slope.sin()).abs() < 1e-12 * (1.0 + bare.0), "{grown:?} {bare:?}");
+            prop_assert!((grown.1 - bare.1 - ball * (1.0 - slope.cos())).abs() < 1e-12 * (1.0 + bare.1), "{grown:?} {bare:?}");
         }
 
         #[test]
-        fn radius_gives_back_the_point(cutter in any_cutter(), share in 0.0..1.0_f64) {
+        fn radius_gives_back_the_point(profile in any_profile(), ball in any_ball(), share in 0.0..1.0_f64) {
+            let cutter = Cutter::new(&profile, ball);
             let radius = share * cutter.max_radius();
-            let slope = cutter.slope_at_radius(radius);
-            if radius > cutter.flat {
-                prop_assert!((cutter.point_at(slope).0 - radius).abs() < 1e-12 * cutter.max_radius());
-            }
-            let height = cutter.height_at_radius(radius);
-            prop_assert!((cutter.point_at(slope).1 - height).abs() < 1e-7 || slope > 1.57);
+            let (slope, height) = (cutter.slope_at_radius(radius), cutter.height_at_radius(radius));
+            let (inner, outer) = (cutter.profile.inner_point_at(slope), cutter.point_at(slope));
+            let size = 1e-12 * (cutter.max_radius() + cutter.max_height());
+            prop_assert!(inner.0 <= radius + size && radius <= outer.0 + size, "{inner:?} {radius} {outer:?}");
+            // a point of the curve lies on the supporting line of its slope
+            let off = (radius - outer.0) * slope.sin() - (height - outer.1) * slope.cos();
+            prop_assert!(off.abs() < 100.0 * size, "{off}");
         }
 
         #[test]
-        fn bounds_are_below_the_profile(cutter in any_cutter(), share in 0.0..1.0_f64) {
+        fn bounds_are_below_the_profile(profile in any_profile(), ball in any_ball(), share in 0.0..1.0_f64) {
+            let cutter = Cutter::new(&profile, ball);
             let radius = share * cutter.max_radius();
-            prop_assert!(cutter.height_bound(radius) <= cutter.height_at_radius(radius) + 1e-12);
+            prop_assert!(cutter.height_bound(radius) <= cutter.height_at_radius(radius) + 1e-11);
         }
 
         #[test]
-        fn distance_is_to_the_nearest_point(cutter in any_cutter(), slope in 0.01..1.57_f64, away in -0.3..5.0_f64) {
-            let away = if away < 0.0 { away * cutter.curvature_radius_at(slope).min(1.0) } else { away };
+        fn distance_is_to_the_nearest_point(
+            profile in any_profile(),
+            ball in any_ball(),
+            slope in 0.01..1.57_f64,
+            away in 0.0..5.0_f64,
+        ) {
+            let cutter = Cutter::new(&profile, ball);
             let (r, z) = cutter.point_at(slope);
-            let (distance, at) = cutter.distance(r + away * slope.sin(), z - away * slope.cos());
+            let (distance, _) = cutter.distance(r + away * slope.sin(), z - away * slope.cos());
             prop_assert!((distance - away).abs() < 1e-9, "{distance} {away}");
-            prop_assert!((at - slope).abs() < 1e-4);
-            let (_, _, bound) = cutter.separating_plane(r + away * slope.sin(), z - away * slope.cos());
-            prop_assert!(bound <= distance + 1e-12);
         }
     }
 }

@@ -20,6 +20,16 @@ pub enum GeometryError {
     /// Keys that are missing or exclude each other. Follow the hint.
     #[error("{0}")]
     Keys(String),
+    /// A profile that no tool can have, or a formula that cannot be read. Follow the hint.
+    #[error("{place}: {reason}; {hint}")]
+    Profile {
+        /// Where on the profile or in the formula: `t = 0.83`, `r = 4.1`, `z, character 7`.
+        place: String,
+        /// What is wrong there.
+        reason: String,
+        /// What to do about it.
+        hint: String,
+    },
     /// An array holds NaN or infinity: the reader or the model is at fault.
     #[error("{what} {index} is not a finite number")]
     NotFinite {
@@ -68,6 +78,7 @@ impl GeometryError {
         match self {
             Self::OutOfRange { .. } => "out-of-range",
             Self::Keys(_) => "keys",
+            Self::Profile { .. } => "profile",
             Self::NotFinite { .. } => "not-finite",
             Self::NoSuchVertex { .. } => "no-such-vertex",
             Self::Length { .. } => "length",

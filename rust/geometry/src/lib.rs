@@ -14,9 +14,9 @@ pub use cutter::{Cutter, SupportingLine};
 pub use error::GeometryError;
 pub use frame::Frame;
 pub use mesh::{Bvh, Mesh, Node};
-pub use profile::{Clothoid, Meridian, Profile, ProfileDocument};
+pub use profile::{FormulaDocument, Profile, ProfileDocument, ProfileReport, Straight};
 pub use sheet::{ModelFace, Sheet, SheetLaw};
-pub use tool::{Tool, ToolDocument};
+pub use tool::{Base, Holder, Tool, ToolDocument};
 
 /// A point or vector of space, mm.
 pub type Vector = nalgebra::Vector3<f64>;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     error::{length, positive_length},
-    Cutter, GeometryError, Profile, ProfileDocument, Sheet,
+    Cutter, GeometryError, Profile, ProfileDocument, ProfileReport, Sheet,
 };
 
 /// A tool as documents write it. Lengths in mm.
@@ -14,12 +14,67 @@ use crate::{
 pub struct ToolDocument {
     /// The curve from tip to base.
     pub profile: ProfileDocument,
+    /// What joins the profile's base to the shank; it does not form.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub base: Option<Base>,
     /// Diameter of the shank, mm; the base's when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shank_diameter: Option<f64>,
     /// Length from tip to holder, mm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
+    /// The holder above it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub holder: Option<Holder>,
+}
+
+/// What joins a profile's base to the shank (US 2023/0035585: cylindrical, chamfered, or with a tangent transition).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Base {
+    /// A cylinder of the base's diameter.
+    Cylindrical {
+        /// Its height, mm.
+        height: f64,
+    },
+    /// A cone to the shank's diameter.
+    Chamfer {
+        /// Its height, mm.
+        height: f64,
+    },
+    /// A smooth transition to the shank's diameter, with one tangent at both ends.
+    Tangent {
+        /// Its height, mm.
+        height: f64,
+    },
+}
+
+impl Base {
+    /// Its height, mm.
+    #[must_use]
+    pub fn height(&self) -> f64 {
+        match self {
+            Self::Cylindrical { height } | Self::Chamfer { height } | Self::Tangent { height } => *height,
+        }
+    }
+}
+
+/// A cylinder above the shank.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Holder {
+    /// Its diameter, mm.
+    pub diameter: f64,
+    /// Its length, mm.
+    pub length: f64,
+}
+
+impl ToolDocument {
+    /// A tool of which only the profile is known.
+    #[must_use]
+    pub fn of(profile: ProfileDocument) -> Self {
+        Self { profile, base: None, shank_diameter: None, length: None, holder: None }
+    }
 }
 
 /// A checked tool, ready to be asked.
@@ -27,6 +82,7 @@ pub struct ToolDocument {
 pub struct Tool {
     document: ToolDocument,
     profile: Profile,
+    report: ProfileReport,
 }
 
 impl Tool {
@@ -35,21 +91,25 @@ impl Tool {
     /// # Errors
     /// A profile that does not build, or a shank or length out of range.
     pub fn new(document: ToolDocument) -> Result<Self, GeometryError> {
-        let profile = document.profile.build()?;
+        let (profile, report) = document.profile.build()?;
         if let Some(diameter) = document.shank_diameter {
             positive_length("shank_diameter", diameter)?;
         }
+        let height = profile.base().1 + document.base.map_or(Ok(0.0), |base| length("base.height", base.height()))?;
         if let Some(value) = document.length {
-            let height = profile.point_at(profile.max_slope()).1;
             if length("length", value)? <= height {
-                return Err(GeometryError::OutOfRange {
-                    key: "length",
-                    value,
-                    allowed: "more than the profile is high",
-                });
+                let allowed = "more than profile and base are high";
+                return Err(GeometryError::OutOfRange { key: "length", value, allowed });
             }
         }
-        Ok(Self { document, profile })
+        if let Some(holder) = document.holder {
+            positive_length("holder.diameter", holder.diameter)?;
+            positive_length("holder.length", holder.length)?;
+            if document.length.is_none() {
+                return Err(GeometryError::Keys("a holder needs the tool's length: from the tip to it".to_owned()));
+            }
+        }
+        Ok(Self { document, profile, report })
     }
 
     /// What it was built from.
@@ -58,23 +118,28 @@ impl Tool {
         &self.document
     }
 
-    /// The curve beyond the tip flat.
+    /// The curve from tip to base.
     #[must_use]
     pub fn profile(&self) -> &Profile {
         &self.profile
     }
 
-    /// Radius and height of the bare tool at a slope, mm; the outer end of a flat, the rim beyond the last slope.
+    /// What was done to the document's curve to make it the profile.
+    #[must_use]
+    pub fn report(&self) -> &ProfileReport {
+        &self.report
+    }
+
+    /// Radius and height of the bare tool at a slope, mm; the outer end of a straight part, the rim beyond the last slope.
     #[must_use]
     pub fn point_at(&self, slope: f64) -> (f64, f64) {
-        let (r, z) = self.profile.point_at(slope.min(self.profile.max_slope()));
-        (self.document.profile.tip_flat() + r, z)
+        self.profile.point_at(slope)
     }
 
     /// The bare tool as a cutter.
     #[must_use]
     pub fn cutter(&self) -> Cutter {
-        Cutter::new(self.profile.clone(), self.document.profile.tip_flat(), 0.0)
+        Cutter::new(&self.profile, 0.0)
     }
 
     /// Tool and sheet as one, grown by `margin` mm along the normal: what must not enter the model.
@@ -83,7 +148,7 @@ impl Tool {
     #[must_use]
     pub fn cutter_with(&self, sheet: Option<&Sheet>, margin: f64) -> Cutter {
         let ball = sheet.map_or(0.0, Sheet::along_normal) + margin;
-        Cutter::new(self.profile.clone(), self.document.profile.tip_flat(), ball)
+        Cutter::new(&self.profile, ball)
     }
 
     /// Height of the tool's tip over the tip of [`cutter_with`](Self::cutter_with), mm.
@@ -95,16 +160,13 @@ impl Tool {
     /// Height of the sphere's centre over the tip, mm; only a ball without a flat has one.
     #[must_use]
     pub fn center_height(&self) -> Option<f64> {
-        match &self.profile {
-            Profile::Ball(ball) if self.document.profile.tip_flat() == 0.0 => Some(ball.radius()),
-            _ => None,
-        }
+        self.profile.as_ball()
     }
 
     /// Diameter of the base, mm.
     #[must_use]
     pub fn diameter(&self) -> f64 {
-        2.0 * self.point_at(self.profile.max_slope()).0
+        2.0 * self.profile.base().0
     }
 
     /// What it is, in words: `clothoid D10`.

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use styluscam_geometry::{ModelFace, ProfileDocument, SheetLaw};
+use styluscam_geometry::{Base, Holder, ModelFace, ProfileDocument, SheetLaw};
 use styluscam_motion::{SpindleDirection, ToolReference};
 
 /// A whole job: from a part's faces to a machine's program.
@@ -270,12 +270,18 @@ pub struct ToolSection {
     pub reference: ToolReference,
     /// The curve from tip to base.
     pub profile: ProfileDocument,
+    /// What joins the profile's base to the shank.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub base: Option<Base>,
     /// Diameter of the shank, mm; the base's when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shank_diameter: Option<f64>,
     /// Length from tip to holder, mm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
+    /// The holder above it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub holder: Option<Holder>,
 }
 
 /// One operation.

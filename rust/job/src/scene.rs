@@ -139,8 +139,10 @@ pub fn tools(job: &JobDocument) -> Result<BTreeMap<String, (Tool, ToolRecord)>, 
 fn tool(name: &str, section: &ToolSection, job: &JobDocument) -> Result<(Tool, ToolRecord), JobError> {
     let document = ToolDocument {
         profile: section.profile.clone(),
+        base: section.base,
         shank_diameter: section.shank_diameter,
         length: section.length,
+        holder: section.holder,
     };
     let tool = Tool::new(document).map_err(JobError::geometry(format!("tools.{name}")))?;
     let reference_height = match section.reference {

@@ -9,7 +9,7 @@ use crate::Vector;
 
 /// Cells of the support table. A chord over one of 4096 is less than 1e-7 of the tool's radius above the function.
 const CELLS: usize = 4096;
-/// Cells of the table of planes.
+/// Cells of the table of planes, besides those at straight parts.
 const PLANES: usize = 256;
 /// Squares along each side of the atlas.
 const SQUARES: usize = 128;
@@ -75,7 +75,12 @@ impl Body {
     pub fn new(tool: &Tool, sheet: Option<&Sheet>) -> Self {
         let cutter = tool.cutter_with(sheet, 0.0);
         let supports = (0..=CELLS).map(|i| support_at(&cutter, i)).collect();
-        let planes: Vec<_> = (0..=PLANES).map(|i| Tangency::at(&cutter, plane_root(i))).collect();
+        let mut planes: Vec<_> = (0..=PLANES).map(|i| Tangency::at(&cutter, plane_root(i))).collect();
+        // both ends of a straight part: between them the plane stays and the place jumps
+        planes.extend(cutter.straights().iter().flat_map(|s| [s.inner, s.outer].map(|end| Tangency::on(s.slope, end))));
+        planes.sort_by(|a, b| {
+            a.slope.total_cmp(&b.slope).then(a.radius.total_cmp(&b.radius)).then(a.height.total_cmp(&b.height))
+        });
         let sharpest = planes.iter().map(|p| cutter.curvature_radius_at(p.slope)).fold(f64::INFINITY, f64::min);
         let squares_per_mm = SQUARES as f64 / (REACH * (cutter.max_radius() + cutter.max_height()));
         let mut body = Self {
@@ -187,16 +192,17 @@ impl Body {
 
     /// The cell of the table in which the gap is largest, for points that are not deep inside.
     fn cell(&self, radius: f64, height: f64) -> usize {
-        self.planes.partition_point(|p| p.ahead(radius, height) > 0.0).clamp(1, PLANES) - 1
+        self.planes.partition_point(|p| p.ahead(radius, height) > 0.0).clamp(1, self.planes.len() - 1) - 1
     }
 
     /// The same, by a walk from a plane near by.
     fn near_cell(&self, radius: f64, height: f64) -> usize {
-        let mut cell = self.near_plane(radius, height).min(PLANES - 1);
+        let last = self.planes.len() - 2;
+        let mut cell = self.near_plane(radius, height).min(last);
         while cell > 0 && self.planes[cell].ahead(radius, height) <= 0.0 {
             cell -= 1;
         }
-        while cell < PLANES - 1 && self.planes[cell + 1].ahead(radius, height) > 0.0 {
+        while cell < last && self.planes[cell + 1].ahead(radius, height) > 0.0 {
             cell += 1;
         }
         cell
@@ -207,7 +213,7 @@ impl Body {
         let gaps = self.planes.iter().map(|p| p.gap(radius, height)).enumerate();
         let best = gaps.fold((0, f64::NEG_INFINITY), |a, b| if b.1 > a.1 { b } else { a }).0;
         let before = self.planes[best].ahead(radius, height) <= 0.0;
-        (best - usize::from(before && best > 0)).min(PLANES - 1)
+        (best - usize::from(before && best > 0)).min(self.planes.len() - 2)
     }
 
     /// The distance along a line of direction `along` through the point that `d` was measured at.
@@ -275,6 +281,12 @@ impl Tangency {
         Self { root, slope, sin, cos, radius, height }
     }
 
+    /// At a place of the meridian where many have this slope.
+    fn on(slope: f64, (radius, height): (f64, f64)) -> Self {
+        let (sin, cos) = libm::sincos(slope);
+        Self { root: slope.sqrt(), slope, sin, cos, radius, height }
+    }
+
     /// How far a point lies outside the plane, mm.
     fn gap(&self, radius: f64, height: f64) -> f64 {
         (radius - self.radius) * self.sin - (height - self.height) * self.cos
@@ -314,11 +326,11 @@ pub(crate) mod tests {
     use styluscam_geometry::{ModelFace, ProfileDocument, SheetLaw, ToolDocument};
 
     pub fn tool(profile: ProfileDocument) -> Tool {
-        Tool::new(ToolDocument { profile, shank_diameter: None, length: None }).unwrap()
+        Tool::new(ToolDocument::of(profile)).unwrap()
     }
 
     pub fn ball(diameter: f64) -> Body {
-        Body::new(&tool(ProfileDocument::Ball { diameter, tip_flat: 0.0 }), None)
+        Body::new(&tool(ProfileDocument::Ball { diameter, radius: None, tip_flat: 0.0 }), None)
     }
 
     /// Balls and clothoids, with flats, with an end slope, with a sheet.
@@ -329,7 +341,7 @@ pub(crate) mod tests {
         (any::<bool>(), 2.0..20.0_f64, end, flat, thickness).prop_map(|(ball, diameter, end_slope_deg, flat, sheet)| {
             let tip_flat = flat * diameter;
             let profile = if ball {
-                ProfileDocument::Ball { diameter, tip_flat }
+                ProfileDocument::Ball { diameter, radius: None, tip_flat }
             } else {
                 ProfileDocument::Clothoid { diameter: Some(diameter), scale: None, end_slope_deg, tip_flat }
             };

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::Meridian;
 
-/// A clothoid from its flat point (the tip) to an end slope of at most a right angle.
+/// A clothoid from its flat point, the tip.
 ///
 /// The slope at arc length L is L^2 / 2A, so with x = L / sqrt(pi A) radius and height are the
 /// Fresnel integrals sqrt(pi A) C(x) and sqrt(pi A) S(x), x from 0 to 1 at a right angle.
@@ -12,42 +12,26 @@ use super::Meridian;
 pub struct Clothoid {
     /// sqrt(pi A): the arc length to a right angle, mm.
     unit: f64,
-    end_slope: f64,
-    end_radius: f64,
 }
 
 /// Terms of the Fresnel series: on [0, 1] the twelfth is below 1e-17 of the sum.
 const TERMS: usize = 12;
 
 impl Clothoid {
-    /// The clothoid with constant `scale` (A, mm^2) up to `end_slope`, rad.
+    /// The clothoid with constant `scale` (A, mm^2).
     #[must_use]
-    pub fn from_scale(scale: f64, end_slope: f64) -> Self {
-        Self::from_unit((PI * scale).sqrt(), end_slope)
+    pub fn from_scale(scale: f64) -> Self {
+        Self { unit: (PI * scale).sqrt() }
     }
 
     /// The clothoid that reaches `radius` mm at `end_slope`, rad.
     #[must_use]
     pub fn from_radius(radius: f64, end_slope: f64) -> Self {
-        Self::from_unit(radius / fresnel(parameter(end_slope)).0, end_slope)
-    }
-
-    fn from_unit(unit: f64, end_slope: f64) -> Self {
-        Self { unit, end_slope, end_radius: unit * fresnel(parameter(end_slope)).0 }
-    }
-
-    /// The constant A = R L, mm^2.
-    #[must_use]
-    pub fn scale(&self) -> f64 {
-        self.unit * self.unit / PI
+        Self { unit: radius / fresnel(parameter(end_slope)).0 }
     }
 }
 
 impl Meridian for Clothoid {
-    fn max_slope(&self) -> f64 {
-        self.end_slope
-    }
-
     fn point_at(&self, slope: f64) -> (f64, f64) {
         let (c, s) = fresnel(parameter(slope));
         (self.unit * c, self.unit * s)
@@ -58,10 +42,7 @@ impl Meridian for Clothoid {
         self.unit / (PI * parameter(slope))
     }
 
-    fn slope_at_radius(&self, radius: f64) -> f64 {
-        if radius >= self.end_radius {
-            return self.end_slope;
-        }
+    fn slope_at_radius(&self, radius: f64, within: [f64; 2]) -> f64 {
         let c = radius.max(0.0) / self.unit;
         // C is increasing and concave on [0, 1]: C(x) = c by Newton from the left never overshoots
         let mut x = c + PI * PI / 40.0 * c.powi(5);
@@ -73,7 +54,7 @@ impl Meridian for Clothoid {
                 break;
             }
         }
-        (FRAC_PI_2 * x * x).min(self.end_slope)
+        (FRAC_PI_2 * x * x).clamp(within[0], within[1])
     }
 }
 
@@ -130,7 +111,7 @@ mod tests {
     fn base_diameter_20_has_the_published_size() {
         let clothoid = Clothoid::from_radius(10.0, FRAC_PI_2);
         assert!((clothoid.unit - 12.822_26).abs() < 1e-4);
-        assert!((clothoid.scale() - 52.334).abs() < 1e-3);
+        assert!((clothoid.unit * clothoid.unit / PI - 52.334).abs() < 1e-3);
         assert!((clothoid.point_at(FRAC_PI_2).1 - 5.6195).abs() < 1e-4);
         assert!((clothoid.curvature_radius_at(FRAC_PI_2) - 4.0815).abs() < 1e-4);
     }
@@ -140,7 +121,7 @@ mod tests {
         let clothoid = Clothoid::from_radius(10.0, FRAC_PI_2);
         for slope in [0.0, 1e-9, 0.1, 0.5, 1.0, 1.5, 1.57] {
             let (r, _) = clothoid.point_at(slope);
-            let back = clothoid.point_at(clothoid.slope_at_radius(r)).0;
+            let back = clothoid.point_at(clothoid.slope_at_radius(r, [0.0, FRAC_PI_2])).0;
             assert!((back - r).abs() < 1e-14 * 10.0, "{slope}: {back} {r}");
         }
     }

@@ -1,6 +1,6 @@
 //! The highest tip that an edge allows: one concave maximisation, solved in the slope.
 
-use styluscam_geometry::{Cutter, Vector};
+use styluscam_geometry::{Cutter, Straight, Vector};
 
 /// Where a tool touches an edge: tip height, and the contact as a share of the edge from 0 to 1.
 pub struct EdgeContact {
@@ -28,13 +28,20 @@ pub fn touch(cutter: &Cutter, a: Vector, b: Vector, x: f64, y: f64, best: f64) -
         return None;
     }
     let guess = libm::atan(cutter.supporting_line(near.hypot(line.q)).rise);
-    let (slope, r) = top_slope(cutter, line.q, line.steep.abs(), guess);
-    let along = (r * r - line.q * line.q).max(0.0).sqrt().copysign(line.steep) - line.first;
+    let top = top(cutter, line.q, line.steep.abs(), guess);
+    let along = (top.radius * top.radius - line.q * line.q).max(0.0).sqrt().copysign(line.steep) - line.first;
     if !(0.0..=line.run).contains(&along) {
         return None;
     }
     let share = along / line.run;
-    Some(EdgeContact { tip: a.z + line.steep * along - cutter.point_at(slope).1, share, slope })
+    Some(EdgeContact { tip: a.z + line.steep * along - top.height, share, slope: top.slope })
+}
+
+/// The place of the cutter that touches an edge's line.
+struct Top {
+    slope: f64,
+    radius: f64,
+    height: f64,
 }
 
 /// An edge seen from the axis: places s along its line count from the foot of the axis on it.
@@ -85,11 +92,34 @@ impl Line {
     }
 }
 
-/// The slope at which sin sqrt(r^2 - q^2) = steep r cos, and the radius there.
-fn top_slope(cutter: &Cutter, q: f64, steep: f64, guess: f64) -> (f64, f64) {
+/// The place at which sin sqrt(r^2 - q^2) = steep r cos.
+fn top(cutter: &Cutter, q: f64, steep: f64, guess: f64) -> Top {
     if steep == 0.0 {
-        return (cutter.slope_at_radius(q), q);
+        return Top { slope: cutter.slope_at_radius(q), radius: q, height: cutter.height_at_radius(q) };
     }
+    if let Some(top) = cutter.straights().iter().find_map(|straight| top_on(straight, q, steep)) {
+        return top;
+    }
+    let (slope, radius) = top_slope(cutter, q, steep, guess);
+    Top { slope, radius, height: cutter.point_at(slope).1 }
+}
+
+/// The place if it lies on a straight part: there the slope is one and the radius runs.
+fn top_on(straight: &Straight, q: f64, steep: f64) -> Option<Top> {
+    let (sin, cos) = libm::sincos(straight.slope);
+    let excess = |r: f64| sin * (r * r - q * q).max(0.0).sqrt() - steep * r * cos;
+    if excess(straight.inner.0) > 0.0 || excess(straight.outer.0) < 0.0 {
+        return None;
+    }
+    // r^2 (1 - (steep / tan)^2) = q^2; where nothing is left of it every radius will do
+    let rest = 1.0 - (steep * cos / sin) * (steep * cos / sin);
+    let radius = if rest > 0.0 { q / rest.sqrt() } else { straight.outer.0 };
+    let radius = radius.clamp(straight.inner.0.max(q), straight.outer.0.max(q));
+    Some(Top { slope: straight.slope, radius, height: straight.height_at(radius) })
+}
+
+/// The slope of [`top`] on a curve or a kink, and the radius there.
+fn top_slope(cutter: &Cutter, q: f64, steep: f64, guess: f64) -> (f64, f64) {
     let (mut low, mut high) = (0.0, std::f64::consts::FRAC_PI_2);
     let mut slope = guess.clamp(1e-3, high - 1e-3);
     let mut r = 0.0;

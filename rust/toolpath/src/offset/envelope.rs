@@ -473,9 +473,9 @@ mod tests {
         let profile = if clothoid {
             ProfileDocument::Clothoid { diameter: Some(diameter), scale: None, end_slope_deg: None, tip_flat }
         } else {
-            ProfileDocument::Ball { diameter, tip_flat }
+            ProfileDocument::Ball { diameter, radius: None, tip_flat }
         };
-        Tool::new(ToolDocument { profile, shank_diameter: None, length: None }).unwrap()
+        Tool::new(ToolDocument::of(profile)).unwrap()
     }
 
     /// The highest tip over a triangle by nested golden sections of the concave height: no facet, edge or vertex.

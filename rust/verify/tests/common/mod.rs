@@ -66,7 +66,7 @@ impl Part {
 }
 
 pub fn ball(diameter: f64) -> Tool {
-    tool(ProfileDocument::Ball { diameter, tip_flat: 0.0 })
+    tool(ProfileDocument::Ball { diameter, radius: None, tip_flat: 0.0 })
 }
 
 pub fn clothoid(diameter: f64) -> Tool {
@@ -74,7 +74,7 @@ pub fn clothoid(diameter: f64) -> Tool {
 }
 
 pub fn tool(profile: ProfileDocument) -> Tool {
-    Tool::new(ToolDocument { profile, shank_diameter: None, length: None }).unwrap()
+    Tool::new(ToolDocument::of(profile)).unwrap()
 }
 
 pub fn limits() -> Limits {

@@ -1,0 +1,69 @@
+//! Part of a circle: the ball, corner radii, barrels, and the balls that kinks grow into.
+
+use super::Meridian;
+
+/// Steps that mend rounding are shorter than this, rad.
+const NEWTON: f64 = 1e-6;
+
+/// A circular arc, told from its start: r = R (sin - sin start), z = R (cos start - cos).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arc {
+    radius: f64,
+    start: f64,
+}
+
+impl Arc {
+    /// An arc of `radius` mm that begins at the slope `start`, rad.
+    #[must_use]
+    pub fn new(radius: f64, start: f64) -> Self {
+        Self { radius, start }
+    }
+
+    /// Its radius, mm.
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// The same arc `ball` mm farther out.
+    #[must_use]
+    pub fn grown(&self, ball: f64) -> Self {
+        Self { radius: self.radius + ball, ..*self }
+    }
+}
+
+impl Meridian for Arc {
+    fn point_at(&self, slope: f64) -> (f64, f64) {
+        if self.start <= 0.0 {
+            let (sin, cos) = libm::sincos(slope);
+            let half = libm::sin(slope / 2.0);
+            // 1 - cos without cancellation near the tip, exact 1 at the equator
+            let versine = if slope < 0.5 { 2.0 * half * half } else { 1.0 - cos };
+            return (self.radius * sin, self.radius * versine);
+        }
+        // by the chord: differences of sines would cancel on a flat arc of a large circle
+        let chord = 2.0 * self.radius * libm::sin(0.5 * (slope - self.start));
+        let (sin, cos) = libm::sincos(0.5 * (slope + self.start));
+        (chord * cos, chord * sin)
+    }
+
+    fn curvature_radius_at(&self, _slope: f64) -> f64 {
+        self.radius
+    }
+
+    fn slope_at_radius(&self, radius: f64, within: [f64; 2]) -> f64 {
+        let slope = libm::asin((libm::sin(self.start) + radius / self.radius).clamp(0.0, 1.0));
+        // one step of Newton: the sine of a large circle has lost digits; not where the radius hardly changes
+        let step = (radius - self.point_at(slope).0) / (self.radius * libm::cos(slope));
+        let slope = if step.abs() < NEWTON { slope + step } else { slope };
+        slope.clamp(within[0], within[1])
+    }
+
+    fn height_at_radius(&self, radius: f64, _within: [f64; 2]) -> f64 {
+        let (sin, cos) = libm::sincos(self.start);
+        let first = self.radius * sin;
+        let across = first + radius;
+        let rest = (self.radius * self.radius - across * across).max(0.0).sqrt();
+        radius * (first + across) / (self.radius * cos + rest)
+    }
+}

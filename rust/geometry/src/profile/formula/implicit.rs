@@ -1,0 +1,148 @@
+//! f(r, z) = 0 from a start point: followed to the axis and to the base, by radius or by height as it lies.
+
+use super::explicit::{BY_HEIGHT, BY_RADIUS};
+use super::expression::Expression;
+use super::jet::Jet;
+use super::parametric::note_move;
+use super::proof::rises;
+use super::sample::{short, Route, Sample, Source, SAMPLES};
+use super::solve::{bracket, solve};
+use super::trace::{trace, Knot};
+use crate::GeometryError;
+
+/// The field f in the tool's coordinates, and places as the user knows them.
+pub(super) struct Field {
+    pub f: Expression,
+    /// z of the tip in the formula's coordinates.
+    pub origin: f64,
+    /// -1 where z falls from the tip.
+    pub upwards: f64,
+}
+
+impl Field {
+    pub fn jet(&self, [r, z]: [f64; 2]) -> Jet {
+        let mut jet = self.f.at(r, self.origin + self.upwards * z);
+        jet.first[1] *= self.upwards;
+        jet.second[1] *= self.upwards;
+        jet
+    }
+
+    pub fn place(&self, [r, z]: [f64; 2]) -> String {
+        format!("r = {}, z = {}", short(r), short(self.origin + self.upwards * z))
+    }
+}
+
+/// t' H t: how f bends along a direction.
+pub(super) fn bending(jet: &Jet, [r, z]: [f64; 2]) -> f64 {
+    jet.second[0] * r * r + 2.0 * jet.second[1] * r * z + jet.second[2] * z * z
+}
+
+struct Implicit {
+    field: Field,
+    knots: Vec<Sample>,
+    /// Signs of f's derivatives at the knots.
+    signs: Vec<[f64; 2]>,
+}
+
+impl Implicit {
+    /// The point with coordinate `axis` (0: r, 1: z) at a value.
+    fn at_coordinate(&self, axis: usize, value: f64) -> Option<Sample> {
+        let other = 1 - axis;
+        let scale = self.knots.last()?.point[other].abs() + if axis == 0 { self.field.origin.abs() } else { 0.0 };
+        let bracket = bracket(&self.knots, axis, value, scale)?;
+        let point = |x: f64| if axis == 0 { [value, x] } else { [x, value] };
+        // the end nearer to where this coordinate tells the curve apart
+        let sign = self.signs.get(bracket.index + axis.min(1)).or(self.signs.get(bracket.index))?[other];
+        let (x, jet) = solve(&bracket, other, sign, |x| self.field.jet(point(x)))?;
+        let rate = -jet.first[axis] / jet.first[other];
+        let d = if axis == 0 { [1.0, rate] } else { [rate, 1.0] };
+        let turn = -bending(&jet, d) / jet.first[other];
+        let dd = if axis == 0 { [0.0, turn] } else { [turn, 0.0] };
+        let stretch = if axis == 0 { BY_RADIUS } else { BY_HEIGHT };
+        Some(Sample { stretch, p: value, point: point(x), d, dd })
+    }
+}
+
+impl Source for Implicit {
+    fn at(&self, stretch: usize, p: f64) -> Sample {
+        let point = if stretch == BY_RADIUS { [p, f64::NAN] } else { [f64::NAN, p] };
+        let nowhere = Sample { stretch, p, point, d: [f64::NAN; 2], dd: [f64::NAN; 2] };
+        self.at_coordinate(stretch, p).unwrap_or(nowhere)
+    }
+
+    fn place(&self, sample: &Sample) -> String {
+        self.field.place(sample.point)
+    }
+}
+
+/// The route of f(r, z) = 0 through `start`, to the base's radius or where the slope is 90 degrees.
+pub(super) fn route(f: Expression, start: [f64; 2], base: Option<f64>) -> Result<Route, GeometryError> {
+    let mut field = Field { f, origin: 0.0, upwards: 1.0 };
+    let knots = trace(&field, start, base)?;
+    let (Some(tip), Some(end)) = (knots.first(), knots.last()) else { return Err(nothing(&field, start)) };
+    field.origin = tip.point[1];
+    field.upwards = if end.point[1] < tip.point[1] { -1.0 } else { 1.0 };
+    let mut notes = Vec::new();
+    note_move([0.0, field.origin], field.upwards < 0.0, &mut notes);
+    let samples: Vec<Sample> = knots.iter().enumerate().map(|(index, knot)| moved(&field, knot, index)).collect();
+    let signs = knots.iter().map(|knot| [knot.gradient[0], field.upwards * knot.gradient[1]].map(f64::signum));
+    let curve = Implicit { signs: signs.collect(), knots: samples.clone(), field };
+    let mut route = Route { source: Box::new(curve), stretches: Vec::new(), samples, notes };
+    // the knots must rise before anything is looked for between them
+    rises(&route)?;
+    route.stretches = stretches(&route);
+    route.samples = dense(&route);
+    Ok(route)
+}
+
+fn nothing(field: &Field, start: [f64; 2]) -> GeometryError {
+    super::refusal(field.place(start), "there is no curve here".to_owned(), "give a start point on the curve")
+}
+
+/// A knot in the tool's coordinates, by arc length. Each is a stretch of its own: nothing lies between them yet.
+fn moved(field: &Field, knot: &Knot, index: usize) -> Sample {
+    Sample {
+        stretch: BY_HEIGHT + 1 + index,
+        p: index as f64,
+        point: [knot.point[0], field.upwards * (knot.point[1] - field.origin)],
+        d: [knot.tangent[0], field.upwards * knot.tangent[1]],
+        dd: [knot.turn[0], field.upwards * knot.turn[1]],
+    }
+}
+
+/// By radius up to the first knot at 45 degrees, by height from there.
+fn stretches(route: &Route) -> Vec<[Sample; 2]> {
+    let knots = &route.samples;
+    let (Some(tip), Some(end)) = (knots.first(), knots.last()) else { return Vec::new() };
+    let by = |axis: usize, knot: &Sample| {
+        let scale = 1.0 / knot.d[axis];
+        let mut d = knot.d.map(|x| x * scale);
+        d[axis] = 1.0;
+        Sample { stretch: axis, p: knot.point[axis], d, ..*knot }
+    };
+    let steep = knots.iter().position(|knot| knot.d[1] >= knot.d[0]).filter(|index| index + 1 < knots.len());
+    match steep {
+        None => vec![[by(0, tip), by(0, end)]],
+        Some(0) => vec![[by(1, tip), by(1, end)]],
+        Some(index) => vec![[by(0, tip), by(0, &knots[index])], [by(1, &knots[index]), by(1, end)]],
+    }
+}
+
+/// Points of the stretches, evenly; up to one that cannot be found, if there is one.
+fn dense(route: &Route) -> Vec<Sample> {
+    let each = SAMPLES / route.stretches.len().max(1);
+    let mut samples = Vec::with_capacity(SAMPLES + 2);
+    for [from, to] in &route.stretches {
+        samples.push(*from);
+        let step = (to.p - from.p) / each as f64;
+        for k in 1..each {
+            let sample = route.source.at(from.stretch, from.p + step * k as f64);
+            samples.push(sample);
+            if !sample.is_finite() {
+                return samples;
+            }
+        }
+        samples.push(*to);
+    }
+    samples
+}

@@ -1,0 +1,100 @@
+//! A point of the curve with its derivatives, and where such points come from.
+
+use super::refusal;
+use crate::GeometryError;
+
+/// A point of the curve by its own parameter: t, the radius, or the height.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Sample {
+    /// Which stretch of the source the parameter belongs to.
+    pub stretch: usize,
+    /// The parameter; it grows from the tip to the base.
+    pub p: f64,
+    /// (r, z), mm, the tip at the origin and z upwards.
+    pub point: [f64; 2],
+    /// d(r, z)/dp.
+    pub d: [f64; 2],
+    /// d2(r, z)/dp2.
+    pub dd: [f64; 2],
+}
+
+impl Sample {
+    /// |d(r, z)/dp|.
+    pub fn speed(&self) -> f64 {
+        (self.d[0] * self.d[0] + self.d[1] * self.d[1]).sqrt()
+    }
+
+    /// r' z'' - r'' z': positive where the curve turns upwards.
+    pub fn turning(&self) -> f64 {
+        self.d[0] * self.dd[1] - self.d[1] * self.dd[0]
+    }
+
+    /// What `turning` can be wrong by: a part in 1e12 of its two terms.
+    pub fn turning_noise(&self) -> f64 {
+        1e-12 * ((self.d[0] * self.dd[1]).abs() + (self.d[1] * self.dd[0]).abs())
+    }
+
+    /// Curvature, 1/mm.
+    pub fn curvature(&self) -> f64 {
+        let speed = self.speed();
+        self.turning() / (speed * speed * speed)
+    }
+
+    /// The angle of the tangent, rad.
+    pub fn slope(&self) -> f64 {
+        libm::atan2(self.d[1], self.d[0])
+    }
+
+    pub fn is_finite(&self) -> bool {
+        self.point.iter().chain(&self.d).all(|x| x.is_finite())
+    }
+}
+
+/// A formula as a curve: gives points by parameter and names them as the user knows them.
+pub(super) trait Source {
+    /// The point at a parameter of a stretch; not finite where the formula is not.
+    fn at(&self, stretch: usize, p: f64) -> Sample;
+
+    /// `t = 0.83`, `r = 4.1`: in the formula's own terms.
+    fn place(&self, sample: &Sample) -> String;
+
+    /// An error at a point.
+    fn refuse(&self, sample: &Sample, reason: &str, hint: &str) -> GeometryError {
+        refusal(self.place(sample), reason.to_owned(), hint)
+    }
+}
+
+/// A formula on its way to a profile.
+pub(super) struct Route {
+    /// Where points come from.
+    pub source: Box<dyn Source>,
+    /// First and last point of each stretch, from tip to base.
+    pub stretches: Vec<[Sample; 2]>,
+    /// Points along all of it, from tip to base, for the proof.
+    pub samples: Vec<Sample>,
+    /// What was done to it, in words.
+    pub notes: Vec<String>,
+}
+
+impl Route {
+    /// The larger of radius and height, mm.
+    pub fn size(&self) -> f64 {
+        self.samples.iter().flat_map(|sample| sample.point).filter(|x| x.is_finite()).fold(0.0, |a, x| x.abs().max(a))
+    }
+}
+
+/// Points that every proof looks at.
+pub(super) const SAMPLES: usize = 2048;
+
+/// A number as errors and notes show it: up to six significant digits.
+pub(super) fn short(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return if x == 0.0 { "0".to_owned() } else { x.to_string() };
+    }
+    let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
+    if (1e-4..1e7).contains(&x.abs()) {
+        format!("{rounded}")
+    } else {
+        format!("{rounded:e}")
+    }
+}
