@@ -38,8 +38,9 @@ def pieces(tool: Meridian, stations: int = STATIONS) -> list[Piece]:
         found.line(inner[index], outer[index])
         if index + 1 < stations:
             start, end, following = hidden[0][index], hidden[1][index], inner[index + 1]
-            found.curve(start)
-            found.line(start, end)
+            if np.linalg.norm(end - start) > found.short:
+                found.curve(start)
+                found.line(start, end)
             found.curve(following)
             if np.linalg.norm(following - outer[index]) <= found.short:
                 found.kink()
