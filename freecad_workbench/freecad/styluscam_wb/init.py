@@ -11,7 +11,10 @@ from typing import Any
 from . import compat
 
 NEED_POSTS = ("Path.Main.Job", "Path.Post.Processor")
-"""FreeCAD's modules that look for posts, and before which no job and no tool is read. Importing CAM at every start would cost a quarter of a second."""
+"""FreeCAD's modules that look for posts, and before which no job and no tool is read.
+
+Importing CAM at every start would cost a quarter of a second.
+"""
 
 
 class _InTime(MetaPathFinder):

@@ -119,15 +119,15 @@ def _stylus_document(bit: Any) -> dict[str, Any]:
 def _native_profile(bit: Any) -> dict[str, Any]:
     """The nearest profile of one of FreeCAD's own bits."""
     engine.styluscam()
-    from styluscam.fctb import NATIVE as readers
+    from styluscam.fctb import NATIVE
 
     kind = compat.tool_kind(bit)
-    reader = readers.get(kind.replace("-", ""))
+    reader = NATIVE.get(kind.replace("-", ""))
     profile = reader(lambda name: _millimetres(bit, name))[0] if reader else {"kind": ""}
     if profile["kind"] not in profile_kinds():
         raise ToolError(
             f"tool {bit.Label}: no profile is known for a bit of shape {kind or 'unknown'!r}: "
-            f"choose a stylus or {', '.join(readers)}"
+            f"choose a stylus or {', '.join(NATIVE)}"
         )
     return profile
 
