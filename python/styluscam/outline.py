@@ -29,14 +29,14 @@ class Piece:
 
 def pieces(tool: Meridian, stations: int = STATIONS) -> list[Piece]:
     """From the tip to the base; each piece begins where the one before it ends. Curved ones hold no kink."""
-    slopes = np.linspace(0.0, tool.max_slope, stations)
+    slopes = np.unique(np.linspace(0.0, tool.max_slope, stations))
     inner, outer = _ends(tool, slopes)
     size = float(max(outer[-1].max(), inner[-1].max()))
     hidden = _straight_between(tool, slopes)
     found = _Run(SHORT * size)
-    for index in range(stations):
+    for index in range(len(slopes)):
         found.line(inner[index], outer[index])
-        if index + 1 < stations:
+        if index + 1 < len(slopes):
             start, end, following = hidden[0][index], hidden[1][index], inner[index + 1]
             if np.linalg.norm(end - start) > found.short:
                 found.curve(start)
@@ -65,18 +65,18 @@ def _ends(tool: Meridian, slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
 def _straight_between(tool: Meridian, slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
     """The ends of the longest stretch between each two stations that no slope divides: of a straight part, if any."""
     low, high = slopes[:-1].copy(), slopes[1:].copy()
+    found = np.zeros(len(low), dtype=np.bool_)
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
+        between = ~found & (low < middle) & (middle < high)
         a, (b, c), d = _ends(tool, low)[1], _ends(tool, middle), _ends(tool, high)[0]
-        straight = np.linalg.norm(c - b, axis=1) > np.maximum(
-            np.linalg.norm(b - a, axis=1), np.linalg.norm(d - c, axis=1)
-        )
-        upper = np.linalg.norm(d - c, axis=1) > np.linalg.norm(b - a, axis=1)
-        low = np.where(straight | upper, middle, low)
-        high = np.where(straight | ~upper, middle, high)
-    (a, b), (c, d) = _ends(tool, low), _ends(tool, high)
-    same = (low == high)[:, None]
-    return np.where(same, a, b), np.where(same, d, c)
+        below, here, above = (np.linalg.norm(end - start, axis=1) for start, end in ((a, b), (b, c), (c, d)))
+        found |= between & (here > np.maximum(below, above))
+        upper = above > below
+        low = np.where(between & (found | upper), middle, low)
+        high = np.where(between & (found | ~upper), middle, high)
+    (start, after), (before, _) = _ends(tool, low), _ends(tool, high)
+    return np.where(found[:, None], start, after), np.where(found[:, None], after, before)
 
 
 class _Run:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from styluscam.errors import StylusError, ToolError
-from styluscam.outline import polyline
+from styluscam.outline import pieces, polyline
 from styluscam.scallop import scallop_of_step
 from styluscam.tool import Tool
 from styluscam.types import FloatArray
@@ -130,8 +130,9 @@ def _legend(figure: Figure, tools: list[_Drawn]) -> None:
     if len(tools) == 1:
         tool = tools[0].tool
         figure.text(0.03, 0.948, tool.name or tool.description, va="center", fontsize=16, weight="bold")
-        line = f"{tool.title}; {_facts(tool)}" if tool.title else _facts(tool)
-        figure.text(0.98, 0.948, line if len(line) < 100 else _facts(tool), ha="right", va="center", color=SOFT)
+        facts = _facts(tool) if not tool.name else f"{tool.description}, {_facts(tool)}"
+        line = f"{tool.title}; {facts}" if tool.title else facts
+        figure.text(0.98, 0.948, line if len(line) < 96 else facts, ha="right", va="center", color=SOFT)
         return
     for number, drawn in enumerate(tools):
         x, y = (0.03, 0.52)[number % 2], 0.958 - 0.045 * (number // 2)
@@ -143,7 +144,7 @@ def _legend(figure: Figure, tools: list[_Drawn]) -> None:
 
 def _facts(tool: Tool) -> str:
     height = float(tool.height_at(tool.max_slope))
-    return f"{tool.description}, {height:.3g} mm high, slopes to {np.degrees(tool.max_slope):.3g}°"
+    return f"{height:.3g} mm high, slopes to {np.degrees(tool.max_slope):.3g}°"
 
 
 # --- the profile ---------------------------------------------------------------------------------------------------
@@ -160,7 +161,7 @@ def _profiles(axes: Axes, tools: list[_Drawn]) -> None:
     for drawn in tools:
         right = _section(drawn.tool, top)
         outline = np.concatenate([right[::-1] * [-1.0, 1.0], right])
-        axes.fill(*outline.T, color=drawn.colour, alpha=0.13 if len(tools) == 1 else 0.05, linewidth=0)
+        axes.fill(*outline.T, color=drawn.colour, alpha=0.13 if len(tools) == 1 else 0.1 / len(tools), linewidth=0)
         axes.plot(*outline.T, color=drawn.colour, linestyle=drawn.dash, linewidth=2.0, solid_joinstyle="round")
         flat = float(drawn.tool.radius_range_at(0.0)[1])
         if flat > 0.0:
@@ -198,28 +199,34 @@ def _curvature(axes: Axes, tools: list[_Drawn]) -> None:
     """Radius of curvature by slope; straight parts and edges have none and are marked at the frame."""
     curves = [_radii(drawn.tool) for drawn in tools]
     finite = np.concatenate([radii[np.isfinite(radii) & (radii > 0.0)] for _, radii in curves])
-    low, high = (finite.min(), finite.max()) if len(finite) else (0.5, 2.0)
-    logarithmic = high > WIDE * low or any(not np.isfinite(radii).all() for _, radii in curves)
+    low, high = (finite.min(), finite.max()) if len(finite) else (1.0, 1.0)
+    logarithmic = high > WIDE * low
     if logarithmic:
-        low, high = (
-            max(low, high / 1e5) / 1.5,
-            min(high, 400.0 * float(np.median(finite)) if len(finite) else 2.0) * 1.5,
-        )
+        low, high = max(low, high / 1e3) / 1.5, min(high, 100.0 * float(np.median(finite))) * 1.5
         axes.set_yscale("log")
     else:
         low, high = 0.0, 1.25 * high
-    for drawn, (slopes, radii) in zip(tools, curves, strict=True):
+    straight = [_straight(drawn.tool) for drawn in tools]
+    for drawn, (slopes, radii), flat in zip(tools, curves, straight, strict=True):
         shown = np.where(np.isfinite(radii) & (radii > 0.0), radii, np.nan)
         axes.plot(np.degrees(slopes), shown, color=drawn.colour, linestyle=drawn.dash, linewidth=2.0)
         edges = np.where(radii == 0.0, low, np.nan)
         axes.plot(np.degrees(slopes), edges, color=drawn.colour, linewidth=6.0, alpha=0.5, solid_capstyle="butt")
+        axes.plot(flat, [0.97 * high] * len(flat), "^", color=drawn.colour, markersize=7.0, clip_on=False, zorder=4)
     axes.set_ylim(low, high)
     if logarithmic:
         _decades(axes)
     _clean(axes, "", "radius of\ncurvature, mm")
-    edged = any((radii == 0.0).any() for _, radii in curves)
-    axes.set_title("by slope" + ("; a bar at the bottom: a sharp edge" if edged else ""), **_title())
     axes.tick_params(labelbottom=False)
+    marks = ["triangle: a straight part"] if any(straight) else []
+    marks += ["bar: a sharp edge"] if any((radii == 0.0).any() for _, radii in curves) else []
+    axes.set_title("by slope" + (f" ({', '.join(marks)})" if marks else ""), **_title())
+
+
+def _straight(tool: Tool) -> list[float]:
+    """Slopes (degrees) of the straight parts."""
+    runs = [piece.points[1] - piece.points[0] for piece in pieces(tool) if piece.straight]
+    return [float(np.degrees(np.arctan2(run[1], run[0]))) for run in runs]
 
 
 def _radii(tool: Tool) -> tuple[FloatArray, FloatArray]:

@@ -50,8 +50,7 @@ def list_(own: LibraryFile = None, json: Json = False, debug: Debug = False) -> 
         if number:
             console.say()
         console.say(f"{shelf.name}: {shelf.title}" if shelf.title else shelf.name)
-        rows = [[name, Tool.from_dict(tool).description, tool.get("title", "")] for name, tool in shelf.tools.items()]
-        console.table({"name": "left", "profile": "left", "what": "left"}, rows)
+        console.fields([(f"  {name}", _what(tool)) for name, tool in shelf.tools.items()])
     return 0
 
 
@@ -122,6 +121,10 @@ def find(name: str, own: Path | None) -> Tool:
         return Tool.read(name)
     shelves = ([] if own is None else [library.read_library(own)]) + list(library.shipped())
     return Tool.from_dict(library.find(name, libraries=shelves))
+
+
+def _what(document: Document) -> str:
+    return f"{Tool.from_dict(document).description:<22}  {document.get('title', '')}"
 
 
 def _listed(shelf: library.Library) -> Document:
