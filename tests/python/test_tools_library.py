@@ -78,7 +78,7 @@ def test_what_is_found_can_be_changed_without_harm() -> None:
 
 
 def test_names_that_are_not_there_are_guessed() -> None:
-    assert "did you mean 'hemisphere-d10'" in refused(library.find, "hemispere-d10").hint
+    assert "did you mean 'hemisphere-d10'" in refused(library.find, "hemisphere-10").hint
     assert "clothoid:small or clothoid:medium" in refused(library.find, "clothoid").hint
     error = refused(library.find, "clothoid", "huge")
     assert error.code == "no-such-size" and "'huge'" in str(error)
@@ -110,7 +110,7 @@ def test_a_library_of_one_s_own(tmp_path: Path) -> None:
         (shelf({"name": "a", "profile": BALL}, schema=2), "newer StylusCAM: schema 2", "update"),
         (shelf({"name": "a", "profile": BALL}, schema="one"), "whole number", ""),
         (shelf({"name": "a", "profile": BALL}, tool=[]), "unknown key 'tool'", "'tools'"),
-        (shelf({"name": "a", "profile": BALL, "lenght": 5}), "a: unknown key 'lenght'", "'length'"),
+        (shelf({"name": "a", "profile": BALL, "lengths": 5}), "a: unknown key 'lengths'", "'length'"),
         (shelf({"name": "a", "profile": {**BALL, "diametr": 5}}), "unknown key 'diametr'", "'diameter'"),
         (shelf({"name": "a", "profile": {"kind": "bal", "diameter": 5}}), "unknown kind 'bal'", "'ball'"),
         (shelf({"name": "a", "profile": "ball"}), "not a profile", "kind"),
