@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import difflib
 import json
+import math
 import re
 from collections.abc import Iterable
 from functools import lru_cache
@@ -34,7 +35,9 @@ def read_json(path: str | Path, what: str) -> Document:
         ToolError: the file cannot be read or is no JSON object.
     """
     try:
-        document = json.loads(read_text(path, ToolError), object_pairs_hook=_once)
+        document = json.loads(
+            read_text(path, ToolError), object_pairs_hook=_once, parse_float=_finite, parse_constant=_finite
+        )
     except ValueError as error:
         message = f"{path}: not {what}: {error}"
         raise ToolError(message, code="unreadable", where=str(path), hint="it must be JSON") from error
@@ -56,6 +59,14 @@ def _once(pairs: list[tuple[str, object]]) -> Document:
         twice = next(key for key in keys if keys.count(key) > 1)
         raise ValueError(f"the key {twice!r} stands twice in one object")
     return found
+
+
+def _finite(text: str) -> float:
+    """A number that a length can be: JSON's readers take NaN and 1e999 too."""
+    number = float(text)
+    if not math.isfinite(number):
+        raise ValueError(f"{text} is not a finite number")
+    return number
 
 
 def check_schema(document: Document, where: str) -> None:
@@ -98,7 +109,7 @@ def check_profile(profile: object, where: str) -> None:
     if not isinstance(profile, dict) or "kind" not in profile:
         raise ToolError(f"{where}: not a profile", code="document", where=where, hint=f"write {_example()}")
     kind, kinds = profile["kind"], profile_keys()
-    if kind not in kinds:
+    if not isinstance(kind, str) or kind not in kinds:
         hint = _meant(str(kind), list(kinds))
         raise ToolError(f"{where}: unknown kind {kind!r}", code="unknown-kind", where=where, hint=hint)
     check_keys(profile, kinds[kind], f"{where} of kind {kind}")

@@ -173,6 +173,9 @@ def test_random_documents_keep_every_bit(tmp_path: Path) -> None:
         ({"profile": {"kind": "ball", "diameter": -1.0}}, "diameter = -1", ""),
         ({"profile": BALL, "schema": 9}, "newer", "update"),
         ({"name": "a"}, "no profile", ""),
+        ({"profile": {"kind": ["ball"], "diameter": 5}}, "unknown kind ['ball']", "ball"),
+        ('{"profile": {"kind": "ball", "diameter": NaN}}', "NaN is not a finite number", "JSON"),
+        ('{"profile": {"kind": "ball", "diameter": 1e999}}', "1e999 is not a finite number", "JSON"),
         ({"profile": BALL, "name": 5}, "name must be", ""),
     ],
 )
