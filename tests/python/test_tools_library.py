@@ -224,6 +224,33 @@ def test_outlines_have_straight_parts_with_exact_ends() -> None:
     assert not curve.straight and curve.points[-1, 0] == pytest.approx(5.0)
 
 
+class Faceted:
+    """A flat of 1 mm, an edge, a straight part at 33.3 degrees, and an arc of 2 mm to the vertical."""
+
+    max_slope = math.pi / 2.0
+    facet = math.radians(33.3)
+
+    def radius_range_at(self, slope: Any) -> Any:
+        slope = np.asarray(slope, dtype=float)
+        arc = 3.0 + 2.0 * (np.sin(slope) - math.sin(self.facet))
+        inner = np.where(slope <= self.facet, 1.0, arc)
+        return np.where(slope == 0.0, 0.0, inner), np.where(slope < self.facet, 1.0, arc)
+
+    def height_at(self, slope: Any) -> Any:
+        slope = np.asarray(slope, dtype=float)
+        arc = 2.0 * math.tan(self.facet) + 2.0 * (math.cos(self.facet) - np.cos(slope))
+        return np.where(slope < self.facet, 0.0, arc)
+
+
+@pytest.mark.parametrize("stations", (3, 5, 65))
+def test_a_straight_part_is_found_at_any_slope(stations: int) -> None:
+    flat, facet, arc = pieces(Faceted(), stations)
+    assert flat.straight and facet.straight and not arc.straight
+    assert flat.points == pytest.approx(np.array([[0.0, 0.0], [1.0, 0.0]]), abs=1e-12)
+    assert facet.points == pytest.approx(np.array([[1.0, 0.0], [3.0, 2.0 * math.tan(Faceted.facet)]]), abs=1e-9)
+    assert arc.points[0] == pytest.approx(facet.points[1], abs=1e-9)
+
+
 def test_outlines_of_kinds_with_corners() -> None:
     cone = pieces(sc.Tool.from_dict(starters.starter("cone")))
     assert [piece.straight for piece in cone] == [False, True]
@@ -304,6 +331,8 @@ def test_a_length_changed_in_freecad_counts(tmp_path: Path) -> None:
     read = sc.Tool.read(written(tmp_path / "c.fctb", bit))
     assert read.to_dict()["length"] == 45.0 and read.to_dict()["shank_diameter"] == 6.0
     assert read.remarks == ("Length was changed in FreeCAD from 33.3333 to 45 mm",)
+    bit["parameter"]["Length"] = "33.36 mm"
+    assert sc.Tool.read(written(tmp_path / "e.fctb", bit)).to_dict()["length"] == 33.36
     bit["parameter"]["Length"] = "33.33 mm"
     assert sc.Tool.read(written(tmp_path / "d.fctb", bit)).to_dict()["length"] == 100.0 / 3.0
 
