@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from styluscam.scallop import Meridian
-from styluscam.types import FloatArray
+from styluscam.types import Document, FloatArray
 
 STATIONS = 65
 """Slopes at which a whole profile is looked at."""
@@ -51,6 +51,24 @@ def polyline(tool: Meridian, stations: int = STATIONS) -> FloatArray:
     """Radii and heights (N, 2), mm, from the tip to the base."""
     parts = [piece.points for piece in pieces(tool, stations)]
     return np.concatenate([parts[0][:1], *(part[1:] for part in parts)])
+
+
+def transition(base: Document | None, rim: tuple[float, float], shank: float) -> FloatArray:
+    """From the profile's rim (radius and height) over the base to the shank's radius: radii and heights (N, 2), mm.
+
+    Without a base the shank begins at the rim. A tangent one goes upright at both ends.
+    """
+    radius, height = rim
+    if base is None:
+        return np.array([rim, (shank, height)])
+    top = height + float(base["height"])
+    if base["kind"] == "cylindrical":
+        return np.array([rim, (radius, top), (shank, top)])
+    if base["kind"] == "chamfer":
+        return np.array([rim, (shank, top)])
+    share = np.linspace(0.0, 1.0, 33)
+    smooth = 0.5 - 0.5 * np.cos(np.pi * share)
+    return np.stack([radius + (shank - radius) * smooth, height + (top - height) * share], axis=1)
 
 
 def _ends(tool: Meridian, slopes: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from styluscam.errors import StylusError, ToolError
-from styluscam.outline import pieces, polyline
+from styluscam.outline import pieces, polyline, transition
 from styluscam.scallop import scallop_of_step
 from styluscam.tool import Tool
 from styluscam.types import FloatArray
@@ -153,7 +153,7 @@ def _facts(tool: Tool) -> str:
 def _profiles(axes: Axes, tools: list[_Drawn]) -> None:
     """Sections through the axis, tips at the origin; the shanks are cut off."""
     widest = max(max(drawn.tool.diameter, _shank(drawn.tool)) for drawn in tools)
-    highest = max(float(drawn.tool.height_at(drawn.tool.max_slope)) for drawn in tools)
+    highest = max(_height(drawn.tool) for drawn in tools)
     box = axes.get_position()
     ratio = box.height * SIZE[1] / (box.width * SIZE[0])
     width = max(1.12 * widest, (1.12 * highest + 0.2 * widest) / ratio)
@@ -177,13 +177,19 @@ def _profiles(axes: Axes, tools: list[_Drawn]) -> None:
 def _section(tool: Tool, top: float) -> FloatArray:
     """Radii and heights (N, 2) from the tip over base and shank up to a height."""
     profile = polyline(tool)
-    shank, rim = _shank(tool) / 2.0, profile[-1]
-    above = [[rim[0], rim[1]], [shank, rim[1]], [shank, max(top, float(rim[1]))]]
-    return np.concatenate([profile, above])
+    above = transition(tool.to_dict().get("base"), (profile[-1, 0], profile[-1, 1]), _shank(tool) / 2.0)
+    end = [[above[-1, 0], max(top, float(above[-1, 1]))]]
+    return np.concatenate([profile, above[1:], end])
 
 
 def _shank(tool: Tool) -> float:
     return float(tool.to_dict().get("shank_diameter") or tool.diameter)
+
+
+def _height(tool: Tool) -> float:
+    """Of profile and base, mm."""
+    base = tool.to_dict().get("base") or {}
+    return float(tool.height_at(tool.max_slope)) + float(base.get("height", 0.0))
 
 
 def _base_line(axes: Axes, drawn: _Drawn) -> None:

@@ -12,7 +12,7 @@ import pytest
 
 import styluscam as sc
 from styluscam import fctb, library, starters, toolfile
-from styluscam.outline import pieces, polyline
+from styluscam.outline import pieces, polyline, transition
 
 BALL = {"kind": "ball", "diameter": 6.0}
 
@@ -249,6 +249,16 @@ def test_a_straight_part_is_found_at_any_slope(stations: int) -> None:
     assert flat.points == pytest.approx(np.array([[0.0, 0.0], [1.0, 0.0]]), abs=1e-12)
     assert facet.points == pytest.approx(np.array([[1.0, 0.0], [3.0, 2.0 * math.tan(Faceted.facet)]]), abs=1e-9)
     assert arc.points[0] == pytest.approx(facet.points[1], abs=1e-9)
+
+
+@pytest.mark.parametrize("kind", ("cylindrical", "chamfer", "tangent"))
+def test_a_base_joins_rim_and_shank(kind: str) -> None:
+    points = transition({"kind": kind, "height": 4.0}, (5.0, 3.0), 8.0)
+    assert points[0].tolist() == [5.0, 3.0] and points[-1] == pytest.approx([8.0, 7.0])
+    assert (np.diff(points, axis=0) >= 0.0).all()
+    if kind == "tangent":
+        assert abs(points[1, 0] - points[0, 0]) < 0.06 * (points[1, 1] - points[0, 1])
+    assert transition(None, (5.0, 3.0), 8.0).tolist() == [[5.0, 3.0], [8.0, 3.0]]
 
 
 def test_outlines_of_kinds_with_corners() -> None:

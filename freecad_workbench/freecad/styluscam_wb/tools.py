@@ -152,8 +152,9 @@ def solid_of(parameters: dict[str, Any]) -> Any:
     import Part
     from FreeCAD import Vector
 
-    tool = engine.styluscam().Tool.from_dict(exact_document(parameters[PROFILE]))
-    from styluscam.outline import pieces
+    document = exact_document(parameters[PROFILE])
+    tool = engine.styluscam().Tool.from_dict(document)
+    from styluscam.outline import pieces, transition
 
     shank, top = float(parameters["ShankDiameter"]) / 2.0, float(parameters["Length"])
     edges, rim = [], Vector()
@@ -161,7 +162,9 @@ def solid_of(parameters: dict[str, Any]) -> Any:
         points = [Vector(float(r), 0.0, float(z)) for r, z in piece.points]
         edges.append(Part.makeLine(*points) if piece.straight else _curve(points))
         rim = points[-1]
-    corners = [rim, Vector(shank, 0.0, rim.z), Vector(shank, 0.0, top), Vector(0.0, 0.0, top), Vector()]
+    above = transition(document.get("base"), (rim.x, rim.z), shank)[1:]
+    base = [Vector(float(r), 0.0, float(z)) for r, z in above]
+    corners = [rim, *base, Vector(shank, 0.0, top), Vector(0.0, 0.0, top), Vector()]
     for a, b in itertools.pairwise(corners):
         if a.distanceToPoint(b) > 1e-7:
             edges.append(Part.makeLine(a, b))
