@@ -130,3 +130,7 @@ addon: ## The FreeCAD addon as a zip with package.xml at its root
 .PHONY: picture
 picture: dev ## The picture in the README
 	$(BIN)/styluscam run examples/first-light/job.toml --quiet --picture docs/first-light.png
+
+.PHONY: profile-pictures
+profile-pictures: dev ## The pictures in docs/profiles.md
+	$(BIN)/python docs/profile_pictures.py

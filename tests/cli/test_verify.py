@@ -99,7 +99,9 @@ def test_rapid_through_the_part_is_named(sound, cli):
 
 
 def test_inch_for_mm_is_found(sound, cli):
-    code, document = judged(cli, sound, changed(sound.gcode.read_text(), ("G21", "G20"), ("G64 P0.001", "G64 P0.00003")))
+    code, document = judged(
+        cli, sound, changed(sound.gcode.read_text(), ("G21", "G20"), ("G64 P0.001", "G64 P0.00003"))
+    )
     assert code == 1 and document["findings"]
 
 

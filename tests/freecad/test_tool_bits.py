@@ -53,5 +53,5 @@ def test_a_native_ball_end_mill_turns_under_flood(session: Any) -> None:
     assert lines.index("M9") < lines.index("M5", lines.index("M9"))
 
 
-def test_an_end_mill_has_no_profile(session: Any) -> None:
-    assert "no profile is known for a bit of shape 'endmill'" in session["native bits"]["endmill"]["first"]
+def test_a_probe_has_no_profile(session: Any) -> None:
+    assert "no profile is known for a bit of shape 'probe'" in session["native bits"]["probe"]["first"]

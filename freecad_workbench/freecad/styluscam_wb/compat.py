@@ -31,6 +31,29 @@ def make_toolbit(document: Any, label: str, parameters: dict[str, Any]) -> Any:
     return create(document, label, parameters)
 
 
+def register_toolbits() -> None:
+    """Makes FreeCAD know the stylus among its tool bits, so that its own readers of files build ours."""
+    if importlib.util.find_spec("Path.Tool.toolbit") is not None:
+        from . import stylus_asset  # noqa: F401  (its classes are found once they exist)
+    else:
+        from . import stylus_bit
+
+        stylus_bit.register()
+
+
+def load_toolbit(document: Any, path: str) -> Any:
+    """The tool bit of a file (`.fctb`) in the document: a stylus, or one of FreeCAD's own."""
+    register_toolbits()
+    if importlib.util.find_spec("Path.Tool.toolbit") is not None:
+        from Path.Tool.toolbit import ToolBit
+
+        return ToolBit.from_file(path).attach_to_doc(document)
+    from Path.Tool.Bit import Factory
+
+    FreeCAD.setActiveDocument(document.Name)
+    return Factory.CreateFrom(path)
+
+
 def tool_kind(bit: Any) -> str:
     """The shape of a tool bit in lower case: `stylus`, or FreeCAD's own: `ballend`, `endmill`."""
     for name in ("ShapeType", "ShapeName"):  # 1.1, 1.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Start-up, with and without a window: our posts become known when FreeCAD first needs any, and not before."""
+"""Start-up, with and without a window: posts and tool bits become known when FreeCAD first needs any, not before."""
 
 from __future__ import annotations
 
@@ -11,16 +11,20 @@ from typing import Any
 from . import compat
 
 NEED_POSTS = ("Path.Main.Job", "Path.Post.Processor")
-"""FreeCAD's modules that look for posts. Importing CAM at every start would cost a quarter of a second."""
+"""FreeCAD's modules that look for posts, and before which no job and no tool is read.
+
+Importing CAM at every start would cost a quarter of a second.
+"""
 
 
-class _PostsInTime(MetaPathFinder):
+class _InTime(MetaPathFinder):
     """Hears of imports; finds nothing itself, and leaves once it has done its work."""
 
     def find_spec(self, fullname: str, path: Sequence[str] | None, target: Any = None) -> None:
         if fullname in NEED_POSTS:
             sys.meta_path.remove(self)
             compat.register_posts()
+            compat.register_toolbits()
 
 
-sys.meta_path.insert(0, _PostsInTime())
+sys.meta_path.insert(0, _InTime())

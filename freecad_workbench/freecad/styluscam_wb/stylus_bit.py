@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path as FilePath
 from typing import Any
 
-from Path.Tool.Bit import ToolBit
+import FreeCAD
+from Path.Tool.Bit import Factory, ToolBit
 
 from . import compat, tools
 
@@ -53,3 +55,20 @@ def create(document: Any, label: str, parameters: dict[str, Any]) -> Any:
     proxy._updateBitShape(obj)
     obj.Label = label
     return obj
+
+
+def register() -> None:
+    """FreeCAD's factory of bits makes ours where a file names the shape `stylus`."""
+    theirs = Factory.Create
+    if getattr(theirs, "styluscam", False):
+        return
+
+    def create_any(name: str = "ToolBit", shapeFile: Any = None, path: Any = None) -> Any:
+        if FilePath(str(shapeFile)).stem.lower() != "stylus":
+            return theirs(name, shapeFile, path)
+        obj = FreeCAD.ActiveDocument.addObject("Part::FeaturePython", name)
+        obj.Proxy = StylusBit(obj, "stylus.fcstd", path)
+        return obj
+
+    create_any.styluscam = True  # type: ignore[attr-defined]
+    Factory.Create = create_any

@@ -13,7 +13,7 @@ from . import compat, engine
 PROFILE = "Profile"
 
 SHAPE_PROPERTIES = {
-    PROFILE: ("App::PropertyString", "The exact profile, as the tool document's JSON"),
+    PROFILE: ("App::PropertyString", "The exact profile, or the whole tool document, as JSON"),
     "Diameter": ("App::PropertyLength", "Diameter of the profile's base; follows from the profile"),
     "CuttingEdgeHeight": ("App::PropertyLength", "Height of the profile; follows from the profile"),
     "Length": ("App::PropertyLength", "Length from the tip to the holder"),
@@ -23,9 +23,6 @@ SHAPE_PROPERTIES = {
 
 DERIVED = ("Diameter", "CuttingEdgeHeight")
 """Those that follow from the profile."""
-
-NATIVE = {"ballend": "ball"}
-"""Profile kinds of FreeCAD's own tool bits that a diameter describes."""
 
 SHANK_OVER_PROFILE = 40.0
 """Length of the shank over the profile unless it is given, mm."""
@@ -61,9 +58,19 @@ def create_stylus(
 
 
 def derived_lengths(profile: str) -> dict[str, float]:
-    """Diameter and height (mm) of a profile given as JSON."""
-    tool = engine.styluscam().Tool.from_dict({"profile": _parsed(profile)})
+    """Diameter and height (mm) of a profile, or a tool document, given as JSON."""
+    tool = engine.styluscam().Tool.from_dict(exact_document(profile))
     return {"Diameter": tool.diameter, "CuttingEdgeHeight": float(tool.height_at(tool.max_slope))}
+
+
+def exact_document(profile: str) -> dict[str, Any]:
+    """The tool document in the text of the property `Profile`, which holds one, or a profile alone.
+
+    Raises:
+        ToolError: it is neither.
+    """
+    parsed = _parsed(profile)
+    return parsed if "profile" in parsed else {"profile": parsed}
 
 
 def _parsed(profile: str) -> dict[str, Any]:
@@ -92,32 +99,47 @@ def tool_document(bit: Any) -> dict[str, Any]:
     Raises:
         ToolError: another kind of bit, or lengths that are not those of the profile.
     """
-    diameter = _millimetres(bit, "Diameter")
-    if hasattr(bit, PROFILE):
-        profile = _parsed(bit.Profile)
-        true = derived_lengths(bit.Profile)["Diameter"]
-        if abs(true - diameter) > ROUNDED:
-            raise ToolError(
-                f"tool {bit.Label}: its Diameter is {diameter:g} mm, its profile's {true:g} mm: change the profile"
-            )
-    else:
-        profile = {"kind": _native_kind(bit), "diameter": diameter}
-    document: dict[str, Any] = {"profile": profile}
+    document = _stylus_document(bit) if hasattr(bit, PROFILE) else {"profile": _native_profile(bit)}
     for key, name in (("length", "Length"), ("shank_diameter", "ShankDiameter")):
         value = _millimetres(bit, name)
-        if value > 0.0:
+        if value > 0.0 and abs(value - document.get(key, 0.0)) > ROUNDED:
             document[key] = value
     return document
 
 
-def _native_kind(bit: Any) -> str:
-    kind = NATIVE.get(compat.tool_kind(bit))
-    if kind is None or kind not in profile_kinds():
+def _stylus_document(bit: Any) -> dict[str, Any]:
+    diameter, true = _millimetres(bit, "Diameter"), derived_lengths(bit.Profile)["Diameter"]
+    if abs(true - diameter) > ROUNDED:
         raise ToolError(
-            f"tool {bit.Label}: no profile is known for a bit of shape {compat.tool_kind(bit) or 'unknown'!r}: "
+            f"tool {bit.Label}: its Diameter is {diameter:g} mm, its profile's {true:g} mm: change the profile"
+        )
+    return exact_document(bit.Profile)
+
+
+def _native_profile(bit: Any) -> dict[str, Any]:
+    """The nearest profile of one of FreeCAD's own bits."""
+    engine.styluscam()
+    from styluscam.fctb import NATIVE
+
+    kind = compat.tool_kind(bit)
+    reader = NATIVE.get(kind.replace("-", ""))
+    profile = reader(lambda name: _millimetres(bit, name))[0] if reader else {"kind": ""}
+    if profile["kind"] not in profile_kinds():
+        raise ToolError(
+            f"tool {bit.Label}: no profile is known for a bit of shape {kind or 'unknown'!r}: "
             f"choose a stylus or {', '.join(NATIVE)}"
         )
-    return kind
+    return profile
+
+
+def write_toolbit(bit: Any, path: str) -> None:
+    """Writes a stylus, or a bit that there is a profile for, as FreeCAD's `.fctb` with exact numbers.
+
+    Raises:
+        ToolError, styluscam.StylusError: there is no profile for it, or the file cannot be written.
+    """
+    tool = engine.styluscam().Tool.from_dict({"title": bit.Label, **tool_document(bit)})
+    tool.write(path)
 
 
 def _millimetres(bit: Any, name: str) -> float:
@@ -130,18 +152,30 @@ def solid_of(parameters: dict[str, Any]) -> Any:
     import Part
     from FreeCAD import Vector
 
-    profile = _parsed(parameters[PROFILE])
-    tool = engine.styluscam().Tool.from_dict({"profile": profile})
-    slopes = [tool.max_slope * i / (PROFILE_POINTS - 1) for i in range(PROFILE_POINTS)]
-    meridian = [Vector(float(tool.radius_at(s)), 0.0, float(tool.height_at(s))) for s in slopes]
+    document = exact_document(parameters[PROFILE])
+    tool = engine.styluscam().Tool.from_dict(document)
+    from styluscam.outline import pieces, transition
+
     shank, top = float(parameters["ShankDiameter"]) / 2.0, float(parameters["Length"])
-    curve = Part.BSplineCurve()
-    curve.interpolate(meridian)
-    foot, rim = meridian[0], meridian[-1]
-    corners = [rim, Vector(shank, 0.0, rim.z), Vector(shank, 0.0, top), Vector(0.0, 0.0, top), Vector(), foot]
-    edges = [curve.toShape()]
+    edges, rim = [], Vector()
+    for piece in pieces(tool, PROFILE_POINTS):
+        points = [Vector(float(r), 0.0, float(z)) for r, z in piece.points]
+        edges.append(Part.makeLine(*points) if piece.straight else _curve(points))
+        rim = points[-1]
+    above = transition(document.get("base"), (rim.x, rim.z), shank)[1:]
+    base = [Vector(float(r), 0.0, float(z)) for r, z in above]
+    corners = [rim, *base, Vector(shank, 0.0, top), Vector(0.0, 0.0, top), Vector()]
     for a, b in itertools.pairwise(corners):
         if a.distanceToPoint(b) > 1e-7:
             edges.append(Part.makeLine(a, b))
     turned = Part.Face(Part.Wire(edges)).revolve(Vector(), Vector(0.0, 0.0, 1.0), 360.0)
     return turned if math.isfinite(turned.Volume) and turned.Volume > 0.0 else turned.reversed()
+
+
+def _curve(points: list[Any]) -> Any:
+    """An edge through points."""
+    import Part
+
+    curve = Part.BSplineCurve()
+    curve.interpolate(points)
+    return curve.toShape()

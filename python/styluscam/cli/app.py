@@ -12,7 +12,7 @@ from typing import Annotated, NoReturn
 import typer
 
 from styluscam import __version__
-from styluscam.cli import console, doctor, machine, new, part, plan, run, schema, verify
+from styluscam.cli import console, doctor, machine, new, part, plan, run, schema, suggest, tool, verify
 from styluscam.cli.failures import failure_of
 
 app = typer.Typer(
@@ -32,6 +32,8 @@ app.command("schema")(schema.schema)
 app.command("doctor")(doctor.doctor)
 app.add_typer(part.app, name="part")
 app.add_typer(machine.app, name="machine")
+tool.app.command("suggest")(suggest.suggest)
+app.add_typer(tool.app, name="tool")
 
 
 def _print_version(wanted: bool) -> None:

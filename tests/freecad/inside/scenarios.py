@@ -247,11 +247,11 @@ def native_ball() -> dict[str, Any]:
 
 
 def native_bits() -> dict[str, Any]:
-    """FreeCAD's own ball end mill, turning; and its end mill, which has no profile here."""
+    """FreeCAD's own ball end mill, turning; and its probe, which has no profile here."""
     stage = Stage()
     controller = stage.operation.ToolController
     result = {}
-    for shape in ("ballend", "endmill"):
+    for shape in ("ballend", "probe"):
         controller.Tool = native_bit(stage.document, f"{shape}.fcstd")
         controller.SpindleSpeed, controller.SpindleDir = 5000.0, "Forward"
         stage.operation.Process = "milling"

@@ -1,0 +1,43 @@
+"""Draws the pictures of docs/profiles.md into docs/images: one of each kind, and the comparison at its top.
+
+.venv/bin/python docs/profile_pictures.py
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PIL import Image
+
+import styluscam as sc
+from styluscam import starters, toolfile
+from styluscam.toolplot import tool_picture
+
+IMAGES = Path(__file__).parent / "images"
+
+COLOURS = 48
+"""Of a palette: enough for the lines' soft edges, and a picture of 20 kB."""
+
+COMPARED = ("ball", "clothoid", "ellipse", "rounded-rectangle")
+
+
+def draw(tools: list[sc.Tool], name: str) -> None:
+    """A picture as `styluscam tool plot` draws it, with few colours."""
+    path = IMAGES / f"profile-{name}.png"
+    tool_picture(tools, path)
+    with Image.open(path) as picture:
+        small = picture.convert("RGB").quantize(COLOURS)
+    small.save(path, optimize=True)
+
+
+def main() -> None:
+    """Draws them all."""
+    twelve = {"kind": "ball", "diameter": 12.0}
+    profiles = [twelve if kind == "ball" else starters.PROFILES[kind] for kind in COMPARED]
+    draw([sc.Tool.from_dict({"profile": profile}) for profile in profiles], "compared")
+    for kind in toolfile.profile_keys():
+        draw([sc.Tool.from_dict({"profile": starters.PROFILES[kind]})], kind)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,188 @@
+"""``styluscam tool list``, ``show``, ``new`` and ``plot``: tools, their libraries and their files."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+
+from styluscam import files, library, starters, toolfile
+from styluscam.cli import console
+from styluscam.cli.options import Debug, Json, Quiet
+from styluscam.cli.summary import shown_path
+from styluscam.errors import ToolError
+from styluscam.tool import Tool
+from styluscam.types import Document
+
+app = typer.Typer(help="Look at tools, compare them, and make new ones.", rich_markup_mode=None)
+
+TOOL_HELP = "A tool of a library (clothoid:medium), or a tool file (.json, FreeCAD's .fctb)."
+Name = Annotated[str, typer.Argument(metavar="NAME|FILE", help=TOOL_HELP, show_default=False)]
+Names = Annotated[list[str], typer.Argument(metavar="NAME|FILE...", help=TOOL_HELP, show_default=False)]
+LibraryFile = Annotated[
+    Path | None,
+    typer.Option("--library", metavar="FILE.json", help="A library of your own.", show_default=False),
+]
+NewFile = Annotated[Path, typer.Argument(metavar="FILE.json", help="The tool file to write.", show_default=False)]
+Kind = Annotated[str, typer.Option("--kind", metavar="KIND", help="The profile's kind: ball, clothoid, points, ...")]
+Force = Annotated[bool, typer.Option("--force", help="Replace a file that is there.")]
+Out = Annotated[Path, typer.Option("--out", metavar="FILE.svg|.png", help="The picture to write.", show_default=False)]
+StepDown = Annotated[float, typer.Option("--step-mm", help="Step down between Z-levels, for the scallops, mm.")]
+
+
+@app.callback(invoke_without_command=True)
+def _top(context: typer.Context) -> None:
+    if context.invoked_subcommand is None:
+        console.say(context.get_help())
+
+
+@app.command("list")
+def list_(own: LibraryFile = None, json: Json = False, debug: Debug = False) -> int:
+    """List the tools of the shipped libraries, or of yours."""
+    libraries = library.shipped() if own is None else (library.read_library(own),)
+    if json:
+        console.say_json([_listed(shelf) for shelf in libraries])
+        return 0
+    for number, shelf in enumerate(libraries):
+        if number:
+            console.say()
+        console.say(f"{shelf.name}: {shelf.title}" if shelf.title else shelf.name)
+        console.fields([(f"  {name}", _what(tool)) for name, tool in shelf.tools.items()])
+    return 0
+
+
+@app.command("show")
+def show(name: Name, own: LibraryFile = None, json: Json = False, debug: Debug = False) -> int:
+    """Say what a tool is: its profile's kind and numbers, its size, its slopes."""
+    tool = find(name, own)
+    document = _document(tool)
+    if json:
+        console.say_json(document)
+    else:
+        console.fields(_lines(document))
+    return 0
+
+
+@app.command("new")
+def new(
+    file: NewFile, kind: Kind, *, force: Force = False, json: Json = False, quiet: Quiet = False, debug: Debug = False
+) -> int:
+    """Write a tool file with sensible numbers, to be edited."""
+    if file.exists() and not file.is_dir() and not force:
+        message = f"{file}: the file is there already"
+        hint = "add --force to replace it, or choose another name"
+        raise ToolError(message, code="exists", where=str(file), hint=hint)
+    if file.suffix.lower() not in (".json", ".fctb"):
+        hint = f"call it {file.name}.json"
+        raise ToolError(f"{file}: a tool file ends in .json or .fctb", code="ending", where=str(file), hint=hint)
+    document = starters.starter(kind, toolfile.file_name(file.stem))
+    tool = Tool.from_dict(document)
+    if file.suffix.lower() == ".fctb":
+        tool.write(file)
+    else:  # as it was typed in: without what the engine adds
+        files.write_whole(file, toolfile.text_of(document))
+    if json:
+        console.say_json({"written": [str(file)]})
+    elif not quiet:
+        console.say(f"written: {shown_path(file)}")
+        console.say(f"next:    styluscam tool plot {shown_path(file)} --out {file.stem}.svg")
+    return 0
+
+
+@app.command("plot")
+def plot(
+    tools: Names,
+    out: Out,
+    *,
+    own: LibraryFile = None,
+    step_mm: StepDown = 0.5,
+    json: Json = False,
+    quiet: Quiet = False,
+    debug: Debug = False,
+) -> int:
+    """Draw tools to scale, with radius of curvature by slope and the scallop that each leaves by wall angle."""
+    from styluscam.toolplot import tool_picture
+
+    files.require_writable([out])
+    tool_picture([find(name, own) for name in tools], out, step_mm)
+    if json:
+        console.say_json({"written": [str(out)]})
+    elif not quiet:
+        console.say(f"written: {shown_path(out)}")
+    return 0
+
+
+def find(name: str, own: Path | None) -> Tool:
+    """A tool by file, or by its name in a library: one's own first, then the shipped ones."""
+    if name.lower().endswith((".json", ".fctb")) or Path(name).is_file():
+        return Tool.read(name)
+    shelves = ([] if own is None else [library.read_library(own)]) + list(library.shipped())
+    return Tool.from_dict(library.find(name, libraries=shelves))
+
+
+def _what(document: Document) -> str:
+    return f"{Tool.from_dict(document).description:<22}  {document.get('title', '')}"
+
+
+def _listed(shelf: library.Library) -> Document:
+    tools = [{**tool, "description": Tool.from_dict(tool).description} for tool in shelf.tools.values()]
+    return {"name": shelf.name, "title": shelf.title, "tools": tools}
+
+
+def _document(tool: Tool) -> Document:
+    report = tool.report()
+    radius = float(tool.curvature_radius_at(0.0))
+    return {
+        "name": tool.name,
+        "title": tool.title,
+        "description": tool.description,
+        **tool.to_dict(),
+        "diameter_mm": tool.diameter,
+        "height_mm": float(tool.height_at(tool.max_slope)),
+        "max_slope_deg": math.degrees(tool.max_slope),
+        "tip_flat_radius_mm": float(tool.radius_range_at(0.0)[1]),
+        "tip_curvature_radius_mm": radius if math.isfinite(radius) else None,
+        "fit_deviation_mm": report["fit_deviation_mm"],
+        "notes": report["notes"],
+    }
+
+
+def _lines(document: Document) -> list[tuple[str, str]]:
+    profile = dict(document["profile"])
+    rows = [("name", document["name"]), ("what", document["title"])]
+    rows = [row for row in rows if row[1]]
+    rows += [("profile", document["description"]), ("kind", profile.pop("kind"))]
+    rows += [(f"  {key}", _value(value)) for key, value in profile.items() if value not in (None, 0.0)]
+    rows += [
+        ("diameter", f"{document['diameter_mm']:.6g} mm"),
+        ("height", f"{document['height_mm']:.6g} mm"),
+        ("max slope", f"{document['max_slope_deg']:.4g} deg"),
+        ("at the tip", _tip(document)),
+    ]
+    for key in ("base", "shank_diameter", "length", "holder"):
+        if document.get(key) is not None:
+            rows.append((key.replace("_", " "), _value(document[key])))
+    if document["fit_deviation_mm"] is not None:
+        rows.append(("fit", f"within {document['fit_deviation_mm']:.3g} mm of the points"))
+    return rows + [("note", note) for note in document["notes"]]
+
+
+def _tip(document: Document) -> str:
+    flat, radius = document["tip_flat_radius_mm"], document["tip_curvature_radius_mm"]
+    if flat > 0.0:
+        return f"flat, {2.0 * flat:.6g} mm across"
+    if radius is None:
+        return "curvature vanishes: infinitely flat"
+    return f"radius of curvature {radius:.6g} mm" if radius > 0.0 else "pointed"
+
+
+def _value(value: object) -> str:
+    if isinstance(value, dict):
+        return ", ".join(f"{key} {_value(part)}" for key, part in value.items())
+    if isinstance(value, list):
+        shown = " ".join(f"({_value(part)})" if isinstance(part, list) else _value(part) for part in value[:4])
+        return shown + (f" ... {len(value)} in all" if len(value) > 4 else "")
+    return f"{value:g}" if isinstance(value, int | float | np.floating) else str(value)

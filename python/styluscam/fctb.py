@@ -1,0 +1,209 @@
+"""FreeCAD's tool bit files (``.fctb``): our tools in them with exact numbers, and FreeCAD's own bits read as tools.
+
+FreeCAD writes lengths with the decimals that its user chose (3.175 becomes "3.17 mm"). So a stylus carries its whole tool
+document as JSON in one property of text, and the lengths that FreeCAD's posts and simulators read stand beside it.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from styluscam import toolfile
+from styluscam.errors import ToolError
+from styluscam.types import Document
+
+if TYPE_CHECKING:
+    from styluscam.tool import Tool
+
+VERSION = 2
+"""Of the format, as FreeCAD 1.0 and 1.1 write it."""
+
+EXACT = "Profile"
+"""The property of a stylus that holds its document: of the tool, or of the profile alone."""
+
+SHANK_OVER_PROFILE = 40.0
+"""Length of the shank over the profile unless it is given, mm."""
+
+ROUNDED = 0.01
+"""A length that FreeCAD shows and that is farther from the exact one than this (mm) was changed there."""
+
+UNITS = {
+    "": 1.0, "mm": 1.0, "cm": 10.0, "m": 1000.0, "um": 0.001, "µm": 0.001, "μm": 0.001,
+    "in": 25.4, '"': 25.4, "ft": 304.8, "'": 304.8, "thou": 0.0254, "mil": 0.0254,
+    "°": 1.0, "deg": 1.0, "rad": 180.0 / math.pi,
+}  # fmt: skip
+"""To mm and degrees."""
+
+NUMBER = re.compile(r"\s*([-+]?[\d.,]+(?:e[-+]?\d+)?)(?:\s+(\d+))?(?:/(\d+))?\s*(\D*?)\s*", re.IGNORECASE)
+"""A decimal number, or a fraction such as ``1 1/8``, and a unit."""
+
+
+def text_of(tool: Tool) -> str:
+    """The file's text for a tool."""
+    height = float(tool.height_at(tool.max_slope))
+    document = tool.to_dict()
+    lengths = {
+        "Diameter": tool.diameter,
+        "CuttingEdgeHeight": height,
+        "Length": document.get("length", height + SHANK_OVER_PROFILE),
+        "ShankDiameter": document.get("shank_diameter", tool.diameter),
+    }
+    parameters = {EXACT: json.dumps(document)} | {name: f"{value!r} mm" for name, value in lengths.items()}
+    return toolfile.text_of(
+        {
+            "version": VERSION,
+            "name": tool.title or tool.name or tool.description,
+            "shape": "stylus.fcstd",
+            "shape-type": "Stylus",
+            "parameter": parameters,
+            "attribute": {},
+        }
+    )
+
+
+def read(path: str | Path) -> tuple[Document, list[str]]:
+    """The tool document of a file, and what had to be guessed, in sentences.
+
+    Raises:
+        ToolError: it is no tool bit, or of a shape that no profile describes.
+    """
+    bit = toolfile.read_json(path, "a tool bit of FreeCAD")
+    where = str(path)
+    values: Document = {}
+    for key in ("parameter", "attribute"):
+        part = bit.get(key, {})
+        if not isinstance(part, dict):
+            raise ToolError(f"{where}: not a tool bit of FreeCAD: {key} is no object", code="unreadable", where=where)
+        values |= part
+    document, remarks = _stylus(values, where) if EXACT in values else _native(bit, values, where)
+    title = " ".join(str(bit.get("name", "")).split())
+    name = toolfile.file_name(Path(path).stem)
+    return {"name": name} | ({"title": title} if title else {}) | document, remarks
+
+
+def document_of(exact: str, where: str) -> Document:
+    """The tool document in the text of a stylus' property: of the whole tool, or of its profile alone."""
+    try:
+        parsed = json.loads(exact)
+    except (ValueError, RecursionError) as error:
+        raise ToolError(f"{where}: its {EXACT} is not JSON: {error}", code="unreadable", where=where) from error
+    if not isinstance(parsed, dict):
+        raise ToolError(f"{where}: its {EXACT} is no JSON object", code="unreadable", where=where)
+    return toolfile.bare(parsed) if EXACT.lower() in parsed else {EXACT.lower(): parsed}
+
+
+def _stylus(values: Document, where: str) -> tuple[Document, list[str]]:
+    """The exact document; a length that was changed in FreeCAD since counts."""
+    document, remarks = document_of(str(values[EXACT]), where), []
+    for key, name in (("length", "Length"), ("shank_diameter", "ShankDiameter")):
+        shown = number(values[name], f"{where}: {name}") if name in values else 0.0
+        if shown > 0.0 and (key not in document or abs(shown - document[key]) > ROUNDED):
+            if key in document:
+                remarks.append(f"{name} was changed in FreeCAD from {document[key]:g} to {shown:g} mm")
+            document[key] = shown
+    return document, remarks
+
+
+def _native(bit: Document, values: Document, where: str) -> tuple[Document, list[str]]:
+    shape = Path(str(bit.get("shape", ""))).stem.lower().replace("-", "")
+    kind = str(bit.get("shape-type") or shape).lower().replace("-", "")
+    reader = NATIVE.get(kind) or NATIVE.get(shape)
+    if reader is None:
+        hint = f"known: stylus, {', '.join(NATIVE)}"
+        message = f"{where}: no profile is known for a bit of shape {kind or 'unknown'!r}"
+        raise ToolError(message, code="unknown-kind", where=where, hint=hint)
+
+    def measure(name: str) -> float:
+        if name not in values:
+            raise ToolError(f"{where}: a bit of shape {kind} without {name}", code="document", where=where)
+        return number(values[name], f"{where}: {name}")
+
+    profile, remark = reader(measure)
+    document: Document = {"profile": profile}
+    for key, name in (("length", "Length"), ("shank_diameter", "ShankDiameter")):
+        if name in values and measure(name) > 0.0:
+            document[key] = measure(name)
+    return document, [remark, "lengths are as FreeCAD rounded them when it wrote the file"]
+
+
+def number(value: object, where: str) -> float:
+    """A length in mm or an angle in degrees from FreeCAD's text: ``5.0000 mm``, ``1/8"``, ``45 °``, or a number."""
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return float(value)
+    found = NUMBER.fullmatch(str(value))
+    unit = found[4].lower() if found else ""
+    if found is None or unit not in UNITS:
+        raise ToolError(f"{where} = {value!r}: not a length or an angle", code="document", where=where)
+    try:
+        size = _decimal(found[1])
+        if found[3]:
+            size = (size + float(found[2]) / float(found[3])) if found[2] else size / float(found[3])
+    except (ValueError, ZeroDivisionError) as error:
+        raise ToolError(f"{where} = {value!r}: not a number", code="document", where=where) from error
+    return size * UNITS[unit]
+
+
+def _decimal(text: str) -> float:
+    """A comma alone is a decimal point; with points beside it, it groups digits."""
+    return float(text.replace(",", "") if "." in text else text.replace(",", "."))
+
+
+Measure = Callable[[str], float]
+
+
+def _ball(measure: Measure) -> tuple[Document, str]:
+    return {"kind": "ball", "diameter": measure("Diameter")}, "a ball end mill, read as a ball"
+
+
+def _flat(measure: Measure) -> tuple[Document, str]:
+    return {"kind": "flat", "diameter": measure("Diameter")}, "an end mill, read as a flat end with sharp corners"
+
+
+def _bull_nose(measure: Measure) -> tuple[Document, str]:
+    profile = {"kind": "bull-nose", "diameter": measure("Diameter"), "corner_radius": measure("CornerRadius")}
+    return profile, "read as a bull nose"
+
+
+def _v(measure: Measure) -> tuple[Document, str]:
+    profile = {
+        "kind": "v",
+        "tip_diameter": measure("TipDiameter"),
+        "angle_deg": measure("CuttingEdgeAngle"),
+        "diameter": measure("Diameter"),
+    }
+    return profile, "read as a V, its cutting edge angle as the included one"
+
+
+def _tapered_ball(measure: Measure) -> tuple[Document, str]:
+    profile = {
+        "kind": "tapered-ball",
+        "tip_radius": measure("Diameter") / 2.0,
+        "half_angle_deg": measure("TaperAngle") / 2.0,
+        "diameter": measure("TaperDiameter"),
+    }
+    return profile, "read as a tapered ball, its taper angle as the included one"
+
+
+def _drill(measure: Measure) -> tuple[Document, str]:
+    profile = {
+        "kind": "v", "tip_diameter": 0.0, "angle_deg": measure("TipAngle"), "diameter": measure("Diameter"),
+    }  # fmt: skip
+    return profile, "a drill, read as a V with its tip angle"
+
+
+NATIVE: dict[str, Callable[[Measure], tuple[Document, str]]] = {
+    "ballend": _ball,
+    "endmill": _flat,
+    "bullnose": _bull_nose,
+    "torus": _bull_nose,
+    "vbit": _v,
+    "chamfer": _v,
+    "taperedballnose": _tapered_ball,
+    "drill": _drill,
+}
+"""Readers of FreeCAD's own shapes: the nearest profile, and what was taken for granted."""

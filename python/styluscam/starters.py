@@ -1,0 +1,59 @@
+"""A profile of each kind with sensible numbers: what ``styluscam tool new`` begins with."""
+
+from __future__ import annotations
+
+import copy
+import difflib
+
+from styluscam import toolfile
+from styluscam.errors import ToolError
+from styluscam.types import Document
+
+PROFILES: dict[str, Document] = {
+    "ball": {"kind": "ball", "diameter": 10.0},
+    "flat": {"kind": "flat", "diameter": 10.0},
+    "cycloid": {"kind": "cycloid", "diameter": 12.0},
+    "clothoid": {"kind": "clothoid", "diameter": 12.0},
+    "parabola": {"kind": "parabola", "apex_radius": 6.0, "diameter": 14.0},
+    "ellipse": {"kind": "ellipse", "radial": 6.0, "axial": 4.0},
+    "power": {"kind": "power", "coefficient": 0.02, "exponent": 3.0, "diameter": 12.0},
+    "rounded-rectangle": {"kind": "rounded-rectangle", "diameter": 12.0, "corner_radius": 3.0},
+    "bull-nose": {"kind": "bull-nose", "diameter": 10.0, "corner_radius": 1.0},
+    "barrel": {"kind": "barrel", "diameter": 10.0, "radius": 40.0, "tip_radius": 2.0},
+    "cone": {"kind": "cone", "tip_radius": 0.5, "half_angle_deg": 30.0, "diameter": 10.0},
+    "tapered-ball": {"kind": "tapered-ball", "tip_radius": 1.5, "half_angle_deg": 5.0, "diameter": 6.0},
+    "v": {"kind": "v", "tip_diameter": 0.2, "angle_deg": 90.0, "diameter": 10.0},
+    "points": {
+        "kind": "points",
+        "points": [[0.0, 0.0], [1.0, 0.05], [2.0, 0.21], [3.0, 0.5], [4.0, 1.0], [5.0, 2.0]],
+        "fit_tolerance": 0.01,
+    },
+    "formula": {
+        "kind": "formula",
+        "r": "a * sin(t)",
+        "z": "b * (1 - cos(t))",
+        "t": [0.0, 1.5],
+        "parameters": {"a": 6.0, "b": 4.0},
+    },
+}
+"""By kind; lengths in mm."""
+
+SHANK = 40.0
+"""Length from the profile's diameter to the holder, mm."""
+
+
+def starter(kind: str, name: str = "") -> Document:
+    """A tool file's document of a kind, ready to be edited.
+
+    Raises:
+        ToolError: there is no such kind.
+    """
+    kinds = [known for known in PROFILES if known in toolfile.profile_keys()]
+    if kind not in kinds:
+        near = difflib.get_close_matches(kind, kinds, n=1)
+        hint = f"did you mean {near[0]!r}?" if near else f"known: {', '.join(kinds)}"
+        raise ToolError(f"unknown kind {kind!r}", code="unknown-kind", where="kind", hint=hint)
+    document: Document = {"schema": toolfile.SCHEMA}
+    if name:
+        document["name"] = name
+    return document | {"profile": copy.deepcopy(PROFILES[kind]), "length": SHANK + 10.0}

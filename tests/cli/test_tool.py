@@ -1,0 +1,189 @@
+"""`styluscam tool`: list, show, new, plot and suggest."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import styluscam as sc
+from styluscam import library, toolfile
+
+from .conftest import COARSE_CUP, changed
+
+SHELF = {
+    "schema": 1,
+    "name": "mine",
+    "title": "Two balls and a clothoid",
+    "tools": [
+        {"name": "ball", "sizes": {"s": {"kind": "ball", "diameter": 6.0}, "l": {"kind": "ball", "diameter": 12.0}}},
+        {"name": "clothoid", "title": "flat tip", "profile": {"kind": "clothoid", "diameter": 20.0}, "length": 60.0},
+    ],
+}
+
+
+@pytest.fixture
+def mine(tmp_path: Path) -> Path:
+    path = tmp_path / "mine.json"
+    path.write_text(json.dumps(SHELF))
+    return path
+
+
+def test_list_names_every_tool(cli: Any, mine: Path) -> None:
+    ran = cli("tool", "list")
+    assert ran.code == 0 and ran.err == ""
+    first = [line.split()[0] for line in ran.out.splitlines() if line.startswith("  ")]
+    assert first == library.names()
+    document = cli("tool", "list", "--json").json
+    assert [tool["name"] for shelf in document for tool in shelf["tools"]] == library.names()
+    own = cli("tool", "list", "--library", mine)
+    assert "mine: Two balls and a clothoid" in own.out and "ball:s" in own.out and "hemisphere" not in own.out
+
+
+def test_show_says_what_a_tool_is(cli: Any) -> None:
+    ran = cli("tool", "show", "clothoid:medium")
+    assert ran.code == 0
+    rows = dict(line.strip().split("  ", 1) for line in ran.out.splitlines())
+    rows = {key: value.strip() for key, value in rows.items()}
+    assert rows["kind"] == "clothoid" and rows["diameter"] == "12 mm" and rows["max slope"] == "90 deg"
+    document = cli("tool", "show", "clothoid:medium", "--json").json
+    assert document["diameter_mm"] == 12.0 and document["max_slope_deg"] == pytest.approx(90.0)
+    assert document["height_mm"] == pytest.approx(12.0 * 5.6195 / 20.0, abs=1e-4)
+    assert document["tip_curvature_radius_mm"] is None and document["notes"] == []
+    assert cli("tool", "show", "hemisphere-d10", "--json").json["tip_curvature_radius_mm"] == 5.0
+
+
+def test_show_reads_files_and_own_libraries(cli: Any, mine: Path, tmp_path: Path) -> None:
+    assert cli("tool", "show", "ball:l", "--library", mine, "--json").json["diameter_mm"] == 12.0
+    sc.Tool.library("hemisphere-d10").write(tmp_path / "h.fctb")
+    assert cli("tool", "show", tmp_path / "h.fctb", "--json").json["profile"]["kind"] == "ball"
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (("show", "clotoid:small"), "did you mean 'clothoid:small'"),
+        (("show", "clothoid"), "choose clothoid:small"),
+        (("show", "none.json"), "none.json"),
+        (("list", "--library", "none.json"), "none.json"),
+        (("new", "x.json", "--kind", "bal"), "did you mean 'ball'"),
+        (("new", "x.txt", "--kind", "ball"), "ends in .json or .fctb"),
+        (("plot", "hemisphere-d10", "--out", "x.pdf"), ".svg or .png"),
+        (("plot", "hemisphere-d10", "--out", "x.svg", "--step-mm", "0"), "step_mm"),
+        (("plot", *["hemisphere-d10"] * 9, "--out", "x.svg"), "1 to 8"),
+    ],
+)
+def test_slips_are_one_line(cli: Any, tmp_path: Path, monkeypatch: Any, words: Any, says: str) -> None:
+    monkeypatch.chdir(tmp_path)
+    ran = cli("tool", *words)
+    assert ran.code == 2 and ran.out == "" and ran.err.count("\n") == 1 and says in ran.err
+    assert cli("tool", *words, "--json").json["error"]["message"]
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("kind", sorted(toolfile.profile_keys()))
+def test_new_writes_a_tool_that_loads(cli: Any, tmp_path: Path, kind: str) -> None:
+    path = tmp_path / f"my-{kind}.json"
+    ran = cli("tool", "new", path, "--kind", kind)
+    assert ran.code == 0 and str(path) in ran.out
+    tool = sc.Tool.read(path)
+    assert tool.name == f"my-{kind}" and tool.to_dict()["profile"]["kind"] == kind
+    assert cli("tool", "new", path, "--kind", kind).code == 2
+    assert cli("tool", "new", path, "--kind", kind, "--force", "--json").json == {"written": [str(path)]}
+    assert cli("tool", "new", path.with_suffix(".fctb"), "--kind", kind).code == 0
+    assert sc.Tool.read(path.with_suffix(".fctb")).to_dict()["profile"] == tool.to_dict()["profile"]
+
+
+def test_plot_draws_svg_and_png(cli: Any, tmp_path: Path) -> None:
+    from matplotlib.image import imread
+
+    for ending in ("svg", "png"):
+        path = tmp_path / "new" / f"tools.{ending}"
+        ran = cli("tool", "plot", "hemisphere-d10", "clothoid:medium", "--out", path, "--step-mm", "0.3")
+        assert ran.code == 0 and f"tools.{ending}" in ran.out
+        first = path.read_bytes()
+        assert cli("tool", "plot", "hemisphere-d10", "clothoid:medium", "--out", path, "--step-mm", "0.3").code == 0
+        assert path.read_bytes() == first
+    assert imread(tmp_path / "new" / "tools.png").shape[:2] == (600, 1200)
+    assert (tmp_path / "new" / "tools.svg").read_text().startswith("<?xml")
+    assert sorted(file.name for file in (tmp_path / "new").iterdir()) == ["tools.png", "tools.svg"]
+
+
+@pytest.mark.parametrize(
+    "names",
+    [["hemisphere-d3"], ["clothoid:large"], ["hemisphere-d10", "clothoid:small", "hemisphere-d25.4"]],
+    ids="+".join,
+)
+def test_nothing_on_a_plot_is_clipped_or_overlaps(names: list[str], tmp_path: Path, monkeypatch: Any) -> None:
+    from styluscam import toolplot
+
+    kept = []
+    monkeypatch.setattr(toolplot, "_save", lambda figure, path: kept.append(figure))
+    toolplot.tool_picture([sc.Tool.library(name) for name in names], tmp_path / "t.png")
+    (figure,) = kept
+    figure.canvas.draw()
+    texts = [text for text in figure.texts if text.get_text()]
+    for axes in figure.axes:
+        labels = [axes.xaxis.label, axes.yaxis.label, axes.title, axes._left_title, axes._right_title]
+        ticks = [] if axes is figure.axes[1] else axes.get_xticklabels()
+        low, high = sorted(axes.get_ylim())
+        sides = [
+            label for label, at in zip(axes.get_yticklabels(), axes.get_yticks(), strict=True) if low <= at <= high
+        ]
+        left, right = axes.get_xlim()
+        ticks = [label for label, at in zip(ticks, axes.get_xticks(), strict=False) if left <= at <= right]
+        texts += [text for text in [*labels, *ticks, *sides] if text.get_text()]
+    boxes = [text.get_window_extent() for text in texts]
+    for i, box in enumerate(boxes):
+        assert box.x0 >= 0 and box.x1 <= 1200 and box.y0 >= 0 and box.y1 <= 600, texts[i].get_text()
+        for j in range(i):
+            assert not box.overlaps(boxes[j]), (texts[i].get_text(), texts[j].get_text())
+
+
+def test_without_matplotlib_the_extra_is_named(cli: Any, tmp_path: Path, monkeypatch: Any) -> None:
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    ran = cli("tool", "plot", "hemisphere-d10", "--out", tmp_path / "p.png")
+    assert ran.code == 2 and ran.err.count("\n") == 1 and "styluscam[plot]" in ran.err
+    assert not list(tmp_path.iterdir())
+
+
+def test_suggest_ranks_by_scallop_and_reach(cli: Any, mine: Path, tmp_path: Path) -> None:
+    job = tmp_path / "job.toml"
+    job.write_text(
+        changed(COARSE_CUP, ("tolerance = 0.001", "tolerance = 0.01"), ("tolerance = 0.005", "tolerance = 0.05"))
+    )
+    ran = cli("tool", "suggest", job, "--library", mine, "--plan", "2", "--json")
+    assert ran.code == 0, ran.err
+    document = ran.json
+    tools = {tool["name"]: tool for tool in document["tools"]}
+    # D12 and D6 fit the R8 fillet; the D20 clothoid leaves less on the wall but is too flat for the fillet's foot
+    assert [tool["name"] for tool in document["tools"]] == ["ball:l", "ball:s", "clothoid"]
+    assert tools["clothoid"]["unreached_share"] > 0.02 > tools["ball:l"]["unreached_share"]
+    assert any("too flat" in reason for reason in tools["clothoid"]["reasons"])
+    assert tools["clothoid"]["bridged"] is None and tools["ball:l"]["bridged"] == []
+    assert tools["ball:l"]["scallop_mean_mm"] < tools["ball:s"]["scallop_mean_mm"]
+    walls = document["part"]["walls"]
+    assert sum(wall["share"] for wall in walls) == pytest.approx(1.0)
+    assert max(walls, key=lambda wall: wall["share"])["angle_deg"] == pytest.approx(45.0, abs=0.1)
+    assert document["part"]["smallest_concave_radius_mm"] == pytest.approx(8.0, rel=0.02)
+    table = cli("tool", "suggest", job, "--library", mine, "--plan", "0")
+    assert table.code == 0 and table.out.index("ball:l") < table.out.index("ball:s")
+    assert not list(tmp_path.glob("*.ngc"))
+
+
+def test_suggest_says_what_a_zig_zag_leaves(cli: Any, mine: Path, tmp_path: Path) -> None:
+    job = tmp_path / "job.toml"
+    job.write_text(changed(COARSE_CUP, ('"z-level"', '"zig-zag"'), ("tolerance = 0.001", "tolerance = 0.01")))
+    document = cli("tool", "suggest", job, "--library", mine, "--plan", "0", "--json").json
+    assert document["part"]["passes"] == "rows 10 mm apart"
+    assert all(tool["bridged"] is None for tool in document["tools"])
+
+
+def test_suggest_refuses_a_job_without_walls(cli: Any, mine: Path, tmp_path: Path) -> None:
+    job = tmp_path / "job.toml"
+    job.write_text(changed(COARSE_CUP, ('"Face1", "Face2", "Face3", "Face4"', '"Face1"')))
+    ran = cli("tool", "suggest", job, "--library", mine)
+    assert ran.code == 2 and "no walls" in ran.err

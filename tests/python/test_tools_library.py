@@ -1,0 +1,361 @@
+"""Libraries of tools, tool files and FreeCAD's tool bits: every shipped tool builds, every slip is named."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import styluscam as sc
+from styluscam import fctb, library, starters, toolfile
+from styluscam.outline import pieces, polyline, transition
+
+BALL = {"kind": "ball", "diameter": 6.0}
+
+
+def written(path: Path, document: Any) -> Path:
+    path.write_text(document if isinstance(document, str) else json.dumps(document), encoding="utf-8")
+    return path
+
+
+def shelf(*tools: Any, **more: Any) -> dict[str, Any]:
+    return {"schema": 1, "name": "mine", "tools": list(tools), **more}
+
+
+def refused(function: Any, *arguments: Any) -> sc.ToolError:
+    with pytest.raises(sc.ToolError) as caught:
+        function(*arguments)
+    error = caught.value
+    assert error.code and "\n" not in str(error)
+    return error
+
+
+# --- the shipped libraries -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", library.names())
+def test_every_shipped_tool_builds_and_has_the_size_that_it_says(name: str) -> None:
+    document = library.find(name)
+    tool = sc.Tool.library(name)
+    assert tool.name == name and tool.title
+    assert tool.diameter == pytest.approx(document["profile"].get("diameter", tool.diameter), rel=1e-9)
+    assert 1.0 <= tool.diameter <= 26.0
+    r, z = tool.radius_at(tool.max_slope), tool.height_at(tool.max_slope)
+    assert math.isfinite(r) and math.isfinite(z)
+    if "length" in document:
+        assert document["length"] > z
+    assert sc.Tool.from_dict(tool.to_file()).to_dict() == tool.to_dict()
+
+
+def test_the_patent_s_shapes_come_in_three_sizes() -> None:
+    forming = library.shipped()[0].tools
+    for shape in ("circle", "clothoid", "rounded-rectangle", "parabola", "ellipse", "cycloid", "cubic"):
+        small, medium, large = (sc.Tool.library(shape, size).diameter for size in ("small", "medium", "large"))
+        assert small < medium < large
+        assert f"{shape}:small" in forming
+
+
+def test_common_styluses_and_cutters_are_there() -> None:
+    names = library.names()
+    assert {"hemisphere-d3", "hemisphere-d10", "hemisphere-d25.4", "flat-end-d10-r2"} <= set(names)
+    assert {"ball-d6", "ball-1-8in", "flat-1-2in", "bull-nose-d6-r1", "barrel-d10-r60", "v-90-d10"} <= set(names)
+    assert len(names) == len(set(names))
+    assert sc.Tool.library("ball-1-8in").diameter == 3.175
+
+
+def test_a_size_is_named_both_ways() -> None:
+    assert library.find("clothoid", "medium") == library.find("clothoid:medium")
+    assert library.find("clothoid:medium")["title"].endswith(", medium")
+
+
+def test_what_is_found_can_be_changed_without_harm() -> None:
+    library.find("hemisphere-d10")["profile"]["diameter"] = 1.0
+    assert library.find("hemisphere-d10")["profile"]["diameter"] == 10.0
+
+
+def test_names_that_are_not_there_are_guessed() -> None:
+    assert "did you mean 'hemisphere-d10'" in refused(library.find, "hemisphere-10").hint
+    assert "clothoid:small or clothoid:medium" in refused(library.find, "clothoid").hint
+    error = refused(library.find, "clothoid", "huge")
+    assert error.code == "no-such-size" and "'huge'" in str(error)
+    assert refused(library.find, "hemisphere-d10", "small").code == "no-such-size"
+    assert refused(library.find, "zzz").hint == "see styluscam tool list"
+
+
+# --- libraries in files --------------------------------------------------------------------------------------------
+
+
+def test_a_library_of_one_s_own(tmp_path: Path) -> None:
+    sizes = {"name": "b", "title": "Ball", "sizes": {"s": BALL, "l": {**BALL, "diameter": 12.0}}, "length": 50.0}
+    mine = library.read_library(written(tmp_path / "mine.json", shelf({"name": "a", "profile": BALL}, sizes)))
+    assert list(mine.tools) == ["a", "b:s", "b:l"]
+    assert mine.find("b", "l") == {
+        "name": "b:l", "title": "Ball, l", "length": 50.0, "profile": {**BALL, "diameter": 12.0}
+    }  # fmt: skip
+    assert sc.Tool.from_dict(mine.find("a")).diameter == 6.0
+
+
+@pytest.mark.parametrize(
+    ("document", "says", "hint"),
+    [
+        ("", "not a library", "JSON"),
+        ("[1]", "JSON object", ""),
+        ('{"tools": [], "tools": []}', "'tools' stands twice", ""),
+        ({"schema": 1}, "no list of tools", "ball-d10"),
+        (shelf(), "no list of tools", ""),
+        (shelf({"name": "a", "profile": BALL}, schema=2), "newer StylusCAM: schema 2", "update"),
+        (shelf({"name": "a", "profile": BALL}, schema="one"), "whole number", ""),
+        (shelf({"name": "a", "profile": BALL}, tool=[]), "unknown key 'tool'", "'tools'"),
+        (shelf({"name": "a", "profile": BALL, "lengths": 5}), "a: unknown key 'lengths'", "'length'"),
+        (shelf({"name": "a", "profile": {**BALL, "diametr": 5}}), "unknown key 'diametr'", "'diameter'"),
+        (shelf({"name": "a", "profile": {"kind": "bal", "diameter": 5}}), "unknown kind 'bal'", "'ball'"),
+        (shelf({"name": "a", "profile": "ball"}), "not a profile", "kind"),
+        (shelf({"name": "a"}), "no profile", "profile"),
+        (shelf({"profile": BALL}), "tool 1: needs a name", ""),
+        (shelf({"name": "a:b", "profile": BALL}), "needs a name, not 'a:b'", "':'"),
+        (shelf({"name": "a", "profile": BALL}, {"name": "a", "profile": BALL}), "two tools are called 'a'", "unique"),
+        (shelf({"name": "a", "profile": BALL, "sizes": {"s": BALL}}), "both a profile and sizes", ""),
+        (shelf({"name": "a", "sizes": {}}), "sizes are profiles by name", "small"),
+        (shelf({"name": "a", "sizes": {"s": {"kind": "ball", "radius": 5}}}), "size s of kind ball: unknown", ""),
+        (shelf(5), "tool 1: not an object", ""),
+        (shelf({"name": "a\nb", "profile": BALL}), "one line of text", ""),
+    ],
+)
+def test_slips_in_a_library_are_named(tmp_path: Path, document: Any, says: str, hint: str) -> None:
+    error = refused(library.read_library, written(tmp_path / "mine.json", document))
+    assert says in str(error) and hint in error.hint and "mine.json" in str(error)
+
+
+def test_a_library_that_is_not_there(tmp_path: Path) -> None:
+    assert refused(library.read_library, tmp_path / "none.json").code == "unreadable"
+    (tmp_path / "deep.json").write_text("[" * 100_000)
+    assert refused(library.read_library, tmp_path / "deep.json").code == "unreadable"
+
+
+# --- tool files ----------------------------------------------------------------------------------------------------
+
+EXACT = {"kind": "clothoid", "diameter": 3.175 + 1e-11, "tip_flat": 1.0 / 3.0}
+
+
+@pytest.mark.parametrize("ending", (".json", ".fctb"))
+def test_files_keep_every_bit(tmp_path: Path, ending: str) -> None:
+    document = {"title": "Odd one", "profile": EXACT, "shank_diameter": 4.0 / 3.0, "length": 100.0 / 3.0}
+    tool = sc.Tool.from_dict(document)
+    tool.write(tmp_path / f"odd{ending}")
+    read = sc.Tool.read(tmp_path / f"odd{ending}")
+    assert read.to_dict() == tool.to_dict()
+    assert read.to_dict()["profile"]["diameter"] == EXACT["diameter"]
+    assert read.to_dict()["length"] == 100.0 / 3.0
+    assert read.title == "Odd one"
+    assert [file.name for file in tmp_path.iterdir()] == [f"odd{ending}"]
+
+
+def test_random_documents_keep_every_bit(tmp_path: Path) -> None:
+    generator = np.random.default_rng(5)
+    for _ in range(50):
+        diameter = float(generator.uniform(1.0, 30.0))
+        tool = sc.Tool.from_dict({"profile": {"kind": "ball", "diameter": diameter}})
+        for ending in (".json", ".fctb"):
+            tool.write(tmp_path / f"t{ending}")
+            assert sc.Tool.read(tmp_path / f"t{ending}").to_dict()["profile"]["diameter"] == diameter
+
+
+@pytest.mark.parametrize(
+    ("document", "says", "hint"),
+    [
+        ({"profile": {"kind": "clotoid", "diameter": 5}}, "unknown kind 'clotoid'", "'clothoid'"),
+        ({"profile": {**BALL, "tipflat": 5}}, "unknown key 'tipflat'", "'tip_flat'"),
+        ({"profile": BALL, "shank_dia": 5}, "unknown key 'shank_dia'", "'shank_diameter'"),
+        ({"profile": {"kind": "ball", "diameter": -1.0}}, "diameter = -1", ""),
+        ({"profile": BALL, "schema": 9}, "newer", "update"),
+        ({"name": "a"}, "no profile", ""),
+        ({"profile": {"kind": ["ball"], "diameter": 5}}, "unknown kind ['ball']", "ball"),
+        ('{"profile": {"kind": "ball", "diameter": NaN}}', "NaN is not a finite number", "JSON"),
+        ('{"profile": {"kind": "ball", "diameter": 1e999}}', "1e999 is not a finite number", "JSON"),
+        ({"profile": BALL, "name": 5}, "name must be", ""),
+    ],
+)
+def test_slips_in_a_tool_file_are_named(tmp_path: Path, document: Any, says: str, hint: str) -> None:
+    error = refused(sc.Tool.read, written(tmp_path / "t.json", document))
+    assert says in str(error) and hint in error.hint and "t.json" in str(error)
+
+
+def test_a_tool_file_appears_whole_or_not_at_all(tmp_path: Path) -> None:
+    tool = sc.Tool.from_dict({"profile": BALL})
+    (tmp_path / "folder.json").mkdir()
+    with pytest.raises(sc.StylusError):
+        tool.write(tmp_path / "folder.json")
+    assert [file.name for file in tmp_path.iterdir()] == ["folder.json"]
+
+
+def test_file_names_are_safe() -> None:
+    assert toolfile.file_name("clothoid:medium") == "clothoid-medium"
+    assert toolfile.file_name("../..") == "tool"
+    assert toolfile.file_name("a / b") == "a-b"
+
+
+# --- starters ------------------------------------------------------------------------------------------------------
+
+
+def test_there_is_a_starter_of_every_kind() -> None:
+    assert set(toolfile.profile_keys()) <= set(starters.PROFILES)
+
+
+@pytest.mark.parametrize("kind", sorted(toolfile.profile_keys()))
+def test_a_starter_builds_and_its_outline_is_convex(kind: str) -> None:
+    tool = sc.Tool.from_dict(starters.starter(kind))
+    outline = polyline(tool)
+    assert outline[0] == pytest.approx([0.0, 0.0], abs=1e-12)
+    assert outline[-1] == pytest.approx([tool.diameter / 2.0, float(tool.height_at(tool.max_slope))], abs=1e-9)
+    steps = np.diff(outline, axis=0)
+    assert (steps >= -1e-9).all()
+    slopes = np.arctan2(steps[:, 1], steps[:, 0])
+    assert (np.diff(slopes) > -1e-6).all()
+
+
+def test_outlines_have_straight_parts_with_exact_ends() -> None:
+    tool = sc.Tool.from_dict({"profile": {"kind": "clothoid", "diameter": 10.0, "tip_flat": 1.0}})
+    flat, curve = pieces(tool)
+    assert flat.straight and flat.points.tolist() == [[0.0, 0.0], [1.0, 0.0]]
+    assert not curve.straight and curve.points[-1, 0] == pytest.approx(5.0)
+
+
+class Faceted:
+    """A flat of 1 mm, an edge, a straight part at 33.3 degrees, and an arc of 2 mm to the vertical."""
+
+    max_slope = math.pi / 2.0
+    facet = math.radians(33.3)
+
+    def radius_range_at(self, slope: Any) -> Any:
+        slope = np.asarray(slope, dtype=float)
+        arc = 3.0 + 2.0 * (np.sin(slope) - math.sin(self.facet))
+        inner = np.where(slope <= self.facet, 1.0, arc)
+        return np.where(slope == 0.0, 0.0, inner), np.where(slope < self.facet, 1.0, arc)
+
+    def height_at(self, slope: Any) -> Any:
+        slope = np.asarray(slope, dtype=float)
+        arc = 2.0 * math.tan(self.facet) + 2.0 * (math.cos(self.facet) - np.cos(slope))
+        return np.where(slope < self.facet, 0.0, arc)
+
+
+@pytest.mark.parametrize("stations", (3, 5, 65))
+def test_a_straight_part_is_found_at_any_slope(stations: int) -> None:
+    flat, facet, arc = pieces(Faceted(), stations)
+    assert flat.straight and facet.straight and not arc.straight
+    assert flat.points == pytest.approx(np.array([[0.0, 0.0], [1.0, 0.0]]), abs=1e-12)
+    assert facet.points == pytest.approx(np.array([[1.0, 0.0], [3.0, 2.0 * math.tan(Faceted.facet)]]), abs=1e-9)
+    assert arc.points[0] == pytest.approx(facet.points[1], abs=1e-9)
+
+
+@pytest.mark.parametrize("kind", ("cylindrical", "chamfer", "tangent"))
+def test_a_base_joins_rim_and_shank(kind: str) -> None:
+    points = transition({"kind": kind, "height": 4.0}, (5.0, 3.0), 8.0)
+    assert points[0].tolist() == [5.0, 3.0] and points[-1] == pytest.approx([8.0, 7.0])
+    assert (np.diff(points, axis=0) >= 0.0).all()
+    if kind == "tangent":
+        assert abs(points[1, 0] - points[0, 0]) < 0.06 * (points[1, 1] - points[0, 1])
+    assert transition(None, (5.0, 3.0), 8.0).tolist() == [[5.0, 3.0], [8.0, 3.0]]
+
+
+def test_outlines_of_kinds_with_corners() -> None:
+    cone = pieces(sc.Tool.from_dict(starters.starter("cone")))
+    assert [piece.straight for piece in cone] == [False, True]
+    assert cone[0].points[-1] == pytest.approx([0.5 * math.cos(math.pi / 6), 0.5 * (1.0 - 0.5)], abs=1e-9)
+    assert [len(piece.points) for piece in pieces(sc.Tool.from_dict(starters.starter("flat")))] == [2]
+    v = pieces(sc.Tool.from_dict(starters.starter("v")))
+    assert [piece.straight for piece in v] == [True, True]
+    assert v[1].points == pytest.approx(np.array([[0.1, 0.0], [5.0, 4.9]]), abs=1e-9)
+
+
+# --- FreeCAD's own bits --------------------------------------------------------------------------------------------
+
+
+def native(shape: str, **parameters: str) -> dict[str, Any]:
+    return {"version": 2, "name": "Native", "shape": f"{shape}.fcstd", "parameter": parameters, "attribute": {}}
+
+
+LENGTHS = {"Length": "50.0000 mm", "ShankDiameter": "3.0000 mm", "CuttingEdgeHeight": "30.0000 mm"}
+
+
+@pytest.mark.parametrize(
+    ("bit", "profile"),
+    [
+        (native("ballend", Diameter="6.0000 mm", **LENGTHS), {"kind": "ball", "diameter": 6.0}),
+        (native("endmill", Diameter='1/8"', **LENGTHS), {"kind": "flat", "diameter": 3.175}),
+        (
+            native("bullnose", Diameter="6,50 mm", CornerRadius="1,50 mm", **LENGTHS),
+            {"kind": "bull-nose", "diameter": 6.5, "corner_radius": 1.5},
+        ),
+        (
+            native("v-bit", Diameter="10 mm", TipDiameter="0.1 mm", CuttingEdgeAngle="60.0000 \u00b0", **LENGTHS),
+            {"kind": "v", "tip_diameter": 0.1, "angle_deg": 60.0, "diameter": 10.0},
+        ),
+        (
+            native("chamfer", Diameter="12 mm", TipDiameter="5 mm", CuttingEdgeAngle="45 \u00b0", **LENGTHS),
+            {"kind": "v", "tip_diameter": 5.0, "angle_deg": 45.0, "diameter": 12.0},
+        ),
+        (
+            native("taperedballnose", Diameter="1 mm", TaperAngle="10 \u00b0", TaperDiameter="6 mm", **LENGTHS),
+            {"kind": "tapered-ball", "tip_radius": 0.5, "half_angle_deg": 5.0, "diameter": 6.0},
+        ),
+    ],
+    ids=lambda value: value.get("shape", "") if "shape" in value else "",
+)
+def test_freecad_s_bits_are_read_as_the_nearest_kind(tmp_path: Path, bit: Any, profile: Any) -> None:
+    document, remarks = fctb.read(written(tmp_path / "bit.fctb", bit))
+    assert document["profile"] == {**profile, **{k: pytest.approx(v) for k, v in profile.items() if k != "kind"}}
+    assert document["length"] == 50.0 and document["shank_diameter"] == 3.0
+    assert document["name"] == "bit" and document["title"] == "Native"
+    assert len(remarks) == 2
+    tool = sc.Tool.read(tmp_path / "bit.fctb")
+    assert tool.remarks == tuple(remarks) and tool.report()["notes"][:2] == remarks
+
+
+@pytest.mark.parametrize(
+    ("bit", "says"),
+    [
+        (native("probe", Diameter="6 mm"), "no profile is known for a bit of shape 'probe'"),
+        (native("ballend"), "without Diameter"),
+        (native("ballend", Diameter="6 parsec"), "not a length"),
+        (native("ballend", Diameter="1/0 mm"), "not a number"),
+        (native("ballend", Diameter="1.2.3 mm"), "not a number"),
+        ({"shape": "stylus.fcstd", "parameter": {"Profile": "{"}}, "not JSON"),
+        ({"shape": "stylus.fcstd", "parameter": {"Profile": "[]"}}, "no JSON object"),
+        ({"shape": "stylus.fcstd", "parameter": []}, "parameter is no object"),
+        ("<xml/>", "not a tool bit"),
+    ],
+)
+def test_bits_that_are_no_tools_are_refused(tmp_path: Path, bit: Any, says: str) -> None:
+    error = refused(sc.Tool.read, written(tmp_path / "bit.fctb", bit))
+    assert says in str(error) and "bit.fctb" in str(error)
+
+
+def test_a_length_changed_in_freecad_counts(tmp_path: Path) -> None:
+    sc.Tool.from_dict({"profile": BALL, "length": 100.0 / 3.0, "shank_diameter": 6.0}).write(tmp_path / "b.fctb")
+    bit = json.loads((tmp_path / "b.fctb").read_text())
+    bit["parameter"] |= {"Length": "45.00 mm", "ShankDiameter": "6.00 mm", "Diameter": "6.00 mm"}
+    read = sc.Tool.read(written(tmp_path / "c.fctb", bit))
+    assert read.to_dict()["length"] == 45.0 and read.to_dict()["shank_diameter"] == 6.0
+    assert read.remarks == ("Length was changed in FreeCAD from 33.3333 to 45 mm",)
+    bit["parameter"]["Length"] = "33.36 mm"
+    assert sc.Tool.read(written(tmp_path / "e.fctb", bit)).to_dict()["length"] == 33.36
+    bit["parameter"]["Length"] = "33.33 mm"
+    assert sc.Tool.read(written(tmp_path / "d.fctb", bit)).to_dict()["length"] == 100.0 / 3.0
+
+
+def test_a_profile_alone_is_a_stylus_too(tmp_path: Path) -> None:
+    bit = {"shape": "stylus.fcstd", "parameter": {"Profile": json.dumps(BALL)}, "attribute": {}}
+    assert sc.Tool.read(written(tmp_path / "b.fctb", bit)).diameter == 6.0
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [("5.0000 mm", 5.0), ('0.375 "', 9.525), ("0.5 in", 12.7), ("1 1/8 in", 28.575), ("1,234.5 mm", 1234.5),
+     ("45\u00b0", 45.0), ("12", 12.0), ("250 \u00b5m", 0.25), ("1e1 mm", 10.0), (7, 7.0)],
+)  # fmt: skip
+def test_lengths_are_read_as_freecad_writes_them(text: Any, value: float) -> None:
+    assert fctb.number(text, "x") == pytest.approx(value, rel=1e-12)
