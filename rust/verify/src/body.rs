@@ -46,6 +46,8 @@ struct Tangency {
     cos: f64,
     radius: f64,
     height: f64,
+    /// Whether it is a straight part of the meridian that touches, not a point.
+    straight: bool,
 }
 
 /// A plane that touches the body and has it on one side.
@@ -68,6 +70,7 @@ pub(crate) struct Distance {
     slope: f64,
     sin: f64,
     cos: f64,
+    straight: bool,
 }
 
 impl Body {
@@ -154,7 +157,7 @@ impl Body {
         };
         let outward = if radius > 0.0 { at.sin / radius } else { 0.0 };
         let away = Vector::new(p.x * outward, p.y * outward, -at.cos);
-        Distance { value, away, radius, slope: at.slope, sin: at.sin, cos: at.cos }
+        Distance { value, away, radius, slope: at.slope, sin: at.sin, cos: at.cos, straight: at.straight }
     }
 
     /// The largest gap in a cell of the table, and where it is: Newton in the root of the slope.
@@ -166,6 +169,9 @@ impl Body {
         }
         if last >= 0.0 {
             return (high.gap(radius, height), high);
+        }
+        if high.root <= low.root {
+            return (low.gap(radius, height), Tangency { straight: true, ..low });
         }
         let mut root = low.root + (high.root - low.root) * first / (first - last);
         for _ in 0..60 {
@@ -231,7 +237,7 @@ impl Body {
     }
 
     fn meridian_bend(&self, d: &Distance) -> f64 {
-        let curved = d.slope > EDGE && d.slope < FRAC_PI_2 - EDGE;
+        let curved = !d.straight && d.slope > EDGE && d.slope < FRAC_PI_2 - EDGE;
         let radius = self.cutter.curvature_radius_at(d.slope) + d.value;
         if curved && radius > EDGE {
             1.0 / radius
@@ -278,13 +284,13 @@ impl Tangency {
         let slope = root * root;
         let (sin, cos) = libm::sincos(slope);
         let (radius, height) = cutter.point_at(slope);
-        Self { root, slope, sin, cos, radius, height }
+        Self { root, slope, sin, cos, radius, height, straight: false }
     }
 
     /// At a place of the meridian where many have this slope.
     fn on(slope: f64, (radius, height): (f64, f64)) -> Self {
         let (sin, cos) = libm::sincos(slope);
-        Self { root: slope.sqrt(), slope, sin, cos, radius, height }
+        Self { root: slope.sqrt(), slope, sin, cos, radius, height, straight: false }
     }
 
     /// How far a point lies outside the plane, mm.
@@ -333,27 +339,44 @@ pub(crate) mod tests {
         Body::new(&tool(ProfileDocument::Ball { diameter, radius: None, tip_flat: 0.0 }), None)
     }
 
-    /// Balls and clothoids, with flats, with an end slope, with a sheet.
+    /// Curves, kinks, cones and flats, with a sheet.
     pub fn any_body() -> impl Strategy<Value = Body> {
-        let end = prop_oneof![Just(None), (30.0..90.0_f64).prop_map(Some)];
         let flat = prop_oneof![Just(0.0), 0.0..0.3_f64];
         let thickness = prop_oneof![Just(None), (0.2..2.0_f64).prop_map(Some)];
-        (any::<bool>(), 2.0..20.0_f64, end, flat, thickness).prop_map(|(ball, diameter, end_slope_deg, flat, sheet)| {
-            let tip_flat = flat * diameter;
-            let profile = if ball {
-                ProfileDocument::Ball { diameter, radius: None, tip_flat }
-            } else {
-                ProfileDocument::Clothoid { diameter: Some(diameter), scale: None, end_slope_deg, tip_flat }
-            };
-            let sheet =
-                sheet.map(|thickness| Sheet { thickness, law: SheetLaw::Constant, model_face: ModelFace::Back });
-            Body::new(&tool(profile), sheet.as_ref())
-        })
+        (0..8_u8, 2.0..20.0_f64, 0.1..0.9_f64, 0.1..0.9_f64, flat, thickness).prop_map(
+            |(kind, diameter, a, b, flat, sheet)| {
+                let tip_flat = flat * diameter;
+                let beyond = 0.5 * diameter - tip_flat;
+                let clothoid = |end_slope_deg| ProfileDocument::Clothoid {
+                    diameter: Some(diameter),
+                    scale: None,
+                    end_slope_deg,
+                    tip_flat,
+                };
+                let profile = match kind {
+                    0 => ProfileDocument::Ball { diameter, radius: None, tip_flat },
+                    1 => clothoid(None),
+                    2 => clothoid(Some(30.0 + 60.0 * a)),
+                    3 => ProfileDocument::Power { coefficient: 0.1 * a, exponent: 1.2 + 2.0 * b, diameter, tip_flat },
+                    4 => ProfileDocument::BullNose { diameter, corner_radius: beyond * a, tip_flat },
+                    5 => ProfileDocument::Cone { tip_radius: 0.0, half_angle_deg: 80.0 * a, diameter, tip_flat },
+                    6 => {
+                        let tip_radius = beyond * a;
+                        ProfileDocument::TaperedBall { tip_radius, half_angle_deg: 80.0 * b, diameter, tip_flat }
+                    }
+                    _ => ProfileDocument::Flat { diameter, tip_flat: 0.0 },
+                };
+                let sheet =
+                    sheet.map(|thickness| Sheet { thickness, law: SheetLaw::Constant, model_face: ModelFace::Back });
+                Body::new(&tool(profile), sheet.as_ref())
+            },
+        )
     }
 
     /// The largest gap over a fine fan of planes: the distance by its definition.
     fn by_definition(body: &Body, radius: f64, height: f64) -> f64 {
         let slopes = (0..=20_000).map(|i| FRAC_PI_2 * f64::from(i) / 20_000.0);
+        let slopes = slopes.chain(body.cutter.straights().iter().map(|s| s.slope));
         slopes.map(|s| body.cutter.gap(radius, height, s)).fold(f64::NEG_INFINITY, f64::max)
     }
 
@@ -395,7 +418,7 @@ pub(crate) mod tests {
             let (sin, cos) = slope.sin_cos();
             let (witness, plane) = body.farthest(Vector::new(-sin, 0.0, cos));
             let bound = body.support_bound(sin, cos);
-            prop_assert!(bound >= plane.support && bound < plane.support + 1e-5, "{bound} {}", plane.support);
+            prop_assert!(bound >= plane.support && bound < plane.support + 1e-3, "{bound} {}", plane.support);
             prop_assert!((plane.away.dot(&witness) - plane.support).abs() < 1e-12);
         }
 
@@ -409,7 +432,8 @@ pub(crate) mod tests {
             let tangent = body.tangent(p, &d, along);
             let step = 1e-5;
             let rate = (body.distance(p + step * along).value - body.distance(p - step * along).value) / (2.0 * step);
-            prop_assert!((tangent.rate - rate).abs() < 1e-5, "{} {rate}", tangent.rate);
+            // the second derivative jumps beside a kink
+            prop_assert!((tangent.rate - rate).abs() < 1e-4, "{} {rate}", tangent.rate);
         }
     }
 }

@@ -25,9 +25,17 @@ const PATIENCE: usize = 80;
 pub(crate) fn lower(first: f64, length: f64, best: f64, mut at: impl FnMut(f64) -> Tangent) {
     let (mut low, mut high) = (End { t: 0.0, tangent: None }, End { t: 1.0, tangent: None });
     let (mut t, mut lowest) = (first.clamp(0.0, 1.0), best);
+    // the rate from which a short step of Newton's was made, and whether the bend can be trusted
+    let (mut short, mut smooth) = (None, true);
     for turn in 0..PATIENCE {
         let here = at(t);
         lowest = lowest.min(here.value);
+        match short {
+            Some(before) if here.rate.abs() <= 0.5 * before => return,
+            // beside a kink, or near the axis, the function bends sharply in one place only
+            Some(_) => smooth = false,
+            None => {}
+        }
         let side = if here.rate > 0.0 { &mut high } else { &mut low };
         *side = End { t, tangent: Some(here) };
         let (crossing, floor) = meet(&low, &high);
@@ -35,13 +43,14 @@ pub(crate) fn lower(first: f64, length: f64, best: f64, mut at: impl FnMut(f64) 
             return;
         }
         let newton = t - here.rate / here.bend;
-        let curved = here.bend > 0.0 && newton > low.t && newton < high.t;
+        let curved = smooth && here.bend > 0.0 && newton > low.t && newton < high.t;
         let next = if curved { newton } else { guess(&low, &high, crossing, turn % 2 == 0) };
         let moved = (next - t).abs() * length;
-        if moved < EQUAL || curved && moved < SHORT {
+        if moved < EQUAL && !curved {
             at(next);
             return;
         }
+        short = (curved && moved < SHORT).then_some(here.rate.abs());
         t = next;
     }
 }

@@ -192,7 +192,7 @@ pub struct ProfileReport {
     /// Sentences: moved, mirrored, how exact.
     pub notes: Vec<String>,
     /// Largest distance of a given point from the profile, mm; points only.
-    #[serde(rename = "fit_deviation_mm", skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "fit_deviation_mm")]
     pub fit_deviation: Option<f64>,
 }
 

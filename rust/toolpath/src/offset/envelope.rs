@@ -470,12 +470,44 @@ mod tests {
     use styluscam_geometry::{ModelFace, ProfileDocument, SheetLaw, ToolDocument};
 
     fn tool(clothoid: bool, diameter: f64, tip_flat: f64) -> Tool {
-        let profile = if clothoid {
+        of(if clothoid {
             ProfileDocument::Clothoid { diameter: Some(diameter), scale: None, end_slope_deg: None, tip_flat }
         } else {
             ProfileDocument::Ball { diameter, radius: None, tip_flat }
-        };
+        })
+    }
+
+    fn of(profile: ProfileDocument) -> Tool {
         Tool::new(ToolDocument::of(profile)).unwrap()
+    }
+
+    /// Tools of diameter 12 with curves, kinks, cones and flats.
+    fn any_tool() -> impl Strategy<Value = Tool> {
+        let diameter = 12.0;
+        let flat = prop_oneof![Just(0.0), 0.1..2.0_f64];
+        (0..12_u8, 0.05..0.95_f64, 0.05..0.95_f64, flat).prop_map(move |(kind, a, b, tip_flat)| {
+            let beyond = 0.5 * diameter - tip_flat;
+            of(match kind {
+                0 => ProfileDocument::Ball { diameter, radius: None, tip_flat },
+                1 => ProfileDocument::Ball { diameter, radius: Some(beyond / a), tip_flat },
+                2 => {
+                    let end_slope_deg = Some(90.0 * a);
+                    ProfileDocument::Clothoid { diameter: Some(diameter), scale: None, end_slope_deg, tip_flat }
+                }
+                3 => ProfileDocument::Parabola { apex_radius: 12.0 * a, diameter, tip_flat },
+                4 => ProfileDocument::Ellipse { radial: 6.0, axial: 12.0 * b, diameter: None, tip_flat },
+                5 => ProfileDocument::Cycloid { diameter, tip_flat },
+                6 => ProfileDocument::Power { coefficient: 0.1 * a, exponent: 1.2 + 2.0 * b, diameter, tip_flat },
+                7 => ProfileDocument::BullNose { diameter, corner_radius: beyond * a, tip_flat },
+                8 => ProfileDocument::Barrel { diameter, radius: beyond / a, tip_radius: beyond * b, tip_flat },
+                9 => ProfileDocument::Cone { tip_radius: 0.0, half_angle_deg: 10.0 + 75.0 * a, diameter, tip_flat },
+                10 => {
+                    let tip_radius = beyond * a;
+                    ProfileDocument::TaperedBall { tip_radius, half_angle_deg: 10.0 + 75.0 * b, diameter, tip_flat }
+                }
+                _ => ProfileDocument::Flat { diameter, tip_flat: 0.0 },
+            })
+        })
     }
 
     /// The highest tip over a triangle by nested golden sections of the concave height: no facet, edge or vertex.
@@ -532,14 +564,12 @@ mod tests {
         #[test]
         fn one_triangle_is_touched_at_the_height_that_a_search_finds(
             points in prop::array::uniform9(-3.0..3.0_f64),
-            clothoid in any::<bool>(),
-            flat in prop_oneof![Just(0.0), 0.1..2.0_f64],
+            tool in any_tool(),
             sheet in prop_oneof![Just(0.0), 0.1..2.0_f64],
         ) {
             let p = points;
             let corners = [Vector::new(p[0], p[1], p[2]), Vector::new(p[3], p[4], p[5]), Vector::new(p[6], p[7], p[8])];
             prop_assume!((corners[1] - corners[0]).cross(&(corners[2] - corners[0])).norm() > 1e-3);
-            let tool = tool(clothoid, 12.0, flat);
             let mesh = single(corners);
             let bvh = Bvh::new(&mesh);
             let envelope = Envelope::new(&mesh, &bvh, &tool, None, sheet);
@@ -553,11 +583,10 @@ mod tests {
             heights in prop::collection::vec(prop_oneof![0.0..4.0_f64, Just(1.0)], 42),
             x in -2.0..8.0_f64,
             y in -2.0..7.0_f64,
-            clothoid in any::<bool>(),
+            tool in any_tool(),
         ) {
             let mesh = terrain(&heights, 7);
             let bvh = Bvh::new(&mesh);
-            let tool = tool(clothoid, 3.0, 0.0);
             let envelope = Envelope::new(&mesh, &bvh, &tool, None, 0.0);
             let each = (0..mesh.triangles().len()).filter_map(|t| {
                 let alone = single(mesh.corners(t));
