@@ -6,10 +6,11 @@ import json
 from pathlib import Path
 
 from styluscam import _engine
-from styluscam.errors import JobError
+from styluscam.errors import JobError, ToolError
 from styluscam.machine import Machine
 from styluscam.part import Part
 from styluscam.parts import PartArrays
+from styluscam.tool import Tool
 from styluscam.types import Document, Progress
 
 
@@ -25,6 +26,7 @@ class Job:
         self.file = file
         self._part = part
         self.document: Document = json.loads(engine.to_json())
+        self._tool_files = self._take_tools()
 
     @classmethod
     def read(cls, path: str | Path) -> Job:
@@ -62,9 +64,22 @@ class Job:
         """The document with all its defaults."""
         return self.document
 
+    def _take_tools(self) -> list[str]:
+        """Puts tools of libraries and files in the place of their names; returns the files."""
+        named = {name: tool["library"] for name, tool in self.document["tools"].items() if "library" in tool}
+        if not named:
+            return []
+        for name, library in named.items():
+            section = self.document["tools"][name]
+            section.pop("library")
+            self.document["tools"][name] = {**_tool(library, self.folder, f"tools.{name}.library"), **section}
+        self.engine = _engine.Job.from_json(json.dumps(self.document))
+        self.document = json.loads(self.engine.to_json())
+        return [library for library in named.values() if _is_file(library)]
+
     def inputs(self) -> list[Path]:
-        """The files that the job is read from: itself, the part's and the machine's."""
-        named = [self.document["part"]["file"], self.document["machine"].get("file")]
+        """The files that the job is read from: itself, the part's, the machine's and the tools'."""
+        named = [self.document["part"]["file"], self.document["machine"].get("file"), *self._tool_files]
         own = [] if self.file is None else [self.file]
         return own + [self.folder / name for name in named if name]
 
@@ -78,6 +93,19 @@ class Job:
     def machine(self) -> Machine:
         """The machine that the job names."""
         return Machine.of_section(self.document["machine"], self.folder)
+
+
+def _tool(library: str, folder: Path, place: str) -> Document:
+    """The document of a tool file, or of a shipped tool."""
+    try:
+        found = Tool.read(folder / library) if _is_file(library) else Tool.library(library)
+    except ToolError as error:
+        raise ToolError(f"{place}: {error}", code=error.code, where=place, hint=error.hint) from error
+    return found.to_dict()
+
+
+def _is_file(library: str) -> bool:
+    return Path(library).suffix.lower() in (".json", ".fctb")
 
 
 def job_schema() -> Document:

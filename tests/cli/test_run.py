@@ -22,6 +22,7 @@ PRINTED = 0.00005  # mm: rs274 prints four
 
 ZIG_ZAG = ('kind = "z-level"', 'kind = "zig-zag"')
 GRBL = ('name = "linuxcnc"', 'name = "grbl"')
+PROFILE = 'profile = { kind = "clothoid", diameter = 10.0 }'
 BALL = ('kind = "clothoid"', 'kind = "ball"')
 COMBINATIONS = {
     f"{'zig-zag' if rows else 'z-level'}-{'grbl' if grbl else 'linuxcnc'}-{'ball' if ball else 'clothoid'}": tuple(
@@ -66,6 +67,35 @@ def test_linuxcnc_moves_as_planned(coarse, changes):
     feeds = np.array([call.feed for call in spoken])
     cutting = planned["kind"] == 1
     assert np.array_equal(feeds[cutting], planned["feed"][cutting])
+
+
+PROFILES = {
+    "flat": '{ kind = "flat", diameter = 6.0 }',
+    "cone": '{ kind = "cone", half_angle_deg = 45.0, diameter = 8.0 }',
+    "tapered ball": '{ kind = "tapered-ball", tip_radius = 1.5, half_angle_deg = 10.0, diameter = 8.0 }',
+    "points": '{ kind = "points", points = [[0, 0], [1, 0.1], [2, 0.42], [3, 1.0], [4, 2.0], [4.6, 3.0], [5, 5.0]] }',
+    "formula": '{ kind = "formula", r = "3*sin(t)", z = "6*cos(t)", t = [0.0, 1.5707963267948966] }',
+}
+
+
+@pytest.mark.parametrize("strategy", [(), (ZIG_ZAG,)], ids=["z-level", "zig-zag"])
+@pytest.mark.parametrize("profile", PROFILES.values(), ids=PROFILES)
+def test_kinks_cones_flats_points_and_formulas_run_and_are_verified(coarse, profile, strategy):
+    run = coarse((PROFILE, f"profile = {profile}"), *strategy)
+    assert run.ran.code == 0, run.ran.out[-2000:]
+    assert run.ran.json["report"]["gouge_max"] <= 0.001
+
+
+def test_tools_come_from_libraries_and_files(coarse, tmp_path, cli):
+    shipped = coarse((PROFILE, 'library = "clothoid:medium"'))
+    assert shipped.ran.code == 0, shipped.ran.out[-2000:]
+    assert shipped.ran.json["summary"]["tools"][0]["description"] == "clothoid D12"
+    assert cli("tool", "new", tmp_path / "mine.json", "--kind", "bull-nose").code == 0
+    own = coarse((PROFILE, f'library = "{tmp_path}/mine.json"'))
+    assert own.ran.json["summary"]["tools"][0]["description"] == "bull-nose D10"
+    wrong = coarse((PROFILE, 'library = "clothiod:medium"'))
+    assert wrong.ran.code == 2 and wrong.ran.json["error"]["where"] == "tools.stylus.library"
+    assert "did you mean" in wrong.ran.json["error"]["message"] + wrong.ran.json["error"]["hint"]
 
 
 def test_rows_stay_between_the_heights_asked_for(coarse):

@@ -201,6 +201,11 @@ fn machine(section: &MachineSection) -> Result<(), JobError> {
 fn tools(job: &JobDocument) -> Result<(), JobError> {
     let mut numbers = std::collections::BTreeMap::new();
     for (name, tool) in &job.tools {
+        if tool.profile.is_some() == tool.library.is_some() {
+            let message = format!("tool {name} has either a profile or a library, and needs one");
+            let hint = "add profile = { kind = \"ball\", diameter = 10.0 }, or library = \"hemisphere-d10\"";
+            return Err(JobError::document("conflict", format!("tools.{name}"), message, hint));
+        }
         if tool.length_offset == Some(0) {
             let place = format!("tools.{name}.length_offset");
             let message = "length_offset = 0 means no length offset at all";

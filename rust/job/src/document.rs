@@ -268,8 +268,12 @@ pub struct ToolSection {
     /// Which point the program moves: the tip, or the centre of a ball.
     #[serde(default)]
     pub reference: ToolReference,
-    /// The curve from tip to base.
-    pub profile: ProfileDocument,
+    /// The curve from tip to base; this or `library`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub profile: Option<ProfileDocument>,
+    /// A shipped tool by its name ("clothoid:medium"), or a tool file (.json, .fctb); the other keys go before its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub library: Option<String>,
     /// What joins the profile's base to the shank.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub base: Option<Base>,

@@ -137,8 +137,13 @@ pub fn tools(job: &JobDocument) -> Result<BTreeMap<String, (Tool, ToolRecord)>, 
 }
 
 fn tool(name: &str, section: &ToolSection, job: &JobDocument) -> Result<(Tool, ToolRecord), JobError> {
+    let Some(profile) = section.profile.clone() else {
+        let place = format!("tools.{name}.library");
+        let message = "the tool's file or library has not been read";
+        return Err(JobError::document("unresolved", place, message, "read the job from its file, or give a profile"));
+    };
     let document = ToolDocument {
-        profile: section.profile.clone(),
+        profile,
         base: section.base,
         shank_diameter: section.shank_diameter,
         length: section.length,

@@ -78,7 +78,7 @@ kind = "spif"               # single-point incremental forming
 [tools.stylus]
 number = 1
 reference = "tip"           # the point that the program moves
-profile = {{ kind = "ball", diameter = {diameter} }}   # or kind = "clothoid"
+profile = {{ kind = "ball", diameter = {diameter} }}   # or library = "clothoid:medium"; see `styluscam tool list`
 
 [[operations]]
 kind = "{kind}"            # or "{other}"
