@@ -120,7 +120,7 @@ def test_a_library_of_one_s_own(tmp_path: Path) -> None:
         (shelf({"name": "a", "profile": BALL}, {"name": "a", "profile": BALL}), "two tools are called 'a'", "unique"),
         (shelf({"name": "a", "profile": BALL, "sizes": {"s": BALL}}), "both a profile and sizes", ""),
         (shelf({"name": "a", "sizes": {}}), "sizes are profiles by name", "small"),
-        (shelf({"name": "a", "sizes": {"s": {"kind": "ball", "raduis": 5}}}), "size s of kind ball: unknown", ""),
+        (shelf({"name": "a", "sizes": {"s": {"kind": "ball", "width": 5}}}), "size s of kind ball: unknown", ""),
         (shelf(5), "tool 1: not an object", ""),
         (shelf({"name": "a\nb", "profile": BALL}), "one line of text", ""),
     ],
