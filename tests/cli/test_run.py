@@ -219,8 +219,9 @@ def test_json_of_a_cancelled_run(coarse, cli, monkeypatch):
     def cancelled(*args, **kwargs):
         raise sc.Cancelled("cancelled", code="cancelled")
 
+    job = coarse().job  # before: the session keeps what this run gives
     monkeypatch.setattr(run.running, "run", cancelled)
-    ran = cli("run", coarse().job, "--json")
+    ran = cli("run", job, "--json")
     assert ran.code == 3
     assert json.loads(ran.out)["error"]["class"] == "Cancelled"
     assert ran.err == ""
