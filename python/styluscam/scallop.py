@@ -7,7 +7,7 @@ spacing for a scallop is simply the chord's length. Where p is small this is p^2
 curvature at the wall's slope.
 
 Walls are named by their angle in degrees, 0 for a floor and 90 for a vertical wall; lengths are mm. Passes are level lines
-(Z-levels, spirals), so that the spacing runs straight up the wall.
+(Z-levels, spirals), so that the spacing runs straight up the wall; :func:`scallop_of_rows` is for rows that do so themselves.
 """
 
 from __future__ import annotations
@@ -21,6 +21,9 @@ from styluscam.types import FloatArray
 
 HALVINGS = 64
 """Of a slope or a height: more than a double can tell apart."""
+
+THIRDS = 100
+"""Steps of a search by thirds: each leaves two thirds of the interval."""
 
 SIDE = 1e3
 """The base goes on as a cylinder of this many diameters: longer than any chord that matters."""
@@ -38,6 +41,13 @@ class Meridian(Protocol):
 
     def height_at(self, slope: npt.ArrayLike) -> FloatArray:
         """Height over the tip (mm) at the outer radius, by slope (rad)."""
+
+
+class Radial(Meridian, Protocol):
+    """A profile that also answers by radius."""
+
+    def height_at_radius(self, radius: npt.ArrayLike) -> FloatArray:
+        """Height over the tip (mm) by radius (mm)."""
 
 
 def spacing_for(tool: Meridian, wall_deg: npt.ArrayLike, scallop: npt.ArrayLike) -> FloatArray:
@@ -72,6 +82,33 @@ def scallop_of_spacing(tool: Meridian, wall_deg: npt.ArrayLike, spacing: npt.Arr
 def scallop_of_step(tool: Meridian, wall_deg: npt.ArrayLike, step: npt.ArrayLike) -> FloatArray:
     """Scallop height (mm) by wall angle (degrees) and step down between Z-levels (mm)."""
     return scallop_of_spacing(tool, wall_deg, np.asarray(step, dtype=np.float64) / np.sin(np.radians(wall_deg)))
+
+
+def scallop_of_rows(tool: Radial, wall_deg: npt.ArrayLike, spacing: npt.ArrayLike) -> FloatArray:
+    """Scallop height (mm) of rows straight up the wall, by wall angle (degrees, 0 < angle < 90) and spacing (mm).
+
+    Half a spacing beside the row the tool is cut by an upright plane; what stays below the cut is the scallop. There a
+    point at radius r stands Z(r) cos a - sqrt(r^2 - p^2/4) sin a over a plane parallel to the wall: lowest at one r.
+    For small spacings it is p^2 sin a / (8 r), r the radius at the wall's slope. NaN beyond the tool's width.
+    """
+    walls, spacings = np.broadcast_arrays(np.asarray(wall_deg, dtype=np.float64), np.asarray(spacing, dtype=np.float64))
+    angle, aside = np.radians(walls.ravel()), 0.5 * spacings.ravel()
+    rim = float(np.asarray(tool.radius_range_at(tool.max_slope)[1]))
+
+    def over(radius: FloatArray, offset: FloatArray) -> FloatArray:
+        reach = np.sqrt(np.maximum(radius**2 - offset**2, 0.0))
+        return np.asarray(tool.height_at_radius(radius) * np.cos(angle) - reach * np.sin(angle))
+
+    def lowest(offset: FloatArray) -> FloatArray:
+        low, high = np.minimum(offset, rim), np.full(len(offset), rim)
+        for _ in range(THIRDS):
+            a, b = low + (high - low) / 3.0, high - (high - low) / 3.0
+            falls = over(a, offset) > over(b, offset)
+            low, high = np.where(falls, a, low), np.where(falls, high, b)
+        return over(0.5 * (low + high), offset)
+
+    scallop = lowest(aside) - lowest(np.zeros(len(aside)))
+    return np.where(aside < rim, scallop, np.nan).reshape(walls.shape)
 
 
 class _Section:

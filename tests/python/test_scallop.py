@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import styluscam as sc
-from styluscam.scallop import scallop_of_spacing, scallop_of_step, spacing_for, step_for
+from styluscam.scallop import scallop_of_rows, scallop_of_spacing, scallop_of_step, spacing_for, step_for
 
 WALLS = np.array([15.0, 30.0, 45.0, 60.0, 75.0])
 
@@ -43,6 +43,25 @@ ELLIPSE = Closed(
 CUBIC = Closed(lambda s: np.sqrt(20.0 * np.tan(s)), lambda s: np.sqrt(20.0 * np.tan(s)) ** 3 / 60.0, np.radians(80.0))
 CONE = Closed(np.sin, lambda s: 1.0 - np.cos(s), np.radians(70.0))
 """A tip of radius 1 that ends where a cone of 20 degrees a side would begin."""
+
+
+@pytest.mark.parametrize(
+    ("profile", "published"),
+    [
+        ({"kind": "parabola", "apex_radius": 8.0, "diameter": 80.0}, [14.683, 11.049, 7.813]),
+        ({"kind": "power", "coefficient": 1.0 / 60.0, "exponent": 3.0, "diameter": 30.0}, [15.914, 19.795, 18.409]),
+        ({"kind": "ball", "diameter": 10.0}, [1e3 * (5.0 - np.sqrt(24.75))] * 3),
+    ],
+)
+def test_rows_up_the_wall_have_the_published_scallops(profile, published):
+    tool = sc.Tool.from_dict({"profile": profile})
+    found = scallop_of_rows(tool, np.array([20.0, 45.0, 60.0]), 1.0)
+    assert found * 1e3 == pytest.approx(published, abs=6e-4)
+
+
+def test_rows_farther_apart_than_the_tool_is_wide_touch_not_all():
+    tool = sc.Tool.from_dict({"profile": {"kind": "ball", "diameter": 10.0}})
+    assert np.isnan(scallop_of_rows(tool, 45.0, 10.1))
 
 
 @pytest.mark.parametrize(
