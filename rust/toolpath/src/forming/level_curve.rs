@@ -5,7 +5,7 @@ use styluscam_geometry::Vector;
 use crate::{PathPoint, Surface};
 
 /// A point counts as on the level within this distance along the normal, mm: a thousandth of what is posted.
-const ON_LEVEL: f64 = 1e-7;
+const ON_LEVEL: f64 = 1e-6;
 /// Steps at most; Newton takes two or three, bisection across a jump thirty.
 const STEPS: usize = 60;
 /// An envelope that passes the level by more than this within the last bracket has jumped, mm along the normal: far
