@@ -6,7 +6,7 @@ import contextlib
 import errno
 import os
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from styluscam.errors import StylusError
@@ -77,6 +77,22 @@ def require_writable(outputs: Iterable[Path], inputs: Iterable[Path] = ()) -> No
 def _place(path: Path) -> str:
     """The same for all names of a file."""
     return os.path.normcase(path.resolve())
+
+
+@contextlib.contextmanager
+def drawn_whole(path: Path) -> Iterator[Path]:
+    """A temporary name in the folder of ``path``, to be drawn to; it becomes ``path`` when all went well."""
+    require_writable([path])
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    os.close(handle)
+    try:
+        yield Path(name)
+        Path(name).chmod(0o644)
+        Path(name).replace(path)
+    except BaseException:
+        Path(name).unlink()
+        raise
 
 
 def _look(path: Path) -> None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -192,19 +190,10 @@ def _pane(figure: Figure, place: tuple[int, int, int, int]) -> Axes:
 
 def _save(figure: Figure, path: Path) -> None:
     """Writes the PNG to a temporary name and renames it; without the name of the program that made it."""
-    from styluscam.files import require_writable
+    from styluscam.files import drawn_whole
 
-    require_writable([path])
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
-    os.close(handle)
-    try:
+    with drawn_whole(path) as name:
         figure.savefig(name, format="png", dpi=DPI, metadata={"Software": None})
-        Path(name).chmod(0o644)
-        Path(name).replace(path)
-    except BaseException:
-        Path(name).unlink()
-        raise
 
 
 # --- the part ------------------------------------------------------------------------------------------------------

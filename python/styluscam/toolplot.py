@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -296,17 +294,8 @@ def _clean(axes: Axes, x: str, y: str) -> None:
 
 def _save(figure: Figure, path: Path) -> None:
     """Writes the picture to a temporary name and renames it; the same tools give the same bytes."""
-    from styluscam.files import require_writable
+    from styluscam.files import drawn_whole
 
-    require_writable([path])
     kind = path.suffix.lower()[1:]
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
-    os.close(handle)
-    try:
+    with drawn_whole(path) as name:
         figure.savefig(name, format=kind, dpi=DPI, metadata={"Software": None} if kind == "png" else {"Date": None})
-        Path(name).chmod(0o644)
-        Path(name).replace(path)
-    except BaseException:
-        Path(name).unlink()
-        raise
