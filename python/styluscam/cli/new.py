@@ -11,7 +11,7 @@ import typer
 
 from styluscam import files
 from styluscam.cli import console, progress
-from styluscam.cli.options import Debug, Json, PartFile, Quiet, Units
+from styluscam.cli.options import Debug, Force, Json, PartFile, Quiet, Units
 from styluscam.cli.summary import shown_path
 from styluscam.errors import JobError
 from styluscam.job import Job, starter_job
@@ -24,7 +24,6 @@ Out = Annotated[
     Path | None,
     typer.Option("--out", metavar="FILE.toml", help="The job file; beside the part when left out.", show_default=False),
 ]
-Force = Annotated[bool, typer.Option("--force", help="Replace a file that is there.")]
 
 
 def new(

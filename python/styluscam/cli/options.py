@@ -23,3 +23,4 @@ Picture: TypeAlias = Annotated[
 Json: TypeAlias = Annotated[bool, typer.Option("--json", help="Print one JSON document, errors included.")]
 Quiet: TypeAlias = Annotated[bool, typer.Option("--quiet", "-q", help="No progress, and no summary when all is well.")]
 Debug: TypeAlias = Annotated[bool, typer.Option("--debug", help="Show the traceback of a fault.")]
+Force = Annotated[bool, typer.Option("--force", help="Replace a file that is there.")]

@@ -11,7 +11,7 @@ import typer
 
 from styluscam import files, library, starters, toolfile
 from styluscam.cli import console
-from styluscam.cli.options import Debug, Json, Quiet
+from styluscam.cli.options import Debug, Force, Json, Quiet
 from styluscam.cli.summary import shown_path
 from styluscam.errors import ToolError
 from styluscam.tool import Tool
@@ -28,7 +28,6 @@ LibraryFile = Annotated[
 ]
 NewFile = Annotated[Path, typer.Argument(metavar="FILE.json", help="The tool file to write.", show_default=False)]
 Kind = Annotated[str, typer.Option("--kind", metavar="KIND", help="The profile's kind: ball, clothoid, points, ...")]
-Force = Annotated[bool, typer.Option("--force", help="Replace a file that is there.")]
 Out = Annotated[Path, typer.Option("--out", metavar="FILE.svg|.png", help="The picture to write.", show_default=False)]
 StepDown = Annotated[float, typer.Option("--step-mm", help="Step down between Z-levels, for the scallops, mm.")]
 
