@@ -1,7 +1,9 @@
 """Which tools of a library suit a part: ranked by the scallops that they leave and by what they cannot reach.
 
 Every tool follows the same passes, the job's: so the paths are equally long, and what differs is the surface that they
-leave. It only ranks; the choice, and what the material and the machine stand, are the user's.
+leave. Scallops and what stays in corners are measured with one measure, the root mean square of what is left over the
+area, as a rough surface is: a deep place counts more than many shallow ones. It only ranks; the choice, and what the
+material and the machine stand, are the user's.
 """
 
 from __future__ import annotations
@@ -13,22 +15,28 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from styluscam import planning
-from styluscam.errors import Cancelled, JobError, StylusError, ToolError
+from styluscam import planning, reach
+from styluscam.errors import Cancelled, JobError, PlanError, ToolError
 from styluscam.job import Job
 from styluscam.scallop import scallop_of_step
 from styluscam.tool import Tool
 from styluscam.types import Document, FloatArray, Progress
-from styluscam.walls import Walls, walls_of
+from styluscam.walls import BIN_DEG, Walls, walls_of
 
 BEST = 3
 """Tools for which the job is planned, to see what they bridge."""
 
+PATIENCE = 2
+"""For each of them so many tools are planned at most: one that turns out to bridge more makes room for the next."""
+
 MARGIN = 0.02
 """Of the part's curvature and of its area: less is the mesh's own coarseness."""
 
-TURNS = 24
-"""Directions of a lace against the wall over which its scallops are averaged."""
+LEAST_SHARE = 0.1 * MARGIN
+"""Of the area: where less is too hollow, that is the mesh's own coarseness too."""
+
+LEAST_GAP = 5e-4
+"""mm: less is no gap to speak of."""
 
 FLAT_RAD = 1e-3
 """A floor's slope: tools are asked here instead of at 0, where a flat is a whole interval of radii."""
@@ -48,9 +56,39 @@ class Candidate:
     """Share of the area that is more hollow than the tool is round."""
     over_rim: float
     """Share of the area steeper than the profile's end."""
+    gap_mm: float
+    """Most that stays in a corner, as the profile has it."""
+    scallop_square: float
+    """Mean square over the area, mm^2."""
+    gap_square: float
+    """The same of what stays in corners."""
     reasons: tuple[str, ...]
     bridged: tuple[Document, ...] | None = None
     """What planning found bridged; None where the job was not planned with it."""
+    failure: str = ""
+    """Why the job cannot be planned with it."""
+
+    @property
+    def left_mm(self) -> float:
+        """Root mean square of what it leaves over the area."""
+        return math.sqrt(self.scallop_square + self.gap_square)
+
+    @property
+    def asked(self) -> bool:
+        """Whether planning was tried."""
+        return self.bridged is not None or bool(self.failure)
+
+    @property
+    def bridged_mm(self) -> float:
+        """Most that stays in a place: as planning found it, else as the profile has it."""
+        if self.bridged is None:
+            return self.gap_mm
+        return max((float(bridge["excess"]) for bridge in self.bridged), default=0.0)
+
+    @property
+    def rank(self) -> tuple[bool, bool, float, str]:
+        """Sorts candidates, best first."""
+        return bool(self.failure), self.over_rim > MARGIN, self.left_mm, self.tool.name
 
     def to_dict(self) -> Document:
         """For scripts; lengths in mm, shares from 0 to 1."""
@@ -59,12 +97,15 @@ class Candidate:
             "title": self.tool.title,
             "description": self.tool.description,
             "profile": self.tool.to_dict()["profile"],
+            "left_rms_mm": self.left_mm,
             "scallop_mean_mm": self.scallop_mm,
             "scallop_max_mm": self.worst_mm,
             "scallop_max_at_deg": self.worst_at_deg,
             "unreached_share": self.unreached,
             "over_rim_share": self.over_rim,
+            "bridged_estimate_mm": self.gap_mm,
             "bridged": None if self.bridged is None else list(self.bridged),
+            "failure": self.failure,
             "reasons": list(self.reasons),
         }
 
@@ -86,83 +127,122 @@ class Advice:
         }
 
 
-def suggest(job: Job, tools: Sequence[Document], *, best: int = BEST, progress: Progress | None = None) -> Advice:
-    """Ranks tools for a job; for the ``best`` of them it is planned too, to see what they bridge.
+def suggest(
+    job: Job,
+    tools: Sequence[Document],
+    *,
+    best: int = BEST,
+    operation: str | None = None,
+    progress: Progress | None = None,
+) -> Advice:
+    """Ranks tools for all operations of a job, or for one; for the ``best`` it is planned too, to see what they bridge.
 
     Raises:
         ToolError: no tools, or one that cannot be built.
-        JobError, GeometryError: as reading the part does, or the job has nothing but floors.
+        JobError, GeometryError: as reading and planning the job do, no such operation, or nothing but floors.
         Cancelled: by ``progress``.
     """
     if not tools:
         raise ToolError("no tools to choose from", code="no-tools", where="library", hint="name a --library")
-    asked = _Asked.of(job, progress)
+    if operation is not None:
+        job = _with_one(job, operation)
+    asked = _asked_by(job, progress)
     found = []
     for number, document in enumerate(tools):
         if progress is not None and progress("comparing tools", number / len(tools)) is False:
             raise Cancelled("cancelled", code="cancelled")
         found.append(_judged(Tool.from_dict(document), asked))
-    reached = min(candidate.unreached for candidate in found) + MARGIN
-    found.sort(key=lambda c: (c.unreached > reached, c.over_rim > MARGIN, c.scallop_mm, c.tool.name))
-    planned = [_planned(candidate, job, progress) for candidate in found[:best]]
-    return Advice(tuple(planned + found[best:]), _facts(asked), _notes(asked))
+    found.sort(key=lambda candidate: candidate.rank)
+    for _ in range(PATIENCE * best):
+        number = next((n for n, candidate in enumerate(found[:best]) if not candidate.asked), -1)
+        if number < 0:
+            break
+        found[number] = _planned(found[number], job, asked, progress)
+        found.sort(key=lambda candidate: candidate.rank)
+    return Advice(tuple(found), _facts(asked), _notes(asked, job))
+
+
+def _names(document: Document) -> list[str]:
+    """Of the operations: their own, or as the engine makes them of kind and place."""
+    return [
+        operation["id"] or f"{operation['kind']}-{number}"
+        for number, operation in enumerate(document["operations"], start=1)
+    ]
+
+
+def _with_one(job: Job, operation: str) -> Job:
+    """The job with one operation only."""
+    document, names = copy.deepcopy(job.document), _names(job.document)
+    if operation not in names:
+        hint = f"the job has {', '.join(names)}"
+        raise JobError(f"no operation {operation!r}", code="no-such-operation", where="operations", hint=hint)
+    document["operations"] = [{**document["operations"][names.index(operation)], "id": operation}]
+    return Job.from_dict(document, job.folder, job.part())
 
 
 class _Passes:
-    """How far the job's passes lie apart, and which scallops that leaves."""
+    """How far an operation's passes lie apart, and which scallops that leaves."""
 
-    def __init__(self, document: Document) -> None:
-        operation = document["operations"][0]
-        self.lace = operation["kind"] != "z-level"
-        height = (operation.get("step") or {}).get("height")
-        wide = operation.get("stepover") if self.lace else height
-        self.pitch = float(wide if wide is not None else 0.5)
-        self.words = f"{'rows' if self.lace else 'levels'} {self.pitch:g} mm apart"
+    def __init__(self, operation: Document) -> None:
+        self.rows_deg: float | None = None
+        if operation["kind"] == "z-level":
+            self.pitch = float(operation["step"]["height"])
+            self.words = f"levels {self.pitch:g} mm apart"
+        else:
+            self.pitch, self.rows_deg = float(operation["stepover"]), float(operation["angle_deg"])
+            self.words = f"rows {self.pitch:g} mm apart at {self.rows_deg:g} deg"
 
-    def scallops(self, tool: Tool, angles_deg: FloatArray) -> FloatArray:
-        """Scallop height (mm) by wall angle (degrees)."""
-        if not self.lace:
+    def scallops(self, tool: Tool, angles_deg: FloatArray, turns_deg: FloatArray) -> FloatArray:
+        """Scallop height (mm) by wall angle and by the rows' turn against the wall (degrees)."""
+        if self.rows_deg is None:
             return scallop_of_step(tool, angles_deg, self.pitch)
-        return self._of_lace(tool, np.radians(angles_deg))
+        return self._of_rows(tool, np.radians(angles_deg), np.radians(turns_deg))
 
-    def _of_lace(self, tool: Tool, slopes: FloatArray) -> FloatArray:
-        """Of vertical planes in all directions against the wall, on average: p^2/8 R, R between the tool's two radii."""
-        turn = (np.arange(TURNS) + 0.5) * (np.pi / 2.0) / TURNS
-        sin, cos = np.sin(slopes)[:, None], np.cos(slopes)[:, None]
-        apart2 = self.pitch**2 / (1.0 - (sin * np.cos(turn)) ** 2)
-        up2 = (np.cos(turn) * cos) ** 2 / (1.0 - (sin * np.cos(turn)) ** 2)
+    def _of_rows(self, tool: Tool, slopes: FloatArray, turns: FloatArray) -> FloatArray:
+        """p^2/8 R of the place where vertical planes cut the wall, R between the tool's two radii (Euler)."""
+        sin, cos = np.sin(slopes), np.cos(slopes)
+        apart2 = self.pitch**2 / (1.0 - (sin * np.cos(turns)) ** 2)
+        up2 = (np.cos(turns) * cos) ** 2 / (1.0 - (sin * np.cos(turns)) ** 2)
         meridian, around = _radii(tool, slopes)
-        radius = np.where(np.isfinite(meridian), meridian, 1e9)[:, None] * up2 + around[:, None] * (1.0 - up2)
-        return np.asarray(np.minimum(apart2 / np.maximum(8.0 * radius, 1e-9), np.sqrt(apart2) / 2.0).mean(axis=1))
+        radius = np.where(np.isfinite(meridian), meridian, 1e9) * up2 + around * (1.0 - up2)
+        return np.asarray(np.minimum(apart2 / np.maximum(8.0 * radius, 1e-9), np.sqrt(apart2) / 2.0))
 
 
 @dataclass(frozen=True, eq=False)
 class _Asked:
-    """What the job asks of a tool."""
+    """What an operation asks of a tool."""
 
+    name: str
     walls: Walls
     passes: _Passes
     angles: FloatArray
     """Classes of wall angles, degrees."""
-    shares: FloatArray
-    """Of the walls' area, by class."""
+    turns: FloatArray
+    """Of the rows against the wall, degrees."""
+    areas: FloatArray
+    """Of the walls, mm^2, by class."""
     ball: float
     """Radius (mm) of the ball by which the sheet rounds every tool."""
     thickness: float
     """Of the sheet, mm; 0 without one."""
 
-    @classmethod
-    def of(cls, job: Job, progress: Progress | None) -> _Asked:
-        walls, passes = walls_of(job, progress), _Passes(job.document)
-        angles, areas = walls.classes(floors=passes.lace)
-        if not len(angles):
-            hint = "levels make no sense there: try a zig-zag"
-            raise JobError("the selected faces have no walls", code="no-walls", where="part.faces", hint=hint)
-        sheet = job.document["setup"].get("sheet") or {}
-        thickness = float(sheet.get("thickness", 0.0))
-        share = {"tool": 0.0, "mid": 0.5, "back": 1.0}.get(job.document["part"].get("model_face"), 0.0)
-        ball = share * thickness if sheet.get("law", "constant") == "constant" else 0.0
-        return cls(walls, passes, angles, areas / areas.sum(), ball, thickness)
+
+def _asked_by(job: Job, progress: Progress | None) -> list[_Asked]:
+    """What the operations ask that have walls."""
+    document, found = job.document, []
+    sheet = document["setup"].get("sheet") or {}
+    thickness = float(sheet.get("thickness", 0.0))
+    share = {"tool": 0.0, "mid": 0.5, "back": 1.0}.get(document["part"].get("model_face"), 0.0)
+    ball = share * thickness if sheet.get("law", "constant") == "constant" else 0.0
+    for index, name in enumerate(_names(document)):
+        walls, passes = walls_of(job, index, progress), _Passes(document["operations"][index])
+        angles, turns, areas = walls.classes(passes.rows_deg)
+        if len(angles):
+            found.append(_Asked(name, walls, passes, angles, turns, areas, ball, thickness))
+    if not found:
+        hint = "levels make no sense there: try a zig-zag"
+        raise JobError("the selected faces have no walls", code="no-walls", where="part.faces", hint=hint)
+    return found
 
 
 def _radii(tool: Tool, slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -174,21 +254,43 @@ def _radii(tool: Tool, slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
     return np.where(edge, 0.0, meridian), outer / np.sin(np.maximum(slopes, FLAT_RAD))
 
 
-def _judged(tool: Tool, asked: _Asked) -> Candidate:
-    heights = asked.passes.scallops(tool, asked.angles)
-    # where passes lie farther apart than the tool is wide, what is left is at least as high as the tool is round
-    heights = np.where(np.isfinite(heights), heights, max(float(np.nanmax(heights, initial=0.0)), tool.diameter))
+def _judged(tool: Tool, asked: list[_Asked]) -> Candidate:
+    """What the profile says of a tool, over all operations by their area."""
+    heights = np.concatenate([_heights(tool, each) for each in asked])
+    angles = np.concatenate([each.angles for each in asked])
+    shares = np.concatenate([each.areas for each in asked])
+    shares /= shares.sum()
     worst = int(np.argmax(heights))
-    over = float(asked.shares[np.radians(asked.angles) > tool.max_slope + 1e-6].sum())
-    unreached, hollow = _unreached(tool, asked.walls, asked.ball)
+    over = float(shares[np.radians(angles) > tool.max_slope + 1e-6].sum())
+    missed = [_unreached(tool, each.walls, each.ball) for each in asked]
+    whole = sum(each.walls.area for each in asked)
+    corners = [_corner(tool, each, area) for each, (area, _) in zip(asked, missed, strict=True)]
+    gap, where = max(((gap, where) for gap, _, where in corners), key=lambda found: found[0])
     candidate = Candidate(
-        tool, float(heights @ asked.shares), float(heights[worst]), float(asked.angles[worst]), unreached, over, ()
+        tool,
+        scallop_mm=float(heights @ shares),
+        worst_mm=float(heights[worst]),
+        worst_at_deg=float(angles[worst]),
+        unreached=sum(area for area, _ in missed) / whole,
+        over_rim=over,
+        gap_mm=gap,
+        scallop_square=float(heights**2 @ shares),
+        gap_square=sum(square for _, square, _ in corners) / whole,
+        reasons=(),
     )
-    return replace(candidate, reasons=_reasons(candidate, hollow, asked))
+    hollow = next((slope for _, slope in missed if slope is not None), None)
+    return replace(candidate, reasons=_reasons(candidate, hollow, where, asked))
+
+
+def _heights(tool: Tool, asked: _Asked) -> FloatArray:
+    """Scallops (mm) by class."""
+    heights = asked.passes.scallops(tool, asked.angles, asked.turns)
+    # where passes lie farther apart than the tool is wide, what is left is at least as high as the tool is round
+    return np.where(np.isfinite(heights), heights, max(float(np.nanmax(heights, initial=0.0)), tool.diameter))
 
 
 def _unreached(tool: Tool, walls: Walls, ball: float) -> tuple[float, float | None]:
-    """Share of the area that is more hollow than tool and sheet are round, and the slope (rad) where most of it is."""
+    """Area (mm^2) that is more hollow than tool and sheet are round, and the slope (rad) where most of it is."""
     meridian, around = _radii(tool, walls.slopes)
     up, twist, level = (walls.bends * (1.0 - MARGIN)).T
     with np.errstate(divide="ignore"):
@@ -199,27 +301,55 @@ def _unreached(tool: Tool, walls: Walls, ball: float) -> tuple[float, float | No
     if free.all():
         return 0.0, None
     missed = walls.areas[~free]
-    return float(missed.sum() / walls.areas.sum()), float(np.average(walls.slopes[~free], weights=missed))
+    return float(missed.sum()), float(np.average(walls.slopes[~free], weights=missed))
 
 
-def _reasons(candidate: Candidate, hollow: float | None, asked: _Asked) -> tuple[str, ...]:
+def _corner(tool: Tool, asked: _Asked, missed: float) -> tuple[float, float, str]:
+    """The largest gap (mm) in a corner, the sum of gap^2 over all corners' areas (mm^4), and where the largest is.
+
+    Fillets count where the tool is too flat for some of the area (``missed``, mm^2).
+    """
+    corners = asked.walls.corners
+    if not len(corners.radii):
+        return 0.0, 0.0, ""
+    gaps, widths = reach.gaps(tool, corners, asked.ball)
+    gaps = np.where((corners.radii == 0.0) | (missed > LEAST_SHARE * asked.walls.area), gaps, 0.0)
+    areas = corners.lengths * widths
+    areas *= min(1.0, asked.walls.area / max(float(areas.sum()), 1e-12))
+    worst = int(np.argmax(gaps))
+    low, high = np.sort(np.degrees(np.arccos(np.clip(corners.sides[worst, :, 2], 0.0, 1.0))))
+    radius = float(corners.radii[worst])
+    kind = f"fillet of {radius:.3g} mm" if radius else "sharp corner"
+    return float(gaps[worst]), float(gaps**2 @ areas), f"the {kind} between {low:.3g} and {high:.3g} deg"
+
+
+def _reasons(candidate: Candidate, hollow: float | None, corner: str, asked: list[_Asked]) -> tuple[str, ...]:
     tool, over, unreached = candidate.tool, candidate.over_rim, candidate.unreached
-    common = float(asked.angles[int(np.argmax(asked.shares))])
+    most = max(asked, key=lambda each: float(each.areas.max()))
+    common = float(most.angles[int(np.argmax(most.areas))])
     radius = float(_radii(tool, np.radians([common]))[0][0])
-    said = [f"scallops of {1e3 * candidate.scallop_mm:.3g} um on average"]
+    said = [f"scallops of {micrometres(candidate.scallop_mm)} um on average"]
     if over <= MARGIN:
         shape = "straight" if not math.isfinite(radius) else f"round with {radius:.3g} mm" if radius else "a sharp edge"
         said.append(f"{shape} at {common:.3g} deg, where most of the walls are")
     else:
         said.append(f"ends at {math.degrees(tool.max_slope):.3g} deg: its rim forms {100.0 * over:.2g} % of the walls")
-    if hollow is not None and unreached > MARGIN / 10.0:
+    if hollow is not None and unreached > LEAST_SHARE:
         said.append(f"too flat for {100.0 * unreached:.2g} % of the area, near {math.degrees(hollow):.2g} deg")
-    if radius < 2.0 * asked.thickness:
-        said.append(f"sharper than two sheet thicknesses ({2.0 * asked.thickness:g} mm): it may tear the sheet")
+    if candidate.gap_mm > LEAST_GAP:
+        said.append(f"its profile leaves {candidate.gap_mm:.3f} mm in {corner}")
+    if radius < 2.0 * most.thickness:
+        said.append(f"sharper than two sheet thicknesses ({2.0 * most.thickness:g} mm): it may tear the sheet")
     return tuple(said)
 
 
-def _planned(candidate: Candidate, job: Job, progress: Progress | None) -> Candidate:
+def micrometres(length_mm: float) -> str:
+    """A length in micrometres to three digits, without a power of ten."""
+    value = 1e3 * length_mm
+    return f"{value:.{0 if value >= 99.95 else 1 if value >= 9.995 else 2}f}"
+
+
+def _planned(candidate: Candidate, job: Job, asked: list[_Asked], progress: Progress | None) -> Candidate:
     """The same with what planning the job with this tool found bridged."""
     document = copy.deepcopy(job.document)
     for name in {operation["tool"] for operation in document["operations"]}:
@@ -231,42 +361,71 @@ def _planned(candidate: Candidate, job: Job, progress: Progress | None) -> Candi
     try:
         work = Job.from_dict(document, job.folder, job.part())
         figures, _ = planning.plan(work, progress=progress).summary()
-    except Cancelled:
-        raise
-    except StylusError as error:
-        return _with(candidate, None, f"the job cannot be planned with it: {error}")
+    except (PlanError, ToolError) as error:
+        failure = str(error)
+        reasons = (*candidate.reasons, f"the job cannot be planned with it: {failure}")
+        return replace(candidate, failure=failure, reasons=reasons)
     bridged = [bridge for operation in figures["operations"] for bridge in operation["bridged"]]
-    if not bridged:
-        return _with(candidate, (), "bridges nothing")
-    worst = max(bridged, key=lambda bridge: float(bridge["excess"]))
-    faces = len({bridge["face"] for bridge in bridged})
-    said = f"bridges up to {worst['excess']:.3f} mm in Face{worst['face']}"
-    return _with(candidate, tuple(bridged), said + (f" ({faces} faces in all)" if faces > 1 else ""))
+    faces = sorted({int(bridge["face"]) for bridge in bridged})
+    worst = max(bridged, key=lambda bridge: float(bridge["excess"]), default=None)
+    square = _square_of(candidate, 0.0 if worst is None else float(worst["excess"]), faces, asked)
+    said = "planned: it bridges nothing"
+    if worst is not None:
+        said = f"planned: it bridges up to {worst['excess']:.3f} mm in Face{worst['face']}"
+        said += f" ({len(faces)} faces in all)" if len(faces) > 1 else ""
+    return replace(candidate, bridged=tuple(bridged), gap_square=square, reasons=(*candidate.reasons, said))
 
 
-def _with(candidate: Candidate, bridged: tuple[Document, ...] | None, reason: str) -> Candidate:
-    return replace(candidate, bridged=bridged, reasons=(*candidate.reasons, reason))
+def _square_of(candidate: Candidate, excess: float, faces: list[int], asked: list[_Asked]) -> float:
+    """Mean square (mm^2) of what planning found bridged: as in the corners, or where those are not to blame, all over."""
+    if candidate.gap_mm > LEAST_GAP:
+        return candidate.gap_square * (excess / candidate.gap_mm) ** 2
+    within = sum(float(each.walls.areas[np.isin(each.walls.ids, faces)].sum()) for each in asked)
+    return excess**2 * within / sum(each.walls.area for each in asked)
 
 
-def _facts(asked: _Asked) -> Document:
-    walls = asked.walls
-    angles, areas = walls.classes(floors=True)
+def _facts(asked: list[_Asked]) -> Document:
+    angles, areas = _angles(asked)
+    hollows = [hollow for each in asked if (hollow := each.walls.smallest_hollow_mm) is not None]
+    area = sum(each.walls.area for each in asked)
     return {
-        "passes": asked.passes.words,
+        "passes": "; ".join(dict.fromkeys(each.passes.words for each in asked)),
+        "operations": [
+            {"id": each.name, "passes": each.passes.words, "faces": each.walls.faces, "area_mm2": each.walls.area}
+            for each in asked
+        ],
         "walls": [
             {"angle_deg": float(angle), "share": float(area)}
             for angle, area in zip(angles, areas / areas.sum(), strict=True)
         ],
-        "floor_share": walls.floor_share,
-        "smallest_concave_radius_mm": walls.smallest_hollow_mm,
-        "sharp_concave_edges_mm": walls.crease_mm,
+        "floor_share": sum(each.walls.floor_share * each.walls.area for each in asked) / area,
+        "smallest_concave_radius_mm": min(hollows, default=None),
+        "sharp_concave_edges_mm": max(each.walls.crease_mm for each in asked),
     }
 
 
-def _notes(asked: _Asked) -> tuple[str, ...]:
-    walls, said = asked.walls, []
-    if walls.floor_share > MARGIN and not asked.passes.lace:
-        said.append(f"{100.0 * walls.floor_share:.2g} % of the area is floor: levels leave it, and it does not count")
-    if walls.crease_mm > 0.0:
-        said.append(f"{walls.crease_mm:.0f} mm of sharp concave edges: no tool reaches into them")
+def _angles(asked: list[_Asked]) -> tuple[FloatArray, FloatArray]:
+    """Wall angles (degrees) of all operations, floors included, in classes, and their areas (mm^2)."""
+    found = [each.walls.classes(0.0) for each in asked]
+    angles, areas = np.concatenate([each[0] for each in found]), np.concatenate([each[2] for each in found])
+    _, number = np.unique(np.floor(angles / BIN_DEG), return_inverse=True)
+    sums: FloatArray = np.bincount(number, areas).astype(np.float64)
+    return np.bincount(number, angles * areas) / sums, sums
+
+
+def _notes(asked: list[_Asked], job: Job) -> tuple[str, ...]:
+    said = []
+    for each in asked:
+        walls, name = each.walls, f"{each.name}: " if len(asked) > 1 else ""
+        if walls.floor_share > MARGIN and each.passes.rows_deg is None:
+            share = 100.0 * walls.floor_share
+            said.append(f"{name}{share:.2g} % of the area is floor: levels leave it, and it does not count")
+        if walls.crease_mm > 0.0:
+            said.append(f"{name}{walls.crease_mm:.0f} mm of sharp concave edges: every tool leaves something in them")
+    left_out = [name for name in _names(job.document) if name not in {each.name for each in asked}]
+    if left_out:
+        said.append(f"without walls, and not counted: {', '.join(left_out)}")
+    tools = {operation["tool"] for operation in job.document["operations"]}
+    if len(tools) > 1:
+        said.append(f"each tool is asked to do the work of {len(tools)}: --operation ranks for one operation")
     return tuple(said)

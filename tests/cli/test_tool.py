@@ -150,20 +150,30 @@ def test_without_matplotlib_the_extra_is_named(cli: Any, tmp_path: Path, monkeyp
     assert not list(tmp_path.iterdir())
 
 
+FINE_CUP = changed(
+    COARSE_CUP,
+    ("tolerance = 0.001", "tolerance = 0.01"),
+    ("tolerance = 0.005", "tolerance = 0.05"),
+    ("height = 4.0", "height = 0.4"),
+)
+
+
 def test_suggest_ranks_by_scallop_and_reach(cli: Any, mine: Path, tmp_path: Path) -> None:
     job = tmp_path / "job.toml"
-    job.write_text(
-        changed(COARSE_CUP, ("tolerance = 0.001", "tolerance = 0.01"), ("tolerance = 0.005", "tolerance = 0.05"))
-    )
+    job.write_text(FINE_CUP)
     ran = cli("tool", "suggest", job, "--library", mine, "--plan", "2", "--json")
     assert ran.code == 0, ran.err
     document = ran.json
     tools = {tool["name"]: tool for tool in document["tools"]}
-    # D12 and D6 fit the R8 fillet; the D20 clothoid leaves less on the wall but is too flat for the fillet's foot
+    # D12 and D6 fit the R8 fillet; the D20 clothoid leaves less than D12 on the wall but 0.2 mm at the fillet's foot
     assert [tool["name"] for tool in document["tools"]] == ["ball:l", "ball:s", "clothoid"]
+    assert tools["clothoid"]["scallop_mean_mm"] < tools["ball:l"]["scallop_mean_mm"]
     assert tools["clothoid"]["unreached_share"] > 0.02 > tools["ball:l"]["unreached_share"]
+    assert tools["clothoid"]["bridged_estimate_mm"] > 0.1 and tools["ball:l"]["bridged_estimate_mm"] == 0.0
     assert any("too flat" in reason for reason in tools["clothoid"]["reasons"])
-    assert tools["clothoid"]["bridged"] is None and tools["ball:l"]["bridged"] == []
+    # planning found more than the profile had said: the tool behind it was planned too, and went before it
+    assert max(bridge["excess"] for bridge in tools["clothoid"]["bridged"]) > tools["clothoid"]["bridged_estimate_mm"]
+    assert tools["ball:s"]["bridged"] == [] == tools["ball:l"]["bridged"]
     assert tools["ball:l"]["scallop_mean_mm"] < tools["ball:s"]["scallop_mean_mm"]
     walls = document["part"]["walls"]
     assert sum(wall["share"] for wall in walls) == pytest.approx(1.0)
@@ -174,11 +184,70 @@ def test_suggest_ranks_by_scallop_and_reach(cli: Any, mine: Path, tmp_path: Path
     assert not list(tmp_path.glob("*.ngc"))
 
 
+CAP = (
+    ("cone_cup.step", "cap_r60.step"),
+    ('faces = ["Face1", "Face2", "Face3", "Face4"]', 'faces = ["Face1"]'),
+    ('"back"', '"tool"'),
+)
+
+
+def test_suggest_ranks_by_what_stays_in_a_crease(cli: Any, tmp_path: Path) -> None:
+    balls = [{"name": f"d{d}", "profile": {"kind": "ball", "diameter": d}} for d in (3.0, 25.0)]
+    shelf = tmp_path / "balls.json"
+    shelf.write_text(json.dumps({"schema": 1, "name": "balls", "tools": balls}))
+    job = tmp_path / "job.toml"
+    job.write_text(changed(FINE_CUP, *CAP))
+    estimated = cli("tool", "suggest", job, "--library", shelf, "--plan", "0", "--json").json["tools"]
+    planned = cli("tool", "suggest", job, "--library", shelf, "--plan", "2", "--json").json["tools"]
+    for tools in (estimated, planned):
+        assert [tool["name"] for tool in tools] == ["d3.0", "d25.0"]
+        assert tools[1]["scallop_mean_mm"] < tools[0]["scallop_mean_mm"]
+    excesses = [max(bridge["excess"] for bridge in tool["bridged"]) for tool in planned]
+    assert [tool["bridged_estimate_mm"] for tool in estimated] == pytest.approx(excesses, rel=0.2)
+
+
+def test_suggest_takes_each_operation_s_faces(cli: Any, mine: Path, tmp_path: Path) -> None:
+    job = tmp_path / "job.toml"
+    floor = '[[operations]]\nid = "floor"\nkind = "zig-zag"\ntool = "stylus"\nstepover = 0.2\nfaces = ["Face1"]\n\n[machine]'
+    job.write_text(changed(FINE_CUP, ("[machine]", floor)))
+    words = ("tool", "suggest", job, "--library", mine, "--plan", "0")
+    document = cli(*words, "--json").json
+    cup, only = document["part"]["operations"]
+    assert (cup["id"], cup["faces"]) == ("cup", [1, 2, 3, 4]) and (only["id"], only["faces"]) == ("floor", [1])
+    alone = cli(*words, "--json", "--operation", "floor").json
+    assert [each["id"] for each in alone["part"]["operations"]] == ["floor"]
+    assert [wall["angle_deg"] for wall in alone["part"]["walls"]] == pytest.approx([0.0], abs=0.1)
+    assert "rows 0.2 mm apart at 0 deg, on Face1" in cli(*words).out
+    ran = cli(*words, "--operation", "flor")
+    assert ran.code == 2 and "no operation 'flor'" in ran.err and "floor" in ran.err
+    job.write_text(changed(FINE_CUP, ('"Face4"', '"Face44"')))
+    assert "no face 'Face44'" in cli(*words).err
+
+
+def test_suggest_puts_last_what_cannot_be_planned(cli: Any, mine: Path, tmp_path: Path, monkeypatch: Any) -> None:
+    from styluscam import planning
+
+    plan = planning.plan
+
+    def refusing(job: sc.Job, **more: Any) -> Any:
+        if job.document["tools"]["stylus"]["profile"]["diameter"] == 12.0:
+            raise sc.PlanError("it meets nothing", code="empty", where="operations[0]")
+        return plan(job, **more)
+
+    monkeypatch.setattr(planning, "plan", refusing)
+    job = tmp_path / "job.toml"
+    job.write_text(FINE_CUP)
+    tools = cli("tool", "suggest", job, "--library", mine, "--plan", "2", "--json").json["tools"]
+    assert [tool["name"] for tool in tools] == ["ball:s", "clothoid", "ball:l"]
+    assert tools[2]["failure"] == "it meets nothing" and "cannot be planned" in tools[2]["reasons"][-1]
+    assert tools[0]["bridged"] == [] and tools[1]["bridged"]
+
+
 def test_suggest_says_what_a_zig_zag_leaves(cli: Any, mine: Path, tmp_path: Path) -> None:
     job = tmp_path / "job.toml"
     job.write_text(changed(COARSE_CUP, ('"z-level"', '"zig-zag"'), ("tolerance = 0.001", "tolerance = 0.01")))
     document = cli("tool", "suggest", job, "--library", mine, "--plan", "0", "--json").json
-    assert document["part"]["passes"] == "rows 10 mm apart"
+    assert document["part"]["passes"] == "rows 10 mm apart at 30 deg"
     assert all(tool["bridged"] is None for tool in document["tools"])
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -13,6 +13,9 @@ from styluscam.cli.failures import naming
 from styluscam.cli.options import Debug, JobFile, Json, Quiet
 from styluscam.job import Job
 from styluscam.types import Document
+
+if TYPE_CHECKING:
+    from styluscam.suggest import Candidate
 
 LibraryFile = Annotated[
     Path | None,
@@ -24,6 +27,9 @@ LibraryFile = Annotated[
     ),
 ]
 Best = Annotated[int, typer.Option("--plan", min=0, max=50, help="Plan the job with so many of the best.")]
+Operation = Annotated[
+    str | None, typer.Option("--operation", metavar="ID", help="Rank for one operation alone.", show_default=False)
+]
 Rows = Annotated[int, typer.Option("--rows", min=1, help="Show so many tools.")]
 
 
@@ -31,6 +37,7 @@ def suggest(
     job: JobFile,
     *,
     own: LibraryFile = None,
+    operation: Operation = None,
     plan: Best = 3,
     rows: Rows = 12,
     json: Json = False,
@@ -39,14 +46,16 @@ def suggest(
 ) -> int:
     """Rank a library's tools for a job: by the scallops they leave and by what they cannot reach.
 
-    All follow the job's passes, so that the paths are equally long. It only ranks: the choice is yours.
+    All follow the job's passes, so that the paths are equally long, and do all of its operations. It only ranks: the
+    choice is yours.
     """
+    from styluscam.suggest import micrometres
     from styluscam.suggest import suggest as advise
 
     with naming(job), progress.shown(not (json or quiet)) as report:
         work = Job.read(job)
         shelf = _shelf(work) if own is None else library.read_library(own)
-        advice = advise(work, list(shelf.tools.values()), best=plan, progress=report)
+        advice = advise(work, list(shelf.tools.values()), best=plan, operation=operation, progress=report)
     if json:
         console.say_json({"library": shelf.name, **advice.to_dict()})
         return 0
@@ -57,19 +66,32 @@ def suggest(
         [
             candidate.tool.name,
             candidate.tool.description,
-            f"{1e3 * candidate.scallop_mm:.3g}",
-            f"{1e3 * candidate.worst_mm:.3g} at {candidate.worst_at_deg:.0f}°",
+            micrometres(candidate.left_mm),
+            micrometres(candidate.scallop_mm),
+            f"{micrometres(candidate.worst_mm)} at {candidate.worst_at_deg:.0f}°",
+            _bridged(candidate),
             f"{100.0 * candidate.unreached:.1f}",
         ]
         for candidate in candidates
     ]
-    headings = {"tool": "left", "profile": "left", "scallop um": "right", "largest": "right", "unreached %": "right"}
+    headings = {
+        "tool": "left", "profile": "left", "left um": "right", "scallop um": "right", "largest": "right",
+        "bridged mm": "right", "unreached %": "right",
+    }  # fmt: skip
     console.table(headings, table)
     console.say()
-    console.fields([(candidate.tool.name, "; ".join(candidate.reasons)) for candidate in candidates[: max(plan, 3)]])
+    said = [candidate for number, candidate in enumerate(candidates) if candidate.asked or number < 3]
+    console.fields([(candidate.tool.name, "; ".join(candidate.reasons)) for candidate in said])
     console.say()
     console.fields(_part(advice.facts) + [("note", note) for note in advice.notes])
     return 0
+
+
+def _bridged(candidate: Candidate) -> str:
+    """As planning found it, or with a ~ as the profile has it."""
+    if candidate.failure:
+        return "no path"
+    return f"{'' if candidate.asked else '~'}{candidate.bridged_mm:.3f}"
 
 
 def _shelf(job: Job) -> library.Library:
@@ -82,7 +104,17 @@ def _part(facts: Document) -> list[tuple[str, str]]:
     most = sorted(facts["walls"], key=lambda wall: -wall["share"])[:3]
     walls = ", ".join(f"{100.0 * wall['share']:.0f} % near {wall['angle_deg']:.0f} deg" for wall in most)
     hollow = facts["smallest_concave_radius_mm"]
+    operations = [
+        (operation["id"], f"{operation['passes']}, on {_faces(operation['faces'])}")
+        for operation in facts["operations"]
+    ]
     return [
+        *operations,
         ("wall angles", walls),
         ("most concave", "nowhere" if hollow is None else f"radius {hollow:.3g} mm"),
     ]
+
+
+def _faces(numbers: list[int]) -> str:
+    shown = ", ".join(f"Face{number}" for number in numbers[:6])
+    return shown if len(numbers) <= 6 else f"{shown}, ... {len(numbers)} faces in all"
