@@ -13,7 +13,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from styluscam import toolfile
+import numpy as np
+
+from styluscam import _engine, toolfile
 from styluscam.errors import ToolError
 from styluscam.types import Document
 
@@ -28,9 +30,6 @@ EXACT = "Profile"
 
 SHANK_OVER_PROFILE = 40.0
 """Length of the shank over the profile unless it is given, mm."""
-
-ROUNDED = 0.01
-"""A length that FreeCAD shows and that is farther from the exact one than this (mm) was changed there."""
 
 UNITS = {
     "": 1.0, "mm": 1.0, "cm": 10.0, "m": 1000.0, "um": 0.001, "µm": 0.001, "μm": 0.001,
@@ -47,11 +46,12 @@ def text_of(tool: Tool) -> str:
     """The file's text for a tool."""
     height = float(tool.height_at(tool.max_slope))
     document = tool.to_dict()
+    usual = _usual(tool.diameter, height)
     lengths = {
         "Diameter": tool.diameter,
         "CuttingEdgeHeight": height,
-        "Length": document.get("length", height + SHANK_OVER_PROFILE),
-        "ShankDiameter": document.get("shank_diameter", tool.diameter),
+        "Length": document.get("length", usual["length"]),
+        "ShankDiameter": document.get("shank_diameter", usual["shank_diameter"]),
     }
     parameters = {EXACT: json.dumps(document)} | {name: f"{value!r} mm" for name, value in lengths.items()}
     return toolfile.text_of(
@@ -97,16 +97,49 @@ def document_of(exact: str, where: str) -> Document:
     return toolfile.bare(parsed) if EXACT.lower() in parsed else {EXACT.lower(): parsed}
 
 
+def _usual(diameter: float, height: float) -> dict[str, float]:
+    """What FreeCAD is told of a tool that leaves these open (mm)."""
+    return {"length": height + SHANK_OVER_PROFILE, "shank_diameter": diameter}
+
+
+def _size(document: Document) -> tuple[float, float] | None:
+    """Diameter and height (mm) of the profile; None where it does not build, which is for others to say."""
+    try:
+        tool = _engine.Tool(json.dumps({"profile": document["profile"]}))
+    except (ToolError, KeyError, TypeError, ValueError):
+        return None
+    return tool.diameter, float(tool.height_at(np.array([tool.max_slope]))[0])
+
+
 def _stylus(values: Document, where: str) -> tuple[Document, list[str]]:
     """The exact document; a length that was changed in FreeCAD since counts."""
     document, remarks = document_of(str(values[EXACT]), where), []
+    size = _size(document)
+    usual = {} if size is None else _usual(*size)
     for key, name in (("length", "Length"), ("shank_diameter", "ShankDiameter")):
         shown = number(values[name], f"{where}: {name}") if name in values else 0.0
-        if shown > 0.0 and (key not in document or abs(shown - document[key]) > ROUNDED):
-            if key in document:
-                remarks.append(f"{name} was changed in FreeCAD from {document[key]:g} to {shown:g} mm")
-            document[key] = shown
+        exact = document.get(key, usual.get(key))
+        if shown <= 0.0 or (key in document and not _is_number(exact)):
+            continue
+        if _is_number(exact) and _shows(values[name], float(exact or 0.0)):
+            continue
+        if key in document:
+            remarks.append(f"{name} was changed in FreeCAD from {exact:g} to {shown:g} mm")
+        document[key] = shown
     return document, remarks
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _shows(text: object, exact: float) -> bool:
+    """Whether FreeCAD's text stands for an exact length (mm): it is that length with as many decimals as it has."""
+    found = NUMBER.fullmatch(str(text))
+    if found is None or found[3]:
+        return number(text, "") == exact
+    step = UNITS[found[4].lower()] * 10.0 ** -len(re.split("[.,]", found[1] + ".")[1])
+    return abs(number(text, "") - exact) <= 0.5 * step * (1.0 + 1e-6)
 
 
 def _native(bit: Document, values: Document, where: str) -> tuple[Document, list[str]]:
@@ -128,7 +161,18 @@ def _native(bit: Document, values: Document, where: str) -> tuple[Document, list
     for key, name in (("length", "Length"), ("shank_diameter", "ShankDiameter")):
         if name in values and measure(name) > 0.0:
             document[key] = measure(name)
+    if "CuttingEdgeHeight" in values:
+        document |= _base(document, measure("CuttingEdgeHeight"))
     return document, [remark, "lengths are as FreeCAD rounded them when it wrote the file"]
+
+
+def _base(document: Document, edge: float) -> Document:
+    """The cylinder from the profile to the end of the cutting edge (mm), below a shank of another diameter."""
+    size = _size(document)
+    if size is None or document.get("shank_diameter", size[0]) == size[0]:
+        return {}
+    height = round(edge - size[1], 9)
+    return {"base": {"kind": "cylindrical", "height": height}} if height > 0.0 else {}
 
 
 def number(value: object, where: str) -> float:

@@ -141,15 +141,16 @@ def test_a_library_that_is_not_there(tmp_path: Path) -> None:
 EXACT = {"kind": "clothoid", "diameter": 3.175 + 1e-11, "tip_flat": 1.0 / 3.0}
 
 
+@pytest.mark.parametrize("more", ({"shank_diameter": 4.0 / 3.0, "length": 100.0 / 3.0}, {"length": 100.0 / 3.0}, {}))
 @pytest.mark.parametrize("ending", (".json", ".fctb"))
-def test_files_keep_every_bit(tmp_path: Path, ending: str) -> None:
-    document = {"title": "Odd one", "profile": EXACT, "shank_diameter": 4.0 / 3.0, "length": 100.0 / 3.0}
+def test_files_keep_every_bit(tmp_path: Path, ending: str, more: Any) -> None:
+    document = {"title": "Odd one", "profile": EXACT, **more}
     tool = sc.Tool.from_dict(document)
     tool.write(tmp_path / f"odd{ending}")
     read = sc.Tool.read(tmp_path / f"odd{ending}")
     assert read.to_dict() == tool.to_dict()
     assert read.to_dict()["profile"]["diameter"] == EXACT["diameter"]
-    assert read.to_dict()["length"] == 100.0 / 3.0
+    assert read.to_dict().get("length") == more.get("length") and read.remarks == ()
     assert read.title == "Odd one"
     assert [file.name for file in tmp_path.iterdir()] == [f"odd{ending}"]
 
@@ -345,6 +346,48 @@ def test_a_length_changed_in_freecad_counts(tmp_path: Path) -> None:
     assert sc.Tool.read(written(tmp_path / "e.fctb", bit)).to_dict()["length"] == 33.36
     bit["parameter"]["Length"] = "33.33 mm"
     assert sc.Tool.read(written(tmp_path / "d.fctb", bit)).to_dict()["length"] == 100.0 / 3.0
+
+
+@pytest.mark.parametrize(
+    ("text", "length"),
+    [("33.3 mm", 100.0 / 3.0), ("33 mm", 100.0 / 3.0), ("33,333 mm", 100.0 / 3.0), ("33.334 mm", 33.334),
+     ("33.4 mm", 33.4), ('1.3123 "', 100.0 / 3.0), ('1.3124 "', 1.3124 * 25.4), ('1 5/16"', 33.3375)],
+)  # fmt: skip
+def test_a_length_is_compared_as_it_is_shown(tmp_path: Path, text: str, length: float) -> None:
+    sc.Tool.from_dict({"profile": BALL, "length": 100.0 / 3.0}).write(tmp_path / "b.fctb")
+    bit = json.loads((tmp_path / "b.fctb").read_text())
+    bit["parameter"]["Length"] = text
+    assert sc.Tool.read(written(tmp_path / "c.fctb", bit)).to_dict()["length"] == pytest.approx(length, rel=1e-15)
+
+
+def test_freecad_s_rounding_of_lengths_that_a_tool_leaves_open(tmp_path: Path) -> None:
+    tool = sc.Tool.from_dict({"profile": {"kind": "ball", "diameter": 3.175}})
+    tool.write(tmp_path / "b.fctb")
+    bit = json.loads((tmp_path / "b.fctb").read_text())
+    bit["parameter"] |= {"Length": "41.59 mm", "ShankDiameter": "3.17 mm"}
+    assert sc.Tool.read(written(tmp_path / "c.fctb", bit)).to_dict() == tool.to_dict()
+    bit["parameter"] |= {"Length": "50.00 mm"}
+    assert sc.Tool.read(written(tmp_path / "c.fctb", bit)).to_dict() == {**tool.to_dict(), "length": 50.0}
+
+
+@pytest.mark.parametrize("length", (None, "a", [1.0], True, {}))
+def test_a_malformed_length_in_a_bit_is_the_user_s(tmp_path: Path, length: Any) -> None:
+    document = {"profile": BALL, "length": length}
+    bit = {"shape": "stylus.fcstd", "parameter": {"Profile": json.dumps(document), "Length": "40 mm"}, "attribute": {}}
+    if length is None:
+        assert sc.Tool.read(written(tmp_path / "b.fctb", bit)).to_dict().get("length") is None
+    else:
+        assert "b.fctb" in str(refused(sc.Tool.read, written(tmp_path / "b.fctb", bit)))
+
+
+def test_the_cutting_edge_of_a_bit_is_a_base(tmp_path: Path) -> None:
+    bit = native("endmill", Diameter="1 mm", CuttingEdgeHeight="4 mm", Length="38 mm", ShankDiameter="3 mm")
+    read = sc.Tool.read(written(tmp_path / "e.fctb", bit)).to_dict()
+    assert read["base"] == {"kind": "cylindrical", "height": 4.0}
+    bit["shape"], bit["parameter"]["Diameter"] = "ballend.fcstd", "2 mm"
+    assert sc.Tool.read(written(tmp_path / "e.fctb", bit)).to_dict()["base"]["height"] == 3.0
+    bit["parameter"]["ShankDiameter"] = "2 mm"
+    assert "base" not in sc.Tool.read(written(tmp_path / "e.fctb", bit)).to_dict()
 
 
 def test_a_profile_alone_is_a_stylus_too(tmp_path: Path) -> None:
