@@ -16,8 +16,9 @@ def read_text(path: str | Path, failure: type[StylusError]) -> str:
     """The text of a file; what keeps it from being read raises ``failure``."""
     try:
         return Path(path).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise failure(f"{path}: cannot be read: {error}", code="unreadable", where=str(path)) from error
+    except (OSError, ValueError) as error:
+        why = "it is not text in UTF-8" if isinstance(error, UnicodeDecodeError) else _reason(error)
+        raise failure(f"{path}: cannot be read: {why}", code="unreadable", where=str(path)) from error
 
 
 def write_whole(path: Path, text: str) -> None:
@@ -111,8 +112,13 @@ def _look(path: Path) -> None:
 
 def _unwritable(path: Path, error: OSError | ValueError) -> StylusError:
     name = str(path).replace("\0", "?")
-    message = f"{name}: cannot be written: {getattr(error, 'strerror', None) or error}"
+    message = f"{name}: cannot be written: {_reason(error)}"
     return StylusError(message, code="unwritable", where=name, hint="choose another place")
+
+
+def _reason(error: OSError | ValueError) -> str:
+    """What the system says, without the number and the name around it."""
+    return str(getattr(error, "strerror", None) or error)
 
 
 def _write_beside(path: Path, text: str) -> str:

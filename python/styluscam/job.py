@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from styluscam import _engine
+from styluscam import _engine, pointsfile
 from styluscam.errors import JobError, ToolError
 from styluscam.machine import Machine
 from styluscam.part import Part
@@ -26,7 +26,8 @@ class Job:
         self.file = file
         self._part = part
         self.document: Document = json.loads(engine.to_json())
-        self._tool_files = self._take_tools()
+        self._tool_files: list[Path] = []
+        self._take_tools()
 
     @classmethod
     def read(cls, path: str | Path) -> Job:
@@ -47,13 +48,23 @@ class Job:
         except UnicodeDecodeError as error:
             message = f"{path}: not a job: it is not text in UTF-8"
             raise JobError(message, code="unreadable", where=str(path), hint="name a job file") from error
-        parse = _engine.Job.from_json if path.suffix == ".json" else _engine.Job.from_toml
-        return cls(parse(text), path.resolve().parent, path.stem, file=path)
+        folder = path.resolve().parent
+        if path.suffix == ".json":
+            text, files = _resolved_json(text, folder)
+            job = cls(_engine.Job.from_json(text), folder, path.stem, file=path)
+        else:
+            text, files = pointsfile.resolved_toml(text, folder)
+            job = cls(_engine.Job.from_toml(text), folder, path.stem, file=path)
+        job._tool_files += files
+        return job
 
     @classmethod
     def from_dict(cls, document: Document, folder: str | Path = ".", part: Part | None = None) -> Job:
         """From a dict; ``part`` stands for the file that the document names, where a caller has it at hand."""
-        return cls(_engine.Job.from_json(json.dumps(document)), Path(folder), part=part)
+        document, files = _resolved(document, Path(folder))
+        job = cls(_engine.Job.from_json(json.dumps(document)), Path(folder), part=part)
+        job._tool_files += files
+        return job
 
     @staticmethod
     def check(text: str) -> None:
@@ -64,22 +75,23 @@ class Job:
         """The document with all its defaults."""
         return self.document
 
-    def _take_tools(self) -> list[str]:
-        """Puts tools of libraries and files in the place of their names; returns the files."""
+    def _take_tools(self) -> None:
+        """Puts tools of libraries and files in the place of their names, and notes the files."""
         named = {name: tool["library"] for name, tool in self.document["tools"].items() if "library" in tool}
         if not named:
-            return []
+            return
         for name, library in named.items():
             section = self.document["tools"][name]
             section.pop("library")
-            self.document["tools"][name] = {**_tool(library, self.folder, f"tools.{name}.library"), **section}
+            tool = _tool(library, self.folder, f"tools.{name}.library")
+            self.document["tools"][name] = {**tool.to_dict(), **section}
+            self._tool_files += tool.files
         self.engine = _engine.Job.from_json(json.dumps(self.document))
         self.document = json.loads(self.engine.to_json())
-        return [library for library in named.values() if _is_file(library)]
 
     def inputs(self) -> list[Path]:
         """The files that the job is read from: itself, the part's, the machine's and the tools'."""
-        named = [self.document["part"]["file"], self.document["machine"].get("file"), *self._tool_files]
+        named = [self.document["part"]["file"], self.document["machine"].get("file"), *dict.fromkeys(self._tool_files)]
         own = [] if self.file is None else [self.file]
         return own + [self.folder / name for name in named if name]
 
@@ -95,22 +107,43 @@ class Job:
         return Machine.of_section(self.document["machine"], self.folder)
 
 
-def _tool(library: str, folder: Path, place: str) -> Document:
-    """The document of a tool file, or of a shipped tool."""
+def _tool(library: str, folder: Path, place: str) -> Tool:
+    """A shipped tool, a tool file's, or one of a library in a file."""
     try:
-        found = Tool.read(folder / library) if _is_file(library) else Tool.library(library)
+        return Tool.find(library, folder)
     except ToolError as error:
         raise ToolError(f"{place}: {error}", code=error.code, where=place, hint=error.hint) from error
-    return found.to_dict()
 
 
-def _is_file(library: str) -> bool:
-    return Path(library).suffix.lower() in (".json", ".fctb")
+def _resolved(document: Document, folder: Path) -> tuple[Document, list[Path]]:
+    """The document with points in the place of the files that its tools' profiles name, and the files."""
+    tools, files = document.get("tools"), list[Path]()
+    if not isinstance(tools, dict):
+        return document, files
+    taken = {}
+    for name, tool in tools.items():
+        taken[name], named = pointsfile.resolved(tool, folder) if isinstance(tool, dict) else (tool, [])
+        files += named
+    return {**document, "tools": taken}, files
+
+
+def _resolved_json(text: str, folder: Path) -> tuple[str, list[Path]]:
+    """As :func:`_resolved` for a file's text; as it is where it names none, so that errors keep their lines."""
+    try:
+        document = json.loads(text)
+    except (ValueError, RecursionError):
+        return text, []
+    document, files = _resolved(document, folder) if isinstance(document, dict) else (document, [])
+    return (json.dumps(document) if files else text), files
 
 
 def job_schema() -> Document:
     """The JSON Schema of the job document."""
     schema: Document = json.loads(_engine.job_schema())
+    for variant in schema["$defs"]["ProfileDocument"]["oneOf"]:
+        if variant.get("properties", {}).get("kind", {}).get("const") == "points":
+            file = {"type": "string", "description": "A file with radius and height in two columns, in their place."}
+            variant["properties"]["points"] = {"anyOf": [variant["properties"]["points"], file]}
     return schema
 
 

@@ -38,8 +38,8 @@ PROFILES: dict[str, Document] = {
 }
 """By kind; lengths in mm."""
 
-SHANK = 40.0
-"""Length from the profile's diameter to the holder, mm."""
+LENGTH = 50.0
+"""From the tip to the holder, mm."""
 
 
 def starter(kind: str, name: str = "") -> Document:
@@ -48,12 +48,18 @@ def starter(kind: str, name: str = "") -> Document:
     Raises:
         ToolError: there is no such kind.
     """
-    kinds = [known for known in PROFILES if known in toolfile.profile_keys()]
-    if kind not in kinds:
-        near = difflib.get_close_matches(kind, kinds, n=1)
-        hint = f"did you mean {near[0]!r}?" if near else f"known: {', '.join(kinds)}"
+    if kind not in PROFILES:
+        near = difflib.get_close_matches(kind, PROFILES, n=1)
+        hint = f"did you mean {near[0]!r}?" if near else f"known: {', '.join(PROFILES)}"
         raise ToolError(f"unknown kind {kind!r}", code="unknown-kind", where="kind", hint=hint)
-    document: Document = {"schema": toolfile.SCHEMA}
-    if name:
-        document["name"] = name
-    return document | {"profile": copy.deepcopy(PROFILES[kind]), "length": SHANK + 10.0}
+    return _file(copy.deepcopy(PROFILES[kind]), name)
+
+
+def measured(points: list[list[float]], fit_tolerance: float, name: str = "") -> Document:
+    """A tool file's document with a profile through points: radii and heights, mm."""
+    return _file({"kind": "points", "points": points, "fit_tolerance": fit_tolerance}, name)
+
+
+def _file(profile: Document, name: str) -> Document:
+    names = {"name": name} if name else {}
+    return {"schema": toolfile.SCHEMA, **names, "profile": profile, "length": LENGTH}

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from styluscam import _engine, fctb, library, toolfile
+from styluscam import _engine, fctb, library, pointsfile, toolfile
 from styluscam.errors import ToolError
 from styluscam.files import write_whole
 from styluscam.types import Document, FloatArray
@@ -22,6 +22,7 @@ class Tool:
         name: by which a library or a person calls it; may be empty.
         title: what it is, in a line; may be empty.
         remarks: what a reader of its file had to guess, in sentences.
+        files: that it was read from.
     """
 
     def __init__(self, engine: _engine.Tool, name: str = "", title: str = "", remarks: Sequence[str] = ()) -> None:
@@ -29,29 +30,72 @@ class Tool:
         self.name = name
         self.title = title
         self.remarks = tuple(remarks)
+        self.files: tuple[Path, ...] = ()
 
     @classmethod
-    def from_dict(cls, document: Document) -> Tool:
+    def from_dict(cls, document: Document, folder: str | Path = ".") -> Tool:
         """From ``{"profile": {"kind": "clothoid", "diameter": 20.0}, "shank_diameter": .., "length": ..}``.
 
-        ``schema``, ``name`` and ``title``, as tool files have them, may stand beside the profile.
+        ``schema``, ``name`` and ``title``, as tool files have them, may stand beside the profile. The file that a points
+        profile may name in the place of its list is looked for in ``folder``.
 
         Raises:
             ToolError: a key is unknown, missing or out of range.
         """
-        return cls._named(document, "tool")
+        name = document.get("name")
+        return cls._named(document, name if isinstance(name, str) and name else "tool", folder=folder)
 
     @classmethod
     def read(cls, path: str | Path) -> Tool:
         """From a tool file: JSON with the document that :meth:`from_dict` takes, or FreeCAD's ``.fctb``.
 
+        A library that holds one tool is a tool file too.
+
         Raises:
             ToolError: the file cannot be read, or holds no tool that can be built.
         """
-        if Path(path).suffix.lower() == ".fctb":
+        path, remarks = Path(path), list[str]()
+        if path.suffix.lower() == ".fctb":
             document, remarks = fctb.read(path)
-            return cls._named(document, str(path), remarks)
-        return cls._named(toolfile.read_json(path, "a tool file"), str(path))
+        else:
+            document = toolfile.read_json(path, "a tool file")
+        if "tools" in document and "profile" not in document:
+            return cls.of_library(library.read_library(path))
+        found = cls._named(document, str(path), remarks, path.parent)
+        found.files = (path, *found.files)
+        return found
+
+    @classmethod
+    def find(cls, name: str, folder: str | Path = ".") -> Tool:
+        """By what a job's key ``library`` says: the name of a shipped tool, a tool file, or ``library.json:name``.
+
+        Raises:
+            ToolError: no such file or tool, or one that cannot be built.
+        """
+        file, tool = toolfile.place_of(name)
+        if not file:
+            return cls.library(name)
+        path = Path(folder) / file
+        if not tool:
+            return cls.read(path)
+        return cls.of_library(library.read_library(path), tool)
+
+    @classmethod
+    def of_library(cls, shelf: library.Library, name: str = "") -> Tool:
+        """A tool of a library that was read from a file; its name may be left out where it is the only one.
+
+        Raises:
+            ToolError: no such tool, or one that cannot be built.
+        """
+        if not name and len(shelf.tools) > 1:
+            choice = [f"{shelf.file}:{each}" for each in list(shelf.tools)[:3]]
+            hint = f"name one of them: {' or '.join(choice)}{' or ...' if len(shelf.tools) > 3 else ''}"
+            message = f"{shelf.file}: a library of {len(shelf.tools)} tools, not one tool"
+            raise ToolError(message, code="library", where=shelf.file, hint=hint)
+        document = shelf.find(name or next(iter(shelf.tools)))
+        found = cls._named(document, f"{shelf.file}: {document['name']}")
+        found.files = (Path(shelf.file), *found.files)
+        return found
 
     @classmethod
     def library(cls, name: str, size: str | None = None) -> Tool:
@@ -63,8 +107,9 @@ class Tool:
         return cls._named(library.find(name, size), name)
 
     @classmethod
-    def _named(cls, document: Document, where: str, remarks: Sequence[str] = ()) -> Tool:
+    def _named(cls, document: Document, where: str, remarks: Sequence[str] = (), folder: str | Path = ".") -> Tool:
         toolfile.check_schema(document, where)
+        document, files = pointsfile.resolved(document, folder)
         try:
             engine = _engine.Tool(json.dumps(toolfile.bare(document)))
         except ToolError as error:
@@ -73,7 +118,9 @@ class Tool:
                 raise
             raise ToolError(f"{where}: {error}", code=error.code, where=where, hint=error.hint) from error
         toolfile.check_text(document, ("name", "title"), where)
-        return cls(engine, document.get("name", ""), document.get("title", ""), remarks)
+        found = cls(engine, document.get("name", ""), document.get("title", ""), remarks)
+        found.files = tuple(files)
+        return found
 
     def write(self, path: str | Path) -> None:
         """Writes a tool file, whole or not at all: ``.fctb`` for FreeCAD, else JSON. Numbers are kept exactly.

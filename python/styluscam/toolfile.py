@@ -27,6 +27,12 @@ NAMING = ("schema", "name", "title")
 TOOL = ("profile", "base", "shank_diameter", "length", "holder")
 """Keys of the tool itself."""
 
+PLACE = re.compile(r"(.+?\.(?:json|fctb))(?::(.+))?", re.IGNORECASE | re.DOTALL)
+"""A tool file, or a library and a name in it."""
+
+NUMBERS = re.compile(r"\[\n[-+.\deE,\s]+\]")
+"""A list of numbers over several lines."""
+
 
 def read_json(path: str | Path, what: str) -> Document:
     """The JSON object in a file; ``what`` it should have been is said when it is none.
@@ -143,8 +149,15 @@ def bare(document: Document) -> Document:
 
 
 def text_of(document: Document) -> str:
-    """A document as a file's text: numbers as short as they can be and exact."""
-    return json.dumps(document, indent=2, ensure_ascii=False) + "\n"
+    """A document as a file's text: numbers as short as they can be and exact, lists of numbers on one line."""
+    text = json.dumps(document, indent=2, ensure_ascii=False)
+    return NUMBERS.sub(lambda found: f"[{' '.join(found[0][1:-1].split())}]", text) + "\n"
+
+
+def place_of(name: str) -> tuple[str, str]:
+    """The file and the tool in it that a name means: ``shop.json:clothoid:small``; no file for a shipped tool's name."""
+    found = PLACE.fullmatch(name)
+    return (found[1], found[2] or "") if found else ("", name)
 
 
 def file_name(name: str) -> str:

@@ -70,7 +70,7 @@ def tool_picture(tools: Sequence[Tool], path: str | Path, step_mm: float = 0.5) 
     """
     path = Path(path)
     if path.suffix.lower() not in (".svg", ".png"):
-        hint = f"call it {path.name}.svg"
+        hint = f"call it {path.stem}.svg"
         raise ToolError(f"{path}: pictures of tools end in .svg or .png", code="ending", where=str(path), hint=hint)
     if not 1 <= len(tools) <= len(COLOURS):
         message = f"{len(tools)} tools: a picture shows 1 to {len(COLOURS)}"

@@ -67,11 +67,11 @@ def test_show_reads_files_and_own_libraries(cli: Any, mine: Path, tmp_path: Path
     [
         (("show", "clotoid:small"), "did you mean 'clothoid:small'"),
         (("show", "clothoid"), "choose clothoid:small"),
-        (("show", "none.json"), "none.json"),
+        (("show", "none.json"), "none.json: cannot be read: No such file or directory\n"),
         (("list", "--library", "none.json"), "none.json"),
         (("new", "x.json", "--kind", "bal"), "did you mean 'ball'"),
         (("new", "x.txt", "--kind", "ball"), "ends in .json or .fctb"),
-        (("plot", "hemisphere-d10", "--out", "x.pdf"), ".svg or .png"),
+        (("plot", "hemisphere-d10", "--out", "x.pdf"), "call it x.svg"),
         (("plot", "hemisphere-d10", "--out", "x.svg", "--step-mm", "0"), "step_mm"),
         (("plot", *["hemisphere-d10"] * 9, "--out", "x.svg"), "1 to 8"),
     ],
@@ -95,6 +95,74 @@ def test_new_writes_a_tool_that_loads(cli: Any, tmp_path: Path, kind: str) -> No
     assert cli("tool", "new", path, "--kind", kind, "--force", "--json").json == {"written": [str(path)]}
     assert cli("tool", "new", path.with_suffix(".fctb"), "--kind", kind).code == 0
     assert sc.Tool.read(path.with_suffix(".fctb")).to_dict()["profile"] == tool.to_dict()["profile"]
+
+
+def test_new_begins_with_measured_points(cli: Any, tmp_path: Path) -> None:
+    table = tmp_path / "scan.csv"
+    table.write_text("r;z\n0;0\n1,5;0,125\n3;0,5\n4,5;1,25\n")
+    for path in (tmp_path / "scan.json", tmp_path / "scan.fctb"):
+        ran = cli("tool", "new", path, "--points", table, "--fit-tolerance", "0.05")
+        assert ran.code == 0, ran.err
+        profile = sc.Tool.read(path).to_dict()["profile"]
+        assert profile["points"][1] == [1.5, 0.125] and profile["fit_tolerance"] == 0.05
+    assert "      [1.5, 0.125],\n" in (tmp_path / "scan.json").read_text()
+    table.write_text("r;z\n0;0\n1,5;x\n")
+    ran = cli("tool", "new", tmp_path / "no.json", "--points", table)
+    assert ran.code == 2 and "scan.csv: line 3: '1,5;x'" in ran.err and not (tmp_path / "no.json").exists()
+
+
+def test_new_turns_a_tool_into_another_format(cli: Any, mine: Path, tmp_path: Path) -> None:
+    bit, back = tmp_path / "c.fctb", tmp_path / "c.json"
+    assert cli("tool", "new", bit, "--from", "clothoid", "--library", mine).code == 0
+    assert cli("tool", "new", back, "--from", bit).code == 0
+    tool = sc.Tool.read(back)
+    assert tool.to_dict() == sc.Tool.of_library(library.read_library(mine), "clothoid").to_dict()
+    assert tool.title == "flat tip"
+    for words in ((), ("--kind", "ball", "--from", "hemisphere-d10")):
+        ran = cli("tool", "new", tmp_path / "x.json", *words)
+        assert ran.code == 2 and "one of --kind, --from and --points" in ran.err
+
+
+def test_a_job_takes_a_tool_from_one_s_own_library(cli: Any, mine: Path, tmp_path: Path) -> None:
+    text = changed(COARSE_CUP, ('profile = { kind = "clothoid", diameter = 10.0 }', 'library = "mine.json:ball:l"'))
+    (tmp_path / "job.toml").write_text(text)
+    job = sc.Job.read(tmp_path / "job.toml")
+    assert job.to_dict()["tools"]["stylus"]["profile"] == {"kind": "ball", "diameter": 12.0, "tip_flat": 0.0}
+    assert mine in job.inputs()
+    for name, says in (
+        ("mine.json", "a library of 3 tools, not one tool; name one of them: "),
+        ("mine.json:bal:l", "did you mean 'ball:l'"),
+        ("mine.json:ball", "choose ball:s or ball:l"),
+        ("mine.json:zzz", "see styluscam tool list --library "),
+        ("none.json:a", "none.json: cannot be read: No such file"),
+    ):
+        (tmp_path / "job.toml").write_text(text.replace("mine.json:ball:l", name))
+        ran = cli("plan", tmp_path / "job.toml")
+        assert ran.code == 2 and ran.err.count("\n") == 1 and says in ran.err, ran.err
+
+
+def test_a_library_of_one_tool_is_a_tool_file(cli: Any, tmp_path: Path) -> None:
+    one = tmp_path / "one.json"
+    one.write_text(json.dumps({"tools": [{"name": "a", "profile": {"kind": "ball", "diameter": 7.0}}]}))
+    assert sc.Tool.read(one).diameter == 7.0
+    assert cli("tool", "show", f"{one}:a", "--json").json["diameter_mm"] == 7.0
+    sc.Tool.read(one).write(tmp_path / "tool.json")
+    ran = cli("tool", "show", f"{tmp_path / 'tool.json'}:a")
+    assert ran.code == 2 and "one tool, not a library" in ran.err
+    assert cli("tool", "list", "--library", tmp_path / "tool.json").code == 2
+
+
+def test_an_entry_that_cannot_be_built_is_named_and_alone(cli: Any, tmp_path: Path) -> None:
+    bad = {"name": "c", "sizes": {"s": {"kind": "ball", "diameter": 3.0, "tip_flat": 1.5}}}
+    shop = tmp_path / "shop.json"
+    shop.write_text(json.dumps({"tools": [{"name": "a", "profile": {"kind": "ball", "diameter": 3.0}}, bad]}))
+    listed = cli("tool", "list", "--library", shop)
+    assert listed.code == 0 and "ball D3" in listed.out and "c:s  cannot be built: c:s: tip_flat" in listed.out
+    tools = cli("tool", "list", "--library", shop, "--json").json[0]["tools"]
+    assert tools[0]["description"] == "ball D3" and "tip_flat" in tools[1]["error"]
+    for words in (("c:s", "--library", shop), (f"{shop}:c:s",)):
+        ran = cli("tool", "show", *words)
+        assert ran.code == 2 and f"{shop}: c:s: tip_flat" in ran.err
 
 
 def test_plot_draws_svg_and_png(cli: Any, tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from styluscam import files, library, starters, toolfile
+from styluscam import files, library, pointsfile, starters, toolfile
 from styluscam.cli import console
 from styluscam.cli.options import Debug, Force, Json, Quiet
 from styluscam.cli.summary import shown_path
@@ -19,7 +19,7 @@ from styluscam.types import Document
 
 app = typer.Typer(help="Look at tools, compare them, and make new ones.", rich_markup_mode=None)
 
-TOOL_HELP = "A tool of a library (clothoid:medium), or a tool file (.json, FreeCAD's .fctb)."
+TOOL_HELP = "A tool of a library (clothoid:medium, shop.json:a), or a tool file (.json, FreeCAD's .fctb)."
 Name = Annotated[str, typer.Argument(metavar="NAME|FILE", help=TOOL_HELP, show_default=False)]
 Names = Annotated[list[str], typer.Argument(metavar="NAME|FILE...", help=TOOL_HELP, show_default=False)]
 LibraryFile = Annotated[
@@ -27,7 +27,18 @@ LibraryFile = Annotated[
     typer.Option("--library", metavar="FILE.json", help="A library of your own.", show_default=False),
 ]
 NewFile = Annotated[Path, typer.Argument(metavar="FILE.json", help="The tool file to write.", show_default=False)]
-Kind = Annotated[str, typer.Option("--kind", metavar="KIND", help="The profile's kind: ball, clothoid, points, ...")]
+Kind = Annotated[
+    str | None,
+    typer.Option("--kind", metavar="KIND", help="A profile's kind: ball, clothoid, ...", show_default=False),
+]
+From = Annotated[str | None, typer.Option("--from", metavar="NAME|FILE", help=TOOL_HELP, show_default=False)]
+Points = Annotated[
+    Path | None,
+    typer.Option("--points", metavar="FILE.csv", help="Measured points: radius, height (mm).", show_default=False),
+]
+FitTolerance = Annotated[
+    float, typer.Option("--fit-tolerance", metavar="MM", help="How near the curve comes to the points, mm.")
+]
 Out = Annotated[Path, typer.Option("--out", metavar="FILE.svg|.png", help="The picture to write.", show_default=False)]
 StepDown = Annotated[float, typer.Option("--step-mm", help="Step down between Z-levels, for the scallops, mm.")]
 
@@ -43,7 +54,12 @@ def list_(own: LibraryFile = None, json: Json = False, debug: Debug = False) -> 
     """List the tools of the shipped libraries, or of yours."""
     libraries = library.shipped() if own is None else (library.read_library(own),)
     if json:
-        console.say_json([_listed(shelf) for shelf in libraries])
+        console.say_json(
+            [
+                {"name": shelf.name, "title": shelf.title, "tools": [_listed(tool) for tool in shelf.tools.values()]}
+                for shelf in libraries
+            ]
+        )
         return 0
     for number, shelf in enumerate(libraries):
         if number:
@@ -67,17 +83,40 @@ def show(name: Name, own: LibraryFile = None, json: Json = False, debug: Debug =
 
 @app.command("new")
 def new(
-    file: NewFile, kind: Kind, *, force: Force = False, json: Json = False, quiet: Quiet = False, debug: Debug = False
+    file: NewFile,
+    *,
+    kind: Kind = None,
+    from_: From = None,
+    points: Points = None,
+    fit_tolerance: FitTolerance = 0.01,
+    own: LibraryFile = None,
+    force: Force = False,
+    json: Json = False,
+    quiet: Quiet = False,
+    debug: Debug = False,
 ) -> int:
-    """Write a tool file with sensible numbers, to be edited."""
+    """Write a tool file: sensible numbers of a kind to be edited, a tool that there is, or points that were measured.
+
+    The ending chooses the format: this also turns a tool file into FreeCAD's, and back.
+    """
     if file.exists() and not file.is_dir() and not force:
         message = f"{file}: the file is there already"
         hint = "add --force to replace it, or choose another name"
         raise ToolError(message, code="exists", where=str(file), hint=hint)
     if file.suffix.lower() not in (".json", ".fctb"):
-        hint = f"call it {file.name}.json"
+        hint = f"call it {file.stem or 'tool'}.json"
         raise ToolError(f"{file}: a tool file ends in .json or .fctb", code="ending", where=str(file), hint=hint)
-    document = starters.starter(kind, toolfile.file_name(file.stem))
+    if sum(choice is not None for choice in (kind, from_, points)) != 1:
+        hint = "give one of --kind, --from and --points"
+        raise ToolError("what the new tool begins with", code="usage", where="tool new", hint=hint)
+    name = toolfile.file_name(file.stem)
+    if from_ is not None:
+        document = find(from_, own).to_file()
+        document = {"schema": toolfile.SCHEMA, "name": name} | document
+    elif points is not None:
+        document = starters.measured(pointsfile.read_points(points), fit_tolerance, name)
+    else:
+        document = starters.starter(str(kind), name)
     tool = Tool.from_dict(document)
     if file.suffix.lower() == ".fctb":
         tool.write(file)
@@ -116,19 +155,29 @@ def plot(
 
 def find(name: str, own: Path | None) -> Tool:
     """A tool by file, or by its name in a library: one's own first, then the shipped ones."""
-    if name.lower().endswith((".json", ".fctb")) or Path(name).is_file():
+    if toolfile.place_of(name)[0]:
+        return Tool.find(name)
+    if Path(name).is_file():
         return Tool.read(name)
-    shelves = ([] if own is None else [library.read_library(own)]) + list(library.shipped())
-    return Tool.from_dict(library.find(name, libraries=shelves))
+    shelf = None if own is None else library.read_library(own)
+    if shelf is not None and name in shelf.tools:
+        return Tool.of_library(shelf, name)
+    return Tool.from_dict(library.find(name, libraries=([] if shelf is None else [shelf]) + list(library.shipped())))
 
 
 def _what(document: Document) -> str:
-    return f"{Tool.from_dict(document).description:<22}  {document.get('title', '')}"
+    listed = _listed(document)
+    return (
+        f"{listed.get('description', ''):<22}  {listed.get('title', '')}" if "error" not in listed else listed["error"]
+    )
 
 
-def _listed(shelf: library.Library) -> Document:
-    tools = [{**tool, "description": Tool.from_dict(tool).description} for tool in shelf.tools.values()]
-    return {"name": shelf.name, "title": shelf.title, "tools": tools}
+def _listed(document: Document) -> Document:
+    """A tool of a library, described; or why it cannot be built."""
+    try:
+        return {**document, "description": Tool.from_dict(document).description}
+    except ToolError as error:
+        return {**document, "error": f"cannot be built: {error}"}
 
 
 def _document(tool: Tool) -> Document:

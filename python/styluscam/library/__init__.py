@@ -10,12 +10,12 @@ from __future__ import annotations
 import difflib
 import json
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from importlib import resources
 from pathlib import Path
 
-from styluscam import toolfile
+from styluscam import pointsfile, toolfile
 from styluscam.errors import ToolError
 from styluscam.types import Document
 
@@ -38,10 +38,16 @@ class Library:
     name: str
     title: str
     tools: dict[str, Document]
+    file: str = ""
+    """That it was read from; none for a shipped one."""
 
     def find(self, name: str, size: str | None = None) -> Document:
         """As :func:`find`, in this library."""
-        return find(name, size, [self])
+        try:
+            return find(name, size, [self])
+        except ToolError as error:
+            message = f"{self.file or self.name}: {error}"
+            raise ToolError(message, code=error.code, where=error.where, hint=error.hint) from error
 
 
 def names() -> list[str]:
@@ -69,7 +75,9 @@ def find(name: str, size: str | None = None, libraries: Sequence[Library] | None
     if tool in known:
         raise ToolError(f"{tool}: has no sizes", code="no-such-size", where=full, hint=f"leave {full!r} at {tool!r}")
     near = difflib.get_close_matches(full, [*known, *{each.partition(SEPARATOR)[0] for each in known}], n=1)
-    hint = f"did you mean {near[0]!r}?" if near else "see styluscam tool list"
+    own = next((shelf.file for shelf in libraries or () if shelf.file), "")
+    see = f"styluscam tool list --library {own}" if own else "styluscam tool list"
+    hint = f"did you mean {near[0]!r}?" if near else f"see {see}"
     raise ToolError(f"{full}: no such tool", code="no-such-tool", where=full, hint=hint)
 
 
@@ -87,7 +95,13 @@ def read_library(path: str | Path) -> Library:
     Raises:
         ToolError: it cannot be read, is of a newer schema, or an entry is not one; the entry is named.
     """
-    return _library(toolfile.read_json(path, "a library of tools"), str(path), Path(path).stem)
+    document = toolfile.read_json(path, "a library of tools")
+    if "profile" in document and "tools" not in document:
+        hint = f"name the file alone: {path}"
+        raise ToolError(f"{path}: one tool, not a library of tools", code="document", where=str(path), hint=hint)
+    found = _library(document, str(path), Path(path).stem)
+    tools = {name: pointsfile.with_place(tool, Path(path).parent) for name, tool in found.tools.items()}
+    return replace(found, tools=tools, file=str(path))
 
 
 def _all(libraries: Sequence[Library]) -> Iterator[tuple[str, Document]]:
