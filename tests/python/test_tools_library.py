@@ -46,22 +46,41 @@ def test_every_shipped_tool_builds_and_has_the_size_that_it_says(name: str) -> N
     assert 1.0 <= tool.diameter <= 26.0
     r, z = tool.radius_at(tool.max_slope), tool.height_at(tool.max_slope)
     assert math.isfinite(r) and math.isfinite(z)
-    if "length" in document:
-        assert document["length"] > z
+    above = tool.diameter if document["profile"]["kind"] in ("v", "cone", "tapered-ball") else 0.0
+    assert document["length"] > z + above
+    assert document["shank_diameter"] <= 1.000001 * tool.diameter or document["base"]["height"] > tool.diameter
+    numbers = [x for part in (document["profile"], document) for x in part.values() if isinstance(x, float)]
+    assert all(len(repr(x)) <= 9 for x in numbers), "as short as a person would write it"
     assert sc.Tool.from_dict(tool.to_file()).to_dict() == tool.to_dict()
 
 
 def test_the_patent_s_shapes_come_in_three_sizes() -> None:
     forming = library.shipped()[0].tools
     for shape in ("circle", "clothoid", "rounded-rectangle", "parabola", "ellipse", "cycloid", "cubic"):
-        small, medium, large = (sc.Tool.library(shape, size).diameter for size in ("small", "medium", "large"))
-        assert small < medium < large
+        tools = [sc.Tool.library(shape, size) for size in ("small", "medium", "large")]
+        assert [tool.diameter for tool in tools] == pytest.approx([6.0, 12.0, 24.0], rel=1e-12)
+        slopes = np.linspace(0.01, 1.0, 20) * tools[0].max_slope
+        for tool, scale in zip(tools, (1.0, 2.0, 4.0), strict=True):
+            assert tool.radius_at(slopes) == pytest.approx(scale * tools[0].radius_at(slopes), rel=1e-9)
         assert f"{shape}:small" in forming
+
+
+def test_no_two_shipped_tools_are_the_same() -> None:
+    for shelf in library.shipped():
+        profiles = [json.dumps(tool["profile"], sort_keys=True) for tool in shelf.tools.values()]
+        assert len(profiles) == len(set(profiles))
+    assert max(sc.Tool.library(name).diameter for name in library.shipped()[1].tools) >= 20.0
+
+
+def test_titles_say_where_a_sharp_rim_takes_over() -> None:
+    for tool in library.shipped()[0].tools.values():
+        ends = math.degrees(sc.Tool.from_dict(tool).max_slope)
+        assert ends > 89.9 or f"up to {int(ends)} degrees" in tool["title"]
 
 
 def test_common_styluses_and_cutters_are_there() -> None:
     names = library.names()
-    assert {"hemisphere-d3", "hemisphere-d10", "hemisphere-d25.4", "flat-end-d10-r2"} <= set(names)
+    assert {"hemisphere-d3", "hemisphere-d10", "hemisphere-1in", "flat-end-d10-r2"} <= set(names)
     assert {"ball-d6", "ball-1-8in", "flat-1-2in", "bull-nose-d6-r1", "barrel-d10-r60", "v-90-d10"} <= set(names)
     assert len(names) == len(set(names))
     assert sc.Tool.library("ball-1-8in").diameter == 3.175
@@ -90,12 +109,14 @@ def test_names_that_are_not_there_are_guessed() -> None:
 
 
 def test_a_library_of_one_s_own(tmp_path: Path) -> None:
-    sizes = {"name": "b", "title": "Ball", "sizes": {"s": BALL, "l": {**BALL, "diameter": 12.0}}, "length": 50.0}
+    large = {"profile": {**BALL, "diameter": 12.0}, "length": 60.0}
+    sizes = {"name": "b", "title": "Ball", "sizes": {"s": BALL, "l": large}, "length": 50.0}
     mine = library.read_library(written(tmp_path / "mine.json", shelf({"name": "a", "profile": BALL}, sizes)))
     assert list(mine.tools) == ["a", "b:s", "b:l"]
     assert mine.find("b", "l") == {
-        "name": "b:l", "title": "Ball, l", "length": 50.0, "profile": {**BALL, "diameter": 12.0}
+        "name": "b:l", "title": "Ball, l", "length": 60.0, "profile": {**BALL, "diameter": 12.0}
     }  # fmt: skip
+    assert mine.find("b", "s")["length"] == 50.0
     assert sc.Tool.from_dict(mine.find("a")).diameter == 6.0
 
 
@@ -121,6 +142,11 @@ def test_a_library_of_one_s_own(tmp_path: Path) -> None:
         (shelf({"name": "a", "profile": BALL, "sizes": {"s": BALL}}), "both a profile and sizes", ""),
         (shelf({"name": "a", "sizes": {}}), "sizes are profiles by name", "small"),
         (shelf({"name": "a", "sizes": {"s": {"kind": "ball", "width": 5}}}), "size s of kind ball: unknown", ""),
+        (
+            shelf({"name": "a", "sizes": {"s": {"profile": BALL, "lenth": 5}}}),
+            "size s: unknown key 'lenth'",
+            "'length'",
+        ),
         (shelf(5), "tool 1: not an object", ""),
         (shelf({"name": "a\nb", "profile": BALL}), "one line of text", ""),
     ],

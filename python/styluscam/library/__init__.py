@@ -1,8 +1,8 @@
 """Libraries of tools: the shipped ones, and those that people keep in files.
 
 A library is a JSON file, ``{"schema": 1, "name": .., "title": .., "tools": [..]}``. An entry is the document of a tool with
-a ``name``; instead of one ``profile`` it may have ``sizes``, profiles by name. The tool ``clothoid`` in its size ``medium``
-is called ``clothoid:medium``.
+a ``name``; instead of one ``profile`` it may have ``sizes``: by name, a profile each, or ``{"profile": .., "length": ..}`` with
+what differs from size to size. The tool ``clothoid`` in its size ``medium`` is called ``clothoid:medium``.
 """
 
 from __future__ import annotations
@@ -145,11 +145,14 @@ def _tools(entry: object, where: str, number: int) -> Iterator[Document]:
         return
     if "profile" in entry:
         raise ToolError(f"{place}: has both a profile and sizes", code="document", where=place, hint="keep one")
-    for size, profile in _sizes(entry["sizes"], place):
-        toolfile.check_profile(profile, f"{place}: size {size}")
+    for size, own in _sizes(entry["sizes"], place):
+        if isinstance(own, dict) and "profile" in own:
+            toolfile.check_keys(own, toolfile.TOOL, f"{place}: size {size}")
+        tool = own if isinstance(own, dict) and "profile" in own else {"profile": own}
+        toolfile.check_profile(tool["profile"], f"{place}: size {size}")
         rest = {key: value for key, value in entry.items() if key != "sizes"}
         title = f"{rest['title']}, {size}" if rest.get("title") else ""
-        yield rest | {"name": f"{name}{SEPARATOR}{size}", "profile": profile} | ({"title": title} if title else {})
+        yield rest | tool | {"name": f"{name}{SEPARATOR}{size}"} | ({"title": title} if title else {})
 
 
 def _sizes(sizes: object, place: str) -> list[tuple[str, object]]:
