@@ -56,11 +56,12 @@ def polyline(tool: Meridian, stations: int = STATIONS) -> FloatArray:
 def transition(base: Document | None, rim: tuple[float, float], shank: float) -> FloatArray:
     """From the profile's rim (radius and height) over the base to the shank's radius: radii and heights (N, 2), mm.
 
-    Without a base the shank begins at the rim. A tangent one goes upright at both ends.
+    Without a base the shank begins at the rim, a wider one behind a cone of 45 degrees. A tangent one goes upright at
+    both ends.
     """
     radius, height = rim
     if base is None:
-        return np.array([rim, (shank, height)])
+        return np.array([rim, (shank, height + max(0.0, shank - radius))])
     top = height + float(base["height"])
     if base["kind"] == "cylindrical":
         return np.array([rim, (radius, top), (shank, top)])
@@ -69,6 +70,26 @@ def transition(base: Document | None, rim: tuple[float, float], shank: float) ->
     share = np.linspace(0.0, 1.0, 33)
     smooth = 0.5 - 0.5 * np.cos(np.pi * share)
     return np.stack([radius + (shank - radius) * smooth, height + (top - height) * share], axis=1)
+
+
+def silhouette(tool: Meridian, document: Document, top: float) -> FloatArray:
+    """Radii and heights (N, 2), mm, from the tip over base, shank and holder; up to ``top`` where nothing ends before.
+
+    ``document`` is the tool's: without a length the shank goes on to the top, without a holder it ends at the length.
+    """
+    profile = polyline(tool)
+    rim = (float(profile[-1, 0]), float(profile[-1, 1]))
+    shank = float(document.get("shank_diameter") or 2.0 * rim[0]) / 2.0
+    above = transition(document.get("base"), rim, shank)
+    end = max(float(document.get("length") or top), float(above[-1, 1]))
+    points = [*above[1:], (shank, end)]
+    holder = document.get("holder")
+    if holder is not None:
+        wide, over = float(holder["diameter"]) / 2.0, end + float(holder["length"])
+        points += [(wide, end), (wide, over), (0.0, over)]
+    elif document.get("length"):
+        points.append((0.0, end))
+    return np.concatenate([profile, np.array(points)])
 
 
 def _ends(tool: Meridian, slopes: FloatArray) -> tuple[FloatArray, FloatArray]:

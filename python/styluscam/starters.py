@@ -32,7 +32,7 @@ PROFILES: dict[str, Document] = {
         "kind": "formula",
         "r": "a * sin(t)",
         "z": "b * (1 - cos(t))",
-        "t": [0.0, 1.5],
+        "t": [0.0, 1.5707963267948966],
         "parameters": {"a": 6.0, "b": 4.0},
     },
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -13,6 +14,9 @@ from styluscam import _engine, fctb, library, pointsfile, toolfile
 from styluscam.errors import ToolError
 from styluscam.files import write_whole
 from styluscam.types import Document, FloatArray
+
+LONG = re.compile(r"\d+\.\d{2,}")
+"""A number with many digits."""
 
 
 class Tool:
@@ -149,8 +153,8 @@ class Tool:
 
     @property
     def description(self) -> str:
-        """What it is, in words: ``clothoid D10``."""
-        return self._engine.description
+        """What it is, in words: ``clothoid D10``; numbers with five digits at most."""
+        return LONG.sub(lambda found: f"{float(found[0]):.5g}", self._engine.description)
 
     @property
     def diameter(self) -> float:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from styluscam.errors import StylusError, ToolError
-from styluscam.outline import pieces, polyline, transition
+from styluscam.outline import pieces, polyline, silhouette
 from styluscam.scallop import scallop_of_step
 from styluscam.tool import Tool
 from styluscam.types import FloatArray
@@ -28,8 +28,14 @@ COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#7
 DASHES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (7, 2, 1.5, 2)))
 """Beside the colours, for prints without any."""
 
-WALLS_DEG = np.concatenate([np.arange(1.0, 10.0, 0.5), np.arange(10.0, 89.6, 1.0)])
-"""Wall angles at which scallops are computed."""
+WALLS_DEG = np.concatenate([np.arange(1.0, 10.0, 0.5), np.arange(10.0, 84.0, 1.0), np.arange(84.0, 89.91, 0.1)])
+"""Wall angles at which scallops are computed; besides them, the one at which a profile ends."""
+
+WHOLE = 0.2
+"""Of the profiles' width for the whole tools beside them, where one has a holder."""
+
+RIM_DEG = 0.01
+"""Beyond a profile's end its rim cuts: what it leaves begins here."""
 
 WIDE = 30.0
 """Ratio of the largest to the smallest radius of curvature from which the axis is logarithmic."""
@@ -114,7 +120,11 @@ def _draw(figure: Figure, tools: list[_Drawn], step_mm: float) -> None:
     _legend(figure, tools)
     bottom, middle = 0.105, 0.095
     height = (top - bottom - middle) / 2.0
-    _profiles(figure.add_axes((0.055, bottom, 0.425, top - bottom)), tools)
+    held = any(drawn.tool.to_dict().get("holder") for drawn in tools)
+    width = 0.425 * (1.0 - WHOLE) if held else 0.425
+    _profiles(figure.add_axes((0.055, bottom, width, top - bottom)), tools)
+    if held:
+        _whole(figure.add_axes((0.065 + width, bottom, 0.425 - width, top - bottom)), tools)
     curvature = figure.add_axes((0.565, bottom + height + middle, 0.415, height))
     scallops = figure.add_axes((0.565, bottom, 0.415, height), sharex=curvature)
     _curvature(curvature, tools)
@@ -174,10 +184,20 @@ def _profiles(axes: Axes, tools: list[_Drawn]) -> None:
 
 def _section(tool: Tool, top: float) -> FloatArray:
     """Radii and heights (N, 2) from the tip over base and shank up to a height."""
-    profile = polyline(tool)
-    above = transition(tool.to_dict().get("base"), (profile[-1, 0], profile[-1, 1]), _shank(tool) / 2.0)
-    end = [[above[-1, 0], max(top, float(above[-1, 1]))]]
-    return np.concatenate([profile, above[1:], end])
+    document = tool.to_dict()
+    return silhouette(tool, {key: document[key] for key in ("base", "shank_diameter") if key in document}, top)
+
+
+def _whole(axes: Axes, tools: list[_Drawn]) -> None:
+    """The whole tools, shanks and holders, to a scale of their own."""
+    for drawn in tools:
+        right = silhouette(drawn.tool, drawn.tool.to_dict(), 2.0 * _height(drawn.tool))
+        outline = np.concatenate([right[::-1] * [-1.0, 1.0], right])
+        axes.fill(*outline.T, color=drawn.colour, alpha=0.13 / len(tools), linewidth=0)
+        axes.plot(*outline.T, color=drawn.colour, linestyle=drawn.dash, linewidth=1.2, solid_joinstyle="round")
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.margins(0.12, 0.03)
+    axes.axis("off")
 
 
 def _shank(tool: Tool) -> float:
@@ -224,7 +244,7 @@ def _curvature(axes: Axes, tools: list[_Drawn]) -> None:
     axes.tick_params(labelbottom=False)
     marks = ["triangle: a straight part"] if any(straight) else []
     marks += ["bar: a sharp edge"] if any((radii == 0.0).any() for _, radii in curves) else []
-    axes.set_title("by slope" + (f" ({', '.join(marks)})" if marks else ""), **_title())
+    axes.set_title("by slope of the profile" + (f" ({', '.join(marks)})" if marks else ""), **_title())
 
 
 def _straight(tool: Tool) -> list[float]:
@@ -245,17 +265,17 @@ def _radii(tool: Tool) -> tuple[FloatArray, FloatArray]:
 
 
 def _scallops(axes: Axes, tools: list[_Drawn], step_mm: float) -> None:
-    """Scallop between Z-levels by wall angle, in micrometres; beyond the profile's last slope its rim cuts: dashed."""
-    heights = [1e3 * scallop_of_step(drawn.tool, WALLS_DEG, step_mm) for drawn in tools]
-    seen = np.concatenate([height[WALLS_DEG >= 12.0] for height in heights])
+    """Scallop between Z-levels by wall angle, in micrometres; beyond the profile's last slope its rim cuts: thin."""
+    ends = [float(np.degrees(drawn.tool.max_slope)) for drawn in tools]
+    walls = [np.unique(np.append(WALLS_DEG, [end, end + RIM_DEG])) for end in ends]
+    walls = [angles[angles <= WALLS_DEG[-1]] for angles in walls]
+    heights = [1e3 * scallop_of_step(drawn.tool, angles, step_mm) for drawn, angles in zip(tools, walls, strict=True)]
+    seen = np.concatenate([height[angles >= 12.0] for height, angles in zip(heights, walls, strict=True)])
     seen = seen[np.isfinite(seen) & (seen > 1e-3)]
     axes.set_yscale("log")
-    for drawn, height in zip(tools, heights, strict=True):
-        on_profile = np.degrees(drawn.tool.max_slope) + 1e-9 >= WALLS_DEG
-        for part, width in ((on_profile, 2.0), (~on_profile, 0.9)):
-            axes.plot(
-                WALLS_DEG, np.where(part, height, np.nan), color=drawn.colour, linestyle=drawn.dash, linewidth=width
-            )
+    for drawn, angles, height, end in zip(tools, walls, heights, ends, strict=True):
+        for part, width in ((angles <= end + 1e-9, 2.0), (angles > end - 1e-9, 0.9)):
+            axes.plot(angles, np.where(part, height, np.nan), color=drawn.colour, linestyle=drawn.dash, linewidth=width)
     if len(seen):
         axes.set_ylim(max(seen.min(), 0.01) / 1.6, seen.max() * 1.6)
     _decades(axes)

@@ -182,7 +182,7 @@ def test_plot_draws_svg_and_png(cli: Any, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "names",
-    [["hemisphere-d3"], ["clothoid:large"], ["hemisphere-d10", "clothoid:small", "hemisphere-1in"]],
+    [["hemisphere-d3"], ["clothoid:large"], ["hemisphere-d10", "clothoid:small", "hemisphere-1in"], ["held"]],
     ids="+".join,
 )
 def test_nothing_on_a_plot_is_clipped_or_overlaps(names: list[str], tmp_path: Path, monkeypatch: Any) -> None:
@@ -190,7 +190,9 @@ def test_nothing_on_a_plot_is_clipped_or_overlaps(names: list[str], tmp_path: Pa
 
     kept = []
     monkeypatch.setattr(toolplot, "_save", lambda figure, path: kept.append(figure))
-    toolplot.tool_picture([sc.Tool.library(name) for name in names], tmp_path / "t.png")
+    held = {"profile": {"kind": "ball", "diameter": 6.0}, "length": 50.0, "holder": {"diameter": 40.0, "length": 30.0}}
+    tools = [sc.Tool.from_dict(held) if name == "held" else sc.Tool.library(name) for name in names]
+    toolplot.tool_picture(tools, tmp_path / "t.png")
     (figure,) = kept
     figure.canvas.draw()
     texts = [text for text in figure.texts if text.get_text()]

@@ -12,7 +12,7 @@ import pytest
 
 import styluscam as sc
 from styluscam import fctb, library, starters, toolfile
-from styluscam.outline import pieces, polyline, transition
+from styluscam.outline import pieces, polyline, silhouette, transition
 
 BALL = {"kind": "ball", "diameter": 6.0}
 
@@ -285,7 +285,28 @@ def test_a_base_joins_rim_and_shank(kind: str) -> None:
     assert (np.diff(points, axis=0) >= 0.0).all()
     if kind == "tangent":
         assert abs(points[1, 0] - points[0, 0]) < 0.06 * (points[1, 1] - points[0, 1])
-    assert transition(None, (5.0, 3.0), 8.0).tolist() == [[5.0, 3.0], [8.0, 3.0]]
+
+
+def test_without_a_base_a_wider_shank_begins_behind_a_cone() -> None:
+    assert transition(None, (5.0, 3.0), 8.0).tolist() == [[5.0, 3.0], [8.0, 6.0]]
+    assert transition(None, (5.0, 3.0), 4.0).tolist() == [[5.0, 3.0], [4.0, 3.0]]
+
+
+def test_a_silhouette_has_shank_and_holder() -> None:
+    flat = {"profile": {"kind": "flat", "diameter": 1.0}, "shank_diameter": 3.0}
+    tool = sc.Tool.from_dict(flat)
+    assert silhouette(tool, flat, 9.0).tolist() == [[0, 0], [0.5, 0], [1.5, 1], [1.5, 9]]
+    whole = {**flat, "base": {"kind": "cylindrical", "height": 3.0}, "length": 30.0}
+    assert silhouette(tool, whole, 9.0).tolist()[2:] == [[0.5, 3], [1.5, 3], [1.5, 30], [0, 30]]
+    held = {**whole, "holder": {"diameter": 20.0, "length": 15.0}}
+    assert silhouette(tool, held, 9.0).tolist()[4:] == [[1.5, 30], [10, 30], [10, 45], [0, 45]]
+
+
+def test_descriptions_have_short_numbers() -> None:
+    tool = sc.Tool.from_dict({"profile": {"kind": "formula", "r": "6*sin(t)", "z": "4*(1-cos(t))", "t": [0.0, 1.5]}})
+    assert tool.description == "formula D11.97"
+    assert sc.Tool.from_dict({"profile": {"kind": "ball", "diameter": 4.7625}}).description == "ball D4.7625"
+    assert sc.Tool.from_dict(starters.starter("formula")).max_slope == pytest.approx(math.pi / 2.0)
 
 
 def test_outlines_of_kinds_with_corners() -> None:
