@@ -2,9 +2,8 @@
 
 Look along the passes. Each pass leaves the tool's section, and the next pass the same section moved along the wall by
 the spacing p. Cut the section by a line parallel to the wall at the height h over it: the chord grows with h, and the two
-sections cross where it is as long as p. So the scallop of a spacing is the height of the chord of that length, and the
-spacing for a scallop is simply the chord's length. Where p is small this is p^2 / (8 rho), rho the profile's radius of
-curvature at the wall's slope.
+sections cross where it is as long as p. So the scallop of a spacing is the height of the chord of that length. Where p is
+small this is p^2 / (8 rho), rho the profile's radius of curvature at the wall's slope.
 
 Walls are named by their angle in degrees, 0 for a floor and 90 for a vertical wall; lengths are mm. Passes are level lines
 (Z-levels, spirals), so that the spacing runs straight up the wall; :func:`scallop_of_rows` is for rows that do so themselves.
@@ -17,6 +16,7 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
+from styluscam.errors import ToolError
 from styluscam.types import FloatArray
 
 HALVINGS = 64
@@ -50,24 +50,15 @@ class Radial(Meridian, Protocol):
         """Height over the tip (mm) by radius (mm)."""
 
 
-def spacing_for(tool: Meridian, wall_deg: npt.ArrayLike, scallop: npt.ArrayLike) -> FloatArray:
-    """Spacing along the wall (mm) that leaves scallops of a height (mm), by wall angle (degrees, 0 < angle < 90)."""
-    walls, heights = np.broadcast_arrays(np.asarray(wall_deg, dtype=np.float64), np.asarray(scallop, dtype=np.float64))
-    section = _Section(tool, np.radians(walls.ravel()))
-    return section.chord(heights.ravel()).reshape(walls.shape)
-
-
-def step_for(tool: Meridian, wall_deg: npt.ArrayLike, scallop: npt.ArrayLike) -> FloatArray:
-    """Step down between Z-levels (mm) that leaves scallops of a height (mm), by wall angle (degrees)."""
-    return spacing_for(tool, wall_deg, scallop) * np.sin(np.radians(wall_deg))
-
-
 def scallop_of_spacing(tool: Meridian, wall_deg: npt.ArrayLike, spacing: npt.ArrayLike) -> FloatArray:
     """Scallop height (mm) by wall angle (degrees, 0 < angle < 90) and spacing along the wall (mm).
 
     NaN where the passes lie farther apart than the tool is wide: a strip between them is not touched at all.
+
+    Raises:
+        ToolError: an angle or a spacing beyond those.
     """
-    walls, spacings = np.broadcast_arrays(np.asarray(wall_deg, dtype=np.float64), np.asarray(spacing, dtype=np.float64))
+    walls, spacings = _checked(wall_deg, spacing)
     wanted = spacings.ravel()
     section = _Section(tool, np.radians(walls.ravel()))
     low, high = np.zeros(len(wanted)), np.full(len(wanted), section.highest)
@@ -80,8 +71,12 @@ def scallop_of_spacing(tool: Meridian, wall_deg: npt.ArrayLike, spacing: npt.Arr
 
 
 def scallop_of_step(tool: Meridian, wall_deg: npt.ArrayLike, step: npt.ArrayLike) -> FloatArray:
-    """Scallop height (mm) by wall angle (degrees) and step down between Z-levels (mm)."""
-    return scallop_of_spacing(tool, wall_deg, np.asarray(step, dtype=np.float64) / np.sin(np.radians(wall_deg)))
+    """Scallop height (mm) by wall angle (degrees, 0 < angle < 90) and step down between Z-levels (mm).
+
+    NaN and errors as of :func:`scallop_of_spacing`.
+    """
+    walls, steps = _checked(wall_deg, step)
+    return scallop_of_spacing(tool, walls, steps / np.sin(np.radians(walls)))
 
 
 def scallop_of_rows(tool: Radial, wall_deg: npt.ArrayLike, spacing: npt.ArrayLike) -> FloatArray:
@@ -90,8 +85,11 @@ def scallop_of_rows(tool: Radial, wall_deg: npt.ArrayLike, spacing: npt.ArrayLik
     Half a spacing beside the row the tool is cut by an upright plane; what stays below the cut is the scallop. There a
     point at radius r stands Z(r) cos a - sqrt(r^2 - p^2/4) sin a over a plane parallel to the wall: lowest at one r.
     For small spacings it is p^2 sin a / (8 r), r the radius at the wall's slope. NaN beyond the tool's width.
+
+    Raises:
+        ToolError: as :func:`scallop_of_spacing`.
     """
-    walls, spacings = np.broadcast_arrays(np.asarray(wall_deg, dtype=np.float64), np.asarray(spacing, dtype=np.float64))
+    walls, spacings = _checked(wall_deg, spacing)
     angle, aside = np.radians(walls.ravel()), 0.5 * spacings.ravel()
     rim = float(np.asarray(tool.radius_range_at(tool.max_slope)[1]))
 
@@ -109,6 +107,20 @@ def scallop_of_rows(tool: Radial, wall_deg: npt.ArrayLike, spacing: npt.ArrayLik
 
     scallop = lowest(aside) - lowest(np.zeros(len(aside)))
     return np.where(aside < rim, scallop, np.nan).reshape(walls.shape)
+
+
+def _checked(wall_deg: npt.ArrayLike, spacing: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """Wall angles and spacings of one shape, in their ranges."""
+    walls, spacings = np.broadcast_arrays(np.asarray(wall_deg, dtype=np.float64), np.asarray(spacing, dtype=np.float64))
+    for name, values, good in (
+        ("wall_deg", walls, (walls > 0.0) & (walls < 90.0)),
+        ("spacing", spacings, (spacings > 0.0) & np.isfinite(spacings)),
+    ):
+        if not good.all():
+            hint = "walls lie between 0 and 90 degrees, passes some way apart"
+            message = f"{name} = {values[~good].flat[0]:g}: out of range"
+            raise ToolError(message, code="out-of-range", where=name, hint=hint)
+    return walls, spacings
 
 
 class _Section:

@@ -152,6 +152,8 @@ def _legend(figure: Figure, tools: list[_Drawn]) -> None:
 
 def _facts(tool: Tool) -> str:
     height = float(tool.height_at(tool.max_slope))
+    if height == 0.0:
+        return "flat: its sharp corner does the work"
     return f"{height:.3g} mm high, slopes to {np.degrees(tool.max_slope):.3g}°"
 
 
@@ -268,7 +270,7 @@ def _scallops(axes: Axes, tools: list[_Drawn], step_mm: float) -> None:
     """Scallop between Z-levels by wall angle, in micrometres; beyond the profile's last slope its rim cuts: thin."""
     ends = [float(np.degrees(drawn.tool.max_slope)) for drawn in tools]
     walls = [np.unique(np.append(WALLS_DEG, [end, end + RIM_DEG])) for end in ends]
-    walls = [angles[angles <= WALLS_DEG[-1]] for angles in walls]
+    walls = [angles[(angles >= WALLS_DEG[0]) & (angles <= WALLS_DEG[-1])] for angles in walls]
     heights = [1e3 * scallop_of_step(drawn.tool, angles, step_mm) for drawn, angles in zip(tools, walls, strict=True)]
     seen = np.concatenate([height[angles >= 12.0] for height, angles in zip(heights, walls, strict=True)])
     seen = seen[np.isfinite(seen) & (seen > 1e-3)]

@@ -182,7 +182,13 @@ def test_plot_draws_svg_and_png(cli: Any, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "names",
-    [["hemisphere-d3"], ["clothoid:large"], ["hemisphere-d10", "clothoid:small", "hemisphere-1in"], ["held"]],
+    [
+        ["hemisphere-d3"],
+        ["clothoid:large"],
+        ["hemisphere-d10", "clothoid:small", "hemisphere-1in"],
+        ["held"],
+        ["flat-d6"],
+    ],
     ids="+".join,
 )
 def test_nothing_on_a_plot_is_clipped_or_overlaps(names: list[str], tmp_path: Path, monkeypatch: Any) -> None:
