@@ -84,13 +84,19 @@ def _place(path: Path) -> str:
 def drawn_whole(path: Path) -> Iterator[Path]:
     """A temporary name in the folder of ``path``, to be drawn to; it becomes ``path`` when all went well."""
     require_writable([path])
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
-    os.close(handle)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+        os.close(handle)
+    except OSError as error:
+        raise _unwritable(path, error) from error
     try:
         yield Path(name)
         Path(name).chmod(0o644)
         Path(name).replace(path)
+    except OSError as error:
+        Path(name).unlink()
+        raise _unwritable(path, error) from error
     except BaseException:
         Path(name).unlink()
         raise

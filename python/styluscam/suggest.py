@@ -18,10 +18,10 @@ import numpy as np
 from styluscam import planning, reach
 from styluscam.errors import Cancelled, JobError, PlanError, ToolError
 from styluscam.job import Job
-from styluscam.scallop import scallop_of_step
+from styluscam.scallop import scallop_of_spacing
 from styluscam.tool import Tool
 from styluscam.types import Document, FloatArray, Progress
-from styluscam.walls import BIN_DEG, Walls, walls_of
+from styluscam.walls import BIN_DEG, Classes, Walls, walls_of
 
 BEST = 3
 """Tools for which the job is planned, to see what they bridge."""
@@ -192,20 +192,28 @@ class _Passes:
             self.pitch, self.rows_deg = float(operation["stepover"]), float(operation["angle_deg"])
             self.words = f"rows {self.pitch:g} mm apart at {self.rows_deg:g} deg"
 
-    def scallops(self, tool: Tool, angles_deg: FloatArray, turns_deg: FloatArray) -> FloatArray:
-        """Scallop height (mm) by wall angle and by the rows' turn against the wall (degrees)."""
+    def scallops(self, tool: Tool, walls: Classes) -> FloatArray:
+        """Scallop height (mm) by class of walls: on the plane, and by what the part's curvature adds or takes."""
         if self.rows_deg is None:
-            return scallop_of_step(tool, angles_deg, self.pitch)
-        return self._of_rows(tool, np.radians(angles_deg), np.radians(turns_deg))
+            return self._of_levels(tool, walls)
+        return self._of_rows(tool, walls)
 
-    def _of_rows(self, tool: Tool, slopes: FloatArray, turns: FloatArray) -> FloatArray:
-        """p^2/8 R of the place where vertical planes cut the wall, R between the tool's two radii (Euler)."""
+    def _of_levels(self, tool: Tool, walls: Classes) -> FloatArray:
+        """Where the wall turns, the passes lie no farther apart than from the slope 0 to twice the wall's."""
+        slopes = np.radians(walls.angles)
+        apart = np.minimum(self.pitch / np.sin(slopes), 2.0 * slopes / np.maximum(np.abs(walls.up), 1e-9))
+        return np.asarray(np.maximum(scallop_of_spacing(tool, walls.angles, apart) + walls.up * apart**2 / 8.0, 0.0))
+
+    def _of_rows(self, tool: Tool, walls: Classes) -> FloatArray:
+        """p^2/8 (1/R + k) where vertical planes cut the wall, R between the tool's two radii and k the part's (Euler)."""
+        slopes, turns = np.radians(walls.angles), np.radians(walls.turns)
         sin, cos = np.sin(slopes), np.cos(slopes)
         apart2 = self.pitch**2 / (1.0 - (sin * np.cos(turns)) ** 2)
         up2 = (np.cos(turns) * cos) ** 2 / (1.0 - (sin * np.cos(turns)) ** 2)
         meridian, around = _radii(tool, slopes)
         radius = np.where(np.isfinite(meridian), meridian, 1e9) * up2 + around * (1.0 - up2)
-        return np.asarray(np.minimum(apart2 / np.maximum(8.0 * radius, 1e-9), np.sqrt(apart2) / 2.0))
+        bend = 1.0 / np.maximum(radius, 1e-9) + walls.up * up2 + walls.level * (1.0 - up2)
+        return np.asarray(np.clip(apart2 * bend / 8.0, 0.0, np.sqrt(apart2) / 2.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -215,12 +223,8 @@ class _Asked:
     name: str
     walls: Walls
     passes: _Passes
-    angles: FloatArray
-    """Classes of wall angles, degrees."""
-    turns: FloatArray
-    """Of the rows against the wall, degrees."""
-    areas: FloatArray
-    """Of the walls, mm^2, by class."""
+    classes: Classes
+    """Of the walls, as the passes see them."""
     ball: float
     """Radius (mm) of the ball by which the sheet rounds every tool."""
     thickness: float
@@ -236,9 +240,9 @@ def _asked_by(job: Job, progress: Progress | None) -> list[_Asked]:
     ball = share * thickness if sheet.get("law", "constant") == "constant" else 0.0
     for index, name in enumerate(_names(document)):
         walls, passes = walls_of(job, index, progress), _Passes(document["operations"][index])
-        angles, turns, areas = walls.classes(passes.rows_deg)
-        if len(angles):
-            found.append(_Asked(name, walls, passes, angles, turns, areas, ball, thickness))
+        classes = walls.classes(passes.rows_deg)
+        if len(classes.areas):
+            found.append(_Asked(name, walls, passes, classes, ball, thickness))
     if not found:
         hint = "levels make no sense there: try a zig-zag"
         raise JobError("the selected faces have no walls", code="no-walls", where="part.faces", hint=hint)
@@ -257,8 +261,8 @@ def _radii(tool: Tool, slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
 def _judged(tool: Tool, asked: list[_Asked]) -> Candidate:
     """What the profile says of a tool, over all operations by their area."""
     heights = np.concatenate([_heights(tool, each) for each in asked])
-    angles = np.concatenate([each.angles for each in asked])
-    shares = np.concatenate([each.areas for each in asked])
+    angles = np.concatenate([each.classes.angles for each in asked])
+    shares = np.concatenate([each.classes.areas for each in asked])
     shares /= shares.sum()
     worst = int(np.argmax(heights))
     over = float(shares[np.radians(angles) > tool.max_slope + 1e-6].sum())
@@ -284,7 +288,7 @@ def _judged(tool: Tool, asked: list[_Asked]) -> Candidate:
 
 def _heights(tool: Tool, asked: _Asked) -> FloatArray:
     """Scallops (mm) by class."""
-    heights = asked.passes.scallops(tool, asked.angles, asked.turns)
+    heights = asked.passes.scallops(tool, asked.classes)
     # where passes lie farther apart than the tool is wide, what is left is at least as high as the tool is round
     return np.where(np.isfinite(heights), heights, max(float(np.nanmax(heights, initial=0.0)), tool.diameter))
 
@@ -325,8 +329,8 @@ def _corner(tool: Tool, asked: _Asked, missed: float) -> tuple[float, float, str
 
 def _reasons(candidate: Candidate, hollow: float | None, corner: str, asked: list[_Asked]) -> tuple[str, ...]:
     tool, over, unreached = candidate.tool, candidate.over_rim, candidate.unreached
-    most = max(asked, key=lambda each: float(each.areas.max()))
-    common = float(most.angles[int(np.argmax(most.areas))])
+    most = max(asked, key=lambda each: float(each.classes.areas.max()))
+    common = float(most.classes.angles[int(np.argmax(most.classes.areas))])
     radius = float(_radii(tool, np.radians([common]))[0][0])
     said = [f"scallops of {micrometres(candidate.scallop_mm)} um on average"]
     if over <= MARGIN:
@@ -407,7 +411,7 @@ def _facts(asked: list[_Asked]) -> Document:
 def _angles(asked: list[_Asked]) -> tuple[FloatArray, FloatArray]:
     """Wall angles (degrees) of all operations, floors included, in classes, and their areas (mm^2)."""
     found = [each.walls.classes(0.0) for each in asked]
-    angles, areas = np.concatenate([each[0] for each in found]), np.concatenate([each[2] for each in found])
+    angles, areas = np.concatenate([each.angles for each in found]), np.concatenate([each.areas for each in found])
     _, number = np.unique(np.floor(angles / BIN_DEG), return_inverse=True)
     sums: FloatArray = np.bincount(number, areas).astype(np.float64)
     return np.bincount(number, angles * areas) / sums, sums

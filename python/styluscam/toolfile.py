@@ -97,7 +97,7 @@ def check_text(document: Document, keys: Iterable[str], where: str) -> None:
     """Names and titles are one line of text."""
     for key in keys:
         value = document.get(key, "")
-        if not isinstance(value, str) or any(ord(letter) < 32 for letter in value):
+        if not isinstance(value, str) or any(ord(c) < 32 or 0xD800 <= ord(c) < 0xE000 for c in value):
             raise ToolError(f"{where}: {key} must be one line of text", code="document", where=where)
 
 

@@ -137,17 +137,21 @@ def _legend(figure: Figure, tools: list[_Drawn]) -> None:
 
     if len(tools) == 1:
         tool = tools[0].tool
-        figure.text(0.03, 0.948, tool.name or tool.description, va="center", fontsize=16, weight="bold")
+        figure.text(
+            0.03, 0.948, tool.name or tool.description, va="center", fontsize=16, weight="bold", parse_math=False
+        )
         facts = _facts(tool) if not tool.name else f"{tool.description}, {_facts(tool)}"
         line = f"{tool.title}; {facts}" if tool.title else facts
-        figure.text(0.98, 0.948, line if len(line) < 96 else facts, ha="right", va="center", color=SOFT)
+        figure.text(
+            0.98, 0.948, line if len(line) < 96 else facts, ha="right", va="center", color=SOFT, parse_math=False
+        )
         return
     for number, drawn in enumerate(tools):
         x, y = (0.03, 0.52)[number % 2], 0.958 - 0.045 * (number // 2)
         sample = Line2D([x, x + 0.032], [y, y], color=drawn.colour, linestyle=drawn.dash, linewidth=2.4)
         figure.add_artist(sample)
         label = drawn.label if len(drawn.label) <= 62 else drawn.label[:60] + "..."
-        figure.text(x + 0.04, y, label, va="center", fontsize=10.5)
+        figure.text(x + 0.04, y, label, va="center", fontsize=10.5, parse_math=False)
 
 
 def _facts(tool: Tool) -> str:

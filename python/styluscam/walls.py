@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -60,6 +61,21 @@ class Corners:
     """(K,) mm, along the corner."""
 
 
+class Classes(NamedTuple):
+    """The walls in C classes, each a mean over its area."""
+
+    angles: FloatArray
+    """(C,) degrees."""
+    turns: FloatArray
+    """(C,) degrees: of rows against the wall."""
+    areas: FloatArray
+    """(C,) mm^2."""
+    up: FloatArray
+    """(C,) 1/mm: curvature up the wall, positive where convex."""
+    level: FloatArray
+    """(C,) 1/mm: curvature along the level line."""
+
+
 @dataclass(frozen=True, eq=False)
 class Walls:
     """The faces of an operation by place: N triangles, in the setup's frame, that look up."""
@@ -102,8 +118,8 @@ class Walls:
         sharpest = float(self.bends[:, (0, 2)].min(initial=0.0))
         return -1.0 / sharpest if sharpest < -HOLLOW else None
 
-    def classes(self, rows_deg: float | None = None) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Wall angles (degrees), turns (degrees) and areas (mm^2), in classes.
+    def classes(self, rows_deg: float | None = None) -> Classes:
+        """Wall angles, turns, areas and curvatures, in classes of angles and turns, hollow, straight and round places apart.
 
         Levels (``rows_deg`` None) have no floors and no turns. For rows the turn is the angle in plan between the wall's
         uphill direction and the way from row to row: 0 where rows run level along the wall, 90 where they climb it.
@@ -114,11 +130,16 @@ class Walls:
             turns = np.abs((across + 90.0) % 180.0 - 90.0)
         kept = (angles >= (FLOOR_DEG if rows_deg is None else 0.0)) & (angles < STEEP_DEG)
         angles, turns, areas = angles[kept], turns[kept], self.areas[kept]
-        keys = np.stack([np.floor(angles / BIN_DEG), np.floor(turns / TURN_DEG)], axis=1)
+        bent = np.sign(np.round(self.bends[kept, 0] / HOLLOW))
+        keys = np.stack([np.floor(angles / BIN_DEG), np.floor(turns / TURN_DEG), bent], axis=1)
         _, number = np.unique(keys, axis=0, return_inverse=True)
         number = number.reshape(-1)
         sums: FloatArray = np.bincount(number, areas).astype(np.float64)
-        return np.bincount(number, areas * angles) / sums, np.bincount(number, areas * turns) / sums, sums
+
+        def mean(values: FloatArray) -> FloatArray:
+            return np.asarray(np.bincount(number, areas * values) / sums)
+
+        return Classes(mean(angles), mean(turns), sums, mean(self.bends[kept, 0]), mean(self.bends[kept, 2]))
 
 
 def walls_of(job: Job, index: int, progress: Progress | None = None) -> Walls:

@@ -61,9 +61,9 @@ def test_a_tool_that_is_rounder_leaves_nothing() -> None:
 def test_rows_are_told_by_how_they_meet_the_walls() -> None:
     slopes, areas = np.radians([45.0, 45.0, 1.0]), np.ones(3)
     walls = Walls(slopes, np.radians([30.0, -60.0, 0.0]), areas, np.zeros((3, 3)), NONE, np.array([1, 2, 3]))
-    angles, turns, found = walls.classes(rows_deg=30.0)
+    angles, turns, found, *_ = walls.classes(rows_deg=30.0)
     assert sorted(zip(angles.round(6), turns.round(6), found, strict=True)) == [(1, 60, 1), (45, 0, 1), (45, 90, 1)]
-    levels, still, areas = walls.classes()
+    levels, still, areas, *_ = walls.classes()
     assert levels == pytest.approx([45.0]) and still.tolist() == [0.0] and areas.tolist() == [2.0]
 
 

@@ -12,6 +12,7 @@ from styluscam.cli import console, progress
 from styluscam.cli.failures import naming
 from styluscam.cli.options import Debug, JobFile, Json, Quiet
 from styluscam.job import Job
+from styluscam.tool import Tool
 from styluscam.types import Document
 
 if TYPE_CHECKING:
@@ -52,6 +53,8 @@ def suggest(
     from styluscam.suggest import micrometres
     from styluscam.suggest import suggest as advise
 
+    if own is not None:
+        _check(own)
     with naming(job), progress.shown(not (json or quiet)) as report:
         work = Job.read(job)
         shelf = _shelf(work) if own is None else library.read_library(own)
@@ -92,6 +95,13 @@ def _bridged(candidate: Candidate) -> str:
     if candidate.failure:
         return "no path"
     return f"{'' if candidate.asked else '~'}{candidate.bridged_mm:.3f}"
+
+
+def _check(own: Path) -> None:
+    """Refuses a library with a tool that cannot be built: that is no fault of the job."""
+    shelf = library.read_library(own)
+    for name in shelf.tools:
+        Tool.of_library(shelf, name)
 
 
 def _shelf(job: Job) -> library.Library:
