@@ -46,14 +46,14 @@ def text_of(tool: Tool) -> str:
     """The file's text for a tool."""
     height = float(tool.height_at(tool.max_slope))
     document = tool.to_dict()
-    usual = _usual(tool.diameter, height)
+    usual = _usual(document, tool.diameter, height)
     lengths = {
         "Diameter": tool.diameter,
         "CuttingEdgeHeight": height,
         "Length": document.get("length", usual["length"]),
         "ShankDiameter": document.get("shank_diameter", usual["shank_diameter"]),
     }
-    parameters = {EXACT: json.dumps(document)} | {name: f"{value!r} mm" for name, value in lengths.items()}
+    parameters = {EXACT: json.dumps(tool.to_file())} | {name: f"{value!r} mm" for name, value in lengths.items()}
     return toolfile.text_of(
         {
             "version": VERSION,
@@ -89,17 +89,23 @@ def read(path: str | Path) -> tuple[Document, list[str]]:
 def document_of(exact: str, where: str) -> Document:
     """The tool document in the text of a stylus' property: of the whole tool, or of its profile alone."""
     try:
-        parsed = json.loads(exact)
+        parsed = toolfile.parsed(exact)
     except (ValueError, RecursionError) as error:
         raise ToolError(f"{where}: its {EXACT} is not JSON: {error}", code="unreadable", where=where) from error
     if not isinstance(parsed, dict):
         raise ToolError(f"{where}: its {EXACT} is no JSON object", code="unreadable", where=where)
-    return toolfile.bare(parsed) if EXACT.lower() in parsed else {EXACT.lower(): parsed}
+    if EXACT.lower() not in parsed:
+        return {EXACT.lower(): parsed}
+    toolfile.check_schema(parsed, where)
+    return parsed
 
 
-def _usual(diameter: float, height: float) -> dict[str, float]:
+def _usual(document: Document, diameter: float, height: float) -> dict[str, float]:
     """What FreeCAD is told of a tool that leaves these open (mm)."""
-    return {"length": height + SHANK_OVER_PROFILE, "shank_diameter": diameter}
+    base = document.get("base")
+    above = base.get("height", 0.0) if isinstance(base, dict) else 0.0
+    raised = height + (float(above) if _is_number(above) else 0.0)
+    return {"length": raised + SHANK_OVER_PROFILE, "shank_diameter": diameter}
 
 
 def _size(document: Document) -> tuple[float, float] | None:
@@ -115,7 +121,10 @@ def _stylus(values: Document, where: str) -> tuple[Document, list[str]]:
     """The exact document; a length that was changed in FreeCAD since counts."""
     document, remarks = document_of(str(values[EXACT]), where), []
     size = _size(document)
-    usual = {} if size is None else _usual(*size)
+    usual = {} if size is None else _usual(document, *size)
+    if size is not None and "Diameter" in values and not _shows(values["Diameter"], size[0]):
+        shown = number(values["Diameter"], f"{where}: Diameter")
+        remarks.append(f"Diameter was changed in FreeCAD to {shown:g} mm: the profile of {size[0]:g} mm counts")
     for key, name in (("length", "Length"), ("shank_diameter", "ShankDiameter")):
         shown = number(values[name], f"{where}: {name}") if name in values else 0.0
         exact = document.get(key, usual.get(key))
@@ -193,7 +202,9 @@ def number(value: object, where: str) -> float:
 
 
 def _decimal(text: str) -> float:
-    """A comma alone is a decimal point; with points beside it, it groups digits."""
+    """A comma alone is a decimal point; of commas and points, the last one is, and the others group digits."""
+    if "." in text and "," in text and text.rfind(",") > text.rfind("."):
+        return float(text.replace(".", "").replace(",", "."))
     return float(text.replace(",", "") if "." in text else text.replace(",", "."))
 
 

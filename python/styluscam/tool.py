@@ -114,8 +114,9 @@ class Tool:
     def _named(cls, document: Document, where: str, remarks: Sequence[str] = (), folder: str | Path = ".") -> Tool:
         toolfile.check_schema(document, where)
         document, files = pointsfile.resolved(document, folder)
+        text = toolfile.engine_text(document, where)
         try:
-            engine = _engine.Tool(json.dumps(toolfile.bare(document)))
+            engine = _engine.Tool(text)
         except ToolError as error:
             toolfile.check_tool(document, where)
             if where == "tool" or where in str(error):

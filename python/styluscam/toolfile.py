@@ -9,7 +9,7 @@ import difflib
 import json
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from pathlib import Path
 
@@ -41,9 +41,7 @@ def read_json(path: str | Path, what: str) -> Document:
         ToolError: the file cannot be read or is no JSON object.
     """
     try:
-        document = json.loads(
-            read_text(path, ToolError), object_pairs_hook=_once, parse_float=_finite, parse_constant=_finite
-        )
+        document = parsed(read_text(path, ToolError).removeprefix("\ufeff"))
     except ValueError as error:
         message = f"{path}: not {what}: {error}"
         raise ToolError(message, code="unreadable", where=str(path), hint="it must be JSON") from error
@@ -55,6 +53,39 @@ def read_json(path: str | Path, what: str) -> Document:
         raise ToolError(message, code="unreadable", where=str(path), hint='it begins with {"schema": 1, ...')
     found: Document = document
     return found
+
+
+def parsed(text: str) -> object:
+    """What a JSON text holds; ValueError for a key that stands twice in an object and for numbers that are not finite."""
+    return json.loads(text, object_pairs_hook=_once, parse_float=_finite, parse_constant=_finite)
+
+
+def engine_text(document: Document, where: str) -> str:
+    """The text that the engine takes of a tool's document.
+
+    Raises:
+        ToolError: it holds what JSON cannot: a number that is not finite, an object of Python; the key is named.
+    """
+    try:
+        return json.dumps(bare(document), allow_nan=False)
+    except (TypeError, ValueError, RecursionError) as error:
+        place, value = next(_unfit(bare(document), ""), ("", "it is nested too deeply"))
+        message = f"{where}: {place} = {value}: a number, a text, a list or a dict is expected"
+        raise ToolError(message, code="document", where=place or where) from error
+
+
+def _unfit(value: object, place: str) -> Iterator[tuple[str, object]]:
+    """Where a document holds what JSON cannot, and that."""
+    if isinstance(value, dict):
+        for key, part in value.items():
+            yield from _unfit(part, f"{place}.{key}" if place else str(key))
+    elif isinstance(value, list | tuple):
+        for number, part in enumerate(value):
+            yield from _unfit(part, f"{place}[{number}]")
+    elif isinstance(value, float) and not math.isfinite(value):
+        yield place, value
+    elif value is not None and not isinstance(value, str | int | float):
+        yield place, f"{type(value).__name__} object"
 
 
 def _once(pairs: list[tuple[str, object]]) -> Document:

@@ -417,6 +417,51 @@ def test_freecad_s_rounding_of_lengths_that_a_tool_leaves_open(tmp_path: Path) -
     assert sc.Tool.read(written(tmp_path / "c.fctb", bit)).to_dict() == {**tool.to_dict(), "length": 50.0}
 
 
+def test_a_bit_keeps_the_tool_s_name_and_a_high_base(tmp_path: Path) -> None:
+    base = {"kind": "cylindrical", "height": 45.0}
+    document = {"name": "a:b", "title": "A ball", "profile": BALL, "base": base, "shank_diameter": 8.0}
+    tool = sc.Tool.from_dict(document)
+    tool.write(tmp_path / "other.fctb")
+    read = sc.Tool.read(tmp_path / "other.fctb")
+    assert (read.name, read.title, read.to_dict(), read.remarks) == ("a:b", "A ball", tool.to_dict(), ())
+
+
+@pytest.mark.parametrize(
+    ("exact", "says"),
+    [
+        ('{"profile": {"kind": "ball", "kind": "flat", "diameter": 6}}', "'kind' stands twice"),
+        (json.dumps({"schema": 9, "profile": BALL}), "newer StylusCAM"),
+    ],
+)
+def test_slips_in_a_bit_s_document_are_named(tmp_path: Path, exact: str, says: str) -> None:
+    bit = {"shape": "stylus.fcstd", "parameter": {"Profile": exact}, "attribute": {}}
+    assert says in str(refused(sc.Tool.read, written(tmp_path / "b.fctb", bit)))
+
+
+def test_a_diameter_changed_in_freecad_is_noted(tmp_path: Path) -> None:
+    bit = {"shape": "stylus.fcstd", "parameter": {"Profile": json.dumps(BALL), "Diameter": "8.00 mm"}, "attribute": {}}
+    (remark,) = sc.Tool.read(written(tmp_path / "b.fctb", bit)).remarks
+    assert remark == "Diameter was changed in FreeCAD to 8 mm: the profile of 6 mm counts"
+
+
+@pytest.mark.parametrize(
+    ("document", "says"),
+    [
+        ({"profile": {"kind": "ball", "diameter": math.nan}}, "profile.diameter = nan"),
+        ({"profile": {"kind": "points", "points": [[0.0, 0.0], [1.0, math.inf]]}}, "profile.points[1][1] = inf"),
+        ({"profile": {"kind": "points", "points": np.zeros((3, 2))}}, "profile.points = ndarray object"),
+        ({"profile": {"kind": "ball", "diameter": np.float32(3.0)}}, "profile.diameter = float32 object"),
+    ],
+)
+def test_what_is_no_document_is_named(document: Any, says: str) -> None:
+    assert says in str(refused(sc.Tool.from_dict, document))
+
+
+def test_a_tool_file_may_begin_with_a_byte_order_mark(tmp_path: Path) -> None:
+    (tmp_path / "t.json").write_text(json.dumps({"profile": BALL}), encoding="utf-8-sig")
+    assert sc.Tool.read(tmp_path / "t.json").diameter == 6.0
+
+
 @pytest.mark.parametrize("length", (None, "a", [1.0], True, {}))
 def test_a_malformed_length_in_a_bit_is_the_user_s(tmp_path: Path, length: Any) -> None:
     document = {"profile": BALL, "length": length}
@@ -445,6 +490,7 @@ def test_a_profile_alone_is_a_stylus_too(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "value"),
     [("5.0000 mm", 5.0), ('0.375 "', 9.525), ("0.5 in", 12.7), ("1 1/8 in", 28.575), ("1,234.5 mm", 1234.5),
+     ("1.234,5 mm", 1234.5),
      ("45\u00b0", 45.0), ("12", 12.0), ("250 \u00b5m", 0.25), ("1e1 mm", 10.0), (7, 7.0)],
 )  # fmt: skip
 def test_lengths_are_read_as_freecad_writes_them(text: Any, value: float) -> None:

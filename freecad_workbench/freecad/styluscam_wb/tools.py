@@ -12,6 +12,9 @@ from . import compat, engine
 
 PROFILE = "Profile"
 
+NAMING = ("schema", "name", "title")
+"""Keys of a tool file around the tool: a job's tool has none of them."""
+
 SHAPE_PROPERTIES = {
     PROFILE: ("App::PropertyString", "The exact profile, or the whole tool document, as JSON"),
     "Diameter": ("App::PropertyLength", "Diameter of the profile's base; follows from the profile"),
@@ -70,7 +73,9 @@ def exact_document(profile: str) -> dict[str, Any]:
         ToolError: it is neither.
     """
     parsed = _parsed(profile)
-    return parsed if "profile" in parsed else {"profile": parsed}
+    if "profile" not in parsed:
+        return {"profile": parsed}
+    return {key: value for key, value in parsed.items() if key not in NAMING}
 
 
 def _parsed(profile: str) -> dict[str, Any]:
