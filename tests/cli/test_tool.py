@@ -329,8 +329,8 @@ def test_suggest_takes_each_operation_s_faces(cli: Any, mine: Path, tmp_path: Pa
     assert [each["id"] for each in alone["part"]["operations"]] == ["floor"]
     assert [wall["angle_deg"] for wall in alone["part"]["walls"]] == pytest.approx([0.0], abs=0.1)
     assert "rows 0.2 mm apart at 0 deg, on Face1" in cli(*words).out
-    ran = cli(*words, "--operation", "flor")
-    assert ran.code == 2 and "no operation 'flor'" in ran.err and "floor" in ran.err
+    ran = cli(*words, "--operation", "ground")
+    assert ran.code == 2 and "no operation 'ground'" in ran.err and "floor" in ran.err
     job.write_text(changed(FINE_CUP, ('"Face4"', '"Face44"')))
     assert "no face 'Face44'" in cli(*words).err
 

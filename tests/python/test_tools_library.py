@@ -143,8 +143,8 @@ def test_a_library_of_one_s_own(tmp_path: Path) -> None:
         (shelf({"name": "a", "sizes": {}}), "sizes are profiles by name", "small"),
         (shelf({"name": "a", "sizes": {"s": {"kind": "ball", "width": 5}}}), "size s of kind ball: unknown", ""),
         (
-            shelf({"name": "a", "sizes": {"s": {"profile": BALL, "lenth": 5}}}),
-            "size s: unknown key 'lenth'",
+            shelf({"name": "a", "sizes": {"s": {"profile": BALL, "lengths": 5}}}),
+            "size s: unknown key 'lengths'",
             "'length'",
         ),
         (shelf(5), "tool 1: not an object", ""),
