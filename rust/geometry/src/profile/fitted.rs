@@ -56,6 +56,11 @@ impl Interval {
         (d, dd)
     }
 
+    /// Coefficients of dr/du and dz/du, lowest first.
+    pub fn rate_polynomials(&self) -> [[f64; TERMS - 1]; 2] {
+        [0, 1].map(|i| self.rates.map(|rate| rate[i]))
+    }
+
     /// Where the slope is that of the direction (cos, sin), which lies within this interval.
     fn parameter_of(&self, (cos, sin): (f64, f64), start: f64) -> f64 {
         rising_root(start, SMALL_STEP, |u| {

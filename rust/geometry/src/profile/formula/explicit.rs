@@ -3,9 +3,11 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::expression::Expression;
+use super::interval::Interval;
 use super::jet::Jet;
+use super::number::Number;
 use super::parametric::note_move;
-use super::sample::{short, Route, Sample, Source, SAMPLES};
+use super::sample::{short, Enclosure, Route, Sample, Source, SAMPLES};
 use super::solve::{bracket, solve};
 use crate::GeometryError;
 
@@ -65,6 +67,26 @@ impl Source for Explicit {
             return self.by_radius(p);
         }
         self.by_height(p).unwrap_or_else(|| self.by_radius(f64::NAN))
+    }
+
+    /// By radius, whatever the stretch.
+    fn between(&self, from: &Sample, to: &Sample) -> Option<Sample> {
+        let [low, high] = [from.point[0], to.point[0]];
+        let r = 0.5 * (low + high);
+        (low < r && r < high).then(|| self.by_radius(r))
+    }
+
+    fn enclose(&self, from: &Sample, to: &Sample) -> Option<Enclosure> {
+        let [low, high] = [from.point[0], to.point[0]];
+        let jet = self.z.over(Interval::new(low, high), Interval::default());
+        let upwards = Interval::exact(self.upwards);
+        let width = (high - low).next_up();
+        let d = [Interval::exact(1.0), upwards * jet.first[0]];
+        Some(Enclosure::new(width, d, [Interval::default(), upwards * jet.second[0]]))
+    }
+
+    fn operations(&self) -> usize {
+        self.z.operations
     }
 
     fn place(&self, sample: &Sample) -> String {

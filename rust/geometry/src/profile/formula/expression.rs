@@ -7,7 +7,9 @@
 
 use exmex::{BinOp, Express, FlatEx, MakeOperators, MatchLiteral, Operator};
 
+use super::interval::Interval;
 use super::jet::Jet;
+use super::number::Number;
 use super::refusal;
 use super::tokens::{tokens, Names, Token};
 use crate::GeometryError;
@@ -16,8 +18,8 @@ use crate::GeometryError;
 #[derive(Clone, Debug)]
 struct Operators;
 
-impl MakeOperators<Jet> for Operators {
-    fn make<'a>() -> Vec<Operator<'a, Jet>> {
+impl<T: Number> MakeOperators<Jet<T>> for Operators {
+    fn make<'a>() -> Vec<Operator<'a, Jet<T>>> {
         let binary = |name, prio, apply| Operator::make_bin(name, BinOp { apply, prio, is_commutative: false });
         vec![
             binary("^", 5, Jet::pow),
@@ -57,35 +59,60 @@ impl MatchLiteral for Literals {
     }
 }
 
+/// What exmex makes of a formula.
+type Parsed<T> = FlatEx<Jet<T>, Operators, Literals>;
+
 /// A function of up to two variables.
 #[derive(Clone, Debug)]
 pub(super) struct Expression {
-    parsed: FlatEx<Jet, Operators, Literals>,
+    parsed: Parsed<f64>,
+    /// The same on intervals: exmex folds constants, so that its numbers are of one type.
+    enclosing: Parsed<Interval>,
     /// For each variable that occurs, which of the two it is.
     slots: Vec<usize>,
+    /// How many operators and functions an evaluation takes.
+    pub operations: usize,
 }
 
 impl Expression {
     /// Reads the formula of a key.
     pub fn new(text: &str, names: &Names) -> Result<Self, GeometryError> {
-        let canonical = canonical(&tokens(text, names)?);
-        let parsed: FlatEx<Jet, Operators, Literals> = FlatEx::parse(&canonical).map_err(|error| {
-            refusal(names.key.to_owned(), error.msg().to_owned(), "simplify the formula, and report this one")
-        })?;
+        let tokens = tokens(text, names)?;
+        let canonical = canonical(&tokens);
+        let parsed: Parsed<f64> = parse(&canonical, names)?;
+        let enclosing = parse(&canonical, names)?;
         let slot = |name: &String| names.variables.iter().position(|variable| variable == name);
         let slots = parsed.var_names().iter().filter_map(slot).collect();
-        Ok(Self { parsed, slots })
+        let operations = tokens.iter().filter(|token| matches!(token, Token::Operator(_) | Token::Function(_))).count();
+        Ok(Self { parsed, enclosing, slots, operations })
     }
 
     /// Value and derivatives by the variables, in the order of [`Names::variables`].
     pub fn at(&self, first: f64, second: f64) -> Jet {
+        self.evaluated(&self.parsed, [first, second])
+    }
+
+    /// Intervals that hold value and derivatives everywhere over the box of the two variables.
+    ///
+    /// The formula's numbers are the f64 nearest to what was written.
+    pub fn over(&self, first: Interval, second: Interval) -> Jet<Interval> {
+        self.evaluated(&self.enclosing, [first, second])
+    }
+
+    fn evaluated<T: Number>(&self, parsed: &Parsed<T>, [first, second]: [T; 2]) -> Jet<T> {
         let inputs = [Jet::variable(first, 0), Jet::variable(second, 1)];
         let mut given = inputs;
         for (place, &slot) in given.iter_mut().zip(&self.slots) {
             *place = inputs[slot.min(1)];
         }
-        self.parsed.eval(&given[..self.slots.len().min(2)]).unwrap_or_else(|_| Jet::nan())
+        parsed.eval(&given[..self.slots.len().min(2)]).unwrap_or_else(|_| Jet::nan())
     }
+}
+
+fn parse<T: Number>(canonical: &str, names: &Names) -> Result<Parsed<T>, GeometryError> {
+    FlatEx::parse(canonical).map_err(|error| {
+        refusal(names.key.to_owned(), error.msg().to_owned(), "simplify the formula, and report this one")
+    })
 }
 
 /// The tokens as exmex reads them the way people do.
@@ -163,13 +190,13 @@ mod tests {
 
     use super::*;
 
-    fn parse(text: &str) -> Result<Expression, GeometryError> {
+    fn read(text: &str) -> Result<Expression, GeometryError> {
         let parameters = BTreeMap::from([("a".to_owned(), 3.0), ("low".to_owned(), -2.0)]);
         Expression::new(text, &Names { key: "z", variables: &["r", "s"], parameters: &parameters })
     }
 
     fn value(text: &str) -> f64 {
-        parse(text).unwrap().at(0.5, 0.25).value
+        read(text).unwrap().at(0.5, 0.25).value
     }
 
     #[test]
@@ -227,7 +254,7 @@ mod tests {
             ("sin", "ends too early"),
             ("{r}", "`{` is not allowed"),
         ] {
-            let message = parse(text).unwrap_err().to_string();
+            let message = read(text).unwrap_err().to_string();
             assert!(message.contains(expected), "{text}: {message}");
         }
     }
@@ -235,10 +262,10 @@ mod tests {
     #[test]
     fn limits_come_before_parsing() {
         let deep = |n: usize| format!("{}r{}", "(".repeat(n), ")".repeat(n));
-        assert!((parse(&deep(64)).unwrap().at(0.5, 0.0).value - 0.5).abs() < 1e-16);
-        assert!(parse(&deep(65)).unwrap_err().to_string().contains("deeper than 64"));
-        assert!(parse(&"(".repeat(1_000_000)).unwrap_err().to_string().contains("longer than 2000"));
-        assert!(parse(&vec!["r"; 300].join("+")).unwrap_err().to_string().contains("more than 150"));
+        assert!((read(&deep(64)).unwrap().at(0.5, 0.0).value - 0.5).abs() < 1e-16);
+        assert!(read(&deep(65)).unwrap_err().to_string().contains("deeper than 64"));
+        assert!(read(&"(".repeat(1_000_000)).unwrap_err().to_string().contains("longer than 2000"));
+        assert!(read(&vec!["r"; 300].join("+")).unwrap_err().to_string().contains("more than 150"));
     }
 
     /// A formula and, worked out apart from it, its value at r = 0.5, s = 0.25.
@@ -276,12 +303,12 @@ mod tests {
 
         #[test]
         fn any_text_is_read_or_refused(text in "\\PC{0,80}") {
-            let _ = parse(&text);
+            let _ = read(&text);
         }
 
         #[test]
         fn any_text_of_formula_characters_is_read_or_refused(text in "[-+*/^()rsae0-9. ]{0,60}|((sin|ln)?[(]?[rs2][)]?[-+*/^]?){0,30}") {
-            if let Ok(expression) = parse(&text) {
+            if let Ok(expression) = read(&text) {
                 let _ = expression.at(0.5, 0.25);
             }
         }

@@ -1,6 +1,5 @@
 //! From a proven curve to piecewise polynomials, halved until they agree with it.
 
-use super::refusal;
 use super::sample::{short, Route, Sample, Source};
 use crate::profile::fitted::{Fitted, Interval, TERMS};
 use crate::GeometryError;
@@ -273,25 +272,4 @@ fn right_angle_or_less(slope: f64) -> f64 {
     } else {
         slope
     }
-}
-
-/// Refuses polynomials that are concave where the formula was not seen to be.
-pub(super) fn polynomials_are_convex(curve: &Fitted, size: f64) -> Result<(), GeometryError> {
-    for interval in curve.intervals() {
-        // not at u = -1 and 1, where the curve may stand still
-        for k in 1..24 {
-            let u = f64::from(k) / 12.0 - 1.0;
-            let (d, dd) = interval.rates(u);
-            let speed = (d[0] * d[0] + d[1] * d[1]).sqrt();
-            let terms = (d[0] * dd[1]).abs() + (d[1] * dd[0]).abs();
-            if d[0] * dd[1] - d[1] * dd[0] < -1e-8 * speed * speed * speed / size - 1e-9 * terms {
-                return Err(refusal(
-                    format!("r = {}", short(interval.point(u).0)),
-                    "the curve is concave".to_owned(),
-                    "a tool's profile turns upwards all the way from tip to base",
-                ));
-            }
-        }
-    }
-    Ok(())
 }

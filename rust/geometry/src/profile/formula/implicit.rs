@@ -2,10 +2,12 @@
 
 use super::explicit::{BY_HEIGHT, BY_RADIUS};
 use super::expression::Expression;
+use super::interval::Interval;
 use super::jet::Jet;
+use super::number::Number;
 use super::parametric::note_move;
 use super::proof::rises;
-use super::sample::{short, Route, Sample, Source, SAMPLES};
+use super::sample::{short, Enclosure, Route, Sample, Source, SAMPLES};
 use super::solve::{bracket, solve};
 use super::trace::{trace, Knot};
 use crate::GeometryError;
@@ -27,15 +29,30 @@ impl Field {
         jet
     }
 
+    /// As [`jet`](Self::jet), everywhere in a box.
+    fn over(&self, [r, z]: [Interval; 2]) -> Jet<Interval> {
+        let upwards = Interval::exact(self.upwards);
+        let mut jet = self.f.over(r, Interval::exact(self.origin) + upwards * z);
+        jet.first[1] = jet.first[1] * upwards;
+        jet.second[1] = jet.second[1] * upwards;
+        jet
+    }
+
     pub fn place(&self, [r, z]: [f64; 2]) -> String {
         format!("r = {}, z = {}", short(r), short(self.origin + self.upwards * z))
     }
 }
 
 /// t' H t: how f bends along a direction.
-pub(super) fn bending(jet: &Jet, [r, z]: [f64; 2]) -> f64 {
-    jet.second[0] * r * r + 2.0 * jet.second[1] * r * z + jet.second[2] * z * z
+pub(super) fn bending<T: Number>(jet: &Jet<T>, [r, z]: [T; 2]) -> T {
+    jet.second[0] * r.square() + T::exact(2.0) * jet.second[1] * r * z + jet.second[2] * z.square()
 }
+
+/// How near a point must be to the curve to be taken for one of it, in parts of the largest of its coordinates.
+const ON_CURVE: f64 = 1e-11;
+/// How often a box around a piece of the curve is made larger, and by how much of its extent.
+const BOXES: usize = 3;
+const LARGER: f64 = 0.25;
 
 struct Implicit {
     field: Field,
@@ -63,11 +80,70 @@ impl Implicit {
     }
 }
 
+/// Intervals by coordinates r and z, the two given in the order of `axis` and the other one.
+fn by_axis(axis: usize, along: Interval, across: Interval) -> [Interval; 2] {
+    if axis == 0 {
+        [along, across]
+    } else {
+        [across, along]
+    }
+}
+
+impl Implicit {
+    /// The piece of the curve between two points as a graph over coordinate `axis`: a box that holds it.
+    ///
+    /// Where f's derivative across is not zero in a box, and the slopes that f has there keep the graph from the first
+    /// point on inside it, the curve is that one graph: through the first point, which lies within [`ON_CURVE`] of
+    /// f = 0 for the same derivative. The box of the next piece begins with a box around the same point, so both hold
+    /// one and the same curve.
+    fn graph(&self, axis: usize, from: &Sample, to: &Sample) -> Option<(Jet<Interval>, Interval)> {
+        let other = 1 - axis;
+        let near = ON_CURVE * self.knots.last()?.point[other].abs().max(self.field.origin.abs());
+        let along = Interval::new(from.point[axis], to.point[axis]);
+        let reach = Interval::new(0.0, (along.hi - along.lo).next_up());
+        let start = Interval::exact(from.point[other]);
+        let [first, last] = [from, to].map(|end| Interval::exact(end.point[other]) + Interval::around_zero(2.0 * near));
+        let ends = first.joined(last);
+        let mut across = ends;
+        let value = self.field.over(by_axis(axis, Interval::exact(along.lo), start)).value;
+        for _ in 0..=BOXES {
+            let jet = self.field.over(by_axis(axis, along, across));
+            let slope = -jet.first[axis] / jet.first[other];
+            let off = value / jet.first[other];
+            // not so for NaN
+            let on_curve = off.size() <= near;
+            if !on_curve {
+                return None;
+            }
+            let graph = start - off + slope * reach;
+            if graph.is_within(across) {
+                return Some((jet, slope));
+            }
+            let margin = LARGER * (graph.hi - graph.lo);
+            across = ends.joined(graph + Interval::around_zero(margin));
+        }
+        None
+    }
+}
+
 impl Source for Implicit {
     fn at(&self, stretch: usize, p: f64) -> Sample {
         let point = if stretch == BY_RADIUS { [p, f64::NAN] } else { [f64::NAN, p] };
         let nowhere = Sample { stretch, p, point, d: [f64::NAN; 2], dd: [f64::NAN; 2] };
         self.at_coordinate(stretch, p).unwrap_or(nowhere)
+    }
+
+    fn enclose(&self, from: &Sample, to: &Sample) -> Option<Enclosure> {
+        let axis = from.stretch;
+        let (jet, slope) = self.graph(axis, from, to)?;
+        let one = Interval::exact(1.0);
+        let d = by_axis(axis, one, slope);
+        let dd = by_axis(axis, Interval::default(), -bending(&jet, d) / jet.first[1 - axis]);
+        Some(Enclosure::new((to.p - from.p).next_up(), d, dd))
+    }
+
+    fn operations(&self) -> usize {
+        (2 + BOXES) * self.field.f.operations
     }
 
     fn place(&self, sample: &Sample) -> String {

@@ -2,54 +2,58 @@
 
 use std::str::FromStr;
 
-/// Value, gradient and second derivatives, carried exactly through every operation.
+use super::number::Number;
+
+/// Value, gradient and second derivatives, carried exactly through every operation: at a point, or as intervals that
+/// hold them all over a box.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Jet {
+pub(super) struct Jet<T = f64> {
     /// The value.
-    pub value: f64,
+    pub value: T,
     /// Derivatives by the first and the second variable.
-    pub first: [f64; 2],
+    pub first: [T; 2],
     /// Second derivatives: first-first, first-second, second-second.
-    pub second: [f64; 3],
+    pub second: [T; 3],
     /// A number, whatever the variables: its derivatives are zero and stay so, also where a function's are infinite.
     fixed: bool,
 }
 
-impl Jet {
+impl<T: Number> Jet<T> {
     /// A number that depends on neither variable.
-    pub fn constant(value: f64) -> Self {
+    pub fn constant(value: T) -> Self {
         Self { value, fixed: true, ..Self::default() }
     }
 
     /// The first (0) or second (1) variable itself.
-    pub fn variable(value: f64, index: usize) -> Self {
-        let first = if index == 0 { [1.0, 0.0] } else { [0.0, 1.0] };
+    pub fn variable(value: T, index: usize) -> Self {
+        let (one, zero) = (T::exact(1.0), T::default());
+        let first = if index == 0 { [one, zero] } else { [zero, one] };
         Self { value, first, ..Self::default() }
     }
 
     /// Where something that cannot happen happened: refused as not finite.
     pub fn nan() -> Self {
-        Self::constant(f64::NAN)
+        Self::constant(T::exact(f64::NAN))
     }
 
     pub fn add(self, other: Self) -> Self {
-        self.combine(other, 1.0)
+        self.combine(other, |a, b| a + b)
     }
 
     pub fn sub(self, other: Self) -> Self {
-        self.combine(other, -1.0)
+        self.combine(other, |a, b| a - b)
     }
 
-    fn combine(self, other: Self, sign: f64) -> Self {
+    fn combine(self, other: Self, by: impl Fn(T, T) -> T) -> Self {
         Self {
-            value: self.value + sign * other.value,
-            first: std::array::from_fn(|i| self.first[i] + sign * other.first[i]),
-            second: std::array::from_fn(|i| self.second[i] + sign * other.second[i]),
+            value: by(self.value, other.value),
+            first: std::array::from_fn(|i| by(self.first[i], other.first[i])),
+            second: std::array::from_fn(|i| by(self.second[i], other.second[i])),
             fixed: self.fixed && other.fixed,
         }
     }
 
-    fn scale(self, factor: f64) -> Self {
+    fn scale(self, factor: T) -> Self {
         if self.fixed {
             return Self::constant(self.value * factor);
         }
@@ -89,7 +93,7 @@ impl Jet {
             quotient.second = self.second.map(|d| d / other.value);
             return if self.fixed { Self::constant(value) } else { quotient };
         }
-        let first: [f64; 2] = std::array::from_fn(|i| (self.first[i] - value * other.first[i]) / other.value);
+        let first: [T; 2] = std::array::from_fn(|i| (self.first[i] - value * other.first[i]) / other.value);
         let second = std::array::from_fn(|k| {
             let (i, j) = PAIRS[k];
             let cross = first[i] * other.first[j] + first[j] * other.first[i];
@@ -103,21 +107,21 @@ impl Jet {
             return self.power(exponent.value);
         }
         if self.fixed {
-            let (value, log) = (libm::pow(self.value, exponent.value), libm::log(self.value));
+            let (value, log) = (self.value.pow(exponent.value), self.value.ln());
             return exponent.chain(value, value * log, value * log * log);
         }
         exponent.mul(self.ln()).exp()
     }
 
     /// x^n with a constant n: exact also at x = 0 and, for whole n, below.
-    fn power(self, n: f64) -> Self {
-        let x = self.value;
-        let term = |factor: f64, n: f64| if factor == 0.0 { 0.0 } else { factor * real_power(x, n) };
-        self.chain(real_power(x, n), term(n, n - 1.0), term(n * (n - 1.0), n - 2.0))
+    fn power(self, n: T) -> Self {
+        let (x, one) = (self.value, T::exact(1.0));
+        let term = |factor: T, n: T| if factor.is_zero() { factor } else { factor * x.power(n) };
+        self.chain(x.power(n), term(n, n - one), term(n * (n - one), n - T::exact(2.0)))
     }
 
     /// f(x), given f, f' and f'' at the value.
-    fn chain(self, value: f64, d: f64, dd: f64) -> Self {
+    fn chain(self, value: T, d: T, dd: T) -> Self {
         if self.fixed {
             return Self::constant(value);
         }
@@ -126,131 +130,101 @@ impl Jet {
             first: self.first.map(|x| d * x),
             second: std::array::from_fn(|k| {
                 let (i, j) = PAIRS[k];
-                d * self.second[k] + dd * (self.first[i] * self.first[j])
+                let both = if i == j { self.first[i].square() } else { self.first[i] * self.first[j] };
+                d * self.second[k] + dd * both
             }),
             fixed: false,
         }
     }
 
     pub fn neg(self) -> Self {
-        self.scale(-1.0)
+        self.scale(T::exact(-1.0))
     }
 
     pub fn sqrt(self) -> Self {
         let root = self.value.sqrt();
-        self.chain(root, 0.5 / root, -0.25 / (root * self.value))
+        self.chain(root, T::exact(0.5) / root, T::exact(-0.25) / (root * self.value))
     }
 
     pub fn exp(self) -> Self {
-        let e = libm::exp(self.value);
+        let e = self.value.exp();
         self.chain(e, e, e)
     }
 
     pub fn ln(self) -> Self {
-        let inverse = 1.0 / self.value;
-        self.chain(libm::log(self.value), inverse, -inverse * inverse)
+        let inverse = T::exact(1.0) / self.value;
+        self.chain(self.value.ln(), inverse, -inverse.square())
     }
 
     pub fn log10(self) -> Self {
-        let inverse = 1.0 / self.value;
-        let d = inverse * std::f64::consts::LOG10_E;
-        self.chain(libm::log10(self.value), d, -d * inverse)
+        let inverse = T::exact(1.0) / self.value;
+        let d = inverse * T::nearest(std::f64::consts::LOG10_E);
+        self.chain(self.value.log10(), d, -d * inverse)
     }
 
     pub fn sin(self) -> Self {
-        let (sin, cos) = libm::sincos(angle(self.value));
+        let (sin, cos) = self.value.sin_cos();
         self.chain(sin, cos, -sin)
     }
 
     pub fn cos(self) -> Self {
-        let (sin, cos) = libm::sincos(angle(self.value));
+        let (sin, cos) = self.value.sin_cos();
         self.chain(cos, -sin, -cos)
     }
 
     pub fn tan(self) -> Self {
-        let tan = libm::tan(angle(self.value));
-        let d = 1.0 + tan * tan;
-        self.chain(tan, d, 2.0 * tan * d)
+        let tan = self.value.tan();
+        let d = T::exact(1.0) + tan.square();
+        self.chain(tan, d, T::exact(2.0) * tan * d)
     }
 
     pub fn asin(self) -> Self {
         let (d, dd) = arc_sine_derivatives(self.value);
-        self.chain(libm::asin(self.value), d, dd)
+        self.chain(self.value.asin(), d, dd)
     }
 
     pub fn acos(self) -> Self {
         let (d, dd) = arc_sine_derivatives(self.value);
-        self.chain(libm::acos(self.value), -d, -dd)
+        self.chain(self.value.acos(), -d, -dd)
     }
 
     pub fn atan(self) -> Self {
-        let d = 1.0 / (1.0 + self.value * self.value);
-        self.chain(libm::atan(self.value), d, -2.0 * self.value * d * d)
+        let d = T::exact(1.0) / (T::exact(1.0) + self.value.square());
+        self.chain(self.value.atan(), d, T::exact(-2.0) * self.value * d * d)
     }
 
     pub fn sinh(self) -> Self {
-        let (sinh, cosh) = (libm::sinh(self.value), libm::cosh(self.value));
+        let (sinh, cosh) = (self.value.sinh(), self.value.cosh());
         self.chain(sinh, cosh, sinh)
     }
 
     pub fn cosh(self) -> Self {
-        let (sinh, cosh) = (libm::sinh(self.value), libm::cosh(self.value));
+        let (sinh, cosh) = (self.value.sinh(), self.value.cosh());
         self.chain(cosh, sinh, cosh)
     }
 
     pub fn tanh(self) -> Self {
-        let tanh = libm::tanh(self.value);
-        let d = 1.0 - tanh * tanh;
-        self.chain(tanh, d, -2.0 * tanh * d)
+        let tanh = self.value.tanh();
+        let d = T::exact(1.0) - tanh.square();
+        self.chain(tanh, d, T::exact(-2.0) * tanh * d)
     }
 }
 
 /// Which two variables each second derivative is by.
 const PAIRS: [(usize, usize); 3] = [(0, 0), (0, 1), (1, 1)];
 
-/// Whole powers up to here are multiplied out: quicker than `pow`, and the same everywhere.
-const MULTIPLIED_OUT: f64 = 32.0;
-
-/// An angle that has a sine worth the name: beyond a million radians rounding eats it, and the reduction takes long.
-fn angle(x: f64) -> f64 {
-    if x.abs() <= 1e6 {
-        x
-    } else {
-        f64::NAN
-    }
-}
-
-fn real_power(x: f64, n: f64) -> f64 {
-    let size = n.abs();
-    if size > MULTIPLIED_OUT || size.fract() != 0.0 {
-        return libm::pow(x, n);
-    }
-    let (mut square, mut rest, mut product) = (x, size as u32, 1.0);
-    while rest > 0 {
-        if rest & 1 == 1 {
-            product *= square;
-        }
-        square *= square;
-        rest >>= 1;
-    }
-    if n < 0.0 {
-        1.0 / product
-    } else {
-        product
-    }
-}
-
-fn arc_sine_derivatives(x: f64) -> (f64, f64) {
-    let square = (1.0 - x) * (1.0 + x);
-    let d = 1.0 / square.sqrt();
+fn arc_sine_derivatives<T: Number>(x: T) -> (T, T) {
+    let one = T::exact(1.0);
+    let square = (one - x) * (one + x);
+    let d = one / square.sqrt();
     (d, x * d / square)
 }
 
-impl FromStr for Jet {
+impl<T: Number> FromStr for Jet<T> {
     type Err = std::num::ParseFloatError;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        text.parse().map(Self::constant)
+        text.parse().map(|number| Self::constant(T::exact(number)))
     }
 }
 

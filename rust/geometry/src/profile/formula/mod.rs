@@ -1,15 +1,20 @@
 //! A profile by formula: z(r); r(t), z(t); or f(r, z) = 0.
 //!
 //! The text is checked and parsed ([`tokens`], [`expression`]) and evaluated with exact derivatives ([`jet`]). Each
-//! form becomes a [`sample::Route`]: points by the formula's own parameter, from tip to base. The route is proved to be
-//! a profile ([`proof`]) and followed by polynomials ([`fit`]), which answer by slope.
+//! form becomes a [`sample::Route`]: points by the formula's own parameter, from tip to base. The route is looked at point by
+//! point for what is no profile ([`proof`]), proved convex between the points by interval arithmetic ([`convexity`],
+//! [`interval`]) and followed by polynomials ([`fit`]), which answer by slope and are proved convex too ([`polynomials`]).
 
+mod convexity;
 mod explicit;
 mod expression;
 mod fit;
 mod implicit;
+mod interval;
 mod jet;
+mod number;
 mod parametric;
+mod polynomials;
 mod proof;
 mod sample;
 mod solve;
@@ -111,13 +116,20 @@ fn refusal(place: String, reason: String, hint: &str) -> GeometryError {
 pub fn trace(document: &FormulaDocument) -> Result<Traced, GeometryError> {
     let mut route = route(document)?;
     proof::prove(&route)?;
-    if let Some(part) = straight(&route) {
-        route.notes.push("the formula is a straight line".to_owned());
+    let size = route.size();
+    let source = route.source.as_ref();
+    if let Some((part, slope)) = straight(&route) {
+        let proof = convexity::prove_straight(source, &route.stretches, slope, size)?;
+        route.notes.push(format!("the formula is a straight line, by interval arithmetic with {proof}"));
         return Ok(Traced { parts: vec![part], notes: route.notes });
     }
+    let formula = convexity::prove(source, &route.stretches, &[], size)?;
     let (curve, bound) = fit::fit(&route)?;
-    fit::polynomials_are_convex(&curve, route.size())?;
+    let followed = polynomials::prove(&curve, size)?;
     route.notes.push(bound);
+    route.notes.push(format!(
+        "proved convex by interval arithmetic: the formula with {formula}; the polynomials with {followed}"
+    ));
     let (from, to) = curve.slopes();
     Ok(Traced { parts: vec![TracedPart::Curve { curve, from, to }], notes: route.notes })
 }
@@ -196,8 +208,8 @@ fn check_parameters(parameters: &BTreeMap<String, f64>) -> Result<(), GeometryEr
     Ok(())
 }
 
-/// The line that the route is, if it is one by its values and by its derivatives.
-fn straight(route: &Route) -> Option<TracedPart> {
+/// The line that the route seems to be by its values and by its derivatives, and its slope, rad.
+fn straight(route: &Route) -> Option<(TracedPart, f64)> {
     let size = route.size();
     let [r, z] = route.samples.last()?.point;
     let (length, slope) = ((r * r + z * z).sqrt(), libm::atan2(z, r));
@@ -205,8 +217,10 @@ fn straight(route: &Route) -> Option<TracedPart> {
     let inside = route.samples.get(1..route.samples.len() - 1)?;
     let flat = route.samples.iter().all(|sample| off(sample.point) <= STRAIGHT * size)
         && inside.iter().all(|sample| (sample.slope() - slope).abs() <= 1e-6);
-    flat.then_some(TracedPart::Straight { slope, from: (0.0, 0.0), to: (r, z) })
+    flat.then_some((TracedPart::Straight { slope, from: (0.0, 0.0), to: (r, z) }, slope))
 }
 
+#[cfg(test)]
+mod proof_tests;
 #[cfg(test)]
 mod tests;

@@ -1,8 +1,10 @@
 //! r(t), z(t) over a range of t.
 
 use super::expression::Expression;
+use super::interval::Interval;
+use super::number::Number;
 use super::refusal;
-use super::sample::{short, Route, Sample, Source, SAMPLES};
+use super::sample::{short, Enclosure, Route, Sample, Source, SAMPLES};
 use crate::GeometryError;
 
 /// A tip this near to the axis, in parts of the size, is on it.
@@ -31,6 +33,18 @@ impl Source for Parametric {
             d: [self.direction * r.first[0], self.upwards * self.direction * z.first[0]],
             dd: [r.second[0], self.upwards * z.second[0]],
         }
+    }
+
+    fn enclose(&self, from: &Sample, to: &Sample) -> Option<Enclosure> {
+        let t = Interval::between(self.direction * from.p, self.direction * to.p);
+        let (r, z) = (self.r.over(t, Interval::default()), self.z.over(t, Interval::default()));
+        let [direction, upwards] = [self.direction, self.upwards].map(Interval::exact);
+        let d = [direction * r.first[0], upwards * direction * z.first[0]];
+        Some(Enclosure::new((to.p - from.p).next_up(), d, [r.second[0], upwards * z.second[0]]))
+    }
+
+    fn operations(&self) -> usize {
+        self.r.operations + self.z.operations
     }
 
     fn place(&self, sample: &Sample) -> String {

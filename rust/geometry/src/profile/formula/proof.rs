@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::sample::{short, Route, Sample};
+use super::sample::{short, Enclosure, Route, Sample, Source};
 use crate::GeometryError;
 
 /// Slopes out of [0, 90 degrees] by less than this are rounding, rad.
@@ -26,6 +26,8 @@ const RISING: usize = 3;
 /// A defect that a point can have.
 struct Defect {
     is_at: fn(&Sample, f64) -> bool,
+    /// Rounding cannot make it up, at a point with these derivatives.
+    is_certain: fn(&Enclosure) -> bool,
     reason: &'static str,
     hint: &'static str,
 }
@@ -33,16 +35,19 @@ struct Defect {
 const DEFECTS: [Defect; 4] = [
     Defect {
         is_at: |sample, _| !sample.is_finite(),
+        is_certain: |_| true,
         reason: "the formula or its derivative is not a finite number",
         hint: "end the range before, or write the formula so that it is smooth there",
     },
     Defect {
         is_at: |sample, _| sample.d[1] < -SLOPE_ROUNDING * sample.speed() && sample.d[0] > 0.0,
+        is_certain: |piece| piece.d[1].hi < 0.0,
         reason: "z falls: the curve is not monotone",
         hint: "z must rise all the way from tip to base (or fall, then it is mirrored)",
     },
     Defect {
         is_at: |sample, _| sample.slope().abs() > FRAC_PI_2 + SLOPE_ROUNDING,
+        is_certain: |piece| piece.d[0].hi < 0.0,
         reason: "r falls: the slope passes 90 degrees, the curve turns inwards",
         hint: "end the range there, or give a diameter",
     },
@@ -51,6 +56,7 @@ const DEFECTS: [Defect; 4] = [
             let speed = sample.speed();
             sample.turning() < -sample.turning_noise() - CURVATURE_ROUNDING * speed * speed * speed / size
         },
+        is_certain: |piece| piece.turning.hi < 0.0,
         reason: "the curve is concave: its slope falls",
         hint: "a tool's profile turns upwards all the way from tip to base",
     },
@@ -86,6 +92,23 @@ fn has_none_of(all: &[Defect], route: &Route) -> Result<(), GeometryError> {
     Ok(())
 }
 
+/// Refuses a point, the one before it being without defect, that has one for certain: with the place where it begins.
+pub(super) fn refuse_defect(
+    source: &dyn Source,
+    before: &Sample,
+    point: &Sample,
+    size: f64,
+) -> Result<(), GeometryError> {
+    for defect in DEFECTS.iter().filter(|defect| (defect.is_at)(point, size)) {
+        let certain = source.enclose(point, point).is_none_or(|piece| (defect.is_certain)(&piece));
+        if certain {
+            let place = between(source, *before, *point, |sample| (defect.is_at)(sample, size));
+            return Err(source.refuse(&place, defect.reason, defect.hint));
+        }
+    }
+    Ok(())
+}
+
 /// Refuses r or z lower than at the sample before although the derivatives rise: a pole lies between.
 fn values_rise(route: &Route, index: usize, size: f64) -> Result<(), GeometryError> {
     let Some(before) = index.checked_sub(1).map(|before| route.samples[before].point) else { return Ok(()) };
@@ -106,12 +129,16 @@ fn values_rise(route: &Route, index: usize, size: f64) -> Result<(), GeometryErr
 fn beginning(route: &Route, index: usize, is_bad: impl Fn(&Sample) -> bool) -> Sample {
     let bad = route.samples[index];
     let Some(good) = index.checked_sub(1).map(|before| route.samples[before]) else { return bad };
+    between(route.source.as_ref(), good, bad, is_bad)
+}
+
+fn between(source: &dyn Source, good: Sample, bad: Sample, is_bad: impl Fn(&Sample) -> bool) -> Sample {
     if good.stretch != bad.stretch || is_bad(&good) {
         return bad;
     }
     let (mut low, mut high) = (good, bad);
     for _ in 0..40 {
-        let middle = route.source.at(bad.stretch, 0.5 * (low.p + high.p));
+        let middle = source.at(bad.stretch, 0.5 * (low.p + high.p));
         if is_bad(&middle) {
             high = middle;
         } else {

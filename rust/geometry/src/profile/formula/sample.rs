@@ -1,5 +1,7 @@
 //! A point of the curve with its derivatives, and where such points come from.
 
+use super::interval::Interval;
+use super::number::Number;
 use super::refusal;
 use crate::GeometryError;
 
@@ -50,10 +52,53 @@ impl Sample {
     }
 }
 
+/// What the derivatives are over a piece of the curve, by a parameter of the piece's own.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Enclosure {
+    /// By how much the parameter grows, at most.
+    pub width: f64,
+    /// d(r, z)/dp.
+    pub d: [Interval; 2],
+    /// d2(r, z)/dp2.
+    pub dd: [Interval; 2],
+    /// r' z'' - r'' z'.
+    pub turning: Interval,
+}
+
+impl Enclosure {
+    /// By the derivatives alone.
+    pub fn new(width: f64, d: [Interval; 2], dd: [Interval; 2]) -> Self {
+        Self { width, d, dd, turning: d[0] * dd[1] - dd[0] * d[1] }
+    }
+
+    /// |d(r, z)/dp|.
+    pub fn speed(&self) -> Interval {
+        (self.d[0].square() + self.d[1].square()).sqrt()
+    }
+}
+
 /// A formula as a curve: gives points by parameter and names them as the user knows them.
 pub(super) trait Source {
     /// The point at a parameter of a stretch; not finite where the formula is not.
     fn at(&self, stretch: usize, p: f64) -> Sample;
+
+    /// A point about half-way between two of a stretch; none where they are neighbours.
+    fn between(&self, from: &Sample, to: &Sample) -> Option<Sample> {
+        let p = 0.5 * (from.p + to.p);
+        (from.p < p && p < to.p).then(|| self.at(from.stretch, p))
+    }
+
+    /// Intervals that hold the derivatives everywhere between two points of a stretch; none where nothing is known.
+    fn enclose(&self, from: &Sample, to: &Sample) -> Option<Enclosure>;
+
+    /// It is what the user gave, so that a point with a defect is refused however short the defect; not so for
+    /// polynomials, whose rounding makes such points of no depth.
+    fn is_given(&self) -> bool {
+        true
+    }
+
+    /// Operators and functions that an enclosure takes.
+    fn operations(&self) -> usize;
 
     /// `t = 0.83`, `r = 4.1`: in the formula's own terms.
     fn place(&self, sample: &Sample) -> String;

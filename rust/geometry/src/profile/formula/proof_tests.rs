@@ -1,0 +1,154 @@
+//! What interval arithmetic proves convex, and what passes between the points that are looked at and is refused by it.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::time::Instant;
+
+use super::*;
+
+fn explicit(z: &str, diameter: f64) -> FormulaDocument {
+    FormulaDocument { z: Some(z.to_owned()), diameter: Some(diameter), ..FormulaDocument::default() }
+}
+
+fn parametric(r: &str, z: &str, t: [f64; 2]) -> FormulaDocument {
+    FormulaDocument { r: Some(r.to_owned()), z: Some(z.to_owned()), t: Some(t), ..FormulaDocument::default() }
+}
+
+fn implicit(f: &str, start: [f64; 2], diameter: Option<f64>) -> FormulaDocument {
+    FormulaDocument { implicit: Some(f.to_owned()), start: Some(start), diameter, ..FormulaDocument::default() }
+}
+
+/// The proof by intervals alone.
+fn proved(document: &FormulaDocument) -> Result<convexity::Proof, GeometryError> {
+    let route = route(document)?;
+    convexity::prove(route.source.as_ref(), &route.stretches, &[], route.size())
+}
+
+fn refused(document: &FormulaDocument) -> String {
+    trace(document).map_or_else(|error| error.to_string(), |traced| format!("not refused: {:?}", traced.notes))
+}
+
+/// A curve of each form that is convex but for what is added to its height, of r or t.
+fn with_added(added: &str) -> [FormulaDocument; 3] {
+    let by_t = added.replace('r', "t").replace("expt", "exp").replace("expr", "exp");
+    [
+        explicit(&format!("r^2/16 + {added}"), 8.0),
+        parametric("t", &format!("t^2/16 + {by_t}"), [0.0, 4.0]),
+        implicit(&format!("z - r^2/16 - ({added})"), [0.0, 0.0], Some(8.0)),
+    ]
+}
+
+/// The number in `r = ..` or `t = ..`.
+fn place(message: &str) -> f64 {
+    let number = message.split([' ', ',', ':']).nth(2);
+    number.and_then(|number| number.parse().ok()).unwrap_or_else(|| panic!("{message}"))
+}
+
+#[test]
+fn a_bump_between_the_points_that_are_looked_at_is_refused_with_its_place() {
+    for width in ["1e-4", "3e-6"] {
+        for document in with_added(&format!("1e-6*exp(-((r - 1.2345)/{width})^2)")) {
+            let message = refused(&document);
+            let named = message.contains("concave") || message.contains("z falls");
+            assert!(named && (place(&message) - 1.2345).abs() < 3e-4, "{document:?}: {message}");
+        }
+    }
+    // seen neither by the points of the route nor by those of the polynomials
+    for document in with_added("1e-11*exp(-((r - 1.2345)/3e-6)^2)") {
+        proof::prove(&route(&document).unwrap()).unwrap();
+        let message = refused(&document);
+        assert!(message.contains("concave") && (place(&message) - 1.2345).abs() < 1e-5, "{document:?}: {message}");
+    }
+}
+
+#[test]
+fn a_fast_small_sine_is_refused() {
+    for document in with_added("1e-9*sin(20000*r)") {
+        let message = refused(&document);
+        assert!(message.contains("the curve is concave"), "{document:?}: {message}");
+    }
+    // its curvature vanishes wherever the route is looked at: at the 2048ths of the range
+    let hidden = parametric("t", "t^2/16 + 1e-7*sin(1608.495438637974*t)", [0.0, 4.0]);
+    proof::prove(&route(&hidden).unwrap()).unwrap();
+    assert!(refused(&hidden).contains("the curve is concave"), "{}", refused(&hidden));
+}
+
+#[test]
+fn what_is_convex_with_its_bump_is_accepted() {
+    for added in ["1e-13*exp(-((r - 1.2345)/1e-4)^2)", "1e-13*sin(300*r)", "1e-9*exp(-((r - 1.2345)/1e-2)^2)"] {
+        for document in with_added(added) {
+            let traced = trace(&document).unwrap_or_else(|error| panic!("{document:?}: {error}"));
+            assert!(traced.notes.iter().any(|note| note.contains("proved convex by interval arithmetic")));
+        }
+    }
+}
+
+#[test]
+fn a_kink_is_not_proved() {
+    let message = proved(&parametric("t", "2*t - ((t - 0.3)^4)^0.25", [0.0, 1.0])).unwrap_err().to_string();
+    assert!(message.contains("t = 0.3: "), "{message}");
+}
+
+#[test]
+fn loops_between_the_points_that_are_looked_at_are_refused() {
+    // turns once between every two of them, always to the same side
+    let text = format!("t + 1e-3*sin({}*t)", 2048.0 * 2.0 * PI);
+    let document = parametric(&text, &format!("t^2 + 1e-3*(1 - cos({}*t))", 2048.0 * 2.0 * PI), [0.0, 1.0]);
+    let message = refused(&document);
+    assert!(!message.contains("not refused"), "{message}");
+}
+
+/// Shapes that must be proved, each with the words that tell it.
+fn shapes() -> Vec<(&'static str, FormulaDocument)> {
+    vec![
+        ("circle z(r)", explicit("5 - sqrt(25 - r^2)", 10.0)),
+        ("circle z(r), rounded", explicit("6.35 - sqrt(40.3225 - r^2)", 12.7)),
+        ("circle r(t), z(t)", parametric("5*sin(t)", "5 - 5*cos(t)", [0.0, FRAC_PI_2])),
+        ("circle f(r, z)", implicit("r^2 + (z - 5)^2 - 25", [0.0, 0.0], None)),
+        ("circle, rational", parametric("10*t/(1 + t^2)", "10*t^2/(1 + t^2)", [0.0, 1.0])),
+        ("ellipse z(r)", explicit("4 - 4*sqrt(1 - (r/6)^2)", 12.0)),
+        ("ellipse f(r, z)", implicit("(r/6)^2 + (z/4)^2 - 1", [0.0, -4.0], None)),
+        ("ellipse f(r, z), multiplied out", implicit("16*r^2 + 36*z^2 - 288*z", [0.0, 0.0], None)),
+        ("the patent's", parametric("sin(t)", "2*cos(t)", [0.0, FRAC_PI_2])),
+        ("parabola", explicit("r^2/16", 16.0)),
+        ("parabola f(r, z)", implicit("r^2 - 16*z", [4.0, 1.0], Some(16.0))),
+        ("chain line", explicit("4*(cosh(r/4) - 1)", 16.0)),
+        ("chain line by exp", explicit("2*(exp(r/4) + exp(-r/4)) - 4", 16.0)),
+        ("r^1.5", explicit("r^1.5/3", 8.0)),
+        ("r^4", explicit("r^4/500", 16.0)),
+        ("exp", explicit("exp(r/3) - 1", 12.0)),
+        ("exp less its line", explicit("exp(r/3) - 1 - r/3", 12.0)),
+        ("-ln cos", explicit("-3*ln(cos(r/4))", 10.0)),
+        ("r tan", explicit("r*tan(r/8)", 10.0)),
+        ("r sinh", explicit("r*sinh(r/6)/4", 12.0)),
+        ("hyperbola", explicit("sqrt(4 + r^2) - 2", 12.0)),
+        ("cycloid", parametric("5*(t + sin(t))", "5*(1 - cos(t))", [0.0, PI])),
+        (
+            "clothoid's first terms",
+            parametric("6*(t - t^5/40 + t^9/3456)", "6*(t^3/6 - t^7/336 + t^11/42240)", [0.0, 1.7]),
+        ),
+        ("involute", parametric("2*(cos(t) + t*sin(t) - 1)", "2*(sin(t) - t*cos(t))", [0.0, FRAC_PI_2])),
+        ("superellipse", implicit("r^4 + z^4 - 16", [0.0, -2.0], None)),
+        ("superellipse of 2.5", implicit("(r/6)^2.5 + (1 - z/4)^2.5 - 1", [0.0, 0.0], None)),
+        ("egg", implicit("r^2/9 + (z - 4)^2/16*(1 + 0.05*z) - 1", [0.0, 0.0], None)),
+        ("a quartic that just turns", explicit("r^4/100 - r^3/25 + 0.06*r^2", 8.0)),
+    ]
+}
+
+/// `cargo test --release -p styluscam-geometry usual_shapes -- --nocapture` prints times and evaluations.
+#[test]
+fn usual_shapes_are_proved() {
+    let mut wrong = String::new();
+    for (name, document) in shapes() {
+        let begun = Instant::now();
+        let traced = trace(&document);
+        let (built, proof) = (begun.elapsed(), proved(&document));
+        match (traced, proof) {
+            (Ok(_), Ok(proof)) => {
+                assert!(proof.hollow <= 1e-9 * 16.0 && proof.evaluations < 5000, "{name}: {proof}");
+                println!("{name}: built in {built:?}, {proof}");
+            }
+            (traced, proof) => wrong += &format!("{name}: {:?} {:?}\n", traced.err(), proof.err()),
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
