@@ -221,6 +221,8 @@ fn straight(route: &Route) -> Option<(TracedPart, f64)> {
 }
 
 #[cfg(test)]
+mod fuzz;
+#[cfg(test)]
 mod proof_tests;
 #[cfg(test)]
 mod tests;

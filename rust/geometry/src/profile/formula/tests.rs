@@ -302,7 +302,7 @@ fn the_document_works_as_a_tagged_variant() {
 }
 
 /// A text that may be a formula: deep, wide, or of powers of powers.
-fn awkward() -> impl Strategy<Value = String> {
+pub(super) fn awkward() -> impl Strategy<Value = String> {
     let atom =
         prop_oneof![Just("r".to_owned()), Just("9".to_owned()), Just("0.5".to_owned()), Just("1e300".to_owned())];
     let nested = atom.prop_recursive(40, 120, 3, |inner| {
