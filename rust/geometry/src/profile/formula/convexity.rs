@@ -114,7 +114,8 @@ pub(super) fn prove(
         }
         allowed /= STRICTER;
         if cells.iter().all(|cell| cell.settled || cell.hollow <= allowed) && allowed < f64::MIN_POSITIVE {
-            return Err(prover.no_proof(&cells[0]));
+            let worst = cells.iter().max_by(|a, b| a.fall.total_cmp(&b.fall));
+            return Err(prover.no_proof(worst.unwrap_or(&cells[0])));
         }
     }
 }
@@ -183,7 +184,9 @@ impl Prover<'_> {
         let (mut fall, mut hollow) = (f64::INFINITY, f64::INFINITY);
         if let Some(piece) = self.source.enclose(&from, &to) {
             fall = falls(&piece, ends[0] || ends[1]);
-            length = length.min(piece.speed().hi * piece.width);
+            let rises = piece.d.iter().all(|d| d.lo >= 0.0);
+            let fastest = piece.speed().hi * piece.width;
+            length = if rises { length.min(fastest) } else { fastest };
             hollow = match self.normal {
                 None => 0.125 * fall * length,
                 Some(normal) => sag(&piece, normal),

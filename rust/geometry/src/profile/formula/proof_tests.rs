@@ -52,6 +52,12 @@ fn a_bump_between_the_points_that_are_looked_at_is_refused_with_its_place() {
             assert!(named && (place(&message) - 1.2345).abs() < 3e-4, "{document:?}: {message}");
         }
     }
+    // so high that z falls behind it
+    for document in with_added("0.04*exp(-((r - 2.5597)/3e-6)^2)") {
+        let message = refused(&document);
+        let named = message.contains("concave") || message.contains("z falls");
+        assert!(named && (place(&message) - 2.5597).abs() < 1e-4, "{document:?}: {message}");
+    }
     // seen neither by the points of the route nor by those of the polynomials
     for document in with_added("1e-11*exp(-((r - 1.2345)/3e-6)^2)") {
         proof::prove(&route(&document).unwrap()).unwrap();
