@@ -2,7 +2,7 @@
 
 use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
-use styluscam_geometry::{Bvh, Sheet};
+use styluscam_geometry::Sheet;
 use styluscam_toolpath::{
     forming::{waterline as level, Grid},
     offset::Envelope,
@@ -82,10 +82,9 @@ pub fn drop_cutter<'py>(
     if let Some(i) = places.iter().position(|p| !(p[0].is_finite() && p[1].is_finite())) {
         return Err(errors::raise("GeometryError", &format!("xy[{i}] is not a finite place"), "not-finite", "xy", ""));
     }
-    let part = &part.part;
+    let (part, index) = (&part.part, || part.index());
     let tips = watched(py, progress, cancel, |watch| {
-        let bvh = Bvh::new(&part.mesh);
-        let envelope = Envelope::new(&part.mesh, &bvh, &tool.tool, sheet.as_ref(), part.inward);
+        let envelope = Envelope::new(&part.mesh, index(), &tool.tool, sheet.as_ref(), part.inward);
         watch.begin("drop-cutter", places.len());
         envelope.tips(&places, watch)
     })?;
@@ -109,7 +108,7 @@ pub fn waterline<'py>(
     cancel: Option<&CancelToken>,
 ) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
     let sheet = self::sheet(sheet)?;
-    let part = &part.part;
+    let (part, index) = (&part.part, || part.index());
     let left = tolerance - part.inward - part.outward;
     if !(z.is_finite() && left > 0.0) {
         let message =
@@ -117,8 +116,7 @@ pub fn waterline<'py>(
         return Err(errors::raise("PlanError", &message, "tolerance-budget", "tolerance", "raise tolerance"));
     }
     let passes = watched(py, progress, cancel, |watch| {
-        let bvh = Bvh::new(&part.mesh);
-        let envelope = Envelope::new(&part.mesh, &bvh, &tool.tool, sheet.as_ref(), part.inward + 0.5 * left);
+        let envelope = Envelope::new(&part.mesh, index(), &tool.tool, sheet.as_ref(), part.inward + 0.5 * left);
         let everything = vec![true; part.mesh.triangles().len()];
         let surface = Surface::new(&envelope, &everything);
         let grid = Grid::sample(&surface, SPACING_SHARE * tool.tool.diameter(), watch)?;

@@ -1,8 +1,11 @@
 //! Parts: triangles in the frame of their file.
 
+use std::sync::OnceLock;
+
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use styluscam_geometry::Mesh;
+use styluscam_toolpath::offset::Index;
 
 use crate::{arrays, errors};
 
@@ -10,6 +13,14 @@ use crate::{arrays, errors};
 #[pyclass(frozen, module = "styluscam._engine")]
 pub struct Part {
     pub(crate) part: styluscam_job::Part,
+    index: OnceLock<Index>,
+}
+
+impl Part {
+    /// The triangles' index, built when it is first asked for.
+    pub(crate) fn index(&self) -> &Index {
+        self.index.get_or_init(|| Index::new(&self.part.mesh))
+    }
 }
 
 #[pymethods]
@@ -35,7 +46,7 @@ impl Part {
                 return Err(errors::raise("GeometryError", &message, "out-of-range", "deviation", ""));
             }
         }
-        Ok(Self { part: styluscam_job::Part { mesh, inward, outward } })
+        Ok(Self { part: styluscam_job::Part { mesh, inward, outward }, index: OnceLock::new() })
     }
 
     /// Lower and upper corner of the box.

@@ -5,6 +5,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use crate::heights::{Height, Heights};
 use crate::profile::{Profile, Straight};
 
 /// Cells of the table over the radius; one tangent each. At 1024 a bound costs one look-up and is
@@ -41,6 +42,7 @@ pub struct Cutter {
     /// Radius by rise / (1 + rise).
     rises: Vec<f64>,
     slopes: Vec<SlopeNode>,
+    heights: Option<Heights>,
 }
 
 /// The profile at one slope of the table.
@@ -68,12 +70,15 @@ impl Cutter {
             lines: Vec::new(),
             rises: Vec::new(),
             slopes: Vec::new(),
+            heights: None,
         };
         (cutter.max_radius, cutter.max_height) = cutter.point_at(FRAC_PI_2);
         cutter.slopes = (0..=SLOPE_CELLS).map(|i| cutter.slope_node(i)).collect();
         cutter.cells_per_mm = RADIUS_CELLS as f64 / cutter.max_radius;
         cutter.lines = (0..RADIUS_CELLS).map(|i| cutter.tangent_at(i as f64 / cutter.cells_per_mm)).collect();
         cutter.rises = (0..=RISE_CELLS).map(|i| cutter.rise_node(i)).collect();
+        let size = cutter.max_radius + cutter.max_height;
+        cutter.heights = Some(Heights::of(cutter.max_radius, size, |radius| cutter.height_by_profile(radius)));
         cutter
     }
 
@@ -153,8 +158,29 @@ impl Cutter {
         }
         match self.ball {
             Some(ball) => radius * radius / (ball + (ball * ball - radius * radius).max(0.0).sqrt()),
-            None => self.profile.height_within(radius, self.slope_bracket(radius)),
+            None => {
+                let followed = self.heights.as_ref().and_then(|heights| heights.value_at(radius));
+                followed.unwrap_or_else(|| self.height_by_profile(radius))
+            }
         }
+    }
+
+    pub(crate) fn height_by_profile(&self, radius: f64) -> f64 {
+        self.profile.height_within(radius, self.slope_bracket(radius))
+    }
+
+    /// Height at a radius with its derivatives, by table: none beside kinks, near vertical tangents, beyond the base.
+    #[inline]
+    #[must_use]
+    pub fn height_with_derivatives(&self, radius: f64) -> Option<Height> {
+        self.heights.as_ref()?.at(radius)
+    }
+
+    /// The radius of the ball that it is, mm, if it is one.
+    #[inline]
+    #[must_use]
+    pub fn as_ball(&self) -> Option<f64> {
+        self.ball
     }
 
     /// A line that the profile does not fall below, touching near `radius` (mm, up to the base's).

@@ -5,6 +5,7 @@
 mod cutter;
 mod error;
 mod frame;
+mod heights;
 mod mesh;
 mod profile;
 mod sheet;
@@ -13,6 +14,7 @@ mod tool;
 pub use cutter::{Cutter, SupportingLine};
 pub use error::GeometryError;
 pub use frame::Frame;
+pub use heights::Height;
 pub use mesh::{Bvh, Mesh, Node};
 pub use profile::{FormulaDocument, Profile, ProfileDocument, ProfileReport, Straight};
 pub use sheet::{ModelFace, Sheet, SheetLaw};

@@ -197,7 +197,7 @@ pub fn operation(
         (0..scene.mesh.faces().len()).map(|t| faces.contains(&scene.mesh.faces()[t]) && looks_up(scene, t)).collect();
     let budget = Budget::of(section, scene, machine).map_err(JobError::planning(&place))?;
     watch.begin("preparing", 1);
-    let envelope = Envelope::new(&scene.mesh, &scene.bvh, tool, scene.sheet.as_ref(), budget.margin);
+    let envelope = Envelope::new(&scene.mesh, &scene.index, tool, scene.sheet.as_ref(), budget.margin);
     let surface = Surface::new(&envelope, &selected).between_heights(heights(section));
     let task = Task { job, scene, machine, section, index, budget: &budget };
     let (passes, smallest_feature) = task.passes(&surface, watch).map_err(JobError::planning(&place))?;

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use styluscam_geometry::{Bvh, Frame, Mesh, Sheet, Tool, ToolDocument, Vector};
 use styluscam_motion::{SetupRecord, ToolRecord, ToolReference};
+use styluscam_toolpath::offset::Index;
 
 use crate::{
     faces::{self, FaceView},
@@ -25,7 +26,9 @@ pub struct Part {
 pub struct Scene {
     /// Triangles in work coordinates.
     pub mesh: Mesh,
-    /// Their index.
+    /// Their index for tools from above.
+    pub index: Index,
+    /// Their index for the judge.
     pub bvh: Bvh,
     /// From the file's frame to work coordinates.
     pub frame: Frame,
@@ -60,6 +63,7 @@ impl Scene {
         let frame = turned.shifted(-zero);
         let mesh = part.mesh.placed(&frame);
         Ok(Self {
+            index: Index::new(&mesh),
             bvh: Bvh::new(&mesh),
             views: faces::views(&mesh),
             mesh,

@@ -2,39 +2,67 @@
 
 use styluscam_geometry::{Cutter, Straight, Vector};
 
+/// Steps of a climb at most: two or three do.
+const CLIMB: usize = 8;
+/// A climb ends where a step gains no more than this share of the tool's size.
+const FLAT: f64 = 1e-17;
+
+/// Halvings of an interval of slopes that leave nothing of it.
+const STEPS: usize = 120;
+/// The tip's height is stationary in the slope, rad: this leaves 1e-16 of the tool's size.
+const NEAR: f64 = 1e-9;
+
 /// Where a tool touches an edge: tip height, and the contact as a share of the edge from 0 to 1.
 pub struct EdgeContact {
     /// Tip height, mm.
     pub tip: f64,
     /// Contact, as a share of the edge.
     pub share: f64,
-    /// Slope of the contact on the tool, rad.
-    pub slope: f64,
 }
 
-/// The contact inside the edge from `a` to `b` for the axis at (x, y), if it can be above `best`.
+/// The contact inside the edge from `a` to `b` for the axis at (x, y), if it can be above `best`; `guess` is a place in
+/// plan near it.
 ///
 /// Along the edge the tip's height is z0 + m s - Z(sqrt(q^2 + s^2)), q the line's distance in plan,
 /// s the place along it, m its steepness: concave in s. At its top tan(slope) s / r = m, which is
 /// solved as sin(slope) sqrt(r^2 - q^2) = m r cos(slope), increasing in the slope and finite at a
 /// vertical tangent. Tops beyond the ends belong to the vertices.
-pub fn touch(cutter: &Cutter, a: Vector, b: Vector, x: f64, y: f64, best: f64) -> Option<EdgeContact> {
+pub fn touch(
+    cutter: &Cutter,
+    [a, b]: [Vector; 2],
+    [x, y]: [f64; 2],
+    guess: [f64; 2],
+    best: f64,
+) -> Option<EdgeContact> {
     let line = Line::of(a, b, x, y)?;
     if line.q > cutter.max_radius() {
         return None;
     }
-    let near = line.near_top(cutter);
-    if line.bound(cutter, near) < best {
-        return None;
+    if let Some(ball) = cutter.as_ball() {
+        return line.touch_ball(ball);
     }
-    let guess = libm::atan(cutter.supporting_line(near.hypot(line.q)).rise);
-    let top = top(cutter, line.q, line.steep.abs(), guess);
-    let along = (top.radius * top.radius - line.q * line.q).max(0.0).sqrt().copysign(line.steep) - line.first;
-    if !(0.0..=line.run).contains(&along) {
-        return None;
+    let near =
+        (line.along[0] * (guess[0] - x) + line.along[1] * (guess[1] - y)).clamp(line.first, line.first + line.run);
+    match line.climbed(cutter, near, best) {
+        Climb::Top(along, height) => line.contact(along, height),
+        Climb::Beyond => None,
+        Climb::Lost => line.touch_by_profile(cutter, best),
     }
-    let share = along / line.run;
-    Some(EdgeContact { tip: a.z + line.steep * along - top.height, share, slope: top.slope })
+}
+
+/// Slope of the contact inside the edge, rad.
+pub fn slope(cutter: &Cutter, a: Vector, b: Vector, x: f64, y: f64) -> f64 {
+    Line::of(a, b, x, y).map_or(0.0, |line| line.top(cutter, line.near_top(cutter)).slope)
+}
+
+/// What became of a climb by polynomials.
+enum Climb {
+    /// The top: place along the line and the profile's height there.
+    Top(f64, f64),
+    /// The top is not inside the edge.
+    Beyond,
+    /// It left the polynomials.
+    Lost,
 }
 
 /// The place of the cutter that touches an edge's line.
@@ -52,6 +80,8 @@ struct Line {
     first: f64,
     /// Length in plan.
     run: f64,
+    /// Its direction in plan.
+    along: [f64; 2],
     /// Rise along the line, dz/ds.
     steep: f64,
     /// Height of the line at s = 0.
@@ -68,7 +98,77 @@ impl Line {
         let (ux, uy) = (ex / run, ey / run);
         let (ax, ay) = (a.x - x, a.y - y);
         let (first, steep) = (ux * ax + uy * ay, (b.z - a.z) / run);
-        Some(Self { q: (ux * ay - uy * ax).abs(), first, run, steep, foot: a.z - steep * first })
+        Some(Self { q: (ux * ay - uy * ax).abs(), first, run, along: [ux, uy], steep, foot: a.z - steep * first })
+    }
+
+    /// The contact, if it lies inside the edge.
+    #[inline]
+    fn contact(&self, along: f64, height: f64) -> Option<EdgeContact> {
+        let from_first = along - self.first;
+        let inside = (0.0..=self.run).contains(&from_first);
+        inside.then(|| EdgeContact { tip: self.foot + self.steep * along - height, share: from_first / self.run })
+    }
+
+    /// The place along the line at which a radius of the cutter lies over it, on the rising side.
+    fn place_of(&self, radius: f64) -> f64 {
+        (radius * radius - self.q * self.q).max(0.0).sqrt().copysign(self.steep)
+    }
+
+    /// A ball over a line is a circle.
+    #[inline]
+    fn touch_ball(&self, ball: f64) -> Option<EdgeContact> {
+        let circle = (ball * ball - self.q * self.q).max(0.0);
+        let along = self.steep * (circle / (1.0 + self.steep * self.steep)).sqrt();
+        let below = (circle - along * along).max(0.0).sqrt();
+        self.contact(along, (self.q * self.q + along * along) / (ball + below))
+    }
+
+    /// The contact where polynomials do not serve.
+    #[cold]
+    fn touch_by_profile(&self, cutter: &Cutter, best: f64) -> Option<EdgeContact> {
+        let near = self.near_top(cutter);
+        if self.bound(cutter, near) < best {
+            return None;
+        }
+        let top = self.top(cutter, near);
+        self.contact(self.place_of(top.radius), top.height)
+    }
+
+    /// Newton's steps from `near` to the top of the edge, on the profile's polynomials; given up when even the tangent
+    /// of the concave height stays below `best`.
+    fn climbed(&self, cutter: &Cutter, near: f64, best: f64) -> Climb {
+        let mut along = near;
+        for _ in 0..CLIMB {
+            let radius = (self.q * self.q + along * along).sqrt();
+            let Some(height) = cutter.height_with_derivatives(radius).filter(|_| radius > 0.0) else {
+                return Climb::Lost;
+            };
+            let (sin, cos) = (self.q / radius, along / radius);
+            let slope = self.steep - height.rise * cos;
+            let bend = height.bend * cos * cos + height.rise / radius * sin * sin;
+            let step = slope / bend;
+            if !step.is_finite() {
+                return Climb::Lost;
+            }
+            if (slope * step).abs() <= FLAT * (radius + height.value) {
+                // what the step would still gain, a quarter of this, is below rounding
+                return Climb::Top(along, height.value);
+            }
+            let end = if slope > 0.0 { self.first + self.run } else { self.first };
+            let tip = self.foot + self.steep * along - height.value;
+            if end == along || tip + slope * (end - along) < best {
+                return Climb::Beyond;
+            }
+            let next = if slope > 0.0 { (along + step).min(end) } else { (along + step).max(end) };
+            along = next;
+        }
+        Climb::Lost
+    }
+
+    /// The top of the whole line.
+    fn top(&self, cutter: &Cutter, near: f64) -> Top {
+        let guess = libm::atan(cutter.supporting_line(near.hypot(self.q)).rise);
+        top(cutter, self.q, self.steep.abs(), guess)
     }
 
     /// A place of the edge near the top, by table.
@@ -119,31 +219,41 @@ fn top_on(straight: &Straight, q: f64, steep: f64) -> Option<Top> {
 }
 
 /// The slope of [`top`] on a curve or a kink, and the radius there.
+///
+/// With s = steep r / tan(slope) put into r^2 = q^2 + s^2: where r^2 (1 - (steep / tan)^2) = q^2. The left side
+/// increases and has no infinite derivative at a vertical tangent.
 fn top_slope(cutter: &Cutter, q: f64, steep: f64, guess: f64) -> (f64, f64) {
-    let (mut low, mut high) = (0.0, std::f64::consts::FRAC_PI_2);
-    let mut slope = guess.clamp(1e-3, high - 1e-3);
-    let mut r = 0.0;
-    for _ in 0..80 {
+    let excess = |slope: f64| {
         let (sin, cos) = libm::sincos(slope);
-        r = cutter.point_at(slope).0;
-        let s = (r * r - q * q).max(0.0).sqrt();
-        let excess = sin * s - steep * r * cos;
-        if excess > 0.0 {
+        let r = cutter.point_at(slope).0;
+        let (square, cot) = (r * r, steep * cos / sin);
+        let growth = 2.0 * r * cutter.curvature_radius_at(slope) * cos * (1.0 - cot * cot);
+        let rate = growth + 2.0 * square * steep * cot / (sin * sin);
+        (square * (1.0 - cot * cot) - q * q, rate, r)
+    };
+    let (mut low, mut high) = (libm::atan(steep), std::f64::consts::FRAC_PI_2);
+    let mut slope = guess.clamp(low, high);
+    for _ in 0..STEPS {
+        let (value, rate, _) = excess(slope);
+        if value > 0.0 {
             high = slope;
         } else {
             low = slope;
         }
-        let growth = cutter.curvature_radius_at(slope) * cos;
-        let rate = cos * s + sin * r * growth / s + steep * (r * sin - growth * cos);
-        let next = slope - excess / rate;
-        let next = if next > low && next < high { next } else { 0.5 * (low + high) };
-        let step = (next - slope).abs();
-        slope = next;
-        // the tip's height is stationary here: 1e-8 rad leaves 1e-16 of the tool's size
-        if step <= 1e-9 {
-            r = cutter.point_at(slope).0;
+        let next = slope - value / rate;
+        let is_inside = next > low && next < high;
+        // a step this small is the end only where the other side of the top is as near
+        if is_inside && (next - slope).abs() <= NEAR {
+            let beyond = next + 2.0 * NEAR * (next - slope).signum();
+            if (excess(beyond).0 > 0.0) != (value > 0.0) {
+                slope = next;
+                break;
+            }
+        }
+        if high - low <= f64::EPSILON {
             break;
         }
+        slope = if is_inside { next } else { 0.5 * (low + high) };
     }
-    (slope, r.max(q))
+    (slope, cutter.point_at(slope).0.max(q))
 }

@@ -1,14 +1,19 @@
-//! Which edges of a mesh a drop-cutter must try, and whose they are.
+//! Which edges and corners of a mesh a drop-cutter must try, and whose they are.
 //!
 //! An edge between two facets that meet in a valley or lie in one plane can carry no contact that
 //! a facet does not carry as well, and is left out. Every other edge is tried once, by the
-//! first triangle that has it. Corners are tried by all their triangles: they cost little and are good first tips.
+//! first triangle that has it; every corner likewise.
 
 use rayon::prelude::*;
-use styluscam_geometry::Mesh;
+use styluscam_geometry::Vector;
 
-/// Bit i: the edge from corner i to the next one is this triangle's to try.
+use super::index::Triangles;
+
+/// Bit i: the edge from corner i to the next one is this triangle's to try; bit 3 + i: corner i is.
 pub type Owned = u8;
+
+/// All edges and corners.
+pub const ALL: Owned = 0b11_1111;
 
 /// The triangle on the other side of each edge, or [`NO_NEIGHBOUR`] at borders and where more than two meet.
 pub type Neighbours = [u32; 3];
@@ -19,55 +24,90 @@ pub const NO_NEIGHBOUR: u32 = u32::MAX;
 /// Two facets count as meeting in a valley only beyond this height of one over the other's plane, relative to size.
 const VALLEY: f64 = 1e-12;
 
-/// Ownership and neighbours of all triangles.
-pub fn of(mesh: &Mesh) -> (Vec<Owned>, Vec<Neighbours>) {
-    let neighbours = neighbours(mesh);
-    let owned = (0..mesh.triangles().len()).into_par_iter().map(|t| owned_edges(mesh, &neighbours, t)).collect();
+/// Ownership and neighbours of all triangles; `firsts` says of each which corners no triangle before it has.
+pub fn of(triangles: &Triangles, firsts: &[u8]) -> (Vec<Owned>, Vec<Neighbours>) {
+    let neighbours = neighbours(triangles);
+    let owned =
+        firsts.par_iter().enumerate().map(|(t, first)| owned_edges(triangles, &neighbours, t) | (first << 3)).collect();
     (owned, neighbours)
 }
 
-fn neighbours(mesh: &Mesh) -> Vec<Neighbours> {
-    let mut sides: Vec<(u32, u32, u32, u8)> = (0..mesh.triangles().len() as u32)
-        .into_par_iter()
-        .flat_map_iter(|t| {
-            let [a, b, c] = mesh.triangles()[t as usize];
-            [(a, b, 0), (b, c, 1), (c, a, 2)].map(|(p, q, i)| (p.min(q), p.max(q), t, i))
-        })
-        .collect();
-    sides.par_sort_unstable();
-    let mut out = vec![[NO_NEIGHBOUR; 3]; mesh.triangles().len()];
-    for meeting in sides.chunk_by(|m, n| (m.0, m.1) == (n.0, n.1)) {
-        if let [(_, _, t, i), (_, _, u, j)] = meeting {
-            out[*t as usize][*i as usize] = *u;
-            out[*u as usize][*j as usize] = *t;
+/// A side of a triangle, kept with its lower corner.
+#[derive(Clone, Copy, Default)]
+struct Side {
+    /// The higher of its corners.
+    to: u32,
+    /// 3 * triangle + number of the side.
+    side: u32,
+}
+
+fn neighbours(triangles: &Triangles) -> Vec<Neighbours> {
+    let (starts, mut sides) = sides_by_corner(triangles);
+    let mut out = vec![[NO_NEIGHBOUR; 3]; triangles.corners.len()];
+    for range in starts.windows(2) {
+        let fan = &mut sides[range[0] as usize..range[1] as usize];
+        fan.sort_unstable_by_key(|s| s.to);
+        for meeting in fan.chunk_by(|a, b| a.to == b.to) {
+            if let [a, b] = meeting {
+                out[a.side as usize / 3][a.side as usize % 3] = b.side / 3;
+                out[b.side as usize / 3][b.side as usize % 3] = a.side / 3;
+            }
         }
     }
     out
 }
 
-fn owned_edges(mesh: &Mesh, neighbours: &[Neighbours], t: usize) -> Owned {
+/// All sides sorted by their lower corner, and where each corner's begin.
+fn sides_by_corner(triangles: &Triangles) -> (Vec<u32>, Vec<Side>) {
+    let ends = |corners: &[u32; 3], i: usize| {
+        let (a, b) = (corners[i], corners[(i + 1) % 3]);
+        (a.min(b), a.max(b))
+    };
+    let mut starts = vec![0; triangles.points.len() + 1];
+    for corners in &triangles.corners {
+        for i in 0..3 {
+            starts[ends(corners, i).0 as usize + 1] += 1;
+        }
+    }
+    for i in 1..starts.len() {
+        starts[i] += starts[i - 1];
+    }
+    let mut next = starts.clone();
+    let mut sides = vec![Side::default(); 3 * triangles.corners.len()];
+    for (t, corners) in triangles.corners.iter().enumerate() {
+        for i in 0..3 {
+            let (from, to) = ends(corners, i);
+            let place = &mut next[from as usize];
+            sides[*place as usize] = Side { to, side: (3 * t + i) as u32 };
+            *place += 1;
+        }
+    }
+    (starts, sides)
+}
+
+fn owned_edges(triangles: &Triangles, neighbours: &[Neighbours], t: usize) -> Owned {
     let mut owned = 0;
     for (i, other) in neighbours[t].into_iter().enumerate() {
-        let mine = other == NO_NEIGHBOUR || ((t as u32) < other && !is_valley(mesh, t, i, other as usize));
+        let mine = other == NO_NEIGHBOUR || ((t as u32) < other && !is_valley(triangles, t, i, other));
         owned |= u8::from(mine) << i;
     }
     owned
 }
 
 /// Whether the facets lie on both sides of the edge in plan and neither falls away below the other's plane.
-fn is_valley(mesh: &Mesh, t: usize, i: usize, other: usize) -> bool {
-    let corners = mesh.corners(t);
+fn is_valley(triangles: &Triangles, t: usize, i: usize, other: u32) -> bool {
+    let corners = triangles.at(t as u32);
     let (a, b, c) = (corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]);
-    let names = mesh.triangles()[t];
+    let names = triangles.corners[t];
     let edge = [names[i], names[(i + 1) % 3]];
-    let Some(k) = mesh.triangles()[other].iter().position(|v| !edge.contains(v)) else {
+    let Some(k) = triangles.corners[other as usize].iter().position(|v| !edge.contains(v)) else {
         return false;
     };
-    let d = mesh.corners(other)[k];
-    let side = |p: styluscam_geometry::Vector| (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+    let d = triangles.at(other)[k];
+    let side = |p: Vector| (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
     let normal = (b - a).cross(&(c - a));
     let size = normal.norm() * (b - a).norm().max((d - a).norm());
     let lies_over = (d - a).dot(&normal) * normal.z.signum();
     let thin = 1e-9 * size;
-    normal.z.abs() > thin && side(c) * side(d) < 0.0 && lies_over >= VALLEY * size
+    normal.z.abs() > thin && side(c) * side(d) < 0.0 && lies_over >= -VALLEY * size
 }

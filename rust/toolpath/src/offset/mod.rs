@@ -1,11 +1,17 @@
 //! Where the tool stands: slope-matched offset and the gouge-free envelope.
 
 mod bridging;
+mod contact;
+mod convexity;
 mod edge;
 mod envelope;
 mod features;
+mod index;
+mod search;
 mod slope_matched;
+mod tiles;
 
 pub use bridging::{bridges, Bridge};
 pub use envelope::{Contact, Envelope};
+pub use index::Index;
 pub use slope_matched::{slope_matched_offset, OffsetFlag};

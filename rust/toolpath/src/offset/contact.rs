@@ -1,0 +1,253 @@
+//! Exact contacts of a cutter with a triangle: on the facet, on an edge, on a corner.
+
+use rayon::prelude::*;
+use styluscam_geometry::{Cutter, Vector};
+
+use super::convexity::{Convexities, Convexity};
+use super::edge;
+use super::features::{Owned, ALL};
+use super::index::{Index, Triangles};
+
+/// Facets closer to vertical than this share of their normal have no facet contact worth its rounding.
+const WALL: f64 = 1e-9;
+/// A contact this share of the part's size outside its facet still counts: flat edges are not tried, and rounding
+/// must not let a contact fall between two facets. The height is wrong by less than this.
+const OVERHANG: f64 = 1e-13;
+
+/// The part of a triangle that is touched.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Feature {
+    /// Its inside.
+    Facet,
+    /// The edge from this corner to the next.
+    Edge(u8),
+    /// A corner.
+    Corner(u8),
+}
+
+/// The highest contact found so far.
+#[derive(Clone, Copy, Debug)]
+pub struct Best {
+    /// Height of the cutter's tip, mm; minus infinity before anything was found.
+    pub tip: f64,
+    /// The triangle by its number in the index.
+    pub triangle: u32,
+    pub feature: Feature,
+    /// The contact in plan.
+    pub at: [f64; 2],
+}
+
+impl Best {
+    pub const NOTHING: Self =
+        Self { tip: f64::NEG_INFINITY, triangle: u32::MAX, feature: Feature::Facet, at: [0.0; 2] };
+
+    pub fn is_something(&self) -> bool {
+        self.triangle != u32::MAX
+    }
+
+    /// Takes the higher; of equals the first triangle, so that the order of search does not show.
+    #[inline]
+    fn improve(&mut self, other: Self) {
+        if other.tip > self.tip || (other.tip >= self.tip && other.triangle < self.triangle) {
+            *self = other;
+        }
+    }
+}
+
+/// A facet made ready for one cutter.
+#[derive(Clone, Copy, Debug)]
+pub struct Facet {
+    /// The facet's gradient dz/dx, dz/dy.
+    gradient: [f64; 2],
+    /// Contact relative to the axis, in plan, as a multiple of the gradient.
+    share: f64,
+    /// Height of the profile at the contact; NaN for walls: they have no facet contact.
+    height: f64,
+    convexity: Convexity,
+}
+
+/// The triangles of an index, made ready for one cutter.
+pub struct Contacts<'a> {
+    index: &'a Index,
+    cutter: &'a Cutter,
+    facets: &'a [Facet],
+    overhang: f64,
+}
+
+/// All facets of an index for a cutter.
+pub fn prepared(index: &Index, cutter: &Cutter) -> Vec<Facet> {
+    let convexities = Convexities::of(cutter);
+    let triangles = index.triangles();
+    (0..triangles.corners.len() as u32).into_par_iter().map(|t| Facet::of(triangles, t, cutter, &convexities)).collect()
+}
+
+impl Facet {
+    fn of(triangles: &Triangles, triangle: u32, cutter: &Cutter, convexities: &Convexities) -> Self {
+        let normal = upward_normal(triangles.at(triangle));
+        let across = libm::hypot(normal.x, normal.y);
+        let (radius, height) = cutter.point_at(libm::atan2(across, normal.z));
+        let gradient = [-normal.x / normal.z, -normal.y / normal.z];
+        let share = if across > 0.0 { radius * normal.z / across } else { 0.0 };
+        Self {
+            gradient,
+            share,
+            height: if normal.z < WALL { f64::NAN } else { height },
+            convexity: convexities.at(radius),
+        }
+    }
+}
+
+/// Unit normal of a triangle on its upper side: a tool from above meets the upper side of the point set.
+pub fn upward_normal([a, b, c]: [Vector; 3]) -> Vector {
+    let normal = (b - a).cross(&(c - a));
+    let normal = normal / normal.norm();
+    if normal.z < 0.0 {
+        -normal
+    } else {
+        normal
+    }
+}
+
+/// A triangle seen from the cutter's contact with its plane.
+struct View {
+    corners: [Vector; 3],
+    contact: [f64; 2],
+    /// Tip height with the cutter on the plane, mm; NaN for walls.
+    tip: f64,
+    sides: [Side; 3],
+}
+
+/// An edge in plan, seen from the contact.
+#[derive(Clone, Copy)]
+struct Side {
+    /// Twice the area that it spans with the contact, positive inside.
+    area: f64,
+    /// What rounding makes of no area.
+    rounding: f64,
+    /// Square of its length.
+    square: f64,
+}
+
+impl<'a> Contacts<'a> {
+    /// `reach`: the largest coordinate of mesh and cutter, mm.
+    pub fn new(index: &'a Index, cutter: &'a Cutter, facets: &'a [Facet], reach: f64) -> Self {
+        Self { index, cutter, facets, overhang: OVERHANG * reach }
+    }
+
+    /// Tries all of a triangle that it owns.
+    ///
+    /// The contact with the facet's whole plane is at least as high as any with the triangle. Where it lies outside,
+    /// the height, concave over the triangle, is largest on an edge that is seen from it, or on a wall anywhere.
+    #[inline]
+    pub fn touch(&self, triangle: u32, place: [f64; 2], found: &mut Best) {
+        if triangle == found.triangle {
+            return;
+        }
+        self.touch_owned(triangle, self.index.owned(triangle), place, found);
+    }
+
+    /// Tries all of a triangle, whether others try it too or not.
+    pub fn touch_whole(&self, triangle: u32, place: [f64; 2], found: &mut Best) {
+        self.touch_owned(triangle, ALL, place, found);
+    }
+
+    #[inline]
+    fn touch_owned(&self, triangle: u32, owned: Owned, [x, y]: [f64; 2], found: &mut Best) {
+        let Facet { gradient: [gx, gy], share, height, convexity } = self.facets[triangle as usize];
+        let corners = self.index.triangles().at(triangle);
+        let contact = [x + share * gx, y + share * gy];
+        let origin = corners[0];
+        let tip = origin.z + gx * (contact[0] - origin.x) + gy * (contact[1] - origin.y) - height;
+        if tip < found.tip {
+            return; // never for a wall: its height is NaN
+        }
+        let view = View { corners, contact, tip, sides: self.sides(&corners, contact) };
+        if !tip.is_nan() {
+            if view.sides.iter().all(|side| side.area >= -side.rounding) {
+                found.improve(Best { tip, triangle, feature: Feature::Facet, at: contact });
+                return;
+            }
+            let spare = tip - found.tip;
+            if view
+                .sides
+                .iter()
+                .any(|side| side.area < 0.0 && convexity.loses(spare, side.area * side.area, side.square))
+            {
+                return;
+            }
+        }
+        self.touch_border(triangle, owned, &view, [x, y], found);
+    }
+
+    #[inline]
+    fn sides(&self, corners: &[Vector; 3], contact: [f64; 2]) -> [Side; 3] {
+        let [a, b, c] = *corners;
+        let turn = ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)).signum();
+        std::array::from_fn(|i| {
+            let (p, q) = (corners[i], corners[(i + 1) % 3]);
+            let (ex, ey) = (q.x - p.x, q.y - p.y);
+            let side = ex * (contact[1] - p.y) - ey * (contact[0] - p.x);
+            Side { area: turn * side, rounding: self.overhang * (ex.abs() + ey.abs()), square: ex * ex + ey * ey }
+        })
+    }
+
+    fn touch_border(&self, triangle: u32, owned: Owned, view: &View, [x, y]: [f64; 2], found: &mut Best) {
+        let seen = |i: usize| view.tip.is_nan() || view.sides[i].area < view.sides[i].rounding;
+        for i in 0..3 {
+            if owned & (8 << i) != 0 && (seen(i) || seen((i + 2) % 3)) {
+                self.touch_corner(view.corners[i], triangle, i as u8, x, y, found);
+            }
+        }
+        for i in 0..3 {
+            if owned & (1 << i) != 0 && seen(i) {
+                self.touch_edge(view, triangle, i, [x, y], found);
+            }
+        }
+    }
+
+    #[inline]
+    fn touch_corner(&self, corner: Vector, triangle: u32, number: u8, x: f64, y: f64, found: &mut Best) {
+        let (dx, dy) = (corner.x - x, corner.y - y);
+        let distance = (dx * dx + dy * dy).sqrt();
+        if distance > self.cutter.max_radius() || corner.z - self.cutter.height_bound(distance) < found.tip {
+            return;
+        }
+        let tip = corner.z - self.cutter.height_at_radius(distance);
+        found.improve(Best { tip, triangle, feature: Feature::Corner(number), at: [corner.x, corner.y] });
+    }
+
+    fn touch_edge(&self, view: &View, triangle: u32, number: usize, place: [f64; 2], found: &mut Best) {
+        let (a, b) = (view.corners[number], view.corners[(number + 1) % 3]);
+        if let Some(touch) = edge::touch(self.cutter, [a, b], place, view.contact, found.tip) {
+            let at = [a.x + touch.share * (b.x - a.x), a.y + touch.share * (b.y - a.y)];
+            found.improve(Best { tip: touch.tip, triangle, feature: Feature::Edge(number as u8), at });
+        }
+    }
+
+    /// The neighbour towards the cutter's contact with a triangle's plane; none where the contact lies inside.
+    #[inline]
+    pub fn towards(&self, triangle: u32, [x, y]: [f64; 2]) -> Option<u32> {
+        let Facet { gradient: [gx, gy], share, .. } = self.facets[triangle as usize];
+        let corners = self.index.triangles().at(triangle);
+        let sides = self.sides(&corners, [x + share * gx, y + share * gy]);
+        let farthest =
+            (0..3).filter(|i| sides[*i].area < 0.0).min_by(|i, j| sides[*i].area.total_cmp(&sides[*j].area))?;
+        Some(self.index.neighbours(triangle)[farthest])
+    }
+
+    /// Slope of a contact, rad.
+    pub fn slope(&self, best: &Best, [x, y]: [f64; 2]) -> f64 {
+        let corners = self.index.triangles().at(best.triangle);
+        match best.feature {
+            Feature::Facet => {
+                let normal = upward_normal(corners);
+                libm::atan2(libm::hypot(normal.x, normal.y), normal.z)
+            }
+            Feature::Edge(i) => {
+                let (a, b) = (corners[usize::from(i)], corners[(usize::from(i) + 1) % 3]);
+                edge::slope(self.cutter, a, b, x, y)
+            }
+            Feature::Corner(_) => self.cutter.slope_at_radius(libm::hypot(best.at[0] - x, best.at[1] - y)),
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! The index of a mesh for tools that come from above: an eightfold tree of boxes with planes over them.
+//!
+//! The tree is complete: the triangles are put in an order in which every aligned group of 8, 64, 512.. of them is
+//! compact, and the groups of one size are a level. No child is ever named, and eight of them are tested at once.
+
+mod cover;
+mod lanes;
+mod lines;
+mod order;
+
+use rayon::prelude::*;
+use styluscam_geometry::{Mesh, Vector};
+
+pub use lanes::{Lanes, Matched, Probe};
+pub use lines::Lines;
+
+use super::features::{self, Neighbours, Owned};
+
+/// Children of a node.
+pub const WIDTH: usize = 8;
+
+/// Triangles by number in the index's order.
+#[derive(Clone, Debug)]
+pub struct Triangles {
+    /// Indices of the corners in `points`.
+    pub corners: Vec<[u32; 3]>,
+    /// The corners, in the order in which the triangles first use them.
+    pub points: Vec<Vector>,
+}
+
+/// A mesh, ordered for searching. Independent of tools.
+#[derive(Clone, Debug)]
+pub struct Index {
+    triangles: Triangles,
+    /// The mesh's number of each triangle, and back.
+    numbers: Vec<u32>,
+    places: Vec<u32>,
+    owned: Vec<Owned>,
+    neighbours: Vec<Neighbours>,
+    /// From triangles (eight to a node) to the root.
+    levels: Vec<Vec<Lanes>>,
+    centre: Vector,
+    low: Vector,
+    high: Vector,
+}
+
+impl Triangles {
+    /// The corners of a triangle.
+    #[inline]
+    pub fn at(&self, triangle: u32) -> [Vector; 3] {
+        self.corners[triangle as usize].map(|i| self.points[i as usize])
+    }
+}
+
+impl Index {
+    /// Builds the index; the result does not depend on the number of threads.
+    #[must_use]
+    pub fn new(mesh: &Mesh) -> Self {
+        let (low, high) = mesh.bounds();
+        let centre = (low + high) * 0.5;
+        let numbers = order::of(mesh, centre.into());
+        let mut places = vec![0; numbers.len()];
+        for (place, number) in numbers.iter().enumerate() {
+            places[*number as usize] = place as u32;
+        }
+        let (triangles, firsts) = renumbered(mesh, &numbers);
+        let (owned, neighbours) = features::of(&triangles, &firsts);
+        let levels = levels(&triangles, centre);
+        Self { triangles, numbers, places, owned, neighbours, levels, centre, low, high }
+    }
+
+    pub(super) fn triangles(&self) -> &Triangles {
+        &self.triangles
+    }
+
+    /// The levels, triangles first, the root last.
+    pub(super) fn levels(&self) -> &[Vec<Lanes>] {
+        &self.levels
+    }
+
+    /// What the boxes are relative to.
+    pub(super) fn centre(&self) -> Vector {
+        self.centre
+    }
+
+    /// Lower and upper corner of the mesh.
+    pub(super) fn bounds(&self) -> (Vector, Vector) {
+        (self.low, self.high)
+    }
+
+    /// Which edges and corners of a triangle it has to try.
+    #[inline]
+    pub(super) fn owned(&self, triangle: u32) -> Owned {
+        self.owned[triangle as usize]
+    }
+
+    /// The triangles beyond the three edges.
+    #[inline]
+    pub(super) fn neighbours(&self, triangle: u32) -> Neighbours {
+        self.neighbours[triangle as usize]
+    }
+
+    /// The mesh's number of a triangle.
+    #[inline]
+    pub(super) fn number(&self, triangle: u32) -> u32 {
+        self.numbers[triangle as usize]
+    }
+
+    /// The place of the mesh's triangle in the index; the first for one that there is not.
+    pub(super) fn place(&self, number: u32) -> u32 {
+        self.places.get(number as usize).copied().unwrap_or(0)
+    }
+}
+
+/// The triangles in order with corners numbered as they come; for each triangle, which of its corners are new.
+fn renumbered(mesh: &Mesh, numbers: &[u32]) -> (Triangles, Vec<u8>) {
+    const UNUSED: u32 = u32::MAX;
+    let mut names = vec![UNUSED; mesh.vertices().len()];
+    let mut triangles =
+        Triangles { corners: Vec::with_capacity(numbers.len()), points: Vec::with_capacity(mesh.vertices().len()) };
+    let mut firsts = Vec::with_capacity(numbers.len());
+    for number in numbers {
+        let (mut corners, mut first) = (mesh.triangles()[*number as usize], 0);
+        for (i, corner) in corners.iter_mut().enumerate() {
+            let name = &mut names[*corner as usize];
+            if *name == UNUSED {
+                *name = triangles.points.len() as u32;
+                triangles.points.push(mesh.vertices()[*corner as usize]);
+                first |= 1 << i;
+            }
+            *corner = *name;
+        }
+        triangles.corners.push(corners);
+        firsts.push(first);
+    }
+    (triangles, firsts)
+}
+
+fn levels(triangles: &Triangles, centre: Vector) -> Vec<Vec<Lanes>> {
+    let mut covers = cover::of_triangles(triangles, centre);
+    let mut levels = Vec::new();
+    let mut size = 1;
+    loop {
+        levels.push(covers.par_chunks(WIDTH).map(cover::lanes).collect());
+        if covers.len() <= WIDTH {
+            return levels;
+        }
+        size *= WIDTH;
+        covers = cover::of_groups(&covers, size, triangles, centre);
+    }
+}

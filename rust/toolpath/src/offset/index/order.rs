@@ -1,0 +1,77 @@
+//! Triangles in an order that makes every aligned group of 8, 64, 512 and so on a compact heap of neighbours.
+
+use rayon::prelude::*;
+use styluscam_geometry::Mesh;
+
+use super::WIDTH;
+
+/// Ranges larger than this are split in parallel.
+const PARALLEL: usize = 8192;
+
+/// What the order is made by.
+#[derive(Clone, Copy)]
+struct Key {
+    /// Middle of the triangle's box, relative to the index's centre.
+    middle: [f32; 3],
+    triangle: u32,
+}
+
+/// The triangles, halved again and again along their longest extent; the same whatever the number of threads.
+pub fn of(mesh: &Mesh, centre: [f64; 3]) -> Vec<u32> {
+    let mut keys: Vec<Key> =
+        (0..mesh.triangles().len() as u32).into_par_iter().map(|t| Key::of(mesh, t, centre)).collect();
+    let mut group = WIDTH;
+    while group * WIDTH < keys.len() {
+        group *= WIDTH;
+    }
+    split(&mut keys, group);
+    keys.iter().map(|key| key.triangle).collect()
+}
+
+impl Key {
+    fn of(mesh: &Mesh, triangle: u32, centre: [f64; 3]) -> Self {
+        let [a, b, c] = mesh.corners(triangle as usize);
+        let middle = std::array::from_fn(|i| {
+            let (low, high) = (a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]));
+            (0.5 * (low + high) - centre[i]) as f32
+        });
+        Self { middle, triangle }
+    }
+}
+
+/// Splits until no range is larger than a group, then with the next smaller groups.
+fn split(keys: &mut [Key], mut group: usize) {
+    while keys.len() <= group {
+        group /= WIDTH;
+        if group < WIDTH {
+            return;
+        }
+    }
+    // whole groups to the left: the boundaries of groups are boundaries of halves
+    let half = keys.len().div_ceil(group).div_ceil(2) * group;
+    let axis = longest(keys);
+    keys.select_nth_unstable_by(half, |a, b| {
+        a.middle[axis].total_cmp(&b.middle[axis]).then(a.triangle.cmp(&b.triangle))
+    });
+    let (left, right) = keys.split_at_mut(half);
+    if left.len() > PARALLEL {
+        rayon::join(|| split(left, group), || split(right, group));
+    } else {
+        split(left, group);
+        split(right, group);
+    }
+}
+
+/// The axis along which the middles spread most.
+fn longest(keys: &[Key]) -> usize {
+    let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    for key in keys {
+        for i in 0..3 {
+            low[i] = low[i].min(key.middle[i]);
+            high[i] = high[i].max(key.middle[i]);
+        }
+    }
+    // tools look from above: height separates best only where plan does not
+    let spread = [high[0] - low[0], high[1] - low[1], 0.5 * (high[2] - low[2])];
+    (0..3).max_by(|a, b| spread[*a].total_cmp(&spread[*b])).unwrap_or(0)
+}
