@@ -250,5 +250,6 @@ def test_what_comes_in_need_not_be_contiguous_or_float(wide_part: sc.Part) -> No
     as_floats = sc.drop_cutter(wide_part, tool, np.ascontiguousarray(places, dtype=np.float64))
     assert (sc.drop_cutter(wide_part, tool, places) == as_floats).all()
     assert (sc.drop_cutter(wide_part, tool, np.asfortranarray(places)) == as_floats).all()
-    assert (sc.drop_cutter(wide_part, tool, places[::2]) == as_floats[::2]).all()
+    # other places, other neighbours to begin the search from: the same to rounding
+    assert np.abs(sc.drop_cutter(wide_part, tool, places[::2]) - as_floats[::2]).max() < 1e-13
     assert (sc.drop_cutter(wide_part, tool, places.tolist()) == as_floats).all()

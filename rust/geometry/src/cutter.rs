@@ -78,7 +78,7 @@ impl Cutter {
         cutter.lines = (0..RADIUS_CELLS).map(|i| cutter.tangent_at(i as f64 / cutter.cells_per_mm)).collect();
         cutter.rises = (0..=RISE_CELLS).map(|i| cutter.rise_node(i)).collect();
         let size = cutter.max_radius + cutter.max_height;
-        cutter.heights = Some(Heights::of(cutter.max_radius, size, |radius| cutter.height_by_profile(radius)));
+        cutter.heights = Some(Heights::of(cutter.max_radius, size, |radius| cutter.height_at_radius(radius)));
         cutter
     }
 
@@ -158,15 +158,16 @@ impl Cutter {
         }
         match self.ball {
             Some(ball) => radius * radius / (ball + (ball * ball - radius * radius).max(0.0).sqrt()),
-            None => {
-                let followed = self.heights.as_ref().and_then(|heights| heights.value_at(radius));
-                followed.unwrap_or_else(|| self.height_by_profile(radius))
-            }
+            None => self.profile.height_within(radius, self.slope_bracket(radius)),
         }
     }
 
-    pub(crate) fn height_by_profile(&self, radius: f64) -> f64 {
-        self.profile.height_within(radius, self.slope_bracket(radius))
+    /// As [`height_at_radius`](Self::height_at_radius), by table where it has the height to a few 1e-15 of the size.
+    #[inline]
+    #[must_use]
+    pub fn quick_height_at_radius(&self, radius: f64) -> f64 {
+        let followed = if self.ball.is_some() { None } else { self.heights.as_ref() };
+        followed.and_then(|heights| heights.value_at(radius)).unwrap_or_else(|| self.height_at_radius(radius))
     }
 
     /// Height at a radius with its derivatives, by table: none beside kinks, near vertical tangents, beyond the base.

@@ -212,7 +212,7 @@ impl<'a> Contacts<'a> {
         if distance > self.cutter.max_radius() || corner.z - self.cutter.height_bound(distance) < found.tip {
             return;
         }
-        let tip = corner.z - self.cutter.height_at_radius(distance);
+        let tip = corner.z - self.cutter.quick_height_at_radius(distance);
         found.improve(Best { tip, triangle, feature: Feature::Corner(number), at: [corner.x, corner.y] });
     }
 

@@ -47,6 +47,9 @@ impl Convexities {
             let first = ((cell as f64 * width - disc) / width).floor().max(0.0) as usize;
             let last = (((cell + 1) as f64 * width + disc) / width).ceil() as usize;
             let least = least[first..=last.min(CELLS)].iter().copied().fold(f64::INFINITY, f64::min);
+            let [inner, outer] = [first, last].map(|i| i as f64 * width);
+            let is_curved = cutter.straights().iter().all(|s| s.outer.0 < inner || s.inner.0 > outer);
+            let least = if is_curved { least } else { 0.0 };
             Convexity { half_bending: (SAFE * 0.5 * least) as f32, square: (disc * disc) as f32 }
         };
         Self { cells_per_mm: 1.0 / width, cells: (0..CELLS).map(cell).collect() }

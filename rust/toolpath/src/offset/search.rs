@@ -182,7 +182,7 @@ impl Searcher {
             while rest != 0 {
                 let lane = rest.trailing_zeros() as usize;
                 rest &= rest - 1;
-                let triangle = branch.node * WIDTH as u32 + lane as u32;
+                let triangle = ground.index.of_piece(branch.node * WIDTH as u32 + lane as u32);
                 let height = values[lane] + if collect { margin } else { more[lane] };
                 if f64::from(height) + zero >= found.tip {
                     let before = found.tip;

@@ -1,19 +1,22 @@
 //! Boxes and planes over triangles, and over groups of them.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
-use styluscam_geometry::Vector;
+use styluscam_geometry::{Mesh, Vector};
 use wide::f32x8;
 
 use super::lanes::Lanes;
 use super::lines::STEEPEST;
-use super::{Triangles, WIDTH};
+use super::pieces::Piece;
+use super::WIDTH;
 
 /// Rounding in a bound, as a share of the lengths and slopes that it is computed from.
 const ROUNDING: f64 = 1e-6;
-/// Groups of this many triangles and more take their plane from the planes of the groups in them.
+/// Groups of more than this many pieces take their plane from the planes of the groups in them.
 const FROM_PARTS: usize = 512;
 
-/// Box and plane of a group of triangles, relative to the index's centre.
+/// Box and plane of a group of pieces, relative to the index's centre.
 #[derive(Clone, Copy)]
 pub struct Cover {
     low: [f32; 3],
@@ -26,20 +29,42 @@ pub struct Cover {
     lift: f64,
 }
 
-/// Covers of each triangle.
-pub fn of_triangles(triangles: &Triangles, centre: Vector) -> Vec<Cover> {
-    (0..triangles.corners.len())
+/// The pieces of triangles in the order of the index.
+pub struct Pieces<'a> {
+    pub pieces: &'a [Piece],
+    pub order: &'a [u32],
+    pub mesh: &'a Mesh,
+    pub centre: Vector,
+}
+
+impl Pieces<'_> {
+    /// Calls `visit` with the corners of a piece, relative to the centre.
+    fn visit(&self, place: usize, mut visit: impl FnMut(Vector)) {
+        let piece = &self.pieces[self.order[place] as usize];
+        let corners = self.mesh.corners(piece.triangle as usize);
+        if piece.is_part {
+            piece.outline(corners).into_iter().for_each(|p| visit(p - self.centre));
+        } else {
+            corners.into_iter().for_each(|p| visit(p - self.centre));
+        }
+    }
+}
+
+/// Covers of each piece.
+pub fn of_pieces(pieces: &Pieces<'_>) -> Vec<Cover> {
+    (0..pieces.order.len())
         .into_par_iter()
-        .map(|t| {
-            let corners = triangles.at(t as u32).map(|p| p - centre);
-            let (slope, weight) = weighted_gradient(corners);
-            Cover::around(corners.map(|p| (p, p)), slope, weight).under(&corners)
+        .map(|place| {
+            let piece = &pieces.pieces[pieces.order[place] as usize];
+            let (slope, weight) = weighted_gradient(pieces.mesh.corners(piece.triangle as usize));
+            let corners = [(piece.low - pieces.centre, piece.high - pieces.centre)];
+            Cover::around(corners, slope, weight).under(pieces, place..place + 1)
         })
         .collect()
 }
 
-/// Covers of groups of eight covers; each group holds `size` triangles.
-pub fn of_groups(parts: &[Cover], size: usize, triangles: &Triangles, centre: Vector) -> Vec<Cover> {
+/// Covers of groups of eight covers; each group holds `size` pieces.
+pub fn of_groups(parts: &[Cover], size: usize, pieces: &Pieces<'_>) -> Vec<Cover> {
     parts
         .par_chunks(WIDTH)
         .enumerate()
@@ -50,9 +75,7 @@ pub fn of_groups(parts: &[Cover], size: usize, triangles: &Triangles, centre: Ve
             if size > FROM_PARTS {
                 return cover.over_parts(parts);
             }
-            let range = group * size..((group + 1) * size).min(triangles.corners.len());
-            let points = range.flat_map(|t| triangles.at(t as u32)).map(|p| p - centre);
-            cover.under(&points.collect::<Vec<_>>())
+            cover.under(pieces, group * size..((group + 1) * size).min(pieces.order.len()))
         })
         .collect()
 }
@@ -92,11 +115,13 @@ impl Cover {
         }
     }
 
-    /// With the lowest plane that has all the points below it, or the top of the box where that is lower.
-    fn under(mut self, points: &[Vector]) -> Self {
+    /// With the lowest plane that has the pieces below it, or the top of the box where that is lower.
+    fn under(mut self, pieces: &Pieces<'_>, range: Range<usize>) -> Self {
         let [x, y] = self.middle();
         let [gx, gy] = self.gradient.map(f64::from);
-        self.lift = points.iter().map(|p| p.z - gx * (p.x - x) - gy * (p.y - y)).fold(f64::NEG_INFINITY, f64::max);
+        for place in range {
+            pieces.visit(place, |p| self.lift = self.lift.max(p.z - gx * (p.x - x) - gy * (p.y - y)));
+        }
         self.flat_if_better()
     }
 

@@ -7,14 +7,18 @@ mod cover;
 mod lanes;
 mod lines;
 mod order;
+mod pieces;
 
 use rayon::prelude::*;
 use styluscam_geometry::{Mesh, Vector};
 
 pub use lanes::{Lanes, Matched, Probe};
 pub use lines::Lines;
+use pieces::Piece;
 
 use super::features::{self, Neighbours, Owned};
+
+
 
 /// Children of a node.
 pub const WIDTH: usize = 8;
@@ -32,12 +36,14 @@ pub struct Triangles {
 #[derive(Clone, Debug)]
 pub struct Index {
     triangles: Triangles,
+    /// The triangle of each piece: of the lanes of the first level.
+    of_pieces: Vec<u32>,
     /// The mesh's number of each triangle, and back.
     numbers: Vec<u32>,
     places: Vec<u32>,
     owned: Vec<Owned>,
     neighbours: Vec<Neighbours>,
-    /// From triangles (eight to a node) to the root.
+    /// From pieces of triangles (eight to a node) to the root.
     levels: Vec<Vec<Lanes>>,
     centre: Vector,
     low: Vector,
@@ -58,22 +64,26 @@ impl Index {
     pub fn new(mesh: &Mesh) -> Self {
         let (low, high) = mesh.bounds();
         let centre = (low + high) * 0.5;
-        let numbers = order::of(mesh, centre.into());
-        let mut places = vec![0; numbers.len()];
-        for (place, number) in numbers.iter().enumerate() {
-            places[*number as usize] = place as u32;
-        }
+        let pieces = pieces::of(mesh, (low, high));
+        let order = order::of(&pieces, centre.into());
+        let Owners { of_pieces, numbers, places } = Owners::of(&pieces, &order, mesh.triangles().len());
+        let levels = levels(&cover::Pieces { pieces: &pieces, order: &order, mesh, centre });
         let (triangles, firsts) = renumbered(mesh, &numbers);
         let (owned, neighbours) = features::of(&triangles, &firsts);
-        let levels = levels(&triangles, centre);
-        Self { triangles, numbers, places, owned, neighbours, levels, centre, low, high }
+        Self { triangles, of_pieces, numbers, places, owned, neighbours, levels, centre, low, high }
     }
 
     pub(super) fn triangles(&self) -> &Triangles {
         &self.triangles
     }
 
-    /// The levels, triangles first, the root last.
+    /// The triangle of a lane of the first level.
+    #[inline]
+    pub(super) fn of_piece(&self, piece: u32) -> u32 {
+        self.of_pieces[piece as usize]
+    }
+
+    /// The levels, pieces first, the root last.
     pub(super) fn levels(&self) -> &[Vec<Lanes>] {
         &self.levels
     }
@@ -136,8 +146,8 @@ fn renumbered(mesh: &Mesh, numbers: &[u32]) -> (Triangles, Vec<u8>) {
     (triangles, firsts)
 }
 
-fn levels(triangles: &Triangles, centre: Vector) -> Vec<Vec<Lanes>> {
-    let mut covers = cover::of_triangles(triangles, centre);
+fn levels(pieces: &cover::Pieces<'_>) -> Vec<Vec<Lanes>> {
+    let mut covers = cover::of_pieces(pieces);
     let mut levels = Vec::new();
     let mut size = 1;
     loop {
@@ -146,6 +156,31 @@ fn levels(triangles: &Triangles, centre: Vector) -> Vec<Vec<Lanes>> {
             return levels;
         }
         size *= WIDTH;
-        covers = cover::of_groups(&covers, size, triangles, centre);
+        covers = cover::of_groups(&covers, size, pieces);
+    }
+}
+
+/// Who is whose: triangles are numbered as their first pieces come.
+struct Owners {
+    of_pieces: Vec<u32>,
+    numbers: Vec<u32>,
+    places: Vec<u32>,
+}
+
+impl Owners {
+    fn of(pieces: &[Piece], order: &[u32], count: usize) -> Self {
+        const NONE: u32 = u32::MAX;
+        let mut owners =
+            Self { of_pieces: Vec::with_capacity(order.len()), numbers: Vec::with_capacity(count), places: vec![NONE; count] };
+        for piece in order {
+            let number = pieces[*piece as usize].triangle;
+            let place = &mut owners.places[number as usize];
+            if *place == NONE {
+                *place = owners.numbers.len() as u32;
+                owners.numbers.push(number);
+            }
+            owners.of_pieces.push(*place);
+        }
+        owners
     }
 }

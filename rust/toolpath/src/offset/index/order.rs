@@ -1,8 +1,8 @@
-//! Triangles in an order that makes every aligned group of 8, 64, 512 and so on a compact heap of neighbours.
+//! Pieces in an order that makes every aligned group of 8, 64, 512 and so on a compact heap of neighbours.
 
 use rayon::prelude::*;
-use styluscam_geometry::Mesh;
 
+use super::pieces::Piece;
 use super::WIDTH;
 
 /// Ranges larger than this are split in parallel.
@@ -11,32 +11,24 @@ const PARALLEL: usize = 8192;
 /// What the order is made by.
 #[derive(Clone, Copy)]
 struct Key {
-    /// Middle of the triangle's box, relative to the index's centre.
+    /// Middle of the piece's box, relative to the index's centre.
     middle: [f32; 3],
-    triangle: u32,
+    piece: u32,
 }
 
-/// The triangles, halved again and again along their longest extent; the same whatever the number of threads.
-pub fn of(mesh: &Mesh, centre: [f64; 3]) -> Vec<u32> {
-    let mut keys: Vec<Key> =
-        (0..mesh.triangles().len() as u32).into_par_iter().map(|t| Key::of(mesh, t, centre)).collect();
+/// The pieces, halved again and again along their longest extent; the same whatever the number of threads.
+pub fn of(pieces: &[Piece], centre: [f64; 3]) -> Vec<u32> {
+    let key = |(number, piece): (usize, &Piece)| Key {
+        middle: std::array::from_fn(|i| (0.5 * (piece.low[i] + piece.high[i]) - centre[i]) as f32),
+        piece: number as u32,
+    };
+    let mut keys: Vec<Key> = pieces.par_iter().enumerate().map(key).collect();
     let mut group = WIDTH;
     while group * WIDTH < keys.len() {
         group *= WIDTH;
     }
     split(&mut keys, group);
-    keys.iter().map(|key| key.triangle).collect()
-}
-
-impl Key {
-    fn of(mesh: &Mesh, triangle: u32, centre: [f64; 3]) -> Self {
-        let [a, b, c] = mesh.corners(triangle as usize);
-        let middle = std::array::from_fn(|i| {
-            let (low, high) = (a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]));
-            (0.5 * (low + high) - centre[i]) as f32
-        });
-        Self { middle, triangle }
-    }
+    keys.iter().map(|key| key.piece).collect()
 }
 
 /// Splits until no range is larger than a group, then with the next smaller groups.
@@ -51,7 +43,7 @@ fn split(keys: &mut [Key], mut group: usize) {
     let half = keys.len().div_ceil(group).div_ceil(2) * group;
     let axis = longest(keys);
     keys.select_nth_unstable_by(half, |a, b| {
-        a.middle[axis].total_cmp(&b.middle[axis]).then(a.triangle.cmp(&b.triangle))
+        a.middle[axis].total_cmp(&b.middle[axis]).then(a.piece.cmp(&b.piece))
     });
     let (left, right) = keys.split_at_mut(half);
     if left.len() > PARALLEL {
