@@ -59,11 +59,19 @@ impl Meridian for Arc {
         slope.clamp(within[0], within[1])
     }
 
+    fn slope_nearest(&self, (r, z): (f64, f64), within: [f64; 2], _guess: f64) -> f64 {
+        // the direction from the centre, told from that to the start
+        let (sin, cos) = libm::sincos(self.start);
+        let (along, away) = (r * cos + z * sin, r * sin - z * cos);
+        (self.start + libm::atan2(along, self.radius + away)).clamp(within[0], within[1])
+    }
+
     fn height_at_radius(&self, radius: f64, _within: [f64; 2]) -> f64 {
         let (sin, cos) = libm::sincos(self.start);
-        let first = self.radius * sin;
-        let across = first + radius;
-        let rest = (self.radius * self.radius - across * across).max(0.0).sqrt();
-        radius * (first + across) / (self.radius * cos + rest)
+        let (first, up) = (self.radius * sin, self.radius * cos);
+        // r (r + 2 R sin) = z (2 R cos - z): near a right angle the difference of squares of R would have lost it
+        let product = radius * (2.0 * first + radius);
+        let rest = (up * up - product).max(0.0).sqrt();
+        product / (up + rest)
     }
 }

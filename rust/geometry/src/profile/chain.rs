@@ -10,21 +10,21 @@ use super::Curve;
 /// gap between the end of one piece and the start of the next, at the slope that they share.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
-    pieces: Vec<Piece>,
+    pub(super) pieces: Vec<Piece>,
     /// Radius and height of the base, mm.
     base: (f64, f64),
 }
 
 /// A curve over an interval of slopes, at its place.
 #[derive(Clone, Debug, PartialEq)]
-struct Piece {
-    from: f64,
-    to: f64,
-    curve: Curve,
+pub(super) struct Piece {
+    pub from: f64,
+    pub to: f64,
+    pub curve: Curve,
     /// What the curve is moved by, mm.
-    shift: (f64, f64),
-    start: (f64, f64),
-    end: (f64, f64),
+    pub shift: (f64, f64),
+    pub start: (f64, f64),
+    pub end: (f64, f64),
 }
 
 /// A straight part of a profile.
@@ -117,7 +117,8 @@ impl Profile {
         match self.place(radius) {
             Place::On(piece) => {
                 let within = piece.narrowed(within);
-                piece.shift.1 + piece.curve.height_at_radius(radius - piece.shift.0, within)
+                let height = piece.shift.1 + piece.curve.height_at_radius(radius - piece.shift.0, within);
+                height.max(piece.start.1).min(piece.end.1)
             }
             Place::Between(straight) => straight.height_at(radius),
         }
@@ -149,18 +150,44 @@ impl Profile {
         }
     }
 
+    /// The same with `radius` (mm) as the base's, where it differs by rounding.
+    #[must_use]
+    pub fn ending_at(mut self, radius: f64) -> Self {
+        self.base.0 = radius;
+        if let Some(last) = self.pieces.last_mut() {
+            // a point stays one
+            if matches!(last.curve, Curve::Point) {
+                last.start.0 = radius;
+                last.shift.0 = radius;
+            }
+            last.end.0 = radius;
+        }
+        self
+    }
+
     /// The profile up to a right angle, its rim there, offset outwards by a ball (radius in mm).
     #[must_use]
     pub fn grown(&self, ball: f64) -> Self {
+        let offset = |(r, z): (f64, f64), slope: f64| {
+            let (out, up) = Curve::Point.grown(ball, 0.0).point_at(slope);
+            (r + out, z + up)
+        };
         let mut grown = Builder::default();
         let mut end = (0.0, 0.0);
         for piece in &self.pieces {
-            grown.straight(length(end, piece.start));
+            grown.kink(piece.from);
+            if piece.start != end {
+                grown.straight(length(end, piece.start));
+                // each piece at its own place: of many, the rounding would add up
+                grown.arrive(offset(piece.start, piece.from));
+            }
             grown.curve(piece.curve.grown(ball, piece.from), piece.from, piece.to);
+            grown.arrive(offset(piece.end, piece.to));
             end = piece.end;
         }
         if self.max_slope() < FRAC_PI_2 {
             grown.curve(Curve::Point.grown(ball, self.max_slope()), self.max_slope(), FRAC_PI_2);
+            grown.arrive(offset(end, FRAC_PI_2));
         }
         grown.finish()
     }
@@ -177,7 +204,7 @@ impl Profile {
 }
 
 impl Piece {
-    fn point_at(&self, slope: f64) -> (f64, f64) {
+    pub fn point_at(&self, slope: f64) -> (f64, f64) {
         let (r, z) = self.curve.point_at(slope);
         (self.shift.0 + r, self.shift.1 + z)
     }
@@ -223,6 +250,14 @@ impl Builder {
             let (sin, cos) = if self.slope >= FRAC_PI_2 { (1.0, 0.0) } else { libm::sincos(self.slope) };
             self.at = (self.at.0 + length * cos, self.at.1 + length * sin);
         }
+    }
+
+    /// Puts the end of what was built last to where it is known to be: mends rounding.
+    pub fn arrive(&mut self, at: (f64, f64)) {
+        if let Some(last) = self.pieces.last_mut().filter(|last| last.end == self.at) {
+            last.end = at;
+        }
+        self.at = at;
     }
 
     /// Turns on the spot to the slope `to`, rad.

@@ -1,6 +1,6 @@
 //! The smooth curves that profiles are made of.
 
-use super::{solve, Arc, Clothoid, Cycloid, Ellipse, Fitted, Parabola, Power};
+use super::{solve, Arc, Clothoid, Cycloid, Ellipse, Fitted, Involute, Parabola, Power};
 
 /// What every smooth curve can tell about itself, relative to its start.
 ///
@@ -14,6 +14,11 @@ pub trait Meridian {
 
     /// The slope at a radius, rad, one of `within`; to rounding.
     fn slope_at_radius(&self, radius: f64, within: [f64; 2]) -> f64;
+
+    /// The slope of the point nearest to (r, z) of those with a slope of `within`, rad; about `guess`.
+    fn slope_nearest(&self, point: (f64, f64), within: [f64; 2], guess: f64) -> f64 {
+        solve::slope_nearest(self, point, within, guess)
+    }
 
     /// The height at a radius, mm, its slope one of `within`.
     fn height_at_radius(&self, radius: f64, within: [f64; 2]) -> f64 {
@@ -38,6 +43,8 @@ pub enum Curve {
     Cycloid(Cycloid),
     /// z = c r^p.
     Power(Power),
+    /// The radius of curvature changes evenly with the slope.
+    Involute(Involute),
     /// A formula's curve, as polynomials.
     Fitted(std::sync::Arc<Fitted>),
     /// Another curve, offset by a ball.
@@ -52,6 +59,7 @@ impl Curve {
             _ if ball == 0.0 => self.clone(),
             Self::Point => Self::Arc(Arc::new(ball, from)),
             Self::Arc(arc) => Self::Arc(arc.grown(ball)),
+            Self::Involute(curve) => Self::Involute(curve.grown(ball)),
             other => Self::Grown(Box::new(Grown { curve: other.clone(), ball: Arc::new(ball, from) })),
         }
     }
@@ -69,6 +77,7 @@ impl std::ops::Deref for Curve {
             Self::Ellipse(curve) => curve,
             Self::Cycloid(curve) => curve,
             Self::Power(curve) => curve,
+            Self::Involute(curve) => curve,
             Self::Fitted(curve) => curve.as_ref(),
             Self::Grown(curve) => curve.as_ref(),
         }

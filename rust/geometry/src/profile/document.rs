@@ -171,7 +171,7 @@ pub enum ProfileDocument {
     Points {
         /// (r, z) from the tip outwards, mm; moved so that the first is the tip.
         points: Vec<[f64; 2]>,
-        /// How deep the points may be hollow, mm: they are passed by on the outside.
+        /// How far the points may be from the profile, inside or outside, mm.
         #[serde(default = "fit_tolerance")]
         fit_tolerance: f64,
         /// Radius of a flat that is added at the tip, mm.
@@ -254,8 +254,8 @@ impl ProfileDocument {
         }
         match self {
             Self::Points { points, fit_tolerance, .. } => {
-                let fit = points::fit(points, length("fit_tolerance", *fit_tolerance)?, tip)?;
-                Ok((fit.profile, ProfileReport { notes: Vec::new(), fit_deviation: Some(fit.deviation) }))
+                let fit = points::fit(points, length("fit_tolerance", *fit_tolerance)?, &tip)?;
+                Ok((fit.profile, ProfileReport { notes: fit.notes, fit_deviation: Some(fit.deviation) }))
             }
             Self::Formula(document) => formula(tip, document, flat),
             _ => Ok((self.led(tip, flat)?, ProfileReport::default())),

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::{Profile, ProfileDocument};
 
-/// A document of any kind with sensible random numbers.
+/// A document of any kind with a closed form, with sensible random numbers.
 pub fn any_document() -> impl Strategy<Value = ProfileDocument> {
     let flat = prop_oneof![Just(0.0), 0.0..0.3_f64];
     (0..14_u8, 1.0..40.0_f64, 0.05..0.95_f64, 0.05..0.95_f64, flat).prop_map(|(kind, diameter, a, b, flat)| {
@@ -39,9 +39,57 @@ pub fn any_document() -> impl Strategy<Value = ProfileDocument> {
     })
 }
 
-/// A profile of any kind, and of points.
+/// A document of convex points: each turns by a part of the whole, and some stand on a line with the two before.
+pub fn any_points() -> impl Strategy<Value = ProfileDocument> {
+    let step = (0.05..2.0_f64, 0.001..1.0_f64, prop_oneof![4 => Just(0), 1 => 1..4_usize]);
+    let flat = prop_oneof![Just(0.0), 0.0..3.0_f64];
+    (prop::collection::vec(step, 2..30), 0.1..1.4_f64, flat).prop_map(|(steps, last, tip_flat)| {
+        let total: f64 = steps.iter().map(|step| 2.0 * step.1).sum();
+        let (mut at, mut slope) = ([0.0, 0.0], 0.0);
+        let mut points = vec![at];
+        for (length, turned, more) in steps {
+            // a step that curves, then one that may go on as a line: two lines would make a corner
+            for count in [1, 1 + more] {
+                slope += turned / total * last;
+                for _ in 0..count {
+                    at = [at[0] + length * f64::cos(slope), at[1] + length * f64::sin(slope)];
+                    points.push(at);
+                }
+            }
+        }
+        ProfileDocument::Points { points, fit_tolerance: 1e-6, tip_flat }
+    })
+}
+
+/// A document of a formula that is another kind's curve.
+pub fn any_formula() -> impl Strategy<Value = ProfileDocument> {
+    let flat = prop_oneof![Just(0.0), 0.0..0.3_f64];
+    (0..3_u8, 1.0..40.0_f64, 0.2..0.95_f64, flat).prop_map(|(kind, diameter, a, flat)| {
+        let (size, tip_flat) = (0.5 * diameter, flat * diameter * 0.5);
+        let text = match kind {
+            0 => serde_json::json!({"z": format!("r^2 / {}", 4.0 * a * size), "diameter": diameter}),
+            1 => serde_json::json!({
+                "r": format!("{size} * sin(t)"), "z": format!("{} * cos(t)", a * size), "t": [0.0, 1.5]
+            }),
+            _ => serde_json::json!({
+                "implicit": format!("(r/{size})^2 + (z/{0} - 1)^2 - 1", a * size), "start": [size, a * size]
+            }),
+        };
+        let mut document = text;
+        document["kind"] = "formula".into();
+        document["tip_flat"] = tip_flat.into();
+        serde_json::from_value(document).unwrap()
+    })
+}
+
+/// A profile of any kind.
 pub fn any_profile() -> impl Strategy<Value = Profile> {
-    any_document().prop_map(|document| document.build().unwrap().0)
+    any_kind().prop_map(|document| document.build().unwrap().0)
+}
+
+/// A document of any kind, points and formulas too.
+pub fn any_kind() -> impl Strategy<Value = ProfileDocument> {
+    prop_oneof![14 => any_document(), 4 => any_points(), 1 => any_formula()]
 }
 
 #[cfg(test)]
@@ -52,7 +100,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_profile_is_convex_and_consistent(document in any_document(), a in 0.0..1.0_f64, b in 0.0..1.0_f64) {
+        fn a_profile_is_convex_and_consistent(document in any_kind(), a in 0.0..1.0_f64, b in 0.0..1.0_f64) {
             let (profile, _) = document.build().unwrap();
             let last = profile.max_slope();
             let (low, high) = (a.min(b) * last, a.max(b) * last);
@@ -69,7 +117,7 @@ mod tests {
         }
 
         #[test]
-        fn the_radius_of_curvature_is_that_of_the_curve(document in any_document(), share in 0.05..0.95_f64) {
+        fn the_radius_of_curvature_is_that_of_the_curve(document in any_kind(), share in 0.05..0.95_f64) {
             let (profile, _) = document.build().unwrap();
             let slope = share * profile.max_slope();
             let step = 1e-5 * profile.max_slope();
@@ -81,13 +129,13 @@ mod tests {
         }
 
         #[test]
-        fn a_document_survives_json(document in any_document()) {
+        fn a_document_survives_json(document in any_kind()) {
             let text = serde_json::to_string(&document).unwrap();
             prop_assert_eq!(serde_json::from_str::<ProfileDocument>(&text).unwrap(), document);
         }
 
         #[test]
-        fn heights_and_slopes_belong_together(document in any_document(), share in 0.001..0.999_f64) {
+        fn heights_and_slopes_belong_together(document in any_kind(), share in 0.001..0.999_f64) {
             let (profile, _) = document.build().unwrap();
             let radius = share * profile.base().0;
             let slope = profile.slope_at_radius(radius);

@@ -1,4 +1,4 @@
-//! The slope at a radius, for curves without a closed form of it.
+//! The slope at a radius and nearest to a point, for curves without a closed form of it.
 
 use super::Meridian;
 
@@ -29,4 +29,37 @@ pub fn slope_at_radius(curve: &(impl Meridian + ?Sized), radius: f64, within: [f
         }
     }
     (x * x).clamp(within[0], within[1])
+}
+
+/// The last step to the slope of the nearest point is at most this share of the interval: its error is of the square.
+pub const NEAREST: f64 = 1e-5;
+
+/// The slope of `within` at which `curve` is nearest to a point, by Newton's method kept between two sides.
+///
+/// For a point no farther inside than the radius of curvature the distance has one minimum. Farther inside the slope
+/// is that of one of the minima: a point on the curve, if not the nearest.
+pub fn slope_nearest(curve: &(impl Meridian + ?Sized), (r, z): (f64, f64), within: [f64; 2], guess: f64) -> f64 {
+    let [mut low, mut high] = within;
+    let width = high - low;
+    let mut slope = guess.clamp(low, high);
+    for _ in 0..STEPS {
+        let (sin, cos) = libm::sincos(slope);
+        let on = curve.point_at(slope);
+        let along = (r - on.0) * cos + (z - on.1) * sin;
+        if along > 0.0 {
+            low = slope;
+        } else {
+            high = slope;
+        }
+        let rate = curve.curvature_radius_at(slope) + (r - on.0) * sin - (z - on.1) * cos;
+        let next = slope + along / rate;
+        let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+        let step = (next - slope).abs();
+        slope = next;
+        // the distance is stationary in the slope
+        if step <= NEAREST * width || high - low <= f64::EPSILON * high {
+            break;
+        }
+    }
+    slope
 }
