@@ -97,6 +97,15 @@ pub(crate) fn positive_length(key: &'static str, value: f64) -> Result<f64, Geom
     }
 }
 
+/// Refuses an area that is not positive, finite and of this world.
+pub(crate) fn positive_area(key: &'static str, value: f64) -> Result<f64, GeometryError> {
+    if value > 1e-12 && value <= 1e8 {
+        Ok(value)
+    } else {
+        Err(GeometryError::OutOfRange { key, value, allowed: "must be above 0 and up to 1e8 mm^2" })
+    }
+}
+
 /// Refuses a length that is negative, infinite or absurd.
 pub(crate) fn length(key: &'static str, value: f64) -> Result<f64, GeometryError> {
     if (0.0..=1e4).contains(&value) {

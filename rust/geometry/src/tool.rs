@@ -57,6 +57,21 @@ impl Base {
             Self::Cylindrical { height } | Self::Chamfer { height } | Self::Tangent { height } => *height,
         }
     }
+
+    /// Its height, mm, if it has any, and a shank to lead to.
+    fn checked(&self, profile: &Profile, document: &ToolDocument) -> Result<f64, GeometryError> {
+        let height = positive_length("base.height", self.height())?;
+        let diameter = 2.0 * profile.base().0;
+        let leads = document.shank_diameter.is_some_and(|shank| (shank - diameter).abs() > 1e-9 * diameter);
+        if leads || matches!(self, Self::Cylindrical { .. }) {
+            return Ok(height);
+        }
+        let kind = if matches!(self, Self::Chamfer { .. }) { "chamfer" } else { "tangent" };
+        Err(GeometryError::Keys(format!(
+            "base.kind = {kind:?} leads from the profile's diameter ({diameter:.6} mm) to the shank's: shank_diameter must \
+             be given and be another; without, take \"cylindrical\" or leave base out"
+        )))
+    }
 }
 
 /// A cylinder above the shank.
@@ -95,7 +110,7 @@ impl Tool {
         if let Some(diameter) = document.shank_diameter {
             positive_length("shank_diameter", diameter)?;
         }
-        let height = profile.base().1 + document.base.map_or(Ok(0.0), |base| length("base.height", base.height()))?;
+        let height = profile.base().1 + document.base.map_or(Ok(0.0), |base| base.checked(&profile, &document))?;
         if let Some(value) = document.length {
             if length("length", value)? <= height {
                 let allowed = "more than profile and base are high";
@@ -169,16 +184,81 @@ impl Tool {
         2.0 * self.profile.base().0
     }
 
-    /// What it is, in words: `clothoid D10`.
+    /// What it is, in words, with diameters in mm: `clothoid D10`, `clothoid D10 tip flat D2`.
     #[must_use]
     pub fn description(&self) -> String {
-        let flat = self.document.profile.tip_flat();
-        let kind = self.document.profile.kind();
-        let diameter = (self.diameter() * 1e6).round() / 1e6;
-        if flat > 0.0 {
-            format!("{kind} D{diameter} tip flat {flat}")
-        } else {
-            format!("{kind} D{diameter}")
+        let profile = &self.document.profile;
+        let (kind, millionths) = (profile.kind(), |x: f64| (x * 1e6).round() / 1e6);
+        let name = format!("{kind} D{}", millionths(self.diameter()));
+        match profile.tip_flat() {
+            flat if flat > 0.0 && !matches!(profile, ProfileDocument::Flat { .. }) => {
+                format!("{name} tip flat D{}", millionths(2.0 * flat))
+            }
+            _ => name,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tool(text: &str) -> Result<Tool, String> {
+        Tool::new(serde_json::from_str(text).unwrap()).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_base_that_joins_nothing_is_refused() {
+        let with = |base: &str, shank: &str| {
+            tool(&format!(r#"{{"profile": {{"kind": "ball", "diameter": 10.0}}, "base": {base}{shank}}}"#))
+        };
+        for kind in ["chamfer", "tangent"] {
+            let base = format!(r#"{{"kind": "{kind}", "height": 2.0}}"#);
+            assert!(with(&base, "").unwrap_err().contains("shank_diameter must be given"));
+            assert!(with(&base, r#", "shank_diameter": 10.0"#).unwrap_err().contains("another"));
+            assert!(with(&base, r#", "shank_diameter": 12.0"#).is_ok());
+        }
+        assert!(with(r#"{"kind": "cylindrical", "height": 2.0}"#, "").is_ok());
+        let flat = with(r#"{"kind": "cylindrical", "height": 0.0}"#, "").unwrap_err();
+        assert!(flat.contains("base.height = 0"), "{flat}");
+    }
+
+    #[test]
+    fn a_flat_end_has_no_flat_beyond_itself() {
+        let error = tool(r#"{"profile": {"kind": "flat", "diameter": 10.0, "tip_flat": 9000.0}}"#).unwrap_err();
+        assert!(error.contains("tip_flat = 9000"), "{error}");
+        let flat = tool(r#"{"profile": {"kind": "flat", "diameter": 10.0, "tip_flat": 3.0}}"#).unwrap();
+        assert_eq!(flat.description(), "flat D10");
+    }
+
+    #[test]
+    fn descriptions_speak_of_diameters() {
+        let tool = tool(r#"{"profile": {"kind": "clothoid", "diameter": 10.0, "tip_flat": 1.0}}"#).unwrap();
+        assert_eq!(tool.description(), "clothoid D10 tip flat D2");
+    }
+
+    #[test]
+    fn the_scale_of_a_clothoid_is_an_area() {
+        let of = |scale: f64| {
+            tool(&format!(r#"{{"profile": {{"kind": "clothoid", "scale": {scale:?}, "end_slope_deg": 90.0}}}}"#))
+        };
+        assert!(of(20_000.0).is_ok());
+        let error = of(0.0).unwrap_err();
+        assert!(error.contains("mm^2"), "{error}");
+        assert!(of(1e9).unwrap_err().contains("mm^2"));
+    }
+
+    #[test]
+    fn heights_reach_the_very_rim() {
+        for kind in [
+            r#""kind": "parabola", "apex_radius": 5.0, "diameter": 7.3"#,
+            r#""kind": "tapered-ball", "tip_radius": 0.7, "half_angle_deg": 11.0, "diameter": 7.3"#,
+            r#""kind": "barrel", "radius": 31.0, "tip_radius": 0.7, "diameter": 7.3, "tip_flat": 0.1"#,
+            r#""kind": "points", "points": [[0.0, 0.0], [1.1, 0.1], [2.7, 0.9], [3.3, 1.6], [3.65, 2.9]]"#,
+        ] {
+            let tool = tool(&format!(r#"{{"profile": {{{kind}}}}}"#)).unwrap();
+            assert_eq!(tool.diameter().to_bits(), 7.3_f64.to_bits(), "{kind}");
+            assert!(tool.cutter().height_at_radius(3.65).is_finite(), "{kind}");
         }
     }
 }

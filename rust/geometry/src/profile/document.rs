@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::formula::{self, FormulaDocument, TracedPart};
 use super::{points, Arc, Builder, Clothoid, Curve, Cycloid, Ellipse, Parabola, Power, Profile};
-use crate::error::{length, positive_length};
+use crate::error::{length, positive_area, positive_length};
 use crate::GeometryError;
 
 /// What is left of a curve must be at least this wide, mm.
@@ -163,7 +163,7 @@ pub enum ProfileDocument {
     Flat {
         /// Diameter of the cutter, mm.
         diameter: f64,
-        /// Without meaning here: the whole end is flat.
+        /// Part of the end, which is flat as a whole: at most half the diameter, and without effect.
         #[serde(default)]
         tip_flat: f64,
     },
@@ -260,7 +260,36 @@ impl ProfileDocument {
             Self::Formula(document) => formula(tip, document, flat),
             _ => Ok((self.led(tip, flat)?, ProfileReport::default())),
         }
-        .and_then(|(profile, report)| Ok((sane(profile)?, report)))
+        .and_then(|(profile, report)| Ok((self.based(sane(profile)?), report)))
+    }
+
+    /// The profile with its base at the very diameter that the document gives, where it is that but for rounding.
+    fn based(&self, profile: Profile) -> Profile {
+        let radius = self.diameter().map(|diameter| diameter / 2.0);
+        match radius.filter(|radius| (profile.base().0 - radius).abs() <= 1e-13 * radius) {
+            Some(radius) => profile.ending_at(radius),
+            None => profile,
+        }
+    }
+
+    /// Diameter of the base, mm, where the document gives it.
+    fn diameter(&self) -> Option<f64> {
+        match self {
+            Self::Ball { diameter, .. }
+            | Self::Parabola { diameter, .. }
+            | Self::Cycloid { diameter, .. }
+            | Self::Power { diameter, .. }
+            | Self::RoundedRectangle { diameter, .. }
+            | Self::BullNose { diameter, .. }
+            | Self::Barrel { diameter, .. }
+            | Self::Cone { diameter, .. }
+            | Self::TaperedBall { diameter, .. }
+            | Self::V { diameter, .. }
+            | Self::Flat { diameter, .. } => Some(*diameter),
+            Self::Clothoid { diameter, .. } | Self::Ellipse { diameter, .. } => *diameter,
+            Self::Formula(document) => document.diameter,
+            Self::Points { .. } => None,
+        }
     }
 
     /// The kinds with a closed form, from the end of the tip's flat.
@@ -303,8 +332,12 @@ impl ProfileDocument {
                 v(tip, length("tip_diameter", *tip_diameter)?, *angle_deg, beyond_flat(*diameter, flat)?)
             }
             Self::Flat { diameter, .. } => {
-                let mut end = tip;
-                end.straight(positive_length("diameter", *diameter)? / 2.0);
+                let (radius, mut end) = (positive_length("diameter", *diameter)? / 2.0, tip);
+                if flat > radius {
+                    let allowed = "must be at most half the diameter";
+                    return Err(GeometryError::OutOfRange { key: "tip_flat", value: flat, allowed });
+                }
+                end.straight(radius);
                 Ok(end.finish())
             }
             Self::Points { .. } | Self::Formula(_) => Ok(tip.finish()),
@@ -390,7 +423,7 @@ fn clothoid(
     };
     let curve = match (base, scale) {
         (Some(radius), None) => Clothoid::from_radius(radius, end),
-        (None, Some(scale)) if end_slope_deg.is_some() => Clothoid::from_scale(positive_length("scale", scale)?),
+        (None, Some(scale)) if end_slope_deg.is_some() => Clothoid::from_scale(positive_area("scale", scale)?),
         _ => return Err(GeometryError::Keys("clothoid takes diameter, or scale with end_slope_deg".to_owned())),
     };
     tip.curve(Curve::Clothoid(curve), 0.0, end);
