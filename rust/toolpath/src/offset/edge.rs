@@ -156,7 +156,8 @@ impl Line {
             }
             let end = if slope > 0.0 { self.first + self.run } else { self.first };
             let tip = self.foot + self.steep * along - height.value;
-            if end == along || tip + slope * (end - along) < best {
+            let gain = slope * (end - along);
+            if gain <= 0.0 || tip + gain < best {
                 return Climb::Beyond;
             }
             let next = if slope > 0.0 { (along + step).min(end) } else { (along + step).max(end) };

@@ -13,8 +13,12 @@ use super::index::{Index, Lines, Matched};
 use super::search::{Ground, Searcher};
 use super::tiles::Tiles;
 
+/// Places put into tiles at a time: between blocks there is nothing that cannot be cancelled.
+const BLOCK: usize = 1 << 20;
 /// Tiles handed to a thread at a time: fixed, so that the answer does not depend on the threads.
 const CHUNK: usize = 64;
+/// Tiles that share a survey of the index.
+const SURVEYED: usize = 16;
 
 /// The tool's lowest free position over a place, and what it touches there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,12 +114,7 @@ impl<'a> Envelope<'a> {
     /// # Errors
     /// `Cancelled` when `watch` says so.
     pub fn tips(&self, places: &[[f64; 2]], watch: &Watch) -> Result<Vec<f64>, Cancelled> {
-        self.map_places(
-            places,
-            watch,
-            f64::NAN,
-            |found, _| if found.is_something() { found.tip + self.above } else { f64::NAN },
-        )
+        self.map_places(places, watch, |found, _| if found.is_something() { found.tip + self.above } else { f64::NAN })
     }
 
     /// Contacts at many places, in parallel.
@@ -123,43 +122,54 @@ impl<'a> Envelope<'a> {
     /// # Errors
     /// `Cancelled` when `watch` says so.
     pub fn contacts(&self, places: &[[f64; 2]], watch: &Watch) -> Result<Vec<Option<Contact>>, Cancelled> {
-        self.map_places(places, watch, None, |found, place| self.contact_of(&found, place))
+        self.map_places(places, watch, |found, place| self.contact_of(&found, place))
     }
 
-    fn map_places<T: Clone + Send>(
+    fn map_places<T: Copy + Send + Sync>(
         &self,
         places: &[[f64; 2]],
         watch: &Watch,
-        nothing: T,
         keep: impl Fn(Best, [f64; 2]) -> T + Sync,
     ) -> Result<Vec<T>, Cancelled> {
-        if places.is_empty() {
-            return Ok(Vec::new());
+        let mut answers = Vec::with_capacity(places.len());
+        for block in places.chunks(BLOCK) {
+            let tiles = Tiles::of(block, self.index.area_per_triangle());
+            let by_tile = self.map_tiles(block, &tiles, watch, &keep)?;
+            answers.par_extend(tiles.ranks.par_iter().map(|rank| by_tile[*rank as usize]));
         }
-        let tiles = Tiles::of(places, self.mesh.triangles().len(), self.index.bounds());
+        Ok(answers)
+    }
+
+    /// Answers for the members of tiles, one after the other.
+    fn map_tiles<T: Copy + Send>(
+        &self,
+        places: &[[f64; 2]],
+        tiles: &Tiles,
+        watch: &Watch,
+        keep: &(impl Fn(Best, [f64; 2]) -> T + Sync),
+    ) -> Result<Vec<T>, Cancelled> {
         let ground = self.ground();
-        let found: Result<Vec<Vec<(u32, T)>>, Cancelled> = (0..tiles.starts.len() - 1)
+        let count = tiles.starts.len() - 1;
+        let chunks: Result<Vec<Vec<T>>, Cancelled> = (0..count)
             .into_par_iter()
             .step_by(CHUNK)
             .map(|first| {
                 let mut searcher = Searcher::default();
-                let last = (first + CHUNK).min(tiles.starts.len() - 1);
-                let mut found = Vec::with_capacity((tiles.starts[last] - tiles.starts[first]) as usize);
-                for tile in tiles.starts[first..=last].windows(2) {
-                    let members = &tiles.members[tile[0] as usize..tile[1] as usize];
-                    searcher.many(&ground, places, members, &mut |member, best| {
-                        found.push((member, keep(best, places[member as usize])));
+                let starts = &tiles.starts[first..=(first + CHUNK).min(count)];
+                let begin = starts[0];
+                let mut found = vec![Best::NOTHING; (starts[starts.len() - 1] - begin) as usize];
+                for piece in (0..starts.len() - 1).step_by(SURVEYED) {
+                    let starts = &starts[piece..=(piece + SURVEYED).min(starts.len() - 1)];
+                    searcher.many(&ground, places, &tiles.members, starts, &mut |member, best| {
+                        found[(tiles.ranks[member as usize] - begin) as usize] = best;
                     });
-                    watch.advance(members.len())?;
+                    watch.advance((starts[starts.len() - 1] - starts[0]) as usize)?;
                 }
-                Ok(found)
+                let members = &tiles.members[begin as usize..begin as usize + found.len()];
+                Ok(members.iter().zip(found).map(|(member, best)| keep(best, places[*member as usize])).collect())
             })
             .collect();
-        let mut answers = vec![nothing; places.len()];
-        for (place, answer) in found?.into_iter().flatten() {
-            answers[place as usize] = answer;
-        }
-        Ok(answers)
+        Ok(chunks?.concat())
     }
 
     fn ground(&self) -> Ground<'_> {
@@ -408,6 +418,85 @@ mod tests {
             let envelope = Envelope::new(&mesh, &bvh, &tool, None, 0.0);
             let (a, b) = (envelope.contact(x, 2.5).unwrap(), envelope.contact_near(x, 2.5, &mut Some(hint)).unwrap());
             prop_assert!((a.tip - b.tip).abs() < 1e-11);
+        }
+    }
+
+    /// Surfaces of 24 x 24 cells of half a millimetre: bumps, ridges, steps with upright walls, needles, a bowl of fans.
+    fn surface(kind: u8, seed: u64) -> Mesh {
+        let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+        let mut random = move || {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let side = 25;
+        let mut vertices = Vec::new();
+        for i in 0..side * side {
+            let (column, row) = ((i % side) as f64, (i / side) as f64);
+            let (x, y) = (0.5 * column, 0.5 * row);
+            let z = match kind {
+                0 => libm::sin(x) * libm::cos(1.3 * y),
+                1 => (2.0 - (libm::fmod(x + 0.7 * y, 4.0) - 2.0).abs()).abs(),
+                2 => 1.5 * libm::floor(random() * 2.0),
+                3 if random() < 0.05 => 6.0 * random(),
+                3 => 0.0,
+                _ => 0.08 * ((x - 6.0) * (x - 6.0) + (y - 6.0) * (y - 6.0)),
+            };
+            // steps: the ends of a cell's sides fall together in plan, and walls stand upright
+            let x = if kind == 2 {
+                libm::floor(column / 2.0) + 0.5 * libm::fmod(column, 2.0) * f64::from(z == 0.0)
+            } else {
+                x
+            };
+            vertices.push(Vector::new(x, y, z));
+        }
+        let mut triangles = Vec::new();
+        for row in 0..side - 1 {
+            for column in 0..side - 1 {
+                let (i, n) = ((row * side + column) as i64, side as i64);
+                triangles.extend([[i, i + 1, i + n + 1], [i, i + n + 1, i + n]]);
+            }
+        }
+        if kind == 4 {
+            // a plane in slivers from one corner, as tessellators make them
+            let corner = vertices.len() as i64;
+            vertices.push(Vector::new(-20.0, -20.0, 1.0));
+            for i in 0..80 {
+                vertices.push(Vector::new(30.0, -20.0 + 0.6 * f64::from(i), 1.0));
+                if i > 0 {
+                    triangles.push([corner, corner + i64::from(i), corner + i64::from(i) + 1]);
+                }
+            }
+        }
+        Mesh::new(vertices, &triangles, &[]).unwrap()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(40))]
+        #[test]
+        fn tiles_find_what_all_triangles_say(kind in 0..5_u8, seed in 1..1_000_000_u64, tool in any_tool(), turn in 0.0..6.3_f64) {
+            let mesh = surface(kind, seed);
+            let index = Index::new(&mesh);
+            let envelope = Envelope::new(&mesh, &index, &tool, None, 0.0);
+            let (sin, cos) = libm::sincos(turn);
+            let places: Vec<[f64; 2]> = (0..1600)
+                .map(|i| [0.4 * f64::from(i % 40) - 8.0, 0.4 * f64::from(i / 40) - 8.0])
+                .map(|[x, y]| [6.0 + cos * x - sin * y, 6.0 + sin * x + cos * y])
+                .collect();
+            let tips = envelope.tips(&places, &Watch::default()).unwrap();
+            let ground = envelope.ground();
+            for (place, tip) in places.iter().zip(tips).step_by(7) {
+                let mut best = Best::NOTHING;
+                for triangle in 0..mesh.triangles().len() as u32 {
+                    ground.contacts.touch_whole(triangle, *place, &mut best);
+                }
+                if best.is_something() {
+                    prop_assert!((tip - best.tip).abs() < 1e-11, "{place:?} {tip} {}", best.tip);
+                } else {
+                    prop_assert!(tip.is_nan());
+                }
+            }
         }
     }
 

@@ -9,14 +9,21 @@ use wide::f32x8;
 
 use super::contact::{Best, Contacts};
 use super::features::NO_NEIGHBOUR;
-use super::index::{Index, Lines, Matched, Probe, WIDTH};
+use super::index::{Bounds, Index, Lines, Matched, Probe, WIDTH};
 
 /// Triangles that a walk from the last contact crosses at most.
 const WALK: usize = 64;
 /// Rounding in a bound, as a share of the cutter's radius: that of f32 times the steepest line.
 const ROUNDING: f64 = 1e-5;
-/// A tile of more candidates than this is quartered.
-const CROWDED: usize = 40;
+/// A tile of more candidates than this is quartered,
+const CROWDED: usize = 64;
+/// if they are fewer than this share of those of the tile that it is a quarter of.
+const WORTH_QUARTERING: f64 = 0.8;
+
+/// Nodes of a survey's last level that cover a quarter of the surveyed piece, about.
+const SURVEYED: f64 = 4.;
+/// A survey of more branches than this says nothing.
+const MOST_BRANCHES: usize = 128;
 
 /// What the search needs of a mesh and a cutter.
 pub struct Ground<'a> {
@@ -35,6 +42,8 @@ pub struct Ground<'a> {
 pub struct Searcher {
     stack: Vec<Branch>,
     candidates: Candidates,
+    /// Nodes of the first level that candidates come from.
+    leaves: Vec<Branch>,
     /// Where the last search ended: neighbours begin there.
     last: Option<u32>,
 }
@@ -47,6 +56,14 @@ struct Branch {
     /// Highest tip in the node over the middle of the tile, over the probe's z, and its gradient in the tile.
     value: f32,
     along: [f32; 2],
+}
+
+/// The branches in which all contacts of a piece of the plan are.
+struct Survey {
+    branches: Vec<Branch>,
+    /// What the branches' values are relative to.
+    middle: [f64; 2],
+    zero: f64,
 }
 
 /// Triangles that may be touched somewhere in a tile, with their bounds.
@@ -79,116 +96,145 @@ struct Floor {
 impl Searcher {
     /// The highest contact over one place. `hint`: a triangle near it.
     pub fn one(&mut self, ground: &Ground<'_>, place: [f64; 2], hint: Option<u32>) -> Best {
-        let tile = ground.tile(&[place], &[0]);
         self.last = hint.or(self.last);
+        self.one_among(ground, &Survey::whole(ground), place)
+    }
+
+    fn one_among(&mut self, ground: &Ground<'_>, survey: &Survey, place: [f64; 2]) -> Best {
+        let tile = ground.tile(&[place], &[0]);
         let mut found = ground.guess(place, self.last);
-        self.explore(ground, &tile, place, &mut found, false);
-        if found.is_something() {
-            self.last = Some(found.triangle);
-        }
+        self.explore(ground, survey, &tile, place, &mut found, false);
+        self.remember(&found);
         found
     }
 
-    /// The highest contacts over the places named by `members`, which lie together.
+    /// The highest contacts over the places of some tiles, one after the other in `members`, beginning at `starts`.
     pub fn many(
         &mut self,
         ground: &Ground<'_>,
         places: &[[f64; 2]],
         members: &[u32],
+        starts: &[u32],
+        keep: &mut impl FnMut(u32, Best),
+    ) {
+        let (Some(first), Some(last)) = (starts.first(), starts.last()) else { return };
+        let survey = self.survey(ground, &ground.tile(places, &members[*first as usize..*last as usize]));
+        for tile in starts.windows(2) {
+            self.many_among(ground, &survey, places, &members[tile[0] as usize..tile[1] as usize], usize::MAX, keep);
+        }
+    }
+
+    /// The highest contacts over the places named by `members`, which lie together; `before`: candidates of the tile that
+    /// this one is a quarter of.
+    fn many_among(
+        &mut self,
+        ground: &Ground<'_>,
+        survey: &Survey,
+        places: &[[f64; 2]],
+        members: &[u32],
+        before: usize,
         keep: &mut impl FnMut(u32, Best),
     ) {
         if let [only] = members {
-            let found = self.one(ground, places[*only as usize], None);
+            let found = self.one_among(ground, survey, places[*only as usize]);
             return keep(*only, found);
         }
         let tile = ground.tile(places, members);
         let mut found = ground.guess(tile.middle, self.last);
-        self.explore(ground, &tile, tile.middle, &mut found, true);
-        if found.is_something() {
-            self.last = Some(found.triangle);
-        }
-        if self.candidates.triangles.len() > CROWDED && members.len() > 1 {
-            return self.quartered(ground, places, members, &tile, keep);
+        self.explore(ground, survey, &tile, tile.middle, &mut found, true);
+        self.remember(&found);
+        let count = self.candidates.triangles.len();
+        if count > CROWDED && (count as f64) < WORTH_QUARTERING * before as f64 {
+            let leaves =
+                Survey { branches: std::mem::take(&mut self.leaves), middle: tile.middle, zero: self.candidates.zero };
+            for quarter in quarters(places, members, &tile).iter().filter(|quarter| !quarter.is_empty()) {
+                self.many_among(ground, &leaves, places, quarter, count, keep);
+            }
+            return;
         }
         self.candidates.pad();
         for member in members {
-            let place = places[*member as usize];
-            keep(*member, self.settle(ground, &tile, place));
+            keep(*member, self.settle(ground, &tile, places[*member as usize]));
         }
     }
 
-    fn quartered(
-        &mut self,
-        ground: &Ground<'_>,
-        places: &[[f64; 2]],
-        members: &[u32],
-        tile: &Tile,
-        keep: &mut impl FnMut(u32, Best),
-    ) {
-        let mut quarters: [Vec<u32>; 4] = Default::default();
-        for member in members {
-            let [x, y] = places[*member as usize];
-            let quarter = usize::from(x > tile.middle[0]) + 2 * usize::from(y > tile.middle[1]);
-            quarters[quarter].push(*member);
-        }
-        let whole = quarters.iter().any(|quarter| quarter.len() == members.len());
-        for quarter in quarters.iter().filter(|quarter| !quarter.is_empty()) {
-            if whole {
-                // all at one place, or nearly
-                for member in quarter {
-                    let found = self.one(ground, places[*member as usize], None);
-                    keep(*member, found);
-                }
-            } else {
-                self.many(ground, places, quarter, keep);
-            }
+    fn remember(&mut self, found: &Best) {
+        if found.is_something() {
+            self.last = Some(found.triangle);
         }
     }
 
-    /// Walks through the index: `found` becomes the highest contact over `place`; what may be touched elsewhere in the
-    /// tile is collected.
-    fn explore(&mut self, ground: &Ground<'_>, tile: &Tile, place: [f64; 2], found: &mut Best, collect: bool) {
-        let levels = ground.index.levels();
-        let probe = ground.probe(tile, found);
-        let zero = ground.zero(&probe);
-        let half_width = tile.half.map(|h| h as f32);
-        let half = half_width.map(f32x8::splat);
-        let mut floor = ground.floor(tile, found, zero, collect);
-        let margin = ground.margin();
-        self.candidates.clear(zero);
+    /// The branches in which all contacts of a piece of the plan are: found once, for its tiles.
+    fn survey(&mut self, ground: &Ground<'_>, tile: &Tile) -> Survey {
+        let stop = ground.stop(tile);
+        let whole = Survey::whole(ground);
+        if stop + 1 >= ground.index.levels().len() {
+            return whole;
+        }
+        let found = ground.guess(tile.middle, self.last);
+        let view = View::of(ground, tile, &found);
+        let floor = ground.floor(tile, &found, view.zero, true);
+        let mut branches = Vec::new();
         self.stack.clear();
-        let root = Branch { level: levels.len() as u32 - 1, node: 0, value: f32::INFINITY, along: [0.0; 2] };
-        self.stack.push(root);
+        self.stack.extend_from_slice(&whole.branches);
         while let Some(branch) = self.stack.pop() {
-            if floor.rules_out(branch.value, branch.along, half_width, margin) {
+            if branch.level as usize == stop {
+                branches.push(branch);
+                if branches.len() > MOST_BRANCHES {
+                    return whole;
+                }
                 continue;
             }
-            let (level, node) = (branch.level as usize, branch.node as usize);
-            let bounds = levels[level][node].bounds(&ground.matched[level][node], &probe, ground.lines);
-            let more = (bounds.along[0] - f32x8::splat(floor.along[0])).abs() * half[0]
-                + (bounds.along[1] - f32x8::splat(floor.along[1])).abs() * half[1]
-                + f32x8::splat(margin);
-            let open = !(bounds.value + more).simd_lt(f32x8::splat(floor.level)).to_bitmask() & 0xff;
+            let (bounds, open, _) = view.opened(ground, &floor, branch);
+            self.push_children(&bounds.value.to_array(), &bounds.along.map(f32x8::to_array), open, branch);
+        }
+        Survey { branches, middle: tile.middle, zero: view.zero }
+    }
+
+    /// Walks through the branches of a survey: `found` becomes the highest contact over `place`; what may be touched
+    /// elsewhere in the tile is collected.
+    fn explore(
+        &mut self,
+        ground: &Ground<'_>,
+        survey: &Survey,
+        tile: &Tile,
+        place: [f64; 2],
+        found: &mut Best,
+        collect: bool,
+    ) {
+        let view = View::of(ground, tile, found);
+        let mut floor = ground.floor(tile, found, view.zero, collect);
+        self.candidates.clear(view.zero);
+        self.leaves.clear();
+        self.stack.clear();
+        // those found first are the highest: they go on top
+        self.stack.extend(survey.branches.iter().rev().map(|branch| survey.moved(*branch, &view)));
+        while let Some(branch) = self.stack.pop() {
+            if floor.rules_out(branch.value, branch.along, view.half, view.margin) {
+                continue;
+            }
+            let (bounds, open, more) = view.opened(ground, &floor, branch);
             if open == 0 {
                 continue;
             }
             let (values, along) = (bounds.value.to_array(), bounds.along.map(f32x8::to_array));
-            if level > 0 {
+            if branch.level > 0 {
                 self.push_children(&values, &along, open, branch);
                 continue;
             }
+            self.leaves.push(branch);
             let more = more.to_array();
             let mut rest = open;
             while rest != 0 {
                 let lane = rest.trailing_zeros() as usize;
                 rest &= rest - 1;
                 let triangle = ground.index.of_piece(branch.node * WIDTH as u32 + lane as u32);
-                let height = values[lane] + if collect { margin } else { more[lane] };
-                if f64::from(height) + zero >= found.tip {
+                let height = values[lane] + if collect { view.margin } else { more[lane] };
+                if f64::from(height) + view.zero >= found.tip {
                     let before = found.tip;
                     ground.contacts.touch(triangle, place, found);
                     if found.tip > before {
-                        floor = ground.floor(tile, found, zero, collect);
+                        floor = ground.floor(tile, found, view.zero, collect);
                     }
                 }
                 if collect {
@@ -197,7 +243,7 @@ impl Searcher {
             }
         }
         if collect {
-            self.candidates.keep_above(&floor, half_width, margin);
+            self.candidates.keep_above(&floor, view.half, view.margin);
         }
     }
 
@@ -251,10 +297,56 @@ impl Searcher {
                 }
             }
         }
-        if found.is_something() {
-            self.last = Some(found.triangle);
-        }
+        self.remember(&found);
         found
+    }
+}
+
+/// A tile as the index sees it: in single precision, heights from a contact's.
+struct View {
+    middle: [f64; 2],
+    probe: Probe,
+    /// Height from which values count, mm.
+    zero: f64,
+    half: [f32; 2],
+    margin: f32,
+}
+
+impl View {
+    fn of(ground: &Ground<'_>, tile: &Tile, found: &Best) -> Self {
+        let probe = ground.probe(tile, found);
+        let zero = f64::from(probe.z) + ground.index.centre().z;
+        Self { middle: tile.middle, probe, zero, half: tile.half.map(|h| h as f32), margin: ground.margin() }
+    }
+
+    /// The bounds of a node's children, those that reach the floor somewhere in the tile, and what the bounds rise to
+    /// at most over it.
+    #[inline]
+    fn opened(&self, ground: &Ground<'_>, floor: &Floor, branch: Branch) -> (Bounds, u32, f32x8) {
+        let (level, node) = (branch.level as usize, branch.node as usize);
+        let bounds = ground.index.levels()[level][node].bounds(&ground.matched[level][node], &self.probe, ground.lines);
+        let more = (bounds.along[0] - f32x8::splat(floor.along[0])).abs() * f32x8::splat(self.half[0])
+            + (bounds.along[1] - f32x8::splat(floor.along[1])).abs() * f32x8::splat(self.half[1])
+            + f32x8::splat(self.margin);
+        let open = !(bounds.value + more).simd_lt(f32x8::splat(floor.level)).to_bitmask() & 0xff;
+        (bounds, open, more)
+    }
+}
+
+impl Survey {
+    /// The root: nothing is known.
+    fn whole(ground: &Ground<'_>) -> Self {
+        let level = ground.index.levels().len() - 1;
+        let root = Branch { level: level as u32, node: 0, value: f32::INFINITY, along: [0.0; 2] };
+        Self { branches: vec![root], middle: [0.0; 2], zero: 0.0 }
+    }
+
+    /// A branch with its value over another middle.
+    #[inline]
+    fn moved(&self, branch: Branch, view: &View) -> Branch {
+        let [dx, dy] = [0, 1].map(|i| (view.middle[i] - self.middle[i]) as f32);
+        let value = branch.value + branch.along[0] * dx + branch.along[1] * dy + (self.zero - view.zero) as f32;
+        Branch { value, ..branch }
     }
 }
 
@@ -303,13 +395,34 @@ impl Candidates {
 
     /// Fills up the last eight.
     fn pad(&mut self) {
-        while self.triangles.len() % WIDTH != 0 {
+        while !self.triangles.len().is_multiple_of(WIDTH) {
             self.push(NO_NEIGHBOUR, f32::NEG_INFINITY, [0.0; 2]);
         }
     }
 }
 
+/// The members of a tile by quarters.
+fn quarters(places: &[[f64; 2]], members: &[u32], tile: &Tile) -> [Vec<u32>; 4] {
+    let mut quarters: [Vec<u32>; 4] = Default::default();
+    for member in members {
+        let [x, y] = places[*member as usize];
+        quarters[usize::from(x > tile.middle[0]) + 2 * usize::from(y > tile.middle[1])].push(*member);
+    }
+    quarters
+}
+
 impl Ground<'_> {
+    /// The level at which a survey of a piece of the plan ends: its nodes are some parts of the piece.
+    fn stop(&self, tile: &Tile) -> usize {
+        let mut area = WIDTH as f64 * self.index.area_per_triangle();
+        let mut level = 0;
+        while SURVEYED * area < tile.half[0] * tile.half[1] {
+            area *= WIDTH as f64;
+            level += 1;
+        }
+        level
+    }
+
     /// The tile around some places.
     fn tile(&self, places: &[[f64; 2]], members: &[u32]) -> Tile {
         let centre = self.index.centre();
@@ -336,10 +449,6 @@ impl Ground<'_> {
             z: (found.tip.max(self.bottom) - self.index.centre().z) as f32,
             reach: (reach * reach * (1.0 + 1e-5)) as f32,
         }
-    }
-
-    fn zero(&self, probe: &Probe) -> f64 {
-        f64::from(probe.z) + self.index.centre().z
     }
 
     fn margin(&self) -> f32 {

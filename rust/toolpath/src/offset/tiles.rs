@@ -1,28 +1,32 @@
 //! Places put together in tiles: neighbours share a search.
 
-use styluscam_geometry::Vector;
+use rayon::prelude::*;
 
 /// Places in a tile, about.
-const MEMBERS: f64 = 16.0;
+const MEMBERS: f64 = 12.0;
 /// Triangles under a tile, about, at most.
-const TRIANGLES: f64 = 24.0;
+const TRIANGLES: f64 = 4.0;
+
+/// Tiles in a row and in a column of a block.
+const BLOCK: u64 = 4;
 
 /// Places in the order of their tiles.
 pub struct Tiles {
     /// Numbers of places, tile after tile.
     pub members: Vec<u32>,
+    /// For each place, where among the members it stands.
+    pub ranks: Vec<u32>,
     /// Where each tile's members begin, and the end.
     pub starts: Vec<u32>,
 }
 
 impl Tiles {
-    /// Tiles of places over a mesh of `triangles` within a box: small enough for few triangles, large enough for some places.
-    pub fn of(places: &[[f64; 2]], triangles: usize, (low, high): (Vector, Vector)) -> Self {
+    /// Tiles of places over a mesh with so much area for each triangle, mm^2: small enough for few triangles, large
+    /// enough for some places.
+    pub fn of(places: &[[f64; 2]], area_per_triangle: f64) -> Self {
         let size = Size::of(places);
-        let per_triangle = ((high.x - low.x) * (high.y - low.y) / triangles as f64).sqrt();
-        let side = (size.per_place() * std::env::var("MEM").map_or(MEMBERS, |x| x.parse().unwrap()).sqrt())
-            .min(per_triangle * std::env::var("TRI").map_or(TRIANGLES, |x| x.parse().unwrap()).sqrt())
-            .max(1e-9 * size.extent());
+        let side =
+            (size.per_place() * MEMBERS.sqrt()).min((area_per_triangle * TRIANGLES).sqrt()).max(1e-9 * size.extent());
         size.sorted(places, side)
     }
 }
@@ -57,48 +61,52 @@ impl Size {
         (area / self.count as f64).sqrt().max(along)
     }
 
-    /// By rows of tiles, every other one backwards: each tile begins beside the last.
+    /// By blocks of tiles in rows, every other one backwards: each tile begins near the last, and blocks are compact.
     fn sorted(&self, places: &[[f64; 2]], side: f64) -> Tiles {
-        let count = |i: usize| ((self.high[i] - self.low[i]) / side).floor() + 1.0;
-        let columns = count(0) as u64;
+        let count = |i: usize| (((self.high[i] - self.low[i]) / side).floor() as u64 / BLOCK) + 1;
+        let (columns, rows) = (count(0), count(1));
         let key = |place: &[f64; 2]| {
-            let column = ((place[0] - self.low[0]) / side) as u64;
-            let row = ((place[1] - self.low[1]) / side) as u64;
-            row * columns + if row % 2 == 0 { column } else { columns - 1 - column.min(columns - 1) }
+            let [column, row] = [0, 1].map(|i| ((place[i] - self.low[i]) / side) as u64);
+            let (block_row, block) = (row / BLOCK, column / BLOCK);
+            let block = if block_row % 2 == 0 { block } else { columns - 1 - block.min(columns - 1) };
+            ((block_row * columns + block) * BLOCK + row % BLOCK) * BLOCK + column % BLOCK
         };
-        let tiles = count(0) * count(1);
-        if tiles <= 2.0 * places.len() as f64 + 64.0 {
-            counted(places.iter().map(key), tiles as usize)
+        let keys: Vec<u64> = places.par_iter().map(key).collect();
+        let tiles = columns * rows * BLOCK * BLOCK;
+        if tiles <= 2 * places.len() as u64 + 256 {
+            counted(&keys, tiles as usize)
         } else {
-            compared(places.iter().map(key).collect())
+            compared(&keys)
         }
     }
 }
 
 /// Counting sort: many places, few tiles.
-fn counted(keys: impl Iterator<Item = u64> + Clone, tiles: usize) -> Tiles {
+fn counted(keys: &[u64], tiles: usize) -> Tiles {
     let mut starts = vec![0_u32; tiles + 1];
-    for key in keys.clone() {
-        starts[key as usize + 1] += 1;
+    for key in keys {
+        starts[*key as usize + 1] += 1;
     }
     for tile in 1..starts.len() {
         starts[tile] += starts[tile - 1];
     }
     let mut next = starts.clone();
-    let mut members = vec![0; starts[tiles] as usize];
-    for (place, key) in keys.enumerate() {
-        let at = &mut next[key as usize];
+    let mut members = vec![0; keys.len()];
+    let mut ranks = Vec::with_capacity(keys.len());
+    for (place, key) in keys.iter().enumerate() {
+        let at = &mut next[*key as usize];
         members[*at as usize] = place as u32;
+        ranks.push(*at);
         *at += 1;
     }
     starts.dedup();
-    Tiles { members, starts }
+    Tiles { members, ranks, starts }
 }
 
 /// By comparison: places far from each other.
-fn compared(keys: Vec<u64>) -> Tiles {
+fn compared(keys: &[u64]) -> Tiles {
     let mut members: Vec<u32> = (0..keys.len() as u32).collect();
-    members.sort_unstable_by_key(|m| (keys[*m as usize], *m));
+    members.par_sort_unstable_by_key(|m| (keys[*m as usize], *m));
     let mut starts: Vec<u32> = vec![0];
     for (at, pair) in members.windows(2).enumerate() {
         if keys[pair[0] as usize] != keys[pair[1] as usize] {
@@ -106,5 +114,9 @@ fn compared(keys: Vec<u64>) -> Tiles {
         }
     }
     starts.push(members.len() as u32);
-    Tiles { members, starts }
+    let mut ranks = vec![0; members.len()];
+    for (rank, member) in members.iter().enumerate() {
+        ranks[*member as usize] = rank as u32;
+    }
+    Tiles { members, ranks, starts }
 }

@@ -3,13 +3,13 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use styluscam_geometry::{Mesh, Vector};
+use styluscam_geometry::Vector;
 use wide::f32x8;
 
 use super::lanes::Lanes;
 use super::lines::STEEPEST;
-use super::pieces::Piece;
-use super::WIDTH;
+use super::pieces::Part;
+use super::{Triangles, WIDTH};
 
 /// Rounding in a bound, as a share of the lengths and slopes that it is computed from.
 const ROUNDING: f64 = 1e-6;
@@ -29,38 +29,47 @@ pub struct Cover {
     lift: f64,
 }
 
-/// The pieces of triangles in the order of the index.
+/// The pieces in the order of the index.
 pub struct Pieces<'a> {
-    pub pieces: &'a [Piece],
-    pub order: &'a [u32],
-    pub mesh: &'a Mesh,
+    pub triangles: &'a Triangles,
+    /// The triangle of each piece.
+    pub of_pieces: &'a [u32],
+    /// The boxes of those that are parts of their triangle.
+    pub parts: &'a [Option<Box<Part>>],
     pub centre: Vector,
 }
 
 impl Pieces<'_> {
+    fn corners(&self, place: usize) -> [Vector; 3] {
+        self.triangles.at(self.of_pieces[place])
+    }
+
     /// Calls `visit` with the corners of a piece, relative to the centre.
+    #[inline]
     fn visit(&self, place: usize, mut visit: impl FnMut(Vector)) {
-        let piece = &self.pieces[self.order[place] as usize];
-        let corners = self.mesh.corners(piece.triangle as usize);
-        if piece.is_part {
-            piece.outline(corners).into_iter().for_each(|p| visit(p - self.centre));
-        } else {
-            corners.into_iter().for_each(|p| visit(p - self.centre));
+        let corners = self.corners(place);
+        match &self.parts[place] {
+            Some(part) => part.outline(corners).into_iter().for_each(|p| visit(p - self.centre)),
+            None => corners.into_iter().for_each(|p| visit(p - self.centre)),
         }
+    }
+
+    fn cover(&self, place: usize) -> Cover {
+        let corners = self.corners(place);
+        let (slope, weight) = weighted_gradient(corners);
+        let [a, b, c] = corners;
+        let (low, high) = match &self.parts[place] {
+            Some(part) => (part.low, part.high),
+            None => (a.inf(&b).inf(&c), a.sup(&b).sup(&c)),
+        };
+        let cover = Cover::around([(low - self.centre, high - self.centre)], slope, weight);
+        cover.under(self, place..place + 1)
     }
 }
 
 /// Covers of each piece.
 pub fn of_pieces(pieces: &Pieces<'_>) -> Vec<Cover> {
-    (0..pieces.order.len())
-        .into_par_iter()
-        .map(|place| {
-            let piece = &pieces.pieces[pieces.order[place] as usize];
-            let (slope, weight) = weighted_gradient(pieces.mesh.corners(piece.triangle as usize));
-            let corners = [(piece.low - pieces.centre, piece.high - pieces.centre)];
-            Cover::around(corners, slope, weight).under(pieces, place..place + 1)
-        })
-        .collect()
+    (0..pieces.of_pieces.len()).into_par_iter().map(|place| pieces.cover(place)).collect()
 }
 
 /// Covers of groups of eight covers; each group holds `size` pieces.
@@ -75,7 +84,7 @@ pub fn of_groups(parts: &[Cover], size: usize, pieces: &Pieces<'_>) -> Vec<Cover
             if size > FROM_PARTS {
                 return cover.over_parts(parts);
             }
-            cover.under(pieces, group * size..((group + 1) * size).min(pieces.order.len()))
+            cover.under(pieces, group * size..((group + 1) * size).min(pieces.of_pieces.len()))
         })
         .collect()
 }

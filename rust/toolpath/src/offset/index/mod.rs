@@ -12,13 +12,11 @@ mod pieces;
 use rayon::prelude::*;
 use styluscam_geometry::{Mesh, Vector};
 
-pub use lanes::{Lanes, Matched, Probe};
+pub use lanes::{Bounds, Lanes, Matched, Probe};
 pub use lines::Lines;
-use pieces::Piece;
+use pieces::{Part, Piece};
 
 use super::features::{self, Neighbours, Owned};
-
-
 
 /// Children of a node.
 pub const WIDTH: usize = 8;
@@ -65,10 +63,10 @@ impl Index {
         let (low, high) = mesh.bounds();
         let centre = (low + high) * 0.5;
         let pieces = pieces::of(mesh, (low, high));
-        let order = order::of(&pieces, centre.into());
-        let Owners { of_pieces, numbers, places } = Owners::of(&pieces, &order, mesh.triangles().len());
-        let levels = levels(&cover::Pieces { pieces: &pieces, order: &order, mesh, centre });
+        let order = order::of(&pieces, centre);
+        let Owners { of_pieces, parts, numbers, places } = Owners::of(pieces, &order, mesh.triangles().len());
         let (triangles, firsts) = renumbered(mesh, &numbers);
+        let levels = levels(&cover::Pieces { triangles: &triangles, of_pieces: &of_pieces, parts: &parts, centre });
         let (owned, neighbours) = features::of(&triangles, &firsts);
         Self { triangles, of_pieces, numbers, places, owned, neighbours, levels, centre, low, high }
     }
@@ -96,6 +94,11 @@ impl Index {
     /// Lower and upper corner of the mesh.
     pub(super) fn bounds(&self) -> (Vector, Vector) {
         (self.low, self.high)
+    }
+
+    /// Area in plan for each triangle, mm^2.
+    pub(super) fn area_per_triangle(&self) -> f64 {
+        (self.high.x - self.low.x) * (self.high.y - self.low.y) / self.numbers.len() as f64
     }
 
     /// Which edges and corners of a triangle it has to try.
@@ -163,23 +166,29 @@ fn levels(pieces: &cover::Pieces<'_>) -> Vec<Vec<Lanes>> {
 /// Who is whose: triangles are numbered as their first pieces come.
 struct Owners {
     of_pieces: Vec<u32>,
+    parts: Vec<Option<Box<Part>>>,
     numbers: Vec<u32>,
     places: Vec<u32>,
 }
 
 impl Owners {
-    fn of(pieces: &[Piece], order: &[u32], count: usize) -> Self {
+    fn of(mut pieces: Vec<Piece>, order: &[u32], count: usize) -> Self {
         const NONE: u32 = u32::MAX;
-        let mut owners =
-            Self { of_pieces: Vec::with_capacity(order.len()), numbers: Vec::with_capacity(count), places: vec![NONE; count] };
+        let mut owners = Self {
+            of_pieces: Vec::with_capacity(order.len()),
+            parts: Vec::with_capacity(order.len()),
+            numbers: Vec::with_capacity(count),
+            places: vec![NONE; count],
+        };
         for piece in order {
-            let number = pieces[*piece as usize].triangle;
-            let place = &mut owners.places[number as usize];
+            let Piece { triangle: number, part, .. } = &mut pieces[*piece as usize];
+            let place = &mut owners.places[*number as usize];
             if *place == NONE {
                 *place = owners.numbers.len() as u32;
-                owners.numbers.push(number);
+                owners.numbers.push(*number);
             }
             owners.of_pieces.push(*place);
+            owners.parts.push(part.take());
         }
         owners
     }

@@ -1,6 +1,7 @@
 //! Pieces in an order that makes every aligned group of 8, 64, 512 and so on a compact heap of neighbours.
 
 use rayon::prelude::*;
+use styluscam_geometry::Vector;
 
 use super::pieces::Piece;
 use super::WIDTH;
@@ -17,11 +18,8 @@ struct Key {
 }
 
 /// The pieces, halved again and again along their longest extent; the same whatever the number of threads.
-pub fn of(pieces: &[Piece], centre: [f64; 3]) -> Vec<u32> {
-    let key = |(number, piece): (usize, &Piece)| Key {
-        middle: std::array::from_fn(|i| (0.5 * (piece.low[i] + piece.high[i]) - centre[i]) as f32),
-        piece: number as u32,
-    };
+pub fn of(pieces: &[Piece], centre: Vector) -> Vec<u32> {
+    let key = |(number, piece): (usize, &Piece)| Key { middle: piece.middle(centre), piece: number as u32 };
     let mut keys: Vec<Key> = pieces.par_iter().enumerate().map(key).collect();
     let mut group = WIDTH;
     while group * WIDTH < keys.len() {
@@ -42,9 +40,7 @@ fn split(keys: &mut [Key], mut group: usize) {
     // whole groups to the left: the boundaries of groups are boundaries of halves
     let half = keys.len().div_ceil(group).div_ceil(2) * group;
     let axis = longest(keys);
-    keys.select_nth_unstable_by(half, |a, b| {
-        a.middle[axis].total_cmp(&b.middle[axis]).then(a.piece.cmp(&b.piece))
-    });
+    keys.select_nth_unstable_by(half, |a, b| a.middle[axis].total_cmp(&b.middle[axis]).then(a.piece.cmp(&b.piece)));
     let (left, right) = keys.split_at_mut(half);
     if left.len() > PARALLEL {
         rayon::join(|| split(left, group), || split(right, group));

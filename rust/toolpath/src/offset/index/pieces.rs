@@ -14,81 +14,100 @@ const WASTE: f64 = 8.0;
 /// Pieces more than triangles at most, as a share of them.
 const MORE: f64 = 0.25;
 
-/// A triangle, or the part of it within a box.
-#[derive(Clone, Debug)]
+/// A triangle, or a part of it.
 pub struct Piece {
     /// The mesh's number.
     pub triangle: u32,
-    pub low: Vector,
-    pub high: Vector,
-    /// Whether it is a part.
-    pub is_part: bool,
+    /// Sum of the box's corners.
+    corners: Vector,
+    /// Which part, unless it is all of it.
+    pub part: Option<Box<Part>>,
 }
 
-/// The pieces of all triangles: those that are whole first, in order.
+/// The part of a triangle within a box; its sides in plan are cuts.
+#[derive(Clone, Debug)]
+pub struct Part {
+    pub low: Vector,
+    pub high: Vector,
+}
+
+/// The pieces of all triangles: the first part of each stands where the triangle would.
 pub fn of(mesh: &Mesh, (low, high): (Vector, Vector)) -> Vec<Piece> {
     let count = mesh.triangles().len();
     let worth = WASTE * (high.x - low.x) * (high.y - low.y) / count as f64;
     let mut pieces: Vec<Piece> = (0..count as u32).into_par_iter().map(|t| Piece::whole(mesh, t)).collect();
-    let mut heap: BinaryHeap<Waste> = pieces
-        .par_iter()
-        .enumerate()
-        .filter_map(|(place, piece)| Waste::of(mesh, place, piece, worth))
-        .collect::<Vec<_>>()
-        .into();
+    let first = |triangle: usize| {
+        let part = Part::whole(mesh.corners(triangle));
+        Waste::of(mesh, triangle as u32, triangle, part, worth)
+    };
+    let mut heap: BinaryHeap<Waste> = (0..count).into_par_iter().filter_map(first).collect::<Vec<_>>().into();
     let most = count + (MORE * count as f64) as usize;
     while pieces.len() < most {
-        let Some(Waste { place, .. }) = heap.pop() else { break };
-        let halves = pieces[place].halves(mesh);
+        let Some(Waste { place, triangle, part, .. }) = heap.pop() else { break };
+        let halves = part.halves(mesh.corners(triangle as usize));
         let places = [place, pieces.len()];
-        let [first, second] = halves;
-        pieces[place] = first;
-        pieces.push(second);
-        heap.extend(places.into_iter().filter_map(|place| Waste::of(mesh, place, &pieces[place], worth)));
+        pieces.push(Piece::whole(mesh, triangle));
+        for (place, half) in places.into_iter().zip(halves) {
+            pieces[place] = Piece::of(triangle, &half);
+            heap.extend(Waste::of(mesh, triangle, place, half, worth));
+        }
     }
     pieces
 }
 
 impl Piece {
     fn whole(mesh: &Mesh, triangle: u32) -> Self {
-        let [a, b, c] = mesh.corners(triangle as usize);
-        Self { triangle, low: a.inf(&b).inf(&c), high: a.sup(&b).sup(&c), is_part: false }
+        let Part { low, high } = Part::whole(mesh.corners(triangle as usize));
+        Self { triangle, corners: low + high, part: None }
+    }
+
+    fn of(triangle: u32, part: &Part) -> Self {
+        Self { triangle, corners: part.low + part.high, part: Some(Box::new(part.clone())) }
+    }
+
+    /// Middle of the box, relative to a centre.
+    pub fn middle(&self, centre: Vector) -> [f32; 3] {
+        std::array::from_fn(|i| (0.5 * self.corners[i] - centre[i]) as f32)
+    }
+}
+
+impl Part {
+    fn whole([a, b, c]: [Vector; 3]) -> Self {
+        Self { low: a.inf(&b).inf(&c), high: a.sup(&b).sup(&c) }
     }
 
     /// Cut across the longer side of the box in plan.
-    fn halves(&self, mesh: &Mesh) -> [Self; 2] {
+    fn halves(&self, corners: [Vector; 3]) -> [Self; 2] {
         let axis = usize::from(self.high.y - self.low.y > self.high.x - self.low.x);
         let middle = 0.5 * (self.low[axis] + self.high[axis]);
         let (mut below, mut above) = (self.clone(), self.clone());
         below.high[axis] = middle;
         above.low[axis] = middle;
-        [below, above].map(|half| half.fitted(mesh))
+        [below, above].map(|half| half.fitted(corners))
     }
 
-    /// With the box around what of the triangle is in it.
-    fn fitted(self, mesh: &Mesh) -> Self {
+    /// The box around what of the triangle is in it.
+    fn fitted(&self, corners: [Vector; 3]) -> Self {
         let (mut low, mut high) = (self.high, self.low);
-        for point in self.outline(mesh.corners(self.triangle as usize)) {
+        for point in self.outline(corners) {
             low = low.inf(&point);
             high = high.sup(&point);
         }
-        Self { low, high, is_part: true, ..self }
+        Self { low, high }
     }
 
-    /// The corners of the triangle's part in the box; the box's cuts are upright.
+    /// The corners of the triangle's part.
     pub fn outline(&self, corners: [Vector; 3]) -> Vec<Vector> {
         let mut outline = corners.to_vec();
-        if self.is_part {
-            for axis in 0..2 {
-                outline = cut(&outline, |p| p[axis] - self.low[axis]);
-                outline = cut(&outline, |p| self.high[axis] - p[axis]);
-            }
+        for axis in 0..2 {
+            outline = cut(&outline, |p| p[axis] - self.low[axis]);
+            outline = cut(&outline, |p| self.high[axis] - p[axis]);
         }
         outline
     }
 
-    fn area_in_plan(&self, mesh: &Mesh) -> f64 {
-        let outline = self.outline(mesh.corners(self.triangle as usize));
+    fn area_in_plan(&self, corners: [Vector; 3]) -> f64 {
+        let outline = self.outline(corners);
         let Some(first) = outline.first() else { return 0.0 };
         let fan = outline.windows(2).map(|pair| {
             let (u, v) = (pair[0] - first, pair[1] - first);
@@ -114,21 +133,28 @@ fn cut(outline: &[Vector], inside: impl Fn(&Vector) -> f64) -> Vec<Vector> {
     kept
 }
 
-/// A piece whose box is worth a cut; the most wasteful first.
-#[derive(PartialEq)]
+/// A part whose box is worth a cut; the most wasteful first.
 struct Waste {
     area: f64,
     place: usize,
+    triangle: u32,
+    part: Part,
 }
 
 impl Waste {
-    fn of(mesh: &Mesh, place: usize, piece: &Piece, worth: f64) -> Option<Self> {
-        let (width, depth) = (piece.high.x - piece.low.x, piece.high.y - piece.low.y);
-        if width * depth <= worth {
+    fn of(mesh: &Mesh, triangle: u32, place: usize, part: Part, worth: f64) -> Option<Self> {
+        let area = (part.high.x - part.low.x) * (part.high.y - part.low.y);
+        if area <= worth {
             return None;
         }
-        let area = width * depth - piece.area_in_plan(mesh);
-        (area > worth).then_some(Self { area, place })
+        let area = area - part.area_in_plan(mesh.corners(triangle as usize));
+        (area > worth).then_some(Self { area, place, triangle, part })
+    }
+}
+
+impl PartialEq for Waste {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
     }
 }
 
