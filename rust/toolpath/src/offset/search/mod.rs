@@ -1,0 +1,231 @@
+//! The search for contacts: one walk through the index for a tile of neighbouring places.
+//!
+//! A contact found over the tile's middle is a floor for the whole tile: the cutter cannot be lower beside it than that
+//! point of the mesh lets it. What cannot rise above the floor anywhere in the tile is passed over; the triangles
+//! that are left are then tried for each place.
+
+mod candidates;
+mod ground;
+mod view;
+
+use wide::f32x8;
+
+use super::contact::Best;
+use super::index::WIDTH;
+use candidates::Candidates;
+use ground::{quarters, Tile};
+use view::{Branch, Survey, View};
+
+pub use ground::Ground;
+
+/// A tile of more candidates than this is quartered,
+const CROWDED: usize = 64;
+/// if they are fewer than this share of those of the tile that it is a quarter of.
+const WORTH_QUARTERING: f64 = 0.8;
+/// A survey of more branches than this says nothing.
+const MOST_BRANCHES: usize = 128;
+
+/// Memory of a search, used again from tile to tile.
+#[derive(Default)]
+pub struct Searcher {
+    stack: Vec<Branch>,
+    candidates: Candidates,
+    /// Nodes of the first level that candidates come from.
+    leaves: Vec<Branch>,
+    /// Where the last search ended: neighbours begin there.
+    last: Option<u32>,
+}
+
+impl Searcher {
+    /// The highest contact over one place. `hint`: a triangle near it.
+    pub fn one(&mut self, ground: &Ground<'_>, place: [f64; 2], hint: Option<u32>) -> Best {
+        self.last = hint.or(self.last);
+        self.one_among(ground, &Survey::whole(ground), place)
+    }
+
+    fn one_among(&mut self, ground: &Ground<'_>, survey: &Survey, place: [f64; 2]) -> Best {
+        let tile = ground.tile(&[place], &[0]);
+        let mut found = ground.guess(place, self.last);
+        self.explore(ground, survey, &tile, place, &mut found, false);
+        self.remember(&found);
+        found
+    }
+
+    /// The highest contacts over the places of some tiles, one after the other in `members`, beginning at `starts`.
+    pub fn many(
+        &mut self,
+        ground: &Ground<'_>,
+        places: &[[f64; 2]],
+        members: &[u32],
+        starts: &[u32],
+        keep: &mut impl FnMut(u32, Best),
+    ) {
+        let (Some(first), Some(last)) = (starts.first(), starts.last()) else { return };
+        let survey = self.survey(ground, &ground.tile(places, &members[*first as usize..*last as usize]));
+        for tile in starts.windows(2) {
+            self.many_among(ground, &survey, places, &members[tile[0] as usize..tile[1] as usize], usize::MAX, keep);
+        }
+    }
+
+    /// The highest contacts over the places named by `members`, which lie together; `before`: candidates of the tile that
+    /// this one is a quarter of.
+    fn many_among(
+        &mut self,
+        ground: &Ground<'_>,
+        survey: &Survey,
+        places: &[[f64; 2]],
+        members: &[u32],
+        before: usize,
+        keep: &mut impl FnMut(u32, Best),
+    ) {
+        if let [only] = members {
+            let found = self.one_among(ground, survey, places[*only as usize]);
+            return keep(*only, found);
+        }
+        let tile = ground.tile(places, members);
+        let mut found = ground.guess(tile.middle, self.last);
+        self.explore(ground, survey, &tile, tile.middle, &mut found, true);
+        self.remember(&found);
+        let count = self.candidates.triangles.len();
+        if count > CROWDED && (count as f64) < WORTH_QUARTERING * before as f64 {
+            let leaves =
+                Survey { branches: std::mem::take(&mut self.leaves), middle: tile.middle, zero: self.candidates.zero };
+            for quarter in quarters(places, members, &tile).iter().filter(|quarter| !quarter.is_empty()) {
+                self.many_among(ground, &leaves, places, quarter, count, keep);
+            }
+            return;
+        }
+        for member in members {
+            keep(*member, self.settle(ground, &tile, places[*member as usize]));
+        }
+    }
+
+    fn remember(&mut self, found: &Best) {
+        if found.is_something() {
+            self.last = Some(found.triangle);
+        }
+    }
+
+    /// The branches in which all contacts of a piece of the plan are: found once, for its tiles.
+    fn survey(&mut self, ground: &Ground<'_>, tile: &Tile) -> Survey {
+        let stop = ground.stop(tile);
+        let whole = Survey::whole(ground);
+        if stop + 1 >= ground.index.levels().len() {
+            return whole;
+        }
+        let found = ground.guess(tile.middle, self.last);
+        let view = View::of(ground, tile, &found);
+        let floor = ground.floor(tile, &found, view.zero, true);
+        let mut branches = Vec::new();
+        self.stack.clear();
+        self.stack.extend_from_slice(&whole.branches);
+        while let Some(branch) = self.stack.pop() {
+            if branch.level as usize == stop {
+                branches.push(branch);
+                if branches.len() > MOST_BRANCHES {
+                    return whole;
+                }
+                continue;
+            }
+            let (bounds, open, _) = view.opened(ground, &floor, branch);
+            self.push_children(&bounds.value.to_array(), &bounds.along.map(f32x8::to_array), open, branch);
+        }
+        Survey { branches, middle: tile.middle, zero: view.zero }
+    }
+
+    /// Walks through the branches of a survey: `found` becomes the highest contact over `place`; what may be touched
+    /// elsewhere in the tile is collected.
+    fn explore(
+        &mut self,
+        ground: &Ground<'_>,
+        survey: &Survey,
+        tile: &Tile,
+        place: [f64; 2],
+        found: &mut Best,
+        collect: bool,
+    ) {
+        let view = View::of(ground, tile, found);
+        let mut floor = ground.floor(tile, found, view.zero, collect);
+        self.candidates.clear(view.zero);
+        self.leaves.clear();
+        self.stack.clear();
+        // those found first are the highest: they go on top
+        self.stack.extend(survey.branches.iter().rev().map(|branch| survey.moved(*branch, &view)));
+        while let Some(branch) = self.stack.pop() {
+            if floor.rules_out(branch.value, branch.along, view.half, view.margin) {
+                continue;
+            }
+            let (bounds, open, more) = view.opened(ground, &floor, branch);
+            if open == 0 {
+                continue;
+            }
+            let (values, along) = (bounds.value.to_array(), bounds.along.map(f32x8::to_array));
+            if branch.level > 0 {
+                self.push_children(&values, &along, open, branch);
+                continue;
+            }
+            self.leaves.push(branch);
+            let more = more.to_array();
+            let mut rest = open;
+            while rest != 0 {
+                let lane = rest.trailing_zeros() as usize;
+                rest &= rest - 1;
+                let triangle = ground.index.of_piece(branch.node * WIDTH as u32 + lane as u32);
+                let height = values[lane] + if collect { view.margin } else { more[lane] };
+                if f64::from(height) + view.zero >= found.tip {
+                    let before = found.tip;
+                    ground.contacts.touch(triangle, place, found);
+                    if found.tip > before {
+                        floor = ground.floor(tile, found, view.zero, collect);
+                    }
+                }
+                if collect {
+                    self.candidates.push(triangle, values[lane], [along[0][lane], along[1][lane]]);
+                }
+            }
+        }
+        if collect {
+            self.candidates.keep_above(&floor, view.half, view.margin);
+        }
+    }
+
+    /// Puts the open children on the stack, the highest on top.
+    #[inline]
+    fn push_children(&mut self, values: &[f32; WIDTH], along: &[[f32; WIDTH]; 2], open: u32, parent: Branch) {
+        let begin = self.stack.len();
+        let mut rest = open;
+        while rest != 0 {
+            let lane = rest.trailing_zeros() as usize;
+            rest &= rest - 1;
+            let child = Branch {
+                level: parent.level - 1,
+                node: parent.node * WIDTH as u32 + lane as u32,
+                value: values[lane],
+                along: along.map(|row| row[lane]),
+            };
+            let mut place = self.stack.len();
+            self.stack.push(child);
+            while place > begin && self.stack[place - 1].value > child.value {
+                self.stack[place] = self.stack[place - 1];
+                place -= 1;
+            }
+            self.stack[place] = child;
+        }
+    }
+
+    /// The highest contact over a place of the tile, among the candidates.
+    fn settle(&mut self, ground: &Ground<'_>, tile: &Tile, place: [f64; 2]) -> Best {
+        let mut found = ground.guess(place, self.last);
+        let away = [0, 1].map(|i| (place[i] - tile.middle[i]) as f32);
+        for eight in 0..self.candidates.eights() {
+            let mut open = self.candidates.reaching(eight, found.tip, away, ground.margin());
+            while open != 0 {
+                let lane = open.trailing_zeros() as usize;
+                open &= open - 1;
+                ground.contacts.touch(self.candidates.triangles[eight * WIDTH + lane], place, &mut found);
+            }
+        }
+        self.remember(&found);
+        found
+    }
+}
