@@ -8,6 +8,7 @@ use super::jet::Jet;
 use super::number::Number;
 use super::parametric::note_move;
 use super::sample::{short, Enclosure, Route, Sample, Source, SAMPLES};
+use super::series::Series;
 use super::solve::{bracket, solve};
 use crate::GeometryError;
 
@@ -83,6 +84,20 @@ impl Source for Explicit {
         let width = (high - low).next_up();
         let d = [Interval::exact(1.0), upwards * jet.first[0]];
         Some(Enclosure::new(width, d, [Interval::default(), upwards * jet.second[0]]))
+    }
+
+    fn residual(&self, _stretch: usize, _p: Series, [r, z]: &[Series; 2]) -> [Series; 2] {
+        let number = |x: f64| Series::constant(Interval::exact(x));
+        let above = self.z.along(*r, Series::default()).sub(number(self.origin));
+        [number(self.upwards).mul(above).sub(*z), Series::default()]
+    }
+
+    fn field(&self, [r, _]: [Interval; 2]) -> Option<Jet<Interval>> {
+        let upwards = Interval::exact(self.upwards);
+        let mut jet = self.z.over(r, Interval::default());
+        jet.first = [upwards * jet.first[0], Interval::exact(-1.0)];
+        jet.second = [upwards * jet.second[0], Interval::default(), Interval::default()];
+        Some(jet)
     }
 
     fn operations(&self) -> usize {

@@ -5,43 +5,61 @@
 //! `0~r` and a power's exponent is put in parentheses. And no operator is declared commutative: exmex 0.21
 //! reorders those next to numbers, and sin(r+1+2) becomes r + sin(3).
 
+use std::fmt::Debug;
+use std::num::ParseFloatError;
+use std::str::FromStr;
+
 use exmex::{BinOp, Express, FlatEx, MakeOperators, MatchLiteral, Operator};
 
 use super::interval::Interval;
 use super::jet::Jet;
 use super::number::Number;
 use super::refusal;
+use super::series::Series;
 use super::tokens::{tokens, Names, Token};
 use crate::GeometryError;
 
-/// The operators and functions on jets.
+/// The operators and functions, on jets and on series.
 #[derive(Clone, Debug)]
 struct Operators;
 
-impl<T: Number> MakeOperators<Jet<T>> for Operators {
-    fn make<'a>() -> Vec<Operator<'a, Jet<T>>> {
+/// The operators and functions of a type of operand.
+macro_rules! operators {
+    ($operand:ty) => {{
         let binary = |name, prio, apply| Operator::make_bin(name, BinOp { apply, prio, is_commutative: false });
         vec![
-            binary("^", 5, Jet::pow),
+            binary("^", 5, <$operand>::pow),
             binary("~", 4, |_, x| x.neg()),
-            binary("/", 3, Jet::div),
-            binary("*", 2, Jet::mul),
-            binary("-", 1, Jet::sub),
-            binary("+", 0, Jet::add),
-            Operator::make_unary("sqrt", Jet::sqrt),
-            Operator::make_unary("exp", Jet::exp),
-            Operator::make_unary("ln", Jet::ln),
-            Operator::make_unary("log10", Jet::log10),
-            Operator::make_unary("sin", Jet::sin),
-            Operator::make_unary("cos", Jet::cos),
-            Operator::make_unary("tan", Jet::tan),
-            Operator::make_unary("asin", Jet::asin),
-            Operator::make_unary("acos", Jet::acos),
-            Operator::make_unary("atan", Jet::atan),
-            Operator::make_unary("sinh", Jet::sinh),
-            Operator::make_unary("cosh", Jet::cosh),
-            Operator::make_unary("tanh", Jet::tanh),
+            binary("/", 3, <$operand>::div),
+            binary("*", 2, <$operand>::mul),
+            binary("-", 1, <$operand>::sub),
+            binary("+", 0, <$operand>::add),
+            Operator::make_unary("sqrt", <$operand>::sqrt),
+            Operator::make_unary("exp", <$operand>::exp),
+            Operator::make_unary("ln", <$operand>::ln),
+            Operator::make_unary("log10", <$operand>::log10),
+            Operator::make_unary("sin", <$operand>::sin),
+            Operator::make_unary("cos", <$operand>::cos),
+            Operator::make_unary("tan", <$operand>::tan),
+            Operator::make_unary("asin", <$operand>::asin),
+            Operator::make_unary("acos", <$operand>::acos),
+            Operator::make_unary("atan", <$operand>::atan),
+            Operator::make_unary("sinh", <$operand>::sinh),
+            Operator::make_unary("cosh", <$operand>::cosh),
+            Operator::make_unary("tanh", <$operand>::tanh),
         ]
+    }};
+}
+
+impl<T: Number> MakeOperators<Jet<T>> for Operators {
+    fn make<'a>() -> Vec<Operator<'a, Jet<T>>> {
+        operators!(Jet<T>)
+    }
+}
+
+impl MakeOperators<Series> for Operators {
+    fn make<'a>() -> Vec<Operator<'a, Series>> {
+        operators!(Series)
     }
 }
 
@@ -60,14 +78,22 @@ impl MatchLiteral for Literals {
 }
 
 /// What exmex makes of a formula.
-type Parsed<T> = FlatEx<Jet<T>, Operators, Literals>;
+type Parsed<T> = FlatEx<T, Operators, Literals>;
+
+/// What a formula is evaluated on.
+trait Operand: Copy + Debug + Default + FromStr<Err = ParseFloatError> {}
+
+impl<T: Number> Operand for Jet<T> {}
+impl Operand for Series {}
 
 /// A function of up to two variables.
 #[derive(Clone, Debug)]
 pub(super) struct Expression {
-    parsed: Parsed<f64>,
+    parsed: Parsed<Jet>,
     /// The same on intervals: exmex folds constants, so that its numbers are of one type.
-    enclosing: Parsed<Interval>,
+    enclosing: Parsed<Jet<Interval>>,
+    /// The same on Taylor series.
+    series: Parsed<Series>,
     /// For each variable that occurs, which of the two it is.
     slots: Vec<usize>,
     /// How many operators and functions an evaluation takes.
@@ -79,37 +105,52 @@ impl Expression {
     pub fn new(text: &str, names: &Names) -> Result<Self, GeometryError> {
         let tokens = tokens(text, names)?;
         let canonical = canonical(&tokens);
-        let parsed: Parsed<f64> = parse(&canonical, names)?;
+        let parsed: Parsed<Jet> = parse(&canonical, names)?;
         let enclosing = parse(&canonical, names)?;
+        let series = parse(&canonical, names)?;
         let slot = |name: &String| names.variables.iter().position(|variable| variable == name);
         let slots = parsed.var_names().iter().filter_map(slot).collect();
         let operations = tokens.iter().filter(|token| matches!(token, Token::Operator(_) | Token::Function(_))).count();
-        Ok(Self { parsed, enclosing, slots, operations })
+        Ok(Self { parsed, enclosing, series, slots, operations })
     }
 
     /// Value and derivatives by the variables, in the order of [`Names::variables`].
     pub fn at(&self, first: f64, second: f64) -> Jet {
-        self.evaluated(&self.parsed, [first, second])
+        self.jets(&self.parsed, [first, second])
     }
 
     /// Intervals that hold value and derivatives everywhere over the box of the two variables.
     ///
     /// The formula's numbers are the f64 nearest to what was written.
     pub fn over(&self, first: Interval, second: Interval) -> Jet<Interval> {
-        self.evaluated(&self.enclosing, [first, second])
+        self.jets(&self.enclosing, [first, second])
     }
 
-    fn evaluated<T: Number>(&self, parsed: &Parsed<T>, [first, second]: [T; 2]) -> Jet<T> {
-        let inputs = [Jet::variable(first, 0), Jet::variable(second, 1)];
+    /// The series of the formula, its variables being series of another one.
+    pub fn along(&self, first: Series, second: Series) -> Series {
+        self.evaluated(&self.series, [first, second]).unwrap_or_else(Series::undecided)
+    }
+
+    fn jets<T: Number>(&self, parsed: &Parsed<Jet<T>>, [first, second]: [T; 2]) -> Jet<T> {
+        self.evaluated(parsed, [Jet::variable(first, 0), Jet::variable(second, 1)]).unwrap_or_else(Jet::nan)
+    }
+
+    fn evaluated<T: Operand>(&self, parsed: &Parsed<T>, inputs: [T; 2]) -> Option<T>
+    where
+        Operators: MakeOperators<T>,
+    {
         let mut given = inputs;
         for (place, &slot) in given.iter_mut().zip(&self.slots) {
             *place = inputs[slot.min(1)];
         }
-        parsed.eval(&given[..self.slots.len().min(2)]).unwrap_or_else(|_| Jet::nan())
+        parsed.eval(&given[..self.slots.len().min(2)]).ok()
     }
 }
 
-fn parse<T: Number>(canonical: &str, names: &Names) -> Result<Parsed<T>, GeometryError> {
+fn parse<T: Operand>(canonical: &str, names: &Names) -> Result<Parsed<T>, GeometryError>
+where
+    Operators: MakeOperators<T>,
+{
     FlatEx::parse(canonical).map_err(|error| {
         refusal(names.key.to_owned(), error.msg().to_owned(), "simplify the formula, and report this one")
     })

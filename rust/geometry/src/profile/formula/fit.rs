@@ -1,5 +1,6 @@
 //! From a proven curve to piecewise polynomials, halved until they agree with it.
 
+use super::closeness::{bound, Bound, Cell, Fault, Piece, Ruler};
 use super::sample::{short, Route, Sample, Source};
 use crate::profile::fitted::{Fitted, Interval, TERMS};
 use crate::GeometryError;
@@ -13,9 +14,11 @@ const MOST_INTERVALS: usize = 300;
 const ALLOWED: Deviation = Deviation { place: 1e-12, slope: 1e-10, curvature: 1e-10, turn: 1e-11 };
 const ROUNDING: Deviation = Deviation { place: 1e-11, slope: 1e-8, curvature: 1e-6, turn: 1e-11 };
 /// No interval is shorter than this part of its stretch.
-const SHORTEST: f64 = 1e-9;
+const SHORTEST: f64 = 1e-12;
 /// Longest interval at a tip or base where the curvature is infinite, in parts of the size.
-const SINGULAR: f64 = 1e-7;
+const SINGULAR: f64 = 2.5e-11;
+/// Largest distance from the formula, r and z as well as by slope, in parts of the diameter or the height.
+const FARTHEST: f64 = 1e-9;
 
 /// Largest differences between polynomials and formula at points between the nodes.
 #[derive(Clone, Copy, Debug)]
@@ -109,6 +112,7 @@ fn chebyshev_powers() -> [[f64; NODES]; NODES] {
 
 /// The curve, and how far it is from the formula, in words.
 pub(super) fn fit(route: &Route) -> Result<(Fitted, String), GeometryError> {
+    let extent = route.stretches.last().map_or(0.0, |[_, base]| base.point[1].max(2.0 * base.point[0]));
     let mut fitter = Fitter {
         source: route.source.as_ref(),
         tables: Tables::new(),
@@ -116,11 +120,17 @@ pub(super) fn fit(route: &Route) -> Result<(Fitted, String), GeometryError> {
         intervals: Vec::new(),
         worst: NONE,
         singular: false,
+        ruler: Ruler::new(route.source.as_ref(), extent),
+        cells: Vec::new(),
     };
     for (index, [from, to]) in route.stretches.iter().enumerate() {
         fitter.stretch(from, to, index == 0, index + 1 == route.stretches.len())?;
     }
-    let note = fitter.note();
+    let bound = bound(&fitter.cells);
+    if bound.place.max(bound.by_slope) > FARTHEST * extent {
+        return Err(fitter.too_far(route, &bound));
+    }
+    let note = fitter.note(&bound);
     let (start, end) = match (route.stretches.first(), route.stretches.last()) {
         (Some(first), Some(last)) => (first[0].point, last[1].point),
         _ => ([0.0; 2], [0.0; 2]),
@@ -135,6 +145,8 @@ struct Fitter<'a> {
     intervals: Vec<Interval>,
     worst: Deviation,
     singular: bool,
+    ruler: Ruler<'a>,
+    cells: Vec<Cell>,
 }
 
 /// A piece still to be fitted.
@@ -153,24 +165,55 @@ impl Fitter<'_> {
         let mut jobs = vec![Job { from: *from, to: *to, before: f64::INFINITY, at_tip, at_base }];
         while let Some(job) = jobs.pop() {
             let (interval, deviation) = self.interval(&job);
+            let (mut fault, mut cut) = (Fault::Off, 0.0);
             if let Some(counted) = self.accepted(&job, deviation) {
-                self.worst = self.worst.worse(&counted);
-                self.push(&interval, &job);
-                continue;
+                let ends = [job.at_tip, job.at_base];
+                match self.ruler.cells(&Piece { interval: &interval, from: &job.from, to: &job.to, ends }) {
+                    Ok(cells) => {
+                        self.cells.extend(cells);
+                        self.worst = self.worst.worse(&counted);
+                        self.push(&interval, &job);
+                        continue;
+                    }
+                    Err(found) => (fault, cut) = found,
+                }
             }
-            let middle = self.source.at(job.from.stretch, 0.5 * (job.from.p + job.to.p));
-            if self.intervals.len() + jobs.len() > MOST_INTERVALS || job.to.p - job.from.p <= SHORTEST * whole.abs() {
-                return Err(self.source.refuse(
-                    &middle,
-                    "the formula is not smooth here, or too rough to be followed",
-                    "it needs a continuous tangent and curvature between tip and base",
-                ));
+            let (half, middle) = (0.5 * (job.to.p - job.from.p), 0.5 * (job.to.p + job.from.p));
+            let middle = self.source.at(job.from.stretch, middle + half * cut);
+            let spent = self.intervals.len() + jobs.len() > MOST_INTERVALS || fault == Fault::Spent;
+            if spent || fault == Fault::Rounding || job.to.p - job.from.p <= SHORTEST * whole.abs() {
+                return Err(self.refused(&middle, fault));
             }
             let before = deviation.share_of(&ALLOWED);
             jobs.push(Job { from: middle, before, at_tip: false, ..job });
             jobs.push(Job { to: middle, before, at_base: false, ..job });
         }
         Ok(())
+    }
+
+    fn refused(&self, place: &Sample, fault: Fault) -> GeometryError {
+        let (reason, hint) = match fault {
+            Fault::Off => (
+                "the formula is not smooth here, or too rough to be followed",
+                "it needs a continuous tangent and curvature between tip and base",
+            ),
+            Fault::Rounding => (
+                "rounding in the formula is larger than a part in 1e9 of the profile: large terms cancel",
+                "leave out a large constant, or write the formula so that no large terms cancel",
+            ),
+            Fault::Spent => (
+                "it takes too long to prove how near polynomials are to the formula here",
+                "write the formula shorter, or smoother",
+            ),
+        };
+        self.source.refuse(place, reason, hint)
+    }
+
+    fn too_far(&self, route: &Route, bound: &Bound) -> GeometryError {
+        let far = short(bound.place.max(bound.by_slope));
+        let place = route.samples.last().map_or_else(String::new, |sample| self.source.place(sample));
+        let hint = "it needs a continuous tangent and curvature between tip and base";
+        super::refusal(place, format!("the polynomials before it are off the formula by up to {far} mm"), hint)
     }
 
     /// What counts of a deviation that is small enough, or as small as rounding lets it be.
@@ -211,6 +254,11 @@ impl Fitter<'_> {
     fn polynomial(&self, rates: [f64; NODES], middle: f64) -> [f64; TERMS] {
         let mut out = [0.0; TERMS];
         out[0] = middle;
+        // the coordinate by which the curve is told
+        if rates.iter().all(|rate| rate.to_bits() == rates[0].to_bits()) {
+            out[1] = rates[0];
+            return out;
+        }
         for (k, row) in self.tables.powers.iter().enumerate() {
             let coefficient: f64 = row.iter().zip(&rates).map(|(weight, rate)| weight * rate).sum();
             out[k + 1] = coefficient / (k + 1) as f64;
@@ -243,21 +291,20 @@ impl Fitter<'_> {
         worst
     }
 
-    fn note(&self) -> String {
-        let Deviation { place, slope, curvature, .. } = self.worst;
-        let singular = if self.singular {
-            format!(
-                "; the curvature has no limit at an end: within {} mm of it only r and z hold",
-                short(SINGULAR * self.size)
-            )
+    fn note(&self, bound: &Bound) -> String {
+        let Deviation { slope, curvature, .. } = self.worst;
+        let singular = if self.singular { "; the curvature has no limit at an end" } else { "" };
+        let except = if bound.except > 0.0 {
+            format!("; within {} mm of an end r and z by slope are not proved", short(bound.except))
         } else {
             String::new()
         };
         format!(
-            "polynomials (intervals: {}) follow the formula to {} mm, {} rad in slope and {} in radius of curvature \
-             (relative){singular}",
+            "polynomials (intervals: {}) follow the formula to {} mm, and to {} mm by slope, by interval arithmetic; {} rad \
+             in slope and {} in radius of curvature (relative) where compared{singular}{except}",
             self.intervals.len(),
-            short(place * self.size),
+            short(bound.place),
+            short(bound.by_slope),
             short(slope),
             short(curvature),
         )

@@ -8,6 +8,7 @@ use super::number::Number;
 use super::parametric::note_move;
 use super::proof::rises;
 use super::sample::{short, Enclosure, Route, Sample, Source, SAMPLES};
+use super::series::Series;
 use super::solve::{bracket, solve};
 use super::trace::{trace, Knot};
 use crate::GeometryError;
@@ -142,8 +143,22 @@ impl Source for Implicit {
         Some(Enclosure::new((to.p - from.p).next_up(), d, dd))
     }
 
+    fn residual(&self, _stretch: usize, _p: Series, [r, z]: &[Series; 2]) -> [Series; 2] {
+        let number = |x: f64| Series::constant(Interval::exact(x));
+        let height = number(self.field.origin).add(number(self.field.upwards).mul(*z));
+        [self.field.f.along(*r, height), Series::default()]
+    }
+
+    fn field(&self, over: [Interval; 2]) -> Option<Jet<Interval>> {
+        Some(self.field.over(over))
+    }
+
     fn operations(&self) -> usize {
         (2 + BOXES) * self.field.f.operations
+    }
+
+    fn operators(&self) -> usize {
+        self.field.f.operations
     }
 
     fn place(&self, sample: &Sample) -> String {

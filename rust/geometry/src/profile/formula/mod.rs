@@ -3,8 +3,10 @@
 //! The text is checked and parsed ([`tokens`], [`expression`]) and evaluated with exact derivatives ([`jet`]). Each
 //! form becomes a [`sample::Route`]: points by the formula's own parameter, from tip to base. The route is looked at point by
 //! point for what is no profile ([`proof`]), proved convex between the points by interval arithmetic ([`convexity`],
-//! [`interval`]) and followed by polynomials ([`fit`]), which answer by slope and are proved convex too ([`polynomials`]).
+//! [`interval`]) and followed by polynomials ([`fit`]), which answer by slope, are proved to be near it ([`closeness`],
+//! [`series`]) and proved convex too ([`polynomials`]).
 
+mod closeness;
 mod convexity;
 mod explicit;
 mod expression;
@@ -17,6 +19,7 @@ mod parametric;
 mod polynomials;
 mod proof;
 mod sample;
+mod series;
 mod solve;
 mod tokens;
 mod trace;

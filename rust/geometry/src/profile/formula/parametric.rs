@@ -5,6 +5,7 @@ use super::interval::Interval;
 use super::number::Number;
 use super::refusal;
 use super::sample::{short, Enclosure, Route, Sample, Source, SAMPLES};
+use super::series::Series;
 use crate::GeometryError;
 
 /// A tip this near to the axis, in parts of the size, is on it.
@@ -41,6 +42,15 @@ impl Source for Parametric {
         let [direction, upwards] = [self.direction, self.upwards].map(Interval::exact);
         let d = [direction * r.first[0], upwards * direction * z.first[0]];
         Some(Enclosure::new((to.p - from.p).next_up(), d, [r.second[0], upwards * z.second[0]]))
+    }
+
+    fn residual(&self, _stretch: usize, p: Series, point: &[Series; 2]) -> [Series; 2] {
+        let number = |x: f64| Series::constant(Interval::exact(x));
+        let t = number(self.direction).mul(p);
+        let (r, z) = (self.r.along(t, Series::default()), self.z.along(t, Series::default()));
+        let r = r.sub(number(self.origin[0]));
+        let z = number(self.upwards).mul(z.sub(number(self.origin[1])));
+        [r.sub(point[0]), z.sub(point[1])]
     }
 
     fn operations(&self) -> usize {

@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::time::Instant;
 
 use super::*;
+use crate::profile::Meridian;
 
 fn explicit(z: &str, diameter: f64) -> FormulaDocument {
     FormulaDocument { z: Some(z.to_owned()), diameter: Some(diameter), ..FormulaDocument::default() }
@@ -157,4 +158,53 @@ fn usual_shapes_are_proved() {
         }
     }
     assert!(wrong.is_empty(), "{wrong}");
+}
+
+/// r, z and slope of an explicit formula by a radius.
+fn exact(z: impl Fn(f64) -> f64, slope: impl Fn(f64) -> f64, r: f64) -> (f64, f64, f64) {
+    (r, z(r), slope(r))
+}
+
+#[test]
+fn a_smooth_bump_between_all_points_that_are_compared_is_followed() {
+    let (height, at, width) = (5.0625e-5, 3.60063, 0.03);
+    let bump = |r: f64| height * (-((r - at) / width) * ((r - at) / width)).exp();
+    let z = |r: f64| r * r / 16.0 + bump(r);
+    let slope = |r: f64| (r / 8.0 - 2.0 * (r - at) / (width * width) * bump(r)).atan();
+    let text = "r^2/16+5.0625e-05*exp(-((r-3.60063)/0.03)^2)";
+    for document in [
+        explicit(text, 12.0),
+        parametric("t", &text.replace("-((r", "-((t").replace("r^2", "t^2"), [0.0, 6.0]),
+        implicit(&format!("z - ({text})"), [0.0, 0.0], Some(12.0)),
+    ] {
+        let curve = fitted(&document);
+        for k in 1..4000 {
+            let (r, z, slope) = exact(z, slope, 6.0 * f64::from(k) / 4000.0);
+            assert!((curve.height_at_radius(r, [0.0, 1.6]) - z).abs() < 6e-9, "{document:?} at {r}");
+            let found = curve.point_at(slope);
+            assert!((found.0 - r).abs() < 6e-9 && (found.1 - z).abs() < 6e-9, "{document:?} at {r}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn flat_tips_have_their_radius_by_slope() {
+    for power in [3, 4, 6, 10, 20] {
+        let curve = fitted(&explicit(&format!("r^{power}/6^{}/4", power - 1), 12.0));
+        for digits in 2..16 {
+            let slope = libm::pow(10.0, -f64::from(digits));
+            let r = 6.0 * libm::pow(slope.tan() * 4.0 / f64::from(power), 1.0 / f64::from(power - 1));
+            let found = curve.point_at(slope).0;
+            assert!((found - r).abs() < 1.2e-8, "r^{power} at {slope}: {found} {r}");
+        }
+    }
+}
+
+fn fitted(document: &FormulaDocument) -> Fitted {
+    let traced = trace(document).unwrap_or_else(|error| panic!("{document:?}: {error}"));
+    println!("{:?}", traced.notes);
+    match traced.parts.into_iter().next().unwrap() {
+        TracedPart::Curve { curve, .. } => curve,
+        straight => panic!("{straight:?}"),
+    }
 }

@@ -1,8 +1,10 @@
 //! A point of the curve with its derivatives, and where such points come from.
 
 use super::interval::Interval;
+use super::jet::Jet;
 use super::number::Number;
 use super::refusal;
+use super::series::Series;
 use crate::GeometryError;
 
 /// A point of the curve by its own parameter: t, the radius, or the height.
@@ -91,6 +93,17 @@ pub(super) trait Source {
     /// Intervals that hold the derivatives everywhere between two points of a stretch; none where nothing is known.
     fn enclose(&self, from: &Sample, to: &Sample) -> Option<Enclosure>;
 
+    /// By how much points, given with the parameter as series of another variable, miss the curve: in r and z, or as the
+    /// value of the [`field`](Self::field) that is zero on it.
+    fn residual(&self, _stretch: usize, _p: Series, _point: &[Series; 2]) -> [Series; 2] {
+        [Series::undecided(); 2]
+    }
+
+    /// What the residual is the value of, over a box of r and z; none where it is the miss itself.
+    fn field(&self, _over: [Interval; 2]) -> Option<Jet<Interval>> {
+        None
+    }
+
     /// It is what the user gave, so that a point with a defect is refused however short the defect; not so for
     /// polynomials, whose rounding makes such points of no depth.
     fn is_given(&self) -> bool {
@@ -99,6 +112,11 @@ pub(super) trait Source {
 
     /// Operators and functions that an enclosure takes.
     fn operations(&self) -> usize;
+
+    /// Operators and functions of the formula itself.
+    fn operators(&self) -> usize {
+        self.operations()
+    }
 
     /// `t = 0.83`, `r = 4.1`: in the formula's own terms.
     fn place(&self, sample: &Sample) -> String;
