@@ -34,6 +34,8 @@ const SMALL: f64 = 1e-6;
 /// Most evaluations over intervals, and most operators and functions in them: some 50 ms.
 const MOST_EVALUATIONS: usize = 30_000;
 const MOST_OPERATIONS: usize = 400_000;
+/// dz/dr of a cell in which radii are too coarse to tell heights by.
+const STEEP: f64 = 1e3;
 /// What to do about a curve without a proof.
 const HINT: &str = "it needs a continuous tangent and curvature, and a formula in which fewer large terms cancel";
 /// What rounding adds to slopes and lengths, rad and in parts of the size.
@@ -233,6 +235,12 @@ impl Prover<'_> {
 
     fn no_proof(&self, cell: &Cell) -> GeometryError {
         let place = self.source.between(&cell.from, &cell.to).unwrap_or(cell.from);
+        let [dr, dz] = extents(&cell.from, &cell.to);
+        if dr <= TINY * self.size && dz > STEEP * dr {
+            let reason = "the curve cannot be proved convex here: it is so nearly upright that z by r rounds too much";
+            let hint = "write it as r(t), z(t) or as implicit, or end it at a slightly smaller diameter";
+            return self.source.refuse(&place, reason, hint);
+        }
         self.source.refuse(&place, "the curve cannot be proved convex here", HINT)
     }
 

@@ -122,7 +122,9 @@ pub(super) fn route(z: Expression, radius: f64) -> Result<Route, GeometryError> 
     let tip = curve.by_radius(0.0);
     if !tip.is_finite() {
         let reason = "z or its derivative is not a finite number on the axis";
-        return Err(curve.refuse(&tip, reason, "write the formula so that it is smooth there"));
+        let hint = "write the formula so that it has a value and a derivative there: 0/0 has none, its series has \
+                    (1 - r^2/6 for sin(r)/r); a curve that begins upright is no tip";
+        return Err(curve.refuse(&tip, reason, hint));
     }
     curve.origin = tip.point[1];
     let mut samples = spread(&curve, radius);

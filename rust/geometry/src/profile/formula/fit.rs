@@ -12,7 +12,7 @@ const MOST_INTERVALS: usize = 300;
 
 /// What is allowed between the nodes, and what is met where halving no longer helps.
 const ALLOWED: Deviation = Deviation { place: 1e-12, slope: 1e-10, curvature: 1e-10, turn: 1e-11 };
-const ROUNDING: Deviation = Deviation { place: 1e-11, slope: 1e-8, curvature: 1e-6, turn: 1e-11 };
+const ROUNDING: Deviation = Deviation { place: 1e-10, slope: 1e-8, curvature: 1e-6, turn: 1e-11 };
 /// No interval is shorter than this part of its stretch.
 const SHORTEST: f64 = 1e-12;
 /// Longest interval at a tip or base where the curvature is infinite, in parts of the size.
@@ -182,7 +182,9 @@ impl Fitter<'_> {
             let middle = self.source.at(job.from.stretch, middle + half * cut);
             let spent = self.intervals.len() + jobs.len() > MOST_INTERVALS || fault == Fault::Spent;
             if spent || fault == Fault::Rounding || job.to.p - job.from.p <= SHORTEST * whole.abs() {
-                return Err(self.refused(&middle, fault));
+                // the derivatives agree, the values do not, however short the interval
+                let rounds = deviation.place > ROUNDING.place && deviation.slope <= ROUNDING.slope;
+                return Err(self.refused(&middle, if rounds { Fault::Rounding } else { fault }));
             }
             let before = deviation.share_of(&ALLOWED);
             jobs.push(Job { from: middle, before, at_tip: false, ..job });

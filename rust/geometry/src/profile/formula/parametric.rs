@@ -123,6 +123,11 @@ fn tip_first(curve: &mut Parametric, range: [f64; 2], base: Option<f64>) -> Resu
     if !tip.point[1].is_finite() {
         return Err(curve.refuse(&tip, "z is not a finite number", "end the range before"));
     }
+    if tip.d.iter().any(|d| !d.is_finite()) {
+        let hint =
+            "use a parameter by which r and z have derivatives there: for r = sqrt(t), z = t take r = t, z = t^2";
+        return Err(curve.refuse(&tip, "r or z has no finite derivative at the tip", hint));
+    }
     curve.origin = tip.point;
     Ok(if curve.direction > 0.0 { range } else { [-range[1], -range[0]] })
 }

@@ -208,3 +208,36 @@ fn fitted(document: &FormulaDocument) -> Fitted {
         straight => panic!("{straight:?}"),
     }
 }
+
+#[test]
+fn what_was_refused_for_rounding_is_accepted() {
+    for document in [
+        explicit("r^1.05", 6.0),
+        parametric("exp(t)", "exp(2*t)", [-30.0, 1.0]),
+        parametric("5*sin(t)", "1e6-5*cos(t)", [0.0, FRAC_PI_2]),
+    ] {
+        fitted(&document);
+    }
+    // a circle but for the rounding of 1e6
+    let curve = fitted(&parametric("5*sin(t)", "1e6-5*cos(t)", [0.0, FRAC_PI_2]));
+    let (r, z) = curve.point_at(1.0);
+    assert!((r - 5.0 * 1f64.sin()).abs() < 1e-9 && (z - 5.0 + 5.0 * 1f64.cos()).abs() < 1e-9, "{r} {z}");
+}
+
+#[test]
+fn what_stays_refused_has_its_true_reason() {
+    let cube = "(r/5)^3+((5-z)/5)^3-1";
+    for (document, expected) in [
+        (parametric("5*sin(t)", "1e8-5*cos(t)", [0.0, FRAC_PI_2]), "large terms cancel"),
+        (parametric("sqrt(t)", "t", [0.0, 4.0]), "t = 0: r or z has no finite derivative at the tip; use a parameter"),
+        (explicit("sin(r)/r", 2.0), "its series has"),
+        (
+            explicit("5-5*(1-(r/5)^4)^(1/4)", 10.0),
+            "r = 5: the curve cannot be proved convex here: it is so nearly upright",
+        ),
+        (implicit(cube, [0.0, 0.0], None), "the slope comes near 90 degrees here and falls again"),
+    ] {
+        let message = refused(&document);
+        assert!(message.contains(expected), "{document:?}: {message}");
+    }
+}

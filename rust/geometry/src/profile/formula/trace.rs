@@ -183,6 +183,7 @@ impl Tracer<'_> {
         let mut step = 1e-3 * self.scale;
         while here.tangent[0] > 1e-12 && base.is_none_or(|radius| here.point[0] < radius) {
             if knots.len() > 2 * MOST_STEPS || here.point.iter().any(|x| x.abs() > LARGEST) {
+                self.rises_steadily(knots)?;
                 let hint = "give a diameter: the curve does not reach 90 degrees";
                 return Err(self.refuse(here.point, "the curve does not end", hint));
             }
@@ -190,6 +191,21 @@ impl Tracer<'_> {
             knots.push(here);
         }
         self.finish(knots, base)
+    }
+
+    /// Refuses a curve that becomes less steep again, at its steepest knot.
+    fn rises_steadily(&self, knots: &[Knot]) -> Result<(), GeometryError> {
+        let slope = |knot: &Knot| libm::atan2(knot.tangent[1].abs(), knot.tangent[0]);
+        let steepest = knots.iter().max_by(|a, b| slope(a).total_cmp(&slope(b)));
+        let (Some(steepest), Some(last)) = (steepest, knots.last()) else { return Ok(()) };
+        if slope(last) > slope(steepest) - MOST_TURN {
+            return Ok(());
+        }
+        let reason = format!(
+            "the slope comes near {} degrees here and falls again: the curve is concave beyond",
+            short(slope(steepest).to_degrees().round())
+        );
+        Err(self.refuse(steepest.point, &reason, "give the diameter at which it is to end"))
     }
 
     /// Puts the last knot, which is at or beyond the end, onto the end.
