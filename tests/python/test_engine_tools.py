@@ -6,6 +6,7 @@ import json
 import math
 from decimal import Decimal, localcontext
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -140,3 +141,23 @@ def test_tools_that_cannot_be_are_refused(profile: dict[str, object]) -> None:
     with pytest.raises(sc.ToolError) as caught:
         sc.Tool.from_dict({"profile": profile})
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("document", "place", "words"),
+    [
+        ({"profile": {"kind": "ball", "diameter": "10"}}, "profile.diameter", "a number is expected"),
+        ({"profile": {"kind": "ball", "diameter": None}}, "profile.diameter", "a number is expected"),
+        ({"profile": {"kind": "points", "points": [[0, 0], [1]]}}, "profile.points", "length"),
+        ({"profile": {"kind": "formula", "r": "t", "z": "t", "t": ["a", 1]}}, "profile.t", "a number is expected"),
+        ({"profile": {"kind": "cone", "diameter": 3.0}}, "profile", "half_angle_deg is missing"),
+        ({"profile": {"kind": "ball", "diameter": 3.0}, "holder": "x"}, "holder", "a table is expected"),
+        ({"profile": {"kind": "ball", "diameter": 3.0}, "base": {"kind": "chamfered"}}, "base.kind", "chamfered"),
+    ],
+)
+def test_a_key_of_the_wrong_type_is_named(document: dict[str, Any], place: str, words: str) -> None:
+    with pytest.raises(sc.ToolError) as caught:
+        sc.Tool.from_dict(document)
+    assert caught.value.where == place
+    assert words in str(caught.value)
+    assert "column" not in str(caught.value)

@@ -2,7 +2,6 @@
 
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
-use styluscam_geometry::ToolDocument;
 
 use crate::{arrays::mapped, errors};
 
@@ -18,8 +17,8 @@ impl Tool {
     /// From a tool document as JSON.
     #[new]
     fn new(document: &str) -> PyResult<Self> {
-        let document: ToolDocument = serde_json::from_str(document)
-            .map_err(|e| errors::raise("ToolError", &e.to_string(), "document", "", "see the tool reference"))?;
+        let document = styluscam_job::tool_from_json(document)
+            .map_err(|e| errors::raise("ToolError", &e.to_string(), e.code(), &e.place(), &e.hint()))?;
         let tool = styluscam_geometry::Tool::new(document).map_err(|e| errors::of_tool(&e))?;
         Ok(Self { cutter: tool.cutter(), tool })
     }

@@ -18,7 +18,7 @@ pub use document::{
 };
 pub use error::JobError;
 pub use judge::{judge, read_back, Judgement};
-pub use parse::{from_json, from_toml, schema};
+pub use parse::{from_json, from_toml, schema, tool_from_json};
 pub use plan::{plan, OperationSummary, Plan};
 pub use scene::{Part, Scene};
 pub use starter::{starter, StarterFace, StarterPart};

@@ -3,6 +3,8 @@
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
+use styluscam_geometry::ToolDocument;
+
 use crate::{check, JobDocument, JobError, JOB_SCHEMA};
 
 /// The key under which a TOML date is passed on.
@@ -23,7 +25,18 @@ pub fn from_toml(text: &str) -> Result<JobDocument, JobError> {
     let plain = serde_json::to_value(&value)
         .map_err(|error| JobError::document("toml", "", error.to_string(), "correct the TOML"))?;
     tables_only("", &plain)?;
-    checked(deserialize(value)?)
+    checked(deserialize(value, &plain)?)
+}
+
+/// Reads a tool's document written as JSON; the tool's shape is not checked.
+///
+/// # Errors
+/// [`JobError::Document`] with the key, its value, what is expected.
+pub fn tool_from_json(text: &str) -> Result<ToolDocument, JobError> {
+    let value: Value = serde_json::from_str(text).map_err(|error| {
+        JobError::document("json", format!("line {}", error.line()), error.to_string(), "correct the JSON there")
+    })?;
+    deserialize(value.clone(), &value)
 }
 
 /// Reads and checks a job written as JSON.
@@ -35,7 +48,7 @@ pub fn from_json(text: &str) -> Result<JobDocument, JobError> {
         JobError::document("json", format!("line {}", error.line()), error.to_string(), "correct the JSON there")
     })?;
     tables_only("", &value)?;
-    checked(deserialize(value)?)
+    checked(deserialize(value.clone(), &value)?)
 }
 
 /// Refuses arrays where tables stand, whose values serde would take in order, and TOML's dates.
@@ -79,16 +92,33 @@ fn checked(document: JobDocument) -> Result<JobDocument, JobError> {
     Ok(document)
 }
 
-fn deserialize<'de, D>(value: D) -> Result<JobDocument, JobError>
+/// `plain`: the value once more, for the search of what is wrong with it.
+fn deserialize<'de, T, D>(value: D, plain: &Value) -> Result<T, JobError>
 where
     D: serde::Deserializer<'de>,
-    JobDocument: DeserializeOwned,
+    T: DeserializeOwned,
 {
     serde_path_to_error::deserialize(value).map_err(|error| {
         let place = error.path().to_string().trim_start_matches('.').to_owned();
         let message = error.into_inner().to_string();
-        explained(&place, message.lines().next().unwrap_or(&message))
+        let message = message.lines().next().unwrap_or(&message);
+        let key = blamed::<T>(plain, &place, message);
+        explained(&key.unwrap_or(place), message)
     })
+}
+
+/// The key that a table with a `kind` fails by: serde names the table only. It is the one without which the error is another.
+fn blamed<T: DeserializeOwned>(plain: &Value, place: &str, message: &str) -> Option<String> {
+    let pointer: String = place.split(['.', '[']).map(|key| format!("/{}", key.trim_end_matches(']'))).collect();
+    let table = plain.pointer(&pointer)?.as_object().filter(|table| table.contains_key("kind"))?;
+    let invalid = message.starts_with("invalid ");
+    let is_blamed = |key: &&String| {
+        let mut without = plain.clone();
+        without.pointer_mut(&pointer).and_then(Value::as_object_mut).map(|table| table.remove(*key));
+        serde_json::from_value::<T>(without).err().is_none_or(|error| error.to_string() != message)
+    };
+    let key = table.keys().filter(|key| invalid && *key != "kind").find(is_blamed)?;
+    Some(format!("{place}.{key}"))
 }
 
 /// Turns serde's message into one with the key, what is allowed, and the nearest known word.
@@ -120,7 +150,17 @@ fn explained(place: &str, message: &str) -> JobError {
         }
         m => m,
     };
+    let message = in_words(message);
     JobError::document("type", place, format!("{message}{allowed}"), "correct the value")
+}
+
+/// Serde's names of types as people call them.
+fn in_words(message: &str) -> String {
+    const NAMES: [(&str, &str); 3] =
+        [("f64", "a number"), ("struct ", "a table"), ("internally tagged enum ", "a table with a kind")];
+    let Some((found, expected)) = message.split_once(", expected ") else { return message.to_owned() };
+    let name = NAMES.iter().find(|(name, _)| expected.starts_with(name)).map_or(expected, |(_, words)| *words);
+    format!("{found}, where {name} is expected")
 }
 
 /// The words that the schema allows at a place.
