@@ -73,7 +73,7 @@ fn a_fast_small_sine_is_refused() {
         let message = refused(&document);
         assert!(message.contains("the curve is concave"), "{document:?}: {message}");
     }
-    // its curvature vanishes wherever the route is looked at: at the 2048ths of the range
+    // its curvature vanishes wherever the route is looked at: at multiples of a 2048th of the range
     let hidden = parametric("t", "t^2/16 + 1e-7*sin(1608.495438637974*t)", [0.0, 4.0]);
     proof::prove(&route(&hidden).unwrap()).unwrap();
     assert!(refused(&hidden).contains("the curve is concave"), "{}", refused(&hidden));
