@@ -517,6 +517,19 @@ mod tests {
     }
 
     #[test]
+    fn an_upright_triangle_is_touched_at_its_top() {
+        let mesh = single([Vector::zeros(), Vector::new(1.0, 0.0, 0.0), Vector::new(0.0, 0.0, 1.0)]);
+        let index = Index::new(&mesh);
+        let tool = tool(false, 2.0, 0.0);
+        let envelope = Envelope::new(&mesh, &index, &tool, None, 0.0);
+        let places: Vec<[f64; 2]> = (0..100).map(|i| [0.0, 0.01 * f64::from(i)]).collect();
+        for (place, tip) in places.iter().zip(envelope.tips(&places, &Watch::default()).unwrap()) {
+            let top = searched(mesh.corners(0), envelope.cutter(), place[0], place[1]);
+            assert!((tip - top).abs() < 1e-9, "{place:?} {tip} {top}");
+        }
+    }
+
+    #[test]
     fn beside_the_part_there_is_nothing() {
         let mesh = terrain(&[0.0; 9], 3);
         let bvh = Index::new(&mesh);

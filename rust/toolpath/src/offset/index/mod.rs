@@ -18,6 +18,9 @@ use pieces::{Part, Piece};
 
 use super::features::{self, Neighbours, Owned};
 
+/// Least area in plan, as a share of the square of the diagonal.
+const WALL: f64 = 1e-3;
+
 /// Children of a node.
 pub const WIDTH: usize = 8;
 
@@ -96,9 +99,10 @@ impl Index {
         (self.low, self.high)
     }
 
-    /// Area in plan for each triangle, mm^2.
+    /// Area in plan for each triangle, mm^2; of a wall that has none, a share of its own.
     pub(super) fn area_per_triangle(&self) -> f64 {
-        (self.high.x - self.low.x) * (self.high.y - self.low.y) / self.numbers.len() as f64
+        let size = self.high - self.low;
+        (size.x * size.y).max(WALL * size.norm_squared()) / self.numbers.len() as f64
     }
 
     /// Which edges and corners of a triangle it has to try.

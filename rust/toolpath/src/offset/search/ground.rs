@@ -66,7 +66,7 @@ impl Ground<'_> {
     pub fn stop(&self, tile: &Tile) -> usize {
         let mut area = WIDTH as f64 * self.index.area_per_triangle();
         let mut level = 0;
-        while SURVEYED * area < tile.half[0] * tile.half[1] {
+        while level + 1 < self.index.levels().len() && SURVEYED * area < tile.half[0] * tile.half[1] {
             area *= WIDTH as f64;
             level += 1;
         }
