@@ -101,7 +101,7 @@ impl Prober<'_> {
             survey.visit(triangle);
             -survey.limit.get()
         };
-        self.bvh.maximise(-survey.limit.get(), |_, node, _| -survey.bound(node), visit);
+        self.bvh.maximise(-survey.limit.get(), |node| -survey.bound(node), visit);
         let seen = survey.seen.get();
         // a place may have turned out deeper after the deepest contact between the places was found
         Seen { deepest: seen.deepest.filter(|p| p.touch.value <= survey.below.get()), ..seen }

@@ -1,8 +1,7 @@
 //! The index of a mesh: a binary tree of boxes, each with a plane over what it holds.
 //!
-//! A node keeps the mean gradient of its triangles and the height of a plane of that gradient
-//! over all their points; a search for the highest tool position prunes by that plane
-//! and by the box, a search for the nearest triangle by the box alone.
+//! A node keeps the mean gradient of its triangles and the height of a plane of that gradient over all their points; a
+//! search prunes by that plane and by the box.
 
 use rayon::prelude::*;
 
@@ -64,21 +63,15 @@ impl Bvh {
         Self { nodes, order: items.iter().map(|i| i.triangle).collect() }
     }
 
-    /// All nodes, parents before children.
-    #[must_use]
-    pub fn nodes(&self) -> &[Node] {
-        &self.nodes
-    }
-
     /// Searches for the triangle of largest value, starting from `best`.
     ///
-    /// `bound` is given a node, its index and the best value so far, and must not be below the value of any triangle in
-    /// the node (minus infinity: nothing there); `visit` is given a triangle and the best value so far and returns the better of the two. Of two
+    /// `bound` is given a node and must not be below the value of any triangle in it (minus infinity: nothing there);
+    /// `visit` is given a triangle and the best value so far and returns the better of the two. Of two
     /// children the one of the higher bound is entered first.
     pub fn maximise(
         &self,
         best: f64,
-        mut bound: impl FnMut(usize, &Node, f64) -> f64,
+        mut bound: impl FnMut(&Node) -> f64,
         mut visit: impl FnMut(u32, f64) -> f64,
     ) -> f64 {
         let mut best = best;
@@ -99,8 +92,8 @@ impl Bvh {
                 continue;
             }
             let (first, second) = (index + 1, node.start);
-            let a = (first, bound(first as usize, &self.nodes[first as usize], best));
-            let b = (second, bound(second as usize, &self.nodes[second as usize], best));
+            let a = (first, bound(&self.nodes[first as usize]));
+            let b = (second, bound(&self.nodes[second as usize]));
             let (near, far) = if a.1 >= b.1 { (a, b) } else { (b, a) };
             for child in [far, near] {
                 // minus infinity is never worth a look, not even when nothing was found yet
