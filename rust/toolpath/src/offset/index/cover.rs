@@ -57,11 +57,8 @@ impl Pieces<'_> {
     fn cover(&self, place: usize) -> Cover {
         let corners = self.corners(place);
         let (slope, weight) = weighted_gradient(corners);
-        let [a, b, c] = corners;
-        let (low, high) = match &self.parts[place] {
-            Some(part) => (part.low, part.high),
-            None => (a.inf(&b).inf(&c), a.sup(&b).sup(&c)),
-        };
+        let whole = || Part::whole(corners);
+        let Part { low, high } = self.parts[place].as_deref().cloned().unwrap_or_else(whole);
         let cover = Cover::around([(low - self.centre, high - self.centre)], slope, weight);
         cover.under(self, place..place + 1)
     }

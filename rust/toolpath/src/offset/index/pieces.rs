@@ -72,7 +72,8 @@ impl Piece {
 }
 
 impl Part {
-    fn whole([a, b, c]: [Vector; 3]) -> Self {
+    /// The box around all of a triangle.
+    pub fn whole([a, b, c]: [Vector; 3]) -> Self {
         Self { low: a.inf(&b).inf(&c), high: a.sup(&b).sup(&c) }
     }
 

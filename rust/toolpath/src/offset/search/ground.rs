@@ -11,7 +11,7 @@ const WALK: usize = 64;
 /// Rounding in a bound, as a share of the cutter's radius: that of f32 times the steepest line.
 const ROUNDING: f64 = 1e-5;
 /// Nodes of a survey's last level that cover a quarter of the surveyed piece, about.
-const SURVEYED: f64 = 4.;
+const SURVEYED: f64 = 4.0;
 
 /// What the search needs of a mesh and a cutter.
 pub struct Ground<'a> {
