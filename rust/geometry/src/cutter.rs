@@ -162,6 +162,24 @@ impl Cutter {
         }
     }
 
+    /// Radius (mm) and slope (rad) at a height over the tip, mm, not negative: the base's and a right angle above it.
+    #[must_use]
+    pub fn at_height(&self, height: f64) -> (f64, f64) {
+        if height >= self.max_height {
+            return (self.max_radius, FRAC_PI_2);
+        }
+        match self.ball {
+            Some(ball) => {
+                let radius = (height * (2.0 * ball - height)).max(0.0).sqrt();
+                (radius.min(self.max_radius), libm::atan2(radius, ball - height))
+            }
+            None => {
+                let above = self.slopes.partition_point(|n| n.height < height).clamp(1, self.slopes.len() - 1);
+                self.profile.at_height(height, [self.slopes[above - 1].slope, self.slopes[above].slope])
+            }
+        }
+    }
+
     /// As [`height_at_radius`](Self::height_at_radius), by table where it has the height to a few 1e-15 of the size.
     #[inline]
     #[must_use]
@@ -243,8 +261,10 @@ impl Cutter {
                 break;
             }
         }
-        let ends = [low, slope, high].map(|s| (self.gap(radius, height, s), s));
-        ends.into_iter().fold((f64::NEG_INFINITY, 0.0), |a, b| if b.0 > a.0 { b } else { a })
+        // over a straight part the gap is largest at its slope alone, not near it
+        let straights = self.straights.iter().map(|straight| straight.slope);
+        let gaps = [low, slope, high].into_iter().chain(straights).map(|s| (self.gap(radius, height, s), s));
+        gaps.fold((f64::NEG_INFINITY, 0.0), |a, b| if b.0 > a.0 { b } else { a })
     }
 
     /// How far a point lies outside the supporting plane of `slope`, mm: a lower bound of its distance.
@@ -291,6 +311,21 @@ mod tests {
             // a point of the curve lies on the supporting line of its slope
             let off = (radius - outer.0) * slope.sin() - (height - outer.1) * slope.cos();
             prop_assert!(off.abs() < 100.0 * size, "{off}");
+        }
+
+        #[test]
+        fn height_gives_back_the_point(profile in any_profile(), ball in any_ball(), share in 0.0..1.0_f64) {
+            let cutter = Cutter::new(&profile, ball);
+            let height = share * cutter.max_height();
+            let (radius, slope) = cutter.at_height(height);
+            let size = 1e-12 * (cutter.max_radius() + cutter.max_height());
+            prop_assert!(height <= cutter.point_at(slope).1 + size);
+            prop_assert!((cutter.gap(radius, height, slope)).abs() < 100.0 * size, "{}", cutter.gap(radius, height, slope));
+            if radius > 0.0 && radius < cutter.max_radius() {
+                // the profile itself agrees: moving by rounding along the steeper axis reaches it
+                let (low, high) = (cutter.height_at_radius(radius - size.min(radius)), cutter.height_at_radius((radius + size).min(cutter.max_radius())));
+                prop_assert!(low <= height + 10.0 * size && height <= high + 10.0 * size, "{low} {height} {high}");
+            }
         }
 
         #[test]

@@ -124,6 +124,25 @@ impl Profile {
         }
     }
 
+    /// Radius (mm) and slope (rad, one of `within` where the profile is curved) at a height over the tip from 0 to the
+    /// base's, mm; the largest radius where there are several.
+    #[must_use]
+    pub fn at_height(&self, height: f64, within: [f64; 2]) -> (f64, f64) {
+        let index = self.pieces.partition_point(|p| p.end.1 <= height);
+        let before = || if index == 0 { (0.0, 0.0) } else { self.pieces[index - 1].end };
+        match self.pieces.get(index) {
+            Some(piece) if height >= piece.start.1 => {
+                let slope = piece.curve.slope_at_height(height - piece.shift.1, piece.narrowed(within));
+                (piece.point_at(slope).0.max(piece.start.0).min(piece.end.0), slope)
+            }
+            Some(piece) => {
+                let straight = Straight { slope: piece.from, inner: before(), outer: piece.start };
+                (straight.radius_at(height), straight.slope)
+            }
+            None => (self.base.0, self.max_slope()),
+        }
+    }
+
     /// The straight parts in the order of their slopes.
     pub fn straights(&self) -> impl Iterator<Item = Straight> + '_ {
         let ends = std::iter::once((0.0, 0.0)).chain(self.pieces.iter().map(|p| p.end));
@@ -221,6 +240,14 @@ impl Straight {
         let (width, rise) = (self.outer.0 - self.inner.0, self.outer.1 - self.inner.1);
         let share = if width > 0.0 { ((radius - self.inner.0) / width).clamp(0.0, 1.0) } else { 1.0 };
         self.inner.1 + share * rise
+    }
+
+    /// Radius at one of its heights, mm; the outer one where it is flat.
+    #[must_use]
+    pub fn radius_at(&self, height: f64) -> f64 {
+        let (width, rise) = (self.outer.0 - self.inner.0, self.outer.1 - self.inner.1);
+        let share = if rise > 0.0 { ((height - self.inner.1) / rise).clamp(0.0, 1.0) } else { 1.0 };
+        self.inner.0 + share * width
     }
 }
 

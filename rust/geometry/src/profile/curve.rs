@@ -15,6 +15,11 @@ pub trait Meridian {
     /// The slope at a radius, rad, one of `within`; to rounding.
     fn slope_at_radius(&self, radius: f64, within: [f64; 2]) -> f64;
 
+    /// The slope at a height, rad, one of `within`; to rounding.
+    fn slope_at_height(&self, height: f64, within: [f64; 2]) -> f64 {
+        solve::slope_at_height(self, height, within)
+    }
+
     /// The slope of the point nearest to (r, z) of those with a slope of `within`, rad; about `guess`.
     fn slope_nearest(&self, point: (f64, f64), within: [f64; 2], guess: f64) -> f64 {
         solve::slope_nearest(self, point, within, guess)
@@ -98,6 +103,10 @@ impl Meridian for Kink {
 
     fn slope_at_radius(&self, _radius: f64, within: [f64; 2]) -> f64 {
         within[0]
+    }
+
+    fn slope_at_height(&self, _height: f64, within: [f64; 2]) -> f64 {
+        within[1]
     }
 }
 

@@ -1,4 +1,4 @@
-//! The slope at a radius and nearest to a point, for curves without a closed form of it.
+//! The slope at a radius, at a height and nearest to a point, for curves without a closed form of it.
 
 use super::Meridian;
 
@@ -29,6 +29,29 @@ pub fn slope_at_radius(curve: &(impl Meridian + ?Sized), radius: f64, within: [f
         }
     }
     (x * x).clamp(within[0], within[1])
+}
+
+/// The slope of `within` at which `curve` has `height`, by Newton's method kept between two sides.
+pub fn slope_at_height(curve: &(impl Meridian + ?Sized), height: f64, within: [f64; 2]) -> f64 {
+    let [mut low, mut high] = within;
+    let mut slope = 0.5 * (low + high);
+    for _ in 0..STEPS {
+        let excess = curve.point_at(slope).1 - height;
+        if excess > 0.0 {
+            high = slope;
+        } else {
+            low = slope;
+        }
+        let rate = libm::sin(slope) * curve.curvature_radius_at(slope);
+        let next = slope - excess / rate;
+        let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+        let step = (next - slope).abs();
+        slope = next;
+        if step <= 1e-15 * slope || high - low <= 1e-15 * high {
+            break;
+        }
+    }
+    slope
 }
 
 /// The last step to the slope of the nearest point is at most this share of the interval: its error is of the square.

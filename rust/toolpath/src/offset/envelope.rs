@@ -10,6 +10,7 @@ use styluscam_motion::{Cancelled, Watch};
 use super::contact::{self, Best, Contacts, Facet, Feature};
 use super::features::{Neighbours, NO_NEIGHBOUR};
 use super::index::{Index, Lines, Matched};
+use super::push::{self, Line, Release};
 use super::search::{Ground, Searcher};
 use super::tiles::Tiles;
 
@@ -109,6 +110,36 @@ impl<'a> Envelope<'a> {
         Some(contact)
     }
 
+    /// Where the tool, its tip at height `z` and standing free at the line's beginning, first touches on its way along
+    /// the line, up to `limit` mm: the way and the contact.
+    ///
+    /// The way is below 0 where the tool does not stand free at the beginning.
+    #[must_use]
+    pub fn push(&self, line: &Line, z: f64, limit: f64) -> Option<(f64, Contact)> {
+        let (triangle, found) = push::first(self.index, &self.cutter, line, z - self.above, limit)?;
+        Some((found.way, self.contact_on(line, z, triangle, &found)))
+    }
+
+    /// Where a triangle of the mesh lets the tool go, its tip at height `z`, in the direction of the line: the way and
+    /// the contact, or none where it never keeps the tool off.
+    #[must_use]
+    pub fn release(&self, triangle: u32, line: &Line, z: f64) -> Option<(f64, Contact)> {
+        let triangle = self.index.place(triangle);
+        let found = push::release(&self.cutter, &self.index.triangles().at(triangle), line, z - self.above)?;
+        Some((found.way, self.contact_on(line, z, triangle, &found)))
+    }
+
+    fn contact_on(&self, line: &Line, z: f64, triangle: u32, found: &Release) -> Contact {
+        let [x, y] = line.at(found.way);
+        Contact {
+            tip: z,
+            point: found.point,
+            normal: normal(found.slope, [x - found.point.x, y - found.point.y]),
+            triangle: self.index.number(triangle),
+            feature: found.feature,
+        }
+    }
+
     /// Tip heights at many places, in parallel; NaN where the tool meets nothing.
     ///
     /// # Errors
@@ -195,15 +226,12 @@ impl<'a> Envelope<'a> {
             return None;
         }
         let slope = self.ground().contacts.slope(best, [x, y]);
-        let (sin, cos) = libm::sincos(slope);
         let [cx, cy] = best.at;
-        let distance = libm::hypot(x - cx, y - cy);
-        let outward = if distance > 0.0 { [(x - cx) / distance, (y - cy) / distance] } else { [0.0; 2] };
         let height = best.tip + self.cutter.point_at(slope).1;
         Some(Contact {
             tip: best.tip + self.above,
             point: Vector::new(cx, cy, height),
-            normal: Vector::new(sin * outward[0], sin * outward[1], cos),
+            normal: normal(slope, [x - cx, y - cy]),
             triangle: self.index.number(best.triangle),
             feature: best.feature,
         })
@@ -273,6 +301,14 @@ impl<'a> Envelope<'a> {
         }
         all || near
     }
+}
+
+/// The unit normal of a contact of some slope, from which the axis stands some way away in plan.
+fn normal(slope: f64, [dx, dy]: [f64; 2]) -> Vector {
+    let (sin, cos) = libm::sincos(slope);
+    let distance = libm::hypot(dx, dy);
+    let outward = if distance > 0.0 { [dx / distance, dy / distance] } else { [0.0; 2] };
+    Vector::new(sin * outward[0], sin * outward[1], cos)
 }
 
 #[cfg(test)]

@@ -21,6 +21,9 @@ use super::features::{self, Neighbours, Owned};
 /// Least area in plan, as a share of the square of the diagonal.
 const WALL: f64 = 1e-3;
 
+/// What rounding makes of a place, as a share of the coordinates.
+const ROUNDING: f64 = 1e-13;
+
 /// Children of a node.
 pub const WIDTH: usize = 8;
 
@@ -97,6 +100,11 @@ impl Index {
     /// Lower and upper corner of the mesh.
     pub(super) fn bounds(&self) -> (Vector, Vector) {
         (self.low, self.high)
+    }
+
+    /// What rounding makes of a place that lies on the mesh, mm.
+    pub(super) fn rounding(&self) -> f64 {
+        ROUNDING * self.low.amax().max(self.high.amax())
     }
 
     /// Area in plan for each triangle, mm^2; of a wall that has none, a share of its own.

@@ -1,0 +1,240 @@
+//! How far a triangle keeps a tool off along a horizontal line: the push-cutter's three contacts.
+//!
+//! A tool that stands at a height and moves along a line is kept off by a point q of the triangle on an interval of the
+//! line: to the ends a(q) -+ sqrt(r(q)^2 - b(q)^2), with a the place of q along the line, b its distance beside it and r
+//! the tool's radius at the height of q. The far end is concave in q, so that it is largest on the facet where slopes
+//! match, or on an edge, or at a corner; the triangle keeps the tool off up to there.
+
+use styluscam_geometry::{Cutter, Vector};
+
+use super::super::contact::{upward_normal, Feature};
+
+/// Steps of a search on an edge at most: halving alone would need sixty.
+const STEPS: usize = 120;
+/// Steps after which only halves are taken: beside a kink secants creep.
+const SECANTS: usize = 24;
+/// A search ends where what is still to gain is this share of the lengths involved.
+const FLAT: f64 = 1e-15;
+
+/// A horizontal line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// Where it begins, in plan, mm.
+    pub from: [f64; 2],
+    /// Its direction in plan, of length one.
+    pub along: [f64; 2],
+}
+
+/// Where a tool gets free of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Release {
+    /// Place along the line, mm.
+    pub way: f64,
+    /// The point of the triangle that is touched last.
+    pub point: Vector,
+    /// Slope of the tool there, rad.
+    pub slope: f64,
+    /// The part of the triangle that it belongs to.
+    pub feature: Feature,
+}
+
+impl Line {
+    /// The place in plan some way along, mm.
+    #[must_use]
+    pub fn at(&self, way: f64) -> [f64; 2] {
+        [self.from[0] + way * self.along[0], self.from[1] + way * self.along[1]]
+    }
+
+    /// The same line in the other direction.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        Self { along: self.along.map(|a| -a), ..*self }
+    }
+
+    /// Place along and distance beside the line of a vector from its beginning, mm.
+    fn seen(&self, away: [f64; 2]) -> [f64; 2] {
+        let [ux, uy] = self.along;
+        [ux * away[0] + uy * away[1], ux * away[1] - uy * away[0]]
+    }
+}
+
+/// Where along `line` a cutter with its tip at `z` gets free of a triangle; none when the triangle never keeps it off.
+pub fn release(cutter: &Cutter, corners: &[Vector; 3], line: &Line, z: f64) -> Option<Release> {
+    if corners.iter().all(|corner| corner.z <= z) {
+        return None;
+    }
+    if let Some(found) = of_facet(cutter, corners, line, z) {
+        return Some(found);
+    }
+    let ends = corners.map(|corner| End::of(corner, line, z));
+    let mut best: Option<Release> = None;
+    let mut keep = |found: Option<Release>| {
+        if let Some(found) = found.filter(|found| best.is_none_or(|best| found.way > best.way)) {
+            best = Some(found);
+        }
+    };
+    for i in 0..3_u8 {
+        keep(of_corner(cutter, corners[usize::from(i)], &ends[usize::from(i)], i));
+    }
+    for i in 0..3_u8 {
+        let (first, last) = (usize::from(i), (usize::from(i) + 1) % 3);
+        keep(of_edge(cutter, [corners[first], corners[last]], [&ends[first], &ends[last]], i));
+    }
+    best
+}
+
+/// A point as the moving tool sees it, mm: place along the line, distance beside it, height over the tip.
+struct End {
+    along: f64,
+    beside: f64,
+    height: f64,
+}
+
+impl End {
+    fn of(point: Vector, line: &Line, z: f64) -> Self {
+        let [along, beside] = line.seen([point.x - line.from[0], point.y - line.from[1]]);
+        Self { along, beside, height: point.z - z }
+    }
+}
+
+/// The contact on the facet where slopes match, if it lies inside.
+fn of_facet(cutter: &Cutter, corners: &[Vector; 3], line: &Line, z: f64) -> Option<Release> {
+    let normal = upward_normal(*corners);
+    let across = libm::hypot(normal.x, normal.y);
+    let leaves = normal.x * line.along[0] + normal.y * line.along[1];
+    if leaves.is_nan() || leaves <= 0.0 {
+        return None;
+    }
+    let slope = libm::atan2(across, normal.z);
+    let (radius, height) = cutter.point_at(slope);
+    let share = radius / across;
+    // the axis stands where the contact, radius behind it and height over the tip, lies in the plane
+    let standing = |anchor: Vector| {
+        let [dx, dy] = [anchor.x - line.from[0], anchor.y - line.from[1]];
+        let off = normal.x * dx + normal.y * dy + normal.z * (anchor.z - z - height);
+        let way = (off + across * radius) / leaves;
+        let [x, y] = line.at(way);
+        (way, Vector::new(x - share * normal.x, y - share * normal.y, z + height))
+    };
+    let (way, point) = standing(corners[0]);
+    if !(way.is_finite() && is_inside(corners, point)) {
+        return None;
+    }
+    // a sliver's normal is good near the contact only
+    let (way, point) = standing(nearest_on_border(corners, point));
+    Some(Release { way, point, slope, feature: Feature::Facet })
+}
+
+/// Whether a point of a triangle's plane lies in the triangle.
+fn is_inside([a, b, c]: &[Vector; 3], point: Vector) -> bool {
+    [(a, b, c), (b, c, a), (c, a, b)].into_iter().all(|(p, q, third)| {
+        let inward = (q - p).cross(&(third - p));
+        (q - p).cross(&(point - p)).dot(&inward) >= 0.0
+    })
+}
+
+fn nearest_on_border([a, b, c]: &[Vector; 3], point: Vector) -> Vector {
+    let feet = [(a, b), (b, c), (c, a)].map(|(p, q)| {
+        let edge = q - p;
+        p + edge * ((point - p).dot(&edge) / edge.norm_squared()).clamp(0.0, 1.0)
+    });
+    feet.into_iter().min_by(|p, q| (p - point).norm().total_cmp(&(q - point).norm())).unwrap_or(*a)
+}
+
+fn of_corner(cutter: &Cutter, corner: Vector, end: &End, number: u8) -> Option<Release> {
+    if end.height <= 0.0 {
+        return None;
+    }
+    let (radius, slope) = cutter.at_height(end.height);
+    let beside = end.beside.abs();
+    let ahead = ((radius - beside) * (radius + beside)).sqrt();
+    (beside <= radius).then(|| Release {
+        way: end.along + ahead,
+        point: corner,
+        slope,
+        feature: Feature::Corner(number),
+    })
+}
+
+/// The contact inside an edge.
+fn of_edge(cutter: &Cutter, corners: [Vector; 2], ends: [&End; 2], number: u8) -> Option<Release> {
+    let edge = Edge {
+        along: ends[1].along - ends[0].along,
+        beside: ends[1].beside - ends[0].beside,
+        rise: ends[1].height - ends[0].height,
+        first: ends[0],
+    };
+    let share = edge.top(cutter)?;
+    let Standing { way, slope, .. } = edge.at(cutter, share);
+    let point = corners[0] + (corners[1] - corners[0]) * share;
+    way.map(|way| Release { way, point, slope, feature: Feature::Edge(number) })
+}
+
+/// An edge as the moving tool sees it; its points are told by their share of it.
+struct Edge<'a> {
+    first: &'a End,
+    along: f64,
+    beside: f64,
+    rise: f64,
+}
+
+/// What a point of an edge does to the tool.
+struct Standing {
+    /// Where it lets the tool go, mm; none where it does not keep it off.
+    way: Option<f64>,
+    slope: f64,
+    /// In which direction along the edge the tool is kept longer, or, where it is not kept off, in which it would be; a
+    /// rate of `way` by the share of the edge where there is a way.
+    pull: f64,
+}
+
+impl Edge<'_> {
+    fn at(&self, cutter: &Cutter, share: f64) -> Standing {
+        let height = self.first.height + share * self.rise;
+        if height <= 0.0 {
+            return Standing { way: None, slope: 0.0, pull: self.rise };
+        }
+        let (radius, slope) = cutter.at_height(height);
+        let beside = self.first.beside + share * self.beside;
+        let (sin, cos) = if slope >= std::f64::consts::FRAC_PI_2 { (1.0, 0.0) } else { libm::sincos(slope) };
+        // the radius grows by cos / sin times the height
+        let square = (radius - beside) * (radius + beside);
+        if square <= 0.0 {
+            let pull = cos * self.rise - sin * self.beside.copysign(self.beside * beside);
+            return Standing { way: None, slope, pull };
+        }
+        let ahead = square.sqrt();
+        let pull = self.along + (radius * cos * self.rise / sin - beside * self.beside) / ahead;
+        Standing { way: Some(self.first.along + share * self.along + ahead), slope, pull }
+    }
+
+    /// The share at which the edge keeps the tool longest, if it is inside the edge.
+    fn top(&self, cutter: &Cutter) -> Option<f64> {
+        let (mut low, mut high) = ((0.0, self.at(cutter, 0.0)), (1.0, self.at(cutter, 1.0)));
+        if !(low.1.pull > 0.0 && high.1.pull < 0.0) {
+            return None;
+        }
+        let size = self.along.abs() + self.beside.abs() + self.rise.abs() + cutter.max_radius();
+        for step in 0..STEPS {
+            let both = low.1.way.is_some() && high.1.way.is_some() && step < SECANTS && step % 3 != 2;
+            let share = if both {
+                let share = low.0 + (high.0 - low.0) * low.1.pull / (low.1.pull - high.1.pull);
+                // a secant never lands on an end
+                share.clamp(low.0 + 1e-3 * (high.0 - low.0), high.0 - 1e-3 * (high.0 - low.0))
+            } else {
+                0.5 * (low.0 + high.0)
+            };
+            let standing = self.at(cutter, share);
+            let rest = if standing.pull > 0.0 { high.0 - share } else { share - low.0 };
+            if (standing.way.is_some() && standing.pull.abs() * rest <= FLAT * size) || rest <= f64::EPSILON * share {
+                return Some(share);
+            }
+            if standing.pull > 0.0 {
+                low = (share, standing);
+            } else {
+                high = (share, standing);
+            }
+        }
+        Some(if low.1.way >= high.1.way { low.0 } else { high.0 })
+    }
+}
