@@ -117,8 +117,7 @@ pub fn waterline<'py>(
     }
     let passes = watched(py, progress, cancel, |watch| {
         let envelope = Envelope::new(&part.mesh, index(), &tool.tool, sheet.as_ref(), part.inward + 0.5 * left);
-        let everything = vec![true; part.mesh.triangles().len()];
-        let surface = Surface::new(&envelope, &everything);
+        let surface = Surface::whole(&envelope);
         let grid = Grid::sample(&surface, SPACING_SHARE * tool.tool.diameter(), watch)?;
         grid.map_or(Ok(Vec::new()), |grid| level(&surface, &grid, z, EACH_SIDE * left, watch))
     })?;

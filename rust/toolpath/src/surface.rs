@@ -8,6 +8,9 @@ use crate::offset::{Contact, Envelope};
 /// wide enough for tessellated tangent joins, too narrow to roll round an edge.
 const SPREAD: f64 = 0.0175;
 
+/// Heights without limits.
+const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
 /// An exact position of the tool on the envelope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathPoint {
@@ -22,7 +25,8 @@ pub struct PathPoint {
 /// Envelope and selection, asked point by point.
 pub struct Surface<'a> {
     envelope: &'a Envelope<'a>,
-    selected: &'a [bool],
+    /// By triangle; none: all of them, and the borders of the mesh.
+    selected: Option<&'a [bool]>,
     heights: [f64; 2],
 }
 
@@ -30,7 +34,13 @@ impl<'a> Surface<'a> {
     /// `selected` says of each triangle whether its face was asked for.
     #[must_use]
     pub fn new(envelope: &'a Envelope<'a>, selected: &'a [bool]) -> Self {
-        Self { envelope, selected, heights: [f64::NEG_INFINITY, f64::INFINITY] }
+        Self { envelope, selected: Some(selected), heights: EVERYWHERE }
+    }
+
+    /// All that the tool can touch counts as selected.
+    #[must_use]
+    pub fn whole(envelope: &'a Envelope<'a>) -> Self {
+        Self { envelope, selected: None, heights: EVERYWHERE }
     }
 
     /// The same surface, of which only what has its tip between two heights counts as selected.
@@ -65,7 +75,7 @@ impl<'a> Surface<'a> {
             tip: Vector::new(x, y, contact.tip),
             normal: contact.normal,
             selected: (self.heights[0]..=self.heights[1]).contains(&contact.tip)
-                && self.envelope.belongs(contact, self.selected, SPREAD),
+                && self.selected.is_none_or(|selected| self.envelope.belongs(contact, selected, SPREAD)),
         }
     }
 
@@ -75,7 +85,8 @@ impl<'a> Surface<'a> {
         let mesh = self.envelope.mesh();
         let reach = self.envelope.cutter().max_radius();
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for t in (0..self.selected.len()).filter(|t| self.selected[*t]) {
+        let counts = |t: &usize| self.selected.is_none_or(|selected| selected[*t]);
+        for t in (0..mesh.triangles().len()).filter(counts) {
             for p in mesh.corners(t) {
                 low = [low[0].min(p.x - reach), low[1].min(p.y - reach)];
                 high = [high[0].max(p.x + reach), high[1].max(p.y + reach)];

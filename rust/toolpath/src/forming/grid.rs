@@ -1,26 +1,27 @@
-//! The envelope sampled on a square grid: from it loops are found, not measured.
+//! The envelope sampled on a square grid, and bounded in its cells: from it loops are found, not measured.
 
 use styluscam_motion::{Cancelled, Watch};
 
-use crate::{offset::Contact, Surface};
+use crate::{
+    offset::{Contact, Range},
+    Surface,
+};
 
 /// Nodes at most: beyond it the cell grows.
 const NODES: f64 = 4e6;
 
-/// Contacts of the envelope on a square grid.
+/// Contacts of the envelope on a square grid, and bounds of it between them.
 pub struct Grid {
     origin: [f64; 2],
     cell: f64,
     columns: usize,
     rows: usize,
     contacts: Vec<Option<Contact>>,
+    ranges: Vec<Range>,
 }
 
 impl Grid {
     /// Samples the envelope over the surface's domain, `cell` mm apart or a little less.
-    ///
-    /// A loop whose inside, or the free ground around it, holds a disc of [`smallest_feature`](Self::smallest_feature)
-    /// holds a node, and is found.
     ///
     /// # Errors
     /// `Cancelled` when `watch` says so.
@@ -31,12 +32,19 @@ impl Grid {
         // one ring of nodes outside: there the tool touches nothing that was asked for
         let (columns, rows) = ((width / cell).ceil() as usize + 3, (height / cell).ceil() as usize + 3);
         let origin = [low[0] - cell, low[1] - cell];
-        let places: Vec<[f64; 2]> = (0..rows * columns)
-            .map(|n| [origin[0] + (n % columns) as f64 * cell, origin[1] + (n / columns) as f64 * cell])
+        let mut grid = Self { origin, cell, columns, rows, contacts: Vec::new(), ranges: Vec::new() };
+        let places: Vec<[f64; 2]> =
+            (0..rows * columns).map(|n| grid.place([(n % columns) as f64, (n / columns) as f64])).collect();
+        watch.begin("sampling", 2 * places.len());
+        grid.contacts = surface.envelope().contacts(&places, watch)?;
+        let boxes: Vec<[[f64; 2]; 2]> = (0..(rows - 1) * (columns - 1))
+            .map(|n| {
+                let (column, row) = ((n % (columns - 1)) as f64, (n / (columns - 1)) as f64);
+                [grid.place([column, row]), grid.place([column + 1.0, row + 1.0])]
+            })
             .collect();
-        watch.begin("sampling", places.len());
-        let contacts = surface.envelope().contacts(&places, watch)?;
-        Ok(Some(Self { origin, cell, columns, rows, contacts }))
+        grid.ranges = surface.envelope().ranges(&boxes, watch)?;
+        Ok(Some(grid))
     }
 
     /// Diameter of the largest disc that may hide between nodes, mm.
@@ -53,29 +61,26 @@ impl Grid {
         self.rows
     }
 
-    pub(super) fn place(&self, column: usize, row: usize) -> [f64; 2] {
-        [self.origin[0] + column as f64 * self.cell, self.origin[1] + row as f64 * self.cell]
+    /// A place in plan, told in cells: column and row of a node where they are whole.
+    pub(super) fn place(&self, [column, row]: [f64; 2]) -> [f64; 2] {
+        [self.origin[0] + column * self.cell, self.origin[1] + row * self.cell]
     }
 
-    /// Whether the tool's tip must stay above `z` at a node.
-    pub(super) fn is_above(&self, column: usize, row: usize, z: f64) -> bool {
-        self.contacts[row * self.columns + column].is_some_and(|c| c.tip > z)
+    /// The tip over a node; none where nothing is touched.
+    pub(super) fn tip(&self, [column, row]: [usize; 2]) -> Option<f64> {
+        self.contacts[row * self.columns + column].map(|contact| contact.tip)
     }
 
-    /// Where the level `z` most likely is between two nodes, as a share of the way: on the straight line between their tips.
-    pub(super) fn share_at(&self, above: (usize, usize), free: (usize, usize), z: f64) -> f64 {
-        let tip = |(column, row): (usize, usize)| self.contacts[row * self.columns + column].map(|c| c.tip);
-        match (tip(above), tip(free)) {
-            (Some(high), Some(low)) if high > low => ((high - z) / (high - low)).clamp(0.01, 0.99),
-            _ => 0.5,
-        }
+    /// Between which heights the tip lies in the cell that begins at a node.
+    pub(super) fn range(&self, [column, row]: [usize; 2]) -> Range {
+        self.ranges[row * (self.columns - 1) + column]
     }
 
     /// Lowest and highest tip among the nodes whose contact is selected.
     #[must_use]
     pub fn selected_range(&self, surface: &Surface<'_>) -> Option<(f64, f64)> {
         let tips = self.contacts.iter().enumerate().filter_map(|(n, contact)| {
-            let [x, y] = self.place(n % self.columns, n / self.columns);
+            let [x, y] = self.place([(n % self.columns) as f64, (n / self.columns) as f64]);
             contact.as_ref().map(|c| surface.path_point(x, y, c)).filter(|p| p.selected).map(|p| p.tip.z)
         });
         tips.fold(None, |range: Option<(f64, f64)>, z| {

@@ -2,7 +2,7 @@
 
 use styluscam_geometry::Vector;
 
-use crate::offset::{Contact, Line};
+use crate::offset::{Contact, Line, Verdict};
 use crate::{PathPoint, Surface};
 
 /// The tool is asked for this far over the level, mm: what it would only touch, a floor at the level, lets it pass.
@@ -11,6 +11,11 @@ const OVER: f64 = 1e-9;
 const BEYOND: f64 = 1e-9;
 /// Triangles met on the way to a point at most; two or three are usual.
 const STEPS: usize = 60;
+
+/// Whether a tip's height is over a level.
+pub fn is_over(tip: f64, level: f64) -> bool {
+    tip > level + OVER
+}
 
 /// A place in plan.
 pub type Place = [f64; 2];
@@ -38,7 +43,12 @@ impl<'a> LevelCurve<'a> {
     }
 
     fn keeps_off(&self, contact: &Contact) -> bool {
-        contact.tip > self.z + OVER
+        is_over(contact.tip, self.z)
+    }
+
+    /// Whether the tip must stay above the level everywhere in a box of the plan, or need not anywhere.
+    pub fn verdict(&self, corners: &[Place; 2]) -> Verdict {
+        self.surface.envelope().verdict(corners, self.z + OVER)
     }
 
     /// The point of the level between `above`, where the tip must stay higher, and `free`, where it need not.

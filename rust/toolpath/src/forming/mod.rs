@@ -4,6 +4,7 @@ mod contour;
 mod grid;
 mod level_curve;
 mod levels;
+mod sides;
 mod z_level;
 mod zig_zag;
 

@@ -3,7 +3,12 @@
 use rayon::prelude::*;
 use styluscam_motion::Watch;
 
-use super::{contour, grid::Grid, level_curve::LevelCurve};
+use super::{
+    contour,
+    grid::Grid,
+    level_curve::LevelCurve,
+    sides::{Edge, Sides},
+};
 use crate::{fitting, Pass, PathPoint, PlanError, Surface};
 
 /// All passes at the given heights, in their order; chords stray by at most `deviation` mm along the normal.
@@ -57,9 +62,10 @@ fn level(
 ) -> Result<Vec<Pass>, PlanError> {
     let mut curve = LevelCurve::new(surface, z);
     let mut passes = Vec::new();
-    for chain in contour::chains(grid, z, |place| curve.is_above(place)) {
+    let sides = Sides::of(grid, &mut curve, z, watch)?;
+    for chain in contour::chains(&sides, |place| curve.is_above(place)) {
         watch.advance(0)?;
-        let exact = crossings(&mut curve, grid, &chain, z);
+        let exact = crossings(&mut curve, &sides, &chain);
         let whole = chain.closed && exact.iter().all(|p| p.selected);
         for run in fitting::selected_runs(&exact, chain.closed, |a, b| curve.between(a, b)) {
             let runs = fitting::densified(&run, deviation, |a, b| curve.between(a, b));
@@ -71,13 +77,10 @@ fn level(
 }
 
 /// The exact points at which a chain crosses the grid; the first repeated when closed.
-fn crossings(curve: &mut LevelCurve<'_>, grid: &Grid, chain: &contour::Chain, z: f64) -> Vec<PathPoint> {
-    let crossing = |edge: &contour::GridEdge| {
-        let [a, b] = edge.nodes();
-        let above = grid.is_above(a.0, a.1, z);
-        let (above, free) = if above { (a, b) } else { (b, a) };
-        let guess = grid.share_at(above, free, z);
-        curve.crossing(grid.place(above.0, above.1), grid.place(free.0, free.1), guess)
+fn crossings(curve: &mut LevelCurve<'_>, sides: &Sides<'_>, chain: &contour::Chain) -> Vec<PathPoint> {
+    let crossing = |edge: &Edge| {
+        let [above, free] = sides.ends(*edge);
+        curve.crossing(above, free, sides.guess(*edge))
     };
     let mut points: Vec<PathPoint> = chain.edges.iter().filter_map(crossing).collect();
     if chain.closed {

@@ -108,6 +108,14 @@ pub fn upward_normal([a, b, c]: [Vector; 3]) -> Vector {
     }
 }
 
+/// The way in plan from a place to the nearest point of a segment.
+fn gap_to_segment(place: [f64; 2], a: Vector, b: Vector) -> [f64; 2] {
+    let (along, from) = ([b.x - a.x, b.y - a.y], [a.x - place[0], a.y - place[1]]);
+    let square = along[0] * along[0] + along[1] * along[1];
+    let share = if square > 0.0 { (-(along[0] * from[0] + along[1] * from[1]) / square).clamp(0.0, 1.0) } else { 0.0 };
+    [from[0] + share * along[0], from[1] + share * along[1]]
+}
+
 /// A triangle seen from the cutter's contact with its plane.
 struct View {
     corners: [Vector; 3],
@@ -233,6 +241,64 @@ impl<'a> Contacts<'a> {
         let farthest =
             (0..3).filter(|i| sides[*i].area < 0.0).min_by(|i, j| sides[*i].area.total_cmp(&sides[*j].area))?;
         Some(self.index.neighbours(triangle)[farthest])
+    }
+
+    /// What the tips that a triangle alone asks for do not exceed in a tile over which they rise `towards` somewhere;
+    /// infinite where that is not known.
+    ///
+    /// They are concave over the plan. So they stay below their tangent over any place; over the corner to which they
+    /// rise it is hardly higher than they are.
+    pub fn greatest(&self, triangle: u32, middle: [f64; 2], half: [f64; 2], towards: [f32; 2]) -> f64 {
+        let sides = towards.map(|towards| 1_f64.copysign(f64::from(towards)));
+        let corner = [0, 1].map(|i| middle[i] + sides[i] * half[i]);
+        let Some((tip, rise)) = self.tangent(triangle, corner) else {
+            let is_out = self.is_out_of_reach(triangle, corner, half, sides);
+            return if is_out { f64::NEG_INFINITY } else { f64::INFINITY };
+        };
+        // what still rises from that corner into the tile
+        let back = [0, 1].map(|i| (-rise[i] * sides[i]).max(0.0) * 2.0 * half[i]);
+        let most = tip + back[0] + back[1];
+        if most.is_nan() {
+            f64::INFINITY
+        } else {
+            most
+        }
+    }
+
+    /// Whether a triangle that the tool does not reach from a corner of a tile is reached from nowhere in it.
+    fn is_out_of_reach(&self, triangle: u32, corner: [f64; 2], half: [f64; 2], sides: [f64; 2]) -> bool {
+        let corners = self.index.triangles().at(triangle);
+        let gaps = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| gap_to_segment(corner, corners[i], corners[j]));
+        let distance = |gap: &[f64; 2]| libm::hypot(gap[0], gap[1]);
+        let nearest = gaps.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or([0.0; 2]);
+        // the triangle lies beyond a line across the gap; some of the tile may be nearer to it than the corner is
+        let back = [0, 1].map(|i| (-nearest[i] * sides[i]).max(0.0) * 2.0 * half[i]);
+        let apart = distance(&nearest);
+        apart - (back[0] + back[1]) / apart > self.cutter.max_radius()
+    }
+
+    /// What a triangle alone asks for is nowhere in a tile less than this.
+    pub fn least(&self, triangle: u32, middle: [f64; 2], half: [f64; 2]) -> f64 {
+        let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        let tips = corners.map(|corner| {
+            let mut alone = Best::NOTHING;
+            self.touch_whole(triangle, [0, 1].map(|i| middle[i] + corner[i] * half[i]), &mut alone);
+            alone.tip
+        });
+        tips.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
+    /// The tip that a triangle alone asks for over a place, and its gradient there: towards the contact.
+    fn tangent(&self, triangle: u32, place: [f64; 2]) -> Option<(f64, [f64; 2])> {
+        let mut alone = Best::NOTHING;
+        self.touch_whole(triangle, place, &mut alone);
+        if !alone.is_something() {
+            return None;
+        }
+        let away = [0, 1].map(|i| alone.at[i] - place[i]);
+        let distance = libm::hypot(away[0], away[1]);
+        let rise = if distance > 0.0 { libm::tan(self.slope(&alone, place)) / distance } else { 0.0 };
+        Some((alone.tip, away.map(|a| rise * a)))
     }
 
     /// Slope of a contact, rad.

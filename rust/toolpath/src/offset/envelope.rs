@@ -11,7 +11,7 @@ use super::contact::{self, Best, Contacts, Facet, Feature};
 use super::features::{Neighbours, NO_NEIGHBOUR};
 use super::index::{Index, Lines, Matched};
 use super::push::{self, Line, Release};
-use super::search::{Ground, Searcher};
+use super::search::{Ground, Range, Searcher, Verdict};
 use super::tiles::Tiles;
 
 /// Places put into tiles at a time: between blocks there is nothing that cannot be cancelled.
@@ -154,6 +154,37 @@ impl<'a> Envelope<'a> {
     /// `Cancelled` when `watch` says so.
     pub fn contacts(&self, places: &[[f64; 2]], watch: &Watch) -> Result<Vec<Option<Contact>>, Cancelled> {
         self.map_places(places, watch, |found, place| self.contact_of(&found, place))
+    }
+
+    /// Between which heights the tip lies over each of some boxes of the plan (lower and upper corner), in parallel;
+    /// boxes that follow each other should lie together.
+    ///
+    /// # Errors
+    /// `Cancelled` when `watch` says so.
+    pub fn ranges(&self, boxes: &[[[f64; 2]; 2]], watch: &Watch) -> Result<Vec<Range>, Cancelled> {
+        let ground = self.ground();
+        let chunks: Result<Vec<Vec<Range>>, Cancelled> = boxes
+            .par_chunks(CHUNK * SURVEYED)
+            .map(|chunk| {
+                let mut searcher = Searcher::default();
+                let mut found = Vec::with_capacity(chunk.len());
+                for boxes in chunk.chunks(SURVEYED) {
+                    searcher.ranges(&ground, boxes, &mut |range: Range| {
+                        found.push(Range { low: range.low + self.above, high: range.high + self.above });
+                    });
+                    watch.advance(boxes.len())?;
+                }
+                Ok(found)
+            })
+            .collect();
+        Ok(chunks?.concat())
+    }
+
+    /// Whether the tip must stay over height `z` everywhere in a box of the plan (lower and upper corner), or need not
+    /// anywhere.
+    #[must_use]
+    pub fn verdict(&self, corners: &[[f64; 2]; 2], z: f64) -> Verdict {
+        Searcher::default().verdict(&self.ground(), corners, z - self.above)
     }
 
     fn map_places<T: Copy + Send + Sync>(

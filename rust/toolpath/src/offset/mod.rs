@@ -16,4 +16,5 @@ pub use bridging::{bridges, Bridge};
 pub use envelope::{Contact, Envelope};
 pub use index::Index;
 pub use push::Line;
+pub use search::{Range, Verdict};
 pub use slope_matched::{slope_matched_offset, OffsetFlag};

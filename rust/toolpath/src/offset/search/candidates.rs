@@ -53,6 +53,16 @@ impl Candidates {
         self.along.iter_mut().for_each(|row| row.resize(padded, 0.0));
     }
 
+    /// A candidate, and where its bound rises to.
+    pub fn direction(&self, i: usize) -> (u32, [f32; 2]) {
+        (self.triangles[i], [self.along[0][i], self.along[1][i]])
+    }
+
+    /// What a candidate does not exceed in a tile, over zero.
+    pub fn most(&self, i: usize, half: [f32; 2]) -> f32 {
+        self.values[i] + self.along[0][i].abs() * half[0] + self.along[1][i].abs() * half[1]
+    }
+
     /// Groups of eight.
     pub fn eights(&self) -> usize {
         self.triangles.len().div_ceil(WIDTH)

@@ -25,6 +25,27 @@ const WORTH_QUARTERING: f64 = 0.8;
 /// A survey of more branches than this says nothing.
 const MOST_BRANCHES: usize = 128;
 
+/// Between which heights the tip lies over a piece of the plan, mm: bounds. Both are minus infinity, or nearly so, where
+/// nothing can be touched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// No tip is lower.
+    pub low: f64,
+    /// No tip is higher.
+    pub high: f64,
+}
+
+/// What is known of a piece of the plan and a height.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// The tip must stay over the height everywhere.
+    Above,
+    /// It need not anywhere.
+    Free,
+    /// Neither, or not known.
+    Open,
+}
+
 /// Memory of a search, used again from tile to tile.
 #[derive(Default)]
 pub struct Searcher {
@@ -97,6 +118,66 @@ impl Searcher {
         }
         for member in members {
             keep(*member, self.settle(ground, &tile, places[*member as usize]));
+        }
+    }
+
+    /// Between which heights the tip lies over boxes of the plan (lower and upper corner) that lie together.
+    pub fn ranges(&mut self, ground: &Ground<'_>, boxes: &[[[f64; 2]; 2]], keep: &mut impl FnMut(Range)) {
+        let corners: Vec<[f64; 2]> = boxes.iter().flatten().copied().collect();
+        let all: Vec<u32> = (0..corners.len() as u32).collect();
+        let survey = self.survey(ground, &ground.tile(&corners, &all));
+        for box_ in boxes {
+            keep(self.range(ground, &survey, box_));
+        }
+    }
+
+    fn range(&mut self, ground: &Ground<'_>, survey: &Survey, corners: &[[f64; 2]; 2]) -> Range {
+        let tile = ground.tile(corners, &[0, 1]);
+        let mut found = ground.guess(tile.middle, self.last);
+        self.explore(ground, survey, &tile, tile.middle, &mut found, true);
+        self.remember(&found);
+        if !found.is_something() && self.candidates.triangles.is_empty() {
+            return Range { low: f64::NEG_INFINITY, high: f64::NEG_INFINITY };
+        }
+        let (half, zero) = (tile.half.map(|h| h as f32), self.candidates.zero);
+        let low = if found.is_something() {
+            ground.contacts.least(found.triangle, tile.middle, tile.half)
+        } else {
+            f64::NEG_INFINITY
+        };
+        let mut high = low.max(found.tip);
+        for i in 0..self.candidates.triangles.len() {
+            let most = f64::from(self.candidates.most(i, half) + ground.margin()) + zero;
+            if most > high {
+                high = high.max(most.min(self.greatest(ground, &tile, i)));
+            }
+        }
+        Range { low, high }
+    }
+
+    /// What a candidate does not exceed in the tile, by its contact.
+    fn greatest(&self, ground: &Ground<'_>, tile: &Tile, candidate: usize) -> f64 {
+        let (triangle, towards) = self.candidates.direction(candidate);
+        ground.contacts.greatest(triangle, tile.middle, tile.half, towards)
+    }
+
+    /// Whether the tip must stay over a height everywhere in a box of the plan, or need not anywhere.
+    pub fn verdict(&mut self, ground: &Ground<'_>, corners: &[[f64; 2]; 2], z: f64) -> Verdict {
+        let tile = ground.tile(corners, &[0, 1]);
+        let mut found = ground.guess(tile.middle, self.last);
+        self.explore(ground, &Survey::whole(ground), &tile, tile.middle, &mut found, true);
+        self.remember(&found);
+        if found.tip > z {
+            let above = ground.contacts.least(found.triangle, tile.middle, tile.half) > z;
+            return if above { Verdict::Above } else { Verdict::Open };
+        }
+        let half = tile.half.map(|h| h as f32);
+        let height = (z - self.candidates.zero) as f32 - ground.margin();
+        let mut rising = (0..self.candidates.triangles.len()).filter(|i| self.candidates.most(*i, half) >= height);
+        if rising.all(|i| self.greatest(ground, &tile, i) <= z) {
+            Verdict::Free
+        } else {
+            Verdict::Open
         }
     }
 

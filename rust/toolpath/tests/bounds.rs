@@ -1,0 +1,69 @@
+//! What is said of boxes of the plan against what is found at places in them.
+
+use proptest::prelude::*;
+use styluscam_geometry::{Mesh, ProfileDocument, Tool, ToolDocument, Vector};
+use styluscam_motion::Watch;
+use styluscam_toolpath::offset::{Envelope, Index, Verdict};
+
+const DIAMETER: f64 = 6.0;
+
+fn any_tool() -> impl Strategy<Value = Tool> {
+    (0..5_u8, 0.1..0.9_f64).prop_map(|(kind, a)| {
+        let (diameter, tip_flat) = (DIAMETER, 0.0);
+        let profile = match kind {
+            0 => ProfileDocument::Ball { diameter, radius: None, tip_flat },
+            1 => ProfileDocument::Clothoid { diameter: Some(diameter), scale: None, end_slope_deg: None, tip_flat },
+            2 => ProfileDocument::BullNose { diameter, corner_radius: 3.0 * a, tip_flat },
+            3 => ProfileDocument::Cone { tip_radius: 0.0, half_angle_deg: 80.0 * a, diameter, tip_flat },
+            _ => ProfileDocument::Flat { diameter, tip_flat },
+        };
+        Tool::new(ToolDocument::of(profile)).unwrap()
+    })
+}
+
+/// Single triangles of all sizes, some upright or level, in a square of 12 mm.
+fn any_mesh() -> impl Strategy<Value = Mesh> {
+    let corner = || [-1.0..1.0_f64, -1.0..1.0_f64, -1.0..1.0_f64].prop_map(Vector::from);
+    let triangle =
+        ([corner(), corner(), corner()], corner(), -2.0..1.0_f64, 0..4_u8).prop_map(|(corners, at, size, kind)| {
+            let mut corners = corners.map(|p| at.component_mul(&Vector::new(6.0, 6.0, 2.0)) + p * 10_f64.powf(size));
+            match kind {
+                0 => corners.iter_mut().for_each(|p| p.z = at.z),
+                1 => corners[1] = Vector::new(corners[0].x, corners[0].y, corners[1].z),
+                _ => {}
+            }
+            corners
+        });
+    prop::collection::vec(triangle, 1..12).prop_filter_map("no area", |triangles| {
+        let numbers: Vec<[i64; 3]> = (0..triangles.len() as i64).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+        Mesh::new(triangles.concat(), &numbers, &[]).ok()
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(if cfg!(debug_assertions) { 300 } else { 20_000 }))]
+    #[test]
+    fn tips_lie_within_what_is_said_of_the_box(
+        mesh in any_mesh(), tool in any_tool(), x in -8.0..8.0_f64, y in -8.0..8.0_f64, size in -2.0..0.5_f64, share in -0.2..1.2_f64,
+        places in prop::collection::vec([0.0..=1.0_f64, 0.0..=1.0_f64], 12),
+    ) {
+        let index = Index::new(&mesh);
+        let envelope = Envelope::new(&mesh, &index, &tool, None, 0.0);
+        let side = 10_f64.powf(size);
+        let corners = [[x, y], [x + side, y + side]];
+        let range = envelope.ranges(&[corners], &Watch::default()).unwrap()[0];
+        let z = if range.low.is_finite() { range.low + share * (range.high - range.low) } else { -1.0 };
+        let verdict = envelope.verdict(&corners, z);
+        let ends = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+        for [s, t] in places.into_iter().chain(ends) {
+            let tip = envelope.contact(x + s * side, y + t * side).map_or(f64::NEG_INFINITY, |contact| contact.tip);
+            prop_assert!(tip >= range.low - 1e-9 && tip <= range.high + 1e-9, "{tip} at {s}, {t} in {range:?}");
+            let agrees = match verdict {
+                Verdict::Above => tip > z - 1e-9,
+                Verdict::Free => tip <= z + 1e-9,
+                Verdict::Open => true,
+            };
+            prop_assert!(agrees, "{tip} at {s}, {t} but {verdict:?} for {z}");
+        }
+    }
+}
