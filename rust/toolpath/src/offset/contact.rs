@@ -297,7 +297,14 @@ impl<'a> Contacts<'a> {
         }
         let away = [0, 1].map(|i| alone.at[i] - place[i]);
         let distance = libm::hypot(away[0], away[1]);
-        let rise = if distance > 0.0 { libm::tan(self.slope(&alone, place)) / distance } else { 0.0 };
+        let by_table = match alone.feature {
+            Feature::Facet => return Some((alone.tip, self.facets[triangle as usize].gradient)),
+            // on a kink it is not the profile's steepness that counts
+            Feature::Edge(_) => None,
+            Feature::Corner(_) => self.cutter.height_with_derivatives(distance),
+        };
+        let steep = by_table.map_or_else(|| libm::tan(self.slope(&alone, place)), |height| height.rise);
+        let rise = if distance > 0.0 { steep / distance } else { 0.0 };
         Some((alone.tip, away.map(|a| rise * a)))
     }
 

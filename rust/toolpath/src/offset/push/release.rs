@@ -145,13 +145,13 @@ fn of_corner(cutter: &Cutter, corner: Vector, end: &End, number: u8) -> Option<R
     if end.height <= 0.0 {
         return None;
     }
-    let (radius, slope) = cutter.at_height(end.height);
+    let (radius, rise) = cutter.at_height(end.height);
     let beside = end.beside.abs();
     let ahead = ((radius - beside) * (radius + beside)).sqrt();
     (beside <= radius).then(|| Release {
         way: end.along + ahead,
         point: corner,
-        slope,
+        slope: libm::atan(rise),
         feature: Feature::Corner(number),
     })
 }
@@ -165,9 +165,9 @@ fn of_edge(cutter: &Cutter, corners: [Vector; 2], ends: [&End; 2], number: u8) -
         first: ends[0],
     };
     let share = edge.top(cutter)?;
-    let Standing { way, slope, .. } = edge.at(cutter, share);
+    let Standing { way, steep, .. } = edge.at(cutter, share);
     let point = corners[0] + (corners[1] - corners[0]) * share;
-    way.map(|way| Release { way, point, slope, feature: Feature::Edge(number) })
+    way.map(|way| Release { way, point, slope: libm::atan(steep), feature: Feature::Edge(number) })
 }
 
 /// An edge as the moving tool sees it; its points are told by their share of it.
@@ -182,7 +182,8 @@ struct Edge<'a> {
 struct Standing {
     /// Where it lets the tool go, mm; none where it does not keep it off.
     way: Option<f64>,
-    slope: f64,
+    /// Steepness of the tool at its height.
+    steep: f64,
     /// In which direction along the edge the tool is kept longer, or, where it is not kept off, in which it would be; a
     /// rate of `way` by the share of the edge where there is a way.
     pull: f64,
@@ -192,20 +193,20 @@ impl Edge<'_> {
     fn at(&self, cutter: &Cutter, share: f64) -> Standing {
         let height = self.first.height + share * self.rise;
         if height <= 0.0 {
-            return Standing { way: None, slope: 0.0, pull: self.rise };
+            return Standing { way: None, steep: 0.0, pull: self.rise };
         }
-        let (radius, slope) = cutter.at_height(height);
+        let (radius, steep) = cutter.at_height(height);
         let beside = self.first.beside + share * self.beside;
-        let (sin, cos) = if slope >= std::f64::consts::FRAC_PI_2 { (1.0, 0.0) } else { libm::sincos(slope) };
-        // the radius grows by cos / sin times the height
+        // along the edge the radius grows by this
+        let wider = self.rise / steep;
         let square = (radius - beside) * (radius + beside);
         if square <= 0.0 {
-            let pull = cos * self.rise - sin * self.beside.copysign(self.beside * beside);
-            return Standing { way: None, slope, pull };
+            let pull = wider - self.beside.copysign(self.beside * beside);
+            return Standing { way: None, steep, pull };
         }
         let ahead = square.sqrt();
-        let pull = self.along + (radius * cos * self.rise / sin - beside * self.beside) / ahead;
-        Standing { way: Some(self.first.along + share * self.along + ahead), slope, pull }
+        let pull = self.along + (radius * wider - beside * self.beside) / ahead;
+        Standing { way: Some(self.first.along + share * self.along + ahead), steep, pull }
     }
 
     /// The share at which the edge keeps the tool longest, if it is inside the edge.
@@ -217,13 +218,10 @@ impl Edge<'_> {
         let size = self.along.abs() + self.beside.abs() + self.rise.abs() + cutter.max_radius();
         for step in 0..STEPS {
             let both = low.1.way.is_some() && high.1.way.is_some() && step < SECANTS && step % 3 != 2;
-            let share = if both {
-                let share = low.0 + (high.0 - low.0) * low.1.pull / (low.1.pull - high.1.pull);
-                // a secant never lands on an end
-                share.clamp(low.0 + 1e-3 * (high.0 - low.0), high.0 - 1e-3 * (high.0 - low.0))
-            } else {
-                0.5 * (low.0 + high.0)
-            };
+            let part = if both { low.1.pull / (low.1.pull - high.1.pull) } else { 0.5 };
+            // a secant never lands on an end
+            let part = if part.is_nan() { 0.5 } else { part.clamp(1e-3, 1.0 - 1e-3) };
+            let share = low.0 + part * (high.0 - low.0);
             let standing = self.at(cutter, share);
             let rest = if standing.pull > 0.0 { high.0 - share } else { share - low.0 };
             if (standing.way.is_some() && standing.pull.abs() * rest <= FLAT * size) || rest <= f64::EPSILON * share {
