@@ -340,8 +340,6 @@ mod tests {
             let (radius, rise) = cutter.at_height(height);
             let slope = rise.atan();
             let size = 1e-12 * (cutter.max_radius() + cutter.max_height());
-            // a table's steepness is good to 1e-10
-            prop_assert!(height <= cutter.point_at(slope).1 + 1e3 * size);
             prop_assert!((cutter.gap(radius, height, slope)).abs() < 100.0 * size, "{}", cutter.gap(radius, height, slope));
             if radius > 0.0 && radius < cutter.max_radius() {
                 // the profile itself agrees: moving by rounding along the steeper axis reaches it
