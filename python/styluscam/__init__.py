@@ -22,6 +22,7 @@ from styluscam.errors import (
 from styluscam.job import Job, job_schema, starter_job
 from styluscam.judging import Report, check_program, verify, verify_file
 from styluscam.machine import Machine
+from styluscam.offset_mesh import OffsetSurface, offset_surface
 from styluscam.offsets import drop_cutter, slope_matched_offset, waterline
 from styluscam.part import Part
 from styluscam.planning import Plan, Posted, plan, post, read_gcode
@@ -37,6 +38,7 @@ __all__ = [
     "JobError",
     "Machine",
     "MachineError",
+    "OffsetSurface",
     "Part",
     "Plan",
     "PlanError",
@@ -52,6 +54,7 @@ __all__ = [
     "check_program",
     "drop_cutter",
     "job_schema",
+    "offset_surface",
     "plan",
     "post",
     "read_gcode",

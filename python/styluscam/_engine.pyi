@@ -24,6 +24,7 @@ __all__ = [
     "drop_cutter",
     "job_schema",
     "judge",
+    "offset_surface",
     "plan",
     "post",
     "read_back",
@@ -62,7 +63,13 @@ class Tool:
 @final
 class Part:
     def __new__(
-        cls, vertices: _F, triangles: _I, face_ids: _I | None = None, inward: float = 0.0, outward: float = 0.0
+        cls,
+        vertices: _F,
+        triangles: _I,
+        face_ids: _I | None = None,
+        inward: float = 0.0,
+        outward: float = 0.0,
+        normals: _F | None = None,
     ) -> Part: ...
     @property
     def bounds(self) -> tuple[list[float], list[float]]: ...
@@ -136,6 +143,19 @@ def drop_cutter(
     progress: _Progress | None = None,
     cancel: CancelToken | None = None,
 ) -> _F: ...
+def offset_surface(
+    part: Part,
+    tool: Tool,
+    sheet: str | None = None,
+    tolerance: float = 0.005,
+    faces: list[int] | None = None,
+    progress: _Progress | None = None,
+    cancel: CancelToken | None = None,
+) -> tuple[
+    tuple[_F, _F, _F, _F, npt.NDArray[np.uint8], _F, _F, _I],
+    tuple[_I, _I],
+    list[tuple[int, str, float, float, list[float], list[float]]],
+]: ...
 def waterline(
     part: Part,
     tool: Tool,

@@ -29,22 +29,29 @@ class Part:
     ) -> Part:
         """From arrays: (V, 3) mm, (T, 3) indices wound outward, corner normals (T, 3, 3), face id per triangle (T,).
 
-        The triangles are taken for the part itself. Normals are checked for their shape and not needed beyond.
+        The triangles are taken for the part itself. Normals are the model's, of any length, by which
+        :func:`styluscam.offset_surface` places the tool; without them it takes the facets'.
 
         Raises:
-            GeometryError: numbers that are not finite or absurd, indices out of range, nothing left.
+            GeometryError: numbers that are not finite or absurd, indices out of range, lengths that do not match,
+                nothing left.
         """
         corners = np.ascontiguousarray(triangles, dtype=np.int64)
-        if normals is not None:
-            np.asarray(normals, dtype=np.float64).reshape(*corners.shape, 3)
+        known = None if normals is None else np.asarray(normals, dtype=np.float64).reshape(*corners.shape, 3)
         ids = None if face_ids is None else np.ascontiguousarray(face_ids, dtype=np.int64)
-        return cls(_engine.Part(points(vertices, 3), corners, ids))
+        return cls(_engine.Part(points(vertices, 3), corners, ids, normals=known))
 
     @classmethod
     def from_arrays(cls, arrays: PartArrays) -> Part:
-        """From what a reader made: triangles with their checked deviation."""
+        """From what a reader made: triangles with their checked deviation and, where it knew surfaces, their normals."""
+        is_mesh = all(face.kind == "mesh" for face in arrays.faces)
         engine = _engine.Part(
-            arrays.vertices, arrays.triangles, arrays.face_ids, arrays.deviation_inward, arrays.deviation_outward
+            arrays.vertices,
+            arrays.triangles,
+            arrays.face_ids,
+            arrays.deviation_inward,
+            arrays.deviation_outward,
+            None if is_mesh else arrays.normals,
         )
         return cls(engine, arrays)
 

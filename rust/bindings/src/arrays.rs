@@ -29,13 +29,13 @@ pub fn rows<T: numpy::Element + Copy + Default, const K: usize>(
     Ok(view.rows().into_iter().map(row).collect())
 }
 
-/// An (N, 3) array of points.
-pub fn matrix<'py>(
+/// An (N, 3) array of points, or of corner numbers.
+pub fn matrix<'py, T: numpy::Element>(
     py: Python<'py>,
-    points: impl ExactSizeIterator<Item = [f64; 3]>,
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let count = points.len();
-    PyArray1::from_vec(py, points.flatten().collect::<Vec<f64>>()).reshape([count, 3])
+    rows: impl ExactSizeIterator<Item = [T; 3]>,
+) -> PyResult<Bound<'py, PyArray2<T>>> {
+    let count = rows.len();
+    PyArray1::from_vec(py, rows.flatten().collect::<Vec<T>>()).reshape([count, 3])
 }
 
 /// A function applied to each entry.

@@ -2,10 +2,10 @@
 
 use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
-use styluscam_geometry::Sheet;
+use styluscam_geometry::{Mesh, Sheet};
 use styluscam_toolpath::{
     forming::{waterline as level, Grid},
-    offset::Envelope,
+    offset::{Envelope, OffsetPoint, OffsetSurface, Region},
     Surface,
 };
 
@@ -123,4 +123,87 @@ pub fn waterline<'py>(
     })?;
     let passes = passes.map_err(|e| errors::raise("PlanError", &e.to_string(), e.code(), "", ""))?;
     passes.into_iter().map(|pass| arrays::matrix(py, pass.points.into_iter().map(|p| p.tip.into()))).collect()
+}
+
+/// Points by column: tips, contacts, normals, slopes, flags, depths, places, faces of the places.
+type Columns<'py> = (
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<u8>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray1<i64>>,
+);
+/// Triangles (T, 3) and their faces (T,).
+type Connection<'py> = (Bound<'py, PyArray2<i64>>, Bound<'py, PyArray1<i64>>);
+/// Face, flag's name, area, depth, contact, place.
+type RegionRow = (u32, &'static str, f64, f64, [f64; 3], [f64; 3]);
+
+/// The slope-matched offset of the part's `faces` (all if None) as columns, its triangles and its regions.
+#[pyfunction]
+#[pyo3(signature = (part, tool, sheet=None, tolerance=0.005, faces=None, progress=None, cancel=None))]
+#[allow(clippy::too_many_arguments, clippy::needless_pass_by_value)]
+pub fn offset_surface<'py>(
+    py: Python<'py>,
+    part: &Part,
+    tool: &Tool,
+    sheet: Option<&str>,
+    tolerance: f64,
+    faces: Option<Vec<u32>>,
+    progress: Option<&Bound<'py, PyAny>>,
+    cancel: Option<&CancelToken>,
+) -> PyResult<(Columns<'py>, Connection<'py>, Vec<RegionRow>)> {
+    let sheet = self::sheet(sheet)?;
+    let (part, index) = (&part.part, || part.index());
+    if !(tolerance > part.outward && tolerance.is_finite()) {
+        let message = format!("tolerance = {tolerance}: it must exceed the part's checked deviation, {}", part.outward);
+        return Err(errors::raise("GeometryError", &message, "out-of-range", "tolerance", "raise tolerance"));
+    }
+    let triangles = triangles_of(&part.mesh, faces.as_deref())?;
+    let made = watched(py, progress, cancel, |watch| {
+        let envelope = Envelope::new(&part.mesh, index(), &tool.tool, sheet.as_ref(), 0.0);
+        let surface = OffsetSurface::new(&envelope, &tool.tool, sheet.as_ref(), &triangles, tolerance, watch)?;
+        let regions = surface.regions(&part.mesh);
+        Ok((surface, regions))
+    })?;
+    let (surface, regions) = made.map_err(errors::cancelled)?;
+    let face_of = |triangle: u32| i64::from(part.mesh.faces()[triangle as usize]);
+    let connection = (
+        arrays::matrix(py, surface.triangles.iter().map(|corners| corners.map(i64::from)))?,
+        PyArray1::from_vec(py, surface.numbers.iter().map(|t| face_of(*t)).collect()),
+    );
+    let columns = columns(py, &surface.points, face_of)?;
+    Ok((columns, connection, regions.iter().map(region_row).collect()))
+}
+
+fn columns<'py>(py: Python<'py>, points: &[OffsetPoint], face_of: impl Fn(u32) -> i64) -> PyResult<Columns<'py>> {
+    let column = |f: fn(&OffsetPoint) -> f64| PyArray1::from_vec(py, points.iter().map(f).collect());
+    Ok((
+        arrays::matrix(py, points.iter().map(|p| p.tip.into()))?,
+        arrays::matrix(py, points.iter().map(|p| p.contact.into()))?,
+        arrays::matrix(py, points.iter().map(|p| p.normal.into()))?,
+        column(|p| p.slope),
+        PyArray1::from_vec(py, points.iter().map(|p| p.flag as u8).collect()),
+        column(|p| p.depth),
+        arrays::matrix(py, points.iter().map(|p| p.place.into()))?,
+        PyArray1::from_vec(py, points.iter().map(|p| face_of(p.place_triangle)).collect()),
+    ))
+}
+
+fn region_row(region: &Region) -> RegionRow {
+    let worst = &region.worst;
+    (region.face, region.flag.name(), region.area, worst.depth, worst.contact.into(), worst.place.into())
+}
+
+/// The triangles of some faces, each of which the mesh must have.
+fn triangles_of(mesh: &Mesh, faces: Option<&[u32]>) -> PyResult<Vec<u32>> {
+    let all = 0..mesh.triangles().len() as u32;
+    let Some(faces) = faces else { return Ok(all.collect()) };
+    if let Some(face) = faces.iter().find(|face| !mesh.faces().contains(face)) {
+        let message = format!("the part has no face {face}");
+        return Err(errors::raise("GeometryError", &message, "no-such-face", "faces", ""));
+    }
+    Ok(all.filter(|t| faces.contains(&mesh.faces()[*t as usize])).collect())
 }

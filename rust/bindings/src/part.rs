@@ -2,9 +2,9 @@
 
 use std::sync::OnceLock;
 
-use numpy::{PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
-use styluscam_geometry::Mesh;
+use styluscam_geometry::{Mesh, Vector};
 use styluscam_toolpath::offset::Index;
 
 use crate::{arrays, errors};
@@ -25,9 +25,10 @@ impl Part {
 
 #[pymethods]
 impl Part {
-    /// `vertices` (V, 3) mm, `triangles` (T, 3), `face_ids` (T,) or None; checked deviations in mm.
+    /// `vertices` (V, 3) mm, `triangles` (T, 3), `face_ids` (T,) or None; checked deviations in mm; `normals` of the
+    /// model at the triangles' corners (T, 3, 3) or None.
     #[new]
-    #[pyo3(signature = (vertices, triangles, face_ids=None, inward=0.0, outward=0.0))]
+    #[pyo3(signature = (vertices, triangles, face_ids=None, inward=0.0, outward=0.0, normals=None))]
     fn new(
         py: Python<'_>,
         vertices: PyReadonlyArray2<'_, f64>,
@@ -35,11 +36,14 @@ impl Part {
         face_ids: Option<PyReadonlyArray1<'_, i64>>,
         inward: f64,
         outward: f64,
+        normals: Option<PyReadonlyArray3<'_, f64>>,
     ) -> PyResult<Self> {
         let vertices = arrays::vectors(&vertices, "vertices")?;
         let triangles = arrays::rows::<i64, 3>(&triangles, "triangles")?;
         let faces = face_ids.map_or(Ok(Vec::new()), |ids| face_numbers(&ids))?;
-        let mesh = py.detach(|| Mesh::new(vertices, &triangles, &faces)).map_err(|e| errors::of_geometry(&e))?;
+        let normals = normals.map_or(Ok(Vec::new()), |normals| corner_normals(&normals))?;
+        let mesh = py.detach(|| Mesh::with_normals(vertices, &triangles, &faces, &normals));
+        let mesh = mesh.map_err(|e| errors::of_geometry(&e))?;
         for deviation in [inward, outward] {
             if !(0.0..=1.0).contains(&deviation) {
                 let message = format!("a deviation of {deviation} mm: 0 to 1 expected");
@@ -76,4 +80,15 @@ fn face_numbers(ids: &PyReadonlyArray1<'_, i64>) -> PyResult<Vec<u32>> {
         })
     };
     ids.as_array().iter().enumerate().map(number).collect()
+}
+
+fn corner_normals(normals: &PyReadonlyArray3<'_, f64>) -> PyResult<Vec<[Vector; 3]>> {
+    let view = normals.as_array();
+    let (_, corners, axes) = view.dim();
+    if (corners, axes) != (3, 3) {
+        let message = format!("normals has shape {:?}: (T, 3, 3) expected", view.shape());
+        return Err(errors::raise("GeometryError", &message, "shape", "normals", ""));
+    }
+    let corner = |t: usize, k: usize| Vector::new(view[[t, k, 0]], view[[t, k, 1]], view[[t, k, 2]]);
+    Ok((0..view.dim().0).map(|t| std::array::from_fn(|k| corner(t, k))).collect())
 }

@@ -17,6 +17,8 @@ pub struct Mesh {
     vertices: Vec<Vector>,
     triangles: Vec<[u32; 3]>,
     faces: Vec<u32>,
+    /// By triangle and corner, of length 1; empty where none were given.
+    normals: Vec<[Vector; 3]>,
     dropped: usize,
 }
 
@@ -27,16 +29,44 @@ impl Mesh {
     /// # Errors
     /// Numbers that are not finite or absurd, indices out of range, lengths that do not match, nothing left.
     pub fn new(vertices: Vec<Vector>, triangles: &[[i64; 3]], faces: &[u32]) -> Result<Self, GeometryError> {
+        Self::with_normals(vertices, triangles, faces, &[])
+    }
+
+    /// As [`new`](Self::new), with the model's `normals` at the corners of each triangle (empty: none are known). Those
+    /// without length, as at a pole, become the facet's.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_normals(
+        vertices: Vec<Vector>,
+        triangles: &[[i64; 3]],
+        faces: &[u32],
+        normals: &[[Vector; 3]],
+    ) -> Result<Self, GeometryError> {
         check_vertices(&vertices)?;
-        if !faces.is_empty() && faces.len() != triangles.len() {
-            return Err(GeometryError::Length { what: "face ids", count: faces.len(), expected: triangles.len() });
+        for (what, count) in [("face ids", faces.len()), ("corner normals", normals.len())] {
+            if count != 0 && count != triangles.len() {
+                return Err(GeometryError::Length { what, count, expected: triangles.len() });
+            }
         }
-        let mut mesh = Self { vertices, triangles: Vec::with_capacity(triangles.len()), faces: Vec::new(), dropped: 0 };
+        if let Some(index) = normals.iter().position(|corners| !corners.iter().flatten().all(|x| x.is_finite())) {
+            return Err(GeometryError::NotFinite { what: "normal of triangle", index });
+        }
+        let mut mesh = Self {
+            vertices,
+            triangles: Vec::with_capacity(triangles.len()),
+            faces: Vec::with_capacity(triangles.len()),
+            normals: Vec::with_capacity(normals.len()),
+            dropped: 0,
+        };
         for (i, triangle) in triangles.iter().enumerate() {
             let corners = mesh.checked_indices(i, *triangle)?;
-            if mesh.area_vector(corners).norm() > 0.0 {
+            let area = mesh.area_vector(corners);
+            if area.norm() > 0.0 {
                 mesh.triangles.push(corners);
                 mesh.faces.push(faces.get(i).copied().unwrap_or(1));
+                let given = normals.get(i).map(|given| given.map(|n| n.try_normalize(0.0).unwrap_or(area.normalize())));
+                mesh.normals.extend(given);
             } else {
                 mesh.dropped += 1;
             }
@@ -100,6 +130,18 @@ impl Mesh {
         self.area_vector(self.triangles[triangle]).normalize()
     }
 
+    /// Whether the model's normals at the corners are known.
+    #[must_use]
+    pub fn has_corner_normals(&self) -> bool {
+        !self.normals.is_empty()
+    }
+
+    /// Unit normals at the corners of a triangle: the model's where they are known, else the facet's.
+    #[must_use]
+    pub fn corner_normals(&self, triangle: usize) -> [Vector; 3] {
+        self.normals.get(triangle).copied().unwrap_or_else(|| [self.normal(triangle); 3])
+    }
+
     /// Area of a triangle, mm^2.
     #[must_use]
     pub fn area(&self, triangle: usize) -> f64 {
@@ -117,7 +159,11 @@ impl Mesh {
     /// The same mesh in another frame.
     #[must_use]
     pub fn placed(&self, frame: &Frame) -> Self {
-        Self { vertices: self.vertices.iter().map(|p| frame.point(*p)).collect(), ..self.clone() }
+        Self {
+            vertices: self.vertices.iter().map(|p| frame.point(*p)).collect(),
+            normals: self.normals.iter().map(|corners| corners.map(|n| frame.direction(n))).collect(),
+            ..self.clone()
+        }
     }
 }
 

@@ -88,6 +88,12 @@ impl<'a> Envelope<'a> {
         &self.cutter
     }
 
+    /// What tool and sheet are kept clear by along the normal, mm.
+    #[must_use]
+    pub fn margin(&self) -> f64 {
+        self.margin
+    }
+
     /// The mesh.
     #[must_use]
     pub fn mesh(&self) -> &Mesh {
@@ -252,6 +258,27 @@ impl<'a> Envelope<'a> {
         self.cutter.distance(libm::hypot(point.x - x, point.y - y), height).0 + self.margin
     }
 
+    /// How deep a point of the mesh lies in the cutter (tool, sheet and margin), the tool's tip standing at `tip`, mm;
+    /// negative outside.
+    #[must_use]
+    pub fn depth(&self, point: Vector, tip: Vector) -> f64 {
+        let radius = libm::hypot(point.x - tip.x, point.y - tip.y);
+        let height = point.z - (tip.z - self.above);
+        // deep inside, the way out may be the bottom or the side instead of the nearest stretch of the profile
+        let ends = [0.0, std::f64::consts::FRAC_PI_2].map(|slope| self.cutter.gap(radius, height, slope));
+        -self.cutter.distance(radius, height).0.max(ends[0]).max(ends[1])
+    }
+
+    /// The point of the cutter's surface that looks against `normal`, the tool's tip standing at `tip`: with it the cutter
+    /// touches a plane of that normal; the outer end where there are many.
+    #[must_use]
+    pub fn touching_point(&self, tip: Vector, normal: Vector) -> Vector {
+        let across = libm::hypot(normal.x, normal.y);
+        let (r, z) = self.cutter.point_at(libm::atan2(across, normal.z).min(std::f64::consts::FRAC_PI_2));
+        let outward = if across > 0.0 { [normal.x / across, normal.y / across] } else { [0.0; 2] };
+        Vector::new(tip.x - r * outward[0], tip.y - r * outward[1], tip.z - self.above + z)
+    }
+
     fn contact_of(&self, best: &Best, [x, y]: [f64; 2]) -> Option<Contact> {
         if !best.is_something() {
             return None;
@@ -274,16 +301,26 @@ impl<'a> Envelope<'a> {
     /// its normal is within `spread` (rad) of the selected facet's.
     #[must_use]
     pub fn belongs(&self, contact: &Contact, selected: &[bool], spread: f64) -> bool {
-        let on = |t: u32| t != NO_NEIGHBOUR && selected[t as usize];
         match contact.feature {
-            Feature::Facet => on(contact.triangle),
+            Feature::Facet => selected[contact.triangle as usize],
             Feature::Edge(i) => {
                 let other = self.neighbours(contact.triangle)[usize::from(i)];
-                (on(contact.triangle) && on(other))
-                    || self.faces_like([contact.triangle, other], contact, selected, spread)
+                self.faces_like([contact.triangle, other], contact, selected, spread)
             }
             Feature::Corner(i) => self.faces_like(self.around(contact, i), contact, selected, spread),
         }
+    }
+
+    /// The triangles that meet where the contact is: one, those beside an edge, or those around a corner.
+    #[must_use]
+    pub fn touched(&self, contact: &Contact) -> Vec<u32> {
+        let mut touched = match contact.feature {
+            Feature::Facet => vec![contact.triangle],
+            Feature::Edge(i) => vec![contact.triangle, self.neighbours(contact.triangle)[usize::from(i)]],
+            Feature::Corner(i) => self.around(contact, i),
+        };
+        touched.retain(|t| *t != NO_NEIGHBOUR);
+        touched
     }
 
     /// Triangles around the corner touched, found through the edges of the one that was asked; where the mesh ends

@@ -1,0 +1,161 @@
+"""The slope-matched offset of a part's surface as a mesh: where the tool stands, and what keeps it from there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from styluscam import _engine
+from styluscam.errors import GeometryError
+from styluscam.files import drawn_whole
+from styluscam.offsets import _sheet
+from styluscam.part import Part
+from styluscam.tool import Tool
+from styluscam.types import Document, FloatArray, IntArray, Progress
+
+FLAGS = ("contact", "bridged", "interferes", "rim", "undercut")
+"""Names of the flags of an :class:`OffsetSurface`, by number."""
+
+COLOURS = ((120, 180, 110), (242, 178, 51), (214, 69, 65), (90, 130, 200), (150, 150, 150))
+"""Red, green and blue (0 to 255) of each flag, in pictures and PLY files."""
+
+
+@dataclass(frozen=True)
+class OffsetRegion:
+    """All of a face that has one flag."""
+
+    face: int
+    flag: str
+    """One of :data:`FLAGS`."""
+    area: float
+    """mm^2; each triangle's is shared equally among its corners' flags."""
+    depth: float
+    """How deep the tool would enter what stops it, mm, at the worst."""
+    contact: tuple[float, float, float]
+    """The point of the part for which it would."""
+    place: tuple[float, float, float]
+    """The point of the part that it would enter."""
+
+
+@dataclass(frozen=True, eq=False)
+class OffsetSurface:
+    """Slope-matched positions of the tool over a part's triangles, each judged against the whole part. Lengths mm.
+
+    A flag (a number of :data:`FLAGS`) says what becomes of a position. *contact*: the tool enters nothing there deeper
+    than the tolerance. *bridged*: something of the same smooth patch of the part stops it first, because the part is
+    more curved than the tool; a patch is what hangs together within faces and over edges without a crease (2 deg between
+    the model's normals, 20 deg between facets where those are not known). *interferes*: something beyond a crease stops
+    it: a wall, a step, an island. *rim*: steeper than the profile, touched by the base's edge. *undercut*: looks down.
+    """
+
+    points: FloatArray
+    """The tool's tips (CL), (V, 3)."""
+    triangles: IntArray
+    """Triangles of the points, (T, 3), wound as the part's."""
+    contacts: FloatArray
+    """The points of the part (CC), (V, 3)."""
+    normals: FloatArray
+    """Unit normals of the part there, (V, 3)."""
+    slopes: FloatArray
+    """Angles between the normals and +Z, (V,), rad."""
+    flags: npt.NDArray[np.uint8]
+    """What becomes of each position, (V,)."""
+    depths: FloatArray
+    """How deep the tool, with the sheet, standing there would enter what stops it, (V,); 0 where nothing does."""
+    places: FloatArray
+    """The points of the part that stop it, (V, 3); where nothing does, the contacts."""
+    place_faces: IntArray
+    """Their faces, (V,)."""
+    faces: IntArray
+    """Face of each triangle, (T,)."""
+    _regions: tuple[OffsetRegion, ...] = field(repr=False)
+
+    def regions(self) -> list[OffsetRegion]:
+        """What there is of each flag on each face, in the order of faces and flags."""
+        return list(self._regions)
+
+    def save(self, path: str | Path) -> None:
+        """Writes all arrays (``.npz``), or the mesh of the tips coloured by flag (``.ply``; extra ``mesh``).
+
+        Raises:
+            StylusError: another ending, or a place that cannot be written to.
+        """
+        file = Path(path)
+        if file.suffix.lower() not in (".npz", ".ply"):
+            message = f"{file}: an offset surface is written as .npz or .ply"
+            raise GeometryError(message, code="ending-unknown", where=str(file), hint=".npz or .ply")
+        with drawn_whole(file) as temporary:
+            if file.suffix.lower() == ".npz":
+                columns = {name: value for name, value in vars(self).items() if name != "_regions"}
+                np.savez_compressed(temporary, **columns)
+            else:
+                temporary.write_bytes(self._ply(file))
+
+    def _ply(self, file: Path) -> bytes:
+        try:
+            import trimesh
+        except ImportError as error:
+            cure = "pip install 'styluscam[mesh]'"
+            message = f"{file}: writing .ply files needs trimesh: {cure}"
+            raise GeometryError(message, code="extra-mesh", where=str(file), hint=cure) from error
+        colours = np.array(COLOURS, dtype=np.uint8)[self.flags]
+        mesh = trimesh.Trimesh(self.points, self.triangles, vertex_colors=colours, process=False)
+        return bytes(mesh.export(file_type="ply"))
+
+
+def offset_surface(
+    part: Part,
+    tool: Tool,
+    sheet: Document | None = None,
+    *,
+    tolerance: float = 0.005,
+    faces: Sequence[int | str] | None = None,
+    progress: Progress | None = None,
+    cancel: _engine.CancelToken | None = None,
+) -> OffsetSurface:
+    """The slope-matched offset of a part's ``faces`` (numbers or names as "Face3"; all if None).
+
+    Positions are exact for the part's normals: those of the surfaces of a STEP, IGES or BREP file, those given to
+    :meth:`Part.from_mesh`, else the facets'. They are judged against the triangles: a position is free if the tool,
+    lifted off along the normal by ``tolerance`` (mm), enters nothing. So it has to exceed the triangles' checked
+    deviation, and it covers what facets are off. With a flat at the tip, or where the profile is straight, many positions
+    touch a point; the surface holds the one with the axis over it, or with the contact at the straight part's outer end.
+
+    Raises:
+        GeometryError: a face that does not exist, a tolerance below the part's deviation.
+
+    Source: US 2023/0035585.
+    """
+    numbers = None if faces is None else [_number(face) for face in faces]
+    columns, (triangles, of_triangles), regions = _engine.offset_surface(
+        part.engine, tool._engine, _sheet(sheet), tolerance, numbers, progress=progress, cancel=cancel
+    )
+    points, contacts, normals, slopes, flags, depths, places, place_faces = columns
+    return OffsetSurface(
+        points=points,
+        triangles=triangles,
+        contacts=contacts,
+        normals=normals,
+        slopes=slopes,
+        flags=flags,
+        depths=depths,
+        places=places,
+        place_faces=place_faces,
+        faces=of_triangles,
+        _regions=tuple(
+            OffsetRegion(face, flag, area, depth, (x, y, z), (px, py, pz))
+            for face, flag, area, depth, (x, y, z), (px, py, pz) in regions
+        ),
+    )
+
+
+def _number(face: int | str) -> int:
+    """The number of a face given by number or name."""
+    digits = str(face).removeprefix("Face")
+    if not digits.isdecimal():
+        raise GeometryError(f"the part has no face {face!r}", code="no-such-face", where="faces")
+    return int(digits)
