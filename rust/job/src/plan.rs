@@ -1,12 +1,14 @@
 //! From a resolved job to a program: one operation at a time.
 
-use styluscam_geometry::Tool;
+use std::collections::BTreeMap;
+
+use styluscam_geometry::{Tool, Vector};
 use styluscam_motion::{Event, EventKind, Move, OperationRecord, Program, ToolRecord, Watch, PROGRAM_SCHEMA};
 use styluscam_post::Machine;
 use styluscam_toolpath::{
     forming::{levels, z_levels, zig_zag, Grid, LevelRange, Rows},
     link,
-    offset::{bridges, Envelope},
+    offset::{bridges, Envelope, OffsetSurface, SurfaceFlag},
     Heights, Links, Pass, PlanError, Rates, Surface,
 };
 
@@ -15,9 +17,8 @@ use crate::{
     scene, Coolant, Direction, JobDocument, JobError, OperationKind, OperationSection, Scene, Spindle, Step,
 };
 
-/// Triangles of a face that are asked whether the tool bridges them, of its border and of its inside: enough to find
-/// every fillet and every valley.
-const BRIDGE_SAMPLES: usize = 200;
+/// Points of a face, of those that something keeps from the tool, from which its worst place is looked for.
+const BRIDGE_SAMPLES: usize = 64;
 /// What is left for fitting must be at least this, mm, or paths would have millions of points.
 const LEAST_DEVIATION: f64 = 2e-4;
 /// Share of what is left that a chord may stray to either side. The planned surface lies in the middle; the rest is a
@@ -54,12 +55,31 @@ pub struct OperationSummary {
     pub wall_angle_max_deg: f64,
     /// Smallest disc that a loop must hold to be sure of being found, mm; levels only.
     pub smallest_feature: f64,
+    /// What becomes of the planned faces, in the order of their numbers.
+    pub reached: Vec<ReachedFace>,
     /// Faces with places that the tool cannot touch, worst first.
     pub bridged: Vec<BridgedFace>,
     /// Faces with area that looks down, mm^2: not reached.
     pub undercut: Vec<(u32, f64)>,
     /// Faces with vertical area, mm^2, which levels do not follow: the tool passes it on the levels' way down.
     pub vertical: Vec<(u32, f64)>,
+}
+
+/// How much of a face the tool reaches, and what keeps it from the rest; areas, mm^2.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+pub struct ReachedFace {
+    /// The face.
+    pub face: u32,
+    /// Touched by the tool at its own slope.
+    pub contact: f64,
+    /// Kept from the tool by the same smooth patch of the part, which is more curved than the tool.
+    pub bridged: f64,
+    /// Kept from the tool by something beyond a crease: a wall, a step, an island.
+    pub interferes: f64,
+    /// Steeper than the tool's profile: touched by its rim.
+    pub rim: f64,
+    /// Looks down.
+    pub undercut: f64,
 }
 
 /// A face that the tool bridges.
@@ -201,6 +221,7 @@ pub fn operation(
     let surface = Surface::new(&envelope, &selected).between_heights(heights(section));
     let task = Task { job, scene, machine, section, index, budget: &budget };
     let (passes, smallest_feature) = task.passes(&surface, watch).map_err(JobError::planning(&place))?;
+    let offset = offset_of(scene, tool, &envelope, &faces, section.tolerance, watch)?;
     let summary = OperationSummary {
         id: id.to_owned(),
         kind: section.kind.name(),
@@ -208,7 +229,8 @@ pub fn operation(
         passes: passes.len(),
         wall_angle_max_deg: steepest(scene, &selected).to_degrees(),
         smallest_feature,
-        bridged: bridged(scene, tool, &envelope, &selected, section.tolerance, watch)?,
+        reached: reached(scene, &offset),
+        bridged: bridged(scene, tool, &envelope, &offset, section.tolerance, watch)?,
         undercut: areas(scene, &faces, |view| view.down),
         vertical: if section.kind == OperationKind::ZLevel { areas(scene, &faces, |v| v.vertical) } else { Vec::new() },
         faces,
@@ -250,31 +272,60 @@ fn count_groups(passes: &[Pass]) -> usize {
     groups.len()
 }
 
-/// Faces that the tool bridges by more than the tolerance, worst first; up to [`BRIDGE_SAMPLES`] places of each are asked.
+/// The slope-matched offset of whole faces.
+fn offset_of(
+    scene: &Scene,
+    tool: &Tool,
+    envelope: &Envelope<'_>,
+    faces: &[u32],
+    tolerance: f64,
+    watch: &Watch,
+) -> Result<OffsetSurface, JobError> {
+    let of_faces = |t: &u32| faces.binary_search(&scene.mesh.faces()[*t as usize]).is_ok();
+    let triangles: Vec<u32> = (0..scene.mesh.triangles().len() as u32).filter(of_faces).collect();
+    Ok(OffsetSurface::new(envelope, tool, scene.sheet.as_ref(), &triangles, tolerance, watch)?)
+}
+
+/// What becomes of each face.
+fn reached(scene: &Scene, offset: &OffsetSurface) -> Vec<ReachedFace> {
+    let mut faces: Vec<ReachedFace> = Vec::new();
+    for region in offset.regions(&scene.mesh) {
+        if faces.last().is_none_or(|last| last.face != region.face) {
+            faces.push(ReachedFace { face: region.face, ..ReachedFace::default() });
+        }
+        let Some(face) = faces.last_mut() else { continue };
+        match region.flag {
+            SurfaceFlag::Contact => face.contact = region.area,
+            SurfaceFlag::Bridged => face.bridged = region.area,
+            SurfaceFlag::Interferes => face.interferes = region.area,
+            SurfaceFlag::Rim => face.rim = region.area,
+            SurfaceFlag::Undercut => face.undercut = region.area,
+        }
+    }
+    faces
+}
+
+/// Faces that the tool bridges by more than the tolerance, worst first: looked for from up to [`BRIDGE_SAMPLES`] of the
+/// points of each face that the offset says are kept from the tool.
 fn bridged(
     scene: &Scene,
     tool: &Tool,
     envelope: &Envelope<'_>,
-    selected: &[bool],
+    offset: &OffsetSurface,
     tolerance: f64,
     watch: &Watch,
 ) -> Result<Vec<BridgedFace>, JobError> {
-    let mut by_face: std::collections::BTreeMap<u32, Vec<u32>> = std::collections::BTreeMap::new();
-    for t in (0..selected.len()).filter(|t| selected[*t] && scene.mesh.normal(*t).z > 1e-3) {
-        by_face.entry(scene.mesh.faces()[t]).or_default().push(t as u32);
-    }
-    let is_border = |t: &u32| {
-        let faces = scene.mesh.faces();
-        envelope.neighbours(*t).into_iter().any(|n| faces.get(n as usize) != Some(&faces[*t as usize]))
-    };
-    let mut sampled = Vec::new();
-    for triangles in by_face.values() {
-        // a sharp valley between two faces is worst at their border
-        let (border, inner): (Vec<u32>, Vec<u32>) = triangles.iter().partition(|t| is_border(t));
-        for triangles in [border, inner] {
-            sampled.extend(triangles.iter().step_by(triangles.len().div_ceil(BRIDGE_SAMPLES).max(1)).copied());
+    let mut by_face: BTreeMap<u32, Vec<(u32, Vector)>> = BTreeMap::new();
+    for (corners, triangle) in offset.triangles.iter().zip(&offset.numbers) {
+        let stopped = corners.iter().map(|i| &offset.points[*i as usize]).find(|point| point.flag.is_stopped());
+        if let Some(point) = stopped.filter(|_| scene.mesh.normal(*triangle as usize).z > 1e-3) {
+            by_face.entry(scene.mesh.faces()[*triangle as usize]).or_default().push((*triangle, point.contact));
         }
     }
+    let samples = |places: &Vec<(u32, Vector)>| -> Vec<(u32, Vector)> {
+        places.iter().step_by(places.len().div_ceil(BRIDGE_SAMPLES)).copied().collect()
+    };
+    let sampled: Vec<(u32, Vector)> = by_face.values().flat_map(samples).collect();
     let found = bridges(envelope, tool, scene.sheet.as_ref(), &sampled, tolerance, watch)?;
     let worst = found.into_iter().map(|b| BridgedFace { face: b.face, excess: b.excess, at: b.point.into() });
     let mut worst: Vec<BridgedFace> = worst.collect();

@@ -26,8 +26,8 @@ const ON_TOOL: f64 = 1e-5;
 /// Steps of a climb at most: across a face of 200 samples it is one or two dozen.
 const CLIMB: usize = 200;
 
-/// The places among `triangles` (their middles and corners) that stay more than `limit` mm away from every free position, each
-/// followed uphill to the worst place of its face nearby.
+/// The worst place of each face among `places` (each with its triangle) that stays more than `limit` mm away from every free
+/// position, followed uphill from triangle to triangle.
 ///
 /// A place is touched where the envelope is as low as the slope-matched offset. Elsewhere the nearest free
 /// position is looked for along the steepest line through the place, on both sides.
@@ -38,18 +38,18 @@ pub fn bridges(
     envelope: &Envelope<'_>,
     tool: &Tool,
     sheet: Option<&Sheet>,
-    triangles: &[u32],
+    places: &[(u32, Vector)],
     limit: f64,
     watch: &Watch,
 ) -> Result<Vec<Bridge>, Cancelled> {
-    watch.begin("bridging", triangles.len());
+    watch.begin("bridging", places.len());
     let probe = Probe { envelope, tool, sheet, limit };
-    let found: Result<Vec<Option<(u32, Bridge)>>, Cancelled> = triangles
+    let found: Result<Vec<Option<(u32, Bridge)>>, Cancelled> = places
         .par_iter()
         .with_min_len(16)
-        .map(|triangle| {
+        .map(|(triangle, place)| {
             watch.advance(1)?;
-            Ok(probe.worst(*triangle).map(|bridge| (*triangle, bridge)))
+            Ok(probe.at(*triangle, *place).map(|bridge| (*triangle, bridge)))
         })
         .collect();
     let mut worst: Vec<(u32, Bridge)> = Vec::new();
