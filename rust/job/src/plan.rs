@@ -17,6 +17,8 @@ use crate::{
     scene, Coolant, Direction, JobDocument, JobError, OperationKind, OperationSection, Scene, Spindle, Step,
 };
 
+/// Triangles of a face whose offset is judged, at most: areas are right to a percent or two of the face's.
+const OFFSET_SAMPLES: usize = 2000;
 /// Points of a face, of those that something keeps from the tool, from which its worst place is looked for.
 const BRIDGE_SAMPLES: usize = 64;
 /// What is left for fitting must be at least this, mm, or paths would have millions of points.
@@ -65,8 +67,8 @@ pub struct OperationSummary {
     pub vertical: Vec<(u32, f64)>,
 }
 
-/// How much of a face the tool reaches, and what keeps it from the rest; areas, mm^2.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+/// How much of a face the tool reaches, and what keeps it from the rest; areas, mm^2, from samples.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct ReachedFace {
     /// The face.
     pub face: u32,
@@ -272,7 +274,7 @@ fn count_groups(passes: &[Pass]) -> usize {
     groups.len()
 }
 
-/// The slope-matched offset of whole faces.
+/// The slope-matched offset of faces: of all their triangles, or of up to [`OFFSET_SAMPLES`] of each.
 fn offset_of(
     scene: &Scene,
     tool: &Tool,
@@ -281,28 +283,39 @@ fn offset_of(
     tolerance: f64,
     watch: &Watch,
 ) -> Result<OffsetSurface, JobError> {
-    let of_faces = |t: &u32| faces.binary_search(&scene.mesh.faces()[*t as usize]).is_ok();
-    let triangles: Vec<u32> = (0..scene.mesh.triangles().len() as u32).filter(of_faces).collect();
-    Ok(OffsetSurface::new(envelope, tool, scene.sheet.as_ref(), &triangles, tolerance, watch)?)
-}
-
-/// What becomes of each face.
-fn reached(scene: &Scene, offset: &OffsetSurface) -> Vec<ReachedFace> {
-    let mut faces: Vec<ReachedFace> = Vec::new();
-    for region in offset.regions(&scene.mesh) {
-        if faces.last().is_none_or(|last| last.face != region.face) {
-            faces.push(ReachedFace { face: region.face, ..ReachedFace::default() });
-        }
-        let Some(face) = faces.last_mut() else { continue };
-        match region.flag {
-            SurfaceFlag::Contact => face.contact = region.area,
-            SurfaceFlag::Bridged => face.bridged = region.area,
-            SurfaceFlag::Interferes => face.interferes = region.area,
-            SurfaceFlag::Rim => face.rim = region.area,
-            SurfaceFlag::Undercut => face.undercut = region.area,
+    let mut by_face: BTreeMap<u32, Vec<u32>> = faces.iter().map(|face| (*face, Vec::new())).collect();
+    for (t, face) in scene.mesh.faces().iter().enumerate() {
+        if let Some(triangles) = by_face.get_mut(face) {
+            triangles.push(t as u32);
         }
     }
-    faces
+    let sampled: Vec<u32> = by_face.values().flat_map(|all| spread(all, OFFSET_SAMPLES)).collect();
+    Ok(OffsetSurface::new(envelope, tool, scene.sheet.as_ref(), &sampled, tolerance, watch)?)
+}
+
+/// Up to `most` of some things, spread evenly over them.
+fn spread<T: Copy>(all: &[T], most: usize) -> impl Iterator<Item = T> + '_ {
+    all.iter().step_by(all.len().div_ceil(most).max(1)).copied()
+}
+
+/// What becomes of each face; what was sampled stands for all of it.
+fn reached(scene: &Scene, offset: &OffsetSurface) -> Vec<ReachedFace> {
+    let regions = offset.regions(&scene.mesh);
+    let faces = regions.chunk_by(|a, b| a.face == b.face).filter_map(|regions| {
+        let face = regions.first()?.face;
+        let sampled: f64 = regions.iter().map(|region| region.area).sum();
+        let scale = scene.views.get(&face)?.area / sampled;
+        let area = |flag| regions.iter().find(|r| r.flag == flag).map_or(0.0, |region| region.area * scale);
+        Some(ReachedFace {
+            face,
+            contact: area(SurfaceFlag::Contact),
+            bridged: area(SurfaceFlag::Bridged),
+            interferes: area(SurfaceFlag::Interferes),
+            rim: area(SurfaceFlag::Rim),
+            undercut: area(SurfaceFlag::Undercut),
+        })
+    });
+    faces.collect()
 }
 
 /// Faces that the tool bridges by more than the tolerance, worst first: looked for from up to [`BRIDGE_SAMPLES`] of the
@@ -322,10 +335,7 @@ fn bridged(
             by_face.entry(scene.mesh.faces()[*triangle as usize]).or_default().push((*triangle, point.contact));
         }
     }
-    let samples = |places: &Vec<(u32, Vector)>| -> Vec<(u32, Vector)> {
-        places.iter().step_by(places.len().div_ceil(BRIDGE_SAMPLES)).copied().collect()
-    };
-    let sampled: Vec<(u32, Vector)> = by_face.values().flat_map(samples).collect();
+    let sampled: Vec<(u32, Vector)> = by_face.values().flat_map(|all| spread(all, BRIDGE_SAMPLES)).collect();
     let found = bridges(envelope, tool, scene.sheet.as_ref(), &sampled, tolerance, watch)?;
     let worst = found.into_iter().map(|b| BridgedFace { face: b.face, excess: b.excess, at: b.point.into() });
     let mut worst: Vec<BridgedFace> = worst.collect();

@@ -6,7 +6,7 @@ use super::Envelope;
 
 /// Cosine of the angle from which facets that share an edge make a crease (20 deg): meshers turn by less from facet
 /// to facet of a curved surface.
-const FACET_CREASE: f64 = 0.939_692_620_785_908_4;
+pub const FACET_CREASE: f64 = 0.939_692_620_785_908_4;
 /// The same of the model's own normals (2 deg): wider than what files round, narrower than an edge that is meant.
 const MODEL_CREASE: f64 = 0.999_390_827_019_095_7;
 
