@@ -91,11 +91,12 @@ class OffsetSurface:
         with drawn_whole(file) as temporary:
             if file.suffix.lower() == ".npz":
                 columns = {name: value for name, value in vars(self).items() if name != "_regions"}
-                np.savez_compressed(temporary, **columns)
+                with temporary.open("wb") as stream:  # numpy would append an ending to a name
+                    np.savez_compressed(stream, **columns)
             else:
-                temporary.write_bytes(self._ply(file))
+                self._write_ply(temporary, file)
 
-    def _ply(self, file: Path) -> bytes:
+    def _write_ply(self, temporary: Path, file: Path) -> None:
         try:
             import trimesh
         except ImportError as error:
@@ -104,7 +105,7 @@ class OffsetSurface:
             raise GeometryError(message, code="extra-mesh", where=str(file), hint=cure) from error
         colours = np.array(COLOURS, dtype=np.uint8)[self.flags]
         mesh = trimesh.Trimesh(self.points, self.triangles, vertex_colors=colours, process=False)
-        return bytes(mesh.export(file_type="ply"))
+        mesh.export(temporary, file_type="ply")
 
 
 def offset_surface(

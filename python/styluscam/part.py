@@ -29,8 +29,8 @@ class Part:
     ) -> Part:
         """From arrays: (V, 3) mm, (T, 3) indices wound outward, corner normals (T, 3, 3), face id per triangle (T,).
 
-        The triangles are taken for the part itself. Normals are the model's, of any length, by which
-        :func:`styluscam.offset_surface` places the tool; without them it takes the facets'.
+        The triangles are taken for the part itself; those that meet share vertices. Normals are the model's, of any
+        length, by which :func:`styluscam.offset_surface` places the tool; without them it takes the facets'.
 
         Raises:
             GeometryError: numbers that are not finite or absurd, indices out of range, lengths that do not match,

@@ -84,6 +84,7 @@ def _operation(operation: Document) -> list[tuple[str, str]]:
         ("faces", f"{faces} and {more} more" if more > 0 else faces),
         ("wall angle", f"{operation['wall_angle_max_deg']:.1f} deg at most"),
     ]
+    rows += [("reached", _reached(face)) for face in operation["reached"] if _lost(face)]
     for bridge in operation["bridged"]:
         rows.append(("bridged", f"Face{bridge['face']} by up to {bridge['excess']:.3f} mm at {place(bridge['at'])}"))
     for face, area in operation["vertical"]:
@@ -91,6 +92,22 @@ def _operation(operation: Document) -> list[tuple[str, str]]:
     for face, area in operation["undercut"]:
         rows.append(("undercut", f"Face{face}, {area:.1f} mm2 are not reached"))
     return rows
+
+
+LOST = {"bridged": "bridged", "interferes": "beside something in the way", "rim": "steeper than the tool"}
+"""What is said of a face that the tool does not touch wholly at its own slope, by key of the plan."""
+
+LEAST_AREA = 0.05
+"""mm^2: areas are shown with one decimal."""
+
+
+def _lost(face: Document) -> list[str]:
+    return [f"{face[key]:.1f} {said}" for key, said in LOST.items() if face[key] >= LEAST_AREA]
+
+
+def _reached(face: Document) -> str:
+    whole = sum(face[key] for key in (*LOST, "contact", "undercut"))
+    return f"Face{face['face']}, {face['contact']:.1f} of {whole:.1f} mm2; {', '.join(_lost(face))}"
 
 
 def _count(number: int, one: str, many: str = "") -> str:
