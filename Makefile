@@ -134,3 +134,7 @@ picture: dev ## The picture in the README
 .PHONY: profile-pictures
 profile-pictures: dev ## The pictures in docs/profiles.md
 	$(BIN)/python docs/profile_pictures.py
+
+.PHONY: offset-picture
+offset-picture: dev ## The picture of the offset surface in docs/guide.md
+	$(BIN)/python docs/offset_picture.py
