@@ -503,6 +503,16 @@ mod tests {
     }
 
     #[test]
+    fn a_slight_crease_shows_only_in_normals_of_the_model() {
+        let bare = drawn_out(&[[-30.0, 0.0], [0.0, 0.0], [30.0, 5.3]], false);
+        assert_eq!(flags(&surface(&bare, &ball(6.0))), [SurfaceFlag::Contact, SurfaceFlag::Bridged]);
+        let names: Vec<[i64; 3]> = bare.triangles().iter().map(|t| t.map(i64::from)).collect();
+        let normals: Vec<[Vector; 3]> = (0..names.len()).map(|t| [bare.normal(t); 3]).collect();
+        let known = Mesh::with_normals(bare.vertices().to_vec(), &names, &[], &normals).unwrap();
+        assert_eq!(flags(&surface(&known, &ball(6.0))), [SurfaceFlag::Contact, SurfaceFlag::Interferes]);
+    }
+
+    #[test]
     fn the_regions_share_out_the_area() {
         let mesh = with_wall(20.0);
         let found = surface(&mesh, &ball(6.0));
