@@ -10,6 +10,8 @@ use super::index::{Index, Triangles};
 
 /// Facets closer to vertical than this share of their normal have no facet contact worth its rounding.
 const WALL: f64 = 1e-9;
+/// An edge is across a direction when it runs along it by less than this share of its length.
+const ACROSS: f64 = 1e-6;
 /// A contact this share of the part's size outside its facet still counts: flat edges are not tried, and rounding
 /// must not let a contact fall between two facets. The height is wrong by less than this.
 const OVERHANG: f64 = 1e-13;
@@ -244,11 +246,15 @@ impl<'a> Contacts<'a> {
     }
 
     /// What the tips that a triangle alone asks for do not exceed in a tile over which they rise `towards` somewhere;
-    /// infinite where that is not known.
+    /// infinite where that is not known. What stays below `enough` may be told as more than it is.
     ///
     /// They are concave over the plan. So they stay below their tangent over any place; over the corner to which they
     /// rise it is hardly higher than they are.
-    pub fn greatest(&self, triangle: u32, middle: [f64; 2], half: [f64; 2], towards: [f32; 2]) -> f64 {
+    pub fn greatest(&self, triangle: u32, middle: [f64; 2], half: [f64; 2], towards: [f32; 2], enough: f64) -> f64 {
+        let plane = self.greatest_of_plane(triangle, middle, half);
+        if plane <= enough {
+            return plane;
+        }
         let sides = towards.map(|towards| 1_f64.copysign(f64::from(towards)));
         let corner = [0, 1].map(|i| middle[i] + sides[i] * half[i]);
         let Some((tip, rise)) = self.tangent(triangle, corner) else {
@@ -263,6 +269,14 @@ impl<'a> Contacts<'a> {
         } else {
             most
         }
+    }
+
+    /// What the tips that a triangle's whole plane asks for do not exceed in a tile; NaN for walls.
+    fn greatest_of_plane(&self, triangle: u32, middle: [f64; 2], half: [f64; 2]) -> f64 {
+        let Facet { gradient: [gx, gy], share, height, .. } = self.facets[triangle as usize];
+        let [origin, ..] = self.index.triangles().at(triangle);
+        let [dx, dy] = [middle[0] + share * gx - origin.x, middle[1] + share * gy - origin.y];
+        origin.z + gx * dx + gy * dy - height + gx.abs() * half[0] + gy.abs() * half[1]
     }
 
     /// Whether a triangle that the tool does not reach from a corner of a tile is reached from nowhere in it.
@@ -299,13 +313,22 @@ impl<'a> Contacts<'a> {
         let distance = libm::hypot(away[0], away[1]);
         let by_table = match alone.feature {
             Feature::Facet => return Some((alone.tip, self.facets[triangle as usize].gradient)),
-            // on a kink it is not the profile's steepness that counts
-            Feature::Edge(_) => None,
-            Feature::Corner(_) => self.cutter.height_with_derivatives(distance),
+            Feature::Edge(i) => self.steepness_on_edge(triangle, i, away.map(|a| a / distance)),
+            Feature::Corner(_) => self.cutter.height_with_derivatives(distance).map(|height| height.rise),
         };
-        let steep = by_table.map_or_else(|| libm::tan(self.slope(&alone, place)), |height| height.rise);
+        let steep = by_table.unwrap_or_else(|| libm::tan(self.slope(&alone, place)));
         let rise = if distance > 0.0 { steep / distance } else { 0.0 };
         Some((alone.tip, away.map(|a| rise * a)))
+    }
+
+    /// Steepness of the contact with an edge that lies in some direction from the axis: along the edge it is the edge's.
+    /// None where the direction is across the edge.
+    fn steepness_on_edge(&self, triangle: u32, number: u8, towards: [f64; 2]) -> Option<f64> {
+        let corners = self.index.triangles().at(triangle);
+        let (a, b) = (corners[usize::from(number)], corners[(usize::from(number) + 1) % 3]);
+        let run = (b.x - a.x) * towards[0] + (b.y - a.y) * towards[1];
+        let steep = (b.z - a.z) / run;
+        (run.abs() > ACROSS * (b - a).norm() && steep > 0.0).then_some(steep)
     }
 
     /// Slope of a contact, rad.

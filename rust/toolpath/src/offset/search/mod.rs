@@ -149,16 +149,16 @@ impl Searcher {
         for i in 0..self.candidates.triangles.len() {
             let most = f64::from(self.candidates.most(i, half) + ground.margin()) + zero;
             if most > high {
-                high = high.max(most.min(self.greatest(ground, &tile, i)));
+                high = high.max(most.min(self.greatest(ground, &tile, i, high)));
             }
         }
         Range { low, high }
     }
 
     /// What a candidate does not exceed in the tile, by its contact.
-    fn greatest(&self, ground: &Ground<'_>, tile: &Tile, candidate: usize) -> f64 {
+    fn greatest(&self, ground: &Ground<'_>, tile: &Tile, candidate: usize, enough: f64) -> f64 {
         let (triangle, towards) = self.candidates.direction(candidate);
-        ground.contacts.greatest(triangle, tile.middle, tile.half, towards)
+        ground.contacts.greatest(triangle, tile.middle, tile.half, towards, enough)
     }
 
     /// Whether the tip must stay over a height everywhere in a box of the plan, or need not anywhere.
@@ -174,7 +174,7 @@ impl Searcher {
         let half = tile.half.map(|h| h as f32);
         let height = (z - self.candidates.zero) as f32 - ground.margin();
         let mut rising = (0..self.candidates.triangles.len()).filter(|i| self.candidates.most(*i, half) >= height);
-        if rising.all(|i| self.greatest(ground, &tile, i) <= z) {
+        if rising.all(|i| self.greatest(ground, &tile, i, z) <= z) {
             Verdict::Free
         } else {
             Verdict::Open
