@@ -7,6 +7,7 @@ use super::convexity::{Convexities, Convexity};
 use super::edge;
 use super::features::{Owned, ALL};
 use super::index::{Index, Triangles};
+use super::normal;
 
 /// Facets closer to vertical than this share of their normal have no facet contact worth its rounding.
 const WALL: f64 = 1e-9;
@@ -85,7 +86,7 @@ pub fn prepared(index: &Index, cutter: &Cutter) -> Vec<Facet> {
 
 impl Facet {
     fn of(triangles: &Triangles, triangle: u32, cutter: &Cutter, convexities: &Convexities) -> Self {
-        let normal = upward_normal(triangles.at(triangle));
+        let normal = normal::upward(triangles.at(triangle));
         let across = libm::hypot(normal.x, normal.y);
         let (radius, height) = cutter.point_at(libm::atan2(across, normal.z));
         let gradient = [-normal.x / normal.z, -normal.y / normal.z];
@@ -93,20 +94,9 @@ impl Facet {
         Self {
             gradient,
             share,
-            height: if normal.z < WALL { f64::NAN } else { height },
+            height: if normal.z >= WALL { height } else { f64::NAN },
             convexity: convexities.at(radius),
         }
-    }
-}
-
-/// Unit normal of a triangle on its upper side: a tool from above meets the upper side of the point set.
-pub fn upward_normal([a, b, c]: [Vector; 3]) -> Vector {
-    let normal = (b - a).cross(&(c - a));
-    let normal = normal / normal.norm();
-    if normal.z < 0.0 {
-        -normal
-    } else {
-        normal
     }
 }
 
@@ -218,8 +208,13 @@ impl<'a> Contacts<'a> {
     #[inline]
     fn touch_corner(&self, corner: Vector, triangle: u32, number: u8, x: f64, y: f64, found: &mut Best) {
         let (dx, dy) = (corner.x - x, corner.y - y);
-        let distance = (dx * dx + dy * dy).sqrt();
-        if distance > self.cutter.max_radius() || corner.z - self.cutter.height_bound(distance) < found.tip {
+        let (distance, rim) = ((dx * dx + dy * dy).sqrt(), self.cutter.max_radius());
+        if distance > rim + self.overhang {
+            return;
+        }
+        // beside the rim by rounding: the rim may meet the edges there, a rounding beyond their ends
+        let distance = distance.min(rim);
+        if corner.z - self.cutter.height_bound(distance) < found.tip {
             return;
         }
         let tip = corner.z - self.cutter.quick_height_at_radius(distance);
@@ -336,7 +331,7 @@ impl<'a> Contacts<'a> {
         let corners = self.index.triangles().at(best.triangle);
         match best.feature {
             Feature::Facet => {
-                let normal = upward_normal(corners);
+                let normal = normal::upward(corners);
                 libm::atan2(libm::hypot(normal.x, normal.y), normal.z)
             }
             Feature::Edge(i) => {

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use styluscam_geometry::Vector;
 
 use super::index::Triangles;
+use super::normal;
 
 /// Bit i: the edge from corner i to the next one is this triangle's to try; bit 3 + i: corner i is.
 pub type Owned = u8;
@@ -105,7 +106,7 @@ fn is_valley(triangles: &Triangles, t: usize, i: usize, other: u32) -> bool {
     };
     let d = triangles.at(other)[k];
     let side = |p: Vector| (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-    let normal = (b - a).cross(&(c - a));
+    let normal = normal::of(corners);
     let size = normal.norm() * (b - a).norm().max((d - a).norm());
     let lies_over = (d - a).dot(&normal) * normal.z.signum();
     let thin = 1e-9 * size;

@@ -7,6 +7,7 @@ mod edge;
 mod envelope;
 mod features;
 mod index;
+mod normal;
 mod offset_surface;
 mod patches;
 mod push;

@@ -7,7 +7,8 @@
 
 use styluscam_geometry::{Cutter, Vector};
 
-use super::super::contact::{upward_normal, Feature};
+use super::super::contact::Feature;
+use super::super::normal;
 
 /// Steps of a search on an edge at most: halving alone would need sixty.
 const STEPS: usize = 120;
@@ -99,7 +100,7 @@ impl End {
 
 /// The contact on the facet where slopes match, if it lies inside.
 fn of_facet(cutter: &Cutter, corners: &[Vector; 3], line: &Line, z: f64) -> Option<Release> {
-    let normal = upward_normal(*corners);
+    let normal = normal::upward(*corners);
     let across = libm::hypot(normal.x, normal.y);
     let leaves = normal.x * line.along[0] + normal.y * line.along[1];
     if leaves.is_nan() || leaves <= 0.0 {

@@ -1,0 +1,137 @@
+//! The envelope against all triangles, one by one, and against closed forms.
+
+#[path = "../../../tests/common/mod.rs"]
+mod common;
+
+use common::dice::Dice;
+use common::surfaces::{Surface, MIDDLE, SURFACES};
+use common::tools::{Kind, KINDS};
+use proptest::prelude::*;
+use styluscam_geometry::{ModelFace, ProfileDocument, SheetLaw, ToolDocument};
+
+use super::*;
+
+fn tool(clothoid: bool, diameter: f64, tip_flat: f64) -> Tool {
+    of(if clothoid {
+        ProfileDocument::Clothoid { diameter: Some(diameter), scale: None, end_slope_deg: None, tip_flat }
+    } else {
+        ProfileDocument::Ball { diameter, radius: None, tip_flat }
+    })
+}
+
+fn of(profile: ProfileDocument) -> Tool {
+    Tool::new(ToolDocument::of(profile)).unwrap()
+}
+
+fn single(corners: [Vector; 3]) -> Mesh {
+    Mesh::new(corners.to_vec(), &[[0, 1, 2]], &[]).unwrap()
+}
+
+/// A mesh with hills, valleys, walls and flats.
+fn terrain(heights: &[f64], columns: usize) -> Mesh {
+    let rows = heights.len() / columns;
+    let vertices: Vec<Vector> =
+        heights.iter().enumerate().map(|(i, z)| Vector::new((i % columns) as f64, (i / columns) as f64, *z)).collect();
+    let mut triangles = Vec::new();
+    for row in 0..rows - 1 {
+        for column in 0..columns - 1 {
+            let i = (row * columns + column) as i64;
+            let n = columns as i64;
+            triangles.extend([[i, i + 1, i + n], [i + 1, i + n + 1, i + n]]);
+        }
+    }
+    Mesh::new(vertices, &triangles, &[]).unwrap()
+}
+
+/// The highest of the tips that the triangles allow, each asked alone: nothing is left out for another's sake.
+fn highest_alone(ground: &Ground, place: [f64; 2]) -> f64 {
+    let tip = |triangle| {
+        let mut alone = Best::NOTHING;
+        ground.contacts.touch_whole(triangle, place, &mut alone);
+        alone.tip
+    };
+    let triangles = ground.index.triangles().corners.len() as u32;
+    (0..triangles).map(tip).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// A raster over a surface and around it, turned; or places at random.
+fn places(dice: &mut Dice, side: usize) -> Vec<[f64; 2]> {
+    let (sin, cos) = libm::sincos(dice.within(0.0, 6.3));
+    let (pitch, reach, is_raster) = (16.0 / side as f64, 8.0, dice.chance(0.7));
+    let place = |i: usize| {
+        let [x, y] = if is_raster {
+            [pitch * (i % side) as f64 - reach, pitch * (i / side) as f64 - reach]
+        } else {
+            [dice.within(-reach, reach), dice.within(-reach, reach)]
+        };
+        [MIDDLE + cos * x - sin * y, MIDDLE + sin * x + cos * y]
+    };
+    (0..side * side).map(place).collect()
+}
+
+/// Asks `side` squared places of a surface and compares every `each`th with all triangles.
+fn compare(surface: Surface, kind: &Kind, seed: u64, side: usize, each: usize) {
+    let mut dice = Dice::new(seed);
+    let (mesh, tool) = (surface.mesh(&mut dice), kind.tool(&mut dice));
+    let index = Index::new(&mesh);
+    let envelope = Envelope::new(&mesh, &index, &tool, None, 0.0);
+    let places = places(&mut dice, side);
+    let tips = envelope.tips(&places, &Watch::default()).unwrap();
+    let ground = envelope.ground();
+    for (place, tip) in places.iter().zip(tips).step_by(each) {
+        let truth = highest_alone(&ground, *place);
+        let is_same = if truth.is_finite() { (tip - truth).abs() < 1e-11 } else { tip.is_nan() };
+        assert!(is_same, "{surface:?} {:?} seed {seed} at {place:?}: {tip} {truth}", tool.document().profile);
+    }
+}
+
+#[test]
+fn tiles_find_what_all_triangles_say() {
+    for seed in 0..60 {
+        compare(SURFACES[seed % SURFACES.len()], &KINDS[seed % KINDS.len()], seed as u64, 40, 7);
+    }
+}
+
+#[test]
+#[ignore = "takes minutes: make test-long"]
+fn tiles_find_what_all_triangles_say_at_ten_thousand_places_of_every_surface_and_kind() {
+    (0..SURFACES.len() * KINDS.len()).into_par_iter().for_each(|i| {
+        compare(SURFACES[i % SURFACES.len()], &KINDS[i / SURFACES.len()], 1000 + i as u64, 100, 1);
+    });
+}
+
+proptest! {
+    #[test]
+    fn a_hint_changes_nothing(heights in prop::collection::vec(0.0..4.0_f64, 42), hint in 0..60_u32, x in 0.0..6.0_f64) {
+        let mesh = terrain(&heights, 7);
+        let bvh = Index::new(&mesh);
+        let tool = tool(true, 3.0, 0.2);
+        let envelope = Envelope::new(&mesh, &bvh, &tool, None, 0.0);
+        let (a, b) = (envelope.contact(x, 2.5).unwrap(), envelope.contact_near(x, 2.5, &mut Some(hint)).unwrap());
+        prop_assert!((a.tip - b.tip).abs() < 1e-11);
+    }
+}
+
+#[test]
+fn a_plane_is_touched_where_slopes_match() {
+    let mesh = single([Vector::new(-50.0, -50.0, -50.0), Vector::new(50.0, -50.0, 50.0), Vector::new(0.0, 80.0, 0.0)]);
+    let bvh = Index::new(&mesh);
+    let normal = Vector::new(-1.0, 0.0, 1.0).normalize();
+    for law in [SheetLaw::Constant, SheetLaw::Sine] {
+        let sheet = Sheet { thickness: 1.5, law, model_face: ModelFace::Back };
+        let tool = tool(true, 10.0, 0.5);
+        let (tip, _) = super::super::slope_matched_offset(&tool, Some(&sheet), Vector::zeros(), normal);
+        let contact = Envelope::new(&mesh, &bvh, &tool, Some(&sheet), 0.0).contact(tip.x, tip.y).unwrap();
+        assert!((contact.tip - tip.z).abs() < 1e-12, "{law:?}: {} {}", contact.tip, tip.z);
+        assert!((contact.normal - normal).norm() < 1e-12);
+    }
+}
+
+#[test]
+fn beside_the_part_there_is_nothing() {
+    let mesh = terrain(&[0.0; 9], 3);
+    let bvh = Index::new(&mesh);
+    let envelope = Envelope::new(&mesh, &bvh, &tool(false, 2.0, 0.0), None, 0.0);
+    assert_eq!(envelope.contact(3.5, 1.0), None);
+    assert!(envelope.contact(2.5, 1.0).is_some());
+}
