@@ -84,6 +84,10 @@ test: ## Everything: what CI runs
 	  tests/timed.sh freecad $(PYTEST) tests/freecad
 	@tests/timed.sh --report
 
+.PHONY: test-long
+test-long: tools ## Proofs by the hundred thousand: an hour or two
+	cargo test --release --locked -p styluscam-toolpath -- --ignored --nocapture --test-threads 1
+
 .PHONY: quick
 quick: dev ## Cargo and Python tests that need nothing from outside
 	cargo test --workspace --locked --quiet
@@ -113,6 +117,7 @@ fmt: $(VENV)/.ready ## Formats everything
 .PHONY: bench
 bench: dev ## Measures ours and others side by side; writes docs/performance.md
 	$(BIN)/python bench/drop_cutter.py
+	$(BIN)/python bench/gouges.py
 
 .PHONY: fixtures
 fixtures: ## Rebuilds the STEP parts and their exact answers (Python 3.11 or later)

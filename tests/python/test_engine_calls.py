@@ -57,6 +57,8 @@ for document in json.loads(sys.argv[2]):
 tool = sc.Tool.from_dict({"profile": {"kind": "clothoid", "diameter": 10.0}})
 places = np.random.default_rng(8).uniform(-60.0, 60.0, (20000, 2))
 print(hashlib.sha256(sc.drop_cutter(part, tool, places).tobytes()).hexdigest())
+loops = sc.waterline(part, tool, -8.0)
+print(len(loops), hashlib.sha256(b"".join(loop.tobytes() for loop in loops)).hexdigest())
 """
 
 
@@ -79,7 +81,8 @@ def test_any_number_of_threads_gives_the_same_bytes(tmp_path: Path, part_of: Cal
         ).stdout
 
     one = outcome(1)
-    assert len(one.splitlines()) == 5
+    assert len(one.splitlines()) == 6
+    assert int(one.splitlines()[-1].split()[0]) > 0
     assert int(one.split()[0]) > 100_000
     assert outcome(2) == one
     assert outcome(4) == one
@@ -131,13 +134,16 @@ def test_an_exception_in_progress_comes_through(wide_part: sc.Part, many: Floats
 
     with pytest.raises(Mine, match="drop-cutter"):
         sc.drop_cutter(wide_part, sc.Tool.from_dict(TOOL), many, progress=progress)
+    fine = sc.Tool.from_dict({"profile": {"kind": "ball", "diameter": 0.2}})
+    with pytest.raises(Mine):
+        sc.waterline(wide_part, fine, 1.0, tolerance=1e-6, progress=progress)
 
 
 # --- cancelling -------------------------------------------------------------------------------------------------
 
 
-def stopped_after(work: Callable[[sc.CancelToken], object]) -> float:
-    """Seconds from a cancel on another thread, 0.3 s into the work, to its end."""
+def stopped_after(work: Callable[[sc.CancelToken], object], wait: float = 0.3) -> float:
+    """Seconds from a cancel on another thread, `wait` s into the work, to its end."""
     token = sc.CancelToken()
     asked: list[float] = []
 
@@ -145,7 +151,7 @@ def stopped_after(work: Callable[[sc.CancelToken], object]) -> float:
         asked.append(time.monotonic())
         token.cancel()
 
-    timer = threading.Timer(0.3, stop)
+    timer = threading.Timer(wait, stop)
     timer.start()
     try:
         with pytest.raises(sc.Cancelled):
@@ -156,9 +162,42 @@ def stopped_after(work: Callable[[sc.CancelToken], object]) -> float:
     return time.monotonic() - asked[0]
 
 
+def soonest_stop(work: Callable[[sc.CancelToken], object]) -> float:
+    """The least of a few: other work on the machine delays any of them, but hardly all."""
+    soonest = np.inf
+    for _ in range(5):
+        soonest = min(soonest, stopped_after(work))
+        if soonest < STOP:
+            break
+    return soonest
+
+
 def test_a_token_stops_drop_cutter(wide_part: sc.Part, many: Floats) -> None:
     tool = sc.Tool.from_dict(TOOL)
-    assert stopped_after(lambda token: sc.drop_cutter(wide_part, tool, many, cancel=token)) < STOP + SLACK
+    assert soonest_stop(lambda token: sc.drop_cutter(wide_part, tool, many, cancel=token)) < STOP
+
+
+def test_a_token_stops_a_waterline(wide_part: sc.Part) -> None:
+    tool = sc.Tool.from_dict({"profile": {"kind": "ball", "diameter": 0.2}})
+    assert soonest_stop(lambda token: sc.waterline(wide_part, tool, 1.0, tolerance=1e-6, cancel=token)) < STOP
+
+
+@pytest.mark.xfail(strict=True, reason="the index of a part is built in one go")
+def test_a_token_stops_the_first_call_of_a_large_part() -> None:
+    side = 1001
+    x, y = np.meshgrid(np.linspace(0.0, 100.0, side), np.linspace(0.0, 100.0, side))
+    vertices = np.stack([x, y, np.sin(x) * np.cos(y)], axis=-1).reshape(-1, 3)
+    corner = np.arange(side * side).reshape(side, side)[:-1, :-1].reshape(-1)
+    cells = [[corner, corner + 1, corner + side + 1], [corner, corner + side + 1, corner + side]]
+    triangles = np.concatenate([np.stack(cell, axis=1) for cell in cells])
+    tool = sc.Tool.from_dict(TOOL)
+    parts = [sc.Part.from_mesh(vertices, triangles) for _ in range(3)]
+    assert min(stopped_after(lambda token: first_call(parts.pop(), tool, token), 0.05) for _ in range(3)) < STOP
+
+
+def first_call(part: sc.Part, tool: sc.Tool, token: sc.CancelToken) -> None:
+    sc.drop_cutter(part, tool, [[50.0, 50.0]], cancel=token)
+    pytest.fail("it ended before it was cancelled")
 
 
 @pytest.mark.parametrize("kind", ("z-level", "zig-zag"))
