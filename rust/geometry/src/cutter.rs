@@ -262,6 +262,7 @@ impl Cutter {
         let (mut low, mut high) = (self.slopes[cell].slope, self.slopes[cell + 1].slope);
         // the first and last plane are the horizontal and the vertical one: exact at the table's ends
         let mut slope = 0.5 * (low + high);
+        let mut steps = [f64::INFINITY; 2];
         for _ in 0..60 {
             let (sin, cos) = libm::sincos(slope);
             let (r, z) = self.point_at(slope);
@@ -273,8 +274,11 @@ impl Cutter {
             }
             let rate = (height - z) * cos - (radius - r) * sin - self.curvature_radius_at(slope);
             let next = slope - along / rate;
-            let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+            // where the curvature jumps, Newton's steps may go to and fro over the jump for ever
+            let is_better = next > low && next < high && 2.0 * (next - slope).abs() < steps[0];
+            let next = if is_better { next } else { 0.5 * (low + high) };
             let step = (next - slope).abs();
+            steps = [steps[1], step];
             slope = next;
             // the gap is stationary in the slope: 1e-9 rad leaves 1e-18 of it
             if step < 1e-9 {

@@ -2,6 +2,8 @@
 //!
 //! Faults are distances, not heights: near a rim or a wall a height has no bound that a rounding would respect.
 
+#![allow(clippy::unwrap_used, clippy::panic)] // a test that panics fails
+
 mod common;
 
 use std::time::Instant;
@@ -120,13 +122,18 @@ fn no_triangle_of_a_hundred_thousand_of_every_kind_is_gouged_or_floated_over() {
 }
 
 /// A tool over one triangle.
-fn fault_of(profile: serde_json::Value, corners: [[f64; 3]; 3], [x, y]: [f64; 2]) -> Fault {
+fn fault_of(profile: &serde_json::Value, corners: [[f64; 3]; 3], place: [f64; 2]) -> Fault {
+    fault_with(profile, 0.0, corners, place)
+}
+
+/// The same with a margin.
+fn fault_with(profile: &serde_json::Value, margin: f64, corners: [[f64; 3]; 3], [x, y]: [f64; 2]) -> Fault {
     let tool = Tool::new(serde_json::from_value(serde_json::json!({ "profile": profile })).unwrap()).unwrap();
     let corners = corners.map(Vector::from);
     let mesh = Mesh::new(corners.to_vec(), &[[0, 1, 2]], &[]).unwrap();
     let index = Index::new(&mesh);
-    let contact = Envelope::new(&mesh, &index, &tool, None, 0.0).contact(x, y).unwrap();
-    Body::new(&tool, None, 0.0).fault(corners, Vector::new(x, y, contact.tip))
+    let contact = Envelope::new(&mesh, &index, &tool, None, margin).contact(x, y).unwrap();
+    Body::new(&tool, None, margin).fault(corners, Vector::new(x, y, contact.tip))
 }
 
 #[test]
@@ -138,7 +145,7 @@ fn a_corner_at_the_very_rim_is_touched() {
         [0.0008618933541432739, -0.000803354458558952, 0.0001699825563945397],
     ];
     let flat = serde_json::json!({"kind": "flat", "diameter": 15.015298584828404});
-    let fault = fault_of(flat, corners, [-4.117746003240465, 6.2769125247716655]);
+    let fault = fault_of(&flat, corners, [-4.117746003240465, 6.2769125247716655]);
     assert!(fault.worst() < EXACT, "{fault:?}");
 }
 
@@ -153,6 +160,51 @@ fn a_sliver_is_met_where_its_plane_is() {
     let cone = serde_json::json!({
         "kind": "cone", "tip_radius": 0.0, "half_angle_deg": 13.544726463889553, "diameter": 18.67483636157873
     });
-    let fault = fault_of(cone, corners, [1.2228162462737415, -1.8885702431451408]);
+    let fault = fault_of(&cone, corners, [1.2228162462737415, -1.8885702431451408]);
+    assert!(fault.worst() < EXACT, "{fault:?}");
+}
+
+#[test]
+fn a_level_edge_under_the_tip_is_touched() {
+    // the polynomials of the profile have a height of -1e-16 mm or so there
+    let corners = [
+        [-127.00852500987257, 116.0113666798301, 32.99147499012743],
+        [-160.0, 127.00852500987257, 32.99147499012743],
+        [-192.99147499012741, 149.00284166995752, 21.99431666008495],
+    ];
+    let parabola = serde_json::json!({"kind": "formula", "z": "r^2 / 2.7619112715119494", "diameter": 5.4340858727381});
+    let fault = fault_of(&parabola, corners, [-136.25131565526738, 119.0922968949617]);
+    assert!(fault.worst() < EXACT, "{fault:?}");
+}
+
+#[test]
+fn an_edge_is_followed_over_a_jump_of_the_curvature() {
+    let corners = [
+        [-160.56266257850487, 161.43768412992756, -15.745592131838308],
+        [-159.67496647624762, 159.7457455478534, -16.334268510819065],
+        [-159.77499717122114, 159.93640290433729, -16.501427393644903],
+    ];
+    // a rim, rounded by the margin: Newton's steps went to and fro over the place where it begins
+    let power = serde_json::json!({
+        "kind": "power", "coefficient": 0.6970275174040432, "exponent": 1.585863994886944,
+        "diameter": 1.9497845308707356, "tip_flat": 0.11065991130244025
+    });
+    let fault = fault_with(&power, 0.13754083052385643, corners, [-161.22235310428664, 160.57476198742808]);
+    assert!(fault.worst() < EXACT, "{fault:?}");
+}
+
+#[test]
+fn three_corners_in_a_line_are_no_plane() {
+    // by rounding they have an area, and a normal of no meaning
+    let corners = [
+        [160.28898037389237, 160.14449018694617, 0.4334705608385481],
+        [160.43347056083854, 160.28898037389237, 0.1444901869461827],
+        [160.57796074778474, 160.43347056083854, -0.1444901869461827],
+    ];
+    let bull_nose = serde_json::json!({
+        "kind": "bull-nose", "diameter": 5.708463452156437, "corner_radius": 0.03264504582062722,
+        "tip_flat": 0.219130309208372
+    });
+    let fault = fault_of(&bull_nose, corners, [160.49631444691488, 160.35182425996868]);
     assert!(fault.worst() < EXACT, "{fault:?}");
 }

@@ -163,7 +163,7 @@ impl<'a> Contacts<'a> {
         }
         let view = View { corners, contact, tip, sides: self.sides(&corners, contact) };
         if !tip.is_nan() {
-            if view.sides.iter().all(|side| side.area >= -side.rounding) {
+            if view.sides.iter().all(|side| side.area >= -side.rounding) && self.is_in_box(&corners, contact) {
                 found.improve(Best { tip, triangle, feature: Feature::Facet, at: contact });
                 return;
             }
@@ -177,6 +177,15 @@ impl<'a> Contacts<'a> {
             }
         }
         self.touch_border(triangle, owned, &view, [x, y], found);
+    }
+
+    /// Whether a contact lies in the box around a triangle in plan: a triangle that is a line there has no sides to tell.
+    #[inline]
+    fn is_in_box(&self, [a, b, c]: &[Vector; 3], contact: [f64; 2]) -> bool {
+        (0..2).all(|i| {
+            let (low, high) = (a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]));
+            contact[i] >= low - self.overhang && contact[i] <= high + self.overhang
+        })
     }
 
     #[inline]

@@ -150,7 +150,7 @@ impl Line {
             if !step.is_finite() {
                 return Climb::Lost;
             }
-            if (slope * step).abs() <= FLAT * (radius + height.value) {
+            if (slope * step).abs() <= FLAT * cutter.max_radius() {
                 // what the step would still gain, a quarter of this, is below rounding
                 return Climb::Top(along, height.value);
             }
@@ -234,6 +234,7 @@ fn top_slope(cutter: &Cutter, q: f64, steep: f64, guess: f64) -> (f64, f64) {
     };
     let (mut low, mut high) = (libm::atan(steep), std::f64::consts::FRAC_PI_2);
     let mut slope = guess.clamp(low, high);
+    let mut steps = [f64::INFINITY; 2];
     for _ in 0..STEPS {
         let (value, rate, _) = excess(slope);
         if value > 0.0 {
@@ -254,7 +255,11 @@ fn top_slope(cutter: &Cutter, q: f64, steep: f64, guess: f64) -> (f64, f64) {
         if high - low <= f64::EPSILON {
             break;
         }
-        slope = if is_inside { next } else { 0.5 * (low + high) };
+        // where the curvature jumps, Newton's steps may go to and fro over the jump for ever
+        let is_shorter = 2.0 * (next - slope).abs() < steps[0];
+        let next = if is_inside && is_shorter { next } else { 0.5 * (low + high) };
+        steps = [steps[1], (next - slope).abs()];
+        slope = next;
     }
     (slope, cutter.point_at(slope).0.max(q))
 }
