@@ -11,31 +11,29 @@ import argparse
 import json
 import os
 import platform
-import shutil
 import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from meshes import places, wavy
+from opencamlib_peer import answer, peer_python
+from page import machine, table, write
 
 import styluscam as sc
 from styluscam.judging import judge_plan
 
 HERE = Path(__file__).resolve().parent
 CHECKOUT = HERE.parent
-PAGE = CHECKOUT / "docs" / "performance.md"
-BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
 
 PROFILES = {"ball D6": {"kind": "ball", "diameter": 6.0}, "clothoid D8": {"kind": "clothoid", "diameter": 8.0}}
 ORDERS = ("raster", "random")
 THREADS = (1, 2)
 POINTS = 800_000
-PEER = "opencamlib==2023.1.11"
 PEER_POINTS = {20_000: 400, 200_000: 60}
 
 
@@ -120,29 +118,10 @@ def main_job(repeats: int) -> list[tuple[str, float, float]]:
 # --- the peer ---------------------------------------------------------------------------------------------------
 
 
-def peer_python() -> tuple[Path | None, str]:
-    """Python with OpenCAMLib in an environment of its own, or why there is none."""
-    cache = Path(os.environ.get("STYLUSCAM_CACHE") or Path.home() / ".cache" / "styluscam")
-    python = cache / "bench-venv" / "bin" / "python"
-    if not python.exists():
-        base = shutil.which("python3.11")
-        if base is None:
-            return None, "OpenCAMLib has wheels for Python 3.11 and older only, and there is no python3.11 on the PATH"
-        try:
-            subprocess.run([base, "-m", "venv", str(cache / "bench-venv")], check=True)
-            subprocess.run([str(python), "-m", "pip", "install", "--quiet", PEER, "numpy"], check=True)
-        except subprocess.CalledProcessError as error:
-            shutil.rmtree(cache / "bench-venv", ignore_errors=True)
-            return None, f"OpenCAMLib could not be installed: {error}"
-    return python, ""
-
-
 def peer(python: Path, triangles: int, order: str, threads: int, repeats: int) -> dict[str, Any]:
     """OpenCAMLib's figures of one case."""
     words = [triangles, order, PEER_POINTS[triangles], threads, repeats]
-    command = [str(python), str(HERE / "opencamlib_worker.py"), *map(str, words)]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    found: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
+    found: dict[str, Any] = answer(python, "opencamlib_worker.py", *map(str, words))
     return found
 
 
@@ -166,22 +145,6 @@ def figure(value: float) -> str:
     """With three digits and thin groups."""
     digits = max(0, 2 - int(np.floor(np.log10(max(value, 1e-9)))))
     return f"{round(value, digits):,.{digits}f}" if value < 100 else f"{float(f'{value:.3g}'):,.0f}"
-
-
-def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
-    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
-
-
-def machine() -> str:
-    name = platform.processor() or platform.machine()
-    cpuinfo = Path("/proc/cpuinfo")
-    if cpuinfo.exists():
-        models = [
-            line.split(":", 1)[1].strip() for line in cpuinfo.read_text().splitlines() if line.startswith("model name")
-        ]
-        name = models[0] if models else name
-    return f"{name}, {os.cpu_count()} threads, {platform.system()} {platform.machine()}"
 
 
 def measured(large: bool, repeats: int) -> str:
@@ -270,9 +233,7 @@ def main() -> None:
     section = measured(options.large, options.repeats)
     print(section)
     if not options.dry:
-        page = PAGE.read_text(encoding="utf-8")
-        head, rest = page.split(BEGIN)
-        PAGE.write_text(f"{head}{BEGIN}\n\n{section}\n\n{END}{rest.split(END)[1]}", encoding="utf-8")
+        write("measured", section)
 
 
 if __name__ == "__main__":
