@@ -208,3 +208,18 @@ fn three_corners_in_a_line_are_no_plane() {
     let fault = fault_of(&bull_nose, corners, [160.49631444691488, 160.35182425996868]);
     assert!(fault.worst() < EXACT, "{fault:?}");
 }
+
+#[test]
+fn an_edge_that_begins_under_a_sharp_tip_is_followed_upwards() {
+    // at the tip the edge's height bends so much that a step of Newton's seems to gain nothing
+    let corners = [
+        [-160.3473604025708, -162.0706582382985, 37.207655517868886],
+        [-158.825806778312, -158.84101656808966, 36.740736165704185],
+        [-159.29989981225333, -159.8473239328521, 38.19161641671745],
+    ];
+    let cone = serde_json::json!({
+        "kind": "cone", "tip_radius": 0.0, "half_angle_deg": 69.49973971788627, "diameter": 3.3030790880935013
+    });
+    let fault = fault_of(&cone, corners, [-160.3473604025708, -162.0706582382985]);
+    assert!(fault.worst() < EXACT, "{fault:?}");
+}

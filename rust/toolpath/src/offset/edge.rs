@@ -4,7 +4,8 @@ use styluscam_geometry::{Cutter, Straight, Vector};
 
 /// Steps of a climb at most: two or three do.
 const CLIMB: usize = 8;
-/// A climb ends where a step gains no more than this share of the tool's size.
+/// A climb ends where a step gains no more than this share of the place's radius and height: near a sharp tip a step sees
+/// no farther than the radius.
 const FLAT: f64 = 1e-17;
 
 /// Halvings of an interval of slopes that leave nothing of it.
@@ -150,7 +151,7 @@ impl Line {
             if !step.is_finite() {
                 return Climb::Lost;
             }
-            if (slope * step).abs() <= FLAT * cutter.max_radius() {
+            if (slope * step).abs() <= FLAT * (radius + height.value.abs()) {
                 // what the step would still gain, a quarter of this, is below rounding
                 return Climb::Top(along, height.value);
             }
