@@ -27,6 +27,7 @@ __all__ = [
     "offset_surface",
     "plan",
     "post",
+    "push_cutter",
     "read_back",
     "read_gcode",
     "shipped_machines",
@@ -140,6 +141,16 @@ def drop_cutter(
     xy: _F,
     sheet: str | None = None,
     floor: float | None = None,
+    progress: _Progress | None = None,
+    cancel: CancelToken | None = None,
+) -> _F: ...
+def push_cutter(
+    part: Part,
+    tool: Tool,
+    xy: _F,
+    directions: _F,
+    z: float,
+    sheet: str | None = None,
     progress: _Progress | None = None,
     cancel: CancelToken | None = None,
 ) -> _F: ...

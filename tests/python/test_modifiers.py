@@ -150,8 +150,6 @@ def test_drop_cutter_moves_with_the_shape(
 
 LEVEL = 0.7
 TOLERANCE = 0.005
-BREAKS = "a waterline breaks where the tool rolls over a side that two triangles do not share: it counts as a border"
-DISCONNECTED_BREAK = [pytest.param(m, marks=pytest.mark.xfail(strict=True, reason=BREAKS)) for m in DISCONNECTED]
 
 
 def loops(case: Case) -> list[Floats]:
@@ -170,7 +168,7 @@ def area(loop: Floats) -> float:
     return abs(float(0.5 * (x[:-1] * y[1:] - x[1:] * y[:-1]).sum()))
 
 
-@pytest.mark.parametrize("modifier", (*CONNECTED, *DISCONNECTED_BREAK), ids=lambda modifier: modifier.__name__)
+@pytest.mark.parametrize("modifier", MODIFIERS, ids=lambda modifier: modifier.__name__)
 def test_waterlines_go_round_the_same(modifier: Callable[[Case, np.random.Generator], Case], plate: Case) -> None:
     """Points are where the grid has them, so that lengths and areas are compared, to what the tolerance allows."""
     before, after = loops(plate), loops(modifier(plate, np.random.default_rng(5)))

@@ -87,8 +87,6 @@ def _operation(operation: Document) -> list[tuple[str, str]]:
     rows += [("reached", _reached(face)) for face in operation["reached"] if _lost(face)]
     for bridge in operation["bridged"]:
         rows.append(("bridged", f"Face{bridge['face']} by up to {bridge['excess']:.3f} mm at {place(bridge['at'])}"))
-    for face, area in operation["vertical"]:
-        rows.append(("vertical", f"Face{face}, {area:.1f} mm2 of walls are not traced by levels; zig-zag climbs them"))
     for face, area in operation["undercut"]:
         rows.append(("undercut", f"Face{face}, {area:.1f} mm2 are not reached"))
     return rows

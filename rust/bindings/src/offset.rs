@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use styluscam_geometry::{Mesh, Sheet};
 use styluscam_toolpath::{
     forming::{waterline as level, Grid},
-    offset::{Envelope, OffsetPoint, OffsetSurface, Region},
+    offset::{Envelope, Line, OffsetPoint, OffsetSurface, Region},
     Surface,
 };
 
@@ -91,6 +91,46 @@ pub fn drop_cutter<'py>(
     let tips = tips.map_err(errors::cancelled)?;
     let floored = |z: f64| floor.map_or(z, |f| if z.is_nan() { f } else { z.max(f) });
     Ok(PyArray1::from_vec(py, tips.into_iter().map(floored).collect()))
+}
+
+/// Ways (N,) that the tool goes from places (N, 2) in directions (N, 2), its tip at `z`, before it touches; infinite where it
+/// meets nothing, NaN where it does not stand free.
+#[pyfunction]
+#[pyo3(signature = (part, tool, xy, directions, z, sheet=None, progress=None, cancel=None))]
+#[allow(clippy::too_many_arguments, clippy::needless_pass_by_value)]
+pub fn push_cutter<'py>(
+    py: Python<'py>,
+    part: &Part,
+    tool: &Tool,
+    xy: PyReadonlyArray2<'py, f64>,
+    directions: PyReadonlyArray2<'py, f64>,
+    z: f64,
+    sheet: Option<&str>,
+    progress: Option<&Bound<'py, PyAny>>,
+    cancel: Option<&CancelToken>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let sheet = self::sheet(sheet)?;
+    let (places, ways) = (arrays::rows::<f64, 2>(&xy, "xy")?, arrays::rows::<f64, 2>(&directions, "directions")?);
+    if places.len() != ways.len() {
+        let message = format!("{} directions for {} places", ways.len(), places.len());
+        return Err(errors::raise("GeometryError", &message, "length", "directions", ""));
+    }
+    let mut lines = Vec::with_capacity(places.len());
+    for (i, (from, way)) in places.into_iter().zip(ways).enumerate() {
+        let line = Line::new(from, way).filter(|_| z.is_finite());
+        lines.push(line.ok_or_else(|| {
+            let message =
+                format!("a push from {from:?} towards {way:?} at z = {z}: finite numbers and a direction expected");
+            errors::raise("GeometryError", &message, "not-finite", &format!("directions[{i}]"), "")
+        })?);
+    }
+    let (part, index) = (&part.part, || part.index());
+    let found = watched(py, progress, cancel, |watch| {
+        let envelope = Envelope::new(&part.mesh, index(), &tool.tool, sheet.as_ref(), part.inward);
+        watch.begin("push-cutter", lines.len());
+        envelope.pushes(&lines, z, watch)
+    })?;
+    Ok(PyArray1::from_vec(py, found.map_err(errors::cancelled)?))
 }
 
 /// Loops at height `z`: arrays (M, 3) with whether each is closed.

@@ -20,8 +20,6 @@ pub struct FaceView {
     pub up: f64,
     /// Area that looks down, mm^2.
     pub down: f64,
-    /// Area of exact walls, which look neither up nor down, mm^2.
-    pub vertical: f64,
     /// Largest slope, rad.
     pub steepest: f64,
 }
@@ -35,7 +33,6 @@ pub fn views(mesh: &Mesh) -> BTreeMap<u32, FaceView> {
         view.area += area;
         view.up += if normal.z > UP { area } else { 0.0 };
         view.down += if normal.z < DOWN { area } else { 0.0 };
-        view.vertical += if (DOWN..=UP).contains(&normal.z) { area } else { 0.0 };
         view.steepest = view.steepest.max(libm::atan2(normal.x.hypot(normal.y), normal.z));
     }
     views

@@ -13,8 +13,7 @@ use styluscam_toolpath::{
 };
 
 use crate::{
-    faces::{self, FaceView},
-    scene, Coolant, Direction, JobDocument, JobError, OperationKind, OperationSection, Scene, Spindle, Step,
+    faces, scene, Coolant, Direction, JobDocument, JobError, OperationKind, OperationSection, Scene, Spindle, Step,
 };
 
 /// Triangles of a face whose offset is judged, at most: areas are right to a percent or two of the face's.
@@ -63,8 +62,6 @@ pub struct OperationSummary {
     pub bridged: Vec<BridgedFace>,
     /// Faces with area that looks down, mm^2: not reached.
     pub undercut: Vec<(u32, f64)>,
-    /// Faces with vertical area, mm^2, which levels do not follow: the tool passes it on the levels' way down.
-    pub vertical: Vec<(u32, f64)>,
 }
 
 /// How much of a face the tool reaches, and what keeps it from the rest; areas, mm^2, from samples.
@@ -233,16 +230,15 @@ pub fn operation(
         smallest_feature,
         reached: reached(scene, &offset),
         bridged: bridged(scene, tool, &envelope, &offset, section.tolerance, watch)?,
-        undercut: areas(scene, &faces, |view| view.down),
-        vertical: if section.kind == OperationKind::ZLevel { areas(scene, &faces, |v| v.vertical) } else { Vec::new() },
+        undercut: undercut(scene, &faces),
         faces,
     };
     Ok((link(&surface, passes, &task.links()), summary))
 }
 
-/// Faces of which a part is of some sort, with its area.
-fn areas(scene: &Scene, faces: &[u32], of_sort: impl Fn(&FaceView) -> f64) -> Vec<(u32, f64)> {
-    let area = |face: &u32| scene.views.get(face).map(&of_sort).filter(|area| *area >= LEAST_AREA);
+/// Faces of which a part looks down, with its area.
+fn undercut(scene: &Scene, faces: &[u32]) -> Vec<(u32, f64)> {
+    let area = |face: &u32| scene.views.get(face).map(|view| view.down).filter(|area| *area >= LEAST_AREA);
     faces.iter().filter_map(|face| Some((*face, area(face)?))).collect()
 }
 
@@ -369,6 +365,7 @@ impl Task<'_> {
         let nothing = || PlanError::NothingReached(self.why_nothing());
         let grid = Grid::sample(surface, self.spacing(), watch)?.ok_or_else(nothing)?;
         let (lowest, highest) = grid.selected_range(surface).ok_or_else(nothing)?;
+        let lowest = surface.foot_of_walls().map_or(lowest, |foot| foot.min(lowest));
         let Some(Step::Height(step)) = self.section.step else {
             return Err(PlanError::NothingReached(String::new()));
         };

@@ -107,9 +107,6 @@ impl Summary {
                 let [x, y, z] = bridge.at;
                 format!("bridged: Face{} by up to {:.3} at X{x:.2} Y{y:.2} Z{z:.2}", bridge.face, bridge.excess)
             }));
-            notes.extend(
-                operation.vertical.iter().map(|(face, area)| format!("vertical: Face{face}, {area:.1} mm2 not traced")),
-            );
             notes.extend(operation.undercut.iter().map(|(face, area)| format!("undercut: Face{face}, {area:.1} mm2")));
         }
         notes.push(format!("length {:.0} mm, time {}", self.length, clock(self.duration)));

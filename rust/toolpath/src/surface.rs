@@ -8,6 +8,8 @@ use crate::offset::{Contact, Envelope};
 /// wide enough for tessellated tangent joins, too narrow to roll round an edge.
 const SPREAD: f64 = 0.0175;
 
+/// Walls have a normal that rises or falls by less than this.
+const WALL: f64 = 1e-9;
 /// Heights without limits.
 const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
@@ -79,14 +81,27 @@ impl<'a> Surface<'a> {
         }
     }
 
+    /// The foot of the selected walls, mm: where they end below; over the plan they are seen at their top only.
+    #[must_use]
+    pub fn foot_of_walls(&self) -> Option<f64> {
+        let mesh = self.envelope.mesh();
+        let walls = self.triangles().filter(|t| mesh.normal(*t).z.abs() < WALL);
+        walls.flat_map(|t| mesh.corners(t)).map(|p| p.z).min_by(f64::total_cmp)
+    }
+
+    /// The selected triangles.
+    fn triangles(&self) -> impl Iterator<Item = usize> + '_ {
+        let counts = |t: &usize| self.selected.is_none_or(|selected| selected[*t]);
+        (0..self.envelope.mesh().triangles().len()).filter(counts)
+    }
+
     /// Lower and upper corner in plan of the places from which the tool can touch a selected face, if any.
     #[must_use]
     pub fn domain(&self) -> Option<([f64; 2], [f64; 2])> {
         let mesh = self.envelope.mesh();
         let reach = self.envelope.cutter().max_radius();
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        let counts = |t: &usize| self.selected.is_none_or(|selected| selected[*t]);
-        for t in (0..mesh.triangles().len()).filter(counts) {
+        for t in self.triangles() {
             for p in mesh.corners(t) {
                 low = [low[0].min(p.x - reach), low[1].min(p.y - reach)];
                 high = [high[0].max(p.x + reach), high[1].max(p.y + reach)];

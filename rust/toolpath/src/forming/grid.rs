@@ -7,6 +7,9 @@ use crate::{
     Surface,
 };
 
+/// How far outside the domain the grid begins, as a share of a cell: no part is drawn so that its walls' offsets run along
+/// the grid's lines by that.
+const ASIDE: f64 = 0.618;
 /// Nodes at most: beyond it the cell grows.
 const NODES: f64 = 4e6;
 
@@ -31,7 +34,7 @@ impl Grid {
         let cell = cell.max((width * height / NODES).sqrt());
         // one ring of nodes outside: there the tool touches nothing that was asked for
         let (columns, rows) = ((width / cell).ceil() as usize + 3, (height / cell).ceil() as usize + 3);
-        let origin = [low[0] - cell, low[1] - cell];
+        let origin = low.map(|low| low - ASIDE * cell);
         let mut grid = Self { origin, cell, columns, rows, contacts: Vec::new(), ranges: Vec::new() };
         let places: Vec<[f64; 2]> =
             (0..rows * columns).map(|n| grid.place([(n % columns) as f64, (n / columns) as f64])).collect();

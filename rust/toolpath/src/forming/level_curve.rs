@@ -70,11 +70,12 @@ impl<'a> LevelCurve<'a> {
             };
             let (is_above, release) = (self.keeps_off(&contact), self.release(&contact, &line));
             if is_above {
-                (low, last) = (at, release.or(last));
+                (low, last) = (at, Some(contact));
             } else {
                 high = at;
             }
-            match release.filter(|(way, _)| (low..=high).contains(way)) {
+            let within = release.filter(|(way, _)| (low..=high).contains(way));
+            match within {
                 Some((way, contact)) if !self.is_above(line.at(way + BEYOND)) => {
                     return self.point(&line, way, &contact)
                 }
@@ -84,10 +85,11 @@ impl<'a> LevelCurve<'a> {
             if high - low <= BEYOND {
                 break;
             }
-            // what was met beyond comes next, then halves
-            at = if release.is_some_and(|(way, _)| low == way + BEYOND) { low } else { 0.5 * (low + high) };
+            // what was met beyond comes next, or else a half
+            at = if within.is_some() { low } else { 0.5 * (low + high) };
         }
-        let (_, contact) = last?;
+        // along a wall, or where the tool grazes: the last that kept it off
+        let contact = last.filter(|_| high - low <= BEYOND)?;
         self.point(&line, high, &contact)
     }
 

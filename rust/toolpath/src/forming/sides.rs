@@ -240,7 +240,9 @@ impl<'a> Sides<'a> {
         let tip = |node: Node| if is_coarse(node) { self.grid.tip(node.map(|i| i / PARTS)) } else { None };
         let (a, b) = (tip(edge.from), tip(edge.to));
         match (a, b) {
-            (Some(a), Some(b)) if a != b => ((a.max(b) - self.z) / (a - b).abs()).clamp(0.01, 0.99),
+            (Some(a), Some(b)) if (a - b).abs() > f64::MIN_POSITIVE => {
+                ((a.max(b) - self.z) / (a - b).abs()).clamp(0.01, 0.99)
+            }
             _ => 0.5,
         }
     }

@@ -126,6 +126,23 @@ impl<'a> Envelope<'a> {
         Some((found.way, self.contact_on(line, z, triangle, &found)))
     }
 
+    /// Ways of [`push`](Self::push) along many lines, in parallel: infinite where nothing is met, NaN where the tool does not
+    /// stand free at the beginning.
+    ///
+    /// # Errors
+    /// `Cancelled` when `watch` says so.
+    pub fn pushes(&self, lines: &[Line], z: f64, watch: &Watch) -> Result<Vec<f64>, Cancelled> {
+        let way = |line: &Line| {
+            watch.advance(1)?;
+            Ok(match self.push(line, z, f64::INFINITY) {
+                Some((way, _)) if way < 0.0 => f64::NAN,
+                Some((way, _)) => way,
+                None => f64::INFINITY,
+            })
+        };
+        lines.par_iter().with_min_len(16).map(way).collect()
+    }
+
     /// Where a triangle of the mesh lets the tool go, its tip at height `z`, in the direction of the line: the way and
     /// the contact, or none where it never keeps the tool off.
     #[must_use]

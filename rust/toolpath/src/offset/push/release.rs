@@ -40,6 +40,14 @@ pub struct Release {
 }
 
 impl Line {
+    /// From a place in a direction of any length; none for a direction without one, or what is not finite.
+    #[must_use]
+    pub fn new(from: [f64; 2], along: [f64; 2]) -> Option<Self> {
+        let length = libm::hypot(along[0], along[1]);
+        let line = Self { from, along: along.map(|a| a / length) };
+        from.into_iter().chain(line.along).all(f64::is_finite).then_some(line)
+    }
+
     /// The place in plan some way along, mm.
     #[must_use]
     pub fn at(&self, way: f64) -> [f64; 2] {
