@@ -31,9 +31,9 @@ demo: tools ## A STEP part becomes verified G-code, from nothing
 
 .PHONY: tools
 tools: ## Checks that Rust and Python are new enough
-	@command -v cargo >/dev/null || { echo "Rust is missing: install it from rustup.rs, 1.88 or later" >&2; exit 1; }
-	@rustc --version | awk '{split($$2, v, "."); exit !(v[1] > 1 || v[2] >= 88)}' \
-	  || { echo "Rust 1.88 or later is needed; this is $$(rustc --version): run rustup update" >&2; exit 1; }
+	@command -v cargo >/dev/null || { echo "Rust is missing: install it from rustup.rs, 1.89 or later" >&2; exit 1; }
+	@rustc --version | awk '{split($$2, v, "."); exit !(v[1] > 1 || v[2] >= 89)}' \
+	  || { echo "Rust 1.89 or later is needed; this is $$(rustc --version): run rustup update" >&2; exit 1; }
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10))' \
 	  || { echo "Python 3.10 or later is needed: set PYTHON=python3.x" >&2; exit 1; }
 	@$(PYTHON) -c 'import venv, ensurepip' 2>/dev/null \
