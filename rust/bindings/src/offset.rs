@@ -28,6 +28,14 @@ fn sheet(document: Option<&str>) -> PyResult<Option<Sheet>> {
     sheet.checked().map(Some).map_err(|e| errors::of_geometry(&e))
 }
 
+/// An error unless there are as many of the one as of the other.
+fn one_each(what: &str, count: usize, of: &str, expected: usize) -> PyResult<()> {
+    if count == expected {
+        return Ok(());
+    }
+    Err(errors::raise("GeometryError", &format!("{count} {what} for {expected} {of}"), "length", what, ""))
+}
+
 /// CL points and flags.
 type Offsets<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<u8>>);
 
@@ -45,10 +53,7 @@ pub fn slope_matched_offset<'py>(
     let sheet = self::sheet(sheet)?;
     let points = arrays::vectors(&points, "points")?;
     let normals = arrays::vectors(&normals, "normals")?;
-    if points.len() != normals.len() {
-        let message = format!("{} normals for {} points", normals.len(), points.len());
-        return Err(errors::raise("GeometryError", &message, "length", "normals", ""));
-    }
+    one_each("normals", normals.len(), "points", points.len())?;
     let results: Vec<_> = py.detach(|| {
         let pairs = points.iter().zip(&normals);
         pairs
@@ -111,10 +116,7 @@ pub fn push_cutter<'py>(
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let sheet = self::sheet(sheet)?;
     let (places, ways) = (arrays::rows::<f64, 2>(&xy, "xy")?, arrays::rows::<f64, 2>(&directions, "directions")?);
-    if places.len() != ways.len() {
-        let message = format!("{} directions for {} places", ways.len(), places.len());
-        return Err(errors::raise("GeometryError", &message, "length", "directions", ""));
-    }
+    one_each("directions", ways.len(), "places", places.len())?;
     let mut lines = Vec::with_capacity(places.len());
     for (i, (from, way)) in places.into_iter().zip(ways).enumerate() {
         let line = Line::new(from, way).filter(|_| z.is_finite());

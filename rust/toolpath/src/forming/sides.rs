@@ -220,9 +220,8 @@ impl<'a> Sides<'a> {
         above != 0 && above != 4
     }
 
-    fn corners_above(&self, [column, row]: Node) -> usize {
-        let corners = [[column, row], [column + 1, row], [column + 1, row + 1], [column, row + 1]];
-        corners.into_iter().filter(|node| self.is_node_above(*node)).count()
+    fn corners_above(&self, cell: Node) -> usize {
+        corners(cell, 1).into_iter().filter(|node| self.is_node_above(*node)).count()
     }
 
     fn is_beside_divided(&self, cell: Node) -> bool {

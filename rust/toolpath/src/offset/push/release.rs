@@ -118,20 +118,13 @@ fn of_facet(cutter: &Cutter, corners: &[Vector; 3], line: &Line, z: f64) -> Opti
     let (radius, height) = cutter.point_at(slope);
     let share = radius / across;
     // the axis stands where the contact, radius behind it and height over the tip, lies in the plane
-    let standing = |anchor: Vector| {
-        let [dx, dy] = [anchor.x - line.from[0], anchor.y - line.from[1]];
-        let off = normal.x * dx + normal.y * dy + normal.z * (anchor.z - z - height);
-        let way = (off + across * radius) / leaves;
-        let [x, y] = line.at(way);
-        (way, Vector::new(x - share * normal.x, y - share * normal.y, z + height))
-    };
-    let (way, point) = standing(corners[0]);
-    if !(way.is_finite() && is_inside(corners, point)) {
-        return None;
-    }
-    // a sliver's normal is good near the contact only
-    let (way, point) = standing(nearest_on_border(corners, point));
-    Some(Release { way, point, slope, feature: Feature::Facet })
+    let [anchor, ..] = *corners;
+    let [dx, dy] = [anchor.x - line.from[0], anchor.y - line.from[1]];
+    let off = normal.x * dx + normal.y * dy + normal.z * (anchor.z - z - height);
+    let way = (off + across * radius) / leaves;
+    let [x, y] = line.at(way);
+    let point = Vector::new(x - share * normal.x, y - share * normal.y, z + height);
+    (way.is_finite() && is_inside(corners, point)).then_some(Release { way, point, slope, feature: Feature::Facet })
 }
 
 /// Whether a point of a triangle's plane lies in the triangle.
@@ -140,14 +133,6 @@ fn is_inside([a, b, c]: &[Vector; 3], point: Vector) -> bool {
         let inward = (q - p).cross(&(third - p));
         (q - p).cross(&(point - p)).dot(&inward) >= 0.0
     })
-}
-
-fn nearest_on_border([a, b, c]: &[Vector; 3], point: Vector) -> Vector {
-    let feet = [(a, b), (b, c), (c, a)].map(|(p, q)| {
-        let edge = q - p;
-        p + edge * ((point - p).dot(&edge) / edge.norm_squared()).clamp(0.0, 1.0)
-    });
-    feet.into_iter().min_by(|p, q| (p - point).norm().total_cmp(&(q - point).norm())).unwrap_or(*a)
 }
 
 fn of_corner(cutter: &Cutter, corner: Vector, end: &End, number: u8) -> Option<Release> {
