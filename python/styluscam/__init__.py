@@ -23,7 +23,7 @@ from styluscam.job import Job, job_schema, starter_job
 from styluscam.judging import Report, check_program, verify, verify_file
 from styluscam.machine import Machine
 from styluscam.offset_mesh import OffsetSurface, offset_surface
-from styluscam.offsets import drop_cutter, push_cutter, slope_matched_offset, waterline
+from styluscam.offsets import drop_cutter, push_cutter, slope_matched_offset, waterline, waterlines
 from styluscam.part import Part
 from styluscam.planning import Plan, Posted, plan, post, read_gcode
 from styluscam.program import Program
@@ -65,4 +65,5 @@ __all__ = [
     "verify",
     "verify_file",
     "waterline",
+    "waterlines",
 ]

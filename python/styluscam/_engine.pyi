@@ -33,7 +33,7 @@ __all__ = [
     "shipped_machines",
     "slope_matched_offset",
     "starter",
-    "waterline",
+    "waterlines",
 ]
 __version__: str
 
@@ -167,15 +167,15 @@ def offset_surface(
     tuple[_I, _I],
     list[tuple[int, str, float, float, list[float], list[float]]],
 ]: ...
-def waterline(
+def waterlines(
     part: Part,
     tool: Tool,
-    z: float,
+    heights: list[float],
     sheet: str | None = None,
     tolerance: float = 0.005,
     progress: _Progress | None = None,
     cancel: CancelToken | None = None,
-) -> list[_F]: ...
+) -> list[list[_F]]: ...
 def plan(
     job: Job,
     scene: Scene,

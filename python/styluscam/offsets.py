@@ -108,4 +108,22 @@ def waterline(
     cancel: _engine.CancelToken | None = None,
 ) -> list[FloatArray]:
     """Loops (M, 3) of the tip at height ``z``, the first point repeated when closed; 0 to ``tolerance`` mm free."""
-    return _engine.waterline(part.engine, tool._engine, z, _sheet(sheet), tolerance, progress=progress, cancel=cancel)
+    (loops,) = waterlines(part, tool, [z], sheet, tolerance, progress=progress, cancel=cancel)
+    return loops
+
+
+def waterlines(
+    part: Part,
+    tool: Tool,
+    heights: npt.ArrayLike,
+    sheet: Document | None = None,
+    tolerance: float = 0.005,
+    *,
+    progress: Progress | None = None,
+    cancel: _engine.CancelToken | None = None,
+) -> list[list[FloatArray]]:
+    """The loops of :func:`waterline` for each of the ``heights`` (N,), mm: much quicker than one call for each."""
+    heights = np.asarray(heights, dtype=np.float64).ravel().tolist()
+    return _engine.waterlines(
+        part.engine, tool._engine, heights, _sheet(sheet), tolerance, progress=progress, cancel=cancel
+    )

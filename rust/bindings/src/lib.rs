@@ -20,7 +20,7 @@ mod _engine {
     #[pymodule_export]
     use crate::job::{Job, Judgement, Machine, Plan, Scene};
     #[pymodule_export]
-    use crate::offset::{drop_cutter, offset_surface, push_cutter, slope_matched_offset, waterline};
+    use crate::offset::{drop_cutter, offset_surface, push_cutter, slope_matched_offset, waterlines};
     #[pymodule_export]
     use crate::part::Part;
     #[pymodule_export]

@@ -4,7 +4,7 @@ use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 use styluscam_geometry::{Mesh, Sheet};
 use styluscam_toolpath::{
-    forming::{waterline as level, Grid},
+    forming::{z_levels, Grid},
     offset::{Envelope, Line, OffsetPoint, OffsetSurface, Region},
     Surface,
 };
@@ -135,36 +135,46 @@ pub fn push_cutter<'py>(
     Ok(PyArray1::from_vec(py, found.map_err(errors::cancelled)?))
 }
 
-/// Loops at height `z`: arrays (M, 3) with whether each is closed.
+/// Loops of one height: arrays (M, 3).
+type Loops<'py> = Vec<Bound<'py, PyArray2<f64>>>;
+
+/// Loops at each of the `heights`.
 #[pyfunction]
-#[pyo3(signature = (part, tool, z, sheet=None, tolerance=0.005, progress=None, cancel=None))]
-#[allow(clippy::too_many_arguments)]
-pub fn waterline<'py>(
+#[pyo3(signature = (part, tool, heights, sheet=None, tolerance=0.005, progress=None, cancel=None))]
+#[allow(clippy::too_many_arguments, clippy::needless_pass_by_value)]
+pub fn waterlines<'py>(
     py: Python<'py>,
     part: &Part,
     tool: &Tool,
-    z: f64,
+    heights: Vec<f64>,
     sheet: Option<&str>,
     tolerance: f64,
     progress: Option<&Bound<'py, PyAny>>,
     cancel: Option<&CancelToken>,
-) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
+) -> PyResult<Vec<Loops<'py>>> {
     let sheet = self::sheet(sheet)?;
     let (part, index) = (&part.part, || part.index());
     let left = tolerance - part.inward - part.outward;
-    if !(z.is_finite() && left > 0.0) {
-        let message =
-            format!("z = {z}, tolerance = {tolerance}: the tolerance must exceed the part's checked deviation");
+    if let Some(z) = heights.iter().find(|z| !z.is_finite()) {
+        let message = format!("z = {z}: a height must be a finite number");
+        return Err(errors::raise("PlanError", &message, "out-of-range", "z", "heights are in mm"));
+    }
+    if !(left > 0.0 && tolerance.is_finite()) {
+        let message = format!("tolerance = {tolerance}: it must exceed the part's checked deviation");
         return Err(errors::raise("PlanError", &message, "tolerance-budget", "tolerance", "raise tolerance"));
     }
     let passes = watched(py, progress, cancel, |watch| {
         let envelope = Envelope::new(&part.mesh, index(), &tool.tool, sheet.as_ref(), part.inward + 0.5 * left);
         let surface = Surface::whole(&envelope);
         let grid = Grid::sample(&surface, SPACING_SHARE * tool.tool.diameter(), watch)?;
-        grid.map_or(Ok(Vec::new()), |grid| level(&surface, &grid, z, EACH_SIDE * left, watch))
+        grid.map_or(Ok(Vec::new()), |grid| z_levels(&surface, &grid, &heights, EACH_SIDE * left, watch))
     })?;
     let passes = passes.map_err(|e| errors::raise("PlanError", &e.to_string(), e.code(), "", ""))?;
-    passes.into_iter().map(|pass| arrays::matrix(py, pass.points.into_iter().map(|p| p.tip.into()))).collect()
+    let mut loops: Vec<Loops<'py>> = heights.iter().map(|_| Vec::new()).collect();
+    for pass in passes {
+        loops[pass.group].push(arrays::matrix(py, pass.points.into_iter().map(|p| p.tip.into()))?);
+    }
+    Ok(loops)
 }
 
 /// Points by column: tips, contacts, normals, slopes, flags, depths, places, faces of the places.

@@ -3,11 +3,13 @@
 mod error;
 mod fitting;
 pub mod forming;
+mod lattice;
 mod linking;
 pub mod offset;
 mod surface;
 
 pub use error::PlanError;
+pub use lattice::{Cells, Lattice};
 pub use linking::{link, Heights, Links, Rates};
 pub use surface::{PathPoint, Surface};
 

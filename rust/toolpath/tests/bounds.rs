@@ -6,6 +6,7 @@ use proptest::prelude::*;
 use styluscam_geometry::{Mesh, ProfileDocument, Tool, ToolDocument, Vector};
 use styluscam_motion::Watch;
 use styluscam_toolpath::offset::{Envelope, Index, Verdict};
+use styluscam_toolpath::Lattice;
 
 const DIAMETER: f64 = 6.0;
 
@@ -47,25 +48,29 @@ proptest! {
     #[test]
     fn tips_lie_within_what_is_said_of_the_box(
         mesh in any_mesh(), tool in any_tool(), x in -8.0..8.0_f64, y in -8.0..8.0_f64, size in -2.0..0.5_f64, share in -0.2..1.2_f64,
+        over in -1.0..1.0_f64,
         places in prop::collection::vec([0.0..=1.0_f64, 0.0..=1.0_f64], 12),
     ) {
         let index = Index::new(&mesh);
         let envelope = Envelope::new(&mesh, &index, &tool, None, 0.0);
         let side = 10_f64.powf(size);
-        let corners = [[x, y], [x + side, y + side]];
-        let range = envelope.ranges(&[corners], &Watch::default()).unwrap()[0];
-        let z = if range.low.is_finite() { range.low + share * (range.high - range.low) } else { -1.0 };
-        let verdict = envelope.verdict(&corners, z);
+        let lattice = Lattice { origin: [x, y], cell: side, columns: 1, rows: 1 };
+        let (cells, watch) = (lattice.corners(&lattice.cells()), Watch::default());
+        let at = envelope.contact(x + share * side, y + share * side);
+        let low = at.map_or(f64::NEG_INFINITY, |contact| envelope.least(&contact, &cells));
+        let limit = at.map_or(-1.0, |contact| contact.tip + over);
+        let high = envelope.ceilings(&lattice, |_| limit, &watch).unwrap()[0].max(limit);
+        let verdict = envelope.verdict(&cells, limit);
         let ends = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
         for [s, t] in places.into_iter().chain(ends) {
             let tip = envelope.contact(x + s * side, y + t * side).map_or(f64::NEG_INFINITY, |contact| contact.tip);
-            prop_assert!(tip >= range.low - 1e-9 && tip <= range.high + 1e-9, "{tip} at {s}, {t} in {range:?}");
+            prop_assert!(tip >= low - 1e-9 && tip <= high + 1e-9, "{tip} at {s}, {t} in {low}..{high}");
             let agrees = match verdict {
-                Verdict::Above => tip > z - 1e-9,
-                Verdict::Free => tip <= z + 1e-9,
+                Verdict::Above => tip > limit - 1e-9,
+                Verdict::Free => tip <= limit + 1e-9,
                 Verdict::Open => true,
             };
-            prop_assert!(agrees, "{tip} at {s}, {t} but {verdict:?} for {z}");
+            prop_assert!(agrees, "{tip} at {s}, {t} but {verdict:?} for {limit}");
         }
     }
 }

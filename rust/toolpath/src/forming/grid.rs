@@ -1,11 +1,8 @@
-//! The envelope sampled on a square grid, and bounded in its cells: from it loops are found, not measured.
+//! The envelope sampled on a square grid: from it loops are found, not measured.
 
 use styluscam_motion::{Cancelled, Watch};
 
-use crate::{
-    offset::{Contact, Range},
-    Surface,
-};
+use crate::{lattice::Node, offset::Contact, Lattice, Surface};
 
 /// How far outside the domain the grid begins, as a share of a cell: no part is drawn so that its walls' offsets run along
 /// the grid's lines by that.
@@ -13,14 +10,10 @@ const ASIDE: f64 = 0.618;
 /// Nodes at most: beyond it the cell grows.
 const NODES: f64 = 4e6;
 
-/// Contacts of the envelope on a square grid, and bounds of it between them.
+/// Contacts of the envelope at the nodes of a lattice.
 pub struct Grid {
-    origin: [f64; 2],
-    cell: f64,
-    columns: usize,
-    rows: usize,
+    lattice: Lattice,
     contacts: Vec<Option<Contact>>,
-    ranges: Vec<Range>,
 }
 
 impl Grid {
@@ -33,57 +26,44 @@ impl Grid {
         let (width, height) = (high[0] - low[0], high[1] - low[1]);
         let cell = cell.max((width * height / NODES).sqrt());
         // one ring of nodes outside: there the tool touches nothing that was asked for
-        let (columns, rows) = ((width / cell).ceil() as usize + 3, (height / cell).ceil() as usize + 3);
-        let origin = low.map(|low| low - ASIDE * cell);
-        let mut grid = Self { origin, cell, columns, rows, contacts: Vec::new(), ranges: Vec::new() };
-        let places: Vec<[f64; 2]> =
-            (0..rows * columns).map(|n| grid.place([(n % columns) as f64, (n / columns) as f64])).collect();
-        watch.begin("sampling", 2 * places.len());
-        grid.contacts = surface.envelope().contacts(&places, watch)?;
-        let boxes: Vec<[[f64; 2]; 2]> = (0..(rows - 1) * (columns - 1))
-            .map(|n| {
-                let (column, row) = ((n % (columns - 1)) as f64, (n / (columns - 1)) as f64);
-                [grid.place([column, row]), grid.place([column + 1.0, row + 1.0])]
-            })
-            .collect();
-        grid.ranges = surface.envelope().ranges(&boxes, watch)?;
-        Ok(Some(grid))
+        let (columns, rows) = ((width / cell).ceil() as usize + 2, (height / cell).ceil() as usize + 2);
+        let lattice = Lattice { origin: low.map(|low| low - ASIDE * cell), cell, columns, rows };
+        let places: Vec<[f64; 2]> = lattice.nodes().map(|node| lattice.place(node.map(|i| i as f64))).collect();
+        watch.begin("sampling", places.len());
+        let contacts = surface.envelope().contacts(&places, watch)?;
+        Ok(Some(Self { lattice, contacts }))
     }
 
     /// Diameter of the largest disc that may hide between nodes, mm.
     #[must_use]
     pub fn smallest_feature(&self) -> f64 {
-        self.cell * std::f64::consts::SQRT_2
+        self.lattice.cell * std::f64::consts::SQRT_2
     }
 
-    pub(super) fn columns(&self) -> usize {
-        self.columns
-    }
-
-    pub(super) fn rows(&self) -> usize {
-        self.rows
-    }
-
-    /// A place in plan, told in cells: column and row of a node where they are whole.
-    pub(super) fn place(&self, [column, row]: [f64; 2]) -> [f64; 2] {
-        [self.origin[0] + column * self.cell, self.origin[1] + row * self.cell]
+    pub(super) fn lattice(&self) -> &Lattice {
+        &self.lattice
     }
 
     /// The tip over a node; none where nothing is touched.
-    pub(super) fn tip(&self, [column, row]: [usize; 2]) -> Option<f64> {
-        self.contacts[row * self.columns + column].map(|contact| contact.tip)
+    pub(super) fn tip(&self, node: Node) -> Option<f64> {
+        self.contacts[self.lattice.node_number(node)].map(|contact| contact.tip)
     }
 
-    /// Between which heights the tip lies in the cell that begins at a node.
-    pub(super) fn range(&self, [column, row]: [usize; 2]) -> Range {
-        self.ranges[row * (self.columns - 1) + column]
+    /// The contacts over the corners of a cell.
+    pub(super) fn corner_contacts(&self, cell: Node) -> [Option<&Contact>; 4] {
+        self.lattice.corner_numbers(cell).map(|number| self.contacts[number].as_ref())
+    }
+
+    /// The tips over all nodes, row by row.
+    pub(super) fn tips(&self) -> impl Iterator<Item = Option<f64>> + '_ {
+        self.contacts.iter().map(|contact| contact.map(|contact| contact.tip))
     }
 
     /// Lowest and highest tip among the nodes whose contact is selected.
     #[must_use]
     pub fn selected_range(&self, surface: &Surface<'_>) -> Option<(f64, f64)> {
-        let tips = self.contacts.iter().enumerate().filter_map(|(n, contact)| {
-            let [x, y] = self.place([(n % self.columns) as f64, (n / self.columns) as f64]);
+        let tips = self.lattice.nodes().zip(&self.contacts).filter_map(|(node, contact)| {
+            let [x, y] = self.lattice.place(node.map(|i| i as f64));
             contact.as_ref().map(|c| surface.path_point(x, y, c)).filter(|p| p.selected).map(|p| p.tip.z)
         });
         tips.fold(None, |range: Option<(f64, f64)>, z| {

@@ -1,5 +1,6 @@
 //! Strategies that ride on the envelope: Z-levels and zig-zag.
 
+mod bounds;
 mod contour;
 mod grid;
 mod level_curve;
@@ -10,5 +11,5 @@ mod zig_zag;
 
 pub use grid::Grid;
 pub use levels::{levels, LevelRange};
-pub use z_level::{waterline, z_levels};
+pub use z_level::z_levels;
 pub use zig_zag::{zig_zag, Rows};

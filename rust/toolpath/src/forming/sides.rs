@@ -7,16 +7,13 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use styluscam_motion::{Cancelled, Watch};
 
+use super::bounds::Bounds;
 use super::grid::Grid;
 use super::level_curve::{self, LevelCurve};
-use crate::offset::Verdict;
+use crate::{lattice::Node, offset::Verdict};
 
 /// Parts into which a side of a cell is divided at most.
 pub const PARTS: usize = 16;
-
-/// Column and row of a node, or of the cell that begins there: in fine numbers, [`PARTS`] times the coarse ones, unless
-/// they are said to be coarse.
-pub type Node = [usize; 2];
 
 /// Two neighbouring nodes of the fine grid, or of the coarse one; the first is the lower or left one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -33,9 +30,11 @@ pub struct Crossing {
     pub rises: bool,
 }
 
-/// Which nodes are above a level.
+/// Which nodes are above a level. Nodes and cells are told in fine numbers, [`PARTS`] times the coarse ones, unless they
+/// are said to be coarse.
 pub struct Sides<'a> {
     grid: &'a Grid,
+    bounds: &'a Bounds,
     z: f64,
     /// What is known of nodes of the fine grid.
     fine: BTreeMap<Node, bool>,
@@ -48,11 +47,16 @@ impl<'a> Sides<'a> {
     ///
     /// # Errors
     /// `Cancelled` when `watch` says so.
-    pub fn of(grid: &'a Grid, curve: &mut LevelCurve<'_>, z: f64, watch: &Watch) -> Result<Self, Cancelled> {
-        let mut sides = Self { grid, z, fine: BTreeMap::new(), divided: BTreeSet::new() };
-        let cells = || (0..grid.rows() - 1).flat_map(|row| (0..grid.columns() - 1).map(move |column| [column, row]));
+    pub fn of(
+        grid: &'a Grid,
+        bounds: &'a Bounds,
+        curve: &mut LevelCurve<'_>,
+        z: f64,
+        watch: &Watch,
+    ) -> Result<Self, Cancelled> {
+        let mut sides = Self { grid, bounds, z, fine: BTreeMap::new(), divided: BTreeSet::new() };
         let mut found = Vec::new();
-        for cell in cells() {
+        for cell in grid.lattice().cells().iter() {
             if sides.may_hide(cell) {
                 watch.advance(0)?;
                 if sides.look_into(cell, curve) {
@@ -87,12 +91,12 @@ impl<'a> Sides<'a> {
         }
     }
 
-    /// Whether the corners of a cell agree, but its bounds do not.
+    /// Whether the corners of a cell agree, but the level may still pass it.
     fn may_hide(&self, cell: Node) -> bool {
-        let range = self.grid.range(cell);
+        let number = self.grid.lattice().number(cell);
         match self.corners_above(cell) {
-            0 => level_curve::is_over(range.high, self.z),
-            4 => !level_curve::is_over(range.low, self.z),
+            0 => self.bounds.may_rise(number, self.z),
+            4 => self.bounds.may_dip(number, self.z),
             _ => false,
         }
     }
@@ -138,10 +142,10 @@ impl<'a> Sides<'a> {
         if row > 0 {
             cells.push([column, row - 1]);
         }
-        if column + 2 < self.grid.columns() {
+        if column + 1 < self.grid.lattice().columns {
             cells.push([column + 1, row]);
         }
-        if row + 2 < self.grid.rows() {
+        if row + 1 < self.grid.lattice().rows {
             cells.push([column, row + 1]);
         }
         cells
@@ -183,16 +187,14 @@ impl<'a> Sides<'a> {
 
     /// The crossings of the level with the outline of each cell that it passes, counterclockwise, and the cell's middle.
     pub fn visit_cells(&self, mut visit: impl FnMut(Vec<Crossing>, [f64; 2])) {
-        for row in 0..self.grid.rows() - 1 {
-            for column in 0..self.grid.columns() - 1 {
-                let first = [column * PARTS, row * PARTS];
-                if self.divided.contains(&[column, row]) {
-                    for part in 0..PARTS * PARTS {
-                        self.visit([first[0] + part % PARTS, first[1] + part / PARTS], 1, &mut visit);
-                    }
-                } else if self.differ([column, row]) || self.is_beside_divided([column, row]) {
-                    self.visit(first, PARTS, &mut visit);
+        for cell in self.grid.lattice().cells().iter() {
+            let first = cell.map(|i| i * PARTS);
+            if self.divided.contains(&cell) {
+                for part in 0..PARTS * PARTS {
+                    self.visit([first[0] + part % PARTS, first[1] + part / PARTS], 1, &mut visit);
                 }
+            } else if self.differ(cell) || self.is_beside_divided(cell) {
+                self.visit(first, PARTS, &mut visit);
             }
         }
     }
@@ -211,7 +213,7 @@ impl<'a> Sides<'a> {
         if !crossings.is_empty() {
             let half = 0.5 * size as f64;
             let middle = first.map(|i| (i as f64 + half) / PARTS as f64);
-            visit(crossings, self.grid.place(middle));
+            visit(crossings, self.grid.lattice().place(middle));
         }
     }
 
@@ -247,7 +249,7 @@ impl<'a> Sides<'a> {
     }
 
     fn place(&self, node: Node) -> [f64; 2] {
-        self.grid.place(node.map(|i| i as f64 / PARTS as f64))
+        self.grid.lattice().place(node.map(|i| i as f64 / PARTS as f64))
     }
 }
 

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use styluscam_motion::Watch;
 
 use super::{
+    bounds::Bounds,
     contour,
     grid::Grid,
     level_curve::LevelCurve,
@@ -24,12 +25,14 @@ pub fn z_levels(
     deviation: f64,
     watch: &Watch,
 ) -> Result<Vec<Pass>, PlanError> {
+    let bounds = Bounds::of(grid, surface, heights, watch)?;
     watch.begin("levels", heights.len());
     let levels: Result<Vec<Vec<Pass>>, PlanError> = heights
         .par_iter()
         .enumerate()
         .map(|(group, z)| {
-            let passes = level(surface, grid, *z, deviation, group, watch)?;
+            let level = Level { surface, grid, bounds: &bounds, z: *z, group };
+            let passes = level.passes(deviation, watch)?;
             watch.advance(1)?;
             Ok(passes)
         })
@@ -37,43 +40,33 @@ pub fn z_levels(
     Ok(levels?.into_iter().flatten().collect())
 }
 
-/// The loops of one height, whatever they touch; see [`z_levels`].
-///
-/// # Errors
-/// `Cancelled`.
-pub fn waterline(
-    surface: &Surface<'_>,
-    grid: &Grid,
+struct Level<'a> {
+    surface: &'a Surface<'a>,
+    grid: &'a Grid,
+    bounds: &'a Bounds,
     z: f64,
-    deviation: f64,
-    watch: &Watch,
-) -> Result<Vec<Pass>, PlanError> {
-    watch.begin("waterline", 1);
-    level(surface, grid, z, deviation, 0, watch)
+    group: usize,
 }
 
-fn level(
-    surface: &Surface<'_>,
-    grid: &Grid,
-    z: f64,
-    deviation: f64,
-    group: usize,
-    watch: &Watch,
-) -> Result<Vec<Pass>, PlanError> {
-    let mut curve = LevelCurve::new(surface, z);
-    let mut passes = Vec::new();
-    let sides = Sides::of(grid, &mut curve, z, watch)?;
-    for chain in contour::chains(&sides, |place| curve.is_above(place)) {
-        watch.advance(0)?;
-        let exact = crossings(&mut curve, &sides, &chain);
-        let whole = chain.closed && exact.iter().all(|p| p.selected);
-        for run in fitting::selected_runs(&exact, chain.closed, |a, b| curve.between(a, b)) {
-            let runs = fitting::densified(&run, deviation, |a, b| curve.between(a, b));
-            let closed = whole && runs.len() == 1;
-            passes.extend(runs.iter().map(|run| Pass { points: fitting::thinned(run, deviation), closed, group }));
+impl Level<'_> {
+    fn passes(&self, deviation: f64, watch: &Watch) -> Result<Vec<Pass>, PlanError> {
+        let mut curve = LevelCurve::new(self.surface, self.z);
+        let mut passes = Vec::new();
+        let sides = Sides::of(self.grid, self.bounds, &mut curve, self.z, watch)?;
+        for chain in contour::chains(&sides, |place| curve.is_above(place)) {
+            watch.advance(0)?;
+            let exact = crossings(&mut curve, &sides, &chain);
+            let whole = chain.closed && exact.iter().all(|p| p.selected);
+            for run in fitting::selected_runs(&exact, chain.closed, |a, b| curve.between(a, b)) {
+                let runs = fitting::densified(&run, deviation, |a, b| curve.between(a, b));
+                let closed = whole && runs.len() == 1;
+                let pass =
+                    |run: &Vec<PathPoint>| Pass { points: fitting::thinned(run, deviation), closed, group: self.group };
+                passes.extend(runs.iter().map(pass));
+            }
         }
+        Ok(passes)
     }
-    Ok(passes)
 }
 
 /// The exact points at which a chain crosses the grid; the first repeated when closed.

@@ -11,8 +11,9 @@ use super::contact::{self, Best, Contacts, Facet, Feature};
 use super::features::{Neighbours, NO_NEIGHBOUR};
 use super::index::{Index, Lines, Matched};
 use super::push::{self, Line, Release};
-use super::search::{Ground, Range, Searcher, Verdict};
+use super::search::{Ground, Searcher, Verdict};
 use super::tiles::Tiles;
+use crate::lattice::{Cells, Lattice, Node};
 
 /// Places put into tiles at a time: between blocks there is nothing that cannot be cancelled.
 const BLOCK: usize = 1 << 20;
@@ -20,6 +21,8 @@ const BLOCK: usize = 1 << 20;
 const CHUNK: usize = 64;
 /// Tiles that share a survey of the index.
 const SURVEYED: usize = 16;
+/// Cells each way of the pieces of a lattice that share a survey of the index.
+const PIECE: usize = 16;
 
 /// The tool's lowest free position over a place, and what it touches there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -179,28 +182,44 @@ impl<'a> Envelope<'a> {
         self.map_places(places, watch, |found, place| self.contact_of(&found, place))
     }
 
-    /// Between which heights the tip lies over each of some boxes of the plan (lower and upper corner), in parallel;
-    /// boxes that follow each other should lie together.
+    /// What no tip exceeds over each cell of a lattice where it may be higher than the cell's `limit`, in parallel, row by
+    /// row; minus infinity where it is not. `limit` is asked of rectangles as well: the least of those of their cells.
     ///
     /// # Errors
     /// `Cancelled` when `watch` says so.
-    pub fn ranges(&self, boxes: &[[[f64; 2]; 2]], watch: &Watch) -> Result<Vec<Range>, Cancelled> {
+    pub fn ceilings(
+        &self,
+        lattice: &Lattice,
+        limit: impl Fn(&Cells) -> f64 + Sync,
+        watch: &Watch,
+    ) -> Result<Vec<f64>, Cancelled> {
         let ground = self.ground();
-        let chunks: Result<Vec<Vec<Range>>, Cancelled> = boxes
-            .par_chunks(CHUNK * SURVEYED)
-            .map(|chunk| {
-                let mut searcher = Searcher::default();
-                let mut found = Vec::with_capacity(chunk.len());
-                for boxes in chunk.chunks(SURVEYED) {
-                    searcher.ranges(&ground, boxes, &mut |range: Range| {
-                        found.push(Range { low: range.low + self.above, high: range.high + self.above });
-                    });
-                    watch.advance(boxes.len())?;
-                }
+        let pieces: Vec<Cells> = lattice.cells().pieces(PIECE).collect();
+        let found: Result<Vec<Vec<(Node, f64)>>, Cancelled> = pieces
+            .par_iter()
+            .map(|piece| {
+                let mut found = Vec::new();
+                let limit = |cells: &Cells| limit(cells) - self.above;
+                let mut keep = |cell, highest: f64| found.push((cell, highest + self.above));
+                Searcher::default().ceilings(&ground, lattice, *piece, &limit, &mut keep);
+                watch.advance(piece.iter().count())?;
                 Ok(found)
             })
             .collect();
-        Ok(chunks?.concat())
+        let mut ceilings = vec![f64::NEG_INFINITY; lattice.columns * lattice.rows];
+        for (cell, highest) in found?.into_iter().flatten() {
+            ceilings[lattice.number(cell)] = highest;
+        }
+        Ok(ceilings)
+    }
+
+    /// A height over which the tip must stay in all of a box of the plan (lower and upper corner), because of what is
+    /// touched at one place.
+    #[must_use]
+    pub fn least(&self, contact: &Contact, corners: &[[f64; 2]; 2]) -> f64 {
+        let ground = self.ground();
+        let tile = ground.tile(corners, &[0, 1]);
+        ground.contacts.least(self.index.place(contact.triangle), tile.middle, tile.half) + self.above
     }
 
     /// Whether the tip must stay over height `z` everywhere in a box of the plan (lower and upper corner), or need not

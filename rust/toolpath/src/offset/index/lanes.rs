@@ -77,6 +77,29 @@ impl Lanes {
     /// a second bound; it is the better one where the profile has a kink.
     #[inline]
     pub fn bounds(&self, matched: &Matched, probe: &Probe, lines: &Lines) -> Bounds {
+        let [in_box, free] = self.both_bounds(matched, probe, lines);
+        let freely = free.value.simd_lt(in_box.value);
+        let either = |free: f32x8, in_box: f32x8| freely.bitselect(free, in_box);
+        Bounds {
+            value: either(free.value, in_box.value),
+            along: [0, 1].map(|i| either(free.along[i], in_box.along[i])),
+        }
+    }
+
+    /// The bounds over a probe, and what the tips do not exceed within `half` mm of it each way.
+    #[inline]
+    pub fn bounds_about(&self, matched: &Matched, probe: &Probe, lines: &Lines, half: [f32; 2]) -> (Bounds, f32x8) {
+        let [in_box, free] = self.both_bounds(matched, probe, lines);
+        let most = |bounds: &Bounds| {
+            let more = |i: usize| bounds.along[i].abs() * f32x8::splat(half[i]);
+            bounds.value + more(0) + more(1)
+        };
+        (in_box, most(&in_box).fast_min(most(&free)))
+    }
+
+    /// The bound by the tangent in the box and that by the whole plane.
+    #[inline]
+    fn both_bounds(&self, matched: &Matched, probe: &Probe, lines: &Lines) -> [Bounds; 2] {
         let [gx, gy] = self.gradient;
         let (x, y) = (f32x8::splat(probe.x), f32x8::splat(probe.y));
         let (low_x, high_x) = (self.low[0] - x, self.high[0] - x);
@@ -93,14 +116,14 @@ impl Lanes {
         let plane = self.lift - f32x8::splat(probe.z) - gx * (half * (low_x + high_x)) - gy * (half * (low_y + high_y));
         let in_box = plane + gx * qx + gy * qy - height + rest;
         let free = plane + matched.peak;
-        let freely = free.simd_lt(in_box);
         let zero = f32x8::ZERO;
         let near_x = low_x.fast_max(-high_x).fast_max(zero);
         let near_y = low_y.fast_max(-high_y).fast_max(zero);
         let is_far = (near_x * near_x + near_y * near_y).simd_gt(f32x8::splat(probe.reach));
-        Bounds {
-            value: is_far.bitselect(f32x8::splat(EMPTY), freely.bitselect(free, in_box)),
-            along: [freely.bitselect(gx, fx), freely.bitselect(gy, fy)],
-        }
+        let unless_far = |value: f32x8| is_far.bitselect(f32x8::splat(EMPTY), value);
+        [
+            Bounds { value: unless_far(in_box), along: [fx, fy] },
+            Bounds { value: unless_far(free), along: self.gradient },
+        ]
     }
 }

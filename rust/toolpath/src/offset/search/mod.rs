@@ -12,6 +12,7 @@ use wide::f32x8;
 
 use super::contact::Best;
 use super::index::WIDTH;
+use crate::lattice::{Cells, Lattice, Node};
 use candidates::Candidates;
 use ground::{quarters, Tile};
 use view::{Branch, Survey, View};
@@ -24,16 +25,6 @@ const CROWDED: usize = 64;
 const WORTH_QUARTERING: f64 = 0.8;
 /// A survey of more branches than this says nothing.
 const MOST_BRANCHES: usize = 128;
-
-/// Between which heights the tip lies over a piece of the plan, mm: bounds. Both are minus infinity, or nearly so, where
-/// nothing can be touched.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range {
-    /// No tip is lower.
-    pub low: f64,
-    /// No tip is higher.
-    pub high: f64,
-}
 
 /// What is known of a piece of the plan and a height.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -121,38 +112,78 @@ impl Searcher {
         }
     }
 
-    /// Between which heights the tip lies over boxes of the plan (lower and upper corner) that lie together.
-    pub fn ranges(&mut self, ground: &Ground<'_>, boxes: &[[[f64; 2]; 2]], keep: &mut impl FnMut(Range)) {
-        let corners: Vec<[f64; 2]> = boxes.iter().flatten().copied().collect();
-        let all: Vec<u32> = (0..corners.len() as u32).collect();
-        let survey = self.survey(ground, &ground.tile(&corners, &all));
-        for box_ in boxes {
-            keep(self.range(ground, &survey, box_));
-        }
+    /// Looks for cells over which a tip may be higher than the `limit` of their rectangle, and calls `keep` with each of
+    /// them and what no tip there exceeds.
+    pub fn ceilings(
+        &mut self,
+        ground: &Ground<'_>,
+        lattice: &Lattice,
+        cells: Cells,
+        limit: &impl Fn(&Cells) -> f64,
+        keep: &mut impl FnMut(Node, f64),
+    ) {
+        self.ceilings_among(ground, &Survey::whole(ground), lattice, cells, limit, keep);
     }
 
-    fn range(&mut self, ground: &Ground<'_>, survey: &Survey, corners: &[[f64; 2]; 2]) -> Range {
-        let tile = ground.tile(corners, &[0, 1]);
-        let mut found = ground.guess(tile.middle, self.last);
-        self.explore(ground, survey, &tile, tile.middle, &mut found, true);
-        self.remember(&found);
-        if !found.is_something() && self.candidates.triangles.is_empty() {
-            return Range { low: f64::NEG_INFINITY, high: f64::NEG_INFINITY };
+    fn ceilings_among(
+        &mut self,
+        ground: &Ground<'_>,
+        survey: &Survey,
+        lattice: &Lattice,
+        cells: Cells,
+        limit: &impl Fn(&Cells) -> f64,
+        keep: &mut impl FnMut(Node, f64),
+    ) {
+        let limit_here = limit(&cells);
+        if limit_here == f64::INFINITY {
+            return;
         }
-        let (half, zero) = (tile.half.map(|h| h as f32), self.candidates.zero);
-        let low = if found.is_something() {
-            ground.contacts.least(found.triangle, tile.middle, tile.half)
-        } else {
-            f64::NEG_INFINITY
-        };
-        let mut high = low.max(found.tip);
-        for i in 0..self.candidates.triangles.len() {
-            let most = f64::from(self.candidates.most(i, half) + ground.margin()) + zero;
-            if most > high {
-                high = high.max(most.min(self.greatest(ground, &tile, i, high)));
+        let tile = ground.tile(&lattice.corners(&cells), &[0, 1]);
+        self.rising(ground, survey, &tile, limit_here);
+        if self.leaves.is_empty() {
+            return;
+        }
+        if cells.is_single() {
+            let all = 0..self.candidates.triangles.len();
+            let highest = all.fold(limit_here, |most, i| most.max(self.greatest(ground, &tile, i, most)));
+            if highest > limit_here {
+                keep(cells.from, highest);
+            }
+            return;
+        }
+        let leaves =
+            Survey { branches: std::mem::take(&mut self.leaves), middle: tile.middle, zero: self.candidates.zero };
+        for part in cells.quarters() {
+            self.ceilings_among(ground, &leaves, lattice, part, limit, keep);
+        }
+        self.leaves = leaves.branches;
+    }
+
+    /// Collects the triangles on which the tip may rise over a height somewhere in a tile.
+    fn rising(&mut self, ground: &Ground<'_>, survey: &Survey, tile: &Tile, height: f64) {
+        let view = View::of(ground, tile, &Best { tip: height, ..Best::NOTHING });
+        let enough = f32x8::splat((height - view.zero) as f32 - view.margin);
+        self.candidates.clear(view.zero);
+        self.leaves.clear();
+        self.stack.clear();
+        self.stack.extend_from_slice(&survey.branches);
+        while let Some(branch) = self.stack.pop() {
+            let (bounds, most) = view.opened_about(ground, branch);
+            let open = !most.simd_lt(enough).to_bitmask() & 0xff;
+            if open == 0 {
+                continue;
+            }
+            let (values, along) = (bounds.value.to_array(), bounds.along.map(f32x8::to_array));
+            if branch.level > 0 {
+                self.push_children(&values, &along, open, branch);
+                continue;
+            }
+            self.leaves.push(branch);
+            for lane in (0..WIDTH).filter(|lane| open & (1 << lane) != 0) {
+                let triangle = ground.index.of_piece(branch.node * WIDTH as u32 + lane as u32);
+                self.candidates.push(triangle, values[lane], [along[0][lane], along[1][lane]]);
             }
         }
-        Range { low, high }
     }
 
     /// What a candidate does not exceed in the tile, by its contact.

@@ -55,6 +55,16 @@ impl View {
     }
 }
 
+impl View {
+    /// The bounds of a node's children, and what they do not exceed in the tile.
+    #[inline]
+    pub fn opened_about(&self, ground: &Ground<'_>, branch: Branch) -> (Bounds, f32x8) {
+        let (level, node) = (branch.level as usize, branch.node as usize);
+        let (lanes, matched) = (&ground.index.levels()[level][node], &ground.matched[level][node]);
+        lanes.bounds_about(matched, &self.probe, ground.lines, self.half)
+    }
+}
+
 impl Survey {
     /// The root: nothing is known.
     pub fn whole(ground: &Ground<'_>) -> Self {

@@ -1,0 +1,87 @@
+//! Whether levels may hide in the cells of a grid, where all corners lie on one side of them.
+
+use rayon::prelude::*;
+use styluscam_motion::{Cancelled, Watch};
+
+use super::{grid::Grid, level_curve};
+use crate::{lattice::Node, Cells, Surface};
+
+/// What is known of the envelope in the cells of a grid.
+pub struct Bounds {
+    /// Heights under which no tip is.
+    floors: Vec<f64>,
+    /// Heights over which no tip is.
+    ceilings: Vec<f64>,
+}
+
+impl Bounds {
+    /// Bounds that say of each of the `heights` whether it may hide.
+    ///
+    /// # Errors
+    /// `Cancelled` when `watch` says so.
+    pub fn of(grid: &Grid, surface: &Surface<'_>, heights: &[f64], watch: &Watch) -> Result<Self, Cancelled> {
+        let levels = Levels::of(grid, heights);
+        let lattice = grid.lattice();
+        watch.begin("bounds", lattice.columns * lattice.rows);
+        let limit = |cells: &Cells| cells.iter().map(|cell| levels.next_over(grid, cell)).fold(f64::INFINITY, f64::min);
+        let ceilings = surface.envelope().ceilings(lattice, limit, watch)?;
+        let floors = (0..ceilings.len()).into_par_iter().map(|number| {
+            let cell = lattice.cell_of(number);
+            levels.next_under(grid, cell).map_or(f64::NEG_INFINITY, |level| floor(grid, surface, cell, level))
+        });
+        Ok(Self { floors: floors.collect(), ceilings })
+    }
+
+    /// Whether a level hides in a cell whose corners are all above it.
+    pub fn may_dip(&self, number: usize, z: f64) -> bool {
+        !level_curve::is_over(self.floors[number], z)
+    }
+
+    /// Whether a level hides in a cell whose corners are all below it.
+    pub fn may_rise(&self, number: usize, z: f64) -> bool {
+        level_curve::is_over(self.ceilings[number], z)
+    }
+}
+
+/// A height under which no tip is in a cell, over a level if that can be seen.
+fn floor(grid: &Grid, surface: &Surface<'_>, cell: Node, level: f64) -> f64 {
+    let corners = grid.lattice().corners(&Cells::single(cell));
+    let mut most = f64::NEG_INFINITY;
+    for contact in grid.corner_contacts(cell).into_iter().flatten() {
+        most = most.max(surface.envelope().least(contact, &corners));
+        if level_curve::is_over(most, level) {
+            break;
+        }
+    }
+    most
+}
+
+/// The levels between the nodes of a grid.
+struct Levels {
+    ascending: Vec<f64>,
+    /// By node, how many levels lie under it.
+    under: Vec<usize>,
+}
+
+impl Levels {
+    fn of(grid: &Grid, heights: &[f64]) -> Self {
+        let mut ascending = heights.to_vec();
+        ascending.sort_by(f64::total_cmp);
+        let under = |tip: f64| ascending.partition_point(|z| level_curve::is_over(tip, *z));
+        let under = grid.tips().map(|tip| tip.map_or(0, under)).collect();
+        Self { ascending, under }
+    }
+
+    /// The lowest level over all corners of a cell; infinite where there is none.
+    fn next_over(&self, grid: &Grid, cell: Node) -> f64 {
+        let corners = grid.lattice().corner_numbers(cell).map(|number| self.under[number]);
+        let most = corners.into_iter().max().unwrap_or(0);
+        self.ascending.get(most).copied().unwrap_or(f64::INFINITY)
+    }
+
+    /// The highest level under all corners of a cell.
+    fn next_under(&self, grid: &Grid, cell: Node) -> Option<f64> {
+        let corners = grid.lattice().corner_numbers(cell).map(|number| self.under[number]);
+        corners.into_iter().min()?.checked_sub(1).map(|level| self.ascending[level])
+    }
+}

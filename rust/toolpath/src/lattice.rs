@@ -1,0 +1,115 @@
+//! Square cells over the plan.
+
+/// Column and row of a cell, or of the node at its lower left.
+pub type Node = [usize; 2];
+
+/// Square cells side by side.
+#[derive(Clone, Debug)]
+pub struct Lattice {
+    /// Lower left corner, mm.
+    pub origin: [f64; 2],
+    /// Length of a cell's side, mm.
+    pub cell: f64,
+    /// Cells along X.
+    pub columns: usize,
+    /// Cells along Y.
+    pub rows: usize,
+}
+
+impl Lattice {
+    /// A place in plan, told in cells: column and row of a node where they are whole.
+    #[must_use]
+    pub fn place(&self, [column, row]: [f64; 2]) -> [f64; 2] {
+        [self.origin[0] + column * self.cell, self.origin[1] + row * self.cell]
+    }
+
+    /// All cells.
+    #[must_use]
+    pub fn cells(&self) -> Cells {
+        Cells { from: [0, 0], to: [self.columns, self.rows] }
+    }
+
+    /// Lower and upper corner of some cells.
+    #[must_use]
+    pub fn corners(&self, cells: &Cells) -> [[f64; 2]; 2] {
+        [cells.from, cells.to].map(|node| self.place(node.map(|i| i as f64)))
+    }
+
+    /// All nodes, row by row.
+    pub fn nodes(&self) -> impl Iterator<Item = Node> {
+        Cells { from: [0, 0], to: [self.columns + 1, self.rows + 1] }.iter()
+    }
+
+    /// The number of a node among [`nodes`](Self::nodes).
+    #[must_use]
+    pub fn node_number(&self, [column, row]: Node) -> usize {
+        row * (self.columns + 1) + column
+    }
+
+    /// The numbers of a cell's corners.
+    #[must_use]
+    pub fn corner_numbers(&self, cell: Node) -> [usize; 4] {
+        let first = self.node_number(cell);
+        let above = first + self.columns + 1;
+        [first, first + 1, above + 1, above]
+    }
+
+    /// The number of a cell, row by row.
+    #[must_use]
+    pub fn number(&self, [column, row]: Node) -> usize {
+        row * self.columns + column
+    }
+
+    /// The cell of a number.
+    #[must_use]
+    pub fn cell_of(&self, number: usize) -> Node {
+        [number % self.columns, number / self.columns]
+    }
+}
+
+/// A rectangle of cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cells {
+    /// The first column and row.
+    pub from: Node,
+    /// The column and row after the last.
+    pub to: Node,
+}
+
+impl Cells {
+    /// One cell.
+    #[must_use]
+    pub fn single([column, row]: Node) -> Self {
+        Self { from: [column, row], to: [column + 1, row + 1] }
+    }
+
+    /// Whether it is one cell.
+    #[must_use]
+    pub fn is_single(&self) -> bool {
+        (0..2).all(|i| self.from[i] + 1 == self.to[i])
+    }
+
+    /// Its cells.
+    pub fn iter(&self) -> impl Iterator<Item = Node> {
+        let Self { from, to } = *self;
+        (from[1]..to[1]).flat_map(move |row| (from[0]..to[0]).map(move |column| [column, row]))
+    }
+
+    /// Pieces of at most `size` cells each way.
+    pub fn pieces(&self, size: usize) -> impl Iterator<Item = Self> {
+        let Self { from, to } = *self;
+        let firsts = move |i: usize| (from[i]..to[i]).step_by(size);
+        firsts(1).flat_map(move |row| {
+            firsts(0).map(move |column| Self {
+                from: [column, row],
+                to: [(column + size).min(to[0]), (row + size).min(to[1])],
+            })
+        })
+    }
+
+    /// Its quarters, fewer where it is one cell wide.
+    pub fn quarters(&self) -> impl Iterator<Item = Self> {
+        let width = (self.to[0] - self.from[0]).max(self.to[1] - self.from[1]);
+        self.pieces(width.div_ceil(2))
+    }
+}
