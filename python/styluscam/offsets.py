@@ -123,7 +123,7 @@ def waterlines(
     cancel: _engine.CancelToken | None = None,
 ) -> list[list[FloatArray]]:
     """The loops of :func:`waterline` for each of the ``heights`` (N,), mm: much quicker than one call for each."""
-    heights = np.asarray(heights, dtype=np.float64).ravel().tolist()
+    levels: list[float] = np.asarray(heights, dtype=np.float64).ravel().tolist()
     return _engine.waterlines(
-        part.engine, tool._engine, heights, _sheet(sheet), tolerance, progress=progress, cancel=cancel
+        part.engine, tool._engine, levels, _sheet(sheet), tolerance, progress=progress, cancel=cancel
     )

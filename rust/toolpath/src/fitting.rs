@@ -85,6 +85,7 @@ pub fn thinned(points: &[PathPoint], deviation: f64) -> Vec<PathPoint> {
 
 /// The runs of selected points, their ends moved to the border of the selection.
 ///
+/// `between` gives the exact point over the middle of two others, asked in the order of the points.
 /// `closed` points repeat the first at the end; a run across the seam is joined. One run of all points comes
 /// back as it is.
 pub fn selected_runs(
@@ -101,7 +102,7 @@ pub fn selected_runs(
     for (i, point) in turned.iter().enumerate() {
         if point.selected {
             if run.is_empty() && i > 0 {
-                run.push(border(point, &turned[i - 1], &mut between));
+                run.push(border(point, &turned[i - 1], |inside, outside| between(outside, inside)));
             }
             run.push(*point);
         } else if !run.is_empty() {
@@ -123,11 +124,11 @@ fn from_a_gap(points: &[PathPoint]) -> Vec<PathPoint> {
     turned
 }
 
-/// The last selected point on the way from `inside` to `outside`.
+/// The last selected point on the way from `inside` to `outside`; `between` is asked in this order.
 fn border(
     inside: &PathPoint,
     outside: &PathPoint,
-    between: &mut impl FnMut(&PathPoint, &PathPoint) -> Option<PathPoint>,
+    mut between: impl FnMut(&PathPoint, &PathPoint) -> Option<PathPoint>,
 ) -> PathPoint {
     let (mut inside, mut outside) = (*inside, *outside);
     while (outside.tip - inside.tip).norm() > BORDER {

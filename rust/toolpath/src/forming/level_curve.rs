@@ -104,21 +104,20 @@ impl<'a> LevelCurve<'a> {
         Some(PathPoint { tip: Vector::new(x, y, self.z), ..point })
     }
 
-    /// The point of the level nearest to the middle of a chord, across it, as far as the chord is long; none where
-    /// there is no other side.
+    /// The point of the level across the middle of a chord: to its left where the middle must stay higher, to its right
+    /// where it need not; so a level that keeps its higher ground on the right keeps it there. None where it is
+    /// not as near as the chord is long.
     pub fn between(&mut self, a: &PathPoint, b: &PathPoint) -> Option<PathPoint> {
-        let chord = (b.tip - a.tip).xy();
-        let (reach, middle) = (chord.norm(), ((a.tip + b.tip) * 0.5).xy());
-        let across = Plan::new(-chord.y, chord.x).try_normalize(1e-12)?;
-        let outward = (a.normal + b.normal).xy();
-        let across = if outward.dot(&across) < 0.0 { -across } else { across };
+        let (chord, middle) = ((b.tip - a.tip).xy(), ((a.tip + b.tip) * 0.5).xy());
+        let (length, across) = (chord.norm(), Plan::new(-chord.y, chord.x).try_normalize(1e-12)?);
         let line = Line { from: middle.into(), along: across.into() };
         let mut at = 0.0;
         for _ in 0..STEPS {
             let contact = self.contact(line.at(at));
             let is_above = contact.is_some_and(|contact| self.keeps_off(&contact));
             let release = contact.and_then(|contact| self.release(&contact, &line));
-            match release.filter(|(way, _)| way.abs() <= reach && (*way >= at - BEYOND || !is_above)) {
+            let limits = if is_above { at - BEYOND..=length } else { -length..=at + BEYOND };
+            match release.filter(|(way, _)| limits.contains(way)) {
                 Some((way, contact)) if !self.is_above(line.at(way + BEYOND)) => {
                     return self.point(&line, way, &contact)
                 }
@@ -127,9 +126,9 @@ impl<'a> LevelCurve<'a> {
                 _ => break,
             }
         }
-        // free, and what is touched below does not rise to the level: the wall that does is searched for
+        // free, and what is touched below does not rise to the level nearby: what does is searched for
         let back = Line { from: line.at(at), ..line.reversed() };
-        let (way, contact) = self.surface.envelope().push(&back, self.z + OVER, at + reach)?;
+        let (way, contact) = self.surface.envelope().push(&back, self.z + OVER, at + length)?;
         self.point(&back, way.max(0.0), &contact)
     }
 }

@@ -6,6 +6,8 @@ mod grid;
 mod level_curve;
 mod levels;
 mod sides;
+mod square;
+mod trace;
 mod z_level;
 mod zig_zag;
 

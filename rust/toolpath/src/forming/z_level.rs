@@ -3,13 +3,7 @@
 use rayon::prelude::*;
 use styluscam_motion::Watch;
 
-use super::{
-    bounds::Bounds,
-    contour,
-    grid::Grid,
-    level_curve::LevelCurve,
-    sides::{Edge, Sides},
-};
+use super::{bounds::Bounds, contour, grid::Grid, level_curve::LevelCurve, trace::Trace};
 use crate::{fitting, Pass, PathPoint, PlanError, Surface};
 
 /// All passes at the given heights, in their order; chords stray by at most `deviation` mm along the normal.
@@ -50,34 +44,16 @@ struct Level<'a> {
 
 impl Level<'_> {
     fn passes(&self, deviation: f64, watch: &Watch) -> Result<Vec<Pass>, PlanError> {
+        let trace = Trace::new(self.grid, self.surface, self.z, deviation);
         let mut curve = LevelCurve::new(self.surface, self.z);
         let mut passes = Vec::new();
-        let sides = Sides::of(self.grid, self.bounds, &mut curve, self.z, watch)?;
-        for chain in contour::chains(&sides, |place| curve.is_above(place)) {
-            watch.advance(0)?;
-            let exact = crossings(&mut curve, &sides, &chain);
-            let whole = chain.closed && exact.iter().all(|p| p.selected);
-            for run in fitting::selected_runs(&exact, chain.closed, |a, b| curve.between(a, b)) {
-                let runs = fitting::densified(&run, deviation, |a, b| curve.between(a, b));
-                let closed = whole && runs.len() == 1;
-                let pass =
-                    |run: &Vec<PathPoint>| Pass { points: fitting::thinned(run, deviation), closed, group: self.group };
-                passes.extend(runs.iter().map(pass));
-            }
+        for chain in contour::chains(trace.segments(self.bounds, self.z, watch)?) {
+            let closed = chain.closed && chain.points.iter().all(|p| p.selected);
+            let runs = fitting::selected_runs(&chain.points, chain.closed, |a, b| curve.between(a, b));
+            let pass =
+                |run: &Vec<PathPoint>| Pass { points: fitting::thinned(run, deviation), closed, group: self.group };
+            passes.extend(runs.iter().map(pass));
         }
         Ok(passes)
     }
-}
-
-/// The exact points at which a chain crosses the grid; the first repeated when closed.
-fn crossings(curve: &mut LevelCurve<'_>, sides: &Sides<'_>, chain: &contour::Chain) -> Vec<PathPoint> {
-    let crossing = |edge: &Edge| {
-        let [above, free] = sides.ends(*edge);
-        curve.crossing(above, free, sides.guess(*edge))
-    };
-    let mut points: Vec<PathPoint> = chain.edges.iter().filter_map(crossing).collect();
-    if chain.closed {
-        points.extend(points.first().copied());
-    }
-    points
 }

@@ -261,10 +261,11 @@ impl<'a> Contacts<'a> {
         }
         let sides = towards.map(|towards| 1_f64.copysign(f64::from(towards)));
         let corner = [0, 1].map(|i| middle[i] + sides[i] * half[i]);
-        let Some((tip, rise)) = self.tangent(triangle, corner) else {
-            let is_out = self.is_out_of_reach(triangle, corner, half, sides);
-            return if is_out { f64::NEG_INFINITY } else { f64::INFINITY };
-        };
+        let apart = self.greatest_apart(triangle, corner, half, sides);
+        if apart <= enough {
+            return apart;
+        }
+        let Some((tip, rise)) = self.tangent(triangle, corner) else { return apart };
         // what still rises from that corner into the tile
         let back = [0, 1].map(|i| (-rise[i] * sides[i]).max(0.0) * 2.0 * half[i]);
         let most = tip + back[0] + back[1];
@@ -283,16 +284,32 @@ impl<'a> Contacts<'a> {
         origin.z + gx * dx + gy * dy - height + gx.abs() * half[0] + gy.abs() * half[1]
     }
 
-    /// Whether a triangle that the tool does not reach from a corner of a tile is reached from nowhere in it.
-    fn is_out_of_reach(&self, triangle: u32, corner: [f64; 2], half: [f64; 2], sides: [f64; 2]) -> bool {
+    /// What the tips that a triangle asks for do not exceed in a tile by their distance in plan alone.
+    fn greatest_apart(&self, triangle: u32, corner: [f64; 2], half: [f64; 2], sides: [f64; 2]) -> f64 {
         let corners = self.index.triangles().at(triangle);
+        let apart = self.apart(&corners, corner, half, sides);
+        if apart > self.cutter.max_radius() {
+            return f64::NEG_INFINITY;
+        }
+        corners.iter().fold(f64::NEG_INFINITY, |most, p| most.max(p.z)) - self.cutter.height_bound(apart)
+    }
+
+    /// How far a triangle and a tile are apart in plan at least, seen from a corner of the tile.
+    fn apart(&self, corners: &[Vector; 3], corner: [f64; 2], half: [f64; 2], sides: [f64; 2]) -> f64 {
+        if self.sides(corners, corner).iter().all(|side| side.area >= 0.0) {
+            return 0.0;
+        }
         let gaps = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| gap_to_segment(corner, corners[i], corners[j]));
         let distance = |gap: &[f64; 2]| libm::hypot(gap[0], gap[1]);
         let nearest = gaps.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or([0.0; 2]);
         // the triangle lies beyond a line across the gap; some of the tile may be nearer to it than the corner is
         let back = [0, 1].map(|i| (-nearest[i] * sides[i]).max(0.0) * 2.0 * half[i]);
         let apart = distance(&nearest);
-        apart - (back[0] + back[1]) / apart > self.cutter.max_radius()
+        if apart > 0.0 {
+            (apart - (back[0] + back[1]) / apart).max(0.0)
+        } else {
+            0.0
+        }
     }
 
     /// What a triangle alone asks for is nowhere in a tile less than this.

@@ -1,0 +1,125 @@
+"""Waterlines of parts that are hard on them: notches, needles, boxes that overlap, rough ground."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from conftest import Floats, made_part
+from numpy.typing import NDArray
+
+import styluscam as sc
+
+Mesh = tuple[Floats, NDArray[np.int64]]
+
+TOOLS = [
+    {"kind": "ball", "diameter": 5.0},
+    {"kind": "clothoid", "diameter": 6.0},
+    {"kind": "bull-nose", "diameter": 6.0, "corner_radius": 1.0},
+    {"kind": "flat", "diameter": 4.0},
+    {"kind": "cone", "diameter": 6.0, "half_angle_deg": 30.0, "tip_radius": 0.0},
+]
+TOLERANCE = 0.005
+
+
+def pits_and_bumps(rng: np.random.Generator) -> Mesh:
+    return made_part(4, 0.8 + 1.2 * rng.random(8), rng.normal(0, 0.3, (8, 2)), 2.0, 60.0)
+
+
+def tetrahedra(rng: np.random.Generator) -> Mesh:
+    middles = rng.uniform(-10, 10, (25, 1, 3)) * [1, 1, 0.05]
+    vertices = (middles + rng.normal(0, 1.5, (25, 4, 3))).reshape(-1, 3)
+    faces = np.array([[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]])
+    return vertices, (4 * np.arange(25)[:, None, None] + faces).reshape(-1, 3)
+
+
+def boxes(rng: np.random.Generator) -> Mesh:
+    turns, sides = rng.uniform(0, 6, 15), rng.uniform(0.2, 4, (15, 2))
+    ring = 0.5 * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * sides[:, None, :]
+    cos, sin = np.cos(turns)[:, None], np.sin(turns)[:, None]
+    plan = np.stack([cos * ring[..., 0] - sin * ring[..., 1], sin * ring[..., 0] + cos * ring[..., 1]], -1)
+    plan += rng.uniform(-10, 10, (15, 1, 2))
+    levels = [np.zeros((15, 4, 1)), np.broadcast_to(rng.uniform(0.2, 2, (15, 1, 1)), (15, 4, 1))]
+    vertices = np.concatenate([np.concatenate([plan, z], -1) for z in levels], axis=1).reshape(-1, 3)
+    walls = [[[i, (i + 1) % 4, 4 + (i + 1) % 4], [i, 4 + (i + 1) % 4, 4 + i]] for i in range(4)]
+    faces = np.array([[4, 5, 6], [4, 6, 7], *np.concatenate(walls).tolist()])
+    return vertices, (8 * np.arange(15)[:, None, None] + faces).reshape(-1, 3)
+
+
+def rough_ground(rng: np.random.Generator) -> Mesh:
+    count = 25
+    u = np.linspace(-10, 10, count)
+    x, y = np.meshgrid(u, u)
+    vertices = np.stack([x, y, rng.normal(0, 0.6, x.shape)], -1).reshape(-1, 3)
+    first = np.arange(count * count).reshape(count, count)[:-1, :-1].reshape(-1, 1)
+    return vertices, np.concatenate([np.add(first, ring) for ring in ([0, 1, count + 1], [0, count + 1, count])])
+
+
+KINDS: list[Callable[[np.random.Generator], Mesh]] = [pits_and_bumps, tetrahedra, boxes, rough_ground]
+
+
+def crossed(places: Floats, loops: list[Floats]) -> NDArray[np.int64]:
+    """How often the way from each place towards +X crosses the loops."""
+    counts = np.zeros(len(places), dtype=np.int64)
+    x, y = places.T[:, :, None]
+    for loop in loops:
+        (ax, ay), (bx, by) = loop[:-1, :2].T, loop[1:, :2].T
+        between = (ay > y) != (by > y)
+        at = ax + (y - ay) / np.where(by == ay, 1.0, by - ay) * (bx - ax)
+        counts += (between & (x < at)).sum(axis=1)
+    return counts
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
+@pytest.mark.parametrize("seed", range(3))
+def test_loops_close_gouge_nothing_and_part_the_plan(kind: Callable[[np.random.Generator], Mesh], seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    vertices, triangles = kind(rng)
+    part = sc.Part.from_mesh(vertices, triangles)
+    tool = sc.Tool.from_dict({"profile": TOOLS[rng.integers(len(TOOLS))]})
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    heights = low[2] + (high[2] - low[2]) * np.array([0.013, 0.31, 0.62, 0.93])
+    places = rng.uniform(low[:2] - 3, high[:2] + 3, (2000, 2))
+    tips = np.nan_to_num(sc.drop_cutter(part, tool, places), nan=-np.inf)
+    for z, loops in zip(heights, sc.waterlines(part, tool, heights, tolerance=TOLERANCE), strict=True):
+        assert loops
+        for loop in loops:
+            assert (loop[0] == loop[-1]).all()
+            share = np.linspace(0, 1, 8)[:, None, None]
+            way = (loop[:-1] + share * np.diff(loop, axis=0)).reshape(-1, 3)
+            assert (np.nan_to_num(sc.drop_cutter(part, tool, way[:, :2]), nan=-np.inf) <= z + 1e-9).all()
+        is_inside = crossed(places, loops) % 2 == 1
+        assert is_inside[tips > z + 1e-9].all()
+        # free places within the loops are within the tolerance of the level
+        sheet = {"thickness": TOLERANCE, "law": "constant", "model_face": "back"}
+        grown = np.nan_to_num(sc.drop_cutter(part, tool, places, sheet), nan=-np.inf)
+        assert (grown[is_inside & (tips <= z)] > z - TOLERANCE).all()
+
+
+@pytest.mark.parametrize("diameter", [1.5, 3.0, 5.0])
+def test_acute_notches_are_followed(small_part: Mesh, diameter: float) -> None:
+    part = sc.Part.from_mesh(*small_part)
+    tool = sc.Tool.from_dict({"profile": {"kind": "ball", "diameter": diameter}})
+    for loops in sc.waterlines(part, tool, np.linspace(0.05, 1.95, 20)):
+        assert loops
+        assert all((loop[0] == loop[-1]).all() for loop in loops)
+
+
+def test_many_waterlines_are_those_of_single_calls(small_part: Mesh) -> None:
+    part = sc.Part.from_mesh(*small_part)
+    tool = sc.Tool.from_dict({"profile": TOOLS[1]})
+    heights = [1.7, -0.6, 0.3]
+    together = sc.waterlines(part, tool, heights)
+    for z, loops in zip(heights, together, strict=True):
+        single = sc.waterline(part, tool, z)
+        assert [loop.tobytes() for loop in loops] == [loop.tobytes() for loop in single]
+    assert sc.waterlines(part, tool, []) == []
+    assert sc.waterlines(part, tool, [50.0]) == [[]]
+
+
+@pytest.mark.parametrize("heights", [[np.nan], [0.0, np.inf]])
+def test_heights_are_finite(small_part: Mesh, heights: list[float]) -> None:
+    tool = sc.Tool.from_dict({"profile": TOOLS[0]})
+    with pytest.raises(sc.PlanError, match="finite"):
+        sc.waterlines(sc.Part.from_mesh(*small_part), tool, heights)
