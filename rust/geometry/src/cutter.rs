@@ -5,7 +5,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::heights::{Height, Heights};
+use crate::piecewise::Piecewise;
 use crate::profile::{Profile, Straight};
 
 /// Cells of the table over the radius; one tangent each. At 1024 a bound costs one look-up and is
@@ -18,6 +18,20 @@ const SLOPE_CELLS: usize = 128;
 
 /// Newton's steps to a height at most: four or five do.
 const HEIGHT_STEPS: usize = 8;
+
+/// Walls rise by more: their square would be lost, or is infinite.
+const STEEP: f64 = 1e9;
+
+/// Height of the profile at a radius with its derivatives by the radius.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Height {
+    /// mm.
+    pub value: f64,
+    /// dz/dr.
+    pub rise: f64,
+    /// d2z/dr2, 1/mm.
+    pub bend: f64,
+}
 
 /// A line below the profile: `height + rise * (d - radius)` is never above it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,7 +59,10 @@ pub struct Cutter {
     /// Radius by rise / (1 + rise).
     rises: Vec<f64>,
     slopes: Vec<SlopeNode>,
-    heights: Option<Heights>,
+    /// Height by radius.
+    heights: Option<Piecewise>,
+    /// Radius and height by rise / (1 + rise).
+    points: Option<[Piecewise; 2]>,
 }
 
 /// The profile at one slope of the table.
@@ -74,6 +91,7 @@ impl Cutter {
             rises: Vec::new(),
             slopes: Vec::new(),
             heights: None,
+            points: None,
         };
         (cutter.max_radius, cutter.max_height) = cutter.point_at(FRAC_PI_2);
         cutter.slopes = (0..=SLOPE_CELLS).map(|i| cutter.slope_node(i)).collect();
@@ -81,7 +99,12 @@ impl Cutter {
         cutter.lines = (0..RADIUS_CELLS).map(|i| cutter.tangent_at(i as f64 / cutter.cells_per_mm)).collect();
         cutter.rises = (0..=RISE_CELLS).map(|i| cutter.rise_node(i)).collect();
         let size = cutter.max_radius + cutter.max_height;
-        cutter.heights = Some(Heights::of(cutter.max_radius, size, |radius| cutter.height_at_radius(radius)));
+        cutter.heights = Some(Piecewise::of(cutter.max_radius, size, |radius| cutter.height_at_radius(radius)));
+        let at_share = |share: f64| cutter.point_at(libm::atan2(share, 1.0 - share));
+        cutter.points = Some([
+            Piecewise::of(1.0, size, |share| at_share(share).0),
+            Piecewise::of(1.0, size, |share| at_share(share).1),
+        ]);
         cutter
     }
 
@@ -109,6 +132,27 @@ impl Cutter {
     #[must_use]
     pub fn point_at(&self, slope: f64) -> (f64, f64) {
         self.profile.point_at(slope)
+    }
+
+    /// Radius and height where the profile rises by `rise` (dz/dr, not negative), mm: [`point_at`](Self::point_at) of its
+    /// slope, by table where that does.
+    ///
+    #[must_use]
+    pub fn at_rise(&self, rise: f64) -> (f64, f64) {
+        if rise > STEEP {
+            return self.point_at(libm::atan(rise));
+        }
+        if let Some(ball) = self.ball {
+            let cos = 1.0 / (1.0 + rise * rise).sqrt();
+            let sin = rise * cos;
+            return (ball * sin, ball * sin * sin / (1.0 + cos));
+        }
+        self.point_by_table(rise).unwrap_or_else(|| self.point_at(libm::atan(rise)))
+    }
+
+    fn point_by_table(&self, rise: f64) -> Option<(f64, f64)> {
+        let ([radii, heights], share) = (self.points.as_ref()?, rise / (1.0 + rise));
+        Some((radii.value_at(share)?, heights.value_at(share)?))
     }
 
     /// The straight parts: flats, cones, in the order of their slopes.
@@ -189,12 +233,12 @@ impl Cutter {
         let share = (height - low.height) / (high.height - low.height);
         let mut radius = low.radius + share * (high.radius - low.radius);
         for _ in 0..HEIGHT_STEPS {
-            let at = heights.at(radius)?;
-            let next = (radius - (at.value - height) / at.rise).clamp(low.radius, high.radius);
+            let [value, rise, _] = heights.at(radius)?;
+            let next = (radius - (value - height) / rise).clamp(low.radius, high.radius);
             let step = (next - radius).abs();
             radius = next;
             if step <= f64::EPSILON * radius {
-                return Some((radius, at.rise));
+                return Some((radius, rise));
             }
         }
         None
@@ -212,7 +256,8 @@ impl Cutter {
     #[inline]
     #[must_use]
     pub fn height_with_derivatives(&self, radius: f64) -> Option<Height> {
-        self.heights.as_ref()?.at(radius)
+        let [value, rise, bend] = self.heights.as_ref()?.at(radius)?;
+        Some(Height { value, rise, bend })
     }
 
     /// The radius of the ball that it is, mm, if it is one.
@@ -336,6 +381,18 @@ mod tests {
             // a point of the curve lies on the supporting line of its slope
             let off = (radius - outer.0) * slope.sin() - (height - outer.1) * slope.cos();
             prop_assert!(off.abs() < 100.0 * size, "{off}");
+        }
+
+        #[test]
+        fn rise_gives_back_the_point(profile in any_profile(), ball in any_ball(), slope in 0.0..1.5707_f64) {
+            let cutter = Cutter::new(&profile, ball);
+            let (found, exact) = (cutter.at_rise(slope.tan()), cutter.point_at(slope));
+            let size = cutter.max_radius() + cutter.max_height();
+            let off = (found.0 - exact.0) * slope.sin() - (found.1 - exact.1) * slope.cos();
+            prop_assert!(off.abs() <= 1e-14 * size, "{off} {found:?} {exact:?}");
+            // a slope is rounded: on a flat arc of a large circle that shows
+            let near = 1e-14 * size + 1e-15 * cutter.curvature_radius_at(slope);
+            prop_assert!((found.0 - exact.0).abs() <= near, "{found:?} {exact:?}");
         }
 
         #[test]

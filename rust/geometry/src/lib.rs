@@ -5,16 +5,15 @@
 mod cutter;
 mod error;
 mod frame;
-mod heights;
 mod mesh;
+mod piecewise;
 mod profile;
 mod sheet;
 mod tool;
 
-pub use cutter::{Cutter, SupportingLine};
+pub use cutter::{Cutter, Height, SupportingLine};
 pub use error::GeometryError;
 pub use frame::Frame;
-pub use heights::Height;
 pub use mesh::{Bvh, Mesh, Node};
 pub use profile::{FormulaDocument, Profile, ProfileDocument, ProfileReport, Straight};
 pub use sheet::{ModelFace, Sheet, SheetLaw};

@@ -87,8 +87,8 @@ pub fn prepared(index: &Index, cutter: &Cutter) -> Vec<Facet> {
 impl Facet {
     fn of(triangles: &Triangles, triangle: u32, cutter: &Cutter, convexities: &Convexities) -> Self {
         let normal = normal::upward(triangles.at(triangle));
-        let across = libm::hypot(normal.x, normal.y);
-        let (radius, height) = cutter.point_at(libm::atan2(across, normal.z));
+        let across = (normal.x * normal.x + normal.y * normal.y).sqrt();
+        let (radius, height) = cutter.at_rise(across / normal.z);
         let gradient = [-normal.x / normal.z, -normal.y / normal.z];
         let share = if across > 0.0 { radius * normal.z / across } else { 0.0 };
         Self {

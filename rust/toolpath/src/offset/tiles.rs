@@ -5,7 +5,7 @@ use rayon::prelude::*;
 /// Places in a tile, about.
 const MEMBERS: f64 = 12.0;
 /// Triangles under a tile, about, at most.
-const TRIANGLES: f64 = 4.0;
+const TRIANGLES: f64 = 8.0;
 
 /// Tiles in a row and in a column of a block.
 const BLOCK: u64 = 4;

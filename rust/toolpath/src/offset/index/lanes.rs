@@ -61,8 +61,9 @@ impl Lanes {
         let [gx, gy] = self.gradient.map(f32x8::to_array);
         let (mut share, mut peak) = ([0.0; WIDTH], [0.0; WIDTH]);
         for lane in 0..WIDTH {
-            let rise = libm::hypot(f64::from(gx[lane]), f64::from(gy[lane]));
-            let (radius, height) = cutter.point_at(libm::atan(rise));
+            let [gx, gy] = [gx[lane], gy[lane]].map(f64::from);
+            let rise = (gx * gx + gy * gy).sqrt();
+            let (radius, height) = cutter.at_rise(rise);
             share[lane] = if rise > 0.0 { (radius / rise) as f32 } else { 0.0 };
             peak[lane] = (rise * radius - height) as f32;
         }

@@ -3,8 +3,12 @@
 use styluscam_geometry::Cutter;
 use wide::f32x8;
 
+use super::WIDTH;
+
 /// Cells up to the cutter's radius; one more serves beyond.
 const CELLS: usize = 512;
+/// Room for them, a power of two: a number cut to it needs no check.
+const ROOM: usize = 1024;
 /// Steepest line, dz/dr: steeper ones would only magnify rounding.
 pub const STEEPEST: f64 = 16.0;
 
@@ -12,7 +16,7 @@ pub const STEEPEST: f64 = 16.0;
 #[derive(Clone, Debug)]
 pub struct Lines {
     cells_per_mm: f64,
-    lines: Vec<[f32; 2]>,
+    lines: Box<[[f32; 2]; ROOM]>,
     /// Heights of the profile at the cells' borders, mm.
     heights: Vec<f64>,
 }
@@ -20,7 +24,10 @@ pub struct Lines {
 impl Lines {
     pub fn of(cutter: &Cutter) -> Self {
         let cells_per_mm = CELLS as f64 / cutter.max_radius();
-        let lines = (0..=CELLS).map(|cell| line(cutter, (cell as f64 + 0.5) / cells_per_mm)).collect();
+        let mut lines = Box::new([[0.0; 2]; ROOM]);
+        for (cell, place) in lines.iter_mut().enumerate().take(CELLS + 1) {
+            *place = line(cutter, (cell as f64 + 0.5) / cells_per_mm);
+        }
         let heights =
             (0..=CELLS).map(|cell| cutter.height_at_radius(cell as f64 / cells_per_mm).min(cutter.max_height()));
         Self { cells_per_mm, heights: heights.collect(), lines }
@@ -30,10 +37,12 @@ impl Lines {
     #[inline]
     pub fn at(&self, distance: f32x8) -> (f32x8, f32x8) {
         let cells = distance * f32x8::splat(self.cells_per_mm as f32);
-        let cells = cells.fast_min(f32x8::splat(CELLS as f32)).to_array();
-        let lines = cells.map(|cell| self.lines[(cell as usize).min(CELLS)]);
-        let heights = f32x8::new(lines.map(|line| line[0]));
-        let rises = f32x8::new(lines.map(|line| line[1]));
+        let cells = cells.fast_min(f32x8::splat(CELLS as f32)).fast_trunc_int().to_array();
+        let (mut heights, mut rises) = ([0.0; WIDTH], [0.0; WIDTH]);
+        for lane in 0..WIDTH {
+            [heights[lane], rises[lane]] = self.lines[cells[lane] as usize % ROOM];
+        }
+        let (heights, rises) = (f32x8::new(heights), f32x8::new(rises));
         (heights + rises * distance, rises)
     }
 

@@ -58,7 +58,8 @@ impl Triangles {
     /// The corners of a triangle.
     #[inline]
     pub fn at(&self, triangle: u32) -> [Vector; 3] {
-        self.corners[triangle as usize].map(|i| self.points[i as usize])
+        let [a, b, c] = self.corners[triangle as usize];
+        [self.points[a as usize], self.points[b as usize], self.points[c as usize]]
     }
 }
 

@@ -10,8 +10,8 @@ use super::super::index::{Index, Lines, Matched, Probe, WIDTH};
 const WALK: usize = 64;
 /// Rounding in a bound, as a share of the cutter's radius: that of f32 times the steepest line.
 const ROUNDING: f64 = 1e-5;
-/// Nodes of a survey's last level that cover a quarter of the surveyed piece, about.
-const SURVEYED: f64 = 4.0;
+/// The nodes of a survey's last level are at most this many times a quarter of the surveyed piece, about.
+const SURVEYED: f64 = 0.12;
 
 /// What the search needs of a mesh and a cutter.
 pub struct Ground<'a> {

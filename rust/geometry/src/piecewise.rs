@@ -1,40 +1,29 @@
-//! A cutter's height by radius as polynomials: what a drop-cutter asks most often.
+//! A function of one variable as polynomials: what a drop-cutter asks a cutter most often.
 //!
-//! A cell of radii whose polynomial does not follow the profile to rounding (at a kink, or where the profile goes
-//! straight up) has none: there the profile itself is asked.
+//! A cell whose polynomial does not follow the function to rounding (at a kink, or beside a vertical tangent) has none:
+//! there the function itself is asked.
 
-/// Cells up to the base.
+/// Cells.
 const CELLS: usize = 256;
 /// Coefficients of a polynomial: one line of a processor's cache.
 const TERMS: usize = 8;
-/// How far a polynomial may be from the profile, as a share of the cutter's size.
+/// How far a polynomial may be from the function, as a share of the function's size.
 const ROUNDING: f64 = 2e-15;
 
-/// Where in a cell a polynomial is compared with the profile, in u: between its nodes.
+/// Where in a cell a polynomial is compared with the function, in u: between its nodes.
 const CHECKED: [f64; 4] = [-1.0, -0.38, 0.19, 1.0];
 
-/// Heights by polynomials in u, which runs from -1 to 1 in each cell.
+/// A function from 0 to some end by polynomials in u, which runs from -1 to 1 in each cell.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Heights {
-    cells_per_mm: f64,
+pub struct Piecewise {
+    cells_per_unit: f64,
     cells: Vec<Option<[f64; TERMS]>>,
 }
 
-/// Height of the profile at a radius with its derivatives by the radius.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Height {
-    /// mm.
-    pub value: f64,
-    /// dz/dr.
-    pub rise: f64,
-    /// d2z/dr2, 1/mm.
-    pub bend: f64,
-}
-
-impl Heights {
-    /// Follows `exact`, heights by radius from 0 to `max_radius`, mm; `size` is what rounding is a share of.
-    pub fn of(max_radius: f64, size: f64, exact: impl Fn(f64) -> f64) -> Self {
-        let width = max_radius / CELLS as f64;
+impl Piecewise {
+    /// Follows `exact` from 0 to `end`; `size` is what rounding is a share of.
+    pub fn of(end: f64, size: f64, exact: impl Fn(f64) -> f64) -> Self {
+        let width = end / CELLS as f64;
         let nodes = chebyshev_nodes();
         let cell = |cell: usize| {
             let at = |u: f64| exact((cell as f64 + 0.5 + 0.5 * u) * width);
@@ -42,33 +31,33 @@ impl Heights {
             let follows = |u: f64| (evaluated(&polynomial, u) - at(u)).abs() <= ROUNDING * size;
             CHECKED.into_iter().all(follows).then_some(polynomial)
         };
-        Self { cells_per_mm: 1.0 / width, cells: (0..CELLS).map(cell).collect() }
+        Self { cells_per_unit: 1.0 / width, cells: (0..CELLS).map(cell).collect() }
     }
 
-    /// The height at a radius, mm; none where only the profile knows.
+    /// The value at a place; none where only the function knows.
     #[inline]
-    pub fn value_at(&self, radius: f64) -> Option<f64> {
-        let (polynomial, u) = self.place(radius)?;
+    pub fn value_at(&self, place: f64) -> Option<f64> {
+        let (polynomial, u) = self.place(place)?;
         Some(evaluated(polynomial, u))
     }
 
-    /// Height and derivatives at a radius; none where only the profile knows.
+    /// The value and its first two derivatives at a place; none where only the function knows.
     #[inline]
-    pub fn at(&self, radius: f64) -> Option<Height> {
-        let (polynomial, u) = self.place(radius)?;
+    pub fn at(&self, place: f64) -> Option<[f64; 3]> {
+        let (polynomial, u) = self.place(place)?;
         let (mut value, mut first, mut second) = (0.0, 0.0, 0.0);
         for coefficient in polynomial.iter().rev() {
             second = second * u + first;
             first = first * u + value;
             value = value * u + coefficient;
         }
-        let per_mm = 2.0 * self.cells_per_mm;
-        Some(Height { value, rise: first * per_mm, bend: 2.0 * second * per_mm * per_mm })
+        let per_unit = 2.0 * self.cells_per_unit;
+        Some([value, first * per_unit, 2.0 * second * per_unit * per_unit])
     }
 
     #[inline]
-    fn place(&self, radius: f64) -> Option<(&[f64; TERMS], f64)> {
-        let place = radius * self.cells_per_mm;
+    fn place(&self, place: f64) -> Option<(&[f64; TERMS], f64)> {
+        let place = place * self.cells_per_unit;
         let cell = place as usize;
         let polynomial = self.cells.get(cell)?.as_ref()?;
         Some((polynomial, 2.0 * (place - cell as f64) - 1.0))
