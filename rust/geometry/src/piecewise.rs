@@ -37,14 +37,14 @@ impl Piecewise {
     /// The value at a place; none where only the function knows.
     #[inline]
     pub fn value_at(&self, place: f64) -> Option<f64> {
-        let (polynomial, u) = self.place(place)?;
+        let (polynomial, u) = self.polynomial(place)?;
         Some(evaluated(polynomial, u))
     }
 
     /// The value and its first two derivatives at a place; none where only the function knows.
     #[inline]
     pub fn at(&self, place: f64) -> Option<[f64; 3]> {
-        let (polynomial, u) = self.place(place)?;
+        let (polynomial, u) = self.polynomial(place)?;
         let (mut value, mut first, mut second) = (0.0, 0.0, 0.0);
         for coefficient in polynomial.iter().rev() {
             second = second * u + first;
@@ -56,7 +56,7 @@ impl Piecewise {
     }
 
     #[inline]
-    fn place(&self, place: f64) -> Option<(&[f64; TERMS], f64)> {
+    fn polynomial(&self, place: f64) -> Option<(&[f64; TERMS], f64)> {
         let place = place * self.cells_per_unit;
         let cell = place as usize;
         let polynomial = self.cells.get(cell)?.as_ref()?;

@@ -44,6 +44,9 @@ pub fn touch(
     }
     let near =
         (line.along[0] * (guess[0] - x) + line.along[1] * (guess[1] - y)).clamp(line.first, line.first + line.run);
+    if line.bound(cutter, near) < best {
+        return None;
+    }
     match line.climbed(cutter, near, best) {
         Climb::Top(along, height) => line.contact(along, height),
         Climb::Beyond => None,
