@@ -182,7 +182,6 @@ def test_a_token_stops_a_waterline(wide_part: sc.Part) -> None:
     assert soonest_stop(lambda token: sc.waterline(wide_part, tool, 1.0, tolerance=1e-6, cancel=token)) < STOP
 
 
-@pytest.mark.xfail(strict=True, reason="the index of a part is built in one go")
 def test_a_token_stops_the_first_call_of_a_large_part() -> None:
     side = 1001
     x, y = np.meshgrid(np.linspace(0.0, 100.0, side), np.linspace(0.0, 100.0, side))

@@ -87,9 +87,9 @@ pub fn drop_cutter<'py>(
     if let Some(i) = places.iter().position(|p| !(p[0].is_finite() && p[1].is_finite())) {
         return Err(errors::raise("GeometryError", &format!("xy[{i}] is not a finite place"), "not-finite", "xy", ""));
     }
-    let (part, index) = (&part.part, || part.index());
+    let (whole, part) = (part, &part.part);
     let tips = watched(py, progress, cancel, |watch| {
-        let envelope = Envelope::new(&part.mesh, index(), &tool.tool, sheet.as_ref(), part.inward);
+        let envelope = Envelope::new(&part.mesh, whole.index(watch)?, &tool.tool, sheet.as_ref(), part.inward);
         watch.begin("drop-cutter", places.len());
         envelope.tips(&places, watch)
     })?;
@@ -126,9 +126,9 @@ pub fn push_cutter<'py>(
             errors::raise("GeometryError", &message, "not-finite", &format!("directions[{i}]"), "")
         })?);
     }
-    let (part, index) = (&part.part, || part.index());
+    let (whole, part) = (part, &part.part);
     let found = watched(py, progress, cancel, |watch| {
-        let envelope = Envelope::new(&part.mesh, index(), &tool.tool, sheet.as_ref(), part.inward);
+        let envelope = Envelope::new(&part.mesh, whole.index(watch)?, &tool.tool, sheet.as_ref(), part.inward);
         watch.begin("push-cutter", lines.len());
         envelope.pushes(&lines, z, watch)
     })?;
@@ -153,7 +153,7 @@ pub fn waterlines<'py>(
     cancel: Option<&CancelToken>,
 ) -> PyResult<Vec<Loops<'py>>> {
     let sheet = self::sheet(sheet)?;
-    let (part, index) = (&part.part, || part.index());
+    let (whole, part) = (part, &part.part);
     let left = tolerance - part.inward - part.outward;
     if let Some(z) = heights.iter().find(|z| !z.is_finite()) {
         let message = format!("z = {z}: a height must be a finite number");
@@ -164,7 +164,8 @@ pub fn waterlines<'py>(
         return Err(errors::raise("PlanError", &message, "tolerance-budget", "tolerance", "raise tolerance"));
     }
     let passes = watched(py, progress, cancel, |watch| {
-        let envelope = Envelope::new(&part.mesh, index(), &tool.tool, sheet.as_ref(), part.inward + 0.5 * left);
+        let envelope =
+            Envelope::new(&part.mesh, whole.index(watch)?, &tool.tool, sheet.as_ref(), part.inward + 0.5 * left);
         let surface = Surface::whole(&envelope);
         let grid = Grid::sample(&surface, SPACING_SHARE * tool.tool.diameter(), watch)?;
         grid.map_or(Ok(Vec::new()), |grid| z_levels(&surface, &grid, &heights, EACH_SIDE * left, watch))
@@ -208,14 +209,14 @@ pub fn offset_surface<'py>(
     cancel: Option<&CancelToken>,
 ) -> PyResult<(Columns<'py>, Connection<'py>, Vec<RegionRow>)> {
     let sheet = self::sheet(sheet)?;
-    let (part, index) = (&part.part, || part.index());
+    let (whole, part) = (part, &part.part);
     if !(tolerance > part.outward && tolerance.is_finite()) {
         let message = format!("tolerance = {tolerance}: it must exceed the part's checked deviation, {}", part.outward);
         return Err(errors::raise("GeometryError", &message, "out-of-range", "tolerance", "raise tolerance"));
     }
     let triangles = triangles_of(&part.mesh, faces.as_deref())?;
     let made = watched(py, progress, cancel, |watch| {
-        let envelope = Envelope::new(&part.mesh, index(), &tool.tool, sheet.as_ref(), 0.0);
+        let envelope = Envelope::new(&part.mesh, whole.index(watch)?, &tool.tool, sheet.as_ref(), 0.0);
         let surface = OffsetSurface::new(&envelope, &tool.tool, sheet.as_ref(), &triangles, tolerance, watch)?;
         let regions = surface.regions(&part.mesh);
         Ok((surface, regions))

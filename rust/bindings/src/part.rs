@@ -1,10 +1,11 @@
 //! Parts: triangles in the frame of their file.
 
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock};
 
 use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 use styluscam_geometry::{Mesh, Vector};
+use styluscam_motion::{Cancelled, Watch};
 use styluscam_toolpath::offset::Index;
 
 use crate::{arrays, errors};
@@ -14,12 +15,21 @@ use crate::{arrays, errors};
 pub struct Part {
     pub(crate) part: styluscam_job::Part,
     index: OnceLock<Index>,
+    /// Held while the index is built: once is enough.
+    building: Mutex<()>,
 }
 
 impl Part {
     /// The triangles' index, built when it is first asked for.
-    pub(crate) fn index(&self) -> &Index {
-        self.index.get_or_init(|| Index::new(&self.part.mesh))
+    ///
+    /// # Errors
+    /// `Cancelled` when `watch` says so; the next call builds it anew.
+    pub(crate) fn index(&self, watch: &Watch) -> Result<&Index, Cancelled> {
+        let _alone = self.building.lock();
+        if self.index.get().is_none() {
+            let _ = self.index.set(Index::watched(&self.part.mesh, watch)?);
+        }
+        self.index.get().ok_or(Cancelled)
     }
 }
 
@@ -50,7 +60,11 @@ impl Part {
                 return Err(errors::raise("GeometryError", &message, "out-of-range", "deviation", ""));
             }
         }
-        Ok(Self { part: styluscam_job::Part { mesh, inward, outward }, index: OnceLock::new() })
+        Ok(Self {
+            part: styluscam_job::Part { mesh, inward, outward },
+            index: OnceLock::new(),
+            building: Mutex::new(()),
+        })
     }
 
     /// Lower and upper corner of the box.

@@ -32,11 +32,17 @@ impl Watch {
     /// `Cancelled` when somebody asked to stop: give up at once.
     pub fn advance(&self, steps: usize) -> Result<(), Cancelled> {
         self.done.fetch_add(steps as u64, Ordering::Relaxed);
-        if self.cancelled.load(Ordering::Relaxed) {
+        if self.is_cancelled() {
             Err(Cancelled)
         } else {
             Ok(())
         }
+    }
+
+    /// Whether somebody asked to stop: for work that leaves off first and says so later.
+    #[must_use]
+    pub fn is_cancelled(&self) -> bool {
+        self.cancelled.load(Ordering::Relaxed)
     }
 
     /// Asks the work to stop; it does within a fraction of a second.

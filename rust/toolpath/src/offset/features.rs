@@ -6,6 +6,7 @@
 
 use rayon::prelude::*;
 use styluscam_geometry::Vector;
+use styluscam_motion::Watch;
 
 use super::index::Triangles;
 use super::normal;
@@ -25,9 +26,13 @@ pub const NO_NEIGHBOUR: u32 = u32::MAX;
 /// Two facets count as meeting in a valley only beyond this height of one over the other's plane, relative to size.
 const VALLEY: f64 = 1e-12;
 
-/// Ownership and neighbours of all triangles; `firsts` says of each which corners no triangle before it has.
-pub fn of(triangles: &Triangles, firsts: &[u8]) -> (Vec<Owned>, Vec<Neighbours>) {
+/// Ownership and neighbours of all triangles; `firsts` says of each which corners no triangle before it has. None
+/// when `watch` is cancelled.
+pub fn of(triangles: &Triangles, firsts: &[u8], watch: &Watch) -> (Vec<Owned>, Vec<Neighbours>) {
     let neighbours = neighbours(triangles);
+    if watch.is_cancelled() {
+        return (Vec::new(), neighbours);
+    }
     let owned =
         firsts.par_iter().enumerate().map(|(t, first)| owned_edges(triangles, &neighbours, t) | (first << 3)).collect();
     (owned, neighbours)

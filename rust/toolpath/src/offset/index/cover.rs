@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 use styluscam_geometry::Vector;
+use styluscam_motion::Watch;
 use wide::f32x8;
 
 use super::lanes::Lanes;
@@ -64,8 +65,11 @@ impl Pieces<'_> {
     }
 }
 
-/// Covers of each piece.
-pub fn of_pieces(pieces: &Pieces<'_>) -> Vec<Cover> {
+/// Covers of each piece; none when `watch` is cancelled.
+pub fn of_pieces(pieces: &Pieces<'_>, watch: &Watch) -> Vec<Cover> {
+    if watch.is_cancelled() {
+        return Vec::new();
+    }
     (0..pieces.of_pieces.len()).into_par_iter().map(|place| pieces.cover(place)).collect()
 }
 
@@ -176,7 +180,7 @@ impl Cover {
 /// The gradient and the area in plan that weighs it; walls keep their direction, but not their infinite gradient.
 fn weighted_gradient([a, b, c]: [Vector; 3]) -> ([f64; 2], f64) {
     let normal = (b - a).cross(&(c - a));
-    let steepness = libm::hypot(normal.x, normal.y);
+    let steepness = (normal.x * normal.x + normal.y * normal.y).sqrt();
     let weight = normal.z.abs().max(steepness / STEEPEST);
     let sign = if normal.z < 0.0 { 1.0 } else { -1.0 };
     ([normal.x * sign, normal.y * sign], weight)

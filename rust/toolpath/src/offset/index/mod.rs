@@ -11,6 +11,7 @@ mod pieces;
 
 use rayon::prelude::*;
 use styluscam_geometry::{Mesh, Vector};
+use styluscam_motion::{Cancelled, Watch};
 
 pub use lanes::{Bounds, Lanes, Matched, Probe};
 pub use lines::Lines;
@@ -24,11 +25,14 @@ const WALL: f64 = 1e-3;
 /// What rounding makes of a place, as a share of the coordinates.
 const ROUNDING: f64 = 1e-13;
 
+/// Stages of building that progress shows.
+const STAGES: usize = 3;
+
 /// Children of a node.
 pub const WIDTH: usize = 8;
 
 /// Triangles by number in the index's order.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Triangles {
     /// Indices of the corners in `points`.
     pub corners: Vec<[u32; 3]>,
@@ -67,14 +71,33 @@ impl Index {
     /// Builds the index; the result does not depend on the number of threads.
     #[must_use]
     pub fn new(mesh: &Mesh) -> Self {
+        Self::built(mesh, &Watch::default())
+    }
+
+    /// As [`new`](Self::new), and can be stopped.
+    ///
+    /// # Errors
+    /// `Cancelled` when `watch` says so.
+    pub fn watched(mesh: &Mesh, watch: &Watch) -> Result<Self, Cancelled> {
+        watch.begin("index", STAGES);
+        let index = Self::built(mesh, watch);
+        watch.advance(0)?;
+        Ok(index)
+    }
+
+    /// The index; something of no use when `watch` is cancelled on the way.
+    fn built(mesh: &Mesh, watch: &Watch) -> Self {
         let (low, high) = mesh.bounds();
         let centre = (low + high) * 0.5;
+        let stage = |watch: &Watch| watch.advance(1).is_ok();
         let pieces = pieces::of(mesh, (low, high));
-        let order = order::of(&pieces, centre);
+        let order = if stage(watch) { order::of(&pieces, centre, watch) } else { Vec::new() };
         let Owners { of_pieces, parts, numbers, places } = Owners::of(pieces, &order, mesh.triangles().len());
-        let (triangles, firsts) = renumbered(mesh, &numbers);
-        let levels = levels(&cover::Pieces { triangles: &triangles, of_pieces: &of_pieces, parts: &parts, centre });
-        let (owned, neighbours) = features::of(&triangles, &firsts);
+        let (triangles, firsts) = if stage(watch) { renumbered(mesh, &numbers) } else { Default::default() };
+        let pieces = cover::Pieces { triangles: &triangles, of_pieces: &of_pieces, parts: &parts, centre };
+        let (levels, (owned, neighbours)) =
+            rayon::join(|| levels(&pieces, watch), || features::of(&triangles, &firsts, watch));
+        let _ = stage(watch);
         Self { triangles, of_pieces, numbers, places, owned, neighbours, levels, centre, low, high }
     }
 
@@ -162,13 +185,13 @@ fn renumbered(mesh: &Mesh, numbers: &[u32]) -> (Triangles, Vec<u8>) {
     (triangles, firsts)
 }
 
-fn levels(pieces: &cover::Pieces<'_>) -> Vec<Vec<Lanes>> {
-    let mut covers = cover::of_pieces(pieces);
+fn levels(pieces: &cover::Pieces<'_>, watch: &Watch) -> Vec<Vec<Lanes>> {
+    let mut covers = cover::of_pieces(pieces, watch);
     let mut levels = Vec::new();
     let mut size = 1;
     loop {
         levels.push(covers.par_chunks(WIDTH).map(cover::lanes).collect());
-        if covers.len() <= WIDTH {
+        if covers.len() <= WIDTH || watch.is_cancelled() {
             return levels;
         }
         size *= WIDTH;

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 use styluscam_geometry::Vector;
+use styluscam_motion::Watch;
 
 use super::pieces::Piece;
 use super::WIDTH;
@@ -17,20 +18,21 @@ struct Key {
     piece: u32,
 }
 
-/// The pieces, halved again and again along their longest extent; the same whatever the number of threads.
-pub fn of(pieces: &[Piece], centre: Vector) -> Vec<u32> {
+/// The pieces, halved again and again along their longest extent; the same whatever the number of threads. In some order
+/// when `watch` is cancelled on the way.
+pub fn of(pieces: &[Piece], centre: Vector, watch: &Watch) -> Vec<u32> {
     let key = |(number, piece): (usize, &Piece)| Key { middle: piece.middle(centre), piece: number as u32 };
     let mut keys: Vec<Key> = pieces.par_iter().enumerate().map(key).collect();
     let mut group = WIDTH;
     while group * WIDTH < keys.len() {
         group *= WIDTH;
     }
-    split(&mut keys, group);
+    split(&mut keys, group, watch);
     keys.iter().map(|key| key.piece).collect()
 }
 
 /// Splits until no range is larger than a group, then with the next smaller groups.
-fn split(keys: &mut [Key], mut group: usize) {
+fn split(keys: &mut [Key], mut group: usize, watch: &Watch) {
     while keys.len() <= group {
         group /= WIDTH;
         if group < WIDTH {
@@ -42,11 +44,11 @@ fn split(keys: &mut [Key], mut group: usize) {
     let axis = longest(keys);
     keys.select_nth_unstable_by(half, |a, b| a.middle[axis].total_cmp(&b.middle[axis]).then(a.piece.cmp(&b.piece)));
     let (left, right) = keys.split_at_mut(half);
-    if left.len() > PARALLEL {
-        rayon::join(|| split(left, group), || split(right, group));
-    } else {
-        split(left, group);
-        split(right, group);
+    if left.len() <= PARALLEL {
+        split(left, group, watch);
+        split(right, group, watch);
+    } else if !watch.is_cancelled() {
+        rayon::join(|| split(left, group, watch), || split(right, group, watch));
     }
 }
 
