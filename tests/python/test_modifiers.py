@@ -98,8 +98,47 @@ def inverted_in_part(case: Case, rng: np.random.Generator) -> Case:
     return case._replace(triangles=np.where(some[:, None], case.triangles[:, ::-1], case.triangles))
 
 
-CONNECTED = (turned, mirrored, moved, shuffled, split_in_the_middle, inverted_in_part)
-DISCONNECTED = (split_with_t_junctions, doubled, unwelded)
+def with_fins(case: Case, rng: np.random.Generator) -> Case:
+    """Walls hang below every third side: three triangles meet there."""
+    a, b = case.vertices[case.triangles[:, 0]], case.vertices[case.triangles[:, 1]]
+    feet = 0.5 * (a + b) - [0.0, 0.0, 3.0]
+    numbers = len(case.vertices) + np.arange(len(feet))
+    fins = np.stack([case.triangles[:, 0], case.triangles[:, 1], numbers], axis=1)
+    vertices, triangles = np.concatenate([case.vertices, feet]), np.concatenate([case.triangles, fins])
+    return case._replace(vertices=vertices, triangles=triangles)
+
+
+def with_slivers(case: Case, rng: np.random.Generator) -> Case:
+    """A sliver 1e-9 mm thick lies along a side of each triangle."""
+    corners = case.vertices[case.triangles]
+    share = rng.uniform(0.1, 0.9, (len(corners), 1))
+    along = corners[:, 0] + share * (corners[:, 1] - corners[:, 0])
+    inward = corners[:, 2] - along
+    tops = along + 1e-9 * inward / np.linalg.norm(inward, axis=1, keepdims=True)
+    numbers = len(case.vertices) + np.arange(len(tops))
+    slivers = np.stack([case.triangles[:, 0], case.triangles[:, 1], numbers], axis=1)
+    vertices, triangles = np.concatenate([case.vertices, tops]), np.concatenate([slivers, case.triangles])
+    return case._replace(vertices=vertices, triangles=triangles)
+
+
+def with_nothings(case: Case, rng: np.random.Generator) -> Case:
+    """Triangles without area: corners repeated, and corners in a line."""
+    a, b, c = case.triangles.T
+    middles = 0.5 * (case.vertices[a] + case.vertices[b])
+    numbers = len(case.vertices) + np.arange(len(middles))
+    nothings = np.concatenate([np.stack([a, a, c], axis=1), np.stack([b, b, b], axis=1), np.stack([a, numbers, b], axis=1)])
+    vertices, triangles = np.concatenate([case.vertices, middles]), np.concatenate([nothings, case.triangles])
+    return case._replace(vertices=vertices, triangles=triangles)
+
+
+def far_away(case: Case, rng: np.random.Generator) -> Case:
+    """100 m from the origin: coordinates are good to 1.5e-11 mm there."""
+    off = np.array([-1e5, 1e5, 0.0])
+    return Case(case.vertices + off, case.triangles, case.places + off[:2])
+
+
+CONNECTED = (turned, mirrored, moved, shuffled, split_in_the_middle, inverted_in_part, with_nothings, far_away)
+DISCONNECTED = (split_with_t_junctions, doubled, unwelded, with_fins, with_slivers)
 """No two triangles share a side, or more than two do."""
 MODIFIERS = (*CONNECTED, *DISCONNECTED)
 
@@ -143,7 +182,9 @@ def test_drop_cutter_moves_with_the_shape(
     case: Case = request.getfixturevalue(name)
     before, after = tips(case, tool), tips(modifier(case, np.random.default_rng(5)), tool)
     assert 1000 < np.isfinite(before).sum() < len(before)
-    np.testing.assert_allclose(after, before, rtol=0.0, atol=EXACT)
+    # places are rounded out there, and beside a rim heights are a hundred times as steep
+    atol = 1e-8 if modifier is far_away else EXACT
+    np.testing.assert_allclose(after, before, rtol=0.0, atol=atol)
 
 
 # --- waterlines -------------------------------------------------------------------------------------------------
