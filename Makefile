@@ -117,6 +117,7 @@ fmt: $(VENV)/.ready ## Formats everything
 .PHONY: bench
 bench: dev ## Measures ours and others side by side; writes docs/performance.md
 	$(BIN)/python bench/drop_cutter.py
+	$(BIN)/python bench/growth.py
 	$(BIN)/python bench/gouges.py
 
 .PHONY: fixtures
