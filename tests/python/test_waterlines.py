@@ -97,6 +97,27 @@ def test_loops_close_gouge_nothing_and_part_the_plan(kind: Callable[[np.random.G
         assert (grown[is_inside & (tips <= z)] > z - TOLERANCE).all()
 
 
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
+@pytest.mark.parametrize("seed", range(3))
+def test_points_lie_on_the_level_of_the_envelope(kind: Callable[[np.random.Generator], Mesh], seed: int) -> None:
+    """The envelope that is half the tolerance clear of the part: to 1e-9 mm, beside a wall across it."""
+    rng = np.random.default_rng(seed)
+    vertices, triangles = kind(rng)
+    part = sc.Part.from_mesh(vertices, triangles)
+    tool = sc.Tool.from_dict({"profile": TOOLS[rng.integers(len(TOOLS))]})
+    sheet = {"thickness": 0.5 * TOLERANCE, "law": "constant", "model_face": "back"}
+    low, high = vertices[:, 2].min(), vertices[:, 2].max()
+    heights = low + (high - low) * np.array([0.21, 0.52, 0.83])
+    turns = np.linspace(0, 2 * np.pi, 8, endpoint=False)
+    about = np.concatenate([[[0.0, 0.0]], 1e-8 * np.stack([np.cos(turns), np.sin(turns)], -1)])
+    for z, loops in zip(heights, sc.waterlines(part, tool, heights, tolerance=TOLERANCE), strict=True):
+        points = np.concatenate(loops)[:, :2]
+        tips = sc.drop_cutter(part, tool, (points[:, None] + about).reshape(-1, 2), sheet).reshape(len(points), -1)
+        tips = np.nan_to_num(tips, nan=-np.inf)
+        assert (tips.max(axis=1) >= z - 1e-9).all()
+        assert (tips.min(axis=1) <= z + 2e-9).all()
+
+
 @pytest.mark.parametrize("diameter", [1.5, 3.0, 5.0])
 def test_acute_notches_are_followed(small_part: Mesh, diameter: float) -> None:
     part = sc.Part.from_mesh(*small_part)
