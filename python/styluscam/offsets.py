@@ -11,7 +11,7 @@ import numpy.typing as npt
 from styluscam import _engine
 from styluscam.part import Part
 from styluscam.tool import Tool
-from styluscam.types import Document, FloatArray, Progress, points
+from styluscam.types import Document, FloatArray, Progress, numbers, points, shaped
 
 REGULAR, RIM, UNDERCUT = 0, 1, 2
 """Flags of :class:`Offsets`."""
@@ -32,7 +32,7 @@ class Offsets(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
 
 
 def _sheet(sheet: Document | None) -> str | None:
-    return None if sheet is None else json.dumps(sheet)
+    return None if sheet is None else json.dumps(sheet, default=float)
 
 
 def slope_matched_offset(
@@ -43,7 +43,9 @@ def slope_matched_offset(
     ``sheet = {"thickness": 1.0, "law": "constant", "model_face": "back"}``. The tool may interfere elsewhere: see
     :func:`drop_cutter`. Source: US 2023/0035585.
     """
-    tips, flags = _engine.slope_matched_offset(tool._engine, points(points_, 3), points(normals, 3), _sheet(sheet))
+    tips, flags = _engine.slope_matched_offset(
+        tool._engine, points(points_, 3), points(normals, 3, "normals"), _sheet(sheet)
+    )
     result = tips.view(Offsets)
     result._by_point = flags
     return result
@@ -65,7 +67,7 @@ def drop_cutter(
     file is never entered. Where the tool meets nothing: ``floor``, else NaN.
     """
     return _engine.drop_cutter(
-        part.engine, tool._engine, points(xy, 2), _sheet(sheet), floor, progress=progress, cancel=cancel
+        part.engine, tool._engine, points(xy, 2, "xy"), _sheet(sheet), floor, progress=progress, cancel=cancel
     )
 
 
@@ -88,8 +90,8 @@ def push_cutter(
     return _engine.push_cutter(
         part.engine,
         tool._engine,
-        points(xy, 2),
-        points(directions, 2),
+        points(xy, 2, "xy"),
+        points(directions, 2, "directions"),
         z,
         _sheet(sheet),
         progress=progress,
@@ -107,8 +109,12 @@ def waterline(
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
 ) -> list[FloatArray]:
-    """Loops (M, 3) of the tip at height ``z``, the first point repeated when closed; 0 to ``tolerance`` mm free."""
-    (loops,) = waterlines(part, tool, [z], sheet, tolerance, progress=progress, cancel=cancel)
+    """Loops (M, 3) of the tip at height ``z``, mm, each with its first point repeated at the end.
+
+    They keep 0 to ``tolerance`` mm clear of the part, and have the higher ground on their right. What lies less than half
+    the tolerance under the level, a floor at it, counts as above it.
+    """
+    (loops,) = waterlines(part, tool, [float(z)], sheet, tolerance, progress=progress, cancel=cancel)
     return loops
 
 
@@ -123,7 +129,7 @@ def waterlines(
     cancel: _engine.CancelToken | None = None,
 ) -> list[list[FloatArray]]:
     """The loops of :func:`waterline` for each of the ``heights`` (N,), mm: much quicker than one call for each."""
-    levels: list[float] = np.asarray(heights, dtype=np.float64).ravel().tolist()
+    levels: list[float] = shaped(np.atleast_1d(numbers(heights, "heights")), (None,), "heights").tolist()
     return _engine.waterlines(
         part.engine, tool._engine, levels, _sheet(sheet), tolerance, progress=progress, cancel=cancel
     )

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from styluscam import _engine
 from styluscam.parts import PartArrays, read_part
-from styluscam.types import FloatArray, Progress, points
+from styluscam.types import FloatArray, Progress, numbers, points, shaped, whole_numbers
 
 
 class Part:
@@ -36,10 +36,11 @@ class Part:
             GeometryError: numbers that are not finite or absurd, indices out of range, lengths that do not match,
                 nothing left.
         """
-        corners = np.ascontiguousarray(triangles, dtype=np.int64)
-        known = None if normals is None else np.asarray(normals, dtype=np.float64).reshape(*corners.shape, 3)
-        ids = None if face_ids is None else np.ascontiguousarray(face_ids, dtype=np.int64)
-        return cls(_engine.Part(points(vertices, 3), corners, ids, normals=known))
+        corners = whole_numbers(triangles, "triangles")
+        corners = shaped(corners.reshape(-1, 3) if corners.size == 0 else corners, (None, 3), "triangles")
+        known = None if normals is None else shaped(numbers(normals, "normals"), (len(corners), 3, 3), "normals")
+        ids = None if face_ids is None else shaped(whole_numbers(face_ids, "face_ids"), (None,), "face_ids")
+        return cls(_engine.Part(points(vertices, 3, "vertices"), corners, ids, normals=known))
 
     @classmethod
     def from_arrays(cls, arrays: PartArrays) -> Part:

@@ -1,4 +1,4 @@
-"""Names for the arrays and callbacks that cross the package."""
+"""Names for the arrays and callbacks that cross the package, and the check of what comes in."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from styluscam.errors import GeometryError
+
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 IntArray: TypeAlias = npt.NDArray[np.int64]
 Progress: TypeAlias = Callable[[str, float], "bool | None"]
@@ -15,7 +17,63 @@ Progress: TypeAlias = Callable[[str, float], "bool | None"]
 Document: TypeAlias = dict[str, Any]
 
 
-def points(values: npt.ArrayLike, columns: int) -> FloatArray:
-    """Rows of ``columns`` numbers as a contiguous float64 array; a single row becomes (1, columns)."""
-    array = np.ascontiguousarray(values, dtype=np.float64)
-    return array.reshape(1, -1) if array.ndim == 1 and array.size == columns else array
+def points(values: npt.ArrayLike, columns: int, name: str = "points") -> FloatArray:
+    """Rows of ``columns`` numbers as a contiguous float64 array; a single row becomes (1, columns).
+
+    Raises:
+        GeometryError: something else; ``name`` is what it calls them.
+    """
+    array = numbers(values, name)
+    if array.ndim == 1 and array.size in (0, columns):
+        array = array.reshape(-1, columns)
+    return shaped(array, (None, columns), name)
+
+
+def whole_numbers(values: npt.ArrayLike, name: str) -> IntArray:
+    """As a contiguous int64 array of any shape.
+
+    Raises:
+        GeometryError: something else than whole numbers.
+    """
+    array = numbers(values, name)
+    whole = np.asarray(values) if np.asarray(values).dtype.kind in "iu" else array
+    if not (np.isfinite(array).all() and (array == np.round(array)).all() and (np.abs(array) < 2**62).all()):
+        raise GeometryError(f"{name}: whole numbers expected", code="not-whole", where=name, hint="give integers")
+    return np.ascontiguousarray(whole, dtype=np.int64)
+
+
+def numbers(values: npt.ArrayLike, name: str) -> FloatArray:
+    """As a contiguous float64 array of any shape.
+
+    Raises:
+        GeometryError: something else than real numbers, or rows of several lengths.
+    """
+    try:
+        if np.iscomplexobj(values):
+            raise TypeError("complex numbers")
+        return np.ascontiguousarray(values, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise GeometryError(
+            f"{name}: an array of numbers expected ({error})",
+            code="not-numbers",
+            where=name,
+            hint="give rows of numbers",
+        ) from error
+
+
+def shaped(array: npt.NDArray[Any], shape: tuple[int | None, ...], name: str) -> Any:  # noqa: ANN401 - what came
+    """The array, if it has the ``shape``, of which None is any length.
+
+    Raises:
+        GeometryError: another shape.
+    """
+    fits = array.ndim == len(shape) and all(want in (None, have) for want, have in zip(shape, array.shape, strict=True))
+    if not fits:
+        wanted = ", ".join("N" if want is None else str(want) for want in shape)
+        raise GeometryError(
+            f"{name} has shape {array.shape}: ({wanted}{',' if len(shape) == 1 else ''}) expected",
+            code="shape",
+            where=name,
+            hint="give one row for each",
+        )
+    return array

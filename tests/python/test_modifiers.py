@@ -126,7 +126,9 @@ def with_nothings(case: Case, rng: np.random.Generator) -> Case:
     a, b, c = case.triangles.T
     middles = 0.5 * (case.vertices[a] + case.vertices[b])
     numbers = len(case.vertices) + np.arange(len(middles))
-    nothings = np.concatenate([np.stack([a, a, c], axis=1), np.stack([b, b, b], axis=1), np.stack([a, numbers, b], axis=1)])
+    nothings = np.concatenate(
+        [np.stack([a, a, c], axis=1), np.stack([b, b, b], axis=1), np.stack([a, numbers, b], axis=1)]
+    )
     vertices, triangles = np.concatenate([case.vertices, middles]), np.concatenate([nothings, case.triangles])
     return case._replace(vertices=vertices, triangles=triangles)
 

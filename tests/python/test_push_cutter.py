@@ -120,3 +120,29 @@ def test_floors_at_the_level_have_no_loop_of_their_own() -> None:
     # the loop that is there lies where the plate ends, its planned surface half a tolerance higher
     (loop,) = sc.waterline(on_floor([], []), tool_of(BALL), 0.0)
     assert np.abs(loop[:, :2]).max() > 20.0
+
+
+@pytest.mark.parametrize(
+    "profile",
+    [{"kind": "flat", "diameter": 6.0}, {"kind": "bull-nose", "diameter": 6.0, "corner_radius": 1.0}, BALL],
+    ids=lambda profile: profile["kind"],
+)
+def test_the_way_to_a_touch_is_free_over_rough_ground(profile: dict[str, object]) -> None:
+    """Edges that dip under the tip end there: only one side of the place where they do keeps the tool off."""
+    rng = np.random.default_rng(8)
+    u = np.linspace(-30.0, 30.0, 31)
+    x, y = np.meshgrid(u, u)
+    vertices = np.stack([x, y, rng.uniform(0.0, 5.0, x.shape)], -1).reshape(-1, 3)
+    first = np.arange(31 * 31).reshape(31, 31)[:-1, :-1].reshape(-1, 1)
+    triangles = np.concatenate([np.add(first, ring) for ring in ([0, 1, 32], [0, 32, 31])])
+    part, tool = sc.Part.from_mesh(vertices, triangles), tool_of(profile)
+    places = rng.uniform(-36.0, 36.0, (20_000, 2))
+    angle = rng.uniform(0.0, 2.0 * np.pi, len(places))
+    directions = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    ways = sc.push_cutter(part, tool, places, directions, 3.3)
+    touches = np.isfinite(ways)
+    assert touches.sum() > 1000
+    share = rng.uniform(0.0, 1.0 - 1e-9, (touches.sum(), 30))
+    on_way = places[touches][:, None] + (share * ways[touches][:, None])[..., None] * directions[touches][:, None]
+    tips = sc.drop_cutter(part, tool, on_way.reshape(-1, 2), floor=-1.0)
+    assert tips.max() <= 3.3 + 1e-9

@@ -127,6 +127,39 @@ def test_acute_notches_are_followed(small_part: Mesh, diameter: float) -> None:
         assert all((loop[0] == loop[-1]).all() for loop in loops)
 
 
+@pytest.mark.parametrize("profile", TOOLS, ids=lambda profile: profile["kind"])
+@pytest.mark.parametrize("off", [0.0, 1e4, 1e5])
+def test_a_box_far_from_the_origin_keeps_its_loop(profile: dict[str, float], off: float) -> None:
+    corners = np.array([[x, y, z] for z in (0.0, 10.0) for y in (0.0, 20.0) for x in (0.0, 20.0)])
+    sides = [
+        (0, 1, 5),
+        (0, 5, 4),
+        (1, 3, 7),
+        (1, 7, 5),
+        (3, 2, 6),
+        (3, 6, 7),
+        (2, 0, 4),
+        (2, 4, 6),
+        (4, 5, 7),
+        (4, 7, 6),
+    ]
+    tool = sc.Tool.from_dict({"profile": profile})
+    near = sc.waterline(sc.Part.from_mesh(corners, sides), tool, 7.0)
+    (loop,) = sc.waterline(sc.Part.from_mesh(np.add(corners, [off, -off, 0.0]), sides), tool, 7.0)
+    assert (loop[0] == loop[-1]).all()
+    assert len(near) == 1
+    # the grid lies anew: as many points, but for one or two
+    assert abs(len(loop) - len(near[0])) <= 2
+    np.testing.assert_allclose(np.ptp(loop, axis=0), np.ptp(near[0], axis=0), atol=TOLERANCE)
+
+
+@pytest.mark.parametrize("tolerance", [0.0, -1.0, np.nan, np.inf, 1.0])
+def test_a_tolerance_that_is_none_is_refused(small_part: Mesh, tolerance: float) -> None:
+    tool = sc.Tool.from_dict({"profile": TOOLS[0]})
+    with pytest.raises(sc.PlanError, match="a tenth of the tool's diameter"):
+        sc.waterline(sc.Part.from_mesh(*small_part), tool, 0.5, tolerance=tolerance)
+
+
 def test_many_waterlines_are_those_of_single_calls(small_part: Mesh) -> None:
     part = sc.Part.from_mesh(*small_part)
     tool = sc.Tool.from_dict({"profile": TOOLS[1]})
@@ -139,8 +172,8 @@ def test_many_waterlines_are_those_of_single_calls(small_part: Mesh) -> None:
     assert sc.waterlines(part, tool, [50.0]) == [[]]
 
 
-@pytest.mark.parametrize("heights", [[np.nan], [0.0, np.inf]])
+@pytest.mark.parametrize("heights", [[np.nan], [0.0, np.inf], [1e300]])
 def test_heights_are_finite(small_part: Mesh, heights: list[float]) -> None:
     tool = sc.Tool.from_dict({"profile": TOOLS[0]})
-    with pytest.raises(sc.PlanError, match="finite"):
+    with pytest.raises(sc.GeometryError, match="height within"):
         sc.waterlines(sc.Part.from_mesh(*small_part), tool, heights)

@@ -29,6 +29,34 @@ pub fn rows<T: numpy::Element + Copy + Default, const K: usize>(
     Ok(view.rows().into_iter().map(row).collect())
 }
 
+/// Coordinates farther out than this are no place for a tool, mm.
+const FARTHEST: f64 = 1e9;
+
+/// Places (N, 2) in plan.
+pub fn places(array: &PyReadonlyArray2<'_, f64>, name: &str) -> PyResult<Vec<[f64; 2]>> {
+    let places = rows::<f64, 2>(array, name)?;
+    match places.iter().position(|place| !place.iter().copied().all(is_place)) {
+        Some(i) => {
+            let message = format!("{name}[{i}] = {:?}: places within {FARTHEST:e} mm expected", places[i]);
+            Err(raise("GeometryError", &message, "out-of-range", name, "lengths are in mm"))
+        }
+        None => Ok(places),
+    }
+}
+
+/// A height at which a tool may stand.
+pub fn height(z: f64, name: &str) -> PyResult<f64> {
+    if is_place(z) {
+        return Ok(z);
+    }
+    let message = format!("{name} = {z:e}: a height within {FARTHEST:e} mm expected");
+    Err(raise("GeometryError", &message, "out-of-range", name, "lengths are in mm"))
+}
+
+fn is_place(coordinate: f64) -> bool {
+    coordinate.abs() <= FARTHEST
+}
+
 /// An (N, 3) array of points, or of corner numbers.
 pub fn matrix<'py, T: numpy::Element>(
     py: Python<'py>,

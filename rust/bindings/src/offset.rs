@@ -20,6 +20,8 @@ use crate::{
 const EACH_SIDE: f64 = 0.4;
 /// Spacing of the grid that finds loops, as a share of the diameter.
 const SPACING_SHARE: f64 = 0.08;
+/// Largest tolerance of waterlines, as a share of the tool's diameter.
+const LARGEST_TOLERANCE: f64 = 0.1;
 
 fn sheet(document: Option<&str>) -> PyResult<Option<Sheet>> {
     let Some(text) = document else { return Ok(None) };
@@ -83,10 +85,7 @@ pub fn drop_cutter<'py>(
     cancel: Option<&CancelToken>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let sheet = self::sheet(sheet)?;
-    let places = arrays::rows::<f64, 2>(&xy, "xy")?;
-    if let Some(i) = places.iter().position(|p| !(p[0].is_finite() && p[1].is_finite())) {
-        return Err(errors::raise("GeometryError", &format!("xy[{i}] is not a finite place"), "not-finite", "xy", ""));
-    }
+    let places = arrays::places(&xy, "xy")?;
     let (whole, part) = (part, &part.part);
     let tips = watched(py, progress, cancel, |watch| {
         let envelope = Envelope::new(&part.mesh, whole.index(watch)?, &tool.tool, sheet.as_ref(), part.inward);
@@ -115,14 +114,13 @@ pub fn push_cutter<'py>(
     cancel: Option<&CancelToken>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let sheet = self::sheet(sheet)?;
-    let (places, ways) = (arrays::rows::<f64, 2>(&xy, "xy")?, arrays::rows::<f64, 2>(&directions, "directions")?);
+    let (z, places, ways) =
+        (arrays::height(z, "z")?, arrays::places(&xy, "xy")?, arrays::rows::<f64, 2>(&directions, "directions")?);
     one_each("directions", ways.len(), "places", places.len())?;
     let mut lines = Vec::with_capacity(places.len());
     for (i, (from, way)) in places.into_iter().zip(ways).enumerate() {
-        let line = Line::new(from, way).filter(|_| z.is_finite());
-        lines.push(line.ok_or_else(|| {
-            let message =
-                format!("a push from {from:?} towards {way:?} at z = {z}: finite numbers and a direction expected");
+        lines.push(Line::new(from, way).ok_or_else(|| {
+            let message = format!("a push from {from:?} towards {way:?}: a direction in plan expected");
             errors::raise("GeometryError", &message, "not-finite", &format!("directions[{i}]"), "")
         })?);
     }
@@ -155,13 +153,16 @@ pub fn waterlines<'py>(
     let sheet = self::sheet(sheet)?;
     let (whole, part) = (part, &part.part);
     let left = tolerance - part.inward - part.outward;
-    if let Some(z) = heights.iter().find(|z| !z.is_finite()) {
-        let message = format!("z = {z}: a height must be a finite number");
-        return Err(errors::raise("PlanError", &message, "out-of-range", "z", "heights are in mm"));
+    for (i, z) in heights.iter().enumerate() {
+        arrays::height(*z, &format!("heights[{i}]"))?;
     }
-    if !(left > 0.0 && tolerance.is_finite()) {
-        let message = format!("tolerance = {tolerance}: it must exceed the part's checked deviation");
-        return Err(errors::raise("PlanError", &message, "tolerance-budget", "tolerance", "raise tolerance"));
+    let most = LARGEST_TOLERANCE * tool.tool.diameter();
+    if !(left > 0.0 && tolerance <= most) {
+        let message = format!(
+            "tolerance = {tolerance} mm: it must exceed the part's checked deviation, {} mm, and be at most {most:.3} mm, a tenth of the tool's diameter",
+            part.inward + part.outward
+        );
+        return Err(errors::raise("PlanError", &message, "tolerance-budget", "tolerance", "0.005 mm is usual"));
     }
     let passes = watched(py, progress, cancel, |watch| {
         let envelope =

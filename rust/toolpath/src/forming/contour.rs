@@ -11,7 +11,7 @@ pub struct Chain {
     pub closed: bool,
 }
 
-/// Joins segments to chains: open ones from their beginnings, then closed ones.
+/// Joins segments, of which no two begin at one edge, to chains: open ones from their beginnings, then closed ones.
 pub fn chains(segments: Vec<Segment>) -> Vec<Chain> {
     let mut next: BTreeMap<Edge, Segment> = segments.into_iter().map(|segment| (segment.from, segment)).collect();
     let reached: BTreeSet<Edge> = next.values().map(|segment| segment.to).collect();

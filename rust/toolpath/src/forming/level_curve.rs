@@ -5,10 +5,12 @@ use styluscam_geometry::Vector;
 use crate::offset::{Contact, Line, Verdict};
 use crate::{PathPoint, Surface};
 
-/// The tool is asked for this far over the level, mm: what it would only touch, a floor at the level, lets it pass.
+/// The tool is asked for this far over the level, mm: what it would only touch lets it pass.
 const OVER: f64 = 1e-9;
-/// A point of the level is free this far beyond it, mm.
+/// A point of the level is free this far beyond it, mm,
 const BEYOND: f64 = 1e-9;
+/// or, far from the origin, so many times what rounding makes of a place.
+const ROUNDINGS: f64 = 2.0;
 /// Triangles met on the way to a point at most; two or three are usual.
 const STEPS: usize = 60;
 
@@ -25,12 +27,15 @@ type Plan = nalgebra::Vector2<f64>;
 pub struct LevelCurve<'a> {
     surface: &'a Surface<'a>,
     z: f64,
+    /// A point is free this far beyond it, mm.
+    beyond: f64,
     hint: Option<u32>,
 }
 
 impl<'a> LevelCurve<'a> {
     pub fn new(surface: &'a Surface<'a>, z: f64) -> Self {
-        Self { surface, z, hint: None }
+        let beyond = BEYOND.max(ROUNDINGS * surface.envelope().rounding());
+        Self { surface, z, beyond, hint: None }
     }
 
     /// Whether the tip must stay above the level at a place.
@@ -76,20 +81,20 @@ impl<'a> LevelCurve<'a> {
             }
             let within = release.filter(|(way, _)| (low..=high).contains(way));
             match within {
-                Some((way, contact)) if !self.is_above(line.at(way + BEYOND)) => {
+                Some((way, contact)) if !self.is_above(line.at(way + self.beyond)) => {
                     return self.point(&line, way, &contact)
                 }
-                Some((way, _)) => low = way + BEYOND,
+                Some((way, _)) => low = way + self.beyond,
                 None => {}
             }
-            if high - low <= BEYOND {
+            if high - low <= self.beyond {
                 break;
             }
             // what was met beyond comes next, or else a half
             at = if within.is_some() { low } else { 0.5 * (low + high) };
         }
         // along a wall, or where the tool grazes: the last that kept it off
-        let contact = last.filter(|_| high - low <= BEYOND)?;
+        let contact = last.filter(|_| high - low <= self.beyond)?;
         self.point(&line, high, &contact)
     }
 
@@ -116,12 +121,12 @@ impl<'a> LevelCurve<'a> {
             let contact = self.contact(line.at(at));
             let is_above = contact.is_some_and(|contact| self.keeps_off(&contact));
             let release = contact.and_then(|contact| self.release(&contact, &line));
-            let limits = if is_above { at - BEYOND..=length } else { -length..=at + BEYOND };
+            let limits = if is_above { at - self.beyond..=length } else { -length..=at + self.beyond };
             match release.filter(|(way, _)| limits.contains(way)) {
-                Some((way, contact)) if !self.is_above(line.at(way + BEYOND)) => {
+                Some((way, contact)) if !self.is_above(line.at(way + self.beyond)) => {
                     return self.point(&line, way, &contact)
                 }
-                Some((way, _)) if way + BEYOND > at => at = way + BEYOND,
+                Some((way, _)) if way + self.beyond > at => at = way + self.beyond,
                 _ if is_above => return None,
                 _ => break,
             }

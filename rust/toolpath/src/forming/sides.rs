@@ -41,6 +41,7 @@ impl<'a> Sides<'a> {
         }
     }
 
+    /// The same of a node that is known.
     fn is_above(&self, node: Node) -> bool {
         self.known(node).unwrap_or(false)
     }

@@ -2,8 +2,8 @@
 //!
 //! Marching squares, directed: every segment has the higher ground on its right; loops run counterclockwise inside a
 //! cup and clockwise round a hill. A segment is believed when exact points lie close along it, in its own square; else the
-//! square is quartered, down to a thousandth of a cell, and its neighbours follow. So narrow notches, two ways
-//! through a cell and what hides between the nodes are found without a finer grid.
+//! square is quartered, down to a thousandth of a cell, and its neighbours follow; what is smaller than that is passed
+//! over. So narrow notches, two ways through a cell and what hides between the nodes are found without a finer grid.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 

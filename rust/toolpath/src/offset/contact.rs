@@ -134,6 +134,11 @@ impl<'a> Contacts<'a> {
         Self { index, cutter, facets, overhang: OVERHANG * reach }
     }
 
+    /// How far beside it a triangle still counts as touched, mm.
+    pub fn overhang(&self) -> f64 {
+        self.overhang
+    }
+
     /// Tries all of a triangle that it owns.
     ///
     /// The contact with the facet's whole plane is at least as high as any with the triangle. Where it lies outside,

@@ -97,6 +97,12 @@ impl<'a> Envelope<'a> {
         self.margin
     }
 
+    /// How far beside it a triangle may still count as touched, for rounding, mm.
+    #[must_use]
+    pub fn rounding(&self) -> f64 {
+        self.ground().contacts.overhang()
+    }
+
     /// The mesh.
     #[must_use]
     pub fn mesh(&self) -> &Mesh {

@@ -218,7 +218,7 @@ impl Edge<'_> {
             let share = low.0 + part * (high.0 - low.0);
             let standing = self.at(cutter, share);
             let rest = if standing.pull > 0.0 { high.0 - share } else { share - low.0 };
-            if (standing.way.is_some() && standing.pull.abs() * rest <= FLAT * size) || rest <= f64::EPSILON * share {
+            if standing.way.is_some() && standing.pull.abs() * rest <= FLAT * size {
                 return Some(share);
             }
             if standing.pull > 0.0 {
@@ -226,7 +226,11 @@ impl Edge<'_> {
             } else {
                 high = (share, standing);
             }
+            if rest <= f64::EPSILON * share {
+                break;
+            }
         }
+        // where the edge dips under the tip, only one side of the top keeps the tool off
         Some(if low.1.way >= high.1.way { low.0 } else { high.0 })
     }
 }

@@ -19,9 +19,9 @@ use view::{Branch, Survey, View};
 
 pub use ground::Ground;
 
-/// A tile of more candidates than this is quartered,
+/// A tile of more candidates than this is quartered.
 const CROWDED: usize = 64;
-/// if they are fewer than this share of those of the tile that it is a quarter of.
+/// A quarter is quartered again only if it has fewer candidates than this share of its tile's.
 const WORTH_QUARTERING: f64 = 0.8;
 /// A survey of more branches than this says nothing.
 const MOST_BRANCHES: usize = 128;
