@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -61,7 +61,10 @@ def numbers(values: npt.ArrayLike, name: str) -> FloatArray:
         ) from error
 
 
-def shaped(array: npt.NDArray[Any], shape: tuple[int | None, ...], name: str) -> Any:  # noqa: ANN401 - what came
+Number = TypeVar("Number", bound=np.generic)
+
+
+def shaped(array: npt.NDArray[Number], shape: tuple[int | None, ...], name: str) -> npt.NDArray[Number]:
     """The array, if it has the ``shape``, of which None is any length.
 
     Raises:
