@@ -35,11 +35,12 @@ def whole_numbers(values: npt.ArrayLike, name: str) -> IntArray:
     Raises:
         GeometryError: something else than whole numbers.
     """
-    array = numbers(values, name)
-    whole = np.asarray(values) if np.asarray(values).dtype.kind in "iu" else array
-    if not (np.isfinite(array).all() and (array == np.round(array)).all() and (np.abs(array) < 2**62).all()):
+    array = values if isinstance(values, np.ndarray) and values.dtype.kind in "iu" else numbers(values, name)
+    # an integer array is only looked at where it may hold too much
+    is_whole = array.dtype.kind == "i" or bool(((array == np.round(array)) & (np.abs(array) < 2**62)).all())
+    if not is_whole:
         raise GeometryError(f"{name}: whole numbers expected", code="not-whole", where=name, hint="give integers")
-    return np.ascontiguousarray(whole, dtype=np.int64)
+    return np.ascontiguousarray(array, dtype=np.int64)
 
 
 def numbers(values: npt.ArrayLike, name: str) -> FloatArray:

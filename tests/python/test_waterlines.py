@@ -59,6 +59,15 @@ def rough_ground(rng: np.random.Generator) -> Mesh:
 KINDS: list[Callable[[np.random.Generator], Mesh]] = [pits_and_bumps, tetrahedra, boxes, rough_ground]
 
 
+def drawn(
+    kind: Callable[[np.random.Generator], Mesh], rng: np.random.Generator
+) -> tuple[sc.Part, sc.Tool, Floats, Floats]:
+    """A part of some kind, a tool, and the corners of the part's box."""
+    vertices, triangles = kind(rng)
+    tool = sc.Tool.from_dict({"profile": TOOLS[rng.integers(len(TOOLS))]})
+    return sc.Part.from_mesh(vertices, triangles), tool, vertices.min(axis=0), vertices.max(axis=0)
+
+
 def crossed(places: Floats, loops: list[Floats]) -> NDArray[np.int64]:
     """How often the way from each place towards +X crosses the loops."""
     counts = np.zeros(len(places), dtype=np.int64)
@@ -75,13 +84,12 @@ def crossed(places: Floats, loops: list[Floats]) -> NDArray[np.int64]:
 @pytest.mark.parametrize("seed", range(3))
 def test_loops_close_gouge_nothing_and_part_the_plan(kind: Callable[[np.random.Generator], Mesh], seed: int) -> None:
     rng = np.random.default_rng(seed)
-    vertices, triangles = kind(rng)
-    part = sc.Part.from_mesh(vertices, triangles)
-    tool = sc.Tool.from_dict({"profile": TOOLS[rng.integers(len(TOOLS))]})
-    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    part, tool, low, high = drawn(kind, rng)
     heights = low[2] + (high[2] - low[2]) * np.array([0.013, 0.31, 0.62, 0.93])
     places = rng.uniform(low[:2] - 3, high[:2] + 3, (2000, 2))
     tips = np.nan_to_num(sc.drop_cutter(part, tool, places), nan=-np.inf)
+    sheet = {"thickness": TOLERANCE, "law": "constant", "model_face": "back"}
+    grown = np.nan_to_num(sc.drop_cutter(part, tool, places, sheet), nan=-np.inf)
     for z, loops in zip(heights, sc.waterlines(part, tool, heights, tolerance=TOLERANCE), strict=True):
         assert loops
         for loop in loops:
@@ -92,8 +100,6 @@ def test_loops_close_gouge_nothing_and_part_the_plan(kind: Callable[[np.random.G
         is_inside = crossed(places, loops) % 2 == 1
         assert is_inside[tips > z + 1e-9].all()
         # free places within the loops are within the tolerance of the level
-        sheet = {"thickness": TOLERANCE, "law": "constant", "model_face": "back"}
-        grown = np.nan_to_num(sc.drop_cutter(part, tool, places, sheet), nan=-np.inf)
         assert (grown[is_inside & (tips <= z)] > z - TOLERANCE).all()
 
 
@@ -101,13 +107,9 @@ def test_loops_close_gouge_nothing_and_part_the_plan(kind: Callable[[np.random.G
 @pytest.mark.parametrize("seed", range(3))
 def test_points_lie_on_the_level_of_the_envelope(kind: Callable[[np.random.Generator], Mesh], seed: int) -> None:
     """The envelope that is half the tolerance clear of the part: to 1e-9 mm, beside a wall across it."""
-    rng = np.random.default_rng(seed)
-    vertices, triangles = kind(rng)
-    part = sc.Part.from_mesh(vertices, triangles)
-    tool = sc.Tool.from_dict({"profile": TOOLS[rng.integers(len(TOOLS))]})
+    part, tool, low, high = drawn(kind, np.random.default_rng(seed))
     sheet = {"thickness": 0.5 * TOLERANCE, "law": "constant", "model_face": "back"}
-    low, high = vertices[:, 2].min(), vertices[:, 2].max()
-    heights = low + (high - low) * np.array([0.21, 0.52, 0.83])
+    heights = low[2] + (high[2] - low[2]) * np.array([0.21, 0.52, 0.83])
     turns = np.linspace(0, 2 * np.pi, 8, endpoint=False)
     about = np.concatenate([[[0.0, 0.0]], 1e-8 * np.stack([np.cos(turns), np.sin(turns)], -1)])
     for z, loops in zip(heights, sc.waterlines(part, tool, heights, tolerance=TOLERANCE), strict=True):

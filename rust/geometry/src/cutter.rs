@@ -136,7 +136,6 @@ impl Cutter {
 
     /// Radius and height where the profile rises by `rise` (dz/dr, not negative), mm: [`point_at`](Self::point_at) of its
     /// slope, by table where that does.
-    ///
     #[must_use]
     pub fn at_rise(&self, rise: f64) -> (f64, f64) {
         if rise > STEEP {

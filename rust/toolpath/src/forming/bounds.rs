@@ -74,14 +74,17 @@ impl Levels {
 
     /// The lowest level over all corners of a cell; infinite where there is none.
     fn next_over(&self, grid: &Grid, cell: Node) -> f64 {
-        let corners = grid.lattice().corner_numbers(cell).map(|number| self.under[number]);
-        let most = corners.into_iter().max().unwrap_or(0);
+        let most = self.under_corners(grid, cell).into_iter().max().unwrap_or(0);
         self.ascending.get(most).copied().unwrap_or(f64::INFINITY)
     }
 
     /// The highest level under all corners of a cell.
     fn next_under(&self, grid: &Grid, cell: Node) -> Option<f64> {
-        let corners = grid.lattice().corner_numbers(cell).map(|number| self.under[number]);
-        corners.into_iter().min()?.checked_sub(1).map(|level| self.ascending[level])
+        let least = self.under_corners(grid, cell).into_iter().min()?;
+        least.checked_sub(1).map(|level| self.ascending[level])
+    }
+
+    fn under_corners(&self, grid: &Grid, cell: Node) -> [usize; 4] {
+        grid.lattice().corner_numbers(cell).map(|number| self.under[number])
     }
 }

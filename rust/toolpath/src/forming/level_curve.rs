@@ -38,6 +38,11 @@ impl<'a> LevelCurve<'a> {
         Self { surface, z, beyond, hint: None }
     }
 
+    /// Height of the level, mm.
+    pub fn z(&self) -> f64 {
+        self.z
+    }
+
     /// Whether the tip must stay above the level at a place.
     pub fn is_above(&mut self, place: Place) -> bool {
         self.contact(place).is_some_and(|contact| self.keeps_off(&contact))

@@ -14,7 +14,7 @@ use super::grid::Grid;
 use super::level_curve::LevelCurve;
 use super::sides::{Crossing, Sides, LOOKED_AT};
 use super::square::{Edge, Square, PARTS};
-use crate::{fitting, lattice::Node, PathPoint, Surface};
+use crate::{fitting, lattice::Node, PathPoint};
 
 /// How far outside its square a segment may go, as a share of the square.
 const OUTSIDE: f64 = 0.1;
@@ -28,9 +28,10 @@ pub struct Segment {
 }
 
 /// What is known of a level's course.
-pub struct Trace<'a> {
+pub struct Trace<'a, 'c> {
     grid: &'a Grid,
-    curve: LevelCurve<'a>,
+    bounds: &'a Bounds,
+    curve: &'c mut LevelCurve<'a>,
     sides: Sides<'a>,
     deviation: f64,
     divided: HashSet<Square>,
@@ -40,14 +41,14 @@ pub struct Trace<'a> {
     crossings: HashMap<Edge, Option<PathPoint>>,
 }
 
-impl<'a> Trace<'a> {
-    /// The level `z`; chords between the points of segments stray by at most a share of `deviation` (mm), see
-    /// [`fitting::densified`].
-    pub fn new(grid: &'a Grid, surface: &'a Surface<'a>, z: f64, deviation: f64) -> Self {
+impl<'a, 'c> Trace<'a, 'c> {
+    /// Chords between the points of segments stray by at most a share of `deviation` (mm), see [`fitting::densified`].
+    pub fn new(grid: &'a Grid, bounds: &'a Bounds, curve: &'c mut LevelCurve<'a>, deviation: f64) -> Self {
         Self {
             grid,
-            curve: LevelCurve::new(surface, z),
-            sides: Sides::new(grid, z),
+            bounds,
+            sides: Sides::new(grid, curve.z()),
+            curve,
             deviation,
             divided: HashSet::new(),
             open: Vec::new(),
@@ -60,8 +61,8 @@ impl<'a> Trace<'a> {
     ///
     /// # Errors
     /// `Cancelled` when `watch` says so.
-    pub fn segments(mut self, bounds: &Bounds, z: f64, watch: &Watch) -> Result<Vec<Segment>, Cancelled> {
-        let lattice = self.grid.lattice();
+    pub fn segments(mut self, watch: &Watch) -> Result<Vec<Segment>, Cancelled> {
+        let (lattice, bounds, z) = (self.grid.lattice(), self.bounds, self.curve.z());
         for (number, cell) in lattice.cells().iter().enumerate() {
             let square = Square::cell(cell);
             match self.sides.corners_above(&square) {
@@ -69,7 +70,7 @@ impl<'a> Trace<'a> {
                 4 if !bounds.may_dip(number, z) => {}
                 0 | 4 => {
                     watch.advance(0)?;
-                    self.sides.look_into(&square, &mut self.curve);
+                    self.sides.look_into(&square, self.curve);
                     self.divide_where_nodes_differ(square);
                 }
                 _ => self.open.push(square),
@@ -142,9 +143,9 @@ impl<'a> Trace<'a> {
     /// Puts quarters in the place of a square; what lies beside it is to be passed again where it learns of new nodes.
     fn divide(&mut self, square: Square) {
         self.divided.insert(square);
-        self.sides.find(square.middle(), &mut self.curve);
+        self.sides.find(square.middle(), self.curve);
         for (node, beyond) in square.beyond() {
-            if self.sides.find(node, &mut self.curve) {
+            if self.sides.find(node, self.curve) {
                 self.open.extend(beyond.and_then(|beyond| self.leaf(beyond)));
             }
         }

@@ -25,8 +25,8 @@ pub fn z_levels(
         .par_iter()
         .enumerate()
         .map(|(group, z)| {
-            let level = Level { surface, grid, bounds: &bounds, z: *z, group };
-            let passes = level.passes(deviation, watch)?;
+            let level = Level { grid, bounds: &bounds, group, deviation };
+            let passes = level.passes(LevelCurve::new(surface, *z), watch)?;
             watch.advance(1)?;
             Ok(passes)
         })
@@ -35,23 +35,21 @@ pub fn z_levels(
 }
 
 struct Level<'a> {
-    surface: &'a Surface<'a>,
     grid: &'a Grid,
     bounds: &'a Bounds,
-    z: f64,
     group: usize,
+    deviation: f64,
 }
 
-impl Level<'_> {
-    fn passes(&self, deviation: f64, watch: &Watch) -> Result<Vec<Pass>, PlanError> {
-        let trace = Trace::new(self.grid, self.surface, self.z, deviation);
-        let mut curve = LevelCurve::new(self.surface, self.z);
+impl<'a> Level<'a> {
+    fn passes(&self, mut curve: LevelCurve<'a>, watch: &Watch) -> Result<Vec<Pass>, PlanError> {
+        let Self { grid, bounds, group, deviation } = *self;
+        let segments = Trace::new(grid, bounds, &mut curve, deviation).segments(watch)?;
         let mut passes = Vec::new();
-        for chain in contour::chains(trace.segments(self.bounds, self.z, watch)?) {
+        for chain in contour::chains(segments) {
             let closed = chain.closed && chain.points.iter().all(|p| p.selected);
             let runs = fitting::selected_runs(&chain.points, chain.closed, |a, b| curve.between(a, b));
-            let pass =
-                |run: &Vec<PathPoint>| Pass { points: fitting::thinned(run, deviation), closed, group: self.group };
+            let pass = |run: &Vec<PathPoint>| Pass { points: fitting::thinned(run, deviation), closed, group };
             passes.extend(runs.iter().map(pass));
         }
         Ok(passes)

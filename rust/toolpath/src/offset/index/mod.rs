@@ -81,7 +81,7 @@ impl Index {
     pub fn watched(mesh: &Mesh, watch: &Watch) -> Result<Self, Cancelled> {
         watch.begin("index", STAGES);
         let index = Self::built(mesh, watch);
-        watch.advance(0)?;
+        watch.advance(1)?;
         Ok(index)
     }
 
@@ -89,15 +89,14 @@ impl Index {
     fn built(mesh: &Mesh, watch: &Watch) -> Self {
         let (low, high) = mesh.bounds();
         let centre = (low + high) * 0.5;
-        let stage = |watch: &Watch| watch.advance(1).is_ok();
+        let goes_on = || watch.advance(1).is_ok();
         let pieces = pieces::of(mesh, (low, high));
-        let order = if stage(watch) { order::of(&pieces, centre, watch) } else { Vec::new() };
+        let order = if goes_on() { order::of(&pieces, centre, watch) } else { Vec::new() };
         let Owners { of_pieces, parts, numbers, places } = Owners::of(pieces, &order, mesh.triangles().len());
-        let (triangles, firsts) = if stage(watch) { renumbered(mesh, &numbers) } else { Default::default() };
+        let (triangles, firsts) = if goes_on() { renumbered(mesh, &numbers) } else { Default::default() };
         let pieces = cover::Pieces { triangles: &triangles, of_pieces: &of_pieces, parts: &parts, centre };
         let (levels, (owned, neighbours)) =
             rayon::join(|| levels(&pieces, watch), || features::of(&triangles, &firsts, watch));
-        let _ = stage(watch);
         Self { triangles, of_pieces, numbers, places, owned, neighbours, levels, centre, low, high }
     }
 

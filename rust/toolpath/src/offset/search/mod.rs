@@ -100,8 +100,7 @@ impl Searcher {
         self.remember(&found);
         let count = self.candidates.triangles.len();
         if count > CROWDED && (count as f64) < WORTH_QUARTERING * before as f64 {
-            let leaves =
-                Survey { branches: std::mem::take(&mut self.leaves), middle: tile.middle, zero: self.candidates.zero };
+            let leaves = self.surveyed(&tile);
             for quarter in quarters(places, members, &tile).iter().filter(|quarter| !quarter.is_empty()) {
                 self.many_among(ground, &leaves, places, quarter, count, keep);
             }
@@ -151,12 +150,10 @@ impl Searcher {
             }
             return;
         }
-        let leaves =
-            Survey { branches: std::mem::take(&mut self.leaves), middle: tile.middle, zero: self.candidates.zero };
+        let leaves = self.surveyed(&tile);
         for part in cells.quarters() {
             self.ceilings_among(ground, &leaves, lattice, part, limit, keep);
         }
-        self.leaves = leaves.branches;
     }
 
     /// Collects the triangles on which the tip may rise over a height somewhere in a tile.
@@ -210,6 +207,11 @@ impl Searcher {
         } else {
             Verdict::Open
         }
+    }
+
+    /// The leaves of the walk just made through a tile, as a survey of it.
+    fn surveyed(&mut self, tile: &Tile) -> Survey {
+        Survey { branches: std::mem::take(&mut self.leaves), middle: tile.middle, zero: self.candidates.zero }
     }
 
     fn remember(&mut self, found: &Best) {

@@ -53,9 +53,7 @@ impl View {
         let open = !(bounds.value + more).simd_lt(f32x8::splat(floor.level)).to_bitmask() & 0xff;
         (bounds, open, more)
     }
-}
 
-impl View {
     /// The bounds of a node's children, and what they do not exceed in the tile.
     #[inline]
     pub fn opened_about(&self, ground: &Ground<'_>, branch: Branch) -> (Bounds, f32x8) {
