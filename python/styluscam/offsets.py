@@ -111,8 +111,8 @@ def waterline(
 ) -> list[FloatArray]:
     """Loops (M, 3) of the tip at height ``z``, mm, each with its first point repeated at the end.
 
-    They keep 0 to ``tolerance`` mm clear of the part, and have the higher ground on their right. What lies less than half
-    the tolerance under the level, a floor at it, counts as above it.
+    They keep 0 to ``tolerance`` mm clear of the part, and have the higher ground on their right. A level that meets a
+    floor stands as clear of it as of walls: its points lie up to the tolerance above ``z``.
     """
     (loops,) = waterlines(part, tool, [float(z)], sheet, tolerance, progress=progress, cancel=cancel)
     return loops

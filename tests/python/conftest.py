@@ -14,6 +14,8 @@ import styluscam as sc
 from meridian import FIXTURES, Meridian
 
 Floats: TypeAlias = NDArray[np.float64]
+Mesh: TypeAlias = tuple[Floats, NDArray[np.int64]]
+"""Vertices (N, 3) and triangles (M, 3)."""
 
 FACES = {
     "cone_cup": ["Face1", "Face2", "Face3", "Face4"],
@@ -67,13 +69,23 @@ def milling_document(
     return document
 
 
+def box(low: list[float], high: list[float]) -> Mesh:
+    corners = np.array([[x, y, z] for z in (low[2], high[2]) for y in (low[1], high[1]) for x in (low[0], high[0])])
+    sides = [[0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6], [4, 5, 7, 6]]
+    return corners, np.array([half for a, b, c, d in sides for half in ([a, b, c], [a, c, d])])
+
+
+def together(*meshes: Mesh) -> Mesh:
+    firsts = np.cumsum([0] + [len(vertices) for vertices, _ in meshes])
+    triangles = [triangles + first for (_, triangles), first in zip(meshes, firsts, strict=False)]
+    return np.concatenate([vertices for vertices, _ in meshes]), np.concatenate(triangles)
+
+
 CELL = 6.0
 """Side of a cell of the made part, mm."""
 
 
-def made_part(
-    rows: int, widths: Floats, shifts: Floats, depth: float, wall_deg: float
-) -> tuple[Floats, NDArray[np.int64]]:
+def made_part(rows: int, widths: Floats, shifts: Floats, depth: float, wall_deg: float) -> Mesh:
     """Vertices and triangles of a plate of square cells, each with a square pit (`depth` < 0 in odd cells) or bump.
 
     `widths` (N,) are the squares' half sides at half their depth, `shifts` (N, 2) their places off the cells' middles.
@@ -103,7 +115,7 @@ def made_part(
 
 
 @pytest.fixture(scope="session")
-def small_part() -> tuple[Floats, NDArray[np.int64]]:
+def small_part() -> Mesh:
     """A plate of 4 x 2 cells: lopsided, so that every turn of it shows."""
     widths = np.array([1.0, 1.4, 1.8, 1.2, 1.6, 1.1, 1.3, 1.5])
     shifts = np.column_stack([np.linspace(-0.3, 0.3, 8), np.linspace(0.2, -0.4, 8)])

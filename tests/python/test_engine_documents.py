@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import Floats, job_document, milling_document
-from numpy.typing import NDArray
+from conftest import Mesh, job_document, milling_document
 
 import styluscam as sc
 from styluscam.program import FEED, MOVE, RAPID
@@ -20,7 +19,7 @@ TYPES = {"array", "boolean", "integer", "null", "number", "object", "string"}
 
 
 @pytest.fixture(scope="module")
-def plan(small_part: tuple[Floats, NDArray[np.int64]]) -> sc.Plan:
+def plan(small_part: Mesh) -> sc.Plan:
     """A job of two operations on the small made part."""
     document = milling_document("z-level", BALL, step={"height": 0.5}, id="levels")
     document["operations"] += milling_document("zig-zag", BALL, stepover=0.5, spindle={"mode": "fixed", "rpm": 6000.0})[

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from conftest import Floats, milling_document
-from numpy.typing import NDArray
+from conftest import Floats, Mesh, milling_document
 
 import styluscam as sc
 from styluscam import _engine
 
 BALL = {"kind": "ball", "diameter": 1.5}
 UP = {"+x": (1, 0, 0), "-x": (-1, 0, 0), "+y": (0, 1, 0), "-y": (0, -1, 0), "+z": (0, 0, 1), "-z": (0, 0, -1)}
-
-Mesh = tuple[Floats, NDArray[np.int64]]
 
 
 def job(mesh: Mesh, kind: str = "z-level", **setup: object) -> sc.Job:

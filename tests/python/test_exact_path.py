@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import CELL, Floats, job_document, made_part, milling_document
+from conftest import CELL, Floats, box, job_document, made_part, milling_document, together
 
 import styluscam as sc
 from meridian import Meridian
@@ -243,6 +243,16 @@ def test_no_loop_is_lost_above_the_smallest_feature() -> None:
         assert len(found) == 32, height
         distances = np.linalg.norm(found[:, None] - wanted[None], axis=2)
         assert (distances.min(axis=0) < 0.01).all()
+
+
+def test_a_level_at_a_floor_goes_round_what_stands_on_it() -> None:
+    """Steps of 2.5 mm from the top of a boss meet the floor that it stands on, and pass just over it."""
+    part = sc.Part.from_mesh(*together(box([0, 0, -10], [40, 40, 0]), box([15, 15, 0], [25, 25, 5])))
+    document = milling_document("z-level", {"kind": "flat", "diameter": 4.0}, step={"height": 2.5}, z_bottom=-5.0)
+    runs = level_runs(sc.plan(sc.Job.from_dict(document, part=part)).programs["main"])
+    (round_boss,) = [run for run in runs if abs(run[0, 2]) < 1.0]
+    assert 0.0 < round_boss[0, 2] < 0.006
+    assert np.ptp(round_boss, axis=0)[:2] == pytest.approx([14.0, 14.0], abs=0.01)
 
 
 def test_the_tool_does_not_roll_over_the_border_of_an_open_surface() -> None:

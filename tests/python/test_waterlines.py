@@ -6,12 +6,10 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from conftest import Floats, made_part
+from conftest import Floats, Mesh, box, made_part, together
 from numpy.typing import NDArray
 
 import styluscam as sc
-
-Mesh = tuple[Floats, NDArray[np.int64]]
 
 TOOLS = [
     {"kind": "ball", "diameter": 5.0},
@@ -132,19 +130,7 @@ def test_acute_notches_are_followed(small_part: Mesh, diameter: float) -> None:
 @pytest.mark.parametrize("profile", TOOLS, ids=lambda profile: profile["kind"])
 @pytest.mark.parametrize("off", [0.0, 1e4, 1e5])
 def test_a_box_far_from_the_origin_keeps_its_loop(profile: dict[str, float], off: float) -> None:
-    corners = np.array([[x, y, z] for z in (0.0, 10.0) for y in (0.0, 20.0) for x in (0.0, 20.0)])
-    sides = [
-        (0, 1, 5),
-        (0, 5, 4),
-        (1, 3, 7),
-        (1, 7, 5),
-        (3, 2, 6),
-        (3, 6, 7),
-        (2, 0, 4),
-        (2, 4, 6),
-        (4, 5, 7),
-        (4, 7, 6),
-    ]
+    corners, sides = box([0.0, 0.0, 0.0], [20.0, 20.0, 10.0])
     tool = sc.Tool.from_dict({"profile": profile})
     near = sc.waterline(sc.Part.from_mesh(corners, sides), tool, 7.0)
     (loop,) = sc.waterline(sc.Part.from_mesh(np.add(corners, [off, -off, 0.0]), sides), tool, 7.0)
@@ -179,3 +165,28 @@ def test_heights_are_finite(small_part: Mesh, heights: list[float]) -> None:
     tool = sc.Tool.from_dict({"profile": TOOLS[0]})
     with pytest.raises(sc.GeometryError, match="height within"):
         sc.waterlines(sc.Part.from_mesh(*small_part), tool, heights)
+
+
+STEPPED = together(box([0.0, 0.0, 0.0], [40.0, 40.0, 10.0]), box([15.0, 15.0, 10.0], [25.0, 25.0, 15.0]))
+
+
+@pytest.mark.parametrize("profile", TOOLS[:4], ids=lambda profile: str(profile["kind"]))
+@pytest.mark.parametrize("over", [0.0, -1e-12, 1e-6, 0.4 * TOLERANCE, 0.6 * TOLERANCE])
+def test_a_level_at_a_floor_runs_on_it(profile: dict[str, float], over: float) -> None:
+    """Round the boss that stands on the floor, not round the floor; between the two heights the tool is free."""
+    part, tool = sc.Part.from_mesh(*STEPPED), sc.Tool.from_dict({"profile": profile})
+    (loop,) = sc.waterline(part, tool, 10.0 + over)
+    assert (loop[0] == loop[-1]).all()
+    assert (np.abs(loop[:, :2] - 20.0).max(axis=0) < 5.0 + 0.5 * tool.diameter + TOLERANCE).all()
+    assert (loop[:, 2] == loop[0, 2]).all()
+    assert 10.0 - 1e-9 < loop[0, 2] < 10.0 + TOLERANCE
+    assert (sc.drop_cutter(part, tool, loop[:, :2]) <= loop[:, 2]).all()
+    assert sc.waterline(part, tool, 15.0 + over) == []
+
+
+@pytest.mark.parametrize("profile", TOOLS, ids=lambda profile: str(profile["kind"]))
+def test_a_level_under_a_floor_goes_round_it(profile: dict[str, float]) -> None:
+    part, tool = sc.Part.from_mesh(*STEPPED), sc.Tool.from_dict({"profile": profile})
+    (loop,) = sc.waterline(part, tool, 9.999)
+    assert (np.ptp(loop[:, :2], axis=0) > 40.0).all()
+    assert (loop[:, 2] == 9.999).all()

@@ -4,7 +4,7 @@ use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 use styluscam_geometry::{Mesh, Sheet};
 use styluscam_toolpath::{
-    forming::{z_levels, Grid},
+    forming::{z_levels, Floors, Grid},
     offset::{Envelope, Line, OffsetPoint, OffsetSurface, Region},
     Surface,
 };
@@ -167,6 +167,8 @@ pub fn waterlines<'py>(
     let passes = watched(py, progress, cancel, |watch| {
         let envelope =
             Envelope::new(&part.mesh, whole.index(watch)?, &tool.tool, sheet.as_ref(), part.inward + 0.5 * left);
+        let floors = Floors::of(&envelope);
+        let heights: Vec<f64> = heights.iter().map(|z| floors.raised(*z)).collect();
         let surface = Surface::whole(&envelope);
         let grid = Grid::sample(&surface, SPACING_SHARE * tool.tool.diameter(), watch)?;
         grid.map_or(Ok(Vec::new()), |grid| z_levels(&surface, &grid, &heights, EACH_SIDE * left, watch))

@@ -6,7 +6,7 @@ use styluscam_geometry::{Tool, Vector};
 use styluscam_motion::{Event, EventKind, Move, OperationRecord, Program, ToolRecord, Watch, PROGRAM_SCHEMA};
 use styluscam_post::Machine;
 use styluscam_toolpath::{
-    forming::{levels, z_levels, zig_zag, Grid, LevelRange, Rows},
+    forming::{levels, z_levels, zig_zag, Floors, Grid, LevelRange, Rows},
     link,
     offset::{bridges, Envelope, OffsetSurface, SurfaceFlag},
     Heights, Links, Pass, PlanError, Rates, Surface,
@@ -374,7 +374,7 @@ impl Task<'_> {
         let bottom = self.section.z_bottom.unwrap_or(f64::NEG_INFINITY);
         let resolution = self.machine.resolution_mm();
         let range = LevelRange { top, bottom, reachable: lowest, step, resolution };
-        let heights = levels(&range)?;
+        let heights = levels(&range, &Floors::of(surface.envelope()))?;
         let passes = z_levels(surface, &grid, &heights, self.budget.deviation, watch)?;
         if passes.is_empty() {
             return Err(PlanError::Empty { top, bottom: bottom.max(lowest) });

@@ -2,6 +2,7 @@
 
 mod bounds;
 mod contour;
+mod floors;
 mod grid;
 mod level_curve;
 mod levels;
@@ -11,6 +12,7 @@ mod trace;
 mod z_level;
 mod zig_zag;
 
+pub use floors::Floors;
 pub use grid::Grid;
 pub use levels::{levels, LevelRange};
 pub use z_level::z_levels;

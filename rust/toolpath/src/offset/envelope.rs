@@ -97,6 +97,12 @@ impl<'a> Envelope<'a> {
         self.margin
     }
 
+    /// Height of the tip where the tool stands on a horizontal plane at a height, mm.
+    #[must_use]
+    pub fn tip_on(&self, height: f64) -> f64 {
+        height + self.above
+    }
+
     /// How far beside it a triangle may still count as touched, for rounding, mm.
     #[must_use]
     pub fn rounding(&self) -> f64 {
