@@ -117,9 +117,7 @@ def test_a_ridge_without_width_is_found_however_little_of_it_stands_up(depth: fl
 
 
 def test_floors_at_the_level_have_no_loop_of_their_own() -> None:
-    # the loop that is there lies where the plate ends, its planned surface half a tolerance higher
-    (loop,) = sc.waterline(on_floor([], []), tool_of(BALL), 0.0)
-    assert np.abs(loop[:, :2]).max() > 20.0
+    assert sc.waterline(on_floor([], []), tool_of(BALL), 0.0) == []
 
 
 @pytest.mark.parametrize(

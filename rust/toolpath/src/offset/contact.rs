@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use styluscam_geometry::{Cutter, Vector};
 
-use super::convexity::{Convexities, Convexity};
+use super::bending::Bending;
 use super::edge;
 use super::features::{Owned, ALL};
 use super::index::{Index, Triangles};
@@ -66,7 +66,8 @@ pub struct Facet {
     share: f64,
     /// Height of the profile at the contact; NaN for walls: they have no facet contact.
     height: f64,
-    convexity: Convexity,
+    /// What the profile bends more along its meridian than across it, as a share, by the square of the rise.
+    bend: f64,
 }
 
 /// The triangles of an index, made ready for one cutter.
@@ -79,23 +80,24 @@ pub struct Contacts<'a> {
 
 /// All facets of an index for a cutter.
 pub fn prepared(index: &Index, cutter: &Cutter) -> Vec<Facet> {
-    let convexities = Convexities::of(cutter);
+    let bending = Bending::of(cutter);
     let triangles = index.triangles();
-    (0..triangles.corners.len() as u32).into_par_iter().map(|t| Facet::of(triangles, t, cutter, &convexities)).collect()
+    (0..triangles.corners.len() as u32).into_par_iter().map(|t| Facet::of(triangles, t, cutter, &bending)).collect()
 }
 
 impl Facet {
-    fn of(triangles: &Triangles, triangle: u32, cutter: &Cutter, convexities: &Convexities) -> Self {
+    fn of(triangles: &Triangles, triangle: u32, cutter: &Cutter, bending: &Bending) -> Self {
         let normal = normal::upward(triangles.at(triangle));
         let across = (normal.x * normal.x + normal.y * normal.y).sqrt();
         let (radius, height) = cutter.at_rise(across / normal.z);
         let gradient = [-normal.x / normal.z, -normal.y / normal.z];
         let share = if across > 0.0 { radius * normal.z / across } else { 0.0 };
+        let square = gradient[0] * gradient[0] + gradient[1] * gradient[1];
         Self {
             gradient,
             share,
             height: if normal.z >= WALL { height } else { f64::NAN },
-            convexity: convexities.at(radius),
+            bend: if square > 0.0 { bending.excess_at(radius) / square } else { 0.0 },
         }
     }
 }
@@ -106,6 +108,19 @@ fn gap_to_segment(place: [f64; 2], a: Vector, b: Vector) -> [f64; 2] {
     let square = along[0] * along[0] + along[1] * along[1];
     let share = if square > 0.0 { (-(along[0] * from[0] + along[1] * from[1]) / square).clamp(0.0, 1.0) } else { 0.0 };
     [from[0] + share * along[0], from[1] + share * along[1]]
+}
+
+/// A triangle seen from a place and a height, mm.
+pub struct Seen {
+    pub corners: [[f64; 3]; 3],
+    /// The contact of a cutter on its plane.
+    pub contact: [f64; 2],
+    /// Height of the tip of a cutter on its plane; infinite for walls.
+    pub plane: f64,
+    /// The plane's gradient.
+    pub gradient: [f64; 2],
+    /// See [`Facet`].
+    pub bend: f64,
 }
 
 /// A triangle seen from the cutter's contact with its plane.
@@ -124,8 +139,6 @@ struct Side {
     area: f64,
     /// What rounding makes of no area.
     rounding: f64,
-    /// Square of its length.
-    square: f64,
 }
 
 impl<'a> Contacts<'a> {
@@ -151,6 +164,17 @@ impl<'a> Contacts<'a> {
         self.touch_owned(triangle, self.index.owned(triangle), place, found);
     }
 
+    /// A triangle seen from a place and a height.
+    #[inline]
+    pub fn seen(&self, triangle: u32, [x, y]: [f64; 2], zero: f64) -> Seen {
+        let Facet { gradient: [gx, gy], share, height, bend } = self.facets[triangle as usize];
+        let corners = self.index.triangles().at(triangle).map(|corner| [corner.x - x, corner.y - y, corner.z - zero]);
+        let contact = [share * gx, share * gy];
+        let [first, ..] = corners;
+        let plane = first[2] + gx * (contact[0] - first[0]) + gy * (contact[1] - first[1]) - height;
+        Seen { corners, contact, plane: if plane.is_nan() { f64::INFINITY } else { plane }, gradient: [gx, gy], bend }
+    }
+
     /// Tries all of a triangle, whether others try it too or not.
     pub fn touch_whole(&self, triangle: u32, place: [f64; 2], found: &mut Best) {
         self.touch_owned(triangle, ALL, place, found);
@@ -158,7 +182,7 @@ impl<'a> Contacts<'a> {
 
     #[inline]
     fn touch_owned(&self, triangle: u32, owned: Owned, [x, y]: [f64; 2], found: &mut Best) {
-        let Facet { gradient: [gx, gy], share, height, convexity } = self.facets[triangle as usize];
+        let Facet { gradient: [gx, gy], share, height, .. } = self.facets[triangle as usize];
         let corners = self.index.triangles().at(triangle);
         let contact = [x + share * gx, y + share * gy];
         let origin = corners[0];
@@ -167,19 +191,11 @@ impl<'a> Contacts<'a> {
             return; // never for a wall: its height is NaN
         }
         let view = View { corners, contact, tip, sides: self.sides(&corners, contact) };
-        if !tip.is_nan() {
-            if view.sides.iter().all(|side| side.area >= -side.rounding) && self.is_in_box(&corners, contact) {
-                found.improve(Best { tip, triangle, feature: Feature::Facet, at: contact });
-                return;
-            }
-            let spare = tip - found.tip;
-            if view
-                .sides
-                .iter()
-                .any(|side| side.area < 0.0 && convexity.loses(spare, side.area * side.area, side.square))
-            {
-                return;
-            }
+        let is_inside =
+            || view.sides.iter().all(|side| side.area >= -side.rounding) && self.is_in_box(&corners, contact);
+        if !tip.is_nan() && is_inside() {
+            found.improve(Best { tip, triangle, feature: Feature::Facet, at: contact });
+            return;
         }
         self.touch_border(triangle, owned, &view, [x, y], found);
     }
@@ -201,7 +217,7 @@ impl<'a> Contacts<'a> {
             let (p, q) = (corners[i], corners[(i + 1) % 3]);
             let (ex, ey) = (q.x - p.x, q.y - p.y);
             let side = ex * (contact[1] - p.y) - ey * (contact[0] - p.x);
-            Side { area: turn * side, rounding: self.overhang * (ex.abs() + ey.abs()), square: ex * ex + ey * ey }
+            Side { area: turn * side, rounding: self.overhang * (ex.abs() + ey.abs()) }
         })
     }
 

@@ -1,8 +1,8 @@
 //! Where the tool stands: slope-matched offset and the gouge-free envelope.
 
+mod bending;
 mod bridging;
 mod contact;
-mod convexity;
 mod edge;
 mod envelope;
 mod features;

@@ -9,6 +9,7 @@ use common::tools::{Kind, KINDS};
 use proptest::prelude::*;
 use styluscam_geometry::{ModelFace, ProfileDocument, SheetLaw, ToolDocument};
 
+use super::super::search::Eight;
 use super::*;
 
 fn tool(clothoid: bool, diameter: f64, tip_flat: f64) -> Tool {
@@ -90,6 +91,42 @@ fn tiles_find_what_all_triangles_say() {
     for seed in 0..60 {
         compare(SURFACES[seed % SURFACES.len()], &KINDS[seed % KINDS.len()], seed as u64, 40, 7);
     }
+}
+
+#[test]
+fn what_eight_triangles_do_not_exceed_is_hardly_higher_than_their_tips() {
+    let mut gaps = Vec::new();
+    for seed in 0..60 {
+        let mut dice = Dice::new(seed);
+        let (surface, kind) = (SURFACES[seed as usize % SURFACES.len()], &KINDS[seed as usize % KINDS.len()]);
+        let (mesh, tool) = (surface.mesh(&mut dice), kind.tool(&mut dice));
+        let index = Index::new(&mesh);
+        let envelope = Envelope::new(&mesh, &index, &tool, None, 0.0);
+        let ground = envelope.ground();
+        let count = index.triangles().corners.len() as f64;
+        for place in places(&mut dice, 12) {
+            let triangles = [(); 8].map(|()| dice.within(0.0, count) as u32);
+            let mut eight = Eight::default();
+            for (lane, triangle) in triangles.iter().enumerate() {
+                eight.put(lane, &ground.contacts.seen(*triangle, place, 0.5));
+            }
+            for (triangle, most) in triangles.into_iter().zip(eight.most(ground.lines).to_array()) {
+                let mut alone = Best::NOTHING;
+                ground.contacts.touch_whole(triangle, place, &mut alone);
+                let gap = f64::from(most) + 0.5 - alone.tip;
+                assert!(
+                    gap >= -f64::from(ground.margin()),
+                    "{surface:?} {:?} seed {seed} at {place:?}: {gap}",
+                    tool.document().profile
+                );
+                if alone.is_something() {
+                    gaps.push(gap);
+                }
+            }
+        }
+    }
+    gaps.sort_by(f64::total_cmp);
+    assert!(gaps[gaps.len() / 2] < 1e-2, "{}", gaps[gaps.len() / 2]);
 }
 
 #[test]

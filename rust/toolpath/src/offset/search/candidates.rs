@@ -3,86 +3,85 @@
 use wide::f32x8;
 
 use super::super::index::WIDTH;
-use super::ground::Floor;
 
 /// Triangles that may be touched somewhere in a tile, with their bounds.
 #[derive(Default)]
 pub struct Candidates {
-    /// Height from which the values count, mm.
+    /// Height from which the bounds count, mm.
     pub zero: f64,
-    pub triangles: Vec<u32>,
-    values: Vec<f32>,
-    along: [Vec<f32>; 2],
+    count: usize,
+    groups: Vec<Group>,
+}
+
+/// Eight candidates; a lane without one has a bound below everything.
+#[derive(Clone, Copy)]
+struct Group {
+    triangles: [u32; WIDTH],
+    /// What the tips do not exceed over the middle of the tile,
+    values: [f32; WIDTH],
+    /// and how that changes beside it.
+    along: [[f32; WIDTH]; 2],
+}
+
+impl Group {
+    const EMPTY: Self =
+        Self { triangles: [u32::MAX; WIDTH], values: [f32::NEG_INFINITY; WIDTH], along: [[0.0; WIDTH]; 2] };
 }
 
 impl Candidates {
     pub fn clear(&mut self, zero: f64) {
         self.zero = zero;
-        self.triangles.clear();
-        self.values.clear();
-        self.along.iter_mut().for_each(Vec::clear);
+        self.count = 0;
+        self.groups.clear();
+    }
+
+    pub fn count(&self) -> usize {
+        self.count
     }
 
     #[inline]
     pub fn push(&mut self, triangle: u32, value: f32, along: [f32; 2]) {
-        self.triangles.push(triangle);
-        self.values.push(value);
-        self.along[0].push(along[0]);
-        self.along[1].push(along[1]);
+        let lane = self.count % WIDTH;
+        if lane == 0 {
+            self.groups.push(Group::EMPTY);
+        }
+        self.count += 1;
+        if let Some(group) = self.groups.last_mut() {
+            group.triangles[lane] = triangle;
+            group.values[lane] = value;
+            group.along[0][lane] = along[0];
+            group.along[1][lane] = along[1];
+        }
     }
 
-    /// Leaves out what the last floor rules out: most were collected under lower ones.
-    pub fn keep_above(&mut self, floor: &Floor, half: [f32; 2], margin: f32) {
-        let mut kept = 0;
-        for i in 0..self.triangles.len() {
-            let along = [self.along[0][i], self.along[1][i]];
-            if floor.rules_out(self.values[i], along, half, margin) {
-                continue;
+    /// Calls `keep` with the triangles that may reach a height, over zero, at a place `away` from the tile's middle.
+    #[inline]
+    pub fn reaching(&self, height: f32, away: [f32; 2], mut keep: impl FnMut(u32)) {
+        let [dx, dy] = away.map(f32x8::splat);
+        for group in &self.groups {
+            let [ax, ay] = group.along.map(f32x8::new);
+            let heights = f32x8::new(group.values) + ax * dx + ay * dy;
+            let mut open = !heights.simd_lt(f32x8::splat(height)).to_bitmask() & 0xff;
+            while open != 0 {
+                keep(group.triangles[open.trailing_zeros() as usize]);
+                open &= open - 1;
             }
-            self.triangles[kept] = self.triangles[i];
-            self.values[kept] = self.values[i];
-            (self.along[0][kept], self.along[1][kept]) = (along[0], along[1]);
-            kept += 1;
         }
-        self.triangles.truncate(kept);
-        self.values.truncate(kept);
-        self.along.iter_mut().for_each(|row| row.truncate(kept));
-        // whole groups of eight
-        let padded = kept.next_multiple_of(WIDTH);
-        self.values.resize(padded, 0.0);
-        self.along.iter_mut().for_each(|row| row.resize(padded, 0.0));
+    }
+
+    fn bound(&self, i: usize) -> (f32, [f32; 2]) {
+        let (group, lane) = (&self.groups[i / WIDTH], i % WIDTH);
+        (group.values[lane], group.along.map(|row| row[lane]))
     }
 
     /// A candidate, and where its bound rises to.
     pub fn direction(&self, i: usize) -> (u32, [f32; 2]) {
-        (self.triangles[i], [self.along[0][i], self.along[1][i]])
+        (self.groups[i / WIDTH].triangles[i % WIDTH], self.bound(i).1)
     }
 
     /// What a candidate does not exceed in a tile, over zero.
     pub fn most(&self, i: usize, half: [f32; 2]) -> f32 {
-        self.values[i] + self.along[0][i].abs() * half[0] + self.along[1][i].abs() * half[1]
-    }
-
-    /// Groups of eight.
-    pub fn eights(&self) -> usize {
-        self.triangles.len().div_ceil(WIDTH)
-    }
-
-    /// Those of eight candidates that reach a tip height at a place `away` from the tile's middle, as bits.
-    #[inline]
-    pub fn reaching(&self, eight: usize, tip: f64, away: [f32; 2], margin: f32) -> u32 {
-        let first = eight * WIDTH;
-        let lanes = |row: &[f32]| {
-            let mut lanes = [0.0; WIDTH];
-            lanes.copy_from_slice(&row[first..first + WIDTH]);
-            f32x8::new(lanes)
-        };
-        let heights = lanes(&self.values)
-            + lanes(&self.along[0]) * f32x8::splat(away[0])
-            + lanes(&self.along[1]) * f32x8::splat(away[1])
-            + f32x8::splat(margin);
-        let low = heights.simd_lt(f32x8::splat((tip - self.zero) as f32)).to_bitmask();
-        let count = WIDTH.min(self.triangles.len() - first);
-        !low & ((1 << count) - 1)
+        let (value, along) = self.bound(i);
+        value + along[0].abs() * half[0] + along[1].abs() * half[1]
     }
 }

@@ -10,6 +10,8 @@ use super::super::index::{Index, Lines, Matched, Probe, WIDTH};
 const WALK: usize = 64;
 /// Rounding in a bound, as a share of the cutter's radius: that of f32 times the steepest line.
 const ROUNDING: f64 = 1e-5;
+/// And as a share of a height.
+const SHARE: f32 = 1e-6;
 /// The nodes of a survey's last level are at most this many times a quarter of the surveyed piece, about.
 const SURVEYED: f64 = 0.12;
 
@@ -99,6 +101,13 @@ impl Ground<'_> {
             z: (found.tip.max(self.bottom) - self.index.centre().z) as f32,
             reach: (reach * reach * (1.0 + 1e-5)) as f32,
         }
+    }
+
+    /// A height over `zero` below which a bound in single precision rules out a tip.
+    #[inline]
+    pub fn enough(&self, tip: f64, zero: f64) -> f32 {
+        let over = (tip - zero) as f32;
+        over - self.margin() - SHARE * over.abs()
     }
 
     pub fn margin(&self) -> f32 {

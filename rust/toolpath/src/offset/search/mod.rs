@@ -6,6 +6,8 @@
 
 mod candidates;
 mod ground;
+mod tangents;
+mod trials;
 mod view;
 
 use wide::f32x8;
@@ -15,12 +17,15 @@ use super::index::WIDTH;
 use crate::lattice::{Cells, Lattice, Node};
 use candidates::Candidates;
 use ground::{quarters, Tile};
+use trials::Trials;
 use view::{Branch, Survey, View};
 
 pub use ground::Ground;
+#[cfg(test)]
+pub use tangents::Eight;
 
 /// A tile of more candidates than this is quartered.
-const CROWDED: usize = 64;
+const CROWDED: usize = 128;
 /// A quarter is quartered again only if it has fewer candidates than this share of its tile's.
 const WORTH_QUARTERING: f64 = 0.8;
 /// A survey of more branches than this says nothing.
@@ -44,6 +49,7 @@ pub struct Searcher {
     candidates: Candidates,
     /// Nodes of the first level that candidates come from.
     leaves: Vec<Branch>,
+    trials: Trials,
     /// Where the last search ended: neighbours begin there.
     last: Option<u32>,
 }
@@ -98,7 +104,7 @@ impl Searcher {
         let mut found = ground.guess(tile.middle, self.last);
         self.explore(ground, survey, &tile, tile.middle, &mut found, true);
         self.remember(&found);
-        let count = self.candidates.triangles.len();
+        let count = self.candidates.count();
         if count > CROWDED && (count as f64) < WORTH_QUARTERING * before as f64 {
             let leaves = self.surveyed(&tile);
             for quarter in quarters(places, members, &tile).iter().filter(|quarter| !quarter.is_empty()) {
@@ -106,9 +112,7 @@ impl Searcher {
             }
             return;
         }
-        for member in members {
-            keep(*member, self.settle(ground, &tile, places[*member as usize]));
-        }
+        self.settle(ground, &tile, places, members, keep);
     }
 
     /// Looks for cells over which a tip may be higher than the `limit` of their rectangle, and calls `keep` with each of
@@ -143,7 +147,7 @@ impl Searcher {
             return;
         }
         if cells.is_single() {
-            let all = 0..self.candidates.triangles.len();
+            let all = 0..self.candidates.count();
             let highest = all.fold(limit_here, |most, i| most.max(self.greatest(ground, &tile, i, most)));
             if highest > limit_here {
                 keep(cells.from, highest);
@@ -200,8 +204,8 @@ impl Searcher {
             return if above { Verdict::Above } else { Verdict::Open };
         }
         let half = tile.half.map(|h| h as f32);
-        let height = (z - self.candidates.zero) as f32 - ground.margin();
-        let mut rising = (0..self.candidates.triangles.len()).filter(|i| self.candidates.most(*i, half) >= height);
+        let height = ground.enough(z, self.candidates.zero);
+        let mut rising = (0..self.candidates.count()).filter(|i| self.candidates.most(*i, half) >= height);
         if rising.all(|i| self.greatest(ground, &tile, i, z) <= z) {
             Verdict::Free
         } else {
@@ -285,8 +289,10 @@ impl Searcher {
                 let lane = rest.trailing_zeros() as usize;
                 rest &= rest - 1;
                 let triangle = ground.index.of_piece(branch.node * WIDTH as u32 + lane as u32);
-                let height = values[lane] + if collect { view.margin } else { more[lane] };
-                if f64::from(height) + view.zero >= found.tip {
+                // in a tile it pays to try a triangle that lifts the floor by more than what it loses towards the corners
+                let spare =
+                    if collect { view.margin - ((found.tip - view.zero) as f32 - floor.level) } else { more[lane] };
+                if f64::from(values[lane] + spare) + view.zero >= found.tip {
                     let before = found.tip;
                     ground.contacts.touch(triangle, place, found);
                     if found.tip > before {
@@ -297,9 +303,6 @@ impl Searcher {
                     self.candidates.push(triangle, values[lane], [along[0][lane], along[1][lane]]);
                 }
             }
-        }
-        if collect {
-            self.candidates.keep_above(&floor, view.half, view.margin);
         }
     }
 
@@ -327,19 +330,33 @@ impl Searcher {
         }
     }
 
-    /// The highest contact over a place of the tile, among the candidates.
-    fn settle(&mut self, ground: &Ground<'_>, tile: &Tile, place: [f64; 2]) -> Best {
-        let mut found = ground.guess(place, self.last);
-        let away = [0, 1].map(|i| (place[i] - tile.middle[i]) as f32);
-        for eight in 0..self.candidates.eights() {
-            let mut open = self.candidates.reaching(eight, found.tip, away, ground.margin());
-            while open != 0 {
-                let lane = open.trailing_zeros() as usize;
-                open &= open - 1;
-                ground.contacts.touch(self.candidates.triangles[eight * WIDTH + lane], place, &mut found);
-            }
+    /// The highest contacts over some places of a tile, among the candidates.
+    fn settle(
+        &mut self,
+        ground: &Ground<'_>,
+        tile: &Tile,
+        places: &[[f64; 2]],
+        members: &[u32],
+        keep: &mut impl FnMut(u32, Best),
+    ) {
+        self.trials.clear();
+        for member in members {
+            let place = places[*member as usize];
+            let found = ground.guess(place, self.last);
+            self.remember(&found);
+            self.trials.begin(found, place);
+            let away = [0, 1].map(|i| (place[i] - tile.middle[i]) as f32);
+            let enough = ground.enough(found.tip, self.candidates.zero);
+            let Self { candidates, trials, .. } = self;
+            candidates.reaching(enough, away, |triangle| {
+                if triangle != found.triangle {
+                    trials.add(triangle);
+                }
+            });
         }
-        self.remember(&found);
-        found
+        self.trials.bound(ground, self.candidates.zero);
+        for (number, member) in members.iter().enumerate() {
+            keep(*member, self.trials.highest(number, ground, self.candidates.zero));
+        }
     }
 }

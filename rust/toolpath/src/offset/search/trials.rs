@@ -1,0 +1,83 @@
+//! Triangles to be tried at the places of a tile.
+
+use super::super::contact::Best;
+use super::super::index::WIDTH;
+use super::ground::Ground;
+use super::tangents::Eight;
+
+/// Triangles to be tried at the places of a tile, place by place.
+#[derive(Default)]
+pub struct Trials {
+    places: Vec<Place>,
+    triangles: Vec<u32>,
+    /// What they do not exceed over their places.
+    values: Vec<f32>,
+    eight: Eight,
+}
+
+struct Place {
+    at: [f64; 2],
+    /// The highest contact found before.
+    found: Best,
+    /// The first of its triangles.
+    first: usize,
+}
+
+impl Trials {
+    pub fn clear(&mut self) {
+        self.places.clear();
+        self.triangles.clear();
+    }
+
+    /// The next place, and what was found over it before.
+    #[inline]
+    pub fn begin(&mut self, found: Best, at: [f64; 2]) {
+        self.places.push(Place { at, found, first: self.triangles.len() });
+    }
+
+    /// A triangle for the last place.
+    #[inline]
+    pub fn add(&mut self, triangle: u32) {
+        self.triangles.push(triangle);
+    }
+
+    /// Finds out what the triangles do not exceed, over `zero`: eight at a time, whatever places they are for.
+    pub fn bound(&mut self, ground: &Ground<'_>, zero: f64) {
+        self.values.clear();
+        let mut lane = 0;
+        for (i, place) in self.places.iter().enumerate() {
+            let end = self.places.get(i + 1).map_or(self.triangles.len(), |next| next.first);
+            for triangle in &self.triangles[place.first..end] {
+                self.eight.put(lane, &ground.contacts.seen(*triangle, place.at, zero));
+                lane += 1;
+                if lane == WIDTH {
+                    lane = 0;
+                    self.values.extend_from_slice(&self.eight.most(ground.lines).to_array());
+                }
+            }
+        }
+        if lane > 0 {
+            self.values.extend_from_slice(&self.eight.most(ground.lines).to_array());
+        }
+    }
+
+    /// The highest contact over a place: the triangles are tried from the highest bound on.
+    #[inline]
+    pub fn highest(&mut self, number: usize, ground: &Ground<'_>, zero: f64) -> Best {
+        let end = self.places.get(number + 1).map_or(self.triangles.len(), |next| next.first);
+        let Place { at, mut found, first } = self.places[number];
+        let (values, triangles) = (&mut self.values[first..end], &self.triangles[first..end]);
+        loop {
+            let mut enough = ground.enough(found.tip, zero);
+            let mut next = None;
+            for (i, value) in values.iter().enumerate() {
+                if *value >= enough {
+                    (enough, next) = (*value, Some(i));
+                }
+            }
+            let Some(i) = next else { return found };
+            values[i] = f32::NAN; // reaches nothing any more
+            ground.contacts.touch(triangles[i], at, &mut found);
+        }
+    }
+}
