@@ -129,6 +129,9 @@ class Plan:
 @final
 class Judgement:
     def report(self) -> str: ...
+    def coverage(
+        self, job: Job, scene: Scene, progress: _Progress | None = None, cancel: CancelToken | None = None
+    ) -> str: ...
     @property
     def program(self) -> Program: ...
 

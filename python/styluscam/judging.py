@@ -19,10 +19,12 @@ from styluscam.types import Document, Progress
 class Report:
     """What the judge found in a text."""
 
-    def __init__(self, document: Document, judgement: _engine.Judgement) -> None:
+    def __init__(self, document: Document, judgement: _engine.Judgement, job: Job, scene: _engine.Scene) -> None:
         self._document = document
         self.judgement = judgement
         self.program = Program(judgement.program)
+        self._job, self._scene = job, scene
+        self._coverage: list[Document] | None = None
 
     @property
     def ok(self) -> bool:
@@ -44,6 +46,27 @@ class Report:
     def excess_max(self) -> float:
         """Largest distance from the part along the contact tracks, mm."""
         return float(self._document["excess_max"])
+
+    def coverage(
+        self, *, progress: Progress | None = None, cancel: _engine.CancelToken | None = None
+    ) -> list[Document]:
+        """What the program leaves on each face that the job is for.
+
+        Keys: face, area (mm2), covered (share of it), scallop, mean, left (mm), at (where most is left), points (looked at).
+
+        What is left at a point is its distance from all that tool and sheet sweep on moves that are meant to touch. A
+        place is covered where that is at most a hundredth of the tool's diameter; the scallop is the most among these.
+        Whole faces count, whatever heights the operations stop at.
+        """
+        if self._coverage is None:
+            found = self.judgement.coverage(self._job.engine, self._scene, progress=progress, cancel=cancel)
+            self._coverage = json.loads(found)
+        return self._coverage
+
+    @property
+    def scallop(self) -> float:
+        """Largest scallop on the faces that the job is for, mm: what :meth:`coverage` finds where it is covered."""
+        return max((float(face["scallop"]) for face in self.coverage()), default=0.0)
 
     def to_dict(self) -> Document:
         """Everything, as plain data."""
@@ -98,4 +121,4 @@ def _judge(
     judgement = _engine.judge(job.engine, scene, machine.engine, text, progress=progress, cancel=cancel)
     document: Document = json.loads(judgement.report())
     recheck(document, job, scene)
-    return Report(document, judgement)
+    return Report(document, judgement, job, scene)

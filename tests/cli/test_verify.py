@@ -33,6 +33,11 @@ def test_sound_program_passes(sound, cli):
     assert ran.code == 0 and ran.err == ""
     assert "nothing was found" in ran.out.splitlines()[0]
     assert "worst gouge" in ran.out and "worst excess" in ran.out
+    code, document = judged(cli, sound, sound.gcode.read_text())
+    assert code == 0 and document["coverage"]
+    for face in document["coverage"]:
+        assert f"Face{face['face']}: {100 * face['covered']:.1f} % of" in ran.out
+        assert 0.0 <= face["mean"] <= face["scallop"] <= face["left"]
     assert cli("verify", sound.gcode, "--job", sound.job, "--quiet").out == ""
 
 

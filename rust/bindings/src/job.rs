@@ -195,6 +195,20 @@ impl Judgement {
         json(&self.judgement.report)
     }
 
+    /// What is left on the job's faces, as JSON.
+    #[pyo3(signature = (job, scene, progress=None, cancel=None))]
+    fn coverage(
+        &self,
+        py: Python<'_>,
+        job: &Job,
+        scene: &Scene,
+        progress: Option<&Bound<'_, PyAny>>,
+        cancel: Option<&CancelToken>,
+    ) -> PyResult<String> {
+        let work = |watch: &_| styluscam_job::coverage(&job.document, &scene.scene, &self.judgement, watch);
+        json(&watched(py, progress, cancel, work)?.map_err(of_job)?)
+    }
+
     /// The moves as they were read back.
     #[getter]
     fn program(&self) -> Program {

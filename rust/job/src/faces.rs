@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use styluscam_geometry::Mesh;
 
-use crate::{JobError, Selection};
+use crate::{JobDocument, JobError, OperationSection, Scene, Selection};
 
 /// Normals whose Z is above this look up; a wall of 89.9 degrees still does.
 const UP: f64 = 1e-3;
@@ -36,6 +36,23 @@ pub fn views(mesh: &Mesh) -> BTreeMap<u32, FaceView> {
         view.steepest = view.steepest.max(libm::atan2(normal.x.hypot(normal.y), normal.z));
     }
     views
+}
+
+/// The faces that an operation is for, in order of their numbers: its own selection, or the part's.
+///
+/// # Errors
+/// As [`chosen`].
+pub fn of_operation(
+    job: &JobDocument,
+    scene: &Scene,
+    section: &OperationSection,
+    index: usize,
+) -> Result<Vec<u32>, JobError> {
+    let (selection, place) = match &section.faces {
+        Some(selection) => (selection, format!("operations[{index}].faces")),
+        None => (&job.part.faces, "part.faces".to_owned()),
+    };
+    chosen(selection, &scene.views, job.part.allow_undercuts, &place)
 }
 
 /// The faces that a selection means, in order of their numbers.

@@ -4,9 +4,9 @@ use serde::Serialize;
 use styluscam_geometry::Tool;
 use styluscam_motion::{Program, ToolRecord, Watch};
 use styluscam_post::{read, Machine};
-use styluscam_verify::{Limits, Report, Subject};
+use styluscam_verify::{FaceCoverage, Limits, Report, Subject};
 
-use crate::{scene, JobDocument, JobError, Scene};
+use crate::{faces, scene, JobDocument, JobError, Scene};
 
 /// Deepest gouge allowed, mm: the posted path may lie this far inside the exact envelope, and not more.
 const GOUGE: f64 = 0.001;
@@ -19,6 +19,9 @@ pub struct Judgement {
     /// The moves as they were read back.
     #[serde(skip)]
     pub program: Program,
+    /// Index of the first move whose end is known in all three axes.
+    #[serde(skip)]
+    first_placed_move: usize,
 }
 
 /// Reads `text` as `machine` would and judges it against the part.
@@ -34,18 +37,42 @@ pub fn judge(
 ) -> Result<Judgement, JobError> {
     let (tools, records) = tools_in_order(job)?;
     let reading = read(text, machine, &records)?;
-    let subject = Subject {
+    let subject = subject(job, scene, &tools, reading.first_placed_move);
+    let report = styluscam_verify::judge(&reading.program, &subject, &limits(job, scene), watch)?;
+    Ok(Judgement { report, program: reading.program, first_placed_move: reading.first_placed_move })
+}
+
+/// What a judged program leaves on the faces that the job's operations are for, face by face.
+///
+/// # Errors
+/// Tools that do not build, `Cancelled`.
+pub fn coverage(
+    job: &JobDocument,
+    scene: &Scene,
+    judgement: &Judgement,
+    watch: &Watch,
+) -> Result<Vec<FaceCoverage>, JobError> {
+    let (tools, _) = tools_in_order(job)?;
+    let mut faces = Vec::new();
+    for (index, section) in job.operations.iter().enumerate() {
+        faces.extend(faces::of_operation(job, scene, section, index)?);
+    }
+    let subject = subject(job, scene, &tools, judgement.first_placed_move);
+    let wanted = scene.looking_up(&faces);
+    Ok(styluscam_verify::coverage(&judgement.program, &subject, &limits(job, scene), &wanted, watch)?)
+}
+
+fn subject<'a>(job: &'a JobDocument, scene: &'a Scene, tools: &'a [Tool], first_placed_move: usize) -> Subject<'a> {
+    Subject {
         mesh: &scene.mesh,
         bvh: &scene.bvh,
-        tools: &tools,
+        tools,
         sheet: scene.sheet,
         deviation_inward: scene.inward,
         deviation_outward: scene.outward,
         wcs: &job.setup.wcs,
-        first_placed_move: reading.first_placed_move,
-    };
-    let report = styluscam_verify::judge(&reading.program, &subject, &limits(job, scene), watch)?;
-    Ok(Judgement { report, program: reading.program })
+        first_placed_move,
+    }
 }
 
 /// The moves of a text as `machine` would read it for this job.

@@ -207,13 +207,8 @@ pub fn operation(
     watch: &Watch,
 ) -> Result<(Vec<Move>, OperationSummary), JobError> {
     let place = format!("operations[{index}]");
-    let (selection, selection_place) = match &section.faces {
-        Some(selection) => (selection, format!("{place}.faces")),
-        None => (&job.part.faces, "part.faces".to_owned()),
-    };
-    let faces = faces::chosen(selection, &scene.views, job.part.allow_undercuts, &selection_place)?;
-    let selected: Vec<bool> =
-        (0..scene.mesh.faces().len()).map(|t| faces.contains(&scene.mesh.faces()[t]) && looks_up(scene, t)).collect();
+    let faces = faces::of_operation(job, scene, section, index)?;
+    let selected = scene.looking_up(&faces);
     let budget = Budget::of(section, scene, machine).map_err(JobError::planning(&place))?;
     watch.begin("preparing", 1);
     let envelope = Envelope::new(&scene.mesh, &scene.index, tool, scene.sheet.as_ref(), budget.margin);
@@ -250,10 +245,6 @@ fn heights(section: &OperationSection) -> [f64; 2] {
     };
     // what lies at the top is formed within the tolerance above it
     [bottom.unwrap_or(f64::NEG_INFINITY), top.map_or(f64::INFINITY, |z| z + section.tolerance)]
-}
-
-fn looks_up(scene: &Scene, triangle: usize) -> bool {
-    scene.mesh.normal(triangle).z > -1e-9
 }
 
 fn steepest(scene: &Scene, selected: &[bool]) -> f64 {

@@ -45,6 +45,13 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Which triangles belong to some faces and do not look down.
+    pub(crate) fn looking_up(&self, faces: &[u32]) -> Vec<bool> {
+        let looks_up = |triangle: usize| self.mesh.normal(triangle).z > -1e-9;
+        let of_faces = self.mesh.faces().iter().map(|face| faces.contains(face));
+        of_faces.enumerate().map(|(triangle, is_of_face)| is_of_face && looks_up(triangle)).collect()
+    }
+
     /// Places the part.
     ///
     /// # Errors

@@ -1,0 +1,227 @@
+//! What a program leaves on the faces that it was to touch.
+//!
+//! What is left at a point of the part is its distance from all that the tool (with sheet) sweeps on the moves that are
+//! meant to touch, each straight move exactly. Between neighbouring passes that is the scallop; where no pass
+//! comes near it is everything.
+
+use std::cell::Cell;
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+use rstar::{RTree, RTreeObject, SelectionFunction, AABB};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use styluscam_motion::{Cancelled, Program, Watch};
+
+use crate::body::Body;
+use crate::convex::{lower, EQUAL};
+use crate::legs::{placed, LegKind};
+use crate::probes;
+use crate::sweep::Stroke;
+use crate::{Limits, Subject, Vector};
+
+/// Points for each square of the mean distance between passes.
+const PER_PASS: f64 = 25.0;
+/// Points of a face at least.
+const OF_A_FACE: usize = 400;
+/// Points at least and at most, for all faces.
+const POINTS: [f64; 2] = [20_000.0, 400_000.0];
+/// Points in a piece of work. Fixed, so that the result does not depend on the number of threads.
+const CHUNK: usize = 256;
+/// A place counts as covered when no more than this share of the tool's diameter is left there.
+const COVERED: f64 = 0.01;
+
+/// What is left on one face.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FaceCoverage {
+    /// The face.
+    pub face: u32,
+    /// Its area, mm^2, without what looks down.
+    pub area: f64,
+    /// Share of it that is covered: where at most a hundredth of the tool's diameter is left.
+    pub covered: f64,
+    /// Most that is left where it is covered, mm: the scallop.
+    pub scallop: f64,
+    /// What is left on average where it is covered, mm.
+    pub mean: f64,
+    /// Most that is left anywhere on the face, mm; none where nothing at all was swept.
+    pub left: Option<f64>,
+    /// Where that is, work coordinates, mm.
+    pub at: Option<[f64; 3]>,
+    /// Points looked at.
+    pub points: usize,
+}
+
+/// What a program leaves on the triangles that `wanted` names, face by face in the order of their numbers.
+///
+/// # Errors
+/// `Cancelled` when the watch says so.
+pub fn coverage(
+    program: &Program,
+    subject: &Subject,
+    limits: &Limits,
+    wanted: &[bool],
+    watch: &Watch,
+) -> Result<Vec<FaceCoverage>, Cancelled> {
+    let sweeps = Sweeps::of(program, subject, limits);
+    let faces = faces(subject, wanted);
+    let area: f64 = faces.iter().map(|face| face.area).sum();
+    let between_passes = area / sweeps.length.max(f64::MIN_POSITIVE);
+    let count = (PER_PASS * area / (between_passes * between_passes)).clamp(POINTS[0], POINTS[1]);
+    watch.begin("coverage", faces.len());
+    let looked_at = |face: &Face| {
+        let points = ((count * face.area / area) as usize).max(OF_A_FACE);
+        let points = probes::spread(subject.mesh, &face.triangles, points);
+        let left: Result<Vec<Vec<f64>>, Cancelled> = points
+            .par_chunks(CHUNK)
+            .map(|chunk| {
+                let mut last = None;
+                watch.advance(0)?;
+                Ok(chunk.iter().map(|point| sweeps.left(*point, &mut last)).collect())
+            })
+            .collect();
+        watch.advance(1)?;
+        Ok(face.coverage(&points, &left?.concat(), sweeps.enough))
+    };
+    faces.iter().map(looked_at).collect()
+}
+
+/// A face's wanted triangles.
+struct Face {
+    number: u32,
+    triangles: Vec<usize>,
+    area: f64,
+}
+
+fn faces(subject: &Subject, wanted: &[bool]) -> Vec<Face> {
+    let mut by_number: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    for triangle in (0..wanted.len()).filter(|t| wanted[*t]) {
+        by_number.entry(subject.mesh.faces()[triangle]).or_default().push(triangle);
+    }
+    let face = |(number, triangles): (u32, Vec<usize>)| {
+        let area = triangles.iter().map(|t| subject.mesh.area(*t)).sum();
+        Face { number, triangles, area }
+    };
+    by_number.into_iter().map(face).collect()
+}
+
+impl Face {
+    /// Sums up what is left at points that stand for equal areas.
+    fn coverage(&self, points: &[Vector], left: &[f64], enough: f64) -> FaceCoverage {
+        let covered: Vec<f64> = left.iter().filter(|left| **left <= enough).map(|left| left.max(0.0)).collect();
+        let most = (0..left.len()).filter(|i| left[*i].is_finite()).max_by(|i, j| left[*i].total_cmp(&left[*j]));
+        FaceCoverage {
+            face: self.number,
+            area: self.area,
+            covered: covered.len() as f64 / left.len().max(1) as f64,
+            scallop: covered.iter().copied().fold(0.0, f64::max),
+            mean: covered.iter().sum::<f64>() / covered.len().max(1) as f64,
+            left: most.map(|i| left[i].max(0.0)),
+            at: most.map(|i| points[i].into()),
+            points: points.len(),
+        }
+    }
+}
+
+/// All moves that are meant to touch, by tool.
+struct Sweeps {
+    tools: Vec<(Body, RTree<Sweep>)>,
+    /// Length of all of them, mm.
+    length: f64,
+    /// What may be left at a covered place, mm.
+    enough: f64,
+}
+
+/// A straight move of a body's tip.
+#[derive(Clone, Copy, Debug)]
+struct Sweep(Stroke);
+
+impl RTreeObject for Sweep {
+    type Envelope = AABB<[f64; 3]>;
+
+    fn envelope(&self) -> Self::Envelope {
+        AABB::from_corners(self.0.from.into(), self.0.to.into())
+    }
+}
+
+impl Sweeps {
+    fn of(program: &Program, subject: &Subject, limits: &Limits) -> Self {
+        let legs = placed(program, subject, limits);
+        let tools = subject.tools.iter().enumerate().map(|(number, tool)| {
+            let body = Body::new(tool, subject.sheet.as_ref());
+            let sweeps =
+                legs.iter().filter(|leg| leg.kind == LegKind::Contact && leg.tool == Some(number)).map(|leg| {
+                    let to = body.position(leg.end);
+                    Sweep(Stroke { from: leg.start.map_or(to, |start| body.position(start)), to })
+                });
+            let tree = RTree::bulk_load(sweeps.collect());
+            (body, tree)
+        });
+        let tools: Vec<(Body, RTree<Sweep>)> = tools.collect();
+        let length = tools.iter().flat_map(|(_, tree)| tree).map(|sweep| sweep.0.length()).sum();
+        let enough = COVERED * subject.tools.iter().map(styluscam_geometry::Tool::diameter).fold(0.0, f64::max);
+        Self { tools, length, enough }
+    }
+
+    /// Distance from a point to what is swept, mm; `last` holds the move that was nearest to a point near by.
+    fn left(&self, point: Vector, last: &mut Option<(usize, Sweep)>) -> f64 {
+        let best = Cell::new(f64::INFINITY);
+        let nearest = Cell::new(*last);
+        if let Some((tool, sweep)) = *last {
+            best.set(distance(&self.tools[tool].0, point, &sweep.0, f64::INFINITY));
+        }
+        for (tool, (body, tree)) in self.tools.iter().enumerate() {
+            let search = Search { body, tool, point, best: &best, nearest: &nearest };
+            tree.locate_with_selection_function(search).for_each(drop);
+        }
+        *last = nearest.get();
+        best.get()
+    }
+}
+
+/// The search for the move that sweeps nearest to a point.
+struct Search<'a> {
+    body: &'a Body,
+    tool: usize,
+    point: Vector,
+    best: &'a Cell<f64>,
+    nearest: &'a Cell<Option<(usize, Sweep)>>,
+}
+
+impl SelectionFunction<Sweep> for Search<'_> {
+    fn should_unpack_parent(&self, envelope: &AABB<[f64; 3]>) -> bool {
+        // the point as bodies with their tips in the box see it
+        let high = self.point - Vector::from(envelope.lower());
+        let low = self.point - Vector::from(envelope.upper());
+        let near = |low: f64, high: f64| 0.0_f64.clamp(low, high);
+        let plane = self.body.separating(Vector::new(near(low.x, high.x), near(low.y, high.y), high.z));
+        let least = |away: f64, low: f64, high: f64| away * if away > 0.0 { low } else { high };
+        let gap = least(plane.away.x, low.x, high.x)
+            + least(plane.away.y, low.y, high.y)
+            + least(plane.away.z, low.z, high.z)
+            - plane.support;
+        gap < self.best.get() - EQUAL
+    }
+
+    fn should_unpack_leaf(&self, sweep: &Sweep) -> bool {
+        let found = distance(self.body, self.point, &sweep.0, self.best.get());
+        if found < self.best.get() {
+            self.best.set(found);
+            self.nearest.set(Some((self.tool, *sweep)));
+        }
+        false
+    }
+}
+
+/// Distance from a point to a body on its way, where it is below `best`: convex in the place on the way.
+fn distance(body: &Body, point: Vector, stroke: &Stroke, best: f64) -> f64 {
+    let along = stroke.from - stroke.to;
+    let mut least = f64::INFINITY;
+    lower(stroke.share_near(point), along.norm(), best, |share| {
+        let p = point - stroke.at(share);
+        let here = body.distance(p);
+        least = least.min(here.value);
+        body.tangent(p, &here, along)
+    });
+    least
+}
