@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from conftest import Floats, Mesh, milling_document
+from conftest import Floats, Mesh, box, milling_document, together
 
 import styluscam as sc
 from styluscam import _engine
@@ -98,3 +98,13 @@ def test_with_a_sheet_zero_is_its_top(small_part: Mesh) -> None:
         assert plan.scene.frame[2][3] == pytest.approx(-(2.0 + 0.7 + lift))
     assert np.abs(tops["low"].positions - tops["high"].positions).max() < 1e-6
     assert tops["low"].setup["clearance"] == pytest.approx(10.0)
+
+
+@pytest.mark.parametrize("machine", ["linuxcnc", "grbl"])
+@pytest.mark.parametrize("top", [0.00049, 1.23456, 5.4950312])
+def test_a_clearance_height_that_is_rounded_down_in_the_text_is_no_finding(machine: str, top: float) -> None:
+    mesh = together(box([0.0, 0.0, -5.0], [5.0, 5.0, top]), box([30.0, 0.0, -5.0], [35.0, 5.0, top]))
+    document = milling_document("z-level", BALL, machine=machine, step={"height": 2.0}, smallest_feature=2.0)
+    work = sc.Job.from_dict(document, part=sc.Part.from_mesh(*mesh))
+    report = sc.verify(sc.post(sc.plan(work), work.machine()), work)
+    assert not [finding for finding in report.findings if "rapid" in finding["kind"]]

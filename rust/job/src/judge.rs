@@ -22,6 +22,9 @@ pub struct Judgement {
     /// Index of the first move whose end is known in all three axes.
     #[serde(skip)]
     first_placed_move: usize,
+    /// What was allowed.
+    #[serde(skip)]
+    limits: Limits,
 }
 
 /// Reads `text` as `machine` would and judges it against the part.
@@ -38,8 +41,9 @@ pub fn judge(
     let (tools, records) = tools_in_order(job)?;
     let reading = read(text, machine, &records)?;
     let subject = subject(job, scene, &tools, reading.first_placed_move);
-    let report = styluscam_verify::judge(&reading.program, &subject, &limits(job, scene), watch)?;
-    Ok(Judgement { report, program: reading.program, first_placed_move: reading.first_placed_move })
+    let limits = limits(job, scene, machine);
+    let report = styluscam_verify::judge(&reading.program, &subject, &limits, watch)?;
+    Ok(Judgement { report, program: reading.program, first_placed_move: reading.first_placed_move, limits })
 }
 
 /// What a judged program leaves on the faces that the job's operations are for, face by face.
@@ -59,7 +63,7 @@ pub fn coverage(
     }
     let subject = subject(job, scene, &tools, judgement.first_placed_move);
     let wanted = scene.looking_up(&faces);
-    Ok(styluscam_verify::coverage(&judgement.program, &subject, &limits(job, scene), &wanted, watch)?)
+    Ok(styluscam_verify::coverage(&judgement.program, &subject, &judgement.limits, &wanted, watch)?)
 }
 
 fn subject<'a>(job: &'a JobDocument, scene: &'a Scene, tools: &'a [Tool], first_placed_move: usize) -> Subject<'a> {
@@ -91,7 +95,10 @@ fn tools_in_order(job: &JobDocument) -> Result<(Vec<Tool>, Vec<ToolRecord>), Job
 }
 
 /// Text does not say which operation a move belongs to: the widest tolerance of the job holds for all of it.
-fn limits(job: &JobDocument, scene: &Scene) -> Limits {
+///
+/// Text is rounded: what stands at the clearance height may be half a unit of the machine below it.
+fn limits(job: &JobDocument, scene: &Scene, machine: &Machine) -> Limits {
+    let clearance = scene.clearance(job) - 0.5 * machine.resolution_mm();
     let excess = job.operations.iter().map(|operation| operation.tolerance);
-    Limits { gouge: GOUGE, excess: excess.reduce(f64::max), ..Limits::new(scene.clearance(job)) }
+    Limits { gouge: GOUGE, excess: excess.reduce(f64::max), ..Limits::new(clearance) }
 }
