@@ -184,6 +184,22 @@ def test_a_level_at_a_floor_runs_on_it(profile: dict[str, float], over: float) -
     assert sc.waterline(part, tool, 15.0 + over) == []
 
 
+@pytest.mark.parametrize("height", [10.0, 100.0, 300.0])
+def test_a_floor_as_rough_as_single_precision_is_one(height: float) -> None:
+    rng = np.random.default_rng(3)
+    u = np.linspace(0.0, 40.0, 41)
+    x, y = np.meshgrid(u, u)
+    unit = np.spacing(np.float32(height))
+    vertices = np.stack([x, y, height + unit * rng.integers(0, 2, x.shape)], -1).reshape(-1, 3)
+    first = np.arange(41 * 41).reshape(41, 41)[:-1, :-1].reshape(-1, 1)
+    floor = vertices, np.concatenate([np.add(first, ring) for ring in ([0, 1, 42], [0, 42, 41])])
+    part = sc.Part.from_mesh(*together(floor, box([15.0, 15.0, height], [25.0, 25.0, height + 5.0])))
+    tool = sc.Tool.from_dict({"profile": TOOLS[0]})
+    (loop,) = sc.waterline(part, tool, height)
+    assert (np.abs(loop[:, :2] - 20.0).max(axis=0) < 5.0 + 2.5 + TOLERANCE).all()
+    assert height < loop[0, 2] < height + TOLERANCE
+
+
 @pytest.mark.parametrize("profile", TOOLS, ids=lambda profile: str(profile["kind"]))
 def test_a_level_under_a_floor_goes_round_it(profile: dict[str, float]) -> None:
     part, tool = sc.Part.from_mesh(*STEPPED), sc.Tool.from_dict({"profile": profile})

@@ -66,7 +66,8 @@ pub struct Facet {
     share: f64,
     /// Height of the profile at the contact; NaN for walls: they have no facet contact.
     height: f64,
-    /// What the profile bends more along its meridian than across it, as a share, by the square of the rise.
+    /// By how much more the profile bends along its meridian than around its axis at the contact, as a share, over the
+    /// square of the gradient.
     bend: f64,
 }
 
@@ -119,7 +120,8 @@ pub struct Seen {
     pub plane: f64,
     /// The plane's gradient.
     pub gradient: [f64; 2],
-    /// See [`Facet`].
+    /// By how much more the profile bends along its meridian than around its axis there, as a share, over the square
+    /// of the gradient.
     pub bend: f64,
 }
 

@@ -21,17 +21,29 @@ pub enum Surface {
     Bowl,
     /// Random heights, many of them equal.
     Rubble,
+    /// Level plates far apart in height, of triangles that share no corners, with gaps between: beside them nothing is.
+    Plates,
 }
 
 /// All kinds.
-pub const SURFACES: [Surface; 6] =
-    [Surface::Bumps, Surface::Ridges, Surface::Steps, Surface::Needles, Surface::Bowl, Surface::Rubble];
+pub const SURFACES: [Surface; 7] = [
+    Surface::Bumps,
+    Surface::Ridges,
+    Surface::Steps,
+    Surface::Needles,
+    Surface::Bowl,
+    Surface::Rubble,
+    Surface::Plates,
+];
 
 /// The middle of every surface in plan.
 pub const MIDDLE: f64 = 0.5 * CELLS as f64 * PITCH;
 
 impl Surface {
     pub fn mesh(self, dice: &mut Dice) -> Mesh {
+        if matches!(self, Self::Plates) {
+            return plates(dice);
+        }
         let side = CELLS + 1;
         let (phase, long) = (dice.within(0.0, 6.0), dice.within(0.7, 1.4));
         let corner = |i: usize| self.corner((i % side) as f64, (i / side) as f64, phase, long, dice);
@@ -59,7 +71,7 @@ impl Surface {
             Self::Needles => 0.0,
             Self::Bowl => 0.08 * long * ((x - MIDDLE) * (x - MIDDLE) + (y - MIDDLE) * (y - MIDDLE)),
             Self::Rubble if dice.chance(0.3) => 1.0,
-            Self::Rubble => dice.within(0.0, 4.0),
+            Self::Rubble | Self::Plates => dice.within(0.0, 4.0),
         };
         if matches!(self, Self::Steps) {
             let inward = PITCH * libm::fmod(column, 2.0) * f64::from(z == 0.0);
@@ -78,4 +90,20 @@ fn fan(vertices: &mut Vec<Vector>, triangles: &mut Vec<[i64; 3]>) {
             triangles.push([corner, corner + i, corner + i + 1]);
         }
     }
+}
+
+fn plates(dice: &mut Dice) -> Mesh {
+    let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+    for _ in 0..2 + dice.below(8) {
+        let [x, y] = [(); 2].map(|()| MIDDLE + dice.within(-2.5, 2.0));
+        let [dx, dy] = [(); 2].map(|()| dice.within(0.1, 0.9));
+        let z = [0.0, 0.1, 1.0, 3.0, 30.0][dice.below(5)];
+        let [p, q, r, s] = [[0.0, 0.0], [dx, 0.0], [dx, dy], [0.0, dy]].map(|[dx, dy]| Vector::new(x + dx, y + dy, z));
+        for half in [[p, q, r], [p, r, s]] {
+            let first = vertices.len() as i64;
+            triangles.push([first, first + 1, first + 2]);
+            vertices.extend(half);
+        }
+    }
+    Mesh::new(vertices, &triangles, &[]).unwrap()
 }

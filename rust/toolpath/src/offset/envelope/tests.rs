@@ -93,6 +93,62 @@ fn tiles_find_what_all_triangles_say() {
     }
 }
 
+/// A low plate at the rim of a slender tool, in a tile whose other corners a high plate's contact does not reach.
+#[test]
+fn a_contact_near_the_rim_is_not_lost_to_a_higher_one() {
+    let plate = |[x, y]: [f64; 2], [u, v]: [f64; 2], z: f64| {
+        let [p, q, r, s] = [[x, y], [u, y], [u, v], [x, v]].map(|[x, y]| Vector::new(x, y, z));
+        [p, q, r, p, r, s]
+    };
+    let corners = [plate([0.86, 1.65], [1.16, 1.98], 30.0), plate([1.07, 1.62], [2.56, 3.26], 1.0)].concat();
+    let triangles: Vec<[i64; 3]> = (0..4).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    let mesh = Mesh::new(corners, &triangles, &[]).unwrap();
+    let tool = of(ProfileDocument::V { tip_diameter: 0.0, angle_deg: 7.0, diameter: 1.0, tip_flat: 0.0 });
+    let index = Index::new(&mesh);
+    let envelope = Envelope::new(&mesh, &index, &tool, None, 0.0);
+    let along = |i: usize| -0.6 + 0.22 * i as f64;
+    let places: Vec<[f64; 2]> = (0..24 * 24).map(|i| [along(i % 24), along(i / 24)]).collect();
+    let tips = envelope.tips(&places, &Watch::default()).unwrap();
+    let (tip, by_hand) = (tips[8 * 24 + 9], 1.0 - 0.46 / libm::tan(3.5_f64.to_radians()));
+    assert!((tip - by_hand).abs() < 1e-9, "{tip} {by_hand}");
+}
+
+/// Slender tools over plates with gaps, as wide as the tools: beside a contact that a tile's corner does not reach, nothing
+/// is known.
+#[test]
+fn tiles_lose_nothing_beside_cliffs() {
+    for seed in 0..1500 {
+        let mut dice = Dice::new(seed);
+        let mesh = Surface::Plates.mesh(&mut dice);
+        let angle_deg = dice.within(5.0, 60.0);
+        let tool = of(match dice.below(4) {
+            0 => ProfileDocument::V { tip_diameter: 0.0, angle_deg, diameter: 1.0, tip_flat: 0.0 },
+            1 => ProfileDocument::TaperedBall {
+                tip_radius: 0.1,
+                half_angle_deg: angle_deg,
+                diameter: 1.0,
+                tip_flat: 0.0,
+            },
+            2 => ProfileDocument::Flat { diameter: 1.0, tip_flat: 0.0 },
+            _ => ProfileDocument::Ball { diameter: 1.0, radius: None, tip_flat: 0.0 },
+        });
+        let index = Index::new(&mesh);
+        let envelope = Envelope::new(&mesh, &index, &tool, None, 0.0);
+        let pitch = dice.within(0.1, 0.4);
+        let columns = (7.0 / pitch) as usize;
+        let from = [(); 2].map(|()| MIDDLE - 3.5 + dice.within(0.0, pitch));
+        let place = |i: usize| [from[0] + pitch * (i % columns) as f64, from[1] + pitch * (i / columns) as f64];
+        let places: Vec<[f64; 2]> = (0..columns * columns).map(place).collect();
+        let tips = envelope.tips(&places, &Watch::default()).unwrap();
+        let ground = envelope.ground();
+        for (place, tip) in places.iter().zip(tips) {
+            let truth = highest_alone(&ground, *place);
+            let is_same = if truth.is_finite() { (tip - truth).abs() < 1e-11 } else { tip.is_nan() };
+            assert!(is_same, "{:?} seed {seed} at {place:?}: {tip} {truth}", tool.document().profile);
+        }
+    }
+}
+
 #[test]
 fn what_eight_triangles_do_not_exceed_is_hardly_higher_than_their_tips() {
     let mut gaps = Vec::new();

@@ -128,10 +128,12 @@ impl Ground<'_> {
         found
     }
 
-    /// What the contact found over the middle keeps all of the tile above.
+    /// What the contact found over the middle keeps all of the tile above; where the cutter does not reach it from some
+    /// corner, nothing is known.
     pub fn floor(&self, tile: &Tile, found: &Best, zero: f64, whole: bool) -> Floor {
+        let nothing = Floor { level: (self.bottom - zero) as f32, along: [0.0; 2] };
         if !found.is_something() {
-            return Floor { level: (self.bottom - zero) as f32, along: [0.0; 2] };
+            return nothing;
         }
         if !whole {
             return Floor { level: (found.tip - zero) as f32, along: [0.0; 2] };
@@ -145,9 +147,13 @@ impl Ground<'_> {
         for corner in [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]] {
             let [dx, dy] = [0, 1].map(|i| corner[i] * tile.half[i]);
             let (ax, ay) = (away[0] - dx, away[1] - dy);
-            let tip = (height - self.lines.above((ax * ax + ay * ay).sqrt())).max(self.bottom);
+            let tip = height - self.lines.above((ax * ax + ay * ay).sqrt());
             level = level.min(tip - along[0] * dx - along[1] * dy);
         }
-        Floor { level: (level - zero) as f32, along: along.map(|a| a as f32) }
+        if level.is_infinite() {
+            return nothing;
+        }
+        let level = (level - zero) as f32;
+        Floor { level: level - SHARE * level.abs(), along: along.map(|a| a as f32) }
     }
 }

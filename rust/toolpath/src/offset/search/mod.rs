@@ -289,7 +289,8 @@ impl Searcher {
                 let lane = rest.trailing_zeros() as usize;
                 rest &= rest - 1;
                 let triangle = ground.index.of_piece(branch.node * WIDTH as u32 + lane as u32);
-                // in a tile it pays to try a triangle that lifts the floor by more than what it loses towards the corners
+                // in a tile it pays to try a triangle that lifts the floor by more than what it loses towards the corners;
+                // those not tried here are candidates all the same
                 let spare =
                     if collect { view.margin - ((found.tip - view.zero) as f32 - floor.level) } else { more[lane] };
                 if f64::from(values[lane] + spare) + view.zero >= found.tip {
