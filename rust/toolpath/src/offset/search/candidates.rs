@@ -13,19 +13,14 @@ pub struct Candidates {
     groups: Vec<Group>,
 }
 
-/// Eight candidates; a lane without one has a bound below everything.
-#[derive(Clone, Copy)]
+/// Up to eight candidates.
+#[derive(Clone, Copy, Default)]
 struct Group {
     triangles: [u32; WIDTH],
     /// What the tips do not exceed over the middle of the tile,
     values: [f32; WIDTH],
     /// and how that changes beside it.
     along: [[f32; WIDTH]; 2],
-}
-
-impl Group {
-    const EMPTY: Self =
-        Self { triangles: [u32::MAX; WIDTH], values: [f32::NEG_INFINITY; WIDTH], along: [[0.0; WIDTH]; 2] };
 }
 
 impl Candidates {
@@ -43,7 +38,7 @@ impl Candidates {
     pub fn push(&mut self, triangle: u32, value: f32, along: [f32; 2]) {
         let lane = self.count % WIDTH;
         if lane == 0 {
-            self.groups.push(Group::EMPTY);
+            self.groups.push(Group::default());
         }
         self.count += 1;
         if let Some(group) = self.groups.last_mut() {
@@ -58,10 +53,11 @@ impl Candidates {
     #[inline]
     pub fn reaching(&self, height: f32, away: [f32; 2], mut keep: impl FnMut(u32)) {
         let [dx, dy] = away.map(f32x8::splat);
-        for group in &self.groups {
+        for (number, group) in self.groups.iter().enumerate() {
+            let filled = (self.count - number * WIDTH).min(WIDTH);
             let [ax, ay] = group.along.map(f32x8::new);
             let heights = f32x8::new(group.values) + ax * dx + ay * dy;
-            let mut open = !heights.simd_lt(f32x8::splat(height)).to_bitmask() & 0xff;
+            let mut open = !heights.simd_lt(f32x8::splat(height)).to_bitmask() & ((1 << filled) - 1);
             while open != 0 {
                 keep(group.triangles[open.trailing_zeros() as usize]);
                 open &= open - 1;
