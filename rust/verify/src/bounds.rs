@@ -13,7 +13,7 @@ use crate::Vector;
 pub(crate) fn node_bound(body: &Body, node: &Node, stroke: Stroke, limit: f64, hint: Option<&Plane>) -> f64 {
     let gap = |plane: &Plane| {
         let position = stroke.farther(plane);
-        patch_gap(node, plane, position).max(box_gap(node, plane, position))
+        patch_gap(node, plane, position).max(box_gap(node.low, node.high, plane, position))
     };
     let hinted = hint.map_or(f64::NEG_INFINITY, gap);
     if hinted > limit {
@@ -28,7 +28,12 @@ pub(crate) fn node_bound(body: &Body, node: &Node, stroke: Stroke, limit: f64, h
     if patch > limit {
         return patch;
     }
-    patch.max(gap(&box_plane(body, node, position)))
+    patch.max(gap(&box_plane(body, node.low, node.high, position)))
+}
+
+/// A bound for whatever a box holds, by one plane; the body stands at the origin.
+pub(crate) fn box_bound(body: &Body, low: Vector, high: Vector) -> f64 {
+    box_gap(low, high, &box_plane(body, low, high, Vector::zeros()), Vector::zeros())
 }
 
 /// The bound by the plane that lies over all the node's points.
@@ -50,19 +55,19 @@ fn patch_plane(body: &Body, node: &Node, position: Vector) -> Plane {
 /// A plane that keeps the box off the body, nearly as far as any can.
 ///
 /// The box's nearest place is on its top: the body only grows upwards.
-fn box_plane(body: &Body, node: &Node, position: Vector) -> Plane {
+fn box_plane(body: &Body, low: Vector, high: Vector, position: Vector) -> Plane {
     let near = |low: f64, high: f64, at: f64| at.clamp(low, high) - at;
-    let x = near(node.low.x, node.high.x, position.x);
-    let y = near(node.low.y, node.high.y, position.y);
-    body.separating(Vector::new(x, y, node.high.z - position.z))
+    let x = near(low.x, high.x, position.x);
+    let y = near(low.y, high.y, position.y);
+    body.separating(Vector::new(x, y, high.z - position.z))
 }
 
 /// The gap that a plane leaves between body and box, mm.
-fn box_gap(node: &Node, plane: &Plane, position: Vector) -> f64 {
+fn box_gap(low: Vector, high: Vector, plane: &Plane, position: Vector) -> f64 {
     let side = |a: f64, low: f64, high: f64, at: f64| a * (if a > 0.0 { low } else { high } - at);
-    side(plane.away.x, node.low.x, node.high.x, position.x)
-        + side(plane.away.y, node.low.y, node.high.y, position.y)
-        + side(plane.away.z, node.low.z, node.high.z, position.z)
+    side(plane.away.x, low.x, high.x, position.x)
+        + side(plane.away.y, low.y, high.y, position.y)
+        + side(plane.away.z, low.z, high.z, position.z)
         - plane.support
 }
 

@@ -14,8 +14,10 @@ use serde::{Deserialize, Serialize};
 use styluscam_motion::{Cancelled, Program, Watch};
 
 use crate::body::Body;
+use crate::bounds::box_bound;
 use crate::convex::{lower, EQUAL};
 use crate::legs::{placed, LegKind};
+use crate::measure::stroke_of;
 use crate::probes;
 use crate::sweep::Stroke;
 use crate::{Limits, Subject, Vector};
@@ -149,12 +151,8 @@ impl Sweeps {
         let legs = placed(program, subject, limits);
         let tools = subject.tools.iter().enumerate().map(|(number, tool)| {
             let body = Body::new(tool, subject.sheet.as_ref());
-            let sweeps =
-                legs.iter().filter(|leg| leg.kind == LegKind::Contact && leg.tool == Some(number)).map(|leg| {
-                    let to = body.position(leg.end);
-                    Sweep(Stroke { from: leg.start.map_or(to, |start| body.position(start)), to })
-                });
-            let tree = RTree::bulk_load(sweeps.collect());
+            let own = legs.iter().filter(|leg| leg.kind == LegKind::Contact && leg.tool == Some(number));
+            let tree = RTree::bulk_load(own.map(|leg| Sweep(stroke_of(leg, &body))).collect());
             (body, tree)
         });
         let tools: Vec<(Body, RTree<Sweep>)> = tools.collect();
@@ -193,14 +191,7 @@ impl SelectionFunction<Sweep> for Search<'_> {
         // the point as bodies with their tips in the box see it
         let high = self.point - Vector::from(envelope.lower());
         let low = self.point - Vector::from(envelope.upper());
-        let near = |low: f64, high: f64| 0.0_f64.clamp(low, high);
-        let plane = self.body.separating(Vector::new(near(low.x, high.x), near(low.y, high.y), high.z));
-        let least = |away: f64, low: f64, high: f64| away * if away > 0.0 { low } else { high };
-        let gap = least(plane.away.x, low.x, high.x)
-            + least(plane.away.y, low.y, high.y)
-            + least(plane.away.z, low.z, high.z)
-            - plane.support;
-        gap < self.best.get() - EQUAL
+        box_bound(self.body, low, high) < self.best.get() - EQUAL
     }
 
     fn should_unpack_leaf(&self, sweep: &Sweep) -> bool {

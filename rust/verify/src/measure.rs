@@ -173,7 +173,7 @@ fn deepest(stroke: Stroke, below: f64, prober: &Prober) -> Option<Sample> {
 }
 
 /// The way of the body's tip; a point when the start is not known.
-fn stroke_of(leg: &Leg, body: &Body) -> Stroke {
+pub(crate) fn stroke_of(leg: &Leg, body: &Body) -> Stroke {
     let to = body.position(leg.end);
     Stroke { from: leg.start.map_or(to, |s| body.position(s)), to }
 }

@@ -193,9 +193,8 @@ impl<'a> Contacts<'a> {
             return; // never for a wall: its height is NaN
         }
         let view = View { corners, contact, tip, sides: self.sides(&corners, contact) };
-        let is_inside =
-            || view.sides.iter().all(|side| side.area >= -side.rounding) && self.is_in_box(&corners, contact);
-        if !tip.is_nan() && is_inside() {
+        let sees_all = view.sides.iter().all(|side| side.area >= -side.rounding);
+        if !tip.is_nan() && sees_all && self.is_in_box(&corners, contact) {
             found.improve(Best { tip, triangle, feature: Feature::Facet, at: contact });
             return;
         }
