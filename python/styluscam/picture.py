@@ -338,7 +338,8 @@ def _triad(axes: Axes, view: View) -> None:
 
 def _halfway(program: Program, view: View) -> FloatArray | None:
     """Halfway along the path, and at that depth where the tool hides least: at the back."""
-    ends = program.positions[program.moves["kind"] != RAPID]
+    ends, kinds = _places(program)
+    ends = ends[kinds != RAPID]
     ends = ends[np.isfinite(ends).all(axis=1)]
     if not len(ends):
         return None
@@ -376,11 +377,17 @@ def _corners(box: FloatArray) -> FloatArray:
     return np.array([[box[i, 0], box[j, 1], box[k, 2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
 
 
+def _places(program: Program) -> tuple[FloatArray, npt.NDArray[np.uint8]]:
+    """Places along the path and the kind of the move that leads to each."""
+    places, moves = program.polyline
+    return places, program.moves["kind"][moves]
+
+
 def _path(axes: Axes, view: View, raster: Raster, program: Program, box: FloatArray) -> LineCollection | None:
     """Draws what is seen of the moves; the lines by Z, for their scale."""
     from matplotlib.collections import LineCollection
 
-    ends, kinds = program.positions, program.moves["kind"]
+    ends, kinds = _places(program)
     placed = np.isfinite(ends).all(axis=1)
     ends, kinds = ends[placed], kinds[placed]
     if len(ends) < 2:

@@ -12,17 +12,29 @@ import numpy.typing as npt
 from styluscam import _engine
 from styluscam.errors import JobError
 from styluscam.files import read_text, write_whole
+from styluscam.machine import Machine
 from styluscam.types import Document, FloatArray
 
 MOVE = np.dtype(
-    [("kind", "u1"), ("end", "f8", 3), ("feed", "f8"), ("operation", "u4"), ("line", "u4")],
+    [
+        ("kind", "u1"),
+        ("end", "f8", 3),
+        ("centre", "f8", 3),
+        ("plane", "u1"),
+        ("turns", "u4"),
+        ("feed", "f8"),
+        ("operation", "u4"),
+        ("line", "u4"),
+    ],
 )
-RAPID, FEED = 0, 1
-"""Kinds of moves."""
+RAPID, FEED, CLOCKWISE, COUNTERCLOCKWISE = 0, 1, 2, 3
+"""Kinds of moves: rapids, lines and arcs at a feed."""
+SAG = 0.001
+"""How far the polyline of :attr:`Program.positions` may be from an arc, mm."""
 
 
 class Program:
-    """Straight moves of the tool's tip in work coordinates, and what happens between them."""
+    """Lines and arcs of the tool's tip in work coordinates, and what happens between them."""
 
     def __init__(self, engine: _engine.Program) -> None:
         self.engine = engine
@@ -34,18 +46,28 @@ class Program:
 
     @cached_property
     def moves(self) -> npt.NDArray[np.void]:
-        """Structured array of :data:`MOVE`: kind, end (mm), feed (mm/min), operation, line of the text (0: none)."""
-        kind, end, feed, operation, line = self.engine.columns()
-        moves = np.zeros(len(kind), dtype=MOVE)
-        for name, column in zip(MOVE.names or (), (kind, end, feed, operation, line), strict=True):
+        """Structured array of :data:`MOVE`: kind, end (mm), feed (mm/min), operation, line of the text (0: none).
+
+        Of arcs also centre (mm; NaN of other moves), plane (17, 18 or 19, as in G17) and turns beyond the first.
+        """
+        columns = self.engine.columns()
+        moves = np.zeros(len(columns[0]), dtype=MOVE)
+        for name, column in zip(MOVE.names or (), columns, strict=True):
             moves[name] = column
         return moves
 
+    @cached_property
+    def polyline(self) -> tuple[FloatArray, npt.NDArray[np.uint32]]:
+        """Places along the program, (M, 3), mm, and the index of the move that each belongs to, (M,).
+
+        The ends of all moves, and along arcs as many more as keep every chord within :data:`SAG` of them.
+        """
+        return self.engine.polyline(SAG)
+
     @property
     def positions(self) -> FloatArray:
-        """The polyline of all moves' ends, (N, 3), mm."""
-        ends: FloatArray = self.moves["end"]
-        return ends
+        """The places of :attr:`polyline`, (M, 3), mm: without arcs the ends of all moves."""
+        return self.polyline[0]
 
     @property
     def length(self) -> float:
@@ -56,6 +78,13 @@ class Program:
     def duration(self) -> float:
         """Time at the programmed feeds, rapids at 3000 mm/min, s; acceleration is not counted."""
         return self.engine.statistics()[1]
+
+    def times(self, machine: Machine) -> FloatArray:
+        """The time at the end of every move on a machine, (N,), s, with its acceleration and its rate of blocks.
+
+        What the machine file does not say is taken for unlimited. Tool changes and the way to the first place count 0.
+        """
+        return self.engine.times(machine.engine)[0]
 
     def save(self, path: str | Path) -> None:
         """Writes the program as JSON, whole or not at all."""

@@ -46,7 +46,7 @@ impl Job {
 /// A controller; see `styluscam.Machine`.
 #[pyclass(frozen, module = "styluscam._engine")]
 pub struct Machine {
-    machine: styluscam_post::Machine,
+    pub(crate) machine: styluscam_post::Machine,
 }
 
 #[pymethods]

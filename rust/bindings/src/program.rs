@@ -2,9 +2,9 @@
 
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
-use styluscam_motion::{MoveKind, Statistics, PROGRAM_SCHEMA};
+use styluscam_motion::{Dynamics, Move, MoveKind, Statistics, PROGRAM_SCHEMA};
 
-use crate::{arrays, errors};
+use crate::{arrays, errors, job::Machine};
 
 /// A machine-independent program; see `styluscam.Program`.
 #[pyclass(frozen, module = "styluscam._engine")]
@@ -12,14 +12,28 @@ pub struct Program {
     pub(crate) program: styluscam_motion::Program,
 }
 
-/// Columns of the moves: kind, end, feed, operation, line.
+/// Columns of the moves: kind, end, centre, plane, turns, feed, operation, line.
 type Columns<'py> = (
     Bound<'py, PyArray1<u8>>,
     Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray1<u8>>,
+    Bound<'py, PyArray1<u32>>,
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<u32>>,
     Bound<'py, PyArray1<u32>>,
 );
+
+/// Places and the moves that they belong to.
+type Polyline<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<u32>>);
+
+fn kind_of(step: &Move) -> u8 {
+    match (step.kind, step.arc) {
+        (MoveKind::Rapid, _) => 0,
+        (MoveKind::Feed, None) => 1,
+        (MoveKind::Feed, Some(arc)) => 3 - u8::from(arc.clockwise),
+    }
+}
 
 #[pymethods]
 impl Program {
@@ -40,17 +54,44 @@ impl Program {
             .map_err(|e| errors::raise("StylusError", &e.to_string(), "internal", "", ""))
     }
 
-    /// Columns of the moves: kind (0 rapid, 1 feed), end (N, 3), feed, operation, line.
+    /// Columns of the moves: kind (0 rapid, 1 line, 2 clockwise arc, 3 counterclockwise arc), end (N, 3), an arc's centre
+    /// (N, 3; else NaN), plane (17, 18, 19) and turns beyond the first, feed, operation, line.
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Columns<'py>> {
         let moves = &self.program.moves;
-        let kind = moves.iter().map(|m| u8::from(m.kind == MoveKind::Feed)).collect();
+        let kind = moves.iter().map(kind_of).collect();
+        let centre = |m: &Move| m.arc.map_or([f64::NAN; 3], |arc| arc.centre);
+        let plane = |m: &Move| m.arc.map_or(17, |arc| 17 + arc.plane as u8);
         Ok((
             PyArray1::from_vec(py, kind),
             arrays::matrix(py, moves.iter().map(|m| m.end))?,
+            arrays::matrix(py, moves.iter().map(centre))?,
+            PyArray1::from_vec(py, moves.iter().map(plane).collect()),
+            PyArray1::from_vec(py, moves.iter().map(|m| m.arc.map_or(0, |arc| arc.turns)).collect()),
             PyArray1::from_vec(py, moves.iter().map(|m| m.feed).collect()),
             PyArray1::from_vec(py, moves.iter().map(|m| m.operation).collect()),
             PyArray1::from_vec(py, moves.iter().map(|m| m.line).collect()),
         ))
+    }
+
+    /// Places along the program (M, 3) and the move that each belongs to (M,); no chord is farther than `sag` mm from its arc.
+    fn polyline<'py>(&self, py: Python<'py>, sag: f64) -> PyResult<Polyline<'py>> {
+        if sag.is_nan() || sag <= 0.0 {
+            return Err(errors::raise(
+                "JobError",
+                &format!("sag = {sag}"),
+                "value",
+                "sag",
+                "give a length above 0, in mm",
+            ));
+        }
+        let (places, moves): (Vec<_>, Vec<_>) = self.program.polyline(sag).map(|(p, i)| (p, i as u32)).unzip();
+        Ok((arrays::matrix(py, places.into_iter())?, PyArray1::from_vec(py, moves)))
+    }
+
+    /// The time at the end of every move (N,), s, and of the whole program, on a machine.
+    fn times<'py>(&self, py: Python<'py>, machine: &Machine) -> (Bound<'py, PyArray1<f64>>, f64) {
+        let (times, whole) = machine.machine.dynamics().times(&self.program);
+        (PyArray1::from_vec(py, times), whole)
     }
 
     /// Events, tools, operations and set-up as JSON; moves are left to `columns`.
@@ -75,7 +116,7 @@ impl Program {
     /// Length at feed (mm) and duration (s), rapids at `rapid_rate` mm/min.
     #[pyo3(signature = (rapid_rate=3000.0))]
     fn statistics(&self, rapid_rate: f64) -> (f64, f64) {
-        let statistics = Statistics::of(&self.program, rapid_rate);
+        let statistics = Statistics::of(&self.program, &Dynamics::at_once(rapid_rate));
         (statistics.feed_length, statistics.duration)
     }
 }

@@ -59,7 +59,7 @@ impl Summary {
     #[must_use]
     pub fn new(plan: &Plan, scene: &Scene, machine: &Machine, judgement: Option<&Judgement>) -> Self {
         let program = &plan.program;
-        let statistics = Statistics::of(program, machine.limits.rapid_rate);
+        let statistics = Statistics::of(program, &machine.dynamics());
         let tools = program.tools.iter().map(|tool| ToolLine {
             number: tool.number,
             length_offset: tool.length_offset,

@@ -3,11 +3,15 @@
 //! Positions are the controlled point in work coordinates (mm); in a planned program the
 //! controlled point is the tool's tip. Nothing here knows shapes or controllers.
 
+mod arc;
+mod dynamics;
 mod program;
 mod record;
 mod statistics;
 mod watch;
 
+pub use arc::{Arc, ArcWay, Plane};
+pub use dynamics::Dynamics;
 pub use program::{Event, EventKind, Move, MoveKind, Program, SpindleDirection};
 pub use record::{OperationRecord, SetupRecord, ToolRecord, ToolReference};
 pub use statistics::Statistics;

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{OperationRecord, SetupRecord, ToolRecord};
+use crate::{Arc, ArcWay, OperationRecord, SetupRecord, ToolRecord};
 
 /// What a move is for the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -11,17 +11,20 @@ use crate::{OperationRecord, SetupRecord, ToolRecord};
 pub enum MoveKind {
     /// Positioning at the machine's rapid rate.
     Rapid,
-    /// A straight line at a feed.
+    /// A line or an arc at a feed.
     Feed,
 }
 
-/// One straight move of the controlled point, from the end of the one before it.
+/// One move of the controlled point, straight unless it has an arc, from the end of the one before it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Move {
     /// Rapid or feed.
     pub kind: MoveKind,
     /// Where it ends, work coordinates, mm.
     pub end: [f64; 3],
+    /// How it turns on the way; straight when left out. Rapids are straight.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arc: Option<Arc>,
     /// Feed in mm/min; 0 on rapids.
     pub feed: f64,
     /// Index into [`Program::operations`].
@@ -29,6 +32,27 @@ pub struct Move {
     /// Line of the text that it was read from, from 1; 0 when it was not read from text.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub line: u32,
+}
+
+impl Move {
+    /// The way of an arc that starts at `start`; none when the move is straight.
+    #[must_use]
+    pub fn way(&self, start: [f64; 3]) -> Option<ArcWay> {
+        self.arc.map(|arc| arc.way(start, self.end))
+    }
+
+    /// The box around it, lowest and highest coordinates, mm; of a straight move without its start.
+    #[must_use]
+    pub fn bounds(&self, start: Option<[f64; 3]>) -> ([f64; 3], [f64; 3]) {
+        start.and_then(|start| self.way(start)).map_or((self.end, self.end), |way| way.bounds())
+    }
+
+    /// Its length from `start`, mm.
+    #[must_use]
+    pub fn length(&self, start: [f64; 3]) -> f64 {
+        let [dx, dy, dz] = [0, 1, 2].map(|axis| self.end[axis] - start[axis]);
+        self.way(start).map_or_else(|| (dx * dx + dy * dy + dz * dz).sqrt(), |way| way.length())
+    }
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref)] // serde hands a reference
@@ -116,5 +140,18 @@ impl Program {
     pub fn segments(&self) -> impl Iterator<Item = (Option<[f64; 3]>, &Move)> {
         let starts = std::iter::once(None).chain(self.moves.iter().map(|m| Some(m.end)));
         starts.zip(&self.moves)
+    }
+
+    /// Places along the program and the move that each belongs to: the ends of all moves, and along arcs so many more that
+    /// no chord is farther than `sag` mm from its arc.
+    pub fn polyline(&self, sag: f64) -> impl Iterator<Item = ([f64; 3], usize)> + '_ {
+        self.segments().enumerate().flat_map(move |(index, (start, step))| {
+            let way = start.and_then(|start| step.way(start));
+            let count = way.map_or(1, |way| way.chords(sag));
+            (1..=count).map(move |i| match way {
+                Some(way) if i < count => (way.at(i as f64 / count as f64), index),
+                _ => (step.end, index),
+            })
+        })
     }
 }

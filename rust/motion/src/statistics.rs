@@ -1,6 +1,6 @@
 //! Length, time and extent of a program.
 
-use crate::{MoveKind, Program};
+use crate::{Dynamics, MoveKind, Program};
 
 /// What a program amounts to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -9,43 +9,27 @@ pub struct Statistics {
     pub feed_length: f64,
     /// Path length at rapid, mm; the way to the first point is not known and not counted.
     pub rapid_length: f64,
-    /// Time at the programmed feeds, with dwells, s; rapids at `rapid_rate`. Acceleration is not counted.
+    /// Time with dwells, s; see [`Dynamics::times`].
     pub duration: f64,
-    /// Lowest coordinate of any feed move's end, mm; infinity when there is none.
+    /// Lowest Z that any feed move reaches, mm; infinity when there is none.
     pub lowest: f64,
 }
 
 impl Statistics {
-    /// Measures `program`, with rapids at `rapid_rate` mm/min.
+    /// Measures `program` as a machine runs it.
     #[must_use]
-    pub fn of(program: &Program, rapid_rate: f64) -> Self {
-        let mut sum = Self { lowest: f64::INFINITY, ..Self::default() };
-        let mut minutes = 0.0;
+    pub fn of(program: &Program, dynamics: &Dynamics) -> Self {
+        let mut sum = Self { lowest: f64::INFINITY, duration: dynamics.times(program).1, ..Self::default() };
         for (start, step) in program.segments() {
-            let length = start.map_or(0.0, |s| distance(s, step.end));
+            let length = start.map_or(0.0, |s| step.length(s));
             match step.kind {
-                MoveKind::Rapid => {
-                    sum.rapid_length += length;
-                    minutes += length / rapid_rate;
-                }
+                MoveKind::Rapid => sum.rapid_length += length,
                 MoveKind::Feed => {
                     sum.feed_length += length;
-                    minutes += length / step.feed;
-                    sum.lowest = sum.lowest.min(step.end[2]);
+                    sum.lowest = sum.lowest.min(step.bounds(start).0[2]);
                 }
             }
         }
-        let dwell: f64 = program
-            .events
-            .iter()
-            .map(|e| if let crate::EventKind::Dwell { seconds } = e.kind { seconds } else { 0.0 })
-            .sum();
-        sum.duration = minutes * 60.0 + dwell;
         sum
     }
-}
-
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    let [dx, dy, dz] = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
-    (dx * dx + dy * dy + dz * dz).sqrt()
 }

@@ -14,7 +14,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 fn cone() -> Program {
-    let step = |kind, end, feed| Move { kind, end, feed, operation: 0, line: 0 };
+    let step = |kind, end, feed| Move { kind, end, arc: None, feed, operation: 0, line: 0 };
     let tool = ToolRecord {
         name: "stylus".into(),
         number: 1,

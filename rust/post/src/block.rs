@@ -1,14 +1,18 @@
 //! One block of G-code: its words sorted into what they ask for, each modal group at most once.
 
+use styluscam_motion::Plane;
+
 use crate::lexer::Word;
 use crate::machine::LengthUnit;
 use crate::read_error::ReadFault;
 
-/// What G0, G1 or G80 ask for.
+/// What G0, G1, G2, G3 or G80 ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Motion {
     Rapid,
     Feed,
+    /// Clockwise or not.
+    Arc(bool),
     Cancel,
 }
 
@@ -32,6 +36,9 @@ pub(crate) enum Stop {
 #[derive(Debug, Default)]
 pub(crate) struct Block {
     pub(crate) axes: [Option<Word>; 3],
+    /// I, J and K.
+    pub(crate) offsets: [Option<Word>; 3],
+    pub(crate) radius: Option<Word>,
     pub(crate) feed: Option<Word>,
     pub(crate) speed: Option<Word>,
     pub(crate) tool: Option<Word>,
@@ -55,9 +62,10 @@ pub(crate) struct Block {
     pub(crate) flood: Option<Word>,
     pub(crate) coolant_off: Option<Word>,
     pub(crate) stop: Option<(Stop, Word)>,
+    pub(crate) plane: Option<(Plane, Word)>,
+    /// Whether G90.1, not G91.1.
+    pub(crate) absolute_centre: Option<bool>,
     line_number: Option<Word>,
-    plane: Option<Word>,
-    arc_distance: Option<Word>,
     feed_mode: Option<Word>,
     compensation: Option<Word>,
 }
@@ -66,6 +74,7 @@ impl Block {
     /// Sorts one word in.
     pub(crate) fn take(&mut self, word: Word) -> Result<(), ReadFault> {
         let [x, y, z] = &mut self.axes;
+        let [i, j, k] = &mut self.offsets;
         let slot = match word.letter {
             b'X' => x,
             b'Y' => y,
@@ -79,7 +88,10 @@ impl Block {
             b'P' => &mut self.p,
             b'Q' => &mut self.q,
             b'N' => &mut self.line_number,
-            b'I' | b'J' | b'K' | b'R' => return Err(ReadFault::NotRead { what: "arcs" }),
+            b'I' => i,
+            b'J' => j,
+            b'K' => k,
+            b'R' => &mut self.radius,
             b'O' => return Err(ReadFault::NotRead { what: "subroutines and program numbers" }),
             _ => return Err(ReadFault::UnknownWord),
         };
@@ -92,9 +104,12 @@ impl Block {
             0 => once(&mut self.motion, (Motion::Rapid, word), group),
             10 => once(&mut self.motion, (Motion::Feed, word), group),
             800 => once(&mut self.motion, (Motion::Cancel, word), group),
-            20 | 30 => Err(ReadFault::NotRead { what: "arcs" }),
+            20 => once(&mut self.motion, (Motion::Arc(true), word), group),
+            30 => once(&mut self.motion, (Motion::Arc(false), word), group),
             40 => once(&mut self.dwell, word, group),
-            170 | 180 | 190 => once(&mut self.plane, word, group),
+            170 => once(&mut self.plane, (Plane::Xy, word), group),
+            180 => once(&mut self.plane, (Plane::Zx, word), group),
+            190 => once(&mut self.plane, (Plane::Yz, word), group),
             200 => once(&mut self.units, LengthUnit::Inch, group),
             210 => once(&mut self.units, LengthUnit::Mm, group),
             400 => once(&mut self.compensation, word, group),
@@ -107,7 +122,8 @@ impl Block {
             610 | 611 | 640 => once(&mut self.smoothing, word, group),
             900 => once(&mut self.incremental, false, group),
             910 => once(&mut self.incremental, true, group),
-            901 | 911 => once(&mut self.arc_distance, word, group),
+            901 => once(&mut self.absolute_centre, true, group),
+            911 => once(&mut self.absolute_centre, false, group),
             940 => once(&mut self.feed_mode, word, group),
             930 | 950 => Err(ReadFault::NotRead { what: "feeds other than G94" }),
             380..=389 => Err(ReadFault::NotRead { what: "probing moves" }),
@@ -144,23 +160,39 @@ impl Block {
         self.axes.iter().flatten().next().copied()
     }
 
-    /// Checks that P, Q and H belong to a code; gives X of `G4 X` to the dwell on machines that write it so.
-    pub(crate) fn settle(&mut self, dwell_word: char) -> Result<(), (ReadFault, Word)> {
+    /// The words that shape an arc, as far as they are there.
+    pub(crate) fn arc_words(&self) -> impl Iterator<Item = Word> + '_ {
+        self.offsets.iter().chain([&self.radius]).flatten().copied()
+    }
+
+    /// Checks that P, Q, H and an arc's words belong to a code; gives X of `G4 X` to the dwell on machines that write it so.
+    ///
+    /// `turns` says whether an arc is in force that takes P.
+    pub(crate) fn settle(&mut self, dwell_word: char, arc: bool, turns: bool) -> Result<(), (ReadFault, Word)> {
         if self.dwell.is_some() && dwell_word == 'X' {
             let [x, ..] = &mut self.axes;
             self.x_of_dwell = x.take();
         }
         let p_of_dwell = self.dwell.is_some() && dwell_word == 'P';
-        let (p_owned, q_owned) = (p_of_dwell || self.smoothing.is_some(), self.smoothing.is_some());
-        let both = p_of_dwell && self.smoothing.is_some();
+        let owners = [p_of_dwell, self.smoothing.is_some(), turns && self.dwell.is_none() && self.moves(arc)];
+        let p_owners = owners.into_iter().filter(|o| *o).count();
+        let q_owned = self.smoothing.is_some();
         let h_owned = matches!(self.length, Some((true, _)));
-        for (word, owned) in [(self.p, p_owned && !both), (self.q, q_owned), (self.h, h_owned)] {
+        for (word, owned) in [(self.p, p_owners == 1), (self.q, q_owned), (self.h, h_owned)] {
             match word {
                 Some(word) if !owned => return Err((ReadFault::StrayWord, word)),
                 _ => {}
             }
         }
-        Ok(())
+        match self.arc_words().next().filter(|_| !arc) {
+            Some(word) => Err((ReadFault::StrayWord, word)),
+            None => Ok(()),
+        }
+    }
+
+    /// Whether it holds what makes a move, with an arc in force or without.
+    fn moves(&self, arc: bool) -> bool {
+        self.any_axis().is_some() || arc && self.arc_words().next().is_some()
     }
 }
 

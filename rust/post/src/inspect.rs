@@ -131,16 +131,18 @@ fn inspect_limit(index: usize, axis: usize, value: f64, range: Option<[f64; 2]>)
     }
 }
 
+/// The posted ends of the moves, and the corners of the boxes around arcs.
 fn posted_points(program: &Program) -> impl Iterator<Item = (usize, [f64; 3])> + '_ {
     let mut events = program.events.iter().peekable();
     let mut height = 0.0;
-    program.moves.iter().enumerate().map(move |(index, step)| {
+    program.segments().enumerate().flat_map(move |(index, (start, step))| {
         while let Some(event) = events.next_if(|e| e.before <= index) {
             if let EventKind::ToolChange { tool } = event.kind {
                 height = program.tools.get(tool as usize).map_or(0.0, |t| t.reference_height);
             }
         }
-        (index, [step.end[0], step.end[1], step.end[2] + height])
+        let (low, high) = step.bounds(start);
+        [low, high].map(|[x, y, z]| (index, [x, y, z + height]))
     })
 }
 

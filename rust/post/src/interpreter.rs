@@ -3,11 +3,12 @@
 use std::ops::Range;
 
 use styluscam_motion::{
-    Event, EventKind, Move, MoveKind, OperationRecord, Program, SetupRecord, SpindleDirection, ToolRecord,
+    Arc, Event, EventKind, Move, MoveKind, OperationRecord, Plane, Program, SetupRecord, SpindleDirection, ToolRecord,
     ToolReference, PROGRAM_SCHEMA,
 };
 
 use crate::block::{Block, Motion, Spindle, Stop};
+use crate::circle::Circle;
 use crate::lexer::Word;
 use crate::machine::{LengthUnit, Machine, TimeUnit, ToolChange};
 use crate::read_error::ReadFault;
@@ -38,6 +39,8 @@ pub(crate) struct Interpreter<'m> {
     units: Option<LengthUnit>,
     incremental: bool,
     motion: Option<Motion>,
+    plane: Plane,
+    absolute_centre: bool,
     /// mm/min.
     feed: Option<f64>,
     /// rev/min.
@@ -65,6 +68,8 @@ impl<'m> Interpreter<'m> {
             units: machine.reader.default_units,
             incremental: false,
             motion: None,
+            plane: Plane::Xy,
+            absolute_centre: false,
             feed: None,
             speed: 0.0,
             direction: None,
@@ -105,6 +110,8 @@ impl<'m> Interpreter<'m> {
         self.set_path(block)?;
         self.set_wcs(block)?;
         self.incremental = block.incremental.unwrap_or(self.incremental);
+        self.plane = block.plane.map_or(self.plane, |(plane, _)| plane);
+        self.absolute_centre = block.absolute_centre.unwrap_or(self.absolute_centre);
         self.go(block, line)?;
         Ok(self.stop(block))
     }
@@ -289,10 +296,11 @@ impl<'m> Interpreter<'m> {
         if let Some(code) = block.machine_coordinates {
             return self.go_to_machine_place(block, code);
         }
-        let Some(first) = block.any_axis() else { return Ok(()) };
+        let arc_words = matches!(self.motion, Some(Motion::Arc(_))).then(|| block.arc_words().next()).flatten();
+        let Some(first) = block.any_axis().or(arc_words) else { return Ok(()) };
         let kind = match self.motion {
             Some(Motion::Rapid) => MoveKind::Rapid,
-            Some(Motion::Feed) => MoveKind::Feed,
+            Some(Motion::Feed | Motion::Arc(_)) => MoveKind::Feed,
             _ => return Err((ReadFault::NoMotionMode, Some(first))),
         };
         self.load_only_tool(first)?;
@@ -301,12 +309,48 @@ impl<'m> Interpreter<'m> {
             MoveKind::Rapid => 0.0,
             MoveKind::Feed => self.feed.ok_or((ReadFault::NoFeed, Some(first)))?,
         };
+        let start = self.tip();
+        if let Some(Motion::Arc(_)) = self.motion {
+            self.require_places(first)?;
+        }
         self.place_axes(block)?;
         if kind == MoveKind::Feed {
             self.require_places(first)?;
         }
-        self.push_move(kind, feed, line);
+        let arc = match self.motion {
+            Some(Motion::Arc(clockwise)) => Some(self.arc(block, start, clockwise, first)?),
+            _ => None,
+        };
+        self.push_move(kind, arc, feed, line);
         Ok(())
+    }
+
+    /// Whether an arc is in force once a block has said its word.
+    pub(crate) fn arc_after(&self, block: &Block) -> bool {
+        matches!(block.motion.map(|(motion, _)| motion).or(self.motion), Some(Motion::Arc(_)))
+    }
+
+    fn arc(&self, block: &Block, start: [f64; 3], clockwise: bool, code: Word) -> Result<Arc, Flaw> {
+        let Some(rules) = &self.machine.arc else { return Err((self.refusal(), Some(code))) };
+        let [first, second, _] = self.plane.axes();
+        if rules.needs_axis && [first, second].iter().all(|axis| block.axes.get(*axis).is_none_or(Option::is_none)) {
+            return Err((ReadFault::ArcNeedsAxis, Some(code)));
+        }
+        let circle = Circle {
+            start,
+            end: self.tip(),
+            plane: self.plane,
+            clockwise,
+            absolute: self.absolute_centre,
+            height: self.height,
+        };
+        circle.arc(block, rules, code, |word| self.mm(word))
+    }
+
+    /// Where the tip stands, as far as it is known.
+    fn tip(&self) -> [f64; 3] {
+        let [x, y, z] = self.axes;
+        [x.place, y.place, z.place - self.height]
     }
 
     /// A job with one tool may run it without calling it; without any tool from the job, the tool is unknown.
@@ -366,12 +410,10 @@ impl<'m> Interpreter<'m> {
         }
     }
 
-    fn push_move(&mut self, kind: MoveKind, feed: f64, line: u32) {
+    fn push_move(&mut self, kind: MoveKind, arc: Option<Arc>, feed: f64, line: u32) {
         self.close_unplaced();
         let operation = self.operation();
-        let [x, y, z] = self.axes;
-        let end = [x.place, y.place, z.place - self.height];
-        self.program.moves.push(Move { kind, end, feed, operation, line });
+        self.program.moves.push(Move { kind, end: self.tip(), arc, feed, operation, line });
     }
 
     /// Ends the run of moves that lack a place, once every axis has one.

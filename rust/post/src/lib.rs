@@ -4,6 +4,7 @@
 //! would. A controller of this family is a TOML file; nothing here knows geometry, clocks or files.
 
 mod block;
+mod circle;
 mod comment;
 mod inspect;
 mod interpreter;
@@ -13,6 +14,7 @@ mod number;
 mod post_error;
 mod read_error;
 mod reader;
+mod rounded;
 mod standing;
 mod template;
 mod trial;

@@ -9,14 +9,16 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use styluscam_motion::Dynamics;
 
 pub(crate) use error::most_similar;
 pub use error::MachineError;
 pub use option::{OptionRule, OptionValue};
 pub use rules::{
-    AfterEnd, BlockDelete, BlockNumber, CommentForm, CommentRules, CoolantRules, Counted, Decimals, DwellRules, Family,
-    LengthOffset, LengthUnit, Limits, LineEnd, LineRules, NumberRules, Point, ReaderRules, Repeat, Separator,
-    SmoothingRules, Source, SpindleRules, Templates, TimeUnit, ToolChange, ToolRules, TrailingZeros, Units, WordRules,
+    AfterEnd, ArcRules, BlockDelete, BlockNumber, CommentForm, CommentRules, CoolantRules, Counted, Decimals,
+    DwellRules, Family, LengthOffset, LengthUnit, Limits, LineEnd, LineRules, NumberRules, Point, RadiusError,
+    ReaderRules, Repeat, Separator, SmoothingRules, Source, SpindleRules, Templates, TimeUnit, ToolChange, ToolRules,
+    TrailingZeros, Units, WordRules,
 };
 
 use crate::number::NumberFormat;
@@ -78,6 +80,8 @@ pub struct Machine {
     pub smoothing: SmoothingRules,
     /// The wait; a machine without one refuses dwells.
     pub dwell: Option<DwellRules>,
+    /// Arcs; a machine without them gets lines.
+    pub arc: Option<ArcRules>,
     /// What the machine can do.
     pub limits: Limits,
     /// Options of the templates.
@@ -185,6 +189,18 @@ impl Machine {
             self.smoothing.tolerance
         } else {
             0.0
+        }
+    }
+
+    /// What decides how fast it follows a path.
+    #[must_use]
+    pub fn dynamics(&self) -> Dynamics {
+        let limits = &self.limits;
+        Dynamics {
+            rapid_rate: limits.rapid_rate,
+            acceleration: limits.acceleration,
+            corner_tolerance: limits.corner_tolerance.unwrap_or(self.path_tolerance_mm()),
+            blocks_per_second: limits.blocks_per_second,
         }
     }
 

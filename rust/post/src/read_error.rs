@@ -72,7 +72,7 @@ pub enum ReadFault {
     /// A G or M code that this reader does not know. Take it out, or post the program again.
     #[error("this code is not known")]
     UnknownCode,
-    /// Something that this release does not read: arcs, canned cycles, parameters. Post the program with straight moves.
+    /// Something that this release does not read: canned cycles, parameters. Post the program without it.
     #[error("{what} are not read yet")]
     NotRead {
         /// What it is, in the plural.
@@ -117,8 +117,8 @@ pub enum ReadFault {
     /// A feed move and no F before it. Write a feed.
     #[error("no feed came before this feed move")]
     NoFeed,
-    /// Axis words and neither G0 nor G1 before them, or G80 after. Write the motion code.
-    #[error("axis words without G0 or G1")]
+    /// Axis words and none of G0 to G3 before them, or G80 after. Write the motion code.
+    #[error("axis words without G0, G1, G2 or G3")]
     NoMotionMode,
     /// M6 and no T before it. Write the tool's number.
     #[error("no T came before the tool change")]
@@ -152,6 +152,27 @@ pub enum ReadFault {
         /// What the machine allows, mm.
         limit: f64,
     },
+    /// An arc's I, J or K across the plane in force (G17, G18, G19). Write the plane's code, or the plane's letters.
+    #[error("this offset lies across the plane in force")]
+    ArcPlane,
+    /// An arc with R and a centre, or with R and no other end than its start. Write the centre only.
+    #[error("R with a centre, or for a full circle")]
+    ArcForm,
+    /// A radius of zero. Write the centre's offset from the arc's start.
+    #[error("the arc has no radius")]
+    ArcOfNoRadius,
+    /// R is less than half the way between the ends. Correct R or the end.
+    #[error("the arc's ends are farther apart than its diameter")]
+    ArcOfShortRadius,
+    /// The ends are not equally far from the centre, by more than the machine takes. Correct the end or the centre.
+    #[error("the arc's ends differ by {mismatch:.4} mm in their distance from its centre")]
+    ArcEnds {
+        /// The difference, mm.
+        mismatch: f64,
+    },
+    /// A full circle without X, Y or Z, which the machine needs. Write the end.
+    #[error("a full circle needs an axis word here")]
+    ArcNeedsAxis,
     /// A work offset that the machine does not have. Take one that it has.
     #[error("the machine has no such work offset")]
     Wcs,
@@ -244,6 +265,12 @@ impl ReadFault {
             Self::LengthOffset { .. } => "read-length-offset",
             Self::NoLengthOffset { .. } => "read-no-length-offset",
             Self::PathTolerance { .. } => "read-path-tolerance",
+            Self::ArcPlane => "read-arc-plane",
+            Self::ArcForm => "read-arc-form",
+            Self::ArcOfNoRadius => "read-arc-of-no-radius",
+            Self::ArcOfShortRadius => "read-arc-of-short-radius",
+            Self::ArcEnds { .. } => "read-arc-ends",
+            Self::ArcNeedsAxis => "read-arc-needs-axis",
             Self::Wcs => "read-wcs",
             Self::WcsChanged => "read-wcs-changed",
             Self::IncrementalFromUnknown => "read-incremental-from-unknown",
@@ -271,7 +298,7 @@ impl ReadFault {
             Self::BlockDelete => "remove the / or the block",
             Self::UnknownWord => "take the word out: only X, Y and Z are axes here",
             Self::UnknownCode => "take the code out, or post the program again for this machine",
-            Self::NotRead { .. } => "post the program with straight moves and plain numbers only",
+            Self::NotRead { .. } => "post the program with lines, arcs and plain numbers only",
             Self::Refused { .. } => {
                 "take the code out, or take the machine file of the controller that the program is for"
             }
@@ -283,7 +310,7 @@ impl ReadFault {
             Self::ZeroFeed => "write a feed above zero",
             Self::NoUnits | Self::FeedWithUnits => "write G21 (mm) or G20 (inch) in a block before",
             Self::NoFeed => "write a feed (F) with the first feed move",
-            Self::NoMotionMode => "write G0 or G1",
+            Self::NoMotionMode => "write G0, G1, G2 or G3",
             Self::NoToolSelected => "write T and the tool's number",
             Self::NoToolLoaded => "write the tool change before the first move",
             Self::UnknownTool { .. } => "correct the tool number, or add the tool to the job",
@@ -294,6 +321,12 @@ impl ReadFault {
                 return format!("write G64 P{limit} (or G61) before, or set the machine's option smoothing_tolerance")
             }
             Self::LengthOffset { .. } => "correct H, or the tool's length_offset in the job",
+            Self::ArcPlane => "write the plane's code (G17 for I and J), or its two letters",
+            Self::ArcForm => "write the centre by I, J, K, without R",
+            Self::ArcOfNoRadius => "write the centre's offset from the arc's start",
+            Self::ArcOfShortRadius => "correct R, or the arc's end",
+            Self::ArcEnds { .. } => "correct the arc's end, or its centre",
+            Self::ArcNeedsAxis => "write the end's X, Y or Z",
             Self::Wcs => "take a work offset that the machine has",
             Self::WcsChanged => "split the program: one zero point each",
             Self::IncrementalFromUnknown => "place the axis with G90 G0 first",

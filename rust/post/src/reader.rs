@@ -163,7 +163,9 @@ impl<'t> Reader<'t> {
             self.check_refused(*word)?;
             block.take(*word).map_err(|fault| (fault, Some(*word)))?;
         }
-        block.settle(self.dwell_word).map_err(|(fault, word)| (fault, Some(word)))?;
+        let arc = self.interpreter.arc_after(&block);
+        let turns = arc && self.machine.arc.is_some_and(|rules| rules.turns);
+        block.settle(self.dwell_word, arc, turns).map_err(|(fault, word)| (fault, Some(word)))?;
         self.interpreter.run(&block, number)
     }
 

@@ -235,8 +235,8 @@ fn unit_name(unit: LengthUnit) -> &'static str {
 /// Lowest Z of a tip at feed, mm; of any move when none is at feed.
 fn deepest(program: &Program) -> f64 {
     let lowest = |at_feed: bool| {
-        let moves = program.moves.iter().filter(|m| !at_feed || m.kind == MoveKind::Feed);
-        moves.map(|m| m.end[2]).fold(f64::INFINITY, f64::min)
+        let moves = program.segments().filter(|(_, m)| !at_feed || m.kind == MoveKind::Feed);
+        moves.map(|(start, m)| m.bounds(start).0[2]).fold(f64::INFINITY, f64::min)
     };
     let at_feed = lowest(true);
     if at_feed.is_finite() {

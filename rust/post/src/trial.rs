@@ -152,7 +152,7 @@ fn moves(machine: &Machine) -> Vec<Move> {
     let (dx, dy, dz) = (shrink(dx, 0), shrink(dy, 1), shrink(dz, 2));
     let z = z - 1.0; // the tip below its centre
     let feed = limits.max_feed.map_or(100.0, |f| f.min(100.0));
-    let step = |kind, end, feed| Move { kind, end, feed, operation: 0, line: 0 };
+    let step = |kind, end, feed| Move { kind, end, arc: None, feed, operation: 0, line: 0 };
     vec![
         step(MoveKind::Rapid, [x, y, z + dz], 0.0),
         step(MoveKind::Rapid, [x + dx, y, z], 0.0),

@@ -1,12 +1,13 @@
 //! Motion to text: the writer of G-code.
 
-use styluscam_motion::{Event, EventKind, Move, MoveKind, Program, SpindleDirection, ToolRecord};
+use styluscam_motion::{Arc, ArcWay, Event, EventKind, Move, MoveKind, Plane, Program, SpindleDirection, ToolRecord};
 
 use crate::comment::CommentFormat;
 use crate::inspect::inspect;
 use crate::machine::{Counted, LineEnd, Machine, Repeat, Separator, TimeUnit, ToolChange};
 use crate::number::{write_integer, NumberFormat};
 use crate::post_error::PostError;
+use crate::rounded::RoundedArc;
 use crate::template::Templater;
 
 /// A posted program.
@@ -37,6 +38,14 @@ pub fn post(program: &Program, machine: &Machine) -> Result<Posted, PostError> {
     Ok(Posted { text: writer.out, line_of_move: writer.line_of_move })
 }
 
+const RAPID: &str = "G0";
+const LINE: &str = "G1";
+const CLOCKWISE: &str = "G2";
+const COUNTERCLOCKWISE: &str = "G3";
+const AXES: [char; 3] = ['X', 'Y', 'Z'];
+/// The letters of a centre's offsets from its arc's start.
+const OFFSETS: [char; 3] = ['I', 'J', 'K'];
+
 /// Typical length of a motion block, to reserve memory.
 const TYPICAL_BLOCK: usize = 24;
 
@@ -59,7 +68,8 @@ struct Writer<'a> {
     block_number: Option<u32>,
     /// Where the posted point stands, in last places; none where that is not known.
     position: [Option<i64>; 3],
-    motion: Option<MoveKind>,
+    motion: Option<&'static str>,
+    plane: Option<Plane>,
     feed: Option<i64>,
     tool: Option<&'a ToolRecord>,
     operation: Option<u32>,
@@ -87,6 +97,7 @@ impl<'a> Writer<'a> {
             block_number: machine.block_number.map(|b| b.start),
             position: [None; 3],
             motion: None,
+            plane: None,
             feed: None,
             tool: None,
             operation: None,
@@ -133,6 +144,7 @@ impl<'a> Writer<'a> {
     /// Text of templates may have changed modes: say them again.
     fn forget_modes(&mut self) {
         self.motion = None;
+        self.plane = None;
         self.feed = None;
     }
 
@@ -228,10 +240,11 @@ impl<'a> Writer<'a> {
     // Moves
 
     fn write_move(&mut self, index: usize, step: &Move) -> Result<(), PostError> {
-        let [x, y, z] = self.target(index, step.end)?;
-        match step.kind {
-            MoveKind::Rapid => self.write_rapid([x, y, z])?,
-            MoveKind::Feed => self.write_feed(index, [x, y, z], step.feed)?,
+        let target = self.target(index, step.end)?;
+        match (step.kind, step.arc) {
+            (MoveKind::Rapid, _) => self.write_rapid(target)?,
+            (MoveKind::Feed, None) => self.write_feed(index, target, step.feed)?,
+            (MoveKind::Feed, Some(arc)) => self.write_arc(index, step, arc)?,
         }
         self.line_of_move.push(self.motion_line);
         Ok(())
@@ -257,19 +270,19 @@ impl<'a> Writer<'a> {
         };
         let across = from_x != x || from_y != y;
         if across && z > from_z {
-            self.write_block(MoveKind::Rapid, [from_x, from_y, z], None)?;
+            self.write_block(RAPID, [from_x, from_y, z], None)?;
         } else if across && z < from_z {
-            self.write_block(MoveKind::Rapid, [x, y, from_z], None)?;
+            self.write_block(RAPID, [x, y, from_z], None)?;
         }
-        self.write_block(MoveKind::Rapid, target, None)
+        self.write_block(RAPID, target, None)
     }
 
     /// From wherever the machine stands: to the height first, then across.
     fn write_first_rapid(&mut self, [x, y, z]: [i64; 3]) -> Result<(), PostError> {
-        self.begin_motion(MoveKind::Rapid);
+        self.begin_motion(RAPID);
         self.write_axis('Z', z);
         self.end_block()?;
-        self.begin_motion(MoveKind::Rapid);
+        self.begin_motion(RAPID);
         self.write_axis('X', x);
         self.write_axis('Y', y);
         self.position = [Some(x), Some(y), Some(z)];
@@ -277,44 +290,134 @@ impl<'a> Writer<'a> {
     }
 
     fn write_feed(&mut self, index: usize, target: [i64; 3], feed: f64) -> Result<(), PostError> {
-        if self.position.contains(&None) {
-            return Err(PostError::FeedFromUnknown { index });
-        }
+        self.position(index)?;
+        let count = self.feed_count(index, feed)?;
+        self.write_block(LINE, target, Some(count))
+    }
+
+    fn position(&self, index: usize) -> Result<[i64; 3], PostError> {
+        let [Some(x), Some(y), Some(z)] = self.position else { return Err(PostError::FeedFromUnknown { index }) };
+        Ok([x, y, z])
+    }
+
+    fn feed_count(&self, index: usize, feed: f64) -> Result<i64, PostError> {
         let count = self.feed_format.count(feed * self.per_mm).filter(|c| *c > 0);
-        let count = count.ok_or(PostError::Feed { index, feed })?;
-        self.write_block(MoveKind::Feed, target, Some(count))
+        count.ok_or(PostError::Feed { index, feed })
+    }
+
+    // Arcs
+
+    /// An arc, turn by turn where the machine has no word for turns; as lines where it would not take the rounded numbers.
+    fn write_arc(&mut self, index: usize, step: &Move, arc: Arc) -> Result<(), PostError> {
+        self.position(index)?;
+        let start = index.checked_sub(1).and_then(|before| self.program.moves.get(before));
+        let way = arc.way(start.map_or(step.end, |m| m.end), step.end);
+        let pieces = if self.machine.arc.is_some_and(|r| r.turns) { 1 } else { arc.turns + 1 };
+        let arc = Arc { turns: if pieces == 1 { arc.turns } else { 0 }, ..arc };
+        let share = |i: u32| f64::from(i) / f64::from(pieces);
+        for piece in 0..pieces {
+            let part = way.part(share(piece), share(piece + 1));
+            let rounded = self.rounded(index, arc, &part)?;
+            let unit = self.machine.resolution_mm();
+            match self.machine.arc.filter(|rules| rounded.stands_for(&part, rules, unit)) {
+                Some(_) => self.write_circle(index, step.feed, &rounded)?,
+                None => self.write_chords(index, step.feed, &part)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn rounded(&self, index: usize, arc: Arc, way: &ArcWay) -> Result<RoundedArc, PostError> {
+        let from = self.position(index)?;
+        let centre = self.target(index, arc.centre)?;
+        let offset = [0, 1, 2].map(|axis| centre[axis] - from[axis]);
+        Ok(RoundedArc { arc, from, to: self.target(index, way.at(1.0))?, offset })
+    }
+
+    fn write_circle(&mut self, index: usize, feed: f64, rounded: &RoundedArc) -> Result<(), PostError> {
+        let feed = self.feed_count(index, feed)?;
+        let [first, second, third] = rounded.arc.plane.axes();
+        self.write_plane(rounded.arc.plane)?;
+        self.begin_motion(if rounded.arc.clockwise { CLOCKWISE } else { COUNTERCLOCKWISE });
+        let places = AXES.into_iter().zip(rounded.from).zip(rounded.to).enumerate();
+        for (axis, ((letter, from), to)) in places {
+            if axis != third || from != to {
+                self.write_axis(letter, to);
+            }
+        }
+        for axis in [first, second] {
+            self.write_axis(OFFSETS[axis], rounded.offset[axis]);
+        }
+        if rounded.arc.turns > 0 {
+            self.separate();
+            self.out.push('P');
+            write_integer(&mut self.out, u64::from(rounded.arc.turns) + 1);
+        }
+        self.write_changed_feed(feed);
+        self.position = rounded.to.map(Some);
+        self.end_block()
+    }
+
+    fn write_plane(&mut self, plane: Plane) -> Result<(), PostError> {
+        if self.plane == Some(plane) {
+            return Ok(());
+        }
+        self.plane = Some(plane);
+        self.begin_block();
+        self.out.push_str(match plane {
+            Plane::Xy => "G17",
+            Plane::Zx => "G18",
+            Plane::Yz => "G19",
+        });
+        self.end_block()
+    }
+
+    fn write_chords(&mut self, index: usize, feed: f64, way: &ArcWay) -> Result<(), PostError> {
+        let count = way.chords(self.machine.resolution_mm());
+        for chord in 1..=count {
+            let target = self.target(index, way.at(chord as f64 / count as f64))?;
+            self.write_feed(index, target, feed)?;
+        }
+        Ok(())
     }
 
     /// A block of motion from a known place; nothing when there is no motion in it.
-    fn write_block(&mut self, kind: MoveKind, target: [i64; 3], feed: Option<i64>) -> Result<(), PostError> {
+    fn write_block(&mut self, word: &'static str, target: [i64; 3], feed: Option<i64>) -> Result<(), PostError> {
         let goal = target.map(Some);
         if self.position == goal {
             return Ok(());
         }
         let every_axis = self.machine.words.repeat_axes == Repeat::Always;
-        self.begin_motion(kind);
+        self.begin_motion(word);
         let places = self.position.into_iter().zip(target);
-        for (axis, (from, to)) in ['X', 'Y', 'Z'].into_iter().zip(places) {
+        for (axis, (from, to)) in AXES.into_iter().zip(places) {
             if every_axis || from != Some(to) {
                 self.write_axis(axis, to);
             }
         }
-        if let Some(feed) = feed.filter(|f| self.feed != Some(*f)) {
-            self.separate();
-            self.out.push('F');
-            self.feed_format.write(&mut self.out, feed);
-            self.feed = Some(feed);
+        if let Some(feed) = feed {
+            self.write_changed_feed(feed);
         }
         self.position = goal;
         self.end_block()
     }
 
-    fn begin_motion(&mut self, kind: MoveKind) {
+    fn write_changed_feed(&mut self, feed: i64) {
+        if self.feed == Some(feed) {
+            return;
+        }
+        self.separate();
+        self.out.push('F');
+        self.feed_format.write(&mut self.out, feed);
+        self.feed = Some(feed);
+    }
+
+    fn begin_motion(&mut self, word: &'static str) {
         self.motion_line = self.line;
         self.begin_block();
-        if self.motion != Some(kind) || self.machine.words.repeat_g == Repeat::Always {
-            self.out.push_str(if kind == MoveKind::Rapid { "G0" } else { "G1" });
-            self.motion = Some(kind);
+        if self.motion != Some(word) || self.machine.words.repeat_g == Repeat::Always {
+            self.out.push_str(word);
+            self.motion = Some(word);
         }
     }
 

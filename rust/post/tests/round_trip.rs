@@ -212,6 +212,7 @@ fn step() -> impl Strategy<Value = Move> {
     (place(), prop_oneof![1 => Just(None), 4 => feed.prop_map(Some)]).prop_map(|(end, feed)| Move {
         kind: if feed.is_some() { MoveKind::Feed } else { MoveKind::Rapid },
         end,
+        arc: None,
         feed: feed.unwrap_or(0.0),
         operation: 0,
         line: 0,

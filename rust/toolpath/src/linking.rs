@@ -151,7 +151,7 @@ impl Route<'_> {
     }
 
     fn go(&mut self, kind: MoveKind, end: Vector, feed: f64) {
-        self.moves.push(Move { kind, end: end.into(), feed, operation: self.links.operation, line: 0 });
+        self.moves.push(Move { kind, end: end.into(), arc: None, feed, operation: self.links.operation, line: 0 });
     }
 }
 

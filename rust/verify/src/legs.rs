@@ -1,6 +1,6 @@
 //! The moves as the judge sees them: what each is meant to do, with which tool, from where.
 
-use styluscam_motion::{Event, EventKind, MoveKind, Program};
+use styluscam_motion::{ArcWay, Event, EventKind, MoveKind, Program};
 
 use crate::{Limits, Subject};
 
@@ -25,7 +25,10 @@ pub(crate) enum LegKind {
     Contact,
 }
 
-/// One move.
+/// Largest turn of a leg, rad: a longer arc becomes several legs, so that its contact is sampled all along it.
+const TURN: f64 = std::f64::consts::PI / 12.0;
+
+/// One move, or a piece of an arc.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Leg {
     /// Index of the move in the program.
@@ -35,6 +38,8 @@ pub(crate) struct Leg {
     pub start: Option<[f64; 3]>,
     /// The tool's tip where it ends.
     pub end: [f64; 3],
+    /// How the tip gets there, when not straight; the start is known then.
+    pub bend: Option<ArcWay>,
     /// Line of the text, 0 when there is none.
     pub line: u32,
     /// Index of the tool; none is loaded or known otherwise.
@@ -69,13 +74,30 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
         let tool = tools.before(index);
         let known = index >= subject.first_placed_move && in_this_world(step.end);
         if known {
-            let kind = kind(step.kind, start, step.end);
+            let way = start.and_then(|start| step.way(start));
+            let kind = if way.is_some() { LegKind::Contact } else { kind(step.kind, start, step.end) };
             let excess = limits.excess_of(step.operation).filter(|_| kind == LegKind::Contact);
-            legs.push(Leg { index, kind, start, end: step.end, line: step.line, tool, excess });
+            let leg = Leg { index, kind, start, end: step.end, bend: None, line: step.line, tool, excess };
+            match way {
+                Some(way) => legs.extend(pieces(&leg, &way)),
+                None => legs.push(leg),
+            }
         }
         start = known.then_some(step.end);
     }
     legs
+}
+
+/// The pieces of an arc: its own ends are kept to the bit.
+fn pieces<'a>(leg: &'a Leg, way: &'a ArcWay) -> impl Iterator<Item = Leg> + 'a {
+    let count = (way.sweep().abs() / TURN).ceil().clamp(1.0, 1e6) as usize;
+    let share = move |i: usize| i as f64 / count as f64;
+    (0..count).map(move |i| {
+        let bend = way.part(share(i), share(i + 1));
+        let start = if i == 0 { leg.start } else { Some(bend.at(0.0)) };
+        let end = if i + 1 == count { leg.end } else { bend.at(1.0) };
+        Leg { start, end, bend: Some(bend), ..*leg }
+    })
 }
 
 fn kind(kind: MoveKind, start: Option<[f64; 3]>, end: [f64; 3]) -> LegKind {

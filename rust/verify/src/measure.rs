@@ -1,7 +1,9 @@
 //! Distances along each move: the exact part of the judgement, in parallel.
 
+use std::collections::VecDeque;
+
 use rayon::prelude::*;
-use styluscam_motion::{Cancelled, Watch};
+use styluscam_motion::{ArcWay, Cancelled, Watch};
 
 use crate::body::Body;
 use crate::clearance::{Prober, Touch};
@@ -22,6 +24,12 @@ pub(crate) struct Sample {
 
 /// Length of a move, as a share of the tool's radius, up to which one search answers for all its places.
 const JOINT: f64 = 0.3;
+
+/// A chord this near to its arc stands for it, mm.
+const FLAT: f64 = 1e-7;
+
+/// Pieces of an arc's leg that are halved at most: all of them, at radius 100 mm, are off by less than 1e-5 mm then.
+const HALVINGS: usize = 512;
 
 /// What was found along one move.
 #[derive(Clone, Debug, Default)]
@@ -77,11 +85,34 @@ impl Walk<'_> {
             return Measured::default();
         };
         let prober = Prober { body, mesh: self.subject.mesh, bvh: self.subject.bvh };
-        if leg.excess.is_some() {
-            self.along_contact(leg, tool, &prober)
-        } else {
-            self.along_air(leg, &prober)
+        match leg.bend {
+            Some(bend) => self.along_bend(leg, &bend, tool, &prober),
+            None if leg.excess.is_some() => self.along_contact(leg, tool, &prober),
+            None => self.along_air(leg, &prober),
         }
+    }
+
+    /// A piece of an arc: samples, if it should touch, and a proof that nothing between them is deeper.
+    fn along_bend(&mut self, leg: &Leg, bend: &ArcWay, tool: usize, prober: &Prober) -> Measured {
+        let mut found = Measured::default();
+        if leg.excess.is_some() {
+            let start = leg.start.and_then(|tip| self.start(tip, tool, prober, &mut found));
+            let samples = [bend.at(0.5), leg.end].map(|tip| self.sample(tip, prober));
+            found.contacts = [start, samples[0], samples[1]];
+            found.samples += samples.iter().flatten().count();
+            self.last = samples[1].map(|end| (tool, end));
+        }
+        let sampled = lowest(&found.contacts);
+        let below = self.gouge_level().min(sampled.map_or(f64::INFINITY, |s| s.touch.value - SLACK));
+        found.deepest = deepest_on_arc(bend, below, prober).or(sampled);
+        found
+    }
+
+    fn sample(&self, tip: [f64; 3], prober: &Prober) -> Option<Sample> {
+        let position = prober.body.position(tip);
+        let places = [Some(position), None];
+        let asked = Question { stroke: Stroke::still(position), places, below: f64::NEG_INFINITY };
+        prober.survey(asked, self.warm()).places[0].map(|touch| Sample { tip, touch })
     }
 
     /// A move that should touch: three samples, and a proof that nothing between them is deeper.
@@ -128,10 +159,7 @@ impl Walk<'_> {
             return Some(sample);
         }
         found.samples += 1;
-        let position = prober.body.position(tip);
-        let places = [Some(position), None];
-        let asked = Question { stroke: Stroke::still(position), places, below: f64::NEG_INFINITY };
-        prober.survey(asked, self.warm()).places[0].map(|touch| Sample { tip, touch })
+        self.sample(tip, prober)
     }
 
     /// The depth from which on a place between the samples matters.
@@ -172,8 +200,40 @@ fn deepest(stroke: Stroke, below: f64, prober: &Prober) -> Option<Sample> {
     passed.map(|p| sample_of(p, prober.body))
 }
 
-/// The way of the body's tip; a point when the start is not known.
-pub(crate) fn stroke_of(leg: &Leg, body: &Body) -> Stroke {
+/// The deepest place of a piece of an arc, if it is below `below`: chords that pass deeper than they are off it are halved.
+///
+/// Where halving ends, the depth on the chord and what the chord is off are both counted: never too little.
+fn deepest_on_arc(bend: &ArcWay, below: f64, prober: &Prober) -> Option<Sample> {
+    let mut best: Option<Sample> = None;
+    let mut left = VecDeque::from([(0.0, 1.0)]);
+    let mut halvings = 0;
+    while let Some((from, to)) = left.pop_front() {
+        let piece = bend.part(from, to);
+        let (sag, limit) = (piece.sag(), best.map_or(below, |b| b.touch.value));
+        let [a, b] = [0.0, 1.0].map(|share| prober.body.position(piece.at(share)));
+        let Some(found) = deepest(Stroke { from: a, to: b }, limit + sag, prober) else { continue };
+        if sag > FLAT && halvings < HALVINGS {
+            halvings += 1;
+            let middle = 0.5 * (from + to);
+            left.extend([(from, middle), (middle, to)]);
+        } else {
+            let value = found.touch.value - sag;
+            best = Some(Sample { touch: Touch { value, ..found.touch }, ..found });
+        }
+    }
+    best
+}
+
+/// The way of the body's tip in chords, none farther than `sag` mm from it.
+pub(crate) fn strokes_of(leg: &Leg, body: &Body, sag: f64) -> Vec<Stroke> {
+    let Some(bend) = leg.bend else { return vec![stroke_of(leg, body)] };
+    let count = bend.chords(sag);
+    let at = |i: usize| body.position(bend.at(i as f64 / count as f64));
+    (0..count).map(|i| Stroke { from: at(i), to: at(i + 1) }).collect()
+}
+
+/// The way of the body's tip, or its chord; a point when the start is not known.
+fn stroke_of(leg: &Leg, body: &Body) -> Stroke {
     let to = body.position(leg.end);
     Stroke { from: leg.start.map_or(to, |s| body.position(s)), to }
 }

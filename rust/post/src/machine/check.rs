@@ -14,6 +14,7 @@ pub(super) fn check(machine: &Machine) -> Result<(), MachineError> {
     check_words(machine)?;
     check_tools(machine)?;
     check_smoothing(machine)?;
+    check_arc(machine)?;
     check_limits(machine)?;
     check_options(machine)?;
     check_reader(machine)?;
@@ -134,6 +135,15 @@ fn check_smoothing(machine: &Machine) -> Result<(), MachineError> {
     require(!rounded_away, "smoothing.tolerance", "it is smaller than the numbers can say; take 0 for an exact path")
 }
 
+fn check_arc(machine: &Machine) -> Result<(), MachineError> {
+    let Some(arc) = machine.arc else { return Ok(()) };
+    let error = arc.radius_error;
+    for (key, value) in [("absolute", error.absolute), ("relative", error.relative), ("most", error.most)] {
+        require((0.0..=10.0).contains(&value), &format!("arc.radius_error.{key}"), "0 to 10")?;
+    }
+    Ok(())
+}
+
 fn check_limits(machine: &Machine) -> Result<(), MachineError> {
     let limits = &machine.limits;
     for (key, range) in [("limits.x", limits.x), ("limits.y", limits.y), ("limits.z", limits.z)] {
@@ -144,7 +154,17 @@ fn check_limits(machine: &Machine) -> Result<(), MachineError> {
     require(travel, "limits.travel", "three lengths above 0, in mm")?;
     require(limits.max_feed.is_none_or(positive), "limits.max_feed", "above 0, in mm/min")?;
     require(positive(limits.rapid_rate), "limits.rapid_rate", "above 0, in mm/min")?;
-    require(limits.max_rpm.is_none_or(positive), "limits.max_rpm", "above 0, in rev/min")
+    require(limits.acceleration.is_none_or(positive), "limits.acceleration", "above 0, in mm/s^2")?;
+    require(
+        limits.corner_tolerance.is_none_or(|t| (0.0..=10.0).contains(&t)),
+        "limits.corner_tolerance",
+        "0 to 10 mm",
+    )?;
+    require(limits.blocks_per_second.is_none_or(positive), "limits.blocks_per_second", "above 0")?;
+    let (slowest, fastest) = (limits.min_rpm.unwrap_or(0.0), limits.max_rpm.unwrap_or(f64::INFINITY));
+    require(slowest.is_finite() && slowest >= 0.0, "limits.min_rpm", "0 or more, in rev/min")?;
+    require(limits.max_rpm.is_none_or(positive), "limits.max_rpm", "above 0, in rev/min")?;
+    require(slowest <= fastest, "limits.min_rpm", "it is above max_rpm")
 }
 
 fn positive(value: f64) -> bool {

@@ -329,6 +329,40 @@ pub struct DwellRules {
     pub unit: TimeUnit,
 }
 
+/// How far an arc's ends may differ in their distance from its centre, mm: text is rounded.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RadiusError {
+    /// A difference that is always taken, mm.
+    pub absolute: f64,
+    /// A larger one is taken up to this share of the radius,
+    pub relative: f64,
+    /// and never beyond this, mm.
+    pub most: f64,
+}
+
+impl RadiusError {
+    /// Whether the controller takes an arc of this radius whose ends differ so much, mm.
+    #[must_use]
+    pub fn takes(&self, mismatch: f64, radius: f64) -> bool {
+        mismatch <= self.absolute || mismatch <= (self.relative * radius).min(self.most)
+    }
+}
+
+/// Arcs: G2 and G3 in G17, G18 and G19, the centre given from the start by I, J and K.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ArcRules {
+    /// How exact an arc must be.
+    pub radius_error: RadiusError,
+    /// Whether a P word gives the number of turns.
+    #[serde(default)]
+    pub turns: bool,
+    /// Whether a full circle needs an axis word.
+    #[serde(default)]
+    pub needs_axis: bool,
+}
+
 /// What the machine can do. Lengths mm in work coordinates, feeds mm/min, speeds rev/min.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -345,6 +379,14 @@ pub struct Limits {
     pub max_feed: Option<f64>,
     /// Speed of rapids, mm/min: for estimates of time.
     pub rapid_rate: f64,
+    /// Acceleration along the path, mm/s^2: for estimates of time; without it speeds change at once.
+    pub acceleration: Option<f64>,
+    /// How far the controller cuts corners, mm: for estimates of time; the smoothing's tolerance when left out.
+    pub corner_tolerance: Option<f64>,
+    /// Blocks that the controller reads in a second: for estimates of time.
+    pub blocks_per_second: Option<f64>,
+    /// Smallest spindle speed, rev/min.
+    pub min_rpm: Option<f64>,
     /// Largest spindle speed, rev/min.
     pub max_rpm: Option<f64>,
 }

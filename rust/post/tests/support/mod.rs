@@ -25,11 +25,11 @@ pub fn grbl_with_pauses() -> Machine {
 }
 
 pub fn rapid(x: f64, y: f64, z: f64) -> Move {
-    Move { kind: MoveKind::Rapid, end: [x, y, z], feed: 0.0, operation: 0, line: 0 }
+    Move { kind: MoveKind::Rapid, end: [x, y, z], arc: None, feed: 0.0, operation: 0, line: 0 }
 }
 
 pub fn feed(x: f64, y: f64, z: f64, feed: f64) -> Move {
-    Move { kind: MoveKind::Feed, end: [x, y, z], feed, operation: 0, line: 0 }
+    Move { kind: MoveKind::Feed, end: [x, y, z], arc: None, feed, operation: 0, line: 0 }
 }
 
 pub fn event(before: usize, kind: EventKind) -> Event {

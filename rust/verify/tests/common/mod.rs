@@ -104,7 +104,7 @@ impl Path {
     /// Lines count from 11.
     fn push(&mut self, kind: MoveKind, end: [f64; 3], feed: f64) {
         let line = self.moves.len() as u32 + 11;
-        self.moves.push(Move { kind, end, feed, operation: 0, line });
+        self.moves.push(Move { kind, end, arc: None, feed, operation: 0, line });
     }
 
     pub fn program(self, tool: &Tool) -> Program {

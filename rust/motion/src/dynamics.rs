@@ -1,0 +1,254 @@
+//! How long a program takes on a machine that must accelerate, slow down in corners and read its blocks.
+
+use crate::{EventKind, Move, MoveKind, Program};
+
+/// Seconds in a minute.
+const MINUTE: f64 = 60.0;
+
+/// What of a machine decides how fast it follows a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dynamics {
+    /// Speed of rapids, mm/min.
+    pub rapid_rate: f64,
+    /// Acceleration along the path, mm/s^2; without it speeds change at once.
+    pub acceleration: Option<f64>,
+    /// How far the controller cuts corners, mm; at 0 it stops in each.
+    pub corner_tolerance: f64,
+    /// Blocks that the controller reads in a second; without it as many as it wants.
+    pub blocks_per_second: Option<f64>,
+}
+
+impl Dynamics {
+    /// A machine of which only the speed of rapids is known, mm/min.
+    #[must_use]
+    pub fn at_once(rapid_rate: f64) -> Self {
+        Self { rapid_rate, acceleration: None, corner_tolerance: 0.0, blocks_per_second: None }
+    }
+
+    /// The time at the end of every move from the start of the program, s; and at the program's own end.
+    ///
+    /// The speed changes evenly within a move. A corner is taken as fast as a circle allows that leaves it by the corner
+    /// tolerance at most (S. K. Jeon, "Improving Grbl: Cornering Algorithm", 2011); an arc as fast as its radius allows.
+    /// Events stop the machine. No block is faster than the controller reads. The way to the first place is not known
+    /// and takes no time; neither do tool changes.
+    #[must_use]
+    pub fn times(&self, program: &Program) -> (Vec<f64>, f64) {
+        let legs = self.legs(program);
+        let speeds = self.speeds(&legs);
+        let mut waits = Waits::new(program);
+        let mut clock = 0.0;
+        let times = legs.iter().zip(speeds.windows(2)).enumerate();
+        let times = times.map(|(index, (leg, ends))| {
+            clock += waits.before(index) + self.seconds(leg, ends[0], ends[1]);
+            clock
+        });
+        let times = times.collect();
+        (times, clock + waits.before(program.moves.len()))
+    }
+
+    fn legs(&self, program: &Program) -> Vec<Leg> {
+        let mut stops = program.events.iter().filter(|e| !matches!(e.kind, EventKind::Comment { .. })).peekable();
+        let mut legs = Vec::with_capacity(program.moves.len());
+        for (index, (start, step)) in program.segments().enumerate() {
+            let mut stopped = start.is_none();
+            while stops.next_if(|e| e.before <= index).is_some() {
+                stopped = true;
+            }
+            legs.push(self.leg(start.unwrap_or(step.end), step, stopped));
+        }
+        legs
+    }
+
+    fn leg(&self, start: [f64; 3], step: &Move, stopped: bool) -> Leg {
+        let way = step.way(start);
+        let length = step.length(start);
+        let rate = if step.kind == MoveKind::Rapid { self.rapid_rate } else { step.feed };
+        let mut speed = if rate > 0.0 && rate.is_finite() { rate / MINUTE } else { self.rapid_rate / MINUTE };
+        if let (Some(way), Some(acceleration)) = (way, self.acceleration) {
+            speed = speed.min((acceleration * way.radius()).sqrt());
+        }
+        let heading = |from: f64, to: f64| way.map_or(direction(start, step.end), |w| direction(w.at(from), w.at(to)));
+        Leg { length, speed, from: heading(0.0, 1e-4), to: heading(1.0 - 1e-4, 1.0), stopped }
+    }
+
+    /// Speed at the start of each leg and at the end of the last, mm/s.
+    fn speeds(&self, legs: &[Leg]) -> Vec<f64> {
+        let Some(acceleration) = self.acceleration else {
+            return legs.iter().map(|leg| leg.speed).chain([0.0]).collect();
+        };
+        let mut speeds = vec![0.0; legs.len() + 1];
+        for (i, pair) in legs.windows(2).enumerate() {
+            speeds[i + 1] = self.corner_speed(&pair[0], &pair[1], acceleration);
+        }
+        let reach = |from: f64, length: f64| (from * from + 2.0 * acceleration * length).sqrt();
+        for i in (0..legs.len()).rev() {
+            speeds[i] = speeds[i].min(reach(speeds[i + 1], legs[i].length));
+        }
+        for i in 0..legs.len() {
+            speeds[i + 1] = speeds[i + 1].min(reach(speeds[i], legs[i].length));
+        }
+        speeds
+    }
+
+    fn corner_speed(&self, before: &Leg, after: &Leg, acceleration: f64) -> f64 {
+        let top = before.speed.min(after.speed);
+        if after.stopped {
+            return 0.0;
+        }
+        let (Some(a), Some(b)) = (before.to, after.from) else { return top };
+        // half the angle between the way back and the way on
+        let cos = -(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]).clamp(-1.0, 1.0);
+        let half = (0.5 * (1.0 - cos)).sqrt();
+        let straight = 1.0 - half;
+        if straight < 1e-9 {
+            return top;
+        }
+        top.min((acceleration * self.corner_tolerance * half / straight).sqrt())
+    }
+
+    /// The time of one leg between speeds at its ends, s.
+    fn seconds(&self, leg: &Leg, from: f64, to: f64) -> f64 {
+        let moving = match self.acceleration {
+            _ if leg.length <= 0.0 => 0.0,
+            None => leg.length / leg.speed,
+            Some(acceleration) => trapezoid(leg.length, leg.speed, from, to, acceleration),
+        };
+        moving.max(self.blocks_per_second.map_or(0.0, f64::recip))
+    }
+}
+
+/// Speeds up to `top` if the length allows it, then down: the time, s.
+fn trapezoid(length: f64, top: f64, from: f64, to: f64, acceleration: f64) -> f64 {
+    let peak = (acceleration * length + 0.5 * (from * from + to * to)).sqrt().min(top.max(from).max(to));
+    let ramps = (2.0 * peak * peak - from * from - to * to) / (2.0 * acceleration);
+    (2.0 * peak - from - to) / acceleration + (length - ramps).max(0.0) / peak
+}
+
+/// A move as its dynamics see it.
+struct Leg {
+    /// mm
+    length: f64,
+    /// Highest speed, mm/s.
+    speed: f64,
+    /// Direction at both ends; none when it goes nowhere.
+    from: Option<[f64; 3]>,
+    to: Option<[f64; 3]>,
+    /// Whether the machine stands before it.
+    stopped: bool,
+}
+
+fn direction(a: [f64; 3], b: [f64; 3]) -> Option<[f64; 3]> {
+    let along = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
+    let length = along.iter().map(|x| x * x).sum::<f64>().sqrt();
+    (length > 0.0).then(|| along.map(|x| x / length))
+}
+
+/// The program's dwells in order.
+struct Waits<'a> {
+    events: std::iter::Peekable<std::slice::Iter<'a, crate::Event>>,
+}
+
+impl<'a> Waits<'a> {
+    fn new(program: &'a Program) -> Self {
+        Self { events: program.events.iter().peekable() }
+    }
+
+    /// Seconds that are waited before a move.
+    fn before(&mut self, index: usize) -> f64 {
+        let mut seconds = 0.0;
+        while let Some(event) = self.events.next_if(|e| e.before <= index) {
+            if let EventKind::Dwell { seconds: more } = event.kind {
+                seconds += more;
+            }
+        }
+        seconds
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Arc, Event, OperationRecord, Plane, SetupRecord, PROGRAM_SCHEMA};
+
+    const PLAIN: Dynamics =
+        Dynamics { rapid_rate: 6000.0, acceleration: Some(1000.0), corner_tolerance: 0.0, blocks_per_second: None };
+
+    fn program(moves: &[(MoveKind, [f64; 3])]) -> Program {
+        let step = |(kind, end): &(MoveKind, [f64; 3])| Move {
+            kind: *kind,
+            end: *end,
+            arc: None,
+            feed: 6000.0,
+            operation: 0,
+            line: 0,
+        };
+        Program {
+            schema: PROGRAM_SCHEMA,
+            setup: SetupRecord {
+                title: String::new(),
+                wcs: "G54".into(),
+                zero: String::new(),
+                part_min: [0.0; 3],
+                part_max: [0.0; 3],
+                clearance: 0.0,
+                notes: Vec::new(),
+            },
+            tools: Vec::new(),
+            operations: vec![OperationRecord { id: "a".into(), kind: "z-level".into(), tool: 0 }],
+            moves: moves.iter().map(step).collect(),
+            events: Vec::new(),
+        }
+    }
+
+    fn line() -> Program {
+        program(&[(MoveKind::Rapid, [0.0; 3]), (MoveKind::Feed, [100.0, 0.0, 0.0])])
+    }
+
+    #[test]
+    fn a_trapezoid_by_hand() {
+        // 100 mm at 100 mm/s: 0.1 s and 5 mm up, as much down, 90 mm between: 1.1 s
+        let (times, whole) = PLAIN.times(&line());
+        assert!((times[1] - 1.1).abs() < 1e-12 && (whole - 1.1).abs() < 1e-12, "{times:?}");
+        // 2.5 mm: up and down at 50 mm/s at most, 0.1 s
+        let short = program(&[(MoveKind::Rapid, [0.0; 3]), (MoveKind::Feed, [2.5, 0.0, 0.0])]);
+        assert!((PLAIN.times(&short).1 - 0.1).abs() < 1e-12);
+        assert!((Dynamics::at_once(6000.0).times(&line()).1 - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn straight_on_costs_nothing_and_a_corner_a_stop() {
+        let on = [(MoveKind::Rapid, [0.0; 3]), (MoveKind::Feed, [40.0, 0.0, 0.0]), (MoveKind::Feed, [100.0, 0.0, 0.0])];
+        assert!((PLAIN.times(&program(&on)).1 - 1.1).abs() < 1e-9);
+        let corner =
+            [(MoveKind::Rapid, [0.0; 3]), (MoveKind::Feed, [50.0, 0.0, 0.0]), (MoveKind::Feed, [50.0, 50.0, 0.0])];
+        assert!((PLAIN.times(&program(&corner)).1 - 1.2).abs() < 1e-9);
+        // a right angle cut by 0.01 mm: v^2 = a d sin 45 / (1 - sin 45), 4.914 mm/s there
+        let rounded = Dynamics { corner_tolerance: 0.01, ..PLAIN };
+        let v = (1000.0 * 0.01 * 0.5_f64.sqrt() / (1.0 - 0.5_f64.sqrt())).sqrt();
+        let each = 0.1 + (100.0 - v) / 1000.0 + (50.0 - 5.0 - (100.0_f64.powi(2) - v * v) / 2000.0) / 100.0;
+        assert!((rounded.times(&program(&corner)).1 - 2.0 * each).abs() < 1e-9);
+    }
+
+    #[test]
+    fn events_stop_and_dwells_last() {
+        let mut waits = line();
+        waits.moves.push(Move { end: [200.0, 0.0, 0.0], ..waits.moves[1] });
+        waits.events.push(Event { before: 2, kind: EventKind::Dwell { seconds: 0.5 } });
+        waits.events.push(Event { before: 3, kind: EventKind::Dwell { seconds: 2.0 } });
+        let (times, whole) = PLAIN.times(&waits);
+        assert!((times[2] - (1.1 + 0.5 + 1.1)).abs() < 1e-9 && (whole - times[2] - 2.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn blocks_take_their_time_and_arcs_their_radius() {
+        let slow = Dynamics { acceleration: None, blocks_per_second: Some(100.0), ..PLAIN };
+        let short: Vec<_> = (0..101).map(|i| (MoveKind::Feed, [0.01 * f64::from(i), 0.0, 0.0])).collect();
+        assert!((slow.times(&program(&short)).1 - 1.01).abs() < 1e-9);
+        // a circle of radius 1 at 1000 mm/s^2: 31.6 mm/s at most
+        let mut circle = line();
+        circle.moves[1].end = [0.0; 3];
+        circle.moves[1].arc = Some(Arc { centre: [1.0, 0.0, 0.0], plane: Plane::Xy, clockwise: true, turns: 0 });
+        let (length, top) = (std::f64::consts::TAU, 1000.0_f64.sqrt());
+        assert!((PLAIN.times(&circle).1 - (length / top + top / 1000.0)).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,109 @@
+//! The arc that a block's I, J, K or R describe.
+
+use styluscam_motion::{Arc, Plane};
+
+use crate::block::Block;
+use crate::interpreter::Flaw;
+use crate::lexer::Word;
+use crate::machine::ArcRules;
+use crate::read_error::ReadFault;
+
+/// A chord may be this much longer than the circle's diameter, mm: R was rounded.
+const CHORD: f64 = 0.005;
+
+/// Where an arc starts and ends and how its words are to be taken.
+pub(crate) struct Circle {
+    pub start: [f64; 3],
+    pub end: [f64; 3],
+    pub plane: Plane,
+    pub clockwise: bool,
+    /// Whether I, J and K are places, not steps from the start.
+    pub absolute: bool,
+    /// Height of the posted point above the tip, mm.
+    pub height: f64,
+}
+
+impl Circle {
+    /// The arc of a block; `code` is the word to blame, `mm` gives a word's length.
+    pub fn arc(
+        &self,
+        block: &Block,
+        rules: &ArcRules,
+        code: Word,
+        mm: impl Fn(Word) -> Result<f64, Flaw>,
+    ) -> Result<Arc, Flaw> {
+        let [_, _, across] = self.plane.axes();
+        if let Some(word) = block.offsets.get(across).copied().flatten() {
+            return Err((ReadFault::ArcPlane, Some(word)));
+        }
+        let centre = match block.radius {
+            Some(word) if block.offsets.iter().any(Option::is_some) => return Err((ReadFault::ArcForm, Some(word))),
+            Some(word) => self.centre_by_radius(word, mm(word)?)?,
+            None => self.centre_by_offsets(block, code, mm)?,
+        };
+        let arc = Arc { centre, plane: self.plane, clockwise: self.clockwise, turns: turns(block)? };
+        let way = arc.way(self.start, self.end);
+        let radius = way.radius();
+        if radius <= 0.0 {
+            return Err((ReadFault::ArcOfNoRadius, Some(code)));
+        }
+        if !rules.radius_error.takes(way.mismatch(), radius) {
+            return Err((ReadFault::ArcEnds { mismatch: way.mismatch() }, Some(code)));
+        }
+        Ok(arc)
+    }
+
+    fn centre_by_offsets(
+        &self,
+        block: &Block,
+        code: Word,
+        mm: impl Fn(Word) -> Result<f64, Flaw>,
+    ) -> Result<[f64; 3], Flaw> {
+        if block.offsets.iter().all(Option::is_none) {
+            return Err((ReadFault::MissingWord { what: "the arc's centre (I, J, K) or R" }, Some(code)));
+        }
+        let mut centre = self.start;
+        for (axis, word) in block.offsets.iter().enumerate() {
+            match word {
+                Some(word) if self.absolute => {
+                    centre[axis] = mm(*word)? - if axis == 2 { self.height } else { 0.0 };
+                }
+                Some(word) => centre[axis] += mm(*word)?,
+                None if self.absolute && axis != self.plane.axes()[2] => {
+                    return Err((
+                        ReadFault::MissingWord { what: "one of the centre's two places (G90.1)" },
+                        Some(code),
+                    ));
+                }
+                None => {}
+            }
+        }
+        Ok(centre)
+    }
+
+    /// R above zero is the shorter arc of the two, below zero the longer one.
+    fn centre_by_radius(&self, word: Word, radius: f64) -> Result<[f64; 3], Flaw> {
+        let [first, second, _] = self.plane.axes();
+        let chord = [self.end[first] - self.start[first], self.end[second] - self.start[second]];
+        let length = chord[0].hypot(chord[1]);
+        if length <= 0.0 {
+            return Err((ReadFault::ArcForm, Some(word)));
+        }
+        if length > 2.0 * radius.abs() + CHORD {
+            return Err((ReadFault::ArcOfShortRadius, Some(word)));
+        }
+        let over = (radius * radius - 0.25 * length * length).max(0.0).sqrt();
+        let left = if self.clockwise == (radius < 0.0) { over } else { -over };
+        let mut centre = self.start;
+        centre[first] += 0.5 * chord[0] - left * chord[1] / length;
+        centre[second] += 0.5 * chord[1] + left * chord[0] / length;
+        Ok(centre)
+    }
+}
+
+/// Full turns beyond the first arrival: P counts arrivals.
+fn turns(block: &Block) -> Result<u32, Flaw> {
+    let Some(word) = block.p else { return Ok(0) };
+    let arrivals = word.number.natural().filter(|p| *p > 0);
+    arrivals.map(|p| p - 1).ok_or((ReadFault::NotNatural, Some(word)))
+}
