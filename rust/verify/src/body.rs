@@ -76,6 +76,11 @@ pub(crate) struct Distance {
 impl Body {
     /// Tool and sheet, to be judged together.
     pub fn new(tool: &Tool, sheet: Option<&Sheet>) -> Self {
+        Self::above(tool, sheet, 0.0)
+    }
+
+    /// The same for what stands `height` mm above the point that is the tool's tip.
+    pub fn above(tool: &Tool, sheet: Option<&Sheet>, height: f64) -> Self {
         let cutter = tool.cutter_with(sheet, 0.0);
         let supports = (0..=CELLS).map(|i| support_at(&cutter, i)).collect();
         let mut planes: Vec<_> = (0..=PLANES).map(|i| Tangency::at(&cutter, plane_root(i))).collect();
@@ -88,7 +93,7 @@ impl Body {
         let squares_per_mm = SQUARES as f64 / (REACH * (cutter.max_radius() + cutter.max_height()));
         let mut body = Self {
             cutter,
-            tip_above: Tool::tip_above(sheet, 0.0),
+            tip_above: Tool::tip_above(sheet, 0.0) - height,
             supports,
             planes,
             atlas: Vec::new(),

@@ -27,6 +27,8 @@ pub(crate) fn lower(first: f64, length: f64, best: f64, mut at: impl FnMut(f64) 
     let (mut t, mut lowest) = (first.clamp(0.0, 1.0), best);
     // the rate from which a short step of Newton's was made, and whether the bend can be trusted
     let (mut short, mut smooth) = (None, true);
+    // the last two steps: Newton's may swing for ever between two ends where the bend jumps
+    let mut steps = [1.0, 1.0];
     for turn in 0..PATIENCE {
         let here = at(t);
         lowest = lowest.min(here.value);
@@ -43,7 +45,8 @@ pub(crate) fn lower(first: f64, length: f64, best: f64, mut at: impl FnMut(f64) 
             return;
         }
         let newton = t - here.rate / here.bend;
-        let curved = smooth && here.bend > 0.0 && newton > low.t && newton < high.t;
+        let shrinks = (newton - t).abs() <= 0.5 * steps[0];
+        let curved = smooth && here.bend > 0.0 && newton > low.t && newton < high.t && shrinks;
         let next = if curved { newton } else { guess(&low, &high, crossing, turn % 2 == 0) };
         let moved = (next - t).abs() * length;
         if moved < EQUAL && !curved {
@@ -51,6 +54,7 @@ pub(crate) fn lower(first: f64, length: f64, best: f64, mut at: impl FnMut(f64) 
             return;
         }
         short = (curved && moved < SHORT).then_some(here.rate.abs());
+        steps = [steps[1], (next - t).abs()];
         t = next;
     }
 }
@@ -112,6 +116,18 @@ mod tests {
             let (value, calls) = lowest(first, f64::INFINITY, parabola);
             prop_assert!((value - parabola(at.clamp(0.0, 1.0)).value).abs() < 1e-10);
             prop_assert!(calls <= 4, "{calls}");
+        }
+
+        #[test]
+        fn a_jump_of_the_bend_is_no_trap(first in 0.0..1.0_f64, at in 0.05..0.95_f64, steep in 1.0..100.0_f64,
+                                         kink in 0.0..1.0_f64) {
+            // two parabolas that meet smoothly at the kink, one much more bent than the other
+            let bends = |t: f64| if t < kink { 1.0 } else { steep };
+            let rate = |t: f64| (t - kink) * bends(t) - (at - kink) * bends(at);
+            let value = |t: f64| 0.5 * (t - kink).powi(2) * bends(t) - (at - kink) * bends(at) * (t - kink);
+            let (found, calls) = lowest(first, f64::INFINITY, |t| Tangent { value: value(t), rate: rate(t), bend: bends(t) });
+            prop_assert!((found - value(at)).abs() < 1e-9, "{found} {} after {calls}", value(at));
+            prop_assert!(calls < 40, "{calls}");
         }
 
         #[test]

@@ -23,6 +23,10 @@ pub enum FindingKind {
     WorkOffset,
     /// A feed move enters the part.
     Gouge,
+    /// The shank, or what joins it to the profile, enters the part.
+    ShankCollision,
+    /// The holder enters the part.
+    HolderCollision,
     /// A rapid enters the part.
     RapidIntoMaterial,
     /// A rapid straight down enters the part, or ends with too little air under it.

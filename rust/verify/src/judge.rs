@@ -76,6 +76,12 @@ impl Tally<'_> {
         if let Some(deepest) = &found.deepest {
             self.depth(leg, deepest);
         }
+        if let Some((kind, sample)) = &found.held {
+            let depth = self.subject.deviation_inward - sample.touch.value;
+            if depth > self.limits.gouge + SLACK && !(leg.kind == LegKind::Rapid && leg.starts_at(sample.tip)) {
+                self.fault(*kind, leg, sample, (depth, self.limits.gouge), depth);
+            }
+        }
         if let Some(landing) = &found.landing {
             let air = landing.touch.value;
             let limit = self.limits.rapid_gap;

@@ -15,8 +15,9 @@
 //!   the depth given is a lower bound; that it is in is certain.
 //! - *Excess* is sampled: at the start, the middle and the end of every contact move.
 //! - The tool is its profile, and above its base a straight cylinder upwards without end: so a tool
-//!   wholly inside the material still meets the surface above it. A shank of another diameter and the
-//!   holder are not judged.
+//!   wholly inside the material still meets the surface above it. A wider shank and the holder are
+//!   bodies of their own, as wide as they are upwards without end.
+//! - An arc is proved in chords that are halved until what they are off it does not matter.
 //!
 //! The triangles stand for the part; their checked deviation from it is counted against the program
 //! on both sides (see [`Subject`]).
@@ -28,6 +29,7 @@ mod convex;
 mod coverage;
 mod diagnosis;
 mod findings;
+mod holding;
 mod judge;
 mod legs;
 mod measure;

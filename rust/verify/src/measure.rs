@@ -7,9 +7,10 @@ use styluscam_motion::{ArcWay, Cancelled, Watch};
 
 use crate::body::Body;
 use crate::clearance::{Prober, Touch};
+use crate::holding::{self, Holding};
 use crate::legs::{Leg, LegKind};
 use crate::sweep::{Passed, Question, Seen, Stroke};
-use crate::{Limits, Subject, Vector, SLACK};
+use crate::{FindingKind, Limits, Subject, Vector, SLACK};
 
 /// Moves in a piece of work. Fixed, so that the result does not depend on the number of threads.
 const CHUNK: usize = 64;
@@ -40,8 +41,16 @@ pub(crate) struct Measured {
     pub contacts: [Option<Sample>; 3],
     /// Too little air under a rapid that comes down: the place where it ends.
     pub landing: Option<Sample>,
+    /// The deepest place of what is above the profile, and what that is.
+    pub held: Option<(FindingKind, Sample)>,
     /// Positions at which the clearance was measured.
     pub samples: usize,
+}
+
+/// A tool as bodies.
+struct Bodies {
+    profile: Body,
+    above: Vec<Holding>,
 }
 
 /// Measures every leg; the results stand in the legs' order.
@@ -52,7 +61,9 @@ pub(crate) fn measure(
     watch: &Watch,
 ) -> Result<Vec<Measured>, Cancelled> {
     watch.begin("verifying", legs.len());
-    let bodies: Vec<Body> = subject.tools.iter().map(|t| Body::new(t, subject.sheet.as_ref())).collect();
+    let sheet = subject.sheet.as_ref();
+    let bodies = |t| Bodies { profile: Body::new(t, sheet), above: holding::of(t, sheet) };
+    let bodies: Vec<_> = subject.tools.iter().map(bodies).collect();
     let top = subject.mesh.bounds().1.z;
     let chunks: Result<Vec<_>, _> = legs
         .par_chunks(CHUNK)
@@ -72,24 +83,49 @@ pub(crate) fn measure(
 struct Walk<'a> {
     subject: &'a Subject<'a>,
     limits: &'a Limits,
-    bodies: &'a [Body],
+    bodies: &'a [Bodies],
     /// Height of the part's highest point.
     top: f64,
     /// The last sample and its tool.
     last: Option<(usize, Sample)>,
 }
 
-impl Walk<'_> {
+impl<'a> Walk<'a> {
     fn along(&mut self, leg: &Leg) -> Measured {
-        let Some((tool, body)) = leg.tool.and_then(|t| Some((t, self.bodies.get(t)?))) else {
+        let Some((tool, bodies)) = leg.tool.and_then(|t| Some((t, self.bodies.get(t)?))) else {
             return Measured::default();
         };
-        let prober = Prober { body, mesh: self.subject.mesh, bvh: self.subject.bvh };
-        match leg.bend {
+        let prober = self.prober(&bodies.profile);
+        let found = match leg.bend {
             Some(bend) => self.along_bend(leg, &bend, tool, &prober),
             None if leg.excess.is_some() => self.along_contact(leg, tool, &prober),
             None => self.along_air(leg, &prober),
+        };
+        let above = bodies.above.iter().filter_map(|holding| {
+            let prober = self.prober(&holding.body);
+            let near = self.over(leg, &prober) <= self.gouge_level();
+            Some((holding.kind, near.then(|| self.deepest_of(leg, &prober)).flatten()?))
+        });
+        Measured { held: above.min_by(|a, b| a.1.touch.value.total_cmp(&b.1.touch.value)), ..found }
+    }
+
+    fn prober(&self, body: &'a Body) -> Prober<'a> {
+        Prober { body, mesh: self.subject.mesh, bvh: self.subject.bvh }
+    }
+
+    /// The deepest place of a leg, if it could be a gouge.
+    fn deepest_of(&self, leg: &Leg, prober: &Prober) -> Option<Sample> {
+        match leg.bend {
+            Some(bend) => deepest_on_arc(&bend, self.gouge_level(), prober),
+            None => deepest(stroke_of(leg, prober.body), self.gouge_level(), prober),
         }
+    }
+
+    /// Height of the body's tip over the part's highest point where it is lowest, mm.
+    fn over(&self, leg: &Leg, prober: &Prober) -> f64 {
+        let straight = leg.start.map_or(leg.end[2], |s| s[2].min(leg.end[2]));
+        let lowest = leg.bend.map_or(straight, |bend| bend.bounds().0[2]);
+        prober.body.position([0.0, 0.0, lowest]).z - self.top
     }
 
     /// A piece of an arc: samples, if it should touch, and a proof that nothing between them is deeper.
@@ -174,13 +210,11 @@ impl Walk<'_> {
     /// A move that need not touch: only what goes too deep is looked for.
     fn along_air(&self, leg: &Leg, prober: &Prober) -> Measured {
         let mut found = Measured::default();
-        let lowest = leg.start.map_or(leg.end[2], |s| s[2].min(leg.end[2]));
-        let over = prober.body.position([0.0, 0.0, lowest]).z - self.top;
-        if over > self.limits.rapid_gap.max(self.gouge_level()) {
+        if self.over(leg, prober) > self.limits.rapid_gap.max(self.gouge_level()) {
             return found;
         }
         let stroke = stroke_of(leg, prober.body);
-        found.deepest = deepest(stroke, self.gouge_level(), prober);
+        found.deepest = self.deepest_of(leg, prober);
         found.samples = usize::from(found.deepest.is_some());
         if leg.kind == LegKind::Rapid && leg.descends() && found.deepest.is_none() {
             found.landing = deepest(Stroke::still(stroke.to), self.limits.rapid_gap, prober);

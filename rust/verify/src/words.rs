@@ -34,6 +34,8 @@ fn what(fault: &Fault) -> String {
     let (value, limit) = fault.measure.unwrap_or((0.0, 0.0));
     match fault.kind {
         FindingKind::Gouge => format!("the tool enters the part by {value:.4} mm (limit {limit:.4} mm)"),
+        FindingKind::ShankCollision => format!("the shank enters the part by {value:.4} mm"),
+        FindingKind::HolderCollision => format!("the holder enters the part by {value:.4} mm"),
         FindingKind::RapidIntoMaterial => format!("a rapid enters the part by {value:.4} mm"),
         FindingKind::RapidPlunge if value < 0.0 => {
             format!("a rapid goes straight down into the part by {:.4} mm", -value)
@@ -62,6 +64,8 @@ fn what(fault: &Fault) -> String {
 fn remedy(kind: FindingKind) -> &'static str {
     match kind {
         FindingKind::Gouge => "correct this coordinate, or plan again with this tool, sheet and zero point",
+        FindingKind::ShankCollision => "take a tool with a longer base, or a thinner shank",
+        FindingKind::HolderCollision => "let the tool stick out farther, or take a smaller holder",
         FindingKind::RapidIntoMaterial | FindingKind::RapidPlunge => "retract first, and come down at a feed",
         FindingKind::DogLegRapid => "go across above the clearance height, then straight down",
         FindingKind::LowRapid => "retract to the clearance height first",
