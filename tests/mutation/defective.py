@@ -1,0 +1,125 @@
+"""Draws defective programs and faulty inputs by their numbers, and asks the judge and the oracle about them."""
+
+from __future__ import annotations
+
+import copy
+import random
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import matters
+import styluscam as sc
+from defects import KINDS, Text
+from faulty_inputs import FAULTS
+from matters import Verdict
+
+from .cases import Case, made_case
+
+POOL = 200
+"""Sound programs from which those to be spoilt are drawn."""
+TRIES = 60
+NEAR = 1
+"""Lines by which a finding may miss: what is wrong in a place is wrong on the way to it and from it."""
+
+ARCS = ("arc turned", "arc centre", "arc centre sign", "arc straightened")
+"""Kinds that need a program with arcs."""
+
+SUITS: dict[str, Callable[[Case], bool]] = {
+    "levels swapped": lambda case: case.wanted.forming,
+    "level repeated": lambda case: case.wanted.forming,
+    "spindle on": lambda case: case.wanted.forming,
+    "corner missing": lambda case: case.document["operations"][0]["kind"] == "z-level",
+    "lines swapped": lambda case: case.document["operations"][0]["kind"] == "z-level",
+}
+"""Cases in which a kind can matter, where that is not all."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A defect: what was spoilt, whether that matters, and what the judge said."""
+
+    kind: str
+    seed: int
+    case: Case
+    text: str
+    verdict: Verdict
+    found: bool
+    said: str
+
+    def __str__(self) -> str:
+        first = min(self.verdict.lines, default=0)
+        why = "; ".join(self.verdict.reasons[:2])
+        return f"{self.kind} #{self.seed} ({self.case.name}) at line {first}: {why} | judge: {self.said}"
+
+
+def text_defect(kind: str, seed: int, folder: Path) -> Trial | None:
+    """A sound program spoilt in one way; none where the kind finds no place (no program has an arc, say)."""
+    draw = random.Random(f"{kind} {seed}")
+    suits = SUITS.get(kind, lambda case: True)
+    for _ in range(TRIES):
+        case = made_case(draw.randrange(POOL), folder)
+        if not suits(case):
+            continue
+        changed = KINDS[kind](Text(case.text, case.family), draw)
+        if changed is not None:
+            verdict = matters.weigh(case.text, changed, case.wanted)
+            return Trial(kind, seed, case, changed, verdict, *_judged(changed, case, verdict))
+    return None
+
+
+def input_fault(name: str, seed: int, folder: Path) -> Trial | None:
+    """A program made from a spoilt input, judged against the right one."""
+    draw = random.Random(f"{name} {seed}")
+    for _ in range(TRIES):
+        case = made_case(draw.randrange(POOL), folder)
+        spoilt = FAULTS[name](copy.deepcopy(case.mesh), copy.deepcopy(case.document))
+        if spoilt is None:
+            continue
+        try:
+            text = Case(case.name, *spoilt, case.family).text
+        except sc.StylusError:
+            continue  # a fault that planning refuses never becomes a program
+        verdict = matters.weigh(case.text, text, case.wanted)
+        verdict.whole = True
+        return Trial(name, seed, case, text, verdict, *_judged(text, case, verdict))
+    return None
+
+
+def _judged(text: str, case: Case, verdict: Verdict) -> tuple[bool, str]:
+    """Whether the judge objects at the right place, and its words."""
+    try:
+        report = sc.verify(text, case.job)
+    except sc.VerifyError as error:
+        return _names_line(str(error.where), verdict), f"{error}"
+    errors = [finding for finding in report.findings if finding["severity"] == "error"]
+    said = "; ".join(f"{f['severity']} {f['kind']} {f['first_line']}-{f['last_line']}" for f in report.findings[:3])
+    return any(_is_there(finding, verdict) for finding in errors), said or "nothing"
+
+
+def _is_there(finding: dict[str, Any], verdict: Verdict) -> bool:
+    first, last = finding["first_line"] - NEAR, finding["last_line"] + NEAR
+    if finding["line"] and any(first <= line <= last for line in verdict.lines):
+        return True
+    position = finding.get("position")
+    if position is not None and verdict.places:
+        return bool(min(np.linalg.norm(np.array(position) - place) for place in verdict.places) < 3.0)
+    return finding["line"] == 0 and verdict.whole
+
+
+def _names_line(where: str, verdict: Verdict) -> bool:
+    """A text that cannot be read: its place ends in line and column."""
+    number = re.search(r"line (\d+)", where)
+    return number is None or any(abs(int(number[1]) - line) <= NEAR for line in verdict.lines)
+
+
+def trials(count: int, folder: Path) -> Iterator[Trial]:
+    """`count` of each kind of text defect and one third as many of each fault of the input."""
+    for kind in KINDS:
+        yield from filter(None, (text_defect(kind, seed, folder) for seed in range(count)))
+    for name in FAULTS:
+        yield from filter(None, (input_fault(name, seed, folder) for seed in range(-(-count // 3))))

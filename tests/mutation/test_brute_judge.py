@@ -1,0 +1,92 @@
+"""Gouge and excess of the judge against a brute-force search, to a millionth of a millimetre."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import styluscam as sc
+from brute_judge import Solid
+from convex_tool import Tool
+
+from .cases import document, lopsided, roof, stack, terrain
+
+BALL = {"kind": "ball", "diameter": 4.0}
+CLOTHOID = {"kind": "clothoid", "diameter": 4.0}
+FLAT = {"kind": "flat", "diameter": 4.0}
+BULL_NOSE = {"kind": "bull-nose", "diameter": 4.0, "corner_radius": 0.7}
+CONE = {"kind": "cone", "diameter": 4.0, "half_angle_deg": 30.0}
+TAPERED_BALL = {"kind": "tapered-ball", "tip_radius": 0.5, "diameter": 4.0, "half_angle_deg": 20.0}
+BACK = ({"thickness": 0.5}, "back")
+MIDDLE_BY_SINE = ({"thickness": 0.5, "law": "sine"}, "mid")
+
+PARTS = {
+    "block": stack(4, [(10, 0), (6, 4)]),
+    "pit": lopsided(stack(6, [(14, 4), (10, 4), (6, 0)])),
+    "roof": roof(30.0),
+    "terrain": terrain(3, side=3),
+    "leaf": (np.array([[0.0, 0.0, 0.0], [9.0, 1.0, 1.0], [2.0, 8.0, 2.5]]), np.array([[0, 1, 2]])),
+}
+WAYS: dict[str, list[tuple[list[float], list[float]]]] = {
+    "block": [
+        ([-9, -4, 3.9], [8, -4, 3.8]),
+        ([-3, -2, 4.2], [5, 3, 3.7]),
+        ([7.5, -1, 1.6], [7.2, 1, 1.8]),
+        ([5, 5, 2.4], [9, 9, 1.1]),
+    ],
+    "pit": [([-3, -2, 0.4], [2, 1, -0.1]), ([-6, 0, 2.0], [-6, 2, 2.2]), ([0, 0, 0.3], [6.2, 3, 3.0])],
+    "roof": [([2, -4, 2.2], [15, 5, 2.1]), ([2, -2, 4.4], [15, 2.5, 4.4]), ([3, 6, 1.2], [4, -7, 0.9])],
+    "terrain": [([1, 1, 1.2], [7, 6, 1.0]), ([0, 7, 1.5], [8, 0.5, 1.1])],
+    "leaf": [([-1, 2, 1.0], [8, 3, 0.9]), ([2, 2, 0.9], [3, 7, 2.1]), ([5, -2, 0.5], [5, 5, 1.6])],
+}
+"""Straight ways of the tip, in the part's own frame; with a sheet they are raised by what lies between."""
+
+TOOLS: dict[str, tuple[dict[str, Any], Any]] = {
+    "ball": (BALL, None),
+    "ball with a flat": ({**BALL, "tip_flat": 0.5}, None),
+    "clothoid": (CLOTHOID, None),
+    "bull nose": (BULL_NOSE, None),
+    "tapered ball": (TAPERED_BALL, None),
+    "flat": (FLAT, None),
+    "cone": (CONE, None),
+    "ball over a sheet": (BALL, BACK),
+    "clothoid over a sheet": (CLOTHOID, BACK),
+    "ball over a sheet by the sine law": (BALL, MIDDLE_BY_SINE),
+}
+SHARP = ("flat", "cone")
+"""Their rims and tips have no radius: how deep they are in is another question on every side of them."""
+SHALLOW = 0.4
+"""mm: less than the least radius of curvature of the other tools."""
+
+
+def text_of(start: list[float], end: list[float]) -> str:
+    ends = [" ".join(f"{axis}{value:.6f}" for axis, value in zip("XYZ", place, strict=True)) for place in (start, end)]
+    return (
+        "G21 G90 G94 G17 G40 G49 G80\nG54\nG64 P0.001 Q0\nT1 M6\nG43 H1\nG0 Z50\n"
+        f"X{start[0]:.6f} Y{start[1]:.6f}\nG1 {ends[0]} F300\n{ends[1]} F1500\nG0 Z50\nM2\n"
+    )
+
+
+@pytest.mark.parametrize("part", WAYS)
+@pytest.mark.parametrize("name", TOOLS)
+def test_gouge_and_excess_are_those_of_the_brute_force(name: str, part: str) -> None:
+    profile, sheet = TOOLS[name]
+    made = document("zig-zag", profile, {"name": "linuxcnc"}, sheet=sheet)
+    made["setup"]["zero"] = "model"
+    vertices, triangles = PARTS[part]
+    job = sc.Job.from_dict(made, part=sc.Part.from_mesh(vertices, triangles))
+    tool, solid = Tool.of(profile, *(sheet or ())), Solid(vertices[triangles])
+    for low, high in WAYS[part]:
+        start, end = ([x, y, z + tool.raised] for x, y, z in (low, high))
+        report = sc.verify(text_of(start, end), job)
+        across = solid.deepest(tool, start, end)
+        down = solid.deepest(tool, [*start[:2], 50.0], start)
+        depth = max(0.0, -across.value, -down.value)
+        if depth < (1e-6 if name in SHARP else SHALLOW):
+            assert report.gouge_max == pytest.approx(depth, abs=1e-6)
+        else:
+            assert report.gouge_max > 0.2 * depth
+        looked_at = solid.clearances(tool, np.linspace(start, end, 3))
+        assert report.excess_max == pytest.approx(max(0.0, looked_at.max()), abs=1e-6)

@@ -1,0 +1,36 @@
+"""Sound programs pass: no false alarm, and the oracle agrees that they are sound."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import matters
+import styluscam as sc
+from gcode import read
+
+from .cases import Case, made_case
+
+SLICE = 12
+
+
+def require_sound(case: Case) -> None:
+    report = sc.verify(case.text, case.job)
+    assert report.ok and report.findings == [], [finding["message"] for finding in report.findings]
+    program = read(case.text, case.family)
+    assert program.refused is None
+    verdict = matters.Verdict()
+    matters.weigh_moves(program.moves, case.wanted, verdict)
+    assert not verdict.matters, verdict.reasons
+
+
+@pytest.mark.parametrize("number", range(SLICE))
+def test_a_sound_program_passes(number: int, folder: Path) -> None:
+    require_sound(made_case(number, folder))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("number", range(SLICE, 200))
+def test_two_hundred_sound_programs_pass(number: int, folder: Path) -> None:
+    require_sound(made_case(number, folder))

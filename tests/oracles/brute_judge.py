@@ -1,0 +1,169 @@
+"""Gouge and excess by brute force: the distance of the part's edges and faces to the tool, searched place by place.
+
+A convex function is least on a triangle at an edge, or where a plane beside the triangle's touches the tool. Along an edge
+and along a move it is least between the neighbours of the best place of a grid: so every search narrows a grid. What the
+distance cannot reach (it changes by a mm per mm at most) is not looked at. Lengths in mm.
+
+Where the tool is in deeper than its radius of curvature there (at a sharp rim: anywhere), that it is in is certain, and
+how deep is not: points of the part and points of the tool then measure different depths.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from convex_tool import Floats, Tool
+
+GRID = 9
+FINE = 14
+"""Times that a grid is narrowed to a quarter: to 1e-8 of its length."""
+ROUGH = 6
+"""To 1e-3 of its length: what decides whether 0.02 mm matter."""
+PAIRS = 20_000
+"""Pairs of a place and an edge that are searched at a time."""
+
+
+@dataclass(frozen=True)
+class Deepest:
+    """The least distance along a way, and where the tip stands there."""
+
+    value: float
+    tip: Floats
+
+
+class Solid:
+    """A part as edges and faces; triangles (T, 3, 3) of some area."""
+
+    def __init__(self, triangles: Floats) -> None:
+        sides = np.concatenate([triangles[:, [i, (i + 1) % 3]] for i in range(3)])
+        turned = [tuple(map(tuple, sorted(side.tolist()))) for side in np.round(sides, 9)]
+        _, first = np.unique(np.array(turned).reshape(-1, 6), axis=0, return_index=True)
+        self.edges = sides[first]
+        normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+        normals /= np.linalg.norm(normals, axis=1)[:, None]
+        normals *= np.where(normals[:, 2] < 0, -1.0, 1.0)[:, None]
+        up = normals[:, 2] > 1e-9
+        self.faces, self.normals = triangles[up], normals[up]
+
+    def clearances(self, tool: Tool, tips: Floats, steps: int = FINE) -> Floats:
+        """Least signed distance of the part to the tool at each tip (N, 3): negative where it is entered."""
+        best = np.full(len(tips), np.inf)
+        rows = max(1, PAIRS // len(self.edges))
+        for place in range(0, len(tips), rows):
+            chunk = slice(place, place + rows)
+            best[chunk] = self._clearances(tool, tips[chunk], steps)
+        return best
+
+    def deepest(self, tool: Tool, start: Floats, end: Floats, steps: int = FINE) -> Deepest:
+        """The least signed distance over a straight way of the tip."""
+        start, end = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
+        tips = np.stack([start, end])
+        at_faces = self._at_faces(tool, tips)
+        least = Deepest(float(at_faces.min()), tips[at_faces.argmin()])
+        bound, ways = (
+            self.clearances(tool, start + np.linspace(0, 1, 17)[:, None] * (end - start), ROUGH).min(),
+            end - start,
+        )
+        near = self.edges[self._may_reach(tool, start, ways, float(bound))]
+
+        def along(shares: Floats) -> Floats:
+            """(E, G): the least on each edge."""
+            places = start + shares[..., None] * ways
+            return _least_on(tool, np.repeat(near, shares.shape[1], axis=0), places.reshape(-1, 3), steps).reshape(
+                shares.shape
+            )
+
+        values, shares = _narrowed(along, len(near), steps)
+        if len(near) and values.min() < least.value:
+            least = Deepest(float(values.min()), start + shares[values.argmin()] * ways)
+        return least
+
+    def nearest(self, tool: Tool, tip: Floats, within: float) -> Floats | None:
+        """A point of the part that the tool at a tip is nearest to; none if it is farther off than `within`."""
+        best = (within, None)
+        for corners, normal in zip(self.faces, self.normals, strict=True):
+            gap, over = _over_face(tool, tip[None], corners, normal)
+            if gap[0] < best[0]:
+                best = (float(gap[0]), over[0])
+        first, way = self.edges[:, 0] - tip, self.edges[:, 1] - self.edges[:, 0]
+        values, shares = _narrowed(
+            lambda t: _distances(tool, first[:, None] + t[..., None] * way[:, None]), len(first), ROUGH
+        )
+        if values.min() < best[0]:
+            edge = values.argmin()
+            best = (float(values.min()), self.edges[edge, 0] + shares[edge] * way[edge])
+        return best[1]
+
+    def _clearances(self, tool: Tool, tips: Floats, steps: int) -> Floats:
+        middles = self.edges.mean(axis=1)
+        halves = 0.5 * np.linalg.norm(self.edges[:, 1] - self.edges[:, 0], axis=1)
+        at_middles = _distances(tool, middles[None] - tips[:, None])
+        best = np.minimum(at_middles.min(axis=1), self._at_faces(tool, tips))
+        rows, edges = np.nonzero(at_middles - halves[None] < best[:, None])
+        np.minimum.at(best, rows, _least_on(tool, self.edges[edges], tips[rows], steps))
+        return best
+
+    def _at_faces(self, tool: Tool, tips: Floats) -> Floats:
+        """Least distance at each tip over the faces above which the touching point lies."""
+        best = np.full(len(tips), np.inf)
+        for corners, normal in zip(self.faces, self.normals, strict=True):
+            best = np.minimum(best, _over_face(tool, tips, corners, normal)[0])
+        return best
+
+    def _may_reach(self, tool: Tool, start: Floats, way: Floats, bound: float) -> Floats:
+        """Which edges may come as near as the bound."""
+        shares = np.linspace(0.0, 1.0, 33)
+        tips = start + shares[:, None] * way
+        half = 0.5 * np.linalg.norm(way) / (len(shares) - 1)
+        middles = self.edges.mean(axis=1)
+        halves = 0.5 * np.linalg.norm(self.edges[:, 1] - self.edges[:, 0], axis=1)
+        return np.asarray(_distances(tool, middles[None] - tips[:, None]).min(axis=0) - halves - half <= bound)
+
+
+def _distances(tool: Tool, points: Floats) -> Floats:
+    return tool.distance(points.reshape(-1, 3)).reshape(points.shape[:-1])
+
+
+def _over_face(tool: Tool, tips: Floats, corners: Floats, normal: Floats) -> tuple[Floats, Floats]:
+    """Gap along a face's normal for each tip, and the touching point's foot; infinite where that is not on the face.
+
+    A foot that the tool does not hold belongs to a face behind the one that is entered.
+    """
+    radius, height = tool.support(math.acos(min(normal[2], 1.0)))
+    flat = math.hypot(normal[0], normal[1])
+    out = -normal[:2] / flat * radius if flat > 1e-12 else np.zeros(2)
+    touching = tips + np.array([out[0], out[1], height])
+    gaps = (touching - corners[0]) @ normal
+    feet = touching - gaps[:, None] * normal
+    turns = np.array([np.cross(corners[(i + 1) % 3] - corners[i], feet - corners[i]) @ normal for i in range(3)])
+    inside = np.all(turns >= 0, axis=0) | np.all(turns <= 0, axis=0)
+    inside &= (gaps >= 0) | (tool.distance(feet - tips) < 0)
+    return np.where(inside, gaps, np.inf), feet
+
+
+def _least_on(tool: Tool, edges: Floats, tips: Floats, steps: int) -> Floats:
+    """Least distance on each of N edges (N, 2, 3) for the tip (N, 3) of the same row."""
+    first, way = edges[:, 0] - tips, edges[:, 1] - edges[:, 0]
+    return _narrowed(lambda t: _distances(tool, first[:, None] + t[..., None] * way[:, None]), len(tips), steps)[0]
+
+
+def _narrowed(function: Callable[[Floats], Floats], count: int, steps: int) -> tuple[Floats, Floats]:
+    """Least values of `count` convex functions over 0 to 1, and where; the function takes (count, GRID) places."""
+    low, width = np.zeros(count), np.ones(count)
+    best, where = np.full(count, np.inf), np.zeros(count)
+    rows = np.arange(count)
+    for _ in range(steps):
+        grid = low[:, None] + width[:, None] * np.linspace(0.0, 1.0, GRID)
+        values = function(grid)
+        least = values.argmin(axis=1)
+        better = values[rows, least] < best
+        best = np.where(better, values[rows, least], best)
+        where = np.where(better, grid[rows, least], where)
+        step = width / (GRID - 1)
+        low = np.clip(grid[rows, least] - step, 0.0, 1.0)
+        width = np.minimum(2 * step, 1.0 - low)
+    return best, where
