@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import styluscam as sc
+from arcs import with_arcs
 from brute_judge import Solid
 from convex_tool import Floats, Tool
 from gcode import Family
@@ -72,6 +73,10 @@ PARTS: dict[str, Mesh] = {
     "hills": terrain(2, side=4, pitch=6.0, height=3.0),
     "roof": lopsided(roof(35.0)),
 }
+ROUND: dict[str, Mesh] = {
+    "cone": stack(360, [(13, 0), (10, 0), (5, -5)]),
+    "hill": stack(360, [(13, 0), (10, 0), (5, 5)]),
+}
 LEVELLED = ["pit", "bump", "cup", "steps", "spire"]
 
 PROFILES: list[Document] = [
@@ -98,6 +103,8 @@ class Case:
     mesh: Mesh
     document: Document
     family: Family
+    arcs: int = 0
+    """Arcs to a loop about the model's axis; 0 leaves the chords."""
 
     @property
     def job(self) -> sc.Job:
@@ -106,7 +113,12 @@ class Case:
     @cached_property
     def text(self) -> str:
         """The sound program."""
-        return sc.post(sc.plan(self.job)).text
+        text = sc.post(sc.plan(self.job)).text
+        if not self.arcs:
+            return text
+        zero = self.document["setup"].get("zero", [0.0, 0.0, 0.0])
+        is_pit = self.mesh[0][-1, 2] < 0
+        return with_arcs(text, self.family, (-zero[0], -zero[1]), inside=is_pit, pieces=self.arcs)
 
     @cached_property
     def wanted(self) -> Wanted:
@@ -196,6 +208,20 @@ def made_case(number: int, folder: Path) -> Case:
     if family == "linuxcnc" and draw.random() < 0.25:
         _add_second(made, draw)
     return Case(f"{number}: {kind} of {part} by {profile['kind']} on {machine}", PARTS[part], made, family)
+
+
+def arc_case(number: int, folder: Path) -> Case:
+    """The case of a number on a round part: its loops are arcs, whole circles, halves or quarters."""
+    draw = random.Random(number)
+    part, mesh = draw.choice(list(ROUND.items()))
+    machine, (section, family) = draw.choice(list(machines(folder).items()))
+    profile = draw.choice(PROFILES[:3])
+    made = document("z-level", profile, section)
+    made["setup"]["zero"] = [draw.choice([0.0, 2.0]), -3.0, 0.0]
+    pieces = draw.choice([1, 2, 4])
+    return Case(
+        f"arcs {number}: {part} by {profile['kind']} on {machine}, {pieces} to a loop", mesh, made, family, pieces
+    )
 
 
 def _add_second(made: Document, draw: random.Random) -> None:

@@ -18,7 +18,7 @@ from defects import KINDS, Text
 from faulty_inputs import FAULTS
 from matters import Verdict
 
-from .cases import Case, made_case
+from .cases import Case, arc_case, made_case
 
 POOL = 200
 """Sound programs from which those to be spoilt are drawn."""
@@ -62,7 +62,8 @@ def text_defect(kind: str, seed: int, folder: Path) -> Trial | None:
     draw = random.Random(f"{kind} {seed}")
     suits = SUITS.get(kind, lambda case: True)
     for _ in range(TRIES):
-        case = made_case(draw.randrange(POOL), folder)
+        make = arc_case if kind in ARCS else made_case
+        case = make(draw.randrange(POOL), folder)
         if not suits(case):
             continue
         changed = KINDS[kind](Text(case.text, case.family), draw)

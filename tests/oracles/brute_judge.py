@@ -23,7 +23,7 @@ FINE = 14
 """Times that a grid is narrowed to a quarter: to 1e-8 of its length."""
 ROUGH = 6
 """To 1e-3 of its length: what decides whether 0.02 mm matter."""
-PAIRS = 20_000
+PAIRS = 100_000
 """Pairs of a place and an edge that are searched at a time."""
 
 
@@ -84,11 +84,10 @@ class Solid:
 
     def nearest(self, tool: Tool, tip: Floats, within: float) -> Floats | None:
         """A point of the part that the tool at a tip is nearest to; none if it is farther off than `within`."""
-        best = (within, None)
-        for corners, normal in zip(self.faces, self.normals, strict=True):
-            gap, over = _over_face(tool, tip[None], corners, normal)
-            if gap[0] < best[0]:
-                best = (float(gap[0]), over[0])
+        best: tuple[float, Floats | None] = (within, None)
+        gaps, feet = self._over_faces(tool, tip[None])
+        if len(self.faces) and gaps[0].min() < within:
+            best = (float(gaps[0].min()), feet[0, gaps[0].argmin()])
         first, way = self.edges[:, 0] - tip, self.edges[:, 1] - self.edges[:, 0]
         values, shares = _narrowed(
             lambda t: _distances(tool, first[:, None] + t[..., None] * way[:, None]), len(first), ROUGH
@@ -109,10 +108,33 @@ class Solid:
 
     def _at_faces(self, tool: Tool, tips: Floats) -> Floats:
         """Least distance at each tip over the faces above which the touching point lies."""
-        best = np.full(len(tips), np.inf)
-        for corners, normal in zip(self.faces, self.normals, strict=True):
-            best = np.minimum(best, _over_face(tool, tips, corners, normal)[0])
-        return best
+        return np.asarray(self._over_faces(tool, tips)[0].min(axis=1, initial=np.inf))
+
+    def _over_faces(self, tool: Tool, tips: Floats) -> tuple[Floats, Floats]:
+        """Gaps along the faces' normals (N, F), and the touching points' feet; infinite where those are not on the faces.
+
+        A foot that the tool does not hold belongs to a face behind the one that is entered.
+        """
+        touching = tips[:, None] + self._touching(tool)
+        gaps = np.einsum("nfi,fi->nf", touching - self.faces[:, 0], self.normals)
+        feet = touching - gaps[..., None] * self.normals
+        sides = [(self.faces[:, i], self.faces[:, (i + 1) % 3]) for i in range(3)]
+        turns = np.array([np.einsum("nfi,fi->nf", np.cross(b - a, feet - a), self.normals) for a, b in sides])
+        inside = np.all(turns >= 0, axis=0) | np.all(turns <= 0, axis=0)
+        entered = inside & (gaps < 0)
+        rows = np.nonzero(entered)[0]
+        inside[entered] = tool.distance(feet[entered] - tips[rows]) < 0
+        return np.where(inside, gaps, np.inf), feet
+
+    def _touching(self, tool: Tool) -> Floats:
+        """The tool's point that a plane along each face touches (F, 3)."""
+        points = np.empty((len(self.faces), 3))
+        for row, normal in enumerate(self.normals):
+            radius, height = tool.support(math.acos(min(normal[2], 1.0)))
+            flat = math.hypot(normal[0], normal[1])
+            out = -normal[:2] / flat * radius if flat > 1e-12 else np.zeros(2)
+            points[row] = out[0], out[1], height
+        return points
 
     def _may_reach(self, tool: Tool, start: Floats, way: Floats, bound: float) -> Floats:
         """Which edges may come as near as the bound."""
@@ -126,23 +148,6 @@ class Solid:
 
 def _distances(tool: Tool, points: Floats) -> Floats:
     return tool.distance(points.reshape(-1, 3)).reshape(points.shape[:-1])
-
-
-def _over_face(tool: Tool, tips: Floats, corners: Floats, normal: Floats) -> tuple[Floats, Floats]:
-    """Gap along a face's normal for each tip, and the touching point's foot; infinite where that is not on the face.
-
-    A foot that the tool does not hold belongs to a face behind the one that is entered.
-    """
-    radius, height = tool.support(math.acos(min(normal[2], 1.0)))
-    flat = math.hypot(normal[0], normal[1])
-    out = -normal[:2] / flat * radius if flat > 1e-12 else np.zeros(2)
-    touching = tips + np.array([out[0], out[1], height])
-    gaps = (touching - corners[0]) @ normal
-    feet = touching - gaps[:, None] * normal
-    turns = np.array([np.cross(corners[(i + 1) % 3] - corners[i], feet - corners[i]) @ normal for i in range(3)])
-    inside = np.all(turns >= 0, axis=0) | np.all(turns <= 0, axis=0)
-    inside &= (gaps >= 0) | (tool.distance(feet - tips) < 0)
-    return np.where(inside, gaps, np.inf), feet
 
 
 def _least_on(tool: Tool, edges: Floats, tips: Floats, steps: int) -> Floats:

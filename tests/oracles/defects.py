@@ -528,8 +528,8 @@ def comment_open(text: Text, random_: random.Random) -> str | None:
 
 @kind
 def arc_turned(text: Text, random_: random.Random) -> str | None:
-    """G2 for G3, or the other way round."""
-    arcs = [m for m in text.moves if m.kind == "arc"]
+    """G2 for G3, or the other way round, where that is not the same circle."""
+    arcs = [m for m in text.moves if m.kind == "arc" and m.start != m.end]
     if not arcs:
         return None
     arc = random_.choice(arcs)
@@ -540,7 +540,7 @@ def arc_turned(text: Text, random_: random.Random) -> str | None:
 
 @kind
 def arc_centre(text: Text, random_: random.Random) -> str | None:
-    """I or J by 0.02 mm: what controllers still take for an arc, and most."""
+    """I or J by 0.02 units: controllers take some of it for an arc still."""
     number = _chosen(random_, text.numbers_of(r"[IJ]-?\d"))
     if number is None:
         return None
