@@ -10,6 +10,7 @@ import pytest
 import styluscam as sc
 from brute_judge import Solid
 from convex_tool import Tool
+from gcode import read
 
 from .cases import document, lopsided, roof, stack, terrain
 
@@ -82,11 +83,46 @@ def test_gouge_and_excess_are_those_of_the_brute_force(name: str, part: str) -> 
         start, end = ([x, y, z + tool.raised] for x, y, z in (low, high))
         report = sc.verify(text_of(start, end), job)
         across = solid.deepest(tool, start, end)
-        down = solid.deepest(tool, [*start[:2], 50.0], start)
+        down = solid.deepest(tool, [*start[:2], start[2] + 3.0], start)
         depth = max(0.0, -across.value, -down.value)
         if depth < (1e-6 if name in SHARP else SHALLOW):
             assert report.gouge_max == pytest.approx(depth, abs=1e-6)
         else:
             assert report.gouge_max > 0.2 * depth
         looked_at = solid.clearances(tool, np.linspace(start, end, 3))
+        assert report.excess_max == pytest.approx(max(0.0, looked_at.max()), abs=1e-6)
+
+
+ARC_WAYS: dict[str, list[tuple[list[float], list[float], list[float], str]]] = {
+    "block": [([7.6, 0, 1.5], [-7.6, 0, 1.7], [-7.6, 0], "G3"), ([-4, -4, 3.9], [4, 4, 4.05], [4, 4], "G2")],
+    "pit": [([5.0, 0, 1.1], [5.0, 0, 0.9], [-5.0, 0], "G2"), ([-2, 1, 0.05], [2, 3, -0.1], [2, 1], "G3")],
+    "roof": [([4, -4, 2.2], [4, 4, 2.2], [3, 4], "G3"), ([14, 1, 4.3], [8, 1, 4.35], [-3, 2], "G2")],
+    "leaf": [([0, 2, 1.2], [6, 2, 0.9], [3, 1], "G3")],
+}
+"""Start, end and centre from the start, which rises or falls along the way; each is a turn about Z."""
+
+
+@pytest.mark.parametrize("part", ARC_WAYS)
+@pytest.mark.parametrize("name", ["ball", "bull nose", "tapered ball", "ball over a sheet"])
+def test_arcs_are_those_of_the_brute_force(name: str, part: str) -> None:
+    profile, sheet = TOOLS[name]
+    made = document("zig-zag", profile, {"name": "linuxcnc"}, sheet=sheet)
+    made["setup"]["zero"] = "model"
+    vertices, triangles = PARTS[part]
+    job = sc.Job.from_dict(made, part=sc.Part.from_mesh(vertices, triangles))
+    tool, solid = Tool.of(profile, *(sheet or ())), Solid(vertices[triangles])
+    for low, high, centre, code in ARC_WAYS[part]:
+        start, end = ([x, y, z + tool.raised] for x, y, z in (low, high))
+        arc = f"{code} I{centre[0]:.6f} J{centre[1]:.6f}"
+        text = text_of(start, end).replace("F300\n", f"F300\n{arc} ")
+        report = sc.verify(text, job)
+        (move,) = [m for m in read(text, "linuxcnc").moves if m.kind == "arc"]
+        deepest = solid.deepest_along(tool, lambda shares, move=move: np.array([move.at(share) for share in shares]))
+        depth = max(0.0, -deepest.value, -solid.deepest(tool, [*start[:2], start[2] + 3.0], start).value)
+        if depth < SHALLOW:
+            assert report.gouge_max == pytest.approx(depth, abs=1e-6)
+        else:
+            assert report.gouge_max > 0.2 * depth
+        pieces = int(np.ceil(move.angle / np.radians(15.0) - 1e-9))
+        looked_at = solid.clearances(tool, np.array([move.at(i / (2 * pieces)) for i in range(2 * pieces + 1)]))
         assert report.excess_max == pytest.approx(max(0.0, looked_at.max()), abs=1e-6)

@@ -31,7 +31,6 @@ def test_a_sound_program_passes(number: int, folder: Path) -> None:
     require_sound(made_case(number, folder))
 
 
-@pytest.mark.xfail(reason="arcs are not read yet")
 @pytest.mark.parametrize("number", range(ARCS))
 def test_a_sound_program_with_arcs_passes(number: int, folder: Path) -> None:
     require_sound(arc_case(number, folder))

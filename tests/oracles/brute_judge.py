@@ -23,6 +23,10 @@ FINE = 14
 """Times that a grid is narrowed to a quarter: to 1e-8 of its length."""
 ROUGH = 6
 """To 1e-3 of its length: what decides whether 0.02 mm matter."""
+SCAN = 241
+"""Places of a way that is not straight, from which dips are searched."""
+DIP = 0.02
+"""mm by which a scanned dip may be above the deepest and still turn out deeper."""
 PAIRS = 100_000
 """Pairs of a place and an edge that are searched at a time."""
 
@@ -81,6 +85,24 @@ class Solid:
         if len(near) and values.min() < least.value:
             least = Deepest(float(values.min()), start + shares[values.argmin()] * ways)
         return least
+
+    def deepest_along(self, tool: Tool, way: Callable[[Floats], Floats], steps: int = FINE) -> Deepest:
+        """The least signed distance over a smooth way, shares (N,) to tips (N, 3): every dip of a fine scan is searched."""
+        shares = np.linspace(0.0, 1.0, SCAN)
+        values = self.clearances(tool, way(shares), ROUGH)
+        dips = np.nonzero(
+            (values <= np.roll(values, 1)) & (values <= np.roll(values, -1)) & (values < values.min() + DIP)
+        )[0]
+        low = np.maximum(shares[dips] - 1 / (SCAN - 1), 0.0)
+        width = np.minimum(shares[dips] + 1 / (SCAN - 1), 1.0) - low
+
+        def along(inner: Floats) -> Floats:
+            tips = way((low[:, None] + inner * width[:, None]).reshape(-1))
+            return self.clearances(tool, tips, steps).reshape(inner.shape)
+
+        found, where = _narrowed(along, len(dips), steps)
+        best = found.argmin()
+        return Deepest(float(found[best]), way(low[best : best + 1] + where[best] * width[best])[0])
 
     def nearest(self, tool: Tool, tip: Floats, within: float) -> Floats | None:
         """A point of the part that the tool at a tip is nearest to; none if it is farther off than `within`."""

@@ -540,12 +540,13 @@ def arc_turned(text: Text, random_: random.Random) -> str | None:
 
 @kind
 def arc_centre(text: Text, random_: random.Random) -> str | None:
-    """I or J by 0.02 units: controllers take some of it for an arc still."""
-    number = _chosen(random_, text.numbers_of(r"[IJ]-?\d"))
+    """I or J by 0.02 mm: a whole circle is another one then, and LinuxCNC still takes some other arcs."""
+    number = _chosen(random_, text.numbers_of(r"[IJ]-?[\d.]*[1-9]"))
     if number is None:
         return None
-    word, value = re.search(rf"([IJ])({NUMBER})", text.lines[number - 1]).groups()  # type: ignore[union-attr]
-    return text.replaced(number, rf"{word}{NUMBER}", f"{word}{float(value) + random_.choice([-0.02, 0.02]):.3f}")
+    by = random_.choice([-0.02, 0.02]) / (25.4 if text.numbers_of(r"\bG20\b") else 1.0)
+    word, value = random_.choice(re.findall(rf"([IJ])({NUMBER})", text.lines[number - 1]))
+    return text.replaced(number, rf"{word}{NUMBER}", f"{word}{float(value) + by:.4f}")
 
 
 @kind
