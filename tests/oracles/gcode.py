@@ -23,6 +23,7 @@ REFUSED_WORDS = {"linuxcnc": set(), "grbl": {"M6", "M7", "G43", "G64", "G61.1", 
 KNOWN_G = {"0", "1", "2", "3", "4", "17", "18", "19", "20", "21", "40", "43", "49", "61", "64", "80", "90", "91", "94"}
 KNOWN_G |= {"54", "55", "56", "57", "58", "59", "59.1", "59.2", "59.3"}
 KNOWN_M = {"0", "1", "2", "3", "4", "5", "6", "7", "8", "9", "30"}
+LETTERS = set("FGHIJKMNPQRSTXYZ")
 WORD = re.compile(r"\s*([A-Z])\s*([+-]?(?:\d+\.?\d*|\.\d+))")
 COMMENT = re.compile(r"\([^()]*\)")
 PLANE_AXES = {"G17": (0, 1, 2), "G18": (2, 0, 1), "G19": (1, 2, 0)}
@@ -177,6 +178,8 @@ class _Reader:
         if line.strip() == "%":
             return
         words = words_of(line)
+        if unknown := {letter for letter, _ in words} - LETTERS:
+            raise Refused(f"{min(unknown)} is no word")
         codes = [letter + _plain(value) for letter, value in words if letter in "GM"]
         values = {letter: float(value) for letter, value in words if letter not in "GM"}
         if len(values) != sum(letter not in "GM" for letter, _ in words):
