@@ -130,9 +130,7 @@ class Case:
         turned = (
             self.mesh[0] @ np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]]).T
         )
-        raised = next(iter(tools.values())).raised if sheet else 0.0
-        if self.document["tools"]["tool"].get("reference") == "center":
-            raised -= self.document["tools"]["tool"]["profile"]["diameter"] / 2
+        raised = _tool(self.document["tools"]["tool"] | {"reference": "tip"}, sheet, model_face).raised
         top = float(turned[:, 2].max()) + raised
         zero = setup.get("zero", "sheet-top" if sheet else "model")
         origin = (
@@ -141,9 +139,15 @@ class Case:
         return Wanted(
             Solid((turned - np.array(origin))[self.mesh[1]]),
             tools,
+            {
+                t.get("number", 1): _holder(t, sheet, model_face)
+                for t in self.document["tools"].values()
+                if "holder" in t
+            },
             max(operation.get("tolerance", 0.005) for operation in self.document["operations"]),
             top - origin[2] + setup.get("clearance", 10.0),
             self.family,
+            AXES if "file" in self.document["machine"] else None,
             sheet is not None and all(operation["kind"] == "z-level" for operation in self.document["operations"]),
         )
 
@@ -152,6 +156,10 @@ def _tool(section: Document, sheet: Document | None, model_face: str | None) -> 
     tool = Tool.of(section["profile"], sheet, model_face)
     centre = section["profile"]["diameter"] / 2 if section.get("reference") == "center" else 0.0
     return replace(tool, raised=tool.raised + centre)
+
+
+def _holder(section: Document, sheet: Document | None, model_face: str | None) -> Tool:
+    return _tool(section, sheet, model_face).holder(section["holder"]["diameter"], section["length"])
 
 
 def document(
@@ -175,13 +183,22 @@ def document(
     return made
 
 
+AXES = ((-60.0, 60.0), (-60.0, 60.0), (-30.0, 60.0))
+LIMITS = (
+    "".join(f"{axis} = {list(ends)}\n" for axis, ends in zip("xyz", AXES, strict=True))
+    + "max_feed = 3000.0\nmax_rpm = 6000.0\n"
+)
+"""Of the machines in inches: no sound program comes near them."""
+
+
 def machines(folder: Path) -> dict[str, tuple[Document, Family]]:
-    """The shipped machines, and the same ones in inches as files."""
+    """The shipped machines, and the same ones in inches and with limits as files."""
     found: dict[str, tuple[Document, Family]] = {}
     for family in ("linuxcnc", "grbl"):
         file = folder / f"{family}_inch.toml"
         text = (MACHINES / f"{family}.toml").read_text(encoding="utf-8")
-        file.write_text(text.replace('output = "mm"', 'output = "inch"'), encoding="utf-8")
+        text = text.replace('output = "mm"', 'output = "inch"').replace("[limits]\n", f"[limits]\n{LIMITS}")
+        file.write_text(text, encoding="utf-8")
         found[family] = ({"name": family}, family)  # type: ignore[assignment]
         found[f"{family} in inches"] = ({"file": str(file)}, family)  # type: ignore[assignment]
     return found
@@ -203,11 +220,28 @@ def made_case(number: int, folder: Path) -> Case:
     if profile["kind"] == "ball" and "tip_flat" not in profile and draw.random() < 0.5:
         made["tools"]["tool"]["reference"] = "center"
     if sheet is None:
-        made["operations"][0]["spindle"] = {"mode": "fixed", "rpm": 3000.0, "direction": "clockwise"}
-        made["operations"][0]["coolant"] = "flood"
+        made["operations"][0] |= _milled(draw)
+    if draw.random() < 0.5:
+        made["setup"] |= draw.choice(
+            [{"clearance": 5.0, "retract": 0.5}, {"wcs": "G55"}, {"clearance": 20.0, "wcs": "G56"}]
+        )
+    if draw.random() < 0.5:
+        made["operations"][0] |= draw.choice([{"direction": "same"}, {"feeds": {"cut": 900.0, "plunge": 150.0}}])
+    if draw.random() < 0.3:
+        made["tools"]["tool"] |= {"length": 30.0, "holder": {"diameter": 16.0, "length": 20.0}}
     if family == "linuxcnc" and draw.random() < 0.25:
         _add_second(made, draw)
     return Case(f"{number}: {kind} of {part} by {profile['kind']} on {machine}", PARTS[part], made, family)
+
+
+def _milled(draw: random.Random) -> Document:
+    """Spindle and coolant of a milling operation."""
+    turning = {
+        "mode": "fixed",
+        "rpm": draw.choice([3000.0, 5500.0]),
+        "direction": draw.choice(["clockwise", "counterclockwise"]),
+    }
+    return {"spindle": turning, "coolant": draw.choice(["flood", "flood", "off"])}
 
 
 def arc_case(number: int, folder: Path) -> Case:
@@ -215,7 +249,7 @@ def arc_case(number: int, folder: Path) -> Case:
     draw = random.Random(number)
     part, mesh = draw.choice(list(ROUND.items()))
     machine, (section, family) = draw.choice(list(machines(folder).items()))
-    profile = draw.choice(PROFILES[:3])
+    profile = draw.choice([PROFILES[0], PROFILES[2]])
     made = document("z-level", profile, section)
     made["setup"]["zero"] = [draw.choice([0.0, 2.0]), -3.0, 0.0]
     pieces = draw.choice([1, 2, 4])
@@ -229,6 +263,9 @@ def _add_second(made: Document, draw: random.Random) -> None:
     made["tools"]["second"] = {"number": 2, "profile": {"kind": "ball", "diameter": 3.0}}
     second = copy.deepcopy(made["operations"][0])
     second.pop("step", None)
+    if "spindle" in second:
+        second |= _milled(draw)
+    second["feeds"] = {"cut": 1100.0, "plunge": 200.0}
     made["operations"].append(
         second | {"kind": "zig-zag", "tool": "second", "stepover": 3.0, "angle_deg": draw.choice([0.0, 75.0])}
     )

@@ -23,6 +23,7 @@ from .cases import Case, arc_case, made_case
 POOL = 200
 """Sound programs from which those to be spoilt are drawn."""
 TRIES = 60
+SHARE_WITH_ARCS = 0.15
 NEAR = 1
 """Lines by which a finding may miss: what is wrong in a place is wrong on the way to it and from it."""
 
@@ -33,8 +34,8 @@ SUITS: dict[str, Callable[[Case], bool]] = {
     "levels swapped": lambda case: case.wanted.forming,
     "level repeated": lambda case: case.wanted.forming,
     "spindle on": lambda case: case.wanted.forming,
-    "corner missing": lambda case: case.document["operations"][0]["kind"] == "z-level",
-    "lines swapped": lambda case: case.document["operations"][0]["kind"] == "z-level",
+    "corner missing": lambda case: case.document["operations"][0]["kind"] == "z-level" and not case.arcs,
+    "lines swapped": lambda case: case.document["operations"][0]["kind"] == "z-level" and not case.arcs,
 }
 """Cases in which a kind can matter, where that is not all."""
 
@@ -62,7 +63,7 @@ def text_defect(kind: str, seed: int, folder: Path) -> Trial | None:
     draw = random.Random(f"{kind} {seed}")
     suits = SUITS.get(kind, lambda case: True)
     for _ in range(TRIES):
-        make = arc_case if kind in ARCS else made_case
+        make = arc_case if kind in ARCS or draw.random() < SHARE_WITH_ARCS else made_case
         case = make(draw.randrange(POOL), folder)
         if not suits(case):
             continue

@@ -126,3 +126,22 @@ def test_arcs_are_those_of_the_brute_force(name: str, part: str) -> None:
         pieces = int(np.ceil(move.angle / np.radians(15.0) - 1e-9))
         looked_at = solid.clearances(tool, np.array([move.at(i / (2 * pieces)) for i in range(2 * pieces + 1)]))
         assert report.excess_max == pytest.approx(max(0.0, looked_at.max()), abs=1e-6)
+
+
+@pytest.mark.parametrize("sheet", [None, BACK])
+@pytest.mark.parametrize("length", [3.9, 4.4, 4.999, 5.1, 7.0])
+def test_a_holder_collides_where_the_brute_force_says_so(length: float, sheet: Any) -> None:
+    made = document("zig-zag", BALL, {"name": "linuxcnc"}, sheet=sheet)
+    made["setup"]["zero"] = "model"
+    made["tools"]["tool"] |= {"length": length, "holder": {"diameter": 16.0, "length": 20.0}}
+    vertices, triangles = PARTS["pit"]
+    job = sc.Job.from_dict(made, part=sc.Part.from_mesh(vertices, triangles))
+    tool, solid = Tool.of(BALL, *(sheet or ())), Solid(vertices[triangles])
+    start, end = [-2.0, -1.0, tool.raised], [3.0, 1.0, tool.raised]
+    report = sc.verify(text_of(start, end), job)
+    depth = -min(
+        solid.deepest(tool.holder(16.0, length), a, b).value for a, b in ((start, end), ([*start[:2], 9.0], start))
+    )
+    collisions = [finding for finding in report.findings if finding["kind"] == "holder-collision"]
+    assert bool(collisions) == (depth > 0.001), (depth, report.findings)
+    assert all(finding["line"] in (8, 9) for finding in collisions)

@@ -130,6 +130,7 @@ class Tool:
     base: tuple[float, float]
     ball: float = 0.0
     raised: float = 0.0
+    """Of the point that the text moves over the tip that would stand on the model."""
 
     @classmethod
     def of(cls, profile: dict[str, Any], sheet: dict[str, Any] | None = None, model_face: str | None = None) -> Tool:
@@ -139,6 +140,11 @@ class Tool:
         between = share * sheet["thickness"] if sheet else 0.0
         constant = sheet is not None and sheet.get("law", "constant") == "constant"
         return cls(tuple(pieces), base, between if constant else 0.0, between)
+
+    def holder(self, diameter: float, length: float) -> Tool:
+        """A cylinder that begins at a length above this tool's tip and has no end."""
+        radius = diameter / 2
+        return Tool((Line((0.0, 0.0), (radius, 0.0)),), (radius, 0.0), self.ball, self.raised - length)
 
     @property
     def radius(self) -> float:

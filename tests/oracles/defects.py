@@ -55,7 +55,7 @@ class Text:
         """Lines, from 1, in which a pattern is found."""
         return [n for n, line in enumerate(self.lines, 1) if "(" not in line and re.search(pattern, line)]
 
-    def replaced(self, number: int, pattern: str, by: str) -> str:
+    def replaced(self, number: int, pattern: str, by: str | Callable[[re.Match[str]], str]) -> str:
         return self.with_line(number, re.sub(pattern, by, self.lines[number - 1], count=1))
 
 
@@ -429,7 +429,7 @@ def work_plane(text: Text, random_: random.Random) -> str | None:
 
 @kind
 def work_offset(text: Text, random_: random.Random) -> str | None:
-    return _header(text, r"^G54\b", random_.choice(["G55", "G56", "G59"]))
+    return _header(text, r"^G5[4-6]\b", random_.choice(["G57", "G58", "G59"]))
 
 
 @kind
@@ -480,7 +480,9 @@ def spindle_missing(text: Text, random_: random.Random) -> str | None:
 @kind
 def spindle_turned(text: Text, random_: random.Random) -> str | None:
     number = _chosen(random_, text.numbers_of(r"\bM[34]\b"))
-    return None if number is None else text.replaced(number, r"\bM3\b", "M4")
+    return (
+        None if number is None else text.replaced(number, r"\bM([34])\b", lambda word: "M4" if word[1] == "3" else "M3")
+    )
 
 
 @kind
@@ -514,6 +516,82 @@ def dwell(text: Text, random_: random.Random) -> str | None:
 def end_missing(text: Text, random_: random.Random) -> str | None:
     number = _chosen(random_, text.numbers_of(r"^M(2|30)$"))
     return None if number is None else text.with_line(number, None)
+
+
+@kind
+def program_stop(text: Text, random_: random.Random) -> str | None:
+    """The tool waits on the part until somebody comes."""
+    number = _chosen(random_, [m.line for m in text.contacts])
+    return None if number is None else text.with_line(number, f"M0\n{text.lines[number - 1]}")
+
+
+@kind
+def spindle_stops(text: Text, random_: random.Random) -> str | None:
+    """M5 among the cuts."""
+    number = _chosen(random_, [m.line for m in text.contacts if m.state.spindle != "M5"])
+    return None if number is None else text.with_line(number, f"M5\n{text.lines[number - 1]}")
+
+
+@kind
+def end_early(text: Text, random_: random.Random) -> str | None:
+    """M2 among the cuts; LinuxCNC does not look at what follows."""
+    if text.family != "linuxcnc":
+        return None
+    number = _chosen(random_, [m.line for m in text.contacts])
+    return None if number is None else text.with_line(number, f"M2\n{text.lines[number - 1]}")
+
+
+@kind
+def percent_inside(text: Text, random_: random.Random) -> str | None:
+    """Two programs in one file: the first one's last % ends the text."""
+    if text.family != "linuxcnc":
+        return None
+    number = _chosen(random_, [m.line for m in text.contacts])
+    return None if number is None else "%\n" + text.with_line(number, f"%\n{text.lines[number - 1]}")
+
+
+@kind
+def block_deleted(text: Text, random_: random.Random) -> str | None:
+    """A slash before the lift, which LinuxCNC skips."""
+    lifts = [b.line for a, b in itertools.pairwise(text.moves) if b.kind == "rapid" and a.kind != "rapid"]
+    number = _chosen(random_, lifts) if text.family == "linuxcnc" else None
+    return None if number is None else text.with_line(number, f"/{text.lines[number - 1]}")
+
+
+@kind
+def newline_lost(text: Text, random_: random.Random) -> str | None:
+    """Two moves in one line."""
+    pairs = [a.line for a, b in itertools.pairwise(text.contacts) if b.line == a.line + 1]
+    number = _chosen(random_, pairs)
+    if number is None:
+        return None
+    joined = f"{text.lines[number - 1]} {text.lines[number]}"
+    return Text(text.with_line(number + 1, None), text.family).with_line(number, joined)
+
+
+@kind
+def commented_out(text: Text, random_: random.Random) -> str | None:
+    """A lift or a rapid across in brackets."""
+    rapids = [m for m in text.moves if m.kind == "rapid" and (m.end[2] > m.start[2] or m.end[:2] != m.start[:2])]
+    number = _chosen(random_, [m.line for m in rapids])
+    return None if number is None else text.with_line(number, f"({text.lines[number - 1]})")
+
+
+@kind
+def decimal_comma(text: Text, random_: random.Random) -> str | None:
+    number = _chosen(random_, text.numbers_of(r"[XYZ]-?\d+\.\d"))
+    return None if number is None else text.replaced(number, r"([XYZ]-?\d+)\.", r"\1,")
+
+
+@kind
+def offset_by_g92(text: Text, random_: random.Random) -> str | None:
+    number = _chosen(random_, [m.line for m in text.moves])
+    return None if number is None else text.with_line(number, f"G92 X0.1\n{text.lines[number - 1]}")
+
+
+@kind
+def inverse_time(text: Text, random_: random.Random) -> str | None:
+    return _header(text, r"G94\b", "G93")
 
 
 @kind

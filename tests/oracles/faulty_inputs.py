@@ -233,7 +233,7 @@ def clearance_too_low(mesh: Mesh, document: Document) -> tuple[Mesh, Document] |
 
 @fault
 def wrong_work_offset(mesh: Mesh, document: Document) -> tuple[Mesh, Document] | None:
-    document["setup"]["wcs"] = "G55"
+    document["setup"]["wcs"] = "G58"
     return mesh, document
 
 

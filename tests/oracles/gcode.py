@@ -23,6 +23,19 @@ REFUSED_WORDS = {"linuxcnc": set(), "grbl": {"M6", "M7", "G43", "G64", "G61.1", 
 KNOWN_G = {"0", "1", "2", "3", "4", "17", "18", "19", "20", "21", "40", "43", "49", "61", "64", "80", "90", "91", "94"}
 KNOWN_G |= {"54", "55", "56", "57", "58", "59", "59.1", "59.2", "59.3"}
 KNOWN_M = {"0", "1", "2", "3", "4", "5", "6", "7", "8", "9", "30"}
+MODAL = (
+    {"G0", "G1", "G2", "G3", "G80"},
+    {"G17", "G18", "G19"},
+    {"G20", "G21"},
+    {"G90", "G91"},
+    {"G43", "G49"},
+    {"G61", "G64"},
+    {"M3", "M4", "M5"},
+    {"M0", "M1", "M2", "M30"},
+)
+"""Words of which a line takes one."""
+WAIT = 60.0
+"""What M0 waits at least, s."""
 LETTERS = set("FGHIJKMNPQRSTXYZ")
 WORD = re.compile(r"\s*([A-Z])\s*([+-]?(?:\d+\.?\d*|\.\d+))")
 COMMENT = re.compile(r"\([^()]*\)")
@@ -171,16 +184,26 @@ class _Reader:
         self.family = family
         self.state = State()
         self.motion = ""
+        self.begun = False
+        self.framed = False
         self.place = [math.nan, math.nan, math.nan]
         self.program = Program(family)
 
     def take(self, line: str, number: int) -> None:
         if line.strip() == "%":
+            self._percent()
             return
+        if line.startswith("/"):
+            if self.family == "linuxcnc":
+                return
+            line = line[1:]
+        self.begun = True
         words = words_of(line)
         if unknown := {letter for letter, _ in words} - LETTERS:
             raise Refused(f"{min(unknown)} is no word")
         codes = [letter + _plain(value) for letter, value in words if letter in "GM"]
+        if any(len(group & set(codes)) > 1 for group in MODAL):
+            raise Refused("two words of one group")
         values = {letter: float(value) for letter, value in words if letter not in "GM"}
         if len(values) != sum(letter not in "GM" for letter, _ in words):
             raise Refused("a word stands twice")
@@ -192,6 +215,13 @@ class _Reader:
         self._move(codes, values, number)
         if {"M2", "M30"} & set(codes):
             self.program.ended = True
+
+    def _percent(self) -> None:
+        """The first one opens the text when nothing stands before it; the second ends it, and nothing else ends with it."""
+        if self.family == "grbl" or (self.begun and not self.framed):
+            raise Refused("% is not known here")
+        self.program.ended = self.framed
+        self.framed = True
 
     def _modes(self, codes: list[str], values: dict[str, float]) -> None:
         state = self.state
@@ -224,6 +254,8 @@ class _Reader:
             state = replace(state, length_offset=int(values.get("H", state.tool)))
         if "G49" in codes:
             state = replace(state, length_offset=0)
+        if "M0" in codes:
+            state = replace(state, paused=state.paused + WAIT)
         if "G4" in codes:
             if "P" not in values:
                 raise Refused("G4 without P")

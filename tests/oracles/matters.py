@@ -7,6 +7,7 @@ of the judge that is tested. What changed is looked at, and of much that changed
 from __future__ import annotations
 
 import difflib
+import itertools
 import math
 from collections import Counter
 from dataclasses import dataclass, field
@@ -26,6 +27,8 @@ TIME_SHARE = 0.02
 SURE = 2e-4
 """What rough searches may miss, mm: nearer to a limit nothing is said to matter."""
 GOUGE = 0.001
+ROUNDED = 0.002
+"""What the last place of an inch may take off a height, mm."""
 RAPID_GAP = 0.05
 """Air under a rapid that comes down, mm."""
 
@@ -37,11 +40,15 @@ class Wanted:
     solid: Solid
     tools: dict[int, Tool]
     """By number; tip at the point that the text moves."""
+    holders: dict[int, Tool]
+    """What is above the tools that have a holder."""
     excess: float
     """How far off the part a contact move may be, mm."""
     clearance: float
     """Height from which rapids may go across, mm."""
     family: Family
+    axes: tuple[tuple[float, float], ...] | None
+    """Lowest and highest place of X, Y and Z, mm, where the machine says so."""
     forming: bool
     """Whether levels must come one below the other."""
 
@@ -68,6 +75,8 @@ def weigh(sound: str, changed: str, wanted: Wanted) -> Verdict:
     """Compares two texts for the same job."""
     before, after = read(sound, wanted.family), read(changed, wanted.family)
     verdict = Verdict(lines=changed_lines(sound, changed))
+    seen = after.refused[0] if after.refused else after.moves[0].line if after.moves else 0
+    verdict.lines |= set(range(min(verdict.lines, default=seen), seen))  # modes hold from where they stand
     if after.refused is not None:
         verdict.reasons.append(f"refused at line {after.refused[0]}: {after.refused[1]}")
         verdict.lines.add(after.refused[0])
@@ -75,14 +84,13 @@ def weigh(sound: str, changed: str, wanted: Wanted) -> Verdict:
     if before.ended and not after.ended:
         verdict.reasons.append("the program does not end")
         verdict.lines.add(len(changed.splitlines()))
-    first_move = after.moves[0].line if after.moves else 0
-    verdict.lines |= set(range(min(verdict.lines, default=first_move), first_move))  # modes hold from where they stand
     pairs, new, gone = _matched(before, after)
     _weigh_states(pairs, before, after, verdict)
     weigh_moves(new, wanted, verdict)
     _weigh_left(gone, after, wanted, verdict)
     _weigh_order(before, after, wanted, verdict)
-    _weigh_end(after, wanted, verdict)
+    _weigh_ends(after, wanted, verdict)
+    _weigh_range(after, wanted, verdict)
     if before.seconds and abs(after.seconds / before.seconds - 1) > TIME_SHARE:
         verdict.reasons.append(f"time {before.seconds:.1f} s becomes {after.seconds:.1f} s")
     verdict.whole = len(verdict.lines) > 0.5 * len(after.moves)
@@ -162,14 +170,16 @@ def _faults_of_first(move: Move, wanted: Wanted) -> list[str]:
     if move.kind != "rapid":
         return [f"a {move.kind} move from an unknown place"]
     lifts = math.isnan(move.end[0]) and math.isnan(move.end[1])
-    across = not math.isnan(move.start[2]) and min(move.start[2], move.end[2]) >= wanted.clearance - 0.001
+    across = not math.isnan(move.start[2]) and min(move.start[2], move.end[2]) >= wanted.clearance - ROUNDED
     return (
-        [] if (lifts and move.end[2] >= wanted.clearance - 0.001) or across else ["a rapid from an unknown place, down"]
+        []
+        if (lifts and move.end[2] >= wanted.clearance - ROUNDED) or across
+        else ["a rapid from an unknown place, down"]
     )
 
 
 def _faults(move: Move, tool: Tool, wanted: Wanted) -> list[str]:
-    travels = math.dist(move.start[:2], move.end[:2]) > 1e-6
+    travels = move.kind == "arc" or math.dist(move.start[:2], move.end[:2]) > 1e-6
     falls = move.end[2] < move.start[2] - 1e-6
     shares = np.linspace(0.0, 1.0, 33 if move.kind == "arc" else 17)
     tips = np.array([move.at(share) for share in shares])
@@ -178,9 +188,12 @@ def _faults(move: Move, tool: Tool, wanted: Wanted) -> list[str]:
     depth = -values.min()
     if depth > GOUGE + SURE:
         found.append(f"{move.kind} enters the part by {depth:.4f} mm")
+    holder = wanted.holders.get(move.state.tool)
+    if holder is not None and (depth := -wanted.solid.clearances(holder, tips, ROUGH).min()) > GOUGE + SURE:
+        found.append(f"the holder enters the part by {depth:.4f} mm")
     if move.kind == "rapid":
         lowest = min(move.start[2], move.end[2])
-        if travels and lowest < wanted.clearance - 0.001:
+        if travels and lowest < wanted.clearance - ROUNDED:
             found.append(f"rapid across at Z{lowest:.3f}")
         if falls and values[-1] < RAPID_GAP - SURE:
             found.append(f"rapid down to {values[-1]:.4f} mm from the part")
@@ -191,7 +204,7 @@ def _faults(move: Move, tool: Tool, wanted: Wanted) -> list[str]:
 
 def _weigh_left(gone: list[Move], after: Program, wanted: Wanted, verdict: Verdict) -> None:
     """Places of the part that only missing moves touched: how far the changed program stays from them."""
-    contacts = [m for m in gone if m.kind != "rapid" and math.dist(m.start[:2], m.end[:2]) > 1e-6]
+    contacts = [m for m in gone if m.kind == "arc" or (m.kind == "feed" and math.dist(m.start[:2], m.end[:2]) > 1e-6)]
     tips = _tips([m for m in after.moves if m.kind != "rapid" and not any(math.isnan(x) for x in m.start)])
     for move in _some(contacts):
         tool = wanted.tools.get(move.state.tool) or next(iter(wanted.tools.values()))
@@ -229,11 +242,26 @@ def _weigh_order(before: Program, after: Program, wanted: Wanted, verdict: Verdi
         verdict.lines |= set(later.values())
 
 
-def _weigh_end(after: Program, wanted: Wanted, verdict: Verdict) -> None:
-    """The tool must stand above the clearance height when the program ends."""
-    if after.moves and after.moves[-1].end[2] < wanted.clearance - 0.001:
-        verdict.reasons.append(f"the program ends at Z{after.moves[-1].end[2]:.3f}")
-        verdict.lines |= {after.moves[-1].line, after.moves[-1].line + 1}
+def _weigh_ends(after: Program, wanted: Wanted, verdict: Verdict) -> None:
+    """The tool must stand above the clearance height where it is changed and where the program ends."""
+    pairs = itertools.zip_longest(after.moves, after.moves[1:])
+    for last, following in pairs:
+        ends = following is None or following.state.tool != last.state.tool
+        if ends and last.end[2] < wanted.clearance - ROUNDED:
+            verdict.reasons.append(f"line {last.line}: left at Z{last.end[2]:.3f}")
+            verdict.lines |= {last.line, last.line + 1}
+
+
+def _weigh_range(after: Program, wanted: Wanted, verdict: Verdict) -> None:
+    """Places beyond the machine's axes."""
+    if wanted.axes is None:
+        return
+    for move in after.moves:
+        if any(
+            not (low <= x <= high) for x, (low, high) in zip(move.end, wanted.axes, strict=True) if not math.isnan(x)
+        ):
+            verdict.reasons.append(f"line {move.line}: beyond the axes")
+            verdict.lines.add(move.line)
 
 
 def _rises(program: Program) -> dict[object, int]:
