@@ -146,6 +146,7 @@ class Case:
             },
             max(operation.get("tolerance", 0.005) for operation in self.document["operations"]),
             top - origin[2] + setup.get("clearance", 10.0),
+            top - origin[2] + setup.get("retract", 2.0),
             self.family,
             AXES if "file" in self.document["machine"] else None,
             sheet is not None and all(operation["kind"] == "z-level" for operation in self.document["operations"]),

@@ -145,3 +145,36 @@ def test_a_holder_collides_where_the_brute_force_says_so(length: float, sheet: A
     collisions = [finding for finding in report.findings if finding["kind"] == "holder-collision"]
     assert bool(collisions) == (depth > 0.001), (depth, report.findings)
     assert all(finding["line"] in (8, 9) for finding in collisions)
+
+
+GROOVED = [(0.0, 0.0), (3.5, 0.0), (5.0, -2.0), (6.5, 0.0), (13.5, 0.0), (15.0, -2.0), (16.5, 0.0), (20.0, 0.0)]
+"""X and Z of a plate with two grooves."""
+
+
+def grooved_plate() -> tuple[Any, Any]:
+    vertices = np.array([[x, y, z] for x, z in GROOVED for y in (0.0, 20.0)])
+    strips = [(2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 3) for i in range(len(GROOVED) - 1)]
+    return vertices, np.array([half for a, b, c, d in strips for half in ((a, c, d), (a, d, b))])
+
+
+def report_of(mesh: tuple[Any, Any], profile: dict[str, Any], start: list[float], end: list[float]) -> sc.Report:
+    made = document("zig-zag", profile, {"name": "linuxcnc"})
+    return sc.verify(text_of(start, end), sc.Job.from_dict(made, part=sc.Part.from_mesh(*mesh)))
+
+
+@pytest.mark.xfail(reason="excess is looked at in the start, the middle and the end of a straight move")
+def test_excess_between_the_samples_is_found() -> None:
+    mesh, profile = grooved_plate(), {"kind": "ball", "diameter": 1.0}
+    start, end = [0.5, 10.0, 0.0005], [19.5, 10.0, 0.0005]
+    everywhere = Solid(mesh[0][mesh[1]]).clearances(Tool.of(profile), np.linspace(start, end, 401))
+    assert report_of(mesh, profile, start, end).excess_max > 0.9 * everywhere.max()
+
+
+@pytest.mark.xfail(reason="the way out of the tool is measured, not how deep its tip is in")
+@pytest.mark.parametrize("half_angle_deg", [10.0, 30.0])
+def test_a_sharp_tip_in_the_part_is_found(half_angle_deg: float) -> None:
+    """Below the tip the part is cut 0.0018 mm too deep."""
+    profile = {"kind": "cone", "diameter": 2.0, "half_angle_deg": half_angle_deg}
+    report = report_of(stack(4, [(20, 0), (10, 0)]), profile, [-4.0, -4.0, -0.0018], [4.0, 4.0, -0.0018])
+    assert report.gouge_max == pytest.approx(0.0018, abs=1e-6)
+    assert not report.ok

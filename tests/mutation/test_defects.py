@@ -32,6 +32,7 @@ MISSED = {
     "coolant missing": SPINDLE,
     "levels swapped": "the order of levels is not judged",
     "feed missing": FEEDS,
+    "rapid too deep": "the job's retract height is not asked for",
     "clearance lowered": "a tool may be changed low beside the part",
     "commented out": "a program may end with the tool in the part",
     "dwell": "waiting is not judged",

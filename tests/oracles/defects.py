@@ -184,6 +184,20 @@ def plunge_in_rapid(text: Text, random_: random.Random) -> str | None:
 
 
 @kind
+def rapid_too_deep(text: Text, random_: random.Random) -> str | None:
+    """A rapid comes down to a tenth of a millimetre above the place where the plunge ends."""
+    pairs = [
+        (a, b)
+        for a, b in itertools.pairwise(text.moves)
+        if a.kind == "rapid" and b.kind == "feed" and a.end[2] < a.start[2]
+    ]
+    if not pairs:
+        return None
+    rapid, plunge = random_.choice(pairs)
+    return _shifted(text, rapid, 2, plunge.end[2] + 0.1 - rapid.end[2])
+
+
+@kind
 def retract_missing(text: Text, random_: random.Random) -> str | None:
     lifts = [b.line for a, b in itertools.pairwise(text.moves) if b.kind == "rapid" and a.kind == "feed"]
     number = _chosen(random_, lifts)

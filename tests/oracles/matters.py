@@ -29,8 +29,6 @@ SURE = 2e-4
 GOUGE = 0.001
 ROUNDED = 0.002
 """What the last place of an inch may take off a height, mm."""
-RAPID_GAP = 0.05
-"""Air under a rapid that comes down, mm."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +44,8 @@ class Wanted:
     """How far off the part a contact move may be, mm."""
     clearance: float
     """Height from which rapids may go across, mm."""
+    retract: float
+    """Height down to which rapids may come, mm."""
     family: Family
     axes: tuple[tuple[float, float], ...] | None
     """Lowest and highest place of X, Y and Z, mm, where the machine says so."""
@@ -195,8 +195,8 @@ def _faults(move: Move, tool: Tool, wanted: Wanted) -> list[str]:
         lowest = min(move.start[2], move.end[2])
         if travels and lowest < wanted.clearance - ROUNDED:
             found.append(f"rapid across at Z{lowest:.3f}")
-        if falls and values[-1] < RAPID_GAP - SURE:
-            found.append(f"rapid down to {values[-1]:.4f} mm from the part")
+        if falls and move.end[2] < wanted.retract - ROUNDED:
+            found.append(f"rapid down to Z{move.end[2]:.3f}")
     elif travels and values.max() > wanted.excess + SURE:
         found.append(f"{move.kind} is {values.max():.4f} mm off the part")
     return found
