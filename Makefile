@@ -88,7 +88,7 @@ test: ## Everything: what CI runs
 test-long: tools ## Proofs by the hundred thousand: an hour or two
 	cargo test --release --locked -p styluscam-toolpath -- --ignored --nocapture --test-threads 1
 	@$(MAKE) --no-print-directory dev
-	$(PYTEST) -n 2 -m long -rA
+	$(PYTEST) -m long -s
 
 .PHONY: quick
 quick: dev ## Cargo and Python tests that need nothing from outside
