@@ -3,10 +3,12 @@
 use serde::Serialize;
 use styluscam_geometry::Tool;
 use styluscam_motion::{Program, ToolRecord, Watch};
-use styluscam_post::{read, Machine};
-use styluscam_verify::{FaceCoverage, Limits, Report, Subject};
+use styluscam_post::machine::ToolChange;
+use styluscam_post::{read, Machine, Reading};
+use styluscam_verify::{FaceCoverage, Limits, Order, Reach, Report, Subject, TextFacts};
 
-use crate::{faces, scene, JobDocument, JobError, Scene};
+use crate::plan::operation_id;
+use crate::{faces, scene, Coolant, JobDocument, JobError, OperationSection, Scene, Spindle};
 
 /// Deepest gouge allowed, mm: the posted path may lie this far inside the exact envelope, and not more.
 const GOUGE: f64 = 0.001;
@@ -39,11 +41,14 @@ pub fn judge(
     watch: &Watch,
 ) -> Result<Judgement, JobError> {
     let (tools, records) = tools_in_order(job)?;
-    let reading = read(text, machine, &records)?;
-    let subject = subject(job, scene, &tools, reading.first_placed_move);
+    let Reading { program, first_placed_move, z_placed_move, stray_planes, ended, .. } = read(text, machine, &records)?;
+    let calls_tools = machine.tool.change == ToolChange::M6;
+    let text = TextFacts { z_placed_move, stray_planes, ended, calls_tools };
+    let orders = orders(job, &records);
+    let subject = Subject { text: Some(&text), orders: &orders, ..subject(job, scene, &tools, first_placed_move) };
     let limits = limits(job, scene, machine);
-    let report = styluscam_verify::judge(&reading.program, &subject, &limits, watch)?;
-    Ok(Judgement { report, program: reading.program, first_placed_move: reading.first_placed_move, limits })
+    let report = styluscam_verify::judge(&program, &subject, &limits, watch)?;
+    Ok(Judgement { report, program, first_placed_move, limits })
 }
 
 /// What a judged program leaves on the faces that the job's operations are for, face by face.
@@ -76,7 +81,25 @@ fn subject<'a>(job: &'a JobDocument, scene: &'a Scene, tools: &'a [Tool], first_
         deviation_outward: scene.outward,
         wcs: &job.setup.wcs,
         first_placed_move,
+        text: None,
+        orders: &[],
     }
+}
+
+/// What the job orders for each of its operations.
+fn orders(job: &JobDocument, records: &[ToolRecord]) -> Vec<Order> {
+    let order = |(index, section): (usize, &OperationSection)| Order {
+        id: operation_id(section, index),
+        tool: records.iter().position(|record| record.name == section.tool).unwrap_or(usize::MAX),
+        cut: section.feeds.cut,
+        plunge: section.feeds.plunge,
+        spindle: match section.spindle {
+            Spindle::Off => None,
+            Spindle::Fixed { rpm, direction } => Some((rpm, direction)),
+        },
+        flood: section.coolant == Coolant::Flood,
+    };
+    job.operations.iter().enumerate().map(order).collect()
 }
 
 /// The moves of a text as `machine` would read it for this job.
@@ -100,5 +123,23 @@ fn tools_in_order(job: &JobDocument) -> Result<(Vec<Tool>, Vec<ToolRecord>), Job
 fn limits(job: &JobDocument, scene: &Scene, machine: &Machine) -> Limits {
     let clearance = scene.clearance(job) - 0.5 * machine.resolution_mm();
     let excess = job.operations.iter().map(|operation| operation.tolerance);
-    Limits { gouge: GOUGE, excess: excess.reduce(f64::max), ..Limits::new(clearance) }
+    Limits {
+        gouge: GOUGE,
+        excess: excess.reduce(f64::max),
+        feed_unit: machine.feed_resolution_mm(),
+        reach: reach(machine),
+        ..Limits::new(clearance)
+    }
+}
+
+/// What the machine can do.
+fn reach(machine: &Machine) -> Reach {
+    let limits = &machine.limits;
+    let rpm = (limits.min_rpm, limits.max_rpm);
+    Reach {
+        axes: [limits.x, limits.y, limits.z],
+        travel: limits.travel,
+        feed: limits.max_feed,
+        rpm: (rpm != (None, None)).then(|| [rpm.0.unwrap_or(0.0), rpm.1.unwrap_or(f64::INFINITY)]),
+    }
 }

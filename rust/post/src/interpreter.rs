@@ -12,6 +12,7 @@ use crate::circle::Circle;
 use crate::lexer::Word;
 use crate::machine::{LengthUnit, Machine, TimeUnit, ToolChange};
 use crate::read_error::ReadFault;
+use crate::reader::Reading;
 use crate::standing::Standing;
 
 const AXES: [char; 3] = ['X', 'Y', 'Z'];
@@ -40,6 +41,10 @@ pub(crate) struct Interpreter<'m> {
     incremental: bool,
     motion: Option<Motion>,
     plane: Plane,
+    /// Since which move another plane than G17 is in force and no arc has used it.
+    stray_plane_since: Option<usize>,
+    stray_planes: Vec<Range<usize>>,
+    z_placed_move: Option<usize>,
     absolute_centre: bool,
     /// mm/min.
     feed: Option<f64>,
@@ -69,6 +74,9 @@ impl<'m> Interpreter<'m> {
             incremental: false,
             motion: None,
             plane: Plane::Xy,
+            stray_plane_since: None,
+            stray_planes: Vec::new(),
+            z_placed_move: None,
             absolute_centre: false,
             feed: None,
             speed: 0.0,
@@ -110,7 +118,9 @@ impl<'m> Interpreter<'m> {
         self.set_path(block)?;
         self.set_wcs(block)?;
         self.incremental = block.incremental.unwrap_or(self.incremental);
-        self.plane = block.plane.map_or(self.plane, |(plane, _)| plane);
+        if let Some((plane, _)) = block.plane {
+            self.set_plane(plane);
+        }
         self.absolute_centre = block.absolute_centre.unwrap_or(self.absolute_centre);
         self.go(block, line)?;
         Ok(self.stop(block))
@@ -287,6 +297,17 @@ impl<'m> Interpreter<'m> {
         Ok(())
     }
 
+    fn set_plane(&mut self, plane: Plane) {
+        self.close_stray_plane();
+        self.plane = plane;
+        self.stray_plane_since = (plane != Plane::Xy).then_some(self.program.moves.len());
+    }
+
+    fn close_stray_plane(&mut self) {
+        let moves = self.program.moves.len();
+        self.stray_planes.extend(self.stray_plane_since.take().map(|since| since..moves).filter(|run| !run.is_empty()));
+    }
+
     // Motion
 
     fn go(&mut self, block: &Block, line: u32) -> Result<(), Flaw> {
@@ -318,7 +339,10 @@ impl<'m> Interpreter<'m> {
             self.require_places(first)?;
         }
         let arc = match self.motion {
-            Some(Motion::Arc(clockwise)) => Some(self.arc(block, start, clockwise, first)?),
+            Some(Motion::Arc(clockwise)) => {
+                self.stray_plane_since = None;
+                Some(self.arc(block, start, clockwise, first)?)
+            }
             _ => None,
         };
         self.push_move(kind, arc, feed, line);
@@ -390,6 +414,9 @@ impl<'m> Interpreter<'m> {
             self.program.moves.iter_mut().skip(since).for_each(|m| m.end[index] = tip);
         }
         *axis = Axis { place, known: true, ever: true, pending: moves };
+        if index == Z {
+            self.z_placed_move.get_or_insert(moves);
+        }
     }
 
     /// The place of this axis is not known from the next move on.
@@ -465,11 +492,12 @@ impl<'m> Interpreter<'m> {
         Ok(())
     }
 
-    /// The program and the runs of moves that lack a commanded place.
-    pub(crate) fn finish(mut self) -> Result<(Program, Vec<Range<usize>>), ReadFault> {
+    /// What was read; whether the program ended is the reader's to say.
+    pub(crate) fn finish(mut self, ended: bool) -> Result<Reading, ReadFault> {
         if let Some(since) = self.unplaced_since {
             self.note_unplaced(since);
         }
+        self.close_stray_plane();
         if !self.program.moves.is_empty() {
             if let Some((_, axis)) = self.axes.iter().zip(AXES).find(|(axis, _)| !axis.ever) {
                 return Err(ReadFault::NeverPlaced { axis });
@@ -477,7 +505,15 @@ impl<'m> Interpreter<'m> {
         }
         let first = self.machine.wcs.first().cloned().unwrap_or_default();
         self.program.setup.wcs = self.wcs.unwrap_or(first);
-        Ok((self.program, self.unplaced))
+        let first_placed_move = self.unplaced.first().filter(|run| run.start == 0).map_or(0, |run| run.end);
+        Ok(Reading {
+            first_placed_move,
+            z_placed_move: self.z_placed_move.unwrap_or(self.program.moves.len()),
+            unplaced: self.unplaced,
+            stray_planes: self.stray_planes,
+            ended,
+            program: self.program,
+        })
     }
 }
 

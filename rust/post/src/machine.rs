@@ -182,6 +182,12 @@ impl Machine {
         self.units.output.in_mm() / self.linear_format().per_one()
     }
 
+    /// One unit of the last posted place of a feed, mm/min.
+    #[must_use]
+    pub fn feed_resolution_mm(&self) -> f64 {
+        self.units.output.in_mm() / self.feed_format().per_one()
+    }
+
     /// How far the controller itself may leave the posted path, mm: part of the path's tolerance.
     #[must_use]
     pub fn path_tolerance_mm(&self) -> f64 {

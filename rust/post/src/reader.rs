@@ -18,10 +18,16 @@ pub struct Reading {
     pub program: Program,
     /// Index of the first move at whose end all three axes have been commanded; the number of moves when none is.
     pub first_placed_move: usize,
+    /// Index of the first move that commands Z; the number of moves when none does.
+    pub z_placed_move: usize,
     /// Moves at whose end the place of some axis is not known, in runs: at the start, after a tool change (Z), after G53.
     ///
     /// There the axis stands at the next place commanded, or at the last one when none follows.
     pub unplaced: Vec<Range<usize>>,
+    /// Moves made while G18 or G19 was in force and no arc used it, in runs.
+    pub stray_planes: Vec<Range<usize>>,
+    /// Whether the text came to M2, M30 or a closing `%`.
+    pub ended: bool,
 }
 
 /// Typical length of a line, to reserve memory.
@@ -184,9 +190,7 @@ impl<'t> Reader<'t> {
         if self.machine.reader.end_required && self.stage != Stage::Ended {
             return Err(whole_line(lines, ReadFault::NoEnd));
         }
-        let (program, unplaced) = self.interpreter.finish().map_err(whole_text)?;
-        let first_placed_move = unplaced.first().filter(|run| run.start == 0).map_or(0, |run| run.end);
-        Ok(Reading { program, first_placed_move, unplaced })
+        self.interpreter.finish(self.stage == Stage::Ended).map_err(whole_text)
     }
 }
 

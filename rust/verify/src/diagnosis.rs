@@ -20,22 +20,13 @@ pub(crate) fn no_contact(program: &Program, legs: &[Leg], samples: &[Sample], su
     let clearance = median(samples.iter().map(|s| s.touch.value));
     let away = if clearance < 0.0 { "inside it" } else { "away from it" };
     let hint = hint(program, legs, samples, subject, clearance).map_or_else(String::new, |h| format!(" ({h})"));
-    Finding {
-        kind: FindingKind::NoContact,
-        severity: Severity::Error,
-        line: 0,
-        first_line: 0,
-        last_line: 0,
-        moves: samples.len(),
-        position: None,
-        value_mm: Some(clearance),
-        limit: None,
-        message: format!(
-            "nothing touches the part: the tool's median distance is {:.4} mm {away}; \
-             check zero, units and tool reference{hint}",
-            clearance.abs()
-        ),
-    }
+    let message = format!(
+        "nothing touches the part: the tool's median distance is {:.4} mm {away}; \
+         check zero, units and tool reference{hint}",
+        clearance.abs()
+    );
+    let value_mm = Some(clearance);
+    Finding { moves: samples.len(), value_mm, ..Finding::of_all(FindingKind::NoContact, Severity::Error, message) }
 }
 
 fn hint(program: &Program, legs: &[Leg], samples: &[Sample], subject: &Subject, clearance: f64) -> Option<String> {

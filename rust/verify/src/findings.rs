@@ -45,8 +45,50 @@ pub enum FindingKind {
     MissingToolChange,
     /// A tool change to a tool that the job does not have.
     UnknownTool,
+    /// An operation of the job is not in the text.
+    MissingOperation,
+    /// The program begins with a move across before it has gone up, or goes across below the clearance height.
+    UnsafeStart,
+    /// The program ends, or changes the tool, below the clearance height.
+    UnsafeEnd,
+    /// The text has no end mark.
+    NoEnd,
+    /// A feed is not the one that the job orders.
+    FeedDiffers,
+    /// The spindle does not do what the job orders.
+    SpindleDiffers,
+    /// Coolant flows and should not, or should and does not.
+    CoolantDiffers,
+    /// Another tool than the operation's.
+    ToolDiffers,
+    /// A wait while the tool is below the clearance height.
+    Dwell,
+    /// Moves in another plane than G17, and no arc that is for it.
+    WorkPlane,
+    /// A place beyond the machine's X.
+    XLimit,
+    /// A place beyond the machine's Y.
+    YLimit,
+    /// A place beyond the machine's Z.
+    ZLimit,
+    /// The program needs more travel than the machine has.
+    Travel,
+    /// A feed above the machine's largest.
+    FeedLimit,
+    /// A spindle speed that the machine does not have.
+    SpindleLimit,
     /// A coordinate that is not a number, or absurd (beyond 10 km).
     NotFinite,
+}
+
+impl FindingKind {
+    /// What a place beyond an axis' end is, by axis.
+    pub(crate) const AXIS_LIMITS: [Self; 3] = [Self::XLimit, Self::YLimit, Self::ZLimit];
+
+    /// Whether what is measured is a length.
+    fn is_length(self) -> bool {
+        !matches!(self, Self::FeedDiffers | Self::SpindleDiffers | Self::FeedLimit | Self::Dwell)
+    }
 }
 
 /// How bad it is.
@@ -82,6 +124,24 @@ pub struct Finding {
     pub limit: Option<f64>,
     /// What, where and what to do.
     pub message: String,
+}
+
+impl Finding {
+    /// A finding about the whole program.
+    pub(crate) fn of_all(kind: FindingKind, severity: Severity, message: String) -> Self {
+        Self {
+            kind,
+            severity,
+            line: 0,
+            first_line: 0,
+            last_line: 0,
+            moves: 0,
+            position: None,
+            value_mm: None,
+            limit: None,
+            message,
+        }
+    }
 }
 
 /// A fault that one move shows.
@@ -146,6 +206,7 @@ impl Run {
 
     fn finding(self) -> Finding {
         let worst = self.worst;
+        let length = worst.measure.filter(|_| worst.kind.is_length());
         Finding {
             kind: worst.kind,
             severity: worst.severity,
@@ -154,8 +215,8 @@ impl Run {
             last_line: self.last_line,
             moves: self.moves,
             position: Some(worst.position),
-            value_mm: worst.measure.map(|m| m.0),
-            limit: worst.measure.map(|m| m.1),
+            value_mm: length.map(|m| m.0),
+            limit: length.map(|m| m.1),
             message: words::message(&worst, self.first_line, self.last_line, self.moves),
         }
     }

@@ -5,7 +5,8 @@ use styluscam_motion::{Cancelled, Program, Watch};
 use crate::findings::{merge, Fault};
 use crate::legs::{placed, Leg, LegKind};
 use crate::measure::{highest, measure, Measured, Sample};
-use crate::{diagnosis, travel, ContactRecord, FindingKind, Limits, Place, Report, Severity, Subject, SLACK};
+use crate::orders::{self, Orders};
+use crate::{diagnosis, reach, travel, ContactRecord, FindingKind, Limits, Place, Report, Severity, Subject, SLACK};
 
 /// Contacts in a report at most.
 const CONTACTS: usize = 4000;
@@ -26,11 +27,14 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let contacts = Contacts::of(&legs, &measured, subject, limits);
     let mut faults = tally.faults;
     faults.extend(travel::faults(program, &legs, subject, limits));
+    faults.extend(reach::faults(program, subject, &limits.reach));
+    faults.extend(Orders::new(program, subject, limits).faults(program, &legs));
     let (mut findings, mut counts) = merge(&faults);
     let nothing = contacts.nothing_touches().then(|| diagnosis::no_contact(program, &legs, &contacts.samples, subject));
     let offset = travel::work_offset(program, subject.wcs);
-    for whole in travel::no_feed_moves(program).into_iter().chain(offset).chain(nothing) {
-        counts.insert(whole.kind, 1);
+    let wholes = reach::findings(program, subject, &limits.reach).into_iter().chain(orders::missing(program, subject));
+    for whole in wholes.chain(travel::no_feed_moves(program)).chain(offset).chain(nothing) {
+        *counts.entry(whole.kind).or_default() += 1;
         findings.insert(0, whole);
     }
     Ok(Report {

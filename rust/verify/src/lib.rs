@@ -33,7 +33,9 @@ mod holding;
 mod judge;
 mod legs;
 mod measure;
+mod orders;
 mod probes;
+mod reach;
 mod report;
 mod subject;
 mod sweep;
@@ -43,8 +45,10 @@ mod words;
 pub use coverage::{coverage, FaceCoverage};
 pub use findings::{Finding, FindingKind, Severity};
 pub use judge::judge;
+pub use orders::Order;
+pub use reach::Reach;
 pub use report::{ContactRecord, Place, Report};
-pub use subject::{Limits, Subject};
+pub use subject::{Limits, Subject, TextFacts};
 
 /// A point or vector of space, mm.
 type Vector = styluscam_geometry::Vector;

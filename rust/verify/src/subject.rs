@@ -1,6 +1,11 @@
 //! What a program is judged against, and how strictly.
 
+use std::ops::Range;
+
 use styluscam_geometry::{Bvh, Mesh, Sheet, Tool};
+
+use crate::orders::Order;
+use crate::reach::Reach;
 
 /// The part and the tools, in the program's work coordinates.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +29,23 @@ pub struct Subject<'a> {
     /// Index of the first move whose end is known in all three axes. Moves before it have no place
     /// in space; it has no start.
     pub first_placed_move: usize,
+    /// What its text says besides the moves; none for a program that was not read from text.
+    pub text: Option<&'a TextFacts>,
+    /// What the job orders; none when feeds, spindle and coolant are not to be judged.
+    pub orders: &'a [Order],
+}
+
+/// What a text says besides its moves.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TextFacts {
+    /// Index of the first move that commands Z; the number of moves when none does.
+    pub z_placed_move: usize,
+    /// Moves made while another plane than G17 was in force and no arc used it, in runs.
+    pub stray_planes: Vec<Range<usize>>,
+    /// Whether the text came to its end mark.
+    pub ended: bool,
+    /// Whether the machine loads tools when the text calls them.
+    pub calls_tools: bool,
 }
 
 /// What is allowed. Comparisons allow another 1e-6 mm for arithmetic.
@@ -41,13 +63,25 @@ pub struct Limits {
     pub clearance: f64,
     /// Air that must be left under a rapid that comes down, mm.
     pub rapid_gap: f64,
+    /// By how much a feed may differ from the one ordered: it was rounded, mm/min.
+    pub feed_unit: f64,
+    /// What the machine can do.
+    pub reach: Reach,
 }
 
 impl Limits {
     /// The usual strictness: gouge 0.001 mm, excess 0.005 mm, 0.05 mm under a rapid.
     #[must_use]
     pub fn new(clearance: f64) -> Self {
-        Self { gouge: 0.001, excess: Some(0.005), excess_by_operation: Vec::new(), clearance, rapid_gap: 0.05 }
+        Self {
+            gouge: 0.001,
+            excess: Some(0.005),
+            excess_by_operation: Vec::new(),
+            clearance,
+            rapid_gap: 0.05,
+            feed_unit: 0.0,
+            reach: Reach::default(),
+        }
     }
 
     /// The excess allowed for an operation, mm.

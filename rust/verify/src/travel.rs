@@ -14,42 +14,97 @@ pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits:
     }
     faults.extend(legs.iter().filter_map(|leg| height_fault(leg, limits)));
     faults.extend(legs.iter().filter(|leg| leg.tool.is_none()).map(unknown_tool));
-    faults.extend(missing_tool_change(program));
+    faults.extend(missing_tool_change(program, subject));
+    faults.extend(unsafe_start(program, legs, subject, limits));
+    faults.extend(unsafe_end(program, legs, limits));
+    faults.extend(dwells(program, legs, limits));
+    faults.extend(stray_planes(program, subject));
+    faults.extend(no_end(program, subject));
     faults
+}
+
+/// Moves across before the tool is known to be up, and the first move to a known place.
+fn unsafe_start(program: &Program, legs: &[Leg], subject: &Subject, limits: &Limits) -> Option<Fault> {
+    let blind = subject.text.is_some_and(|text| text.z_placed_move > 0);
+    if let Some(step) = program.moves.first().filter(|_| blind) {
+        let measure = Some((f64::NAN, limits.clearance));
+        return Some(Fault { measure, ..fault_of(FindingKind::UnsafeStart, 0, step) });
+    }
+    let leg = legs.first()?;
+    let low = leg.kind == LegKind::Rapid && leg.end[2] < limits.clearance - SLACK;
+    let measure = Some((leg.end[2], limits.clearance));
+    let step = program.moves.get(leg.index)?;
+    low.then(|| Fault { measure, ..fault_of(FindingKind::UnsafeStart, leg.index, step) })
+}
+
+/// Places at which the program ends, or changes the tool, with the tool down.
+fn unsafe_end(program: &Program, legs: &[Leg], limits: &Limits) -> Vec<Fault> {
+    let changes = program.events.iter().filter(|event| matches!(event.kind, EventKind::ToolChange { .. }));
+    let stops = changes.map(|event| event.before).chain([program.moves.len()]);
+    let left = stops.filter_map(|before| {
+        let leg = legs.get(legs.partition_point(|leg| leg.index < before).checked_sub(1)?)?;
+        let step = program.moves.get(leg.index)?;
+        let measure = Some((leg.end[2], limits.clearance));
+        let low = leg.end[2] < limits.clearance - SLACK && leg.index + 1 == before;
+        low.then(|| Fault { measure, ..fault_of(FindingKind::UnsafeEnd, leg.index, step) })
+    });
+    left.collect()
+}
+
+/// Waits with the tool down.
+fn dwells(program: &Program, legs: &[Leg], limits: &Limits) -> Vec<Fault> {
+    let waits = program.events.iter().filter_map(|event| match event.kind {
+        EventKind::Dwell { seconds } if seconds > 0.0 => Some((event.before, seconds)),
+        _ => None,
+    });
+    let down = waits.filter_map(|(before, seconds)| {
+        let leg = legs.get(legs.partition_point(|leg| leg.index < before).checked_sub(1)?)?;
+        let step = program.moves.get(leg.index)?;
+        let measure = Some((seconds, 0.0));
+        let low = leg.end[2] < limits.clearance - SLACK;
+        low.then(|| Fault { measure, weight: seconds, ..fault_of(FindingKind::Dwell, leg.index, step) })
+    });
+    down.collect()
+}
+
+fn stray_planes(program: &Program, subject: &Subject) -> Vec<Fault> {
+    let runs = subject.text.iter().flat_map(|text| &text.stray_planes);
+    let moves = runs.flat_map(Clone::clone).filter_map(|index| Some((index, program.moves.get(index)?)));
+    let feeds = moves.filter(|(_, step)| step.kind == MoveKind::Feed);
+    feeds.map(|(index, step)| fault_of(FindingKind::WorkPlane, index, step)).collect()
+}
+
+/// A text without its end may be cut off; what it has switched on stays on.
+fn no_end(program: &Program, subject: &Subject) -> Option<Fault> {
+    let step = program.moves.last().filter(|_| subject.text.is_some_and(|text| !text.ended))?;
+    let on = program.events.iter().fold([false; 2], |[spindle, flood], event| match event.kind {
+        EventKind::SpindleOn { .. } => [true, flood],
+        EventKind::SpindleOff => [false, flood],
+        EventKind::Flood { on } => [spindle, on],
+        _ => [spindle, flood],
+    });
+    let severity = if on.contains(&true) { Severity::Error } else { Severity::Warning };
+    Some(Fault { severity, ..fault_of(FindingKind::NoEnd, program.moves.len() - 1, step) })
 }
 
 /// The finding of a program that never feeds.
 pub(crate) fn no_feed_moves(program: &Program) -> Option<Finding> {
     let none = program.moves.iter().all(|m| m.kind == MoveKind::Rapid);
-    none.then(|| Finding {
-        kind: FindingKind::NoFeedMoves,
-        severity: Severity::Error,
-        line: 0,
-        first_line: 0,
-        last_line: 0,
-        moves: 0,
-        position: None,
-        value_mm: None,
-        limit: None,
-        message: "the program has no feed move; post an operation that has a path".to_owned(),
-    })
+    let message = "the program has no feed move; post an operation that has a path".to_owned();
+    none.then(|| Finding::of_all(FindingKind::NoFeedMoves, Severity::Error, message))
 }
 
 /// The finding of a program in another work offset than the part's.
 pub(crate) fn work_offset(program: &Program, wcs: &str) -> Option<Finding> {
     let found = &program.setup.wcs;
     let line = program.moves.first().map_or(0, |m| m.line);
+    let message = format!("line {line}: the moves are in {found}, the part stands in {wcs}; write {wcs} before them");
     (found != wcs).then(|| Finding {
-        kind: FindingKind::WorkOffset,
-        severity: Severity::Error,
         line,
         first_line: line,
         last_line: line,
         moves: program.moves.len(),
-        position: None,
-        value_mm: None,
-        limit: None,
-        message: format!("line {line}: the moves are in {found}, the part stands in {wcs}; write {wcs} before them"),
+        ..Finding::of_all(FindingKind::WorkOffset, Severity::Error, message)
     })
 }
 
@@ -100,14 +155,15 @@ fn unknown_tool(leg: &Leg) -> Fault {
     }
 }
 
-/// A feed move before any tool change: harmless only where there is but one tool.
-fn missing_tool_change(program: &Program) -> Option<Fault> {
+/// A feed move before any tool change: harmless only where there is but one tool, and the operator loads it.
+fn missing_tool_change(program: &Program, subject: &Subject) -> Option<Fault> {
     let index = program.moves.iter().position(|m| m.kind != MoveKind::Rapid)?;
     let changed = |kind: &EventKind| matches!(kind, EventKind::ToolChange { .. });
     if program.events.iter().any(|e| e.before <= index && changed(&e.kind)) {
         return None;
     }
-    let severity = if program.tools.len() > 1 { Severity::Error } else { Severity::Warning };
+    let called = subject.text.is_some_and(|text| text.calls_tools);
+    let severity = if called || program.tools.len() > 1 { Severity::Error } else { Severity::Warning };
     let step = program.moves.get(index)?;
     Some(Fault { severity, ..fault_of(FindingKind::MissingToolChange, index, step) })
 }

@@ -54,10 +54,57 @@ fn what(fault: &Fault) -> String {
         FindingKind::UnplacedFeed => "a feed move starts where not all axes are known".to_owned(),
         FindingKind::MissingToolChange => "a feed move comes before any tool change".to_owned(),
         FindingKind::UnknownTool => "the tool loaded here is not one of the job's".to_owned(),
+        FindingKind::MissingOperation => "an operation of the job is missing".to_owned(),
+        FindingKind::UnsafeStart if value.is_nan() => {
+            "the first move goes across at a height that is not known".to_owned()
+        }
+        FindingKind::UnsafeStart => {
+            format!("the program starts by going across at Z{value:.3}, below the clearance height {limit:.3}")
+        }
+        FindingKind::UnsafeEnd => format!("the tool is left at Z{value:.3}, below the clearance height {limit:.3}"),
+        FindingKind::NoEnd => "the text ends without M2 or M30".to_owned(),
+        FindingKind::FeedDiffers => format!("the feed is {} mm/min and the job orders {}", plain(value), plain(limit)),
+        FindingKind::SpindleDiffers => {
+            format!("the spindle {} and the job orders that it {}", spindle(value), spindle(limit))
+        }
+        FindingKind::CoolantDiffers => "coolant is not as the job orders it".to_owned(),
+        FindingKind::ToolDiffers => "the tool is not the operation's".to_owned(),
+        FindingKind::Dwell => format!("the program waits {} s while the tool is down", plain(value)),
+        FindingKind::WorkPlane => "moves are made in G18 or G19, and no arc is in that plane".to_owned(),
+        FindingKind::XLimit | FindingKind::YLimit | FindingKind::ZLimit => {
+            format!("{} goes to {value:.3}, beyond the machine's {limit:.3}", axis(fault.kind))
+        }
+        FindingKind::Travel => "the program needs more travel than there is".to_owned(),
+        FindingKind::FeedLimit => {
+            format!("the feed is {} mm/min and the machine's largest is {}", plain(value), plain(limit))
+        }
+        FindingKind::SpindleLimit => "the spindle has no such speed".to_owned(),
         FindingKind::NotFinite => "a coordinate is not a number, or absurd".to_owned(),
         FindingKind::NoFeedMoves => "the program has no feed move".to_owned(),
         FindingKind::NoContact => "nothing touches the part".to_owned(),
         FindingKind::WorkOffset => "the work offset is not the part's".to_owned(),
+    }
+}
+
+/// A number without needless places.
+fn plain(value: f64) -> String {
+    format!("{}", (value * 1e3).round() / 1e3)
+}
+
+/// What a spindle does at a signed speed.
+fn spindle(rpm: f64) -> String {
+    match rpm {
+        0.0 => "stands".to_owned(),
+        rpm if rpm > 0.0 => format!("turns clockwise (M3) at {} rev/min", plain(rpm)),
+        rpm => format!("turns counterclockwise (M4) at {} rev/min", plain(-rpm)),
+    }
+}
+
+fn axis(kind: FindingKind) -> char {
+    match kind {
+        FindingKind::XLimit => 'X',
+        FindingKind::YLimit => 'Y',
+        _ => 'Z',
     }
 }
 
@@ -75,6 +122,20 @@ fn remedy(kind: FindingKind) -> &'static str {
         FindingKind::MissingToolChange => "load the tool and its length before the first feed move",
         FindingKind::UnknownTool => "add the tool to the job, or correct the T word",
         FindingKind::WorkOffset => "write the part's work offset before the moves",
+        FindingKind::MissingOperation => "post the whole job",
+        FindingKind::UnsafeStart => "go up to the clearance height in a block of its own first",
+        FindingKind::UnsafeEnd => "go up to the clearance height first",
+        FindingKind::NoEnd => "the file may be cut off: get the whole file, or write M2",
+        FindingKind::FeedDiffers => "correct F, or the job",
+        FindingKind::SpindleDiffers => "correct M3, M4, M5 and S, or the job",
+        FindingKind::CoolantDiffers => "correct M8 and M9, or the job",
+        FindingKind::ToolDiffers => "correct T, or the job",
+        FindingKind::Dwell => "take the wait out, or wait above the part",
+        FindingKind::WorkPlane => "write G17",
+        FindingKind::XLimit | FindingKind::YLimit | FindingKind::ZLimit => "move the zero point, or turn the part",
+        FindingKind::Travel => "turn the part, or split the program",
+        FindingKind::FeedLimit => "correct F",
+        FindingKind::SpindleLimit => "correct S",
         FindingKind::NotFinite => "correct the coordinate",
         FindingKind::NoFeedMoves => "post an operation that has a path",
         FindingKind::NoContact => "check zero, units and tool reference",

@@ -61,6 +61,8 @@ impl Part {
             deviation_outward: 0.0,
             wcs: "G54",
             first_placed_move: 0,
+            text: None,
+            orders: &[],
         }
     }
 }
@@ -107,7 +109,12 @@ impl Path {
         self.moves.push(Move { kind, end, arc: None, feed, operation: 0, line });
     }
 
-    pub fn program(self, tool: &Tool) -> Program {
+    /// The program of one tool; at its end the tool is up.
+    pub fn program(mut self, tool: &Tool) -> Program {
+        if let Some(last) = self.moves.last().filter(|m| m.end[2] < CLEARANCE) {
+            let [x, y, _] = last.end;
+            self = self.rapid([x, y, CLEARANCE]);
+        }
         let record = ToolRecord {
             name: "stylus".to_owned(),
             number: 1,

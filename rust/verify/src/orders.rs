@@ -1,0 +1,143 @@
+//! What the job orders for each operation, held against the text: feeds, spindle, coolant, tool, and that none is missing.
+
+use styluscam_motion::{EventKind, Program, SpindleDirection};
+
+use crate::findings::{Fault, Finding};
+use crate::legs::{Leg, LegKind};
+use crate::{FindingKind, Limits, Severity, Subject};
+
+/// What the job orders for an operation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Order {
+    /// The operation's id, as the text's remarks name it.
+    pub id: String,
+    /// Index of its tool.
+    pub tool: usize,
+    /// Feed along the path, mm/min.
+    pub cut: f64,
+    /// Feed straight down, mm/min.
+    pub plunge: f64,
+    /// Speed and sense of the spindle; it stands when there are none.
+    pub spindle: Option<(f64, SpindleDirection)>,
+    /// Whether coolant flows.
+    pub flood: bool,
+}
+
+/// Feeds that differ by less than this share are the same: what arithmetic may cost, as units change.
+const SAME_FEED: f64 = 1e-6;
+
+/// Orders for the operations of a program's text.
+pub(crate) struct Orders<'a> {
+    /// For each of the program's operations its order, where the job has one.
+    of: Vec<Option<&'a Order>>,
+    limits: &'a Limits,
+}
+
+impl<'a> Orders<'a> {
+    /// By their ids; a job with one operation means it, whatever the text calls it.
+    pub fn new(program: &Program, subject: &Subject<'a>, limits: &'a Limits) -> Self {
+        let only = (subject.orders.len() == 1).then(|| subject.orders.first()).flatten();
+        let order = |id: &str| subject.orders.iter().find(|order| order.id == id).or(only);
+        Self { of: program.operations.iter().map(|operation| order(&operation.id)).collect(), limits }
+    }
+
+    fn of(&self, operation: u32) -> Option<&'a Order> {
+        self.of.get(operation as usize).copied().flatten()
+    }
+
+    /// Faults of the moves, in their order.
+    pub fn faults(&self, program: &Program, legs: &[Leg]) -> Vec<Fault> {
+        let mut machine = Machine::new(program);
+        let mut faults = Vec::new();
+        let mut last: Option<(usize, LegKind)> = None;
+        for leg in legs {
+            machine.advance(leg.index);
+            let before = last.replace((leg.index, leg.kind));
+            // pieces of one move say the same
+            if before.is_some_and(|(index, _)| index == leg.index) || leg.kind == LegKind::Rapid {
+                continue;
+            }
+            let comes_down = before.is_none_or(|(_, kind)| kind == LegKind::Rapid);
+            let step = &program.moves[leg.index];
+            let Some(order) = self.of(step.operation) else { continue };
+            faults.extend(self.feed_fault(order, leg, comes_down, step.feed));
+            faults.extend(spindle_fault(order, leg, machine.spindle));
+            if machine.flood != order.flood {
+                faults.push(fault(FindingKind::CoolantDiffers, leg, None));
+            }
+            if leg.tool.is_some_and(|tool| tool != order.tool) {
+                faults.push(fault(FindingKind::ToolDiffers, leg, None));
+            }
+        }
+        faults
+    }
+
+    /// From a rapid the tool comes down at the plunge's feed; on its way along the part straight down is as good as any
+    /// other direction.
+    fn feed_fault(&self, order: &Order, leg: &Leg, comes_down: bool, feed: f64) -> Option<Fault> {
+        let ordered = match leg.kind {
+            LegKind::Plunge if comes_down => order.plunge,
+            // a feed that goes nowhere or up is no faster than any other
+            LegKind::Still | LegKind::Retract => feed.min(order.cut.max(order.plunge)),
+            _ => order.cut,
+        };
+        let same = (feed - ordered).abs() <= self.limits.feed_unit + SAME_FEED * ordered;
+        (feed > 0.0 && !same).then(|| fault(FindingKind::FeedDiffers, leg, Some((feed, ordered))))
+    }
+}
+
+/// The findings of orders that the text does not carry out, when it carries out any by name.
+pub(crate) fn missing(program: &Program, subject: &Subject) -> Vec<Finding> {
+    let named = |order: &&Order| program.operations.iter().any(|operation| operation.id == order.id);
+    if !subject.orders.iter().any(|order| named(&order)) {
+        return Vec::new();
+    }
+    let left = subject.orders.iter().filter(|order| !named(order));
+    let message = |order: &Order| format!("the text has no operation {:?} of the job; post the whole job", order.id);
+    left.map(|order| Finding::of_all(FindingKind::MissingOperation, Severity::Error, message(order))).collect()
+}
+
+fn spindle_fault(order: &Order, leg: &Leg, turns: Option<(f64, SpindleDirection)>) -> Option<Fault> {
+    let (found, ordered) = (signed(turns), signed(order.spindle));
+    let same = (found - ordered).abs() <= 0.5 + SAME_FEED * ordered.abs();
+    (!same).then(|| fault(FindingKind::SpindleDiffers, leg, Some((found, ordered))))
+}
+
+/// Speed, negative counterclockwise, 0 when it stands.
+fn signed(turns: Option<(f64, SpindleDirection)>) -> f64 {
+    match turns {
+        Some((rpm, SpindleDirection::Clockwise)) => rpm,
+        Some((rpm, SpindleDirection::Counterclockwise)) => -rpm,
+        None => 0.0,
+    }
+}
+
+fn fault(kind: FindingKind, leg: &Leg, measure: Option<(f64, f64)>) -> Fault {
+    let weight = measure.map_or(0.0, |(found, ordered)| (found - ordered).abs());
+    Fault { kind, severity: Severity::Error, index: leg.index, line: leg.line, position: leg.end, measure, weight }
+}
+
+/// The states of the machine that events switch.
+struct Machine<'a> {
+    events: std::iter::Peekable<std::slice::Iter<'a, styluscam_motion::Event>>,
+    spindle: Option<(f64, SpindleDirection)>,
+    flood: bool,
+}
+
+impl<'a> Machine<'a> {
+    fn new(program: &'a Program) -> Self {
+        Self { events: program.events.iter().peekable(), spindle: None, flood: false }
+    }
+
+    /// Lets happen what comes before a move.
+    fn advance(&mut self, index: usize) {
+        while let Some(event) = self.events.next_if(|e| e.before <= index) {
+            match event.kind {
+                EventKind::SpindleOn { rpm, direction } => self.spindle = Some((rpm, direction)),
+                EventKind::SpindleOff => self.spindle = None,
+                EventKind::Flood { on } => self.flood = on,
+                EventKind::ToolChange { .. } | EventKind::Comment { .. } | EventKind::Dwell { .. } => {}
+            }
+        }
+    }
+}
