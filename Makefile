@@ -75,7 +75,7 @@ wheel: $(VENV)/.ready ## The wheel, in target/wheels
 test: ## Everything: what CI runs
 	@mkdir -p target
 	@$(MAKE) --no-print-directory $(VENV)/.ready
-	@$(PYTHON) tests/oracles/roots.py ensure trixie forky >$(ROOTS_LOG) 2>&1 & roots=$$!; \
+	@$(PYTHON) tests/oracles/roots.py ensure trixie forky browser >$(ROOTS_LOG) 2>&1 & roots=$$!; \
 	  tests/timed.sh lint $(MAKE) --no-print-directory lint; \
 	  tests/timed.sh cargo cargo test --workspace --locked --quiet; \
 	  tests/timed.sh wheel $(MAKE) --no-print-directory wheel dev; \
@@ -129,6 +129,18 @@ fixtures: ## Rebuilds the STEP parts and their exact answers (Python 3.11 or lat
 	test -x $(STYLUSCAM_CACHE)/fixtures-venv/bin/python || $(PYTHON) -m venv $(STYLUSCAM_CACHE)/fixtures-venv
 	$(STYLUSCAM_CACHE)/fixtures-venv/bin/python -m pip install --quiet -r fixtures/requirements.txt
 	$(STYLUSCAM_CACHE)/fixtures-venv/bin/python fixtures/make.py
+
+# Pinned in vendor/package.json; the bundle is in the package, so that a wheel is built without Node.
+THREE = $$(node -p 'require("./vendor/package.json").dependencies.three')
+.PHONY: vendor
+vendor: ## Bundles three.js for the report's page again (needs Node)
+	rm -rf target/vendor && mkdir -p target/vendor && cp vendor/* target/vendor
+	cd target/vendor && npm install --silent --no-audit --no-fund --no-package-lock
+	rm -f python/styluscam/report/vendor/three.*
+	target/vendor/node_modules/.bin/esbuild target/vendor/three.js --bundle --minify --format=iife --global-name=THREE \
+	  --target=es2022 --legal-comments=none --banner:js="/* three.js $(THREE), MIT licence: see three.LICENSE */" \
+	  --outfile=python/styluscam/report/vendor/three.$(THREE).min.js
+	cp target/vendor/node_modules/three/LICENSE python/styluscam/report/vendor/three.LICENSE
 
 .PHONY: addon
 addon: ## The FreeCAD addon as a zip with package.xml at its root

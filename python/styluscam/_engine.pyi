@@ -143,6 +143,9 @@ class Judgement:
     def coverage(
         self, job: Job, scene: Scene, progress: _Progress | None = None, cancel: CancelToken | None = None
     ) -> str: ...
+    def left(
+        self, job: Job, scene: Scene, points: _F, progress: _Progress | None = None, cancel: CancelToken | None = None
+    ) -> _F: ...
     @property
     def program(self) -> Program: ...
 

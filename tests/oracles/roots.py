@@ -1,8 +1,8 @@
-"""Builds and enters root file systems in which foreign programs (FreeCAD, LinuxCNC) judge our work.
+"""Builds and enters root file systems in which foreign programs (FreeCAD, LinuxCNC, a browser) judge our work.
 
 Everything is in `${STYLUSCAM_CACHE:-~/.cache/styluscam}`; nothing is installed on the host.
 
-    python3 tests/oracles/roots.py ensure trixie forky
+    python3 tests/oracles/roots.py ensure trixie forky browser
     python3 tests/oracles/roots.py enter trixie --bind /tmp/job:/job:rw -- freecadcmd /job/x.py
     python3 tests/oracles/roots.py doctor
 """
@@ -54,8 +54,9 @@ class Root:
     """What one root file system holds."""
 
     suite: str
-    freecad: str
     packages: tuple[str, ...]
+    freecad: str = ""
+    """The version of the FreeCAD in it, if any."""
 
     def stamp(self) -> str:
         """A hash that changes when the root has to be built again."""
@@ -81,6 +82,7 @@ ROOTS: Mapping[str, Root] = {
         freecad="1.1",
         packages=("freecad", "python3-numpy", "python3-pip", *DISPLAY_PACKAGES),
     ),
+    "browser": Root(suite="trixie", packages=("chromium", "fonts-dejavu-core")),
 }
 
 
@@ -758,6 +760,14 @@ os._exit(0)
 """
 
 
+def program_line(name: str) -> str:
+    """What the program that a root is for says of itself."""
+    if ROOTS[name].freecad:
+        return freecad_line(name)
+    done = run(name, ["chromium", "--version"], timeout=120)
+    return done.stdout.strip() or f"failed: {done.stderr.strip()[-300:]}"
+
+
 def freecad_line(name: str) -> str:
     """What the FreeCAD in a root says of itself: `FreeCAD 1.0.0 Python 3.13.5 numpy 2.2.4`."""
     script = f"printf %s {shlex.quote(VERSION_SCRIPT)} > v.py && exec freecadcmd v.py"
@@ -789,10 +799,11 @@ def doctor() -> int:
             print(f"{name:9} {there}: roots.py ensure {name}")
             wrong += 1
             continue
-        line = freecad_line(name) if not why_not() else "failed: cannot be entered here"
-        good = line.startswith(f"FreeCAD {root.freecad}.")
+        line = program_line(name) if not why_not() else "failed: cannot be entered here"
+        expected = f"FreeCAD {root.freecad}." if root.freecad else "Chromium "
+        good = line.startswith(expected)
         wrong += not good
-        verdict = "" if good else f"  WRONG: expected FreeCAD {root.freecad}"
+        verdict = "" if good else f"  WRONG: expected {expected}"
         print(f"{name:9} {_size(roots_dir() / name):>5}  {line}{verdict}")
     return 1 if wrong else 0
 

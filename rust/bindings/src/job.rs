@@ -1,10 +1,11 @@
 //! Jobs: documents, scenes, plans, posted text and its judgement.
 
+use numpy::{PyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use styluscam_job::{JobDocument, JobError, StarterFace, StarterPart, Summary};
 
 use crate::{
-    errors,
+    arrays, errors,
     part::Part,
     program::Program,
     waiting::{watched, CancelToken},
@@ -207,6 +208,23 @@ impl Judgement {
     ) -> PyResult<String> {
         let work = |watch: &_| styluscam_job::coverage(&job.document, &scene.scene, &self.judgement, watch);
         json(&watched(py, progress, cancel, work)?.map_err(of_job)?)
+    }
+
+    /// What is left at points (N, 3) in work coordinates, (N,), mm.
+    #[pyo3(signature = (job, scene, points, progress=None, cancel=None))]
+    #[allow(clippy::needless_pass_by_value)] // PyO3 hands arrays by value
+    fn left<'py>(
+        &self,
+        py: Python<'py>,
+        job: &Job,
+        scene: &Scene,
+        points: PyReadonlyArray2<'py, f64>,
+        progress: Option<&Bound<'py, PyAny>>,
+        cancel: Option<&CancelToken>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let points = arrays::vectors(&points, "points")?;
+        let work = |watch: &_| styluscam_job::left(&job.document, &scene.scene, &self.judgement, &points, watch);
+        Ok(PyArray1::from_vec(py, watched(py, progress, cancel, work)?.map_err(of_job)?))
     }
 
     /// The moves as they were read back.

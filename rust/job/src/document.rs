@@ -444,6 +444,8 @@ pub struct OutputSection {
     pub file: String,
     /// The program as JSON; beside the G-code when left out.
     pub program: String,
+    /// The report as an HTML page; none when left out.
+    pub report: String,
 }
 
 fn one() -> u32 {

@@ -1,7 +1,7 @@
 //! Posted text, judged: read back, put against the part, limits taken from the job.
 
 use serde::Serialize;
-use styluscam_geometry::Tool;
+use styluscam_geometry::{Tool, Vector};
 use styluscam_motion::{Program, ToolRecord, Watch};
 use styluscam_post::machine::ToolChange;
 use styluscam_post::{read, Machine, Reading};
@@ -69,6 +69,22 @@ pub fn coverage(
     let subject = subject(job, scene, &tools, judgement.first_placed_move);
     let wanted = scene.looking_up(&faces);
     Ok(styluscam_verify::coverage(&judgement.program, &subject, &judgement.limits, &wanted, watch)?)
+}
+
+/// What a judged program leaves at points in work coordinates, mm: their distance from all that tool and sheet sweep.
+///
+/// # Errors
+/// Tools that do not build, `Cancelled`.
+pub fn left(
+    job: &JobDocument,
+    scene: &Scene,
+    judgement: &Judgement,
+    points: &[Vector],
+    watch: &Watch,
+) -> Result<Vec<f64>, JobError> {
+    let (tools, _) = tools_in_order(job)?;
+    let subject = subject(job, scene, &tools, judgement.first_placed_move);
+    Ok(styluscam_verify::left(&judgement.program, &subject, &judgement.limits, points, watch)?)
 }
 
 fn subject<'a>(job: &'a JobDocument, scene: &'a Scene, tools: &'a [Tool], first_placed_move: usize) -> Subject<'a> {

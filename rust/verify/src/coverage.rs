@@ -72,22 +72,28 @@ pub fn coverage(
     let area: f64 = faces.iter().map(|face| face.area).sum();
     let between_passes = area / sweeps.length.max(f64::MIN_POSITIVE);
     let count = (PER_PASS * area / (between_passes * between_passes)).clamp(POINTS[0], POINTS[1]);
-    watch.begin("coverage", faces.len());
+    let of_face = |face: &Face| ((count * face.area / area) as usize).max(OF_A_FACE);
+    watch.begin("coverage", faces.iter().map(of_face).sum());
     let looked_at = |face: &Face| {
-        let points = ((count * face.area / area) as usize).max(OF_A_FACE);
-        let points = probes::spread(subject.mesh, &face.triangles, points);
-        let left: Result<Vec<Vec<f64>>, Cancelled> = points
-            .par_chunks(CHUNK)
-            .map(|chunk| {
-                let mut last = None;
-                watch.advance(0)?;
-                Ok(chunk.iter().map(|point| sweeps.left(*point, &mut last)).collect())
-            })
-            .collect();
-        watch.advance(1)?;
-        Ok(face.coverage(&points, &left?.concat(), sweeps.enough))
+        let points = probes::spread(subject.mesh, &face.triangles, of_face(face));
+        Ok(face.coverage(&points, &sweeps.left_at(&points, watch)?, sweeps.enough))
     };
     faces.iter().map(looked_at).collect()
+}
+
+/// What a program leaves at each of some points, mm: negative where they lie in what is swept, infinite where nothing is.
+///
+/// # Errors
+/// `Cancelled` when the watch says so.
+pub fn left(
+    program: &Program,
+    subject: &Subject,
+    limits: &Limits,
+    points: &[Vector],
+    watch: &Watch,
+) -> Result<Vec<f64>, Cancelled> {
+    watch.begin("what is left", points.len());
+    Sweeps::of(program, subject, limits).left_at(points, watch)
 }
 
 /// A face's wanted triangles.
@@ -161,6 +167,17 @@ impl Sweeps {
         let length = tools.iter().flat_map(|(_, tree)| tree).map(|sweep| sweep.0.length()).sum();
         let enough = COVERED * subject.tools.iter().map(styluscam_geometry::Tool::diameter).fold(0.0, f64::max);
         Self { tools, length, enough }
+    }
+
+    /// Distances from points to what is swept, mm; points near by follow each other.
+    fn left_at(&self, points: &[Vector], watch: &Watch) -> Result<Vec<f64>, Cancelled> {
+        let of_chunk = |chunk: &[Vector]| {
+            let mut last = None;
+            watch.advance(chunk.len())?;
+            Ok(chunk.iter().map(|point| self.left(*point, &mut last)).collect())
+        };
+        let left: Result<Vec<Vec<f64>>, Cancelled> = points.par_chunks(CHUNK).map(of_chunk).collect();
+        Ok(left?.concat())
     }
 
     /// Distance from a point to what is swept, mm; `last` holds the move that was nearest to a point near by.

@@ -42,7 +42,7 @@ mod sweep;
 mod travel;
 mod words;
 
-pub use coverage::{coverage, FaceCoverage};
+pub use coverage::{coverage, left, FaceCoverage};
 pub use findings::{Finding, FindingKind, Severity};
 pub use judge::judge;
 pub use orders::Order;
