@@ -23,7 +23,7 @@ demo: tools ## A STEP part becomes verified G-code, from nothing
 	$(PYTHON) -m venv --clear .venv-demo
 	.venv-demo/bin/python -m pip install --quiet --upgrade pip
 	.venv-demo/bin/python -m pip wheel --quiet --no-deps --wheel-dir target/demo .
-	.venv-demo/bin/python -m pip install --quiet "$$(ls -t target/demo/styluscam-*.whl | head -n 1)[step,plot]"
+	.venv-demo/bin/python -m pip install --quiet "$$(ls -t target/demo/styluscam-*.whl | head -n 1)[step,report]"
 	.venv-demo/bin/styluscam run examples/first-light/job.toml --picture examples/first-light/out/cone_cup.png
 	@echo
 	@echo "G-code:  examples/first-light/out/cone_cup.ngc"

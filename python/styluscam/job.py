@@ -102,6 +102,12 @@ class Job:
             self._part = Part.read(self.folder / section["file"], section["tolerance"], section.get("units"), progress)
         return self._part
 
+    def tools(self) -> dict[str, Tool]:
+        """The job's tools by name: profile, base, shank and holder."""
+        keys = ("profile", "base", "shank_diameter", "length", "holder")
+        sections = self.document["tools"].items()
+        return {name: Tool.from_dict({key: tool[key] for key in keys if key in tool}) for name, tool in sections}
+
     def machine(self) -> Machine:
         """The machine that the job names."""
         return Machine.of_section(self.document["machine"], self.folder)

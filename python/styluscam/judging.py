@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import numpy.typing as npt
+
 from styluscam import _engine
 from styluscam.brep import recheck
 from styluscam.errors import VerifyError
@@ -13,7 +15,8 @@ from styluscam.job import Job
 from styluscam.machine import Machine
 from styluscam.planning import Plan, Posted
 from styluscam.program import Program
-from styluscam.types import Document, Progress
+from styluscam.types import Document, FloatArray, Progress
+from styluscam.types import points as rows
 
 
 class Report:
@@ -23,7 +26,7 @@ class Report:
         self._document = document
         self.judgement = judgement
         self.program = Program(judgement.program)
-        self._job, self._scene = job, scene
+        self.job, self.scene = job, scene
         self._coverage: list[Document] | None = None
 
     @property
@@ -59,9 +62,27 @@ class Report:
         Whole faces count, whatever heights the operations stop at.
         """
         if self._coverage is None:
-            found = self.judgement.coverage(self._job.engine, self._scene, progress=progress, cancel=cancel)
+            found = self.judgement.coverage(self.job.engine, self.scene, progress=progress, cancel=cancel)
             self._coverage = json.loads(found)
         return self._coverage
+
+    def left(
+        self,
+        points: npt.ArrayLike,
+        *,
+        progress: Progress | None = None,
+        cancel: _engine.CancelToken | None = None,
+    ) -> FloatArray:
+        """What the program leaves at points (N, 3) in work coordinates, (N,), mm: as in :meth:`coverage`.
+
+        Negative where a move that is meant to touch sweeps over the point; infinite where there is no such move.
+
+        Raises:
+            GeometryError: no array of points.
+            Cancelled: by ``progress`` or ``cancel``.
+        """
+        places = rows(points, 3)
+        return self.judgement.left(self.job.engine, self.scene, places, progress=progress, cancel=cancel)
 
     @property
     def scallop(self) -> float:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -37,6 +38,8 @@ PASTELS = (
 INK, SOFT = "#1f2933", "#7b8794"
 LIGHT = np.array([-0.45, 0.55, 0.70])
 """Towards the lamp: right, up and towards the eye."""
+PNG: Any = {"format": "png", "dpi": DPI, "metadata": {"Software": None}}
+"""How pictures are saved."""
 LABELS = 60
 """Names on one picture at most: the largest faces get theirs."""
 
@@ -57,6 +60,12 @@ class Solid:
             return cls(arrays.vertices, arrays.triangles, arrays.normals, arrays.face_ids)
         turn = frame[:, :3]
         return cls(arrays.vertices @ turn.T + frame[:, 3], arrays.triangles, arrays.normals @ turn.T, arrays.face_ids)
+
+    @classmethod
+    def none(cls) -> Solid:
+        """Nothing, to which a tool can be added."""
+        none = np.zeros((0, 3), dtype=np.int64)
+        return cls(np.zeros((0, 3)), none, np.zeros((0, 3, 3)), none[:, 0])
 
     def with_tool(self, tool: Tool, tip: FloatArray, top: float) -> Solid:
         """The same with a tool standing at ``tip`` (3,), its shank ending at the height ``top``; it is face 0."""
@@ -81,7 +90,7 @@ def part_picture(part: Part | PartArrays, path: str | Path) -> None:
         StylusError: matplotlib is missing, or the file cannot be written.
         GeometryError: the part is nothing but an engine's mesh.
     """
-    arrays = _arrays(part)
+    arrays = arrays_of(part)
     solid = Solid.of(arrays)
     views = [View(-58.0, 52.0, SIZE[0] // 2, 660), View(122.0, -30.0, SIZE[0] // 2, 660)]
     frames = [view.framed(solid.vertices, 42.0) for view in views]
@@ -111,25 +120,47 @@ def part_picture(part: Part | PartArrays, path: str | Path) -> None:
 
 
 def program_picture(
-    part: Part | PartArrays,
+    part: Part | PartArrays | None,
     program: Program,
     path: str | Path,
     frame: npt.ArrayLike | None = None,
     tool: Tool | None = None,
+    *,
+    title: str = "",
 ) -> None:
     """Draws a part and the path of a tool's tip over it, coloured by Z; PNG, 1200 x 800.
 
     ``frame`` holds the rows (3, 4) from the part's coordinates to the program's. What the part hides of the path
-    is left out; rapids are thin. ``tool`` is drawn where it stands halfway.
+    is left out; rapids are thin. ``tool`` is drawn where it stands halfway. ``title`` goes before the program's own.
 
     Raises:
         StylusError: matplotlib is missing, or the file cannot be written.
-        GeometryError: the part is nothing but an engine's mesh.
+        GeometryError: the part is nothing but an engine's mesh; without a part, a program that goes nowhere.
     """
-    arrays = _arrays(part)
-    solid = Solid.of(arrays, None if frame is None else np.asarray(frame, dtype=np.float64))
+    _save(_program_figure(part, program, frame, tool, title), Path(path))
+
+
+def program_png(
+    part: Part | PartArrays | None,
+    program: Program,
+    frame: npt.ArrayLike | None = None,
+    tool: Tool | None = None,
+    title: str = "",
+) -> bytes:
+    """As :func:`program_picture`, the file's bytes."""
+    data = io.BytesIO()
+    _program_figure(part, program, frame, tool, title).savefig(data, **PNG)
+    return data.getvalue()
+
+
+def _program_figure(
+    part: Part | PartArrays | None, program: Program, frame: npt.ArrayLike | None, tool: Tool | None, title: str
+) -> Figure:
+    solid = Solid.none()
+    if part is not None:
+        solid = Solid.of(arrays_of(part), None if frame is None else np.asarray(frame, dtype=np.float64))
     view = View(-62.0, 54.0, SIZE[0] - 120, SIZE[1] - 80)
-    box, tip = solid.box, _halfway(program, view)
+    box, tip = _path_box(program) if part is None else solid.box, _halfway(program, view)
     view = view.framed(_corners(box), 62.0)
     if tool is not None and tip is not None:
         solid = solid.with_tool(tool, tip, box[1, 2] + 0.2 * float(np.linalg.norm(box[1] - box[0])))
@@ -137,25 +168,30 @@ def program_picture(
 
     figure = _figure()
     axes = _pane(figure, (0, 0, view.width, view.height))
-    axes.imshow(_shaded(view, raster, solid, by_face=False), extent=(0, view.width, view.height, 0))
+    if len(solid.triangles):
+        axes.imshow(_shaded(view, raster, solid, by_face=False), extent=(0, view.width, view.height, 0))
     _rulers(axes, view, box)
     drawn = _path(axes, view, raster, program, box)
-    _titles(figure, program)
+    _titles(figure, program, title)
     if drawn is not None:
         _scale(figure, drawn)
-    _save(figure, Path(path))
+    return figure
 
 
 def plan_picture(plan: Plan, path: str | Path) -> None:
     """As :func:`program_picture`, for a plan's part and program."""
     program = plan.programs["main"]
-    section = plan.job.document["tools"][program.tools[0]["name"]] if program.tools else None
-    keys = ("profile", "shank_diameter", "length")
-    tool = Tool.from_dict({key: section[key] for key in keys if key in section}) if section else None
+    tools = plan.job.tools()
+    tool = tools[program.tools[0]["name"]] if program.tools else None
     program_picture(plan.job.part(), program, path, plan.scene.frame, tool)
 
 
-def _arrays(part: Part | PartArrays) -> PartArrays:
+def arrays_of(part: Part | PartArrays) -> PartArrays:
+    """What there is to draw of a part.
+
+    Raises:
+        GeometryError: the part is nothing but an engine's mesh.
+    """
     arrays = part.arrays if isinstance(part, Part) else part
     if arrays is None:
         message = "a part made from arrays keeps none to draw: read it from a file"
@@ -193,7 +229,7 @@ def _save(figure: Figure, path: Path) -> None:
     from styluscam.files import drawn_whole
 
     with drawn_whole(path) as name:
-        figure.savefig(name, format="png", dpi=DPI, metadata={"Software": None})
+        figure.savefig(name, **PNG)
 
 
 # --- the part ------------------------------------------------------------------------------------------------------
@@ -333,6 +369,19 @@ def _triad(axes: Axes, view: View) -> None:
         axes.text(x + 42.0 * right, y - 42.0 * up, name, color=color, ha="center", va="center", fontsize=9)
 
 
+def _path_box(program: Program) -> FloatArray:
+    """Lower and upper corner (2, 3) of where the program goes, mm; a little more where that is flat."""
+    ends, rapid = program.positions, program.moves["kind"] == RAPID
+    known = np.isfinite(ends).all(axis=1)
+    ends = ends[known & ~rapid] if (known & ~rapid).any() else ends[known]
+    if not len(ends):
+        raise GeometryError("the program goes nowhere: nothing to draw", code="nothing-to-draw", hint="check the file")
+    box = np.array([ends.min(axis=0), ends.max(axis=0)])
+    least = max(0.02 * float(np.linalg.norm(box[1] - box[0])), 1e-3)
+    flat = np.maximum(least - (box[1] - box[0]), 0.0) / 2.0
+    return np.asarray(box + np.array([-flat, flat]))
+
+
 # --- the path ------------------------------------------------------------------------------------------------------
 
 
@@ -461,7 +510,7 @@ def _rulers(axes: Axes, view: View, box: FloatArray) -> None:
         axes.text(x, y, f"{'XYZ'[axis]} mm", ha=side, va="center", fontsize=11, color=INK, weight="bold")
 
 
-def _titles(figure: Figure, program: Program) -> None:
+def _titles(figure: Figure, program: Program, title: str) -> None:
     tools = ", ".join(dict.fromkeys(str(tool["description"]) for tool in program.tools))
     strategies = ", ".join(dict.fromkeys(str(operation["kind"]) for operation in program.operations))
     seconds = round(program.duration)
@@ -471,7 +520,7 @@ def _titles(figure: Figure, program: Program) -> None:
         else f"{seconds // 3600} h {seconds // 60 % 60:02} min"
     )
     facts = [strategies, tools, f"{program.length / 1000.0:.3g} m in {time}"]
-    title = str(program.setup.get("title", ""))
+    title = title or str(program.setup.get("title", ""))
     figure.text(0.03, 0.955, title, ha="left", va="center", color=INK, fontsize=18, weight="bold")
     line = ", ".join(fact for fact in facts if fact)
     figure.text(0.03, 0.912, line, ha="left", va="center", color=SOFT, fontsize=12.5)

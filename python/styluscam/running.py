@@ -12,12 +12,13 @@ from styluscam.files import require_writable, write_all_whole
 from styluscam.job import Job
 from styluscam.judging import Report, judge_plan
 from styluscam.planning import Plan, Posted, output_name, plan, post
+from styluscam.report import Subject, report_page, require_extra
 from styluscam.types import Document, Progress
 
 
 @dataclass(frozen=True)
 class RunResult:
-    """What a run made: written unless the judge objected."""
+    """What a run made: the program is written unless the judge objected, a report in any case."""
 
     plan: Plan
     posted: Posted
@@ -32,25 +33,28 @@ def run(
     write_despite_findings: bool = False,
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
+    report: Path | None = None,
     also: Sequence[Path] = (),
 ) -> RunResult:
     """Plans, posts, reads the text back, judges it, and writes it only if nothing was found.
 
-    ``also`` names files that the caller will write beside the program: asked about before the work begins.
-    The judge's figures go into the header: the text is posted again with them, and must hold the very same moves.
+    ``report`` names the page to be written, the job's own when left out: whatever was found. ``also`` names files that the
+    caller will write beside: asked about before the work begins.
     """
-    require_writable([*_names(job), *also], job.inputs())
+    page = report or _report_name(job)
+    require_writable([*_names(job), *([] if page is None else [page]), *also], job.inputs())
+    if page is not None:
+        require_extra()
     planned = plan(job, progress=progress, cancel=cancel)
-    report = judge_plan(planned, post(planned).text, progress, cancel)
-    summary, notes = planned.summary(report.judgement)
+    judged = judge_plan(planned, post(planned).text, progress, cancel)
+    summary, notes = planned.summary(judged.judgement)
     posted = post(planned, notes=notes)
-    _require_same_moves(report, planned, posted)
-    written: tuple[Path, ...] = ()
-    if report.ok or write_despite_findings:
-        files = _outputs(job, planned, posted, notes)
-        write_all_whole(files)
-        written = tuple(files)
-    return RunResult(planned, posted, report, summary, written)
+    _require_same_moves(judged, planned, posted)
+    files = _outputs(job, planned, posted, notes) if judged.ok or write_despite_findings else {}
+    if page is not None:
+        files[page] = report_page(Subject.judged(judged, planned.machine, _names(job)[0].name), progress)
+    write_all_whole(files)
+    return RunResult(planned, posted, judged, summary, tuple(files))
 
 
 def _require_same_moves(report: Report, planned: Plan, posted: Posted) -> None:
@@ -70,3 +74,9 @@ def _names(job: Job) -> tuple[Path, Path]:
     gcode = job.folder / output_name(job)
     named = job.document["output"]["program"]
     return gcode, job.folder / named if named else gcode.with_suffix(".program.json")
+
+
+def _report_name(job: Job) -> Path | None:
+    """The report's file, if the job names one."""
+    named = job.document["output"]["report"]
+    return job.folder / named if named else None

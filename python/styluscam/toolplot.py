@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import contextlib
+import io
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -78,6 +80,21 @@ def tool_picture(tools: Sequence[Tool], path: str | Path, step_mm: float = 0.5) 
     if path.suffix.lower() not in (".svg", ".png"):
         hint = f"call it {path.stem}.svg"
         raise ToolError(f"{path}: pictures of tools end in .svg or .png", code="ending", where=str(path), hint=hint)
+    with _drawn(tools, step_mm) as figure:
+        _save(figure, path)
+
+
+def tool_svg(tools: Sequence[Tool], step_mm: float = 0.5) -> str:
+    """As :func:`tool_picture`, the text of the SVG file."""
+    text = io.StringIO()
+    with _drawn(tools, step_mm) as figure:
+        figure.savefig(text, format="svg", metadata={"Date": None})
+    return text.getvalue()
+
+
+@contextlib.contextmanager
+def _drawn(tools: Sequence[Tool], step_mm: float) -> Iterator[Figure]:
+    """The picture of some tools, in the style in which it is to be saved."""
     if not 1 <= len(tools) <= len(COLOURS):
         message = f"{len(tools)} tools: a picture shows 1 to {len(COLOURS)}"
         raise ToolError(message, code="out-of-range", where="tools", hint="leave some out")
@@ -88,7 +105,7 @@ def tool_picture(tools: Sequence[Tool], path: str | Path, step_mm: float = 0.5) 
 
     with rc_context(STYLE):
         _draw(figure, _looks(tools), step_mm)
-        _save(figure, path)
+        yield figure
 
 
 def _looks(tools: Sequence[Tool]) -> list[_Drawn]:

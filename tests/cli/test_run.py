@@ -164,7 +164,7 @@ def test_nothing_is_written_where_the_judge_objects(objecting, cli):
     assert ran.code == 1
     assert [path.name for path in objecting.parent.iterdir()] == ["job.toml"]
     assert "line " in ran.err and "gouge" not in ran.out.splitlines()[0]
-    assert ran.err.splitlines()[-1].startswith("nothing was written")
+    assert ran.err.splitlines()[-1].startswith("no program was written")
     as_json = cli("run", objecting, "--json")
     assert as_json.code == 1 and not as_json.json["ok"] and as_json.json["written"] == []
     assert as_json.json["report"]["findings"][0]["line"] > 0
@@ -172,7 +172,7 @@ def test_nothing_is_written_where_the_judge_objects(objecting, cli):
 
 def test_findings_can_be_overruled_by_name(objecting, cli):
     ran = cli("run", objecting, "--write-despite-findings")
-    assert ran.code == 1 and "nothing was written" not in ran.err
+    assert ran.code == 1 and "no program was written" not in ran.err
     assert (objecting.parent / "cup.ngc").is_file()
 
 

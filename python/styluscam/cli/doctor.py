@@ -21,6 +21,7 @@ EXTRAS = {
     "step": (("OCP.STEPControl", "cadquery-ocp-novtk"),),
     "mesh": (("trimesh", "trimesh"), ("networkx", "networkx"), ("lxml", "lxml")),
     "plot": (("matplotlib", "matplotlib"),),
+    "report": (("jinja2", "jinja2"), ("matplotlib", "matplotlib")),
 }
 """Modules by extra, with the name under which an index has them."""
 

@@ -20,6 +20,16 @@ Picture: TypeAlias = Annotated[
     Path | None,
     typer.Option("--picture", metavar="FILE.png", help="Also draw a picture.", show_default=False),
 ]
+ReportFile: TypeAlias = Annotated[
+    Path | None,
+    typer.Option(
+        "--report", metavar="FILE.html", help="Also write a report: one page, no network.", show_default=False
+    ),
+]
+GcodeFile: TypeAlias = Annotated[Path, typer.Argument(metavar="FILE.ngc", help="The G-code.", show_default=False)]
+ForJob: TypeAlias = Annotated[
+    Path, typer.Option("--job", metavar="JOB.toml", help="The job that it is for.", show_default=False)
+]
 Json: TypeAlias = Annotated[bool, typer.Option("--json", help="Print one JSON document, errors included.")]
 Quiet: TypeAlias = Annotated[bool, typer.Option("--quiet", "-q", help="No progress, and no summary when all is well.")]
 Debug: TypeAlias = Annotated[bool, typer.Option("--debug", help="Show the traceback of a fault.")]

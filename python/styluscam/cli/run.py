@@ -10,7 +10,7 @@ import typer
 from styluscam import running
 from styluscam.cli import console, findings, progress, summary
 from styluscam.cli.failures import FOUND, naming
-from styluscam.cli.options import Debug, JobFile, Json, Picture, Quiet
+from styluscam.cli.options import Debug, JobFile, Json, Picture, Quiet, ReportFile
 from styluscam.job import Job
 from styluscam.types import Document
 
@@ -23,6 +23,7 @@ def run(
     job: JobFile,
     *,
     write_despite_findings: Despite = False,
+    report: ReportFile = None,
     picture: Picture = None,
     json: Json = False,
     quiet: Quiet = False,
@@ -32,10 +33,12 @@ def run(
 
     The posted text is read back and judged; it is written only if nothing was found.
     """
-    with naming(job), progress.shown(not (json or quiet)) as report:
+    with naming(job), progress.shown(not (json or quiet)) as shown:
         work = Job.read(job)
         also = [] if picture is None else [picture]
-        result = running.run(work, write_despite_findings=write_despite_findings, progress=report, also=also)
+        result = running.run(
+            work, write_despite_findings=write_despite_findings, progress=shown, report=report, also=also
+        )
         written = list(result.written)
         if picture is not None:
             _draw(result, picture)
@@ -43,7 +46,7 @@ def run(
     if json:
         console.say_json(_document(result, written))
     else:
-        _tell(result, written, quiet)
+        _tell(result, written, quiet, result.report.ok or write_despite_findings)
     return 0 if result.report.ok else FOUND
 
 
@@ -62,7 +65,7 @@ def _document(result: running.RunResult, written: list[Path]) -> Document:
     }
 
 
-def _tell(result: running.RunResult, written: list[Path], quiet: bool) -> None:
+def _tell(result: running.RunResult, written: list[Path], quiet: bool, has_program: bool) -> None:
     if not quiet or not result.report.ok:
         rows = summary.lines_of(result.summary, result.plan.job.document)
         rows += [("written", summary.shown_path(path)) for path in written]
@@ -74,5 +77,5 @@ def _tell(result: running.RunResult, written: list[Path], quiet: bool) -> None:
         return
     for line in findings.lines(result.report):
         console.complain(line)
-    if not result.written:
-        console.complain("nothing was written (--write-despite-findings writes it all the same)")
+    if not has_program:
+        console.complain("no program was written (--write-despite-findings writes it all the same)")

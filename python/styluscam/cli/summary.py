@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 from styluscam.types import Document
+from styluscam.words import clock, place
 
 
 def lines_of(summary: Document, job: Document) -> list[tuple[str, str]]:
@@ -40,17 +40,6 @@ def shown_path(path: Path) -> str:
         return str(path.resolve().relative_to(Path.cwd()))
     except (ValueError, OSError):
         return str(path)
-
-
-def clock(seconds: float) -> str:
-    """Hours, minutes and seconds."""
-    whole = round(seconds)
-    return f"{whole // 3600}:{whole // 60 % 60:02}:{whole % 60:02}"
-
-
-def place(point: Sequence[float]) -> str:
-    """Coordinates as G-code names them."""
-    return " ".join(f"{axis}{value:.3f}" for axis, value in zip("XYZ", point, strict=True))
 
 
 def _box(summary: Document) -> str:

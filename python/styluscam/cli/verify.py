@@ -3,37 +3,44 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from styluscam import judging
-from styluscam.cli import console, findings, progress
+from styluscam.cli import console, findings, pages, progress, summary
 from styluscam.cli.failures import FOUND, naming
-from styluscam.cli.options import Debug, Json, Quiet
-from styluscam.cli.summary import place
+from styluscam.cli.options import Debug, ForJob, GcodeFile, Json, Picture, Quiet, ReportFile
 from styluscam.errors import VerifyError
 from styluscam.job import Job
+from styluscam.report import Subject
 from styluscam.types import Document
-
-GcodeFile = Annotated[Path, typer.Argument(metavar="FILE.ngc", help="The G-code.", show_default=False)]
-ForJob = Annotated[Path, typer.Option("--job", metavar="JOB.toml", help="The job that it is for.", show_default=False)]
+from styluscam.words import place
 
 
-def verify(file: GcodeFile, job: ForJob, json: Json = False, quiet: Quiet = False, debug: Debug = False) -> int:
+def verify(
+    file: GcodeFile,
+    job: ForJob,
+    *,
+    report: ReportFile = None,
+    picture: Picture = None,
+    json: Json = False,
+    quiet: Quiet = False,
+    debug: Debug = False,
+) -> int:
     """Judge a G-code file against a job's part.
 
     The text is read as the job's machine reads it: gouges, excess, rapids, order; and what it leaves on each face.
     """
-    with naming(job), naming(file, VerifyError), progress.shown(not (json or quiet)) as report:
+    with naming(job), naming(file, VerifyError), progress.shown(not (json or quiet)) as shown:
         work = Job.read(job)
-        judged = judging.verify_file(file, work, progress=report)
-        covered = judged.coverage(progress=report) if json or not quiet else []
+        pages.require(report, picture, inputs=[file, *work.inputs()])
+        judged = judging.verify_file(file, work, progress=shown)
+        covered = judged.coverage(progress=shown) if json or not quiet else []
+        written = pages.write(lambda: Subject.judged(judged, work.machine(), file.name), report, picture, shown)
     if json:
         document = {"file": str(file), "job": str(job), **findings.document(judged), "coverage": covered}
-        console.say_json(document)
+        console.say_json({**document, "written": [str(path) for path in written]})
     elif not (quiet and judged.ok):
         _tell(judged, file)
+        console.fields([("written", summary.shown_path(path)) for path in written])
     return 0 if judged.ok else FOUND
 
 

@@ -1,0 +1,71 @@
+"""What the judge found, in words and with its moment on the time axis."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from styluscam.judging import Report
+from styluscam.types import Document, FloatArray, IntArray
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The whole report in a few words; ``state`` is "sound", "faulty" or "unjudged"."""
+
+    state: str
+    headline: str
+    explained: str
+
+
+def verdict_of(report: Report | None) -> Verdict:
+    """What a person wants to know first."""
+    if report is None:
+        explained = "The program is shown as the machine reads it. Nothing was held against a part."
+        return Verdict("unjudged", "Not judged", explained)
+    document = report.to_dict()
+    errors = [finding for finding in report.findings if finding["severity"] == "error"]
+    judged = (
+        f"The text was read back as the machine reads it; every move was held against the whole part: {document['samples']} "
+        f"places measured, {document['brep_checked']} contacts held against the exact model."
+    )
+    if errors or not report.ok:
+        kinds = dict.fromkeys(str(finding["kind"]) for finding in errors)
+        counts = ", ".join(f"{spoken(kind)} ({document['counts'].get(kind, 1)})" for kind in kinds)
+        return Verdict("faulty", "Must not run", f"Found: {counts}. {judged}")
+    if report.findings:
+        return Verdict("sound", "May run, with warnings", judged)
+    return Verdict("sound", "Nothing was found", judged)
+
+
+def spoken(kind: str) -> str:
+    """A finding's kind as words."""
+    return kind.replace("-", " ")
+
+
+def placed(findings: Sequence[Document], lines: IntArray, ends: FloatArray, times: FloatArray) -> list[Document]:
+    """The findings, each with its ``time`` in seconds (none where it has no moment).
+
+    ``lines`` (N,), ``ends`` (N, 3) and ``times`` (N,) are those of the moves.
+    """
+    return [{**finding, "time": _moment(finding, lines, ends, times)} for finding in findings]
+
+
+def _moment(finding: Document, lines: IntArray, ends: FloatArray, times: FloatArray) -> float | None:
+    """When the tool is nearest to the finding's position on the finding's line."""
+    moves = np.flatnonzero(lines == finding["line"]) if finding["line"] else np.zeros(0, dtype=np.int64)
+    if not len(moves):
+        return None
+    if finding["position"] is None:
+        return float(times[moves[0]])
+    before = np.maximum(moves - 1, 0)
+    start, way = ends[before], ends[moves] - ends[before]
+    square = np.einsum("ij,ij->i", way, way)
+    along = np.einsum("ij,ij->i", np.asarray(finding["position"]) - start, way)
+    share = np.clip(np.divide(along, square, out=np.ones(len(moves)), where=square > 0.0), 0.0, 1.0)
+    off = np.linalg.norm(start + share[:, None] * way - np.asarray(finding["position"]), axis=1)
+    best = int(np.nanargmin(off)) if np.isfinite(off).any() else 0
+    begins = times[before[best]] if moves[best] > 0 else 0.0
+    return float(begins + share[best] * (times[moves[best]] - begins))

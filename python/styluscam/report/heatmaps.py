@@ -1,0 +1,122 @@
+"""Numbers drawn on the part: what is left over, gouges, wall angle, thickness."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from styluscam.judging import Report
+from styluscam.report.surface import LIMIT, Mask, Surface, Vertices, vertices_of
+from styluscam.types import Document, FloatArray, Progress
+
+PER_PASS = 4.0
+"""Sides of triangles for each mean distance between passes."""
+
+COVERED = 0.01
+"""A place counts as covered when no more than this share of the largest tool's diameter is left: as the judge has it."""
+
+LEAST_GOUGE = 0.01
+"""mm: where the scale of gouges ends at least."""
+
+NOTHING = -1.0
+"""The value where a map has nothing to say; all others are 0 or more."""
+
+
+@dataclass(frozen=True, eq=False)
+class HeatMap:
+    """One number for each vertex."""
+
+    key: str
+    title: str
+    unit: str
+    values: FloatArray
+    """(V,), 0 or more; :data:`NOTHING` where there is nothing to say."""
+    low: float
+    high: float
+    over: str = ""
+    """What a value above ``high`` means, where that is a colour of its own."""
+    note: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Shown:
+    """A part with its maps, and the scallops for their histogram."""
+
+    points: FloatArray
+    vertices: Vertices
+    maps: tuple[HeatMap, ...]
+    scallops: FloatArray
+    """What is left at covered points, (N,), mm."""
+    weights: FloatArray
+    """The area for which each of them stands, (N,), mm^2."""
+
+
+def shown_plain(surface: Surface) -> Shown:
+    """A part that nothing was judged against: wall angles are all there is to say."""
+    vertices = vertices_of(surface)
+    none = np.zeros(0)
+    return Shown(surface.points, vertices, (_wall_angle(vertices),), none, none)
+
+
+def shown_judged(surface: Surface, report: Report, progress: Progress | None = None) -> Shown:
+    """A part and what a judged program leaves on it, refined so that the passes show."""
+    wanted = np.isin(surface.faces, [face["face"] for face in report.coverage(progress=progress)]) & surface.looks_up
+    area = float(surface.areas[wanted].sum())
+    between = area / max(report.program.length, 1e-9)
+    spacing = max(between / PER_PASS, float(np.sqrt(2.0 * area / LIMIT)))
+    surface, wanted = surface.refined(wanted, spacing)
+    left = report.left(surface.points, progress=progress)
+    vertices = vertices_of(surface)
+    asked = np.zeros(len(vertices.at), dtype=bool)
+    asked[vertices.triangles[wanted]] = True
+    enough = COVERED * max((float(tool["diameter"]) for tool in report.program.tools), default=0.0)
+    covered = asked & (left[vertices.at] <= enough)
+    share = np.repeat(surface.areas[wanted] / 3.0, 3)
+    weights: FloatArray = np.asarray(
+        np.bincount(vertices.triangles[wanted].reshape(-1), share, len(vertices.at)), dtype=np.float64
+    )
+    grid = f"{len(surface.points)} points, at most {surface.longest_side(wanted):.2g} mm apart where the job is"
+    of_points = np.maximum(left, 0.0)[vertices.at]
+    maps = [
+        _left_over(np.where(asked, of_points, NOTHING), covered, enough, grid),
+        _gouge(np.maximum(-left, 0.0)[vertices.at], grid),
+        _wall_angle(vertices),
+    ]
+    sheet = report.job.document["setup"].get("sheet")
+    if sheet:
+        maps.append(_thickness(vertices, np.where(asked, 1.0, NOTHING), sheet))
+    return Shown(surface.points, vertices, tuple(maps), of_points[covered], weights[covered])
+
+
+def _left_over(values: FloatArray, covered: Mask, enough: float, grid: str) -> HeatMap:
+    """Scallops, and what is not covered."""
+    most = float(values[covered].max(initial=0.0))
+    high = max(most, 1e-3)
+    values = np.where(np.isfinite(values), values, 2.0 * max(enough, high))
+    note = f"Distance from what tool and sheet sweep on moves that are meant to touch; {grid}."
+    return HeatMap("left", "left over", "mm", values, 0.0, high, f"not covered: more than {enough:.3g} mm", note)
+
+
+def _gouge(values: FloatArray, grid: str) -> HeatMap:
+    note = f"How deep moves that are meant to touch enter the part; others stand among the findings; {grid}."
+    high = max(LEAST_GOUGE, float(values.max(initial=0.0)))
+    return HeatMap("gouge", "gouge", "mm", np.where(np.isfinite(values), values, 0.0), 0.0, high, note=note)
+
+
+def _angles(vertices: Vertices) -> FloatArray:
+    """Wall angle at each vertex, rad; what looks down has that of its mirror image."""
+    return np.asarray(np.arccos(np.clip(np.abs(vertices.normals[:, 2]), 0.0, 1.0)))
+
+
+def _wall_angle(vertices: Vertices) -> HeatMap:
+    note = "Between the surface and the horizontal."
+    return HeatMap("wall", "wall angle", "°", np.degrees(_angles(vertices)), 0.0, 90.0, note=note)
+
+
+def _thickness(vertices: Vertices, asked: FloatArray, sheet: Document) -> HeatMap:
+    thickness = float(sheet["thickness"])
+    values = thickness * np.cos(_angles(vertices))
+    note = f"By the sine law: {thickness:g} mm times the cosine of the wall angle. An estimate for one pass of forming."
+    values = np.where(asked > 0.0, values, NOTHING)
+    return HeatMap("thickness", "thickness", "mm", values, 0.0, thickness, note=note)

@@ -1,0 +1,176 @@
+"""The report as one HTML file: everything inside, nothing loaded."""
+
+from __future__ import annotations
+
+import base64
+import json
+
+import numpy as np
+
+from styluscam.outline import silhouette
+from styluscam.report import figures, tables
+from styluscam.report.columns import packed
+from styluscam.report.decimation import thinned
+from styluscam.report.findings import spoken, verdict_of
+from styluscam.report.heatmaps import HeatMap, Shown, shown_judged, shown_plain
+from styluscam.report.subject import Subject
+from styluscam.report.templates import PAGE, template
+from styluscam.report.vendored import three
+from styluscam.tool import Tool
+from styluscam.toolplot import tool_svg
+from styluscam.types import Document, FloatArray, Progress
+
+SCRIPTS = ("data", "colours", "stage", "part", "path", "tool", "player", "findings", "main")
+"""In the order in which they build upon each other."""
+
+SEGMENTS = 200_000
+"""Of the path as it is drawn."""
+
+LENGTH_STEP, UNIT_STEP = 1e-4, 1e-3
+"""To which the part's points (mm) and its normals are rounded for the drawing."""
+
+VALUE_STEPS = {"mm": 1e-5, "°": 1e-2}
+"""To which the numbers of heat maps are rounded."""
+
+MICROSECOND = 1e-6
+COLOURS = 64
+"""Steps of the colour map."""
+
+
+def report_page(subject: Subject, progress: Progress | None = None) -> str:
+    """The page's text. The same subject gives the same text.
+
+    Raises:
+        StylusError: jinja2 or matplotlib are missing.
+        GeometryError: a part that keeps no triangles to draw, or a program that goes nowhere.
+    """
+    shown = _shown(subject, progress)
+    verdict = verdict_of(subject.report)
+    return str(
+        template("report.html.jinja").render(
+            subject=subject,
+            verdict=verdict,
+            figures=tables.spoken(tables.figures(subject)),
+            findings=subject.findings,
+            spoken=spoken,
+            faces=tables.faces(subject),
+            maps=shown.maps if shown is not None else (),
+            plots=_plots(subject, shown),
+            tools=_tool_pictures(subject),
+            still=_still(subject),
+            job=tables.job_rows(subject.job.document) if subject.job is not None else {},
+            versions=tables.versions(subject),
+            style=(PAGE / "style.css").read_text(encoding="utf-8"),
+            three=three(),
+            script="\n".join((PAGE / f"{name}.js").read_text(encoding="utf-8") for name in SCRIPTS),
+            data=_json(_data(subject, shown)),
+        )
+    )
+
+
+def _json(data: Document) -> str:
+    """JSON that can stand in a script element."""
+    return json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+
+
+def _shown(subject: Subject, progress: Progress | None) -> Shown | None:
+    if subject.surface is None:
+        return None
+    if subject.report is None:
+        return shown_plain(subject.surface)
+    return shown_judged(subject.surface, subject.report, progress)
+
+
+def _plots(subject: Subject, shown: Shown | None) -> list[figures.Plot]:
+    moves = subject.program.moves[subject.placed]
+    series = [figures.Series(subject.times, subject.ends[:, 2], moves["feed"], moves["kind"])]
+    plots = [figures.height_over_time(series), figures.feed_over_time(series)] if len(moves) else []
+    if shown is not None and len(shown.scallops):
+        plots.append(figures.scallop_histogram(shown.scallops, shown.weights))
+    return plots
+
+
+def _tool_pictures(subject: Subject) -> list[str]:
+    """An SVG for each tool that is known."""
+    steps = [float(operation["step"]["height"]) for operation in _operations(subject) if operation.get("step")]
+    step = min(steps, default=0.5)
+    return [figures.element(tool_svg([tool], step)) for _, tool in subject.tools if tool is not None]
+
+
+def _operations(subject: Subject) -> list[Document]:
+    return list(subject.job.document["operations"]) if subject.job is not None else []
+
+
+def _still(subject: Subject) -> str:
+    """The picture for print, and for browsers without 3-D: a data URI."""
+    return "data:image/png;base64," + base64.b64encode(subject.png()).decode("ascii")
+
+
+# --- what the script works with ------------------------------------------------------------------------------------
+
+
+def _data(subject: Subject, shown: Shown | None) -> Document:
+    return {
+        "part": None if shown is None else _part(shown),
+        "path": _path(subject),
+        "tools": [_tool(record, tool) for record, tool in subject.tools],
+        "operations": [[str(one["id"] or one["kind"]), int(one["tool"])] for one in subject.program.operations],
+        "findings": [{key: finding[key] for key in ("position", "time", "kind")} for finding in subject.findings],
+        "colours": {"map": _colour_map("viridis"), "path": _colour_map("plasma")},
+    }
+
+
+def _part(shown: Shown) -> Document:
+    vertices = shown.vertices
+    return {
+        "points": packed(shown.points, LENGTH_STEP),
+        "at": packed(vertices.at),
+        "normals": packed(vertices.normals, UNIT_STEP),
+        "triangles": packed(vertices.triangles),
+        "maps": [_map(one) for one in shown.maps],
+    }
+
+
+def _map(one: HeatMap) -> Document:
+    keys = ("key", "title", "unit", "low", "high", "over", "note")
+    return {**{key: getattr(one, key) for key in keys}, "values": packed(one.values, VALUE_STEPS[one.unit])}
+
+
+def _path(subject: Subject) -> Document:
+    """The path twice: thinned for the drawing, exact for the readout."""
+    moves = subject.program.moves[subject.placed]
+    changes = np.zeros(len(moves), dtype=bool)
+    if len(moves):
+        for column in (subject.kinds, moves["operation"], moves["feed"]):
+            changes[:-1] |= column[1:] != column[:-1]
+        drawn = thinned(subject.ends, changes, SEGMENTS)
+    return {
+        "ends": packed(subject.ends),
+        "times": packed(subject.times, MICROSECOND),
+        "kinds": packed(subject.kinds),
+        "feeds": packed(moves["feed"]),
+        "lines": packed(moves["line"]),
+        "operations": packed(moves["operation"]),
+        "drawn": packed(drawn.indices if len(moves) else []),
+        "drawnError": drawn.error_mm if len(moves) else 0.0,
+        "unplaced": len(subject.program.moves) - len(moves),
+    }
+
+
+def _tool(record: Document, tool: Tool | None) -> Document:
+    """What it is called, and its meridian from tip to top: radii and heights."""
+    name = f"T{record['number']}: {record['description']}" if record["description"] else f"T{record['number']}"
+    return {"name": name, "profile": [] if tool is None else _meridian(tool).round(5).tolist()}
+
+
+def _meridian(tool: Tool) -> FloatArray:
+    document = tool.to_dict()
+    rim = float(tool.height_at(tool.max_slope))
+    return silhouette(tool, document, rim + 3.0 * tool.diameter)
+
+
+def _colour_map(name: str) -> list[list[int]]:
+    """Even steps for the eye, readable with any kind of colour vision; the pale end is left off."""
+    from matplotlib import colormaps
+
+    return [[round(255 * part) for part in rgb[:3]] for rgb in colormaps[name](np.linspace(0.0, 0.96, COLOURS))]

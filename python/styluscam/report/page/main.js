@@ -1,0 +1,68 @@
+// Everything put together.
+
+function boxOf(columns) {
+  const [low, high] = [[], []];
+  for (const column of columns) {
+    let [least, most] = [Infinity, -Infinity];
+    for (let i = 0; i < column.length; i++) {
+      if (column[i] < least) least = column[i];
+      if (column[i] > most) most = column[i];
+    }
+    low.push(least > most ? 0 : least);
+    high.push(least > most ? 0 : most);
+  }
+  return [low, high];
+}
+
+async function start() {
+  const path = await Path.of(given.path);
+  const box = given.part ? boxOf(await unpacked(given.part.points)) : boxOf(path.ends);
+  const stage = new Stage(document.querySelector("#stage canvas"), box);
+  const part = given.part && (await PartView.of(stage, given.part));
+  const lines = new PathView(stage, path);
+  const tool = new ToolView(stage, given.tools);
+  const player = new Player(path);
+  player.show = ({ move, tip }) => {
+    lines.done(move);
+    tool.stand(player.toolAt(move), tip);
+  };
+  player.seek(path.duration);
+  new Findings(stage, player, given.findings);
+  wire(stage, part, lines);
+  await part?.show("");
+  lines.show("kind");
+  note(path);
+  return { stage, part, player, tool };
+}
+
+function wire(stage, part, lines) {
+  const map = document.getElementById("map");
+  map?.addEventListener("change", () => part.show(map.value));
+  const colour = document.getElementById("path-colour");
+  colour.addEventListener("change", () => {
+    if (!colour.value) showLegend("path", null);
+    lines.show(colour.value);
+  });
+  for (const button of document.querySelectorAll("[data-view]")) {
+    button.addEventListener("click", () => stage.look(button.dataset.view));
+  }
+}
+
+function note(path) {
+  const said = [`${path.count} moves`];
+  const drawn = path.drawn.length;
+  if (drawn < path.count) said.push(`drawn through ${drawn} of their ends, at most ${short(path.drawnError)} mm off; the readout is exact`);
+  if (path.unplaced) said.push(`${path.unplaced} more go to places that are not known`);
+  document.getElementById("path-note").textContent = `${said.join("; ")}.`;
+}
+
+try {
+  window.styluscam = await start();
+} catch (error) {
+  console.error(error);
+  document.getElementById("stage").classList.add("flat");
+  const trouble = document.getElementById("trouble");
+  trouble.hidden = false;
+  trouble.textContent = `The 3-D view cannot be shown in this browser: ${error.message}`;
+}
+document.documentElement.dataset.ready = "yes";

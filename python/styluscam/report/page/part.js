@@ -1,0 +1,74 @@
+// The part, plain or in the colours of a heat map.
+
+class PartView {
+  static async of(stage, part) {
+    const [points, [at], normals, triangles] = await Promise.all(
+      [part.points, part.at, part.normals, part.triangles].map(unpacked),
+    );
+    return new PartView(stage, part.maps, points, at, normals, triangles);
+  }
+
+  constructor(stage, maps, points, at, normals, triangles) {
+    this.stage = stage;
+    this.maps = maps;
+    const count = at.length;
+    const position = new Float32Array(3 * count);
+    const normal = new Float32Array(3 * count);
+    for (let i = 0; i < count; i++) {
+      for (let k = 0; k < 3; k++) {
+        position[3 * i + k] = points[k][at[i]] - stage.origin[k];
+        normal[3 * i + k] = normals[k][i];
+      }
+    }
+    const index = new Uint32Array(3 * triangles[0].length);
+    for (let t = 0; t < triangles[0].length; t++) {
+      for (let k = 0; k < 3; k++) index[3 * t + k] = triangles[k][t];
+    }
+    const geometry = new THREE.BufferGeometry();
+    this.colours = new THREE.BufferAttribute(new Uint8Array(3 * count), 3, true);
+    geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
+    geometry.setAttribute("normal", new THREE.BufferAttribute(normal, 3));
+    geometry.setAttribute("color", this.colours);
+    geometry.setIndex(new THREE.BufferAttribute(index, 1));
+    const looks = { vertexColors: true, side: THREE.DoubleSide, shininess: 18, specular: 0x222222 };
+    // behind the lines of a path that lie on it
+    const material = new THREE.MeshPhongMaterial({ ...looks, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2 });
+    stage.scene.add(new THREE.Mesh(geometry, material));
+  }
+
+  /** Shows the map with this key; none for plain. */
+  async show(key) {
+    const map = this.maps.find((one) => one.key === key);
+    const values = map ? (await unpacked(map.values))[0] : null;
+    const colour = colourOf(map);
+    const array = this.colours.array;
+    for (let i = 0; i < this.colours.count; i++) {
+      const rgb = values ? colour(values[i]) : PLAIN;
+      array[3 * i] = rgb[0];
+      array[3 * i + 1] = rgb[1];
+      array[3 * i + 2] = rgb[2];
+    }
+    linear(array);
+    this.colours.needsUpdate = true;
+    showLegend("map", map && scaleLegend("map", map.title, map.unit, map.low, map.high, given.colours.map, map.over));
+    document.getElementById("map-note").textContent = map ? map.note : "";
+    this.stage.redraw();
+  }
+}
+
+function colourOf(map) {
+  if (!map) return () => PLAIN;
+  const table = Array.from({ length: 1025 }, (_, i) => shade(given.colours.map, i / 1024));
+  const span = map.high - map.low || 1;
+  return (value) => {
+    if (value < 0) return NOTHING;
+    if (map.over && value > map.high * 1.0001) return OVER;
+    return table[Math.round(1024 * Math.min(1, Math.max(0, (value - map.low) / span)))];
+  };
+}
+
+/** From the colours of a screen to those in which light is added up, in place. */
+const LINEAR = Uint8Array.from({ length: 256 }, (_, i) => Math.round(255 * new THREE.Color().setRGB(i / 255, 0, 0, THREE.SRGBColorSpace).r));
+function linear(array) {
+  for (let i = 0; i < array.length; i++) array[i] = LINEAR[array[i]];
+}

@@ -1,0 +1,153 @@
+"""The part as a page shows it: triangles in work coordinates, finer where a map is to be drawn on them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from styluscam.parts import PartArrays
+from styluscam.types import FloatArray, IntArray
+
+Mask = npt.NDArray[np.bool_]
+
+LIMIT = 300_000
+"""Points of a refined surface at most."""
+
+PATTERNS: tuple[tuple[tuple[int, int, int], ...], ...] = (
+    ((0, 1, 2),),
+    ((0, 3, 2), (3, 1, 2)),
+    ((0, 1, 4), (0, 4, 2)),
+    ((3, 1, 4), (0, 3, 4), (0, 4, 2)),
+    ((0, 1, 5), (5, 1, 2)),
+    ((5, 0, 3), (2, 5, 3), (2, 3, 1)),
+    ((4, 2, 5), (1, 4, 5), (1, 5, 0)),
+    ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)),
+)
+"""What a triangle becomes, by which of its sides are halved (bits 0 to 2: from each corner to the next): corners 0 to 2,
+middles of the sides 3 to 5."""
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Points (P, 3), mm; triangles (T, 3) of them with normals at their corners (T, 3, 3) and a face each (T,)."""
+
+    points: FloatArray
+    triangles: IntArray
+    normals: FloatArray
+    faces: IntArray
+    smooth: bool
+    """Whether the normals are those of the model's surfaces, not of facets."""
+
+    @classmethod
+    def of(cls, arrays: PartArrays, frame: FloatArray) -> Surface:
+        """A part, moved by the rows (3, 4) of ``frame``."""
+        turn = frame[:, :3]
+        smooth = any(face.kind != "mesh" for face in arrays.faces)
+        points = arrays.vertices @ turn.T + frame[:, 3]
+        return cls(points, arrays.triangles, arrays.normals @ turn.T, arrays.face_ids, smooth)
+
+    @property
+    def areas(self) -> FloatArray:
+        """Of the triangles, (T,), mm^2."""
+        return np.asarray(np.linalg.norm(self._doubled(), axis=1) / 2.0)
+
+    @property
+    def looks_up(self) -> Mask:
+        """The triangles (T,) that do not look down, as the engine's ``looking_up`` has it."""
+        doubled = self._doubled()
+        return np.asarray(doubled[:, 2] > -1e-9 * np.linalg.norm(doubled, axis=1))
+
+    def _doubled(self) -> FloatArray:
+        a, b, c = (self.points[self.triangles[:, k]] for k in range(3))
+        return np.cross(b - a, c - a)
+
+    def longest_side(self, wanted: Mask) -> float:
+        """Of the wanted triangles (T,), mm."""
+        return float(_sides(self.points, self.triangles[wanted]).max(initial=0.0))
+
+    def refined(self, wanted: Mask, spacing: float, limit: int = LIMIT) -> tuple[Surface, Mask]:
+        """Sides of wanted triangles (T,) are halved until none is longer than ``spacing`` mm, or ``limit`` is reached.
+
+        Neighbours are divided with them: no gaps. The finer surface comes with what is wanted of it.
+        """
+        surface = self
+        while True:
+            long = _sides(surface.points, surface.triangles) > spacing
+            finer = surface._halved(long & wanted[:, None], limit)
+            if finer is None:
+                return surface, wanted
+            surface, parent = finer
+            wanted = wanted[parent]
+
+    def _halved(self, long: Mask, limit: int) -> tuple[Surface, IntArray] | None:
+        """With each long side (T, 3) halved, and the triangle that each new one is a part of."""
+        ends = np.sort(np.stack([self.triangles, np.roll(self.triangles, -1, axis=1)], axis=-1), axis=-1)
+        key = ends[..., 0] * len(self.points) + ends[..., 1]
+        halved = np.unique(key[long])
+        if not len(halved) or len(self.points) + len(halved) > limit:
+            return None
+        place = np.minimum(np.searchsorted(halved, key), len(halved) - 1)
+        marked = halved[place] == key
+        middles = (self.points[halved // len(self.points)] + self.points[halved % len(self.points)]) / 2.0
+        nodes = np.concatenate([self.triangles, place + len(self.points)], axis=1)
+        between = self.normals + np.roll(self.normals, -1, axis=1)
+        between /= np.maximum(np.linalg.norm(between, axis=2, keepdims=True), 1e-12)
+        normals = np.concatenate([self.normals, between], axis=1)
+        pattern = marked @ np.array([1, 2, 4])
+        parts = [
+            (np.flatnonzero(pattern == number), list(corners))
+            for number, pieces in enumerate(PATTERNS)
+            for corners in pieces
+        ]
+        parent = np.concatenate([of for of, _ in parts])
+        order = np.argsort(parent, kind="stable")
+        surface = Surface(
+            np.concatenate([self.points, middles]),
+            np.concatenate([nodes[of][:, corners] for of, corners in parts])[order],
+            np.concatenate([normals[of][:, corners] for of, corners in parts])[order],
+            self.faces[parent[order]],
+            self.smooth,
+        )
+        return surface, parent[order]
+
+
+@dataclass(frozen=True, eq=False)
+class Vertices:
+    """A surface for a graphics card: one normal for each vertex."""
+
+    at: IntArray
+    """The point of each vertex, (V,)."""
+    normals: FloatArray
+    """(V, 3)."""
+    triangles: IntArray
+    """(T, 3), of vertices."""
+    faces: IntArray
+    """The face of each vertex, (V,)."""
+
+
+def vertices_of(surface: Surface) -> Vertices:
+    """Corners of one face at one point become one vertex; those of facets stay apart, so that edges stay sharp."""
+    corners = surface.triangles.reshape(-1)
+    faces = np.repeat(surface.faces, 3)
+    normals = surface.normals.reshape(-1, 3)
+    if not surface.smooth:
+        triangles = np.arange(len(corners)).reshape(-1, 3)
+        return Vertices(corners, normals, triangles, faces)
+    _, first, vertex = np.unique(faces * len(surface.points) + corners, return_index=True, return_inverse=True)
+    vertex = vertex.reshape(-1)
+    order = np.argsort(first)  # in the order of the triangles: neighbours stay near each other
+    rank = np.empty_like(order)
+    rank[order] = np.arange(len(order))
+    vertex, first = rank[vertex], first[order]
+    summed: FloatArray = np.zeros((len(first), 3))
+    np.add.at(summed, vertex, normals)
+    summed /= np.maximum(np.linalg.norm(summed, axis=1, keepdims=True), 1e-12)
+    return Vertices(corners[first], summed, vertex.reshape(-1, 3), faces[first])
+
+
+def _sides(points: FloatArray, triangles: IntArray) -> FloatArray:
+    """Lengths (T, 3) of the sides from each corner to the next."""
+    corners = points[triangles]
+    return np.asarray(np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2))

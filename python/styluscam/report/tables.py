@@ -1,0 +1,123 @@
+"""Tables of a page: the program in figures, what is left on each face, the job, the versions."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from styluscam import __version__
+from styluscam.report.subject import RAPIDS, Subject
+from styluscam.report.vendored import THREE_VERSION
+from styluscam.types import Document
+from styluscam.words import clock, place
+
+LONGEST = 120
+"""Characters of a value in the job's table."""
+
+Rows = list[tuple[str, str]]
+
+
+def figures(subject: Subject) -> Document:
+    """The program in numbers, as ``compare`` puts them side by side; mm, s, shares. None where there is none."""
+    program, ends = subject.program, subject.ends
+    at_feed = subject.kinds != RAPIDS
+    report = subject.report
+    faces = report.coverage() if report is not None else []
+    area = sum(float(face["area"]) for face in faces)
+    return {
+        "time_s": float(subject.times[-1]) if len(subject.times) else 0.0,
+        "length_mm": program.length,
+        "moves": len(program.moves),
+        "lowest_z_mm": float(ends[at_feed, 2].min()) if at_feed.any() else None,
+        "findings": sum(report.to_dict()["counts"].values()) if report is not None else None,
+        "gouge_mm": report.gouge_max if report is not None else None,
+        "excess_mm": report.excess_max if report is not None else None,
+        "scallop_mm": max((float(face["scallop"]) for face in faces), default=0.0) if report is not None else None,
+        "covered": sum(float(face["covered"]) * float(face["area"]) for face in faces) / area if area else None,
+    }
+
+
+SHOWN = {
+    "time_s": ("time", clock),
+    "length_mm": ("length at feed", lambda value: f"{value:.0f} mm"),
+    "moves": ("moves", lambda value: f"{value}"),
+    "lowest_z_mm": ("lowest Z", lambda value: f"{value:.3f} mm"),
+    "findings": ("findings", lambda value: f"{value}"),
+    "gouge_mm": ("worst gouge", lambda value: f"{value:.4f} mm"),
+    "excess_mm": ("worst excess", lambda value: f"{value:.4f} mm"),
+    "scallop_mm": ("scallop", lambda value: f"{value:.4f} mm"),
+    "covered": ("covered", lambda value: f"{100.0 * value:.1f} %"),
+}
+"""How people get to see :func:`figures`."""
+
+
+def spoken(numbers: Document) -> Rows:
+    """:func:`figures` in words, without those that are not known."""
+    return [(name, said(numbers[key])) for key, (name, said) in SHOWN.items() if numbers[key] is not None]
+
+
+def faces(subject: Subject) -> list[tuple[str, ...]]:
+    """What is left on each face: name, area, covered, scallop, mean, most, where."""
+    if subject.report is None:
+        return []
+    return [_face(face) for face in subject.report.coverage()]
+
+
+def _face(face: Document) -> tuple[str, ...]:
+    covered = face["covered"] > 0.0
+    return (
+        f"Face{face['face']}",
+        f"{face['area']:.1f}",
+        f"{100.0 * face['covered']:.1f}",
+        f"{face['scallop']:.4f}" if covered else "",
+        f"{face['mean']:.4f}" if covered else "",
+        "nothing touches it" if face["left"] is None else f"{face['left']:.4f}",
+        "" if face["at"] is None else place(face["at"]),
+    )
+
+
+def job_rows(document: Document) -> dict[str, Rows]:
+    """A job document by section: its keys and values."""
+    sections: dict[str, Rows] = {}
+    for key, value in document.items():
+        name = key if isinstance(value, dict | list) else "job"
+        sections.setdefault(name, []).extend(_flat(value, "" if name == key else key))
+    return {name: rows for name, rows in sections.items() if rows}
+
+
+def _flat(value: object, path: str) -> Iterator[tuple[str, str]]:
+    """Keys with dots between them, and values as the document writes them."""
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            yield from _flat(inner, f"{path}.{key}" if path else key)
+    elif isinstance(value, list) and any(isinstance(item, dict) for item in value):
+        for number, inner in enumerate(value, start=1):
+            yield from _flat(inner, f"{path}[{number}]" if path or len(value) > 1 else "")
+    elif value not in (None, "", []):
+        yield path, _said(value)
+
+
+def _said(value: object) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return f"{value:g}"
+    if isinstance(value, list):
+        text = ", ".join(_said(item) for item in value)
+        return text if len(text) <= LONGEST else f"{len(value)} entries"
+    return str(value)
+
+
+def versions(subject: Subject) -> Rows:
+    """What made the page, and for which machine."""
+    return [
+        ("StylusCAM", __version__),
+        ("three.js", THREE_VERSION),
+        ("machine", f"{subject.machine.name}: {subject.machine.description}"),
+        *([("machine file", _machine_file(subject))] if _machine_file(subject) else []),
+    ]
+
+
+def _machine_file(subject: Subject) -> str:
+    named = subject.job.document["machine"].get("file") if subject.job is not None else None
+    return re.split(r"[\\/]", named)[-1] if named else ""
