@@ -1,8 +1,5 @@
 // What the report's page takes from three.js (3-D in the browser, MIT), and nothing else.
 export {
-  AmbientLight,
-  Box3,
-  BoxGeometry,
   BufferAttribute,
   BufferGeometry,
   Color,

@@ -38,8 +38,9 @@ def run(
 ) -> RunResult:
     """Plans, posts, reads the text back, judges it, and writes it only if nothing was found.
 
-    ``report`` names the page to be written, the job's own when left out: whatever was found. ``also`` names files that the
-    caller will write beside: asked about before the work begins.
+    ``report`` names the page to be written, the job's own when left out: whatever was found. ``also`` names files that
+    the caller will write beside the program: asked about before the work begins.
+    The judge's figures go into the header: the text is posted again with them, and must hold the very same moves.
     """
     page = report or _report_name(job)
     require_writable([*_names(job), *([] if page is None else [page]), *also], job.inputs())

@@ -8,7 +8,7 @@ import numpy as np
 
 from styluscam.judging import Report
 from styluscam.report.surface import LIMIT, Mask, Surface, Vertices, vertices_of
-from styluscam.types import Document, FloatArray, Progress
+from styluscam.types import Document, FloatArray, IntArray, Progress
 
 PER_PASS = 4.0
 """Sides of triangles for each mean distance between passes."""
@@ -44,6 +44,8 @@ class Shown:
     """A part with its maps, and the scallops for their histogram."""
 
     points: FloatArray
+    borders: IntArray
+    """Pairs of points between which a line is drawn, (E, 2)."""
     vertices: Vertices
     maps: tuple[HeatMap, ...]
     scallops: FloatArray
@@ -56,7 +58,7 @@ def shown_plain(surface: Surface) -> Shown:
     """A part that nothing was judged against: wall angles are all there is to say."""
     vertices = vertices_of(surface)
     none = np.zeros(0)
-    return Shown(surface.points, vertices, (_wall_angle(vertices),), none, none)
+    return Shown(surface.points, surface.borders(), vertices, (_wall_angle(vertices),), none, none)
 
 
 def shown_judged(surface: Surface, report: Report, progress: Progress | None = None) -> Shown:
@@ -65,6 +67,7 @@ def shown_judged(surface: Surface, report: Report, progress: Progress | None = N
     area = float(surface.areas[wanted].sum())
     between = area / max(report.program.length, 1e-9)
     spacing = max(between / PER_PASS, float(np.sqrt(2.0 * area / LIMIT)))
+    borders = surface.borders()
     surface, wanted = surface.refined(wanted, spacing)
     left = report.left(surface.points, progress=progress)
     vertices = vertices_of(surface)
@@ -85,8 +88,8 @@ def shown_judged(surface: Surface, report: Report, progress: Progress | None = N
     ]
     sheet = report.job.document["setup"].get("sheet")
     if sheet:
-        maps.append(_thickness(vertices, np.where(asked, 1.0, NOTHING), sheet))
-    return Shown(surface.points, vertices, tuple(maps), of_points[covered], weights[covered])
+        maps.append(_thickness(vertices, asked, sheet))
+    return Shown(surface.points, borders, vertices, tuple(maps), of_points[covered], weights[covered])
 
 
 def _left_over(values: FloatArray, covered: Mask, enough: float, grid: str) -> HeatMap:
@@ -100,8 +103,8 @@ def _left_over(values: FloatArray, covered: Mask, enough: float, grid: str) -> H
 
 def _gouge(values: FloatArray, grid: str) -> HeatMap:
     note = f"How deep moves that are meant to touch enter the part; others stand among the findings; {grid}."
-    high = max(LEAST_GOUGE, float(values.max(initial=0.0)))
-    return HeatMap("gouge", "gouge", "mm", np.where(np.isfinite(values), values, 0.0), 0.0, high, note=note)
+    values = np.where(np.isfinite(values) & (values > 0.0), values, NOTHING)
+    return HeatMap("gouge", "gouge", "mm", values, 0.0, max(LEAST_GOUGE, float(values.max(initial=0.0))), note=note)
 
 
 def _angles(vertices: Vertices) -> FloatArray:
@@ -114,9 +117,9 @@ def _wall_angle(vertices: Vertices) -> HeatMap:
     return HeatMap("wall", "wall angle", "°", np.degrees(_angles(vertices)), 0.0, 90.0, note=note)
 
 
-def _thickness(vertices: Vertices, asked: FloatArray, sheet: Document) -> HeatMap:
+def _thickness(vertices: Vertices, asked: Mask, sheet: Document) -> HeatMap:
     thickness = float(sheet["thickness"])
     values = thickness * np.cos(_angles(vertices))
     note = f"By the sine law: {thickness:g} mm times the cosine of the wall angle. An estimate for one pass of forming."
-    values = np.where(asked > 0.0, values, NOTHING)
-    return HeatMap("thickness", "thickness", "mm", values, 0.0, thickness, note=note)
+    low = float(values[asked].min(initial=0.99 * thickness))
+    return HeatMap("thickness", "thickness", "mm", np.where(asked, values, NOTHING), low, thickness, note=note)

@@ -124,6 +124,7 @@ def _part(shown: Shown) -> Document:
     vertices = shown.vertices
     return {
         "points": packed(shown.points, LENGTH_STEP),
+        "borders": packed(shown.borders),
         "at": packed(vertices.at),
         "normals": packed(vertices.normals, UNIT_STEP),
         "triangles": packed(vertices.triangles),

@@ -15,6 +15,9 @@ Mask = npt.NDArray[np.bool_]
 LIMIT = 300_000
 """Points of a refined surface at most."""
 
+SHARP = float(np.cos(np.radians(30.0)))
+"""Between the normals of facets, from which on their edge is drawn."""
+
 PATTERNS: tuple[tuple[tuple[int, int, int], ...], ...] = (
     ((0, 1, 2),),
     ((0, 3, 2), (3, 1, 2)),
@@ -59,9 +62,29 @@ class Surface:
         doubled = self._doubled()
         return np.asarray(doubled[:, 2] > -1e-9 * np.linalg.norm(doubled, axis=1))
 
+    def _ends(self) -> IntArray:
+        """The points at both ends of each side, (T, 3, 2), the lower number first."""
+        return np.sort(np.stack([self.triangles, np.roll(self.triangles, -1, axis=1)], axis=-1), axis=-1)
+
     def _doubled(self) -> FloatArray:
         a, b, c = (self.points[self.triangles[:, k]] for k in range(3))
         return np.cross(b - a, c - a)
+
+    def borders(self) -> IntArray:
+        """Pairs of points (E, 2) between which faces meet, or end; facets of a mesh where they make a sharp edge."""
+        ends = self._ends().reshape(-1, 2)
+        key = ends[:, 0] * len(self.points) + ends[:, 1]
+        order = np.argsort(key, kind="stable")
+        of, key = order // 3, key[order]
+        twin = np.flatnonzero(key[1:] == key[:-1])
+        way = self._doubled()
+        way /= np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-300)
+        differ = self.faces[of[twin]] != self.faces[of[twin + 1]]
+        if not self.smooth:
+            differ |= np.einsum("ij,ij->i", way[of[twin]], way[of[twin + 1]]) < SHARP
+        single = np.ones(len(key), dtype=bool)
+        single[twin] = single[twin + 1] = False
+        return ends[order[np.concatenate([np.flatnonzero(single), twin[differ]])]]
 
     def longest_side(self, wanted: Mask) -> float:
         """Of the wanted triangles (T,), mm."""
@@ -74,20 +97,26 @@ class Surface:
         """
         surface = self
         while True:
-            long = _sides(surface.points, surface.triangles) > spacing
-            finer = surface._halved(long & wanted[:, None], limit)
-            if finer is None:
+            sides = np.where(wanted[:, None], _sides(surface.points, surface.triangles), 0.0)
+            # the longest go first: what room there is serves all alike
+            long = sides > max(spacing, sides.max(initial=0.0) / 2.0)
+            room = limit - len(surface.points)
+            if not long.any() or room <= 0:
                 return surface, wanted
-            surface, parent = finer
+            surface, parent = surface._halved(long, room)
             wanted = wanted[parent]
 
-    def _halved(self, long: Mask, limit: int) -> tuple[Surface, IntArray] | None:
-        """With each long side (T, 3) halved, and the triangle that each new one is a part of."""
-        ends = np.sort(np.stack([self.triangles, np.roll(self.triangles, -1, axis=1)], axis=-1), axis=-1)
+    def _halved(self, long: Mask, room: int) -> tuple[Surface, IntArray]:
+        """With long sides (T, 3) halved, the longest of them where there is ``room`` for so many points.
+
+        Comes with the triangle that each new one is a part of.
+        """
+        ends = self._ends()
         key = ends[..., 0] * len(self.points) + ends[..., 1]
-        halved = np.unique(key[long])
-        if not len(halved) or len(self.points) + len(halved) > limit:
-            return None
+        halved, first = np.unique(key[long], return_index=True)
+        if len(halved) > room:
+            lengths = _sides(self.points, self.triangles)[long][first]
+            halved = np.sort(halved[np.argsort(-lengths, kind="stable")[:room]])
         place = np.minimum(np.searchsorted(halved, key), len(halved) - 1)
         marked = halved[place] == key
         middles = (self.points[halved // len(self.points)] + self.points[halved % len(self.points)]) / 2.0

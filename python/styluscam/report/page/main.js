@@ -37,11 +37,13 @@ async function start() {
 
 function wire(stage, part, lines) {
   const map = document.getElementById("map");
-  map?.addEventListener("change", () => part.show(map.value));
   const colour = document.getElementById("path-colour");
-  colour.addEventListener("change", () => {
-    if (!colour.value) showLegend("path", null);
+  colour.addEventListener("change", () => lines.show(colour.value));
+  map?.addEventListener("change", () => {
+    // a path over a map hides what the map says
+    colour.value = map.value ? "" : "kind";
     lines.show(colour.value);
+    part.show(map.value);
   });
   for (const button of document.querySelectorAll("[data-view]")) {
     button.addEventListener("click", () => stage.look(button.dataset.view));

@@ -2,9 +2,10 @@
 
 class PartView {
   static async of(stage, part) {
-    const [points, [at], normals, triangles] = await Promise.all(
-      [part.points, part.at, part.normals, part.triangles].map(unpacked),
+    const [points, borders, [at], normals, triangles] = await Promise.all(
+      [part.points, part.borders, part.at, part.normals, part.triangles].map(unpacked),
     );
+    stage.scene.add(borderLines(stage, points, borders));
     return new PartView(stage, part.maps, points, at, normals, triangles);
   }
 
@@ -33,6 +34,7 @@ class PartView {
     const looks = { vertexColors: true, side: THREE.DoubleSide, shininess: 18, specular: 0x222222 };
     // behind the lines of a path that lie on it
     const material = new THREE.MeshPhongMaterial({ ...looks, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2 });
+    material.onBeforeCompile = litFromTheEye;
     stage.scene.add(new THREE.Mesh(geometry, material));
   }
 
@@ -54,6 +56,25 @@ class PartView {
     document.getElementById("map-note").textContent = map ? map.note : "";
     this.stage.redraw();
   }
+}
+
+/** Turns normals to the eye by themselves, not by the sense of their triangle: slivers have lost theirs to rounding. */
+function litFromTheEye(shader) {
+  const begin = "#include <normal_fragment_begin>";
+  const turn = "if (dot(normal, vViewPosition) < 0.0) normal = -normal;";
+  shader.fragmentShader = shader.fragmentShader.replace(begin, `${begin}\n${turn}`);
+}
+
+function borderLines(stage, points, borders) {
+  const position = new Float32Array(6 * borders[0].length);
+  for (let i = 0; i < borders[0].length; i++) {
+    for (let end = 0; end < 2; end++) {
+      for (let k = 0; k < 3; k++) position[6 * i + 3 * end + k] = points[k][borders[end][i]] - stage.origin[k];
+    }
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
+  return new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: 0x3b4754, transparent: true, opacity: 0.7 }));
 }
 
 function colourOf(map) {

@@ -77,6 +77,7 @@ class PathView {
   show(by) {
     this.past.visible = this.future.visible = Boolean(by);
     if (by) this.colour(by);
+    else showLegend("path", null);
     this.stage.redraw();
   }
 

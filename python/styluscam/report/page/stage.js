@@ -16,9 +16,11 @@ class Stage {
     this.camera.up.set(0, 0, 1);
     this.controls = new THREE.OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => this.redraw());
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8d99a6, 2.0));
-    const lamp = new THREE.DirectionalLight(0xffffff, 1.6);
-    lamp.position.set(-0.4, 0.5, 0.9);
+    const sky = new THREE.HemisphereLight(0xffffff, 0x7c8894, 2.3);
+    sky.position.set(0, 0, 1);
+    this.scene.add(sky);
+    const lamp = new THREE.DirectionalLight(0xffffff, 1.3);
+    lamp.position.set(-0.5, 0.7, 0.6);
     this.camera.add(lamp);
     this.scene.add(this.camera);
     this.look("slant");
