@@ -33,6 +33,11 @@ class Machine:
             raise MachineError(f"{place}: {error}", code=error.code, where=place, hint=error.hint) from error
 
     @classmethod
+    def find(cls, name: str) -> Machine:
+        """A machine file, or a shipped machine by its name."""
+        return cls.read(name) if name.endswith(".toml") or Path(name).is_file() else cls.shipped(name)
+
+    @classmethod
     def of_section(cls, section: Document, folder: Path) -> Machine:
         """The machine that a job's ``[machine]`` names; files are relative to ``folder``."""
         file = section.get("file")

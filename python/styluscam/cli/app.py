@@ -12,7 +12,21 @@ from typing import Annotated, NoReturn
 import typer
 
 from styluscam import __version__
-from styluscam.cli import console, doctor, machine, new, part, plan, run, schema, suggest, tool, verify
+from styluscam.cli import (
+    compare,
+    console,
+    doctor,
+    machine,
+    new,
+    part,
+    plan,
+    run,
+    schema,
+    suggest,
+    tool,
+    verify,
+    view,
+)
 from styluscam.cli.failures import failure_of
 
 app = typer.Typer(
@@ -28,6 +42,8 @@ app.command("run")(run.run)
 app.command("plan")(plan.plan)
 app.command("new")(new.new)
 app.command("verify")(verify.verify)
+app.command("view")(view.view)
+app.command("compare")(compare.compare)
 app.command("schema")(schema.schema)
 app.command("doctor")(doctor.doctor)
 app.add_typer(part.app, name="part")

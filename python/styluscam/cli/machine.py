@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -37,7 +36,7 @@ def list_(json: Json = False, debug: Debug = False) -> int:
 @app.command("show")
 def show(name: Name, json: Json = False, debug: Debug = False) -> int:
     """Say what a machine is: shipped by name, else from a file."""
-    machine = Machine.read(name) if name.endswith(".toml") or Path(name).is_file() else Machine.shipped(name)
+    machine = Machine.find(name)
     if json:
         console.say_json(_document(machine))
     else:

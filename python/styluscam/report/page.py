@@ -50,7 +50,7 @@ def report_page(subject: Subject, progress: Progress | None = None) -> str:
         template("report.html.jinja").render(
             subject=subject,
             verdict=verdict,
-            figures=tables.spoken(tables.figures(subject)),
+            figures=tables.in_words(tables.figures(subject)),
             findings=subject.findings,
             spoken=spoken,
             faces=tables.faces(subject),

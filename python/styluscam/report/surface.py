@@ -64,7 +64,7 @@ class Surface:
 
     def _ends(self) -> IntArray:
         """The points at both ends of each side, (T, 3, 2), the lower number first."""
-        return np.sort(np.stack([self.triangles, np.roll(self.triangles, -1, axis=1)], axis=-1), axis=-1)
+        return np.asarray(np.sort(np.stack([self.triangles, np.roll(self.triangles, -1, axis=1)], axis=-1), axis=-1))
 
     def _doubled(self) -> FloatArray:
         a, b, c = (self.points[self.triangles[:, k]] for k in range(3))

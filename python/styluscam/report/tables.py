@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
 
 from styluscam import __version__
 from styluscam.report.subject import RAPIDS, Subject
@@ -28,6 +31,7 @@ def figures(subject: Subject) -> Document:
         "time_s": float(subject.times[-1]) if len(subject.times) else 0.0,
         "length_mm": program.length,
         "moves": len(program.moves),
+        "blocks": len(np.unique(program.moves["line"])),
         "lowest_z_mm": float(ends[at_feed, 2].min()) if at_feed.any() else None,
         "findings": sum(report.to_dict()["counts"].values()) if report is not None else None,
         "gouge_mm": report.gouge_max if report is not None else None,
@@ -37,12 +41,13 @@ def figures(subject: Subject) -> Document:
     }
 
 
-SHOWN = {
+SHOWN: dict[str, tuple[str, Callable[[Any], str]]] = {
     "time_s": ("time", clock),
     "length_mm": ("length at feed", lambda value: f"{value:.0f} mm"),
-    "moves": ("moves", lambda value: f"{value}"),
+    "moves": ("moves", str),
+    "blocks": ("blocks that move", str),
     "lowest_z_mm": ("lowest Z", lambda value: f"{value:.3f} mm"),
-    "findings": ("findings", lambda value: f"{value}"),
+    "findings": ("findings", str),
     "gouge_mm": ("worst gouge", lambda value: f"{value:.4f} mm"),
     "excess_mm": ("worst excess", lambda value: f"{value:.4f} mm"),
     "scallop_mm": ("scallop", lambda value: f"{value:.4f} mm"),
@@ -51,7 +56,7 @@ SHOWN = {
 """How people get to see :func:`figures`."""
 
 
-def spoken(numbers: Document) -> Rows:
+def in_words(numbers: Document) -> Rows:
     """:func:`figures` in words, without those that are not known."""
     return [(name, said(numbers[key])) for key, (name, said) in SHOWN.items() if numbers[key] is not None]
 
@@ -121,3 +126,11 @@ def versions(subject: Subject) -> Rows:
 def _machine_file(subject: Subject) -> str:
     named = subject.job.document["machine"].get("file") if subject.job is not None else None
     return re.split(r"[\\/]", named)[-1] if named else ""
+
+
+def side_by_side(subjects: Sequence[Subject]) -> list[tuple[str, ...]]:
+    """:func:`figures` of several programs: what it is, and each one's; what none knows is left out."""
+    numbers = [figures(subject) for subject in subjects]
+    known = [key for key in SHOWN if any(each[key] is not None for each in numbers)]
+    said = [[SHOWN[key][1](each[key]) if each[key] is not None else "" for each in numbers] for key in known]
+    return [(SHOWN[key][0], *row) for key, row in zip(known, said, strict=True)]

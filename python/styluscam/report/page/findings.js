@@ -7,6 +7,7 @@ class Findings {
     this.findings = findings;
     const look = new THREE.MeshBasicMaterial({ color: 0xd81b60, transparent: true, opacity: 0.75, depthTest: false });
     this.marker = new THREE.Mesh(new THREE.SphereGeometry(stage.size / 150, 20, 14), look);
+    this.marker.renderOrder = 1;
     this.marker.visible = false;
     stage.scene.add(this.marker);
     for (const row of document.querySelectorAll(".finding")) {

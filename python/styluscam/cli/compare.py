@@ -1,0 +1,69 @@
+"""``styluscam compare``: two programs for one job, side by side."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from styluscam import judging
+from styluscam.cli import console, findings, pages, progress, summary
+from styluscam.cli.failures import FOUND, naming
+from styluscam.cli.options import Debug, ForJob, Json, Quiet
+from styluscam.errors import VerifyError
+from styluscam.files import write_whole
+from styluscam.job import Job
+from styluscam.report import Subject, comparison_page, figures, side_by_side
+from styluscam.types import Document, Progress
+
+First = Annotated[Path, typer.Argument(metavar="A.ngc", help="A program.", show_default=False)]
+Second = Annotated[Path, typer.Argument(metavar="B.ngc", help="Another.", show_default=False)]
+Out = Annotated[
+    Path | None,
+    typer.Option("--out", metavar="FILE.html", help="Also write a page, with both pictures.", show_default=False),
+]
+
+
+def compare(
+    first: First,
+    second: Second,
+    job: ForJob,
+    *,
+    out: Out = None,
+    json: Json = False,
+    quiet: Quiet = False,
+    debug: Debug = False,
+) -> int:
+    """Put two programs for one job side by side: time, length, depth, gouge, excess, scallop, coverage.
+
+    Both are judged as `styluscam verify` does; exit code 1 says that one of them must not run.
+    """
+    with naming(job), progress.shown(not (json or quiet)) as shown:
+        work = Job.read(job)
+        pages.require(out, None, inputs=[first, second, *work.inputs()])
+        subjects = [_judged(file, work, shown) for file in (first, second)]
+        if out is not None:
+            write_whole(out, comparison_page(subjects))
+    if json:
+        documents = [_document(file, subject) for file, subject in zip((first, second), subjects, strict=True)]
+        console.say_json({"programs": documents, "written": [] if out is None else [str(out)]})
+    elif not quiet:
+        columns = {"": "left", str(first): "right", str(second): "right"}
+        console.table(columns, [list(row) for row in side_by_side(subjects)])
+        if out is not None:
+            console.fields([("written", summary.shown_path(out))])
+    return 0 if all(subject.report is not None and subject.report.ok for subject in subjects) else FOUND
+
+
+def _judged(file: Path, job: Job, shown: Progress | None) -> Subject:
+    with naming(file, VerifyError):
+        report = judging.verify_file(file, job, progress=shown)
+        report.coverage(progress=shown)
+    return Subject.judged(report, job.machine(), file.name)
+
+
+def _document(file: Path, subject: Subject) -> Document:
+    assert subject.report is not None
+    report = findings.document(subject.report)
+    return {"file": str(file), "figures": figures(subject), "report": report, "coverage": subject.report.coverage()}

@@ -1,0 +1,81 @@
+"""``styluscam view``: a G-code file as a page, ours or not, with a part or without."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from styluscam import viewing
+from styluscam.cli import console, pages, progress, summary
+from styluscam.cli.failures import naming
+from styluscam.cli.options import Debug, GcodeFile, Json, Picture, Quiet, Units
+from styluscam.errors import JobError, VerifyError
+from styluscam.files import read_text
+from styluscam.job import Job
+from styluscam.machine import Machine
+from styluscam.part import Part
+from styluscam.report import figures, in_words
+
+OnMachine = Annotated[
+    str | None,
+    typer.Option(
+        "--machine", metavar="NAME|FILE", help="Who reads it; any that can, when left out.", show_default=False
+    ),
+]
+WithJob = Annotated[
+    Path | None,
+    typer.Option("--job", metavar="JOB.toml", help="Its part, tools and machine.", show_default=False),
+]
+WithPart = Annotated[
+    Path | None,
+    typer.Option("--part", metavar="PART", help="A part in the program's coordinates.", show_default=False),
+]
+Out = Annotated[
+    Path | None,
+    typer.Option("--out", metavar="FILE.html", help="The page; beside the G-code when left out.", show_default=False),
+]
+
+SHOWN_TOLERANCE = 0.01
+"""mm: of a part that is only looked at."""
+
+
+def view(
+    file: GcodeFile,
+    *,
+    machine: OnMachine = None,
+    job: WithJob = None,
+    part: WithPart = None,
+    units: Units = None,
+    out: Out = None,
+    picture: Picture = None,
+    json: Json = False,
+    quiet: Quiet = False,
+    debug: Debug = False,
+) -> int:
+    """Show a G-code file as a page: path, tool, times, and a part if you name one.
+
+    Nothing is judged; `styluscam verify` does that.
+    """
+    if job is not None and part is not None:
+        raise JobError("--job and --part: a job has its part", code="usage", where="--part", hint="give one of them")
+    page = out or file.with_suffix(".html")
+    with naming(job or file), naming(file, VerifyError), progress.shown(not (json or quiet)) as shown:
+        pages.require(page, picture, inputs=[path for path in (file, job, part) if path is not None])
+        text = read_text(file, VerifyError)
+        reader = Machine.find(machine) if machine is not None else None
+        if job is not None:
+            subject = viewing.viewed_for_job(text, file.name, Job.read(job), reader)
+        else:
+            solid = Part.read(part, SHOWN_TOLERANCE, units, shown) if part is not None else None
+            subject = viewing.viewed(text, file.name, reader, solid)
+        written = pages.write(lambda: subject, page, picture, shown)
+    numbers = figures(subject)
+    if json:
+        names = [str(path) for path in written]
+        console.say_json({"file": str(file), "machine": subject.machine.name, "figures": numbers, "written": names})
+    elif not quiet:
+        console.say(f"{file}: as {subject.machine.name} reads it; not judged")
+        console.fields([*in_words(numbers), *(("written", summary.shown_path(path)) for path in written)])
+    return 0
