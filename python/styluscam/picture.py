@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from styluscam.decimation import thinned
 from styluscam.errors import GeometryError, StylusError
 from styluscam.part import Part
 from styluscam.parts import PartArrays
@@ -40,6 +41,8 @@ LIGHT = np.array([-0.45, 0.55, 0.70])
 """Towards the lamp: right, up and towards the eye."""
 PNG: Any = {"format": "png", "dpi": DPI, "metadata": {"Software": None}}
 """How pictures are saved."""
+MOVES = 60_000
+"""Of a path on one picture, about: more are no finer than its pixels."""
 LABELS = 60
 """Names on one picture at most: the largest faces get theirs."""
 
@@ -441,6 +444,8 @@ def _path(axes: Axes, view: View, raster: Raster, program: Program, box: FloatAr
     ends, kinds = ends[placed], kinds[placed]
     if len(ends) < 2:
         return None
+    stays = thinned(ends, np.append(kinds[1:] != kinds[:-1], True), MOVES).indices
+    ends, kinds = ends[stays], kinds[stays]
     size = float(np.linalg.norm(box[1] - box[0]))
     starts, stops, rapid = _pieces(ends, kinds[1:] == RAPID, size / 150.0)
     middles = (starts + stops) / 2.0

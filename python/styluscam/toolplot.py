@@ -88,7 +88,7 @@ def tool_svg(tools: Sequence[Tool], step_mm: float = 0.5) -> str:
     """As :func:`tool_picture`, the text of the SVG file."""
     text = io.StringIO()
     with _drawn(tools, step_mm) as figure:
-        figure.savefig(text, format="svg", metadata={"Date": None})
+        figure.savefig(text, format="svg", metadata=dict.fromkeys(("Date", "Creator", "Format", "Type")))
     return text.getvalue()
 
 

@@ -23,7 +23,7 @@ def packed(values: npt.ArrayLike, step: float | None = None) -> Document:
     Decimal numbers and whole numbers become small; anything else is kept bit by bit.
     """
     array = np.asarray(values, dtype=np.float64)
-    columns = array.reshape(len(array), -1).T
+    columns = (array[:, None] if array.ndim == 1 else array).T
     scale = _scale(columns) if step is None else 1.0 / step
     whole = None if scale is None else np.rint(columns * scale)
     shape: Document = {"count": len(array), "columns": len(columns)}

@@ -27,9 +27,10 @@ def verdict_of(report: Report | None) -> Verdict:
         return Verdict("unjudged", "Not judged", explained)
     document = report.to_dict()
     errors = [finding for finding in report.findings if finding["severity"] == "error"]
+    exact = f", {document['brep_checked']} contacts against the exact model" if document["brep_checked"] else ""
     judged = (
-        f"The text was read back as the machine reads it; every move was held against the whole part: {document['samples']} "
-        f"places measured, {document['brep_checked']} contacts held against the exact model."
+        "The text was read back as the machine reads it; every move was held against the whole part, "
+        f"{document['samples']} places measured{exact}."
     )
     if errors or not report.ok:
         kinds = dict.fromkeys(str(finding["kind"]) for finding in errors)
@@ -67,5 +68,5 @@ def _moment(finding: Document, lines: IntArray, ends: FloatArray, times: FloatAr
     share = np.clip(np.divide(along, square, out=np.ones(len(moves)), where=square > 0.0), 0.0, 1.0)
     off = np.linalg.norm(start + share[:, None] * way - np.asarray(finding["position"]), axis=1)
     best = int(np.nanargmin(off)) if np.isfinite(off).any() else 0
-    begins = times[before[best]] if moves[best] > 0 else 0.0
-    return float(begins + share[best] * (times[moves[best]] - begins))
+    begins, ends_at = times[before[best]] if moves[best] > 0 else 0.0, times[moves[best]]
+    return float(ends_at if share[best] >= 1.0 else begins + share[best] * (ends_at - begins))

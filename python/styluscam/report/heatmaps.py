@@ -7,14 +7,23 @@ from dataclasses import dataclass
 import numpy as np
 
 from styluscam.judging import Report
-from styluscam.report.surface import LIMIT, Mask, Surface, Vertices, vertices_of
+from styluscam.report.surface import Mask, Surface, Vertices, vertices_of
 from styluscam.types import Document, FloatArray, IntArray, Progress
+
+LIMIT = 300_000
+"""Points of a part at most."""
 
 PER_PASS = 4.0
 """Sides of triangles for each mean distance between passes."""
 
 COVERED = 0.01
 """A place counts as covered when no more than this share of the largest tool's diameter is left: as the judge has it."""
+
+SHOWN_SHARE = 0.99
+"""Of the covered points on the scale of what is left over: few high ones must not make all others look alike."""
+
+LEAST_SCALLOP = 1e-3
+"""mm: where that scale ends at least."""
 
 LEAST_GOUGE = 0.01
 """mm: where the scale of gouges ends at least."""
@@ -34,8 +43,10 @@ class HeatMap:
     """(V,), 0 or more; :data:`NOTHING` where there is nothing to say."""
     low: float
     high: float
+    limit: float | None = None
+    """Above it a value has a colour of its own."""
     over: str = ""
-    """What a value above ``high`` means, where that is a colour of its own."""
+    """What that colour means."""
     note: str = ""
 
 
@@ -52,23 +63,27 @@ class Shown:
     """What is left at covered points, (N,), mm."""
     weights: FloatArray
     """The area for which each of them stands, (N,), mm^2."""
+    merged: float
+    """mm: size of the cells in which points of a part with too many became one."""
 
 
 def shown_plain(surface: Surface) -> Shown:
     """A part that nothing was judged against: wall angles are all there is to say."""
+    surface, merged = surface.coarsened(LIMIT)
     vertices = vertices_of(surface)
     none = np.zeros(0)
-    return Shown(surface.points, surface.borders(), vertices, (_wall_angle(vertices),), none, none)
+    return Shown(surface.points, surface.borders(), vertices, (_wall_angle(vertices),), none, none, merged)
 
 
 def shown_judged(surface: Surface, report: Report, progress: Progress | None = None) -> Shown:
     """A part and what a judged program leaves on it, refined so that the passes show."""
+    surface, merged = surface.coarsened(LIMIT)
     wanted = np.isin(surface.faces, [face["face"] for face in report.coverage(progress=progress)]) & surface.looks_up
     area = float(surface.areas[wanted].sum())
     between = area / max(report.program.length, 1e-9)
     spacing = max(between / PER_PASS, float(np.sqrt(2.0 * area / LIMIT)))
     borders = surface.borders()
-    surface, wanted = surface.refined(wanted, spacing)
+    surface, wanted = surface.refined(wanted, spacing, LIMIT)
     left = report.left(surface.points, progress=progress)
     vertices = vertices_of(surface)
     asked = np.zeros(len(vertices.at), dtype=bool)
@@ -89,16 +104,16 @@ def shown_judged(surface: Surface, report: Report, progress: Progress | None = N
     sheet = report.job.document["setup"].get("sheet")
     if sheet:
         maps.append(_thickness(vertices, asked, sheet))
-    return Shown(surface.points, borders, vertices, tuple(maps), of_points[covered], weights[covered])
+    return Shown(surface.points, borders, vertices, tuple(maps), of_points[covered], weights[covered], merged)
 
 
 def _left_over(values: FloatArray, covered: Mask, enough: float, grid: str) -> HeatMap:
     """Scallops, and what is not covered."""
-    most = float(values[covered].max(initial=0.0))
-    high = max(most, 1e-3)
+    high = max(float(np.quantile(values[covered], SHOWN_SHARE)) if covered.any() else enough, LEAST_SCALLOP)
     values = np.where(np.isfinite(values), values, 2.0 * max(enough, high))
     note = f"Distance from what tool and sheet sweep on moves that are meant to touch; {grid}."
-    return HeatMap("left", "left over", "mm", values, 0.0, high, f"not covered: more than {enough:.3g} mm", note)
+    over = f"not covered: more than {enough:.3g} mm"
+    return HeatMap("left", "left over", "mm", values, 0.0, high, enough, over, note)
 
 
 def _gouge(values: FloatArray, grid: str) -> HeatMap:

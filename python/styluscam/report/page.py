@@ -7,10 +7,10 @@ import json
 
 import numpy as np
 
+from styluscam.decimation import thinned
 from styluscam.outline import silhouette
 from styluscam.report import figures, tables
 from styluscam.report.columns import packed
-from styluscam.report.decimation import thinned
 from styluscam.report.findings import spoken, verdict_of
 from styluscam.report.heatmaps import HeatMap, Shown, shown_judged, shown_plain
 from styluscam.report.subject import Subject
@@ -32,7 +32,6 @@ LENGTH_STEP, UNIT_STEP = 1e-4, 1e-3
 VALUE_STEPS = {"mm": 1e-5, "°": 1e-2}
 """To which the numbers of heat maps are rounded."""
 
-MICROSECOND = 1e-6
 COLOURS = 64
 """Steps of the colour map."""
 
@@ -90,11 +89,12 @@ def _plots(subject: Subject, shown: Shown | None) -> list[figures.Plot]:
     return plots
 
 
-def _tool_pictures(subject: Subject) -> list[str]:
-    """An SVG for each tool that is known."""
+def _tool_pictures(subject: Subject) -> list[tuple[str, str]]:
+    """Name and SVG of each tool that is known."""
     steps = [float(operation["step"]["height"]) for operation in _operations(subject) if operation.get("step")]
     step = min(steps, default=0.5)
-    return [figures.element(tool_svg([tool], step)) for _, tool in subject.tools if tool is not None]
+    known = [(record, tool) for record, tool in subject.tools if tool is not None]
+    return [(_tool_name(record), figures.element(tool_svg([tool], step))) for record, tool in known]
 
 
 def _operations(subject: Subject) -> list[Document]:
@@ -128,13 +128,15 @@ def _part(shown: Shown) -> Document:
         "at": packed(vertices.at),
         "normals": packed(vertices.normals, UNIT_STEP),
         "triangles": packed(vertices.triangles),
+        "merged": shown.merged,
         "maps": [_map(one) for one in shown.maps],
     }
 
 
 def _map(one: HeatMap) -> Document:
-    keys = ("key", "title", "unit", "low", "high", "over", "note")
-    return {**{key: getattr(one, key) for key in keys}, "values": packed(one.values, VALUE_STEPS[one.unit])}
+    keys = ("key", "title", "unit", "low", "high", "limit", "over", "note")
+    cut = bool((one.values > one.high).any())
+    return {**{key: getattr(one, key) for key in keys}, "cut": cut, "values": packed(one.values, VALUE_STEPS[one.unit])}
 
 
 def _path(subject: Subject) -> Document:
@@ -147,7 +149,7 @@ def _path(subject: Subject) -> Document:
         drawn = thinned(subject.ends, changes, SEGMENTS)
     return {
         "ends": packed(subject.ends),
-        "times": packed(subject.times, MICROSECOND),
+        "times": packed(subject.times),
         "kinds": packed(subject.kinds),
         "feeds": packed(moves["feed"]),
         "lines": packed(moves["line"]),
@@ -160,8 +162,11 @@ def _path(subject: Subject) -> Document:
 
 def _tool(record: Document, tool: Tool | None) -> Document:
     """What it is called, and its meridian from tip to top: radii and heights."""
-    name = f"T{record['number']}: {record['description']}" if record["description"] else f"T{record['number']}"
-    return {"name": name, "profile": [] if tool is None else _meridian(tool).round(5).tolist()}
+    return {"name": _tool_name(record), "profile": [] if tool is None else _meridian(tool).round(5).tolist()}
+
+
+def _tool_name(record: Document) -> str:
+    return f"T{record['number']}: {record['description']}" if record["description"] else f"T{record['number']}"
 
 
 def _meridian(tool: Tool) -> FloatArray:

@@ -67,8 +67,8 @@ class Subject:
 
     @cached_property
     def times(self) -> FloatArray:
-        """When, (N,), s."""
-        return end_times(self.program)[self.placed]
+        """When, (N,), s, in whole microseconds."""
+        return np.asarray(np.rint(end_times(self.program)[self.placed] * 1e6) / 1e6)
 
     @cached_property
     def kinds(self) -> IntArray:

@@ -12,9 +12,6 @@ from styluscam.types import FloatArray, IntArray
 
 Mask = npt.NDArray[np.bool_]
 
-LIMIT = 300_000
-"""Points of a refined surface at most."""
-
 SHARP = float(np.cos(np.radians(30.0)))
 """Between the normals of facets, from which on their edge is drawn."""
 
@@ -64,7 +61,8 @@ class Surface:
 
     def _ends(self) -> IntArray:
         """The points at both ends of each side, (T, 3, 2), the lower number first."""
-        return np.asarray(np.sort(np.stack([self.triangles, np.roll(self.triangles, -1, axis=1)], axis=-1), axis=-1))
+        ends = np.stack([self.triangles, np.roll(self.triangles, -1, axis=1)], axis=-1)
+        return np.asarray(np.sort(ends, axis=-1), dtype=np.int64)
 
     def _doubled(self) -> FloatArray:
         a, b, c = (self.points[self.triangles[:, k]] for k in range(3))
@@ -84,13 +82,38 @@ class Surface:
             differ |= np.einsum("ij,ij->i", way[of[twin]], way[of[twin + 1]]) < SHARP
         single = np.ones(len(key), dtype=bool)
         single[twin] = single[twin + 1] = False
-        return ends[order[np.concatenate([np.flatnonzero(single), twin[differ]])]]
+        borders: IntArray = ends[order[np.concatenate([np.flatnonzero(single), twin[differ]])]]
+        return borders
 
     def longest_side(self, wanted: Mask) -> float:
         """Of the wanted triangles (T,), mm."""
         return float(_sides(self.points, self.triangles[wanted]).max(initial=0.0))
 
-    def refined(self, wanted: Mask, spacing: float, limit: int = LIMIT) -> tuple[Surface, Mask]:
+    def coarsened(self, limit: int) -> tuple[Surface, float]:
+        """At most ``limit`` points, and the size of the cells in which those that were there became one, mm; 0: none did."""
+        surface, cell = self, 0.0
+        while len(surface.points) > limit:
+            cell = 1.2 * cell or float(np.sqrt(self.areas.sum() / limit))
+            surface = self._merged(cell)
+        return surface, cell
+
+    def _merged(self, cell: float) -> Surface:
+        """With the points of each cell merged into the first of them; triangles without area are gone."""
+        place = np.floor((self.points - self.points.min(axis=0)) / cell).astype(np.int64)
+        _, first, owner = np.unique(place, axis=0, return_index=True, return_inverse=True)
+        triangles = owner.reshape(-1)[self.triangles]
+        a, b, c = triangles.T
+        stays = (a != b) & (b != c) & (c != a)
+        merged = Surface(self.points[first], triangles[stays], self.normals[stays], self.faces[stays], self.smooth)
+        return merged if self.smooth else merged._faceted()
+
+    def _faceted(self) -> Surface:
+        """With the normals of its facets."""
+        way = self._doubled()
+        way /= np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-300)
+        return Surface(self.points, self.triangles, np.repeat(way[:, None], 3, axis=1), self.faces, self.smooth)
+
+    def refined(self, wanted: Mask, spacing: float, limit: int) -> tuple[Surface, Mask]:
         """Sides of wanted triangles (T,) are halved until none is longer than ``spacing`` mm, or ``limit`` is reached.
 
         Neighbours are divided with them: no gaps. The finer surface comes with what is wanted of it.

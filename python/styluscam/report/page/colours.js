@@ -35,12 +35,14 @@ function legendCard(key, title) {
   return card;
 }
 
-function scaleLegend(key, title, unit, low, high, colours, over) {
+/** `cut`: there are values above the scale's high end; `over`: what the colour beyond all of it means. */
+function scaleLegend(key, { title, unit, low, high, colours, cut, over }) {
   const card = legendCard(key, `${title}, ${unit}`);
   const bar = element("div", "bar");
   bar.style.background = `linear-gradient(to right, ${colours.map(css).join(",")})`;
   const ends = element("div", "ends");
-  for (const value of [low, (low + high) / 2, high]) ends.append(element("span", "", short(value)));
+  const marks = [short(low), short((low + high) / 2), `${cut ? "≥ " : ""}${short(high)}`];
+  for (const mark of marks) ends.append(element("span", "", mark));
   card.append(bar, ends);
   if (over) card.append(swatch(OVER, over));
   return card;

@@ -55,6 +55,7 @@ function note(path) {
   const drawn = path.drawn.length;
   if (drawn < path.count) said.push(`drawn through ${drawn} of their ends, at most ${short(path.drawnError)} mm off; the readout is exact`);
   if (path.unplaced) said.push(`${path.unplaced} more go to places that are not known`);
+  if (given.part?.merged) said.push(`the part is drawn coarser: its points are merged in cells of ${short(given.part.merged)} mm`);
   document.getElementById("path-note").textContent = `${said.join("; ")}.`;
 }
 

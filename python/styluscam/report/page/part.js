@@ -52,7 +52,7 @@ class PartView {
     }
     linear(array);
     this.colours.needsUpdate = true;
-    showLegend("map", map && scaleLegend("map", map.title, map.unit, map.low, map.high, given.colours.map, map.over));
+    showLegend("map", map && scaleLegend("map", { ...map, colours: given.colours.map }));
     document.getElementById("map-note").textContent = map ? map.note : "";
     this.stage.redraw();
   }
@@ -83,7 +83,7 @@ function colourOf(map) {
   const span = map.high - map.low || 1;
   return (value) => {
     if (value < 0) return NOTHING;
-    if (map.over && value > map.high * 1.0001) return OVER;
+    if (map.limit !== null && value > map.limit) return OVER;
     return table[Math.round(1024 * Math.min(1, Math.max(0, (value - map.low) / span)))];
   };
 }

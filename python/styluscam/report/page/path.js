@@ -96,7 +96,7 @@ class PathView {
     }
     linear(colours.array);
     colours.needsUpdate = true;
-    showLegend("path", heat ? scaleLegend("path", `path: ${by}`, heat.unit, heat.low, heat.high, given.colours.path) : kindLegend());
+    showLegend("path", heat ? scaleLegend("path", heat) : kindLegend());
   }
 
   scale(by) {
@@ -109,6 +109,7 @@ class PathView {
     }
     if (low > high) [low, high] = [0, 1];
     const span = high - low || 1;
-    return { low, high, unit: by === "feed" ? "mm/min" : "mm", share: (i) => (values[i] - low) / span };
+    const unit = by === "feed" ? "mm/min" : "mm";
+    return { title: `path: ${by}`, unit, low, high, colours: given.colours.path, share: (i) => (values[i] - low) / span };
   }
 }
