@@ -273,7 +273,15 @@ def test_the_page_says_the_verdict(pages: tuple[str, str], subjects: tuple[Subje
         assert len(rows) == len(subject.report.findings)
         for finding in subject.report.findings:
             assert finding["message"] in page.text
-        for words in ("stepover", "0.6", "made.stl", "zig-zag", "StylusCAM " + sc.__version__, "three.js 0.", "ball D6"):
+        for words in (
+            "stepover",
+            "0.6",
+            "made.stl",
+            "zig-zag",
+            "StylusCAM " + sc.__version__,
+            "three.js 0.",
+            "ball D6",
+        ):
             assert words in page.text, words
         for numbers in subject.report.coverage():
             assert f"{100.0 * numbers['covered']:.1f}" in page.text

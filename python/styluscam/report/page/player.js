@@ -43,7 +43,17 @@ class Player {
   seek(time) {
     if (!this.path.count) return;
     this.time = Math.min(Math.max(time, 0), this.path.duration);
-    const now = this.path.at(this.time);
+    this.tell(this.path.at(this.time));
+  }
+
+  /** To the end of a move; several may end at the same time. */
+  seekMove(move) {
+    this.time = this.path.times[move];
+    this.tell({ move, tip: this.path.end(move) });
+  }
+
+  tell(now) {
+    this.now = now;
     this.slider.value = String(this.time);
     this.slider.setAttribute("aria-valuetext", clock(this.time));
     for (const { line, left, width } of this.cursors) {
@@ -56,10 +66,11 @@ class Player {
   /** To the end of the move before or after. */
   step(by) {
     this.pause();
-    const { move } = this.path.at(this.time);
+    if (!this.path.count) return;
+    const { move } = this.now;
     const ended = this.time >= this.path.times[move];
     const to = by > 0 ? (ended ? move + 1 : move) : move - 1;
-    this.seek(to < 0 ? 0 : this.path.times[Math.min(to, this.path.count - 1)]);
+    this.seekMove(Math.min(Math.max(to, 0), this.path.count - 1));
   }
 
   read({ move, tip }) {

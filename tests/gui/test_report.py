@@ -1,0 +1,276 @@
+"""The page in headless Chromium: it loads without a complaint, maps switch, scrubbing moves the tool, findings jump."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import roots
+import styluscam as sc
+from styluscam.report import Subject, heatmaps, report_page
+
+from .browser import Tab, browser
+
+pytestmark = pytest.mark.world
+
+FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
+WIDE, NARROW = (1400, 900), (390, 844)
+
+JOB = {
+    "schema": 1,
+    "title": "Coarse cup",
+    "part": {"file": "cone_cup.step", "faces": ["Face1", "Face2", "Face3", "Face4"], "model_face": "back"},
+    "setup": {"zero": "sheet-top", "sheet": {"thickness": 1.0}},
+    "tools": {
+        "stylus": {
+            "profile": {"kind": "clothoid", "diameter": 10.0},
+            "shank_diameter": 12.0,
+            "length": 40.0,
+            "holder": {"diameter": 30.0, "length": 25.0},
+        }
+    },
+    "operations": [
+        {"id": "cup", "kind": "z-level", "tool": "stylus", "step": {"height": 4.0}, "smallest_feature": 4.0}
+    ],
+    "machine": {"name": "linuxcnc"},
+}
+MOVED = 0.2
+
+
+def spoilt(text: str) -> str:
+    """With one coordinate, halfway through, moved into the wall."""
+    lines = text.splitlines()
+    number = next(n for n in range(len(lines) // 2, len(lines)) if re.match(r"X\d\d", lines[n]))
+    lines[number] = re.sub(r"X([\d.]+)", lambda word: f"X{float(word[1]) + MOVED:.3f}", lines[number])
+    return "\n".join(lines) + "\n"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("pages")
+
+
+@pytest.fixture(scope="module")
+def subject() -> Subject:
+    """A program with one gouge."""
+    pytest.importorskip("OCP", reason="needs the step extra")
+    job = sc.Job.from_dict(JOB, FIXTURES)
+    text = spoilt(sc.post(sc.plan(job)).text)
+    return Subject.judged(sc.verify(text, job), job.machine(), "cup.ngc")
+
+
+@pytest.fixture(scope="module")
+def page(subject: Subject, folder: Path) -> Path:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(heatmaps, "LIMIT", 80_000)
+        (folder / "cup.html").write_text(report_page(subject), encoding="utf-8")
+    return folder / "cup.html"
+
+
+@pytest.fixture(scope="module")
+def tab(folder: Path) -> Iterator[Tab]:
+    """A browser; skipped where there can be none, but not in CI, which has to have it."""
+    try:
+        roots.ensure("browser")
+    except roots.Unavailable as error:
+        if os.environ.get("CI"):
+            pytest.fail(str(error))
+        pytest.skip(str(error))
+    with browser(folder) as tab:
+        yield tab
+
+
+@pytest.fixture
+def opened(tab: Tab, page: Path) -> Tab:
+    tab.size(*WIDE)
+    tab.open(page)
+    tab.drawn()
+    return tab
+
+
+def without_complaints(tab: Tab, page: Path) -> None:
+    """Nothing went wrong in a page, and it asked for nothing but itself."""
+    assert tab.complaints == []
+    assert [url for url in tab.requests if not url.startswith(("data:", "about:"))] == [page.as_uri()]
+
+
+def tip(tab: Tab) -> np.ndarray:
+    """Where the tool that is seen stands, mm."""
+    return np.array(
+        tab.run(
+            """(() => { const { stage, tool } = window.styluscam;
+            const { position } = tool.shapes.find(one => one.visible);
+            return position.toArray().map((x, k) => x + stage.origin[k]); })()"""
+        )
+    )
+
+
+def said(tab: Tab, key: str) -> str:
+    """What the readout says."""
+    return str(tab.run(f"document.querySelector('#readout [data-key={key}]').textContent"))
+
+
+def test_it_loads_without_a_complaint_and_asks_for_nothing(tab: Tab, page: Path) -> None:
+    tab.complaints.clear()
+    tab.requests.clear()
+    tab.size(*WIDE)
+    assert tab.open(page) < 20.0
+    tab.drawn()
+    without_complaints(tab, page)
+    assert tab.run("document.getElementById('stage').classList.contains('flat')") is False
+    assert len(tab.picture("#stage")) > 20_000
+
+
+def test_the_page_fits_wide_and_narrow(opened: Tab) -> None:
+    for size in (WIDE, NARROW):
+        opened.size(*size)
+        opened.drawn()
+        assert opened.run("document.documentElement.scrollWidth") <= size[0]
+        width, height = opened.run(
+            "(() => { const c = document.querySelector('canvas'); return [c.width, c.height] })()"
+        )
+        assert width > 0.5 * min(size[0], 900) and height >= 300
+
+
+def test_maps_change_what_is_seen(opened: Tab) -> None:
+    seen = [opened.picture("#stage")]
+    for key, legend in (
+        ("left", "left over, mm"),
+        ("gouge", "gouge, mm"),
+        ("wall", "wall angle, °"),
+        ("thickness", "thickness, mm"),
+    ):
+        opened.choose("#map", key)
+        opened.until(f"document.getElementById('legends').textContent.includes({legend!r})")
+        opened.drawn()
+        seen.append(opened.picture("#stage"))
+        assert opened.run("document.getElementById('map-note').textContent")
+    assert len(set(seen)) == len(seen)
+    opened.choose("#map", "")
+    opened.until("document.getElementById('legends').textContent.startsWith('path')")
+    assert opened.complaints == []
+
+
+def test_the_path_has_its_colours(opened: Tab) -> None:
+    seen = set()
+    for by in ("kind", "feed", "height", ""):
+        opened.choose("#path-colour", by)
+        seen.add(opened.picture("#stage"))
+    assert len(seen) == 4
+
+
+def test_scrubbing_moves_the_tool_to_the_exact_place(opened: Tab, subject: Subject) -> None:
+    times, ends, moves = subject.times, subject.ends, subject.program.moves
+    for move in (2, 3, len(times) // 3, len(times) // 2, len(times) - 1):
+        opened.choose("#time", repr(float(times[move])))
+        assert tip(opened) == pytest.approx(ends[move], abs=2e-5)
+        assert [float(said(opened, axis)) for axis in "xyz"] == pytest.approx(ends[move].tolist(), abs=5.1e-5)
+        assert int(said(opened, "line")) == moves["line"][move]
+        assert said(opened, "tool") == "T1: clothoid D10" and said(opened, "operation") == "cup"
+    half = float(times[-2] + times[-3]) / 2.0
+    opened.choose("#time", repr(half))
+    assert tip(opened) == pytest.approx((ends[-2] + ends[-3]) / 2.0, abs=2e-5)
+    opened.click("#forth")
+    assert float(said(opened, "z")) == pytest.approx(ends[-2][2], abs=5.1e-5)
+    opened.click("#back")
+    assert float(said(opened, "z")) == pytest.approx(ends[-3][2], abs=5.1e-5)
+
+
+def test_every_number_of_the_path_is_exact(opened: Tab, subject: Subject) -> None:
+    moves = np.linspace(0, len(subject.times) - 1, 500).astype(int)
+    given = opened.run(
+        f"(() => {{ const p = window.styluscam.player.path; return {moves.tolist()}.map(m => [...p.end(m), p.feeds[m]]) }})()"
+    )
+    assert np.array_equal(np.array(given)[:, :3], subject.ends[moves])
+    assert np.array_equal(np.array(given)[:, 3], subject.program.moves["feed"][moves])
+
+
+def test_steps_reach_moves_that_take_no_time(opened: Tab, subject: Subject) -> None:
+    assert subject.times[0] == subject.times[1]
+    opened.choose("#time", "0")
+    assert said(opened, "move").startswith("1 of")
+    for move in (2, 3, 4):
+        opened.click("#forth")
+        assert said(opened, "move").startswith(f"{move} of")
+    opened.click("#back")
+    assert said(opened, "move").startswith("3 of")
+
+
+def test_play_moves_on_and_pauses(opened: Tab) -> None:
+    opened.choose("#time", "0")
+    opened.click("#play")
+    opened.until("window.styluscam.player.time > 0.5")
+    opened.click("#play")
+    stopped = opened.run("window.styluscam.player.time")
+    opened.drawn()
+    assert opened.run("window.styluscam.player.time") == stopped
+    assert opened.run("document.getElementById('play').getAttribute('aria-label')") == "play"
+
+
+def test_a_click_in_a_plot_goes_to_its_moment(opened: Tab, subject: Subject) -> None:
+    opened.run(
+        """(() => { const plot = document.querySelector('.over-time .plot'); const r = plot.getBoundingClientRect();
+        const f = plot.parentElement.dataset; const x = r.x + r.width * (Number(f.left) + 0.25 * Number(f.width));
+        plot.dispatchEvent(new MouseEvent('click', {clientX: x, clientY: r.y + 20, bubbles: true})); })()"""
+    )
+    assert opened.run("window.styluscam.player.time") == pytest.approx(0.25 * subject.times[-1], rel=0.01)
+
+
+def test_a_finding_jumps_to_its_place_and_moment(opened: Tab, subject: Subject) -> None:
+    before = opened.picture("#stage")
+    finding = subject.findings[0]
+    opened.click(".finding")
+    opened.drawn()
+    assert opened.run("window.styluscam.player.time") == pytest.approx(finding["time"])
+    assert tip(opened) == pytest.approx(finding["position"], abs=1e-3)
+    target = opened.run(
+        "(({ stage }) => stage.controls.target.toArray().map((x, k) => x + stage.origin[k]))(window.styluscam)"
+    )
+    assert target == pytest.approx(finding["position"], abs=1e-3)
+    assert int(said(opened, "line")) == finding["line"]
+    assert opened.picture("#stage") != before
+    assert opened.run("document.querySelectorAll('#ticks i').length") == len(subject.findings)
+
+
+def test_on_paper_there_is_a_picture_and_no_slider(opened: Tab) -> None:
+    opened.size(*WIDE, media="print")
+    shown = "(s => getComputedStyle(document.querySelector(s)).display)"
+    assert opened.run(f"{shown}('.still')") == "block"
+    assert opened.run(f"{shown}('.transport')") == opened.run(f"{shown}('canvas')") == "none"
+    assert opened.run(f"{shown}('.findings')") != "none"
+
+
+def test_any_program_without_a_part(tab: Tab, folder: Path, subject: Subject) -> None:
+    text = "G20 G90 G54\nG0 X0 Y0 Z1\nG1 Z0 F7\nX1.3333333 Y0.7\nX0\nG0 Z1\nM2\n"
+    program = sc.read_gcode(text, subject.machine)
+    bare = folder / "bare.html"
+    bare.write_text(report_page(Subject("bare.ngc", "bare.ngc", program, subject.machine)), encoding="utf-8")
+    tab.complaints.clear()
+    tab.requests.clear()
+    tab.size(*NARROW, scheme="dark")
+    tab.open(bare)
+    tab.drawn()
+    without_complaints(tab, bare)
+    ends = tab.run("window.styluscam.player.path.ends.map(column => [...column])")
+    assert np.array_equal(np.transpose(ends), program.positions)
+    assert tab.run("document.querySelector('#map')") is None
+
+
+def test_without_webgl_the_picture_stands_in(tab: Tab, page: Path) -> None:
+    tab.complaints.clear()
+    script = tab.call(
+        "Page.addScriptToEvaluateOnNewDocument", source="HTMLCanvasElement.prototype.getContext = () => null"
+    )
+    try:
+        tab.size(*WIDE)
+        tab.open(page)
+        assert "cannot be shown" in tab.run("document.getElementById('trouble').textContent")
+        assert tab.run("getComputedStyle(document.querySelector('.still')).display") == "block"
+    finally:
+        tab.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script["identifier"])
+        tab.complaints.clear()
