@@ -47,9 +47,10 @@ def _read(text: str, machine: Machine | None) -> tuple[Machine, Program]:
         except VerifyError as error:
             first = first or error
     assert first is not None
-    if machine is None:
-        first.hint = first.hint or "name its machine with --machine"
-    raise first
+    if machine is not None:
+        raise first
+    hint = f"{first.hint}; or name its machine: this is what {machines[0].name} says"
+    raise VerifyError(str(first), code=first.code, where=first.where, hint=hint) from first
 
 
 def shipped_by_use() -> list[str]:

@@ -49,8 +49,7 @@ def compare(
         documents = [_document(file, subject) for file, subject in zip((first, second), subjects, strict=True)]
         console.say_json({"programs": documents, "written": [] if out is None else [str(out)]})
     elif not quiet:
-        columns = {"": "left", str(first): "right", str(second): "right"}
-        console.table(columns, [list(row) for row in side_by_side(subjects)])
+        console.table(_headings(first, second), [list(row) for row in side_by_side(subjects)])
         if out is not None:
             console.fields([("written", summary.shown_path(out))])
     return 0 if all(subject.report is not None and subject.report.ok for subject in subjects) else FOUND
@@ -61,6 +60,12 @@ def _judged(file: Path, job: Job, shown: Progress | None) -> Subject:
         report = judging.verify_file(file, job, progress=shown)
         report.coverage(progress=shown)
     return Subject.judged(report, job.machine(), file.name)
+
+
+def _headings(first: Path, second: Path) -> dict[str, str]:
+    """The files' names, or their paths where those are the same."""
+    names = (first.name, second.name) if first.name != second.name else (str(first), str(second))
+    return {"": "left", names[0]: "right", names[1] if names[1] != names[0] else "again": "right"}
 
 
 def _document(file: Path, subject: Subject) -> Document:

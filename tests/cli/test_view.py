@@ -1,0 +1,124 @@
+"""`styluscam view`, and the pages and pictures that `run` and `verify` write beside their results."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from styluscam.report import heatmaps
+
+from .conftest import COARSE_CUP, changed
+
+PNG = b"\x89PNG\r\n\x1a\n"
+INCHES = "%\n(somebody else's)\nG20 G90\nT3 M6\nS5000 M3\nG0 X0 Y0 Z1\nG1 Z-0.1 F7\nX1.5\nY2\nG0 Z1\nM30\n%\n"
+
+
+@pytest.fixture(autouse=True)
+def small_pages(monkeypatch):
+    """Pages with few points: made in no time."""
+    monkeypatch.setattr(heatmaps, "LIMIT", 3_000)
+
+
+@pytest.fixture
+def foreign(tmp_path):
+    path = tmp_path / "foreign.ngc"
+    path.write_text(INCHES)
+    return path
+
+
+def test_a_foreign_program_is_shown_beside_its_file(cli, foreign):
+    ran = cli("view", foreign)
+    assert ran.code == 0 and ran.err == ""
+    assert "as linuxcnc reads it; not judged" in ran.out and re.search(r"lowest Z +-2\.540 mm", ran.out)
+    page = foreign.with_suffix(".html").read_text()
+    assert "Not judged" in page and "foreign.ngc" in page
+
+
+def test_json_says_figures_and_files(cli, foreign, tmp_path):
+    out, picture = tmp_path / "deep" / "page.html", tmp_path / "picture.png"
+    ran = cli("view", foreign, "--out", out, "--picture", picture, "--json")
+    assert ran.code == 0 and ran.err == ""
+    assert ran.json["machine"] == "linuxcnc" and ran.json["written"] == [str(out), str(picture)]
+    assert ran.json["figures"]["lowest_z_mm"] == pytest.approx(-2.54)
+    assert ran.json["figures"]["gouge_mm"] is None
+    assert picture.read_bytes().startswith(PNG) and out.stat().st_size > 500_000
+
+
+def test_our_program_with_its_job_or_a_part(cli, coarse, tmp_path, box_step):
+    run = coarse()
+    with_job = cli("view", run.gcode, "--job", run.job, "--out", tmp_path / "a.html")
+    assert with_job.code == 0 and "Coarse cup" in (tmp_path / "a.html").read_text()
+    with_part = cli("view", run.gcode, "--part", box_step, "--out", tmp_path / "b.html")
+    assert with_part.code == 0
+    assert 'value="wall"' in (tmp_path / "b.html").read_text()
+    on_file = cli("view", run.gcode, "--machine", "grbl", "--out", tmp_path / "c.html")
+    assert on_file.code == 2 and "line" in on_file.err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["{missing}"], ["missing.ngc", "cannot be read"]),
+        (["{text}"], ["text.ngc", "line 1", "name its machine"]),
+        (["{empty}"], ["empty.ngc", "no move"]),
+        (["{foreign}", "--machine", "linuxnc"], ["linuxnc", "linuxcnc"]),
+        (["{foreign}", "--machine", "{missing}.toml"], ["missing.ngc.toml", "cannot be read"]),
+        (["{foreign}", "--part", "{missing}"], ["missing.ngc"]),
+        (["{foreign}", "--part", "{foreign}", "--job", "{foreign}"], ["--job and --part"]),
+        (["{foreign}", "--out", "{foreign}"], ["is read by this very job"]),
+        (["{foreign}", "--out", "{here}"], ["a folder has this name"]),
+    ],
+)
+def test_what_cannot_be_shown_is_said_in_one_line(cli, foreign, tmp_path, arguments, words):
+    (tmp_path / "text.ngc").write_text("Dear machine,\n")
+    (tmp_path / "empty.ngc").write_text("G21\nM2\n")
+    names = {name: tmp_path / f"{name}.ngc" for name in ("missing", "text", "empty")}
+    there = set(tmp_path.iterdir())
+    ran = cli("view", *(word.format(foreign=foreign, here=tmp_path, **names) for word in arguments))
+    assert ran.code == 2 and ran.out == "" and ran.err.count("\n") == 1, ran.err
+    for word in words:
+        assert word in ran.err, ran.err
+    assert set(tmp_path.iterdir()) == there
+
+
+def test_verify_writes_a_report_and_a_picture(cli, coarse, tmp_path):
+    run = coarse()
+    report, picture = tmp_path / "r.html", tmp_path / "p.png"
+    ran = cli("verify", run.gcode, "--job", run.job, "--report", report, "--picture", picture)
+    assert ran.code == 0 and "r.html" in ran.out and "p.png" in ran.out
+    assert "Nothing was found" in report.read_text() and picture.read_bytes().startswith(PNG)
+    quiet = cli("verify", run.gcode, "--job", run.job, "--report", report, "--json")
+    assert quiet.code == 0 and quiet.json["written"] == [str(report)]
+    clash = cli("verify", run.gcode, "--job", run.job, "--report", run.job)
+    assert clash.code == 2 and "is read by this very job" in clash.err
+
+
+def test_run_writes_the_report_that_the_job_or_the_caller_names(cli, tmp_path):
+    job = tmp_path / "job.toml"
+    job.write_text(changed(COARSE_CUP, ('file = "cup.ngc"', 'file = "cup.ngc"\nreport = "out/cup.html"')))
+    ran = cli("run", job, "--json")
+    assert ran.code == 0 and str(tmp_path / "out" / "cup.html") in ran.json["written"]
+    page = (tmp_path / "out" / "cup.html").read_text()
+    assert "Nothing was found" in page and "cup.ngc" in page
+    named = cli("run", job, "--report", tmp_path / "named.html")
+    assert named.code == 0 and (tmp_path / "named.html").read_text() == page
+    assert "named.html" in named.out
+
+
+def test_run_writes_the_report_of_a_faulty_program_but_not_the_program(cli, tmp_path, monkeypatch):
+    from styluscam import running
+
+    job = tmp_path / "job.toml"
+    job.write_text(COARSE_CUP)
+    honest = running.judge_plan
+
+    def judge(plan, text, *rest):
+        return honest(plan, text.replace("M2\n", "G1 X5 Y5 Z-30\nM2\n"), *rest)
+
+    monkeypatch.setattr(running, "judge_plan", judge)
+    monkeypatch.setattr(running, "_require_same_moves", lambda *_: None)
+    ran = cli("run", job, "--report", tmp_path / "r.html")
+    assert ran.code == 1 and ran.err.splitlines()[-1].startswith("no program was written")
+    assert "Must not run" in (tmp_path / "r.html").read_text()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["job.toml", "r.html"]
