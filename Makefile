@@ -158,3 +158,7 @@ profile-pictures: dev ## The pictures in docs/profiles.md
 .PHONY: offset-picture
 offset-picture: dev ## The picture of the offset surface in docs/guide.md
 	$(BIN)/python docs/offset_picture.py
+
+.PHONY: report-picture
+report-picture: dev ## The picture of a report in docs/guide.md
+	$(BIN)/python docs/report_picture.py

@@ -24,6 +24,8 @@ class Drawn:
 def thinned(points: FloatArray, keep: npt.NDArray[np.bool_], limit: int) -> Drawn:
     """At most ``limit`` of the points (N, 3), if those to ``keep`` (N,) are no more; the ends of the path stay."""
     alive = np.arange(len(points))
+    if len(points) < 2:
+        return Drawn(alive, 0.0)
     distance = FIRST
     keep = keep.copy()
     keep[[0, -1]] = True

@@ -374,9 +374,10 @@ def _triad(axes: Axes, view: View) -> None:
 
 def _path_box(program: Program) -> FloatArray:
     """Lower and upper corner (2, 3) of where the program goes, mm; a little more where that is flat."""
-    ends, rapid = program.positions, program.moves["kind"] == RAPID
+    ends, kinds = _places(program)
     known = np.isfinite(ends).all(axis=1)
-    ends = ends[known & ~rapid] if (known & ~rapid).any() else ends[known]
+    at_feed = known & (kinds != RAPID)
+    ends = ends[at_feed if at_feed.any() else known]
     if not len(ends):
         raise GeometryError("the program goes nowhere: nothing to draw", code="nothing-to-draw", hint="check the file")
     box = np.array([ends.min(axis=0), ends.max(axis=0)])

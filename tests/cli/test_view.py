@@ -94,6 +94,14 @@ def test_verify_writes_a_report_and_a_picture(cli, coarse, tmp_path):
     assert clash.code == 2 and "is read by this very job" in clash.err
 
 
+def test_a_program_without_moves_has_a_report_too(cli, coarse, tmp_path):
+    still = tmp_path / "still.ngc"
+    still.write_text("G21 G90 G54\nM2\n")
+    ran = cli("verify", still, "--job", coarse().job, "--report", tmp_path / "r.html", "--json")
+    assert ran.code == 1 and ran.err == ""
+    assert "no feed moves" in (tmp_path / "r.html").read_text()
+
+
 def test_run_writes_the_report_that_the_job_or_the_caller_names(cli, tmp_path):
     job = tmp_path / "job.toml"
     job.write_text(changed(COARSE_CUP, ('file = "cup.ngc"', 'file = "cup.ngc"\nreport = "out/cup.html"')))

@@ -20,7 +20,6 @@ from styluscam.decimation import thinned
 from styluscam.report import Subject, comparison_page, figures, heatmaps, report_page
 from styluscam.report.columns import packed
 from styluscam.report.surface import Surface, vertices_of
-from styluscam.report.timing import end_times
 
 RADIUS, STEPOVER = 3.0, 0.6
 BLOCK = box([0.0, 0.0, -5.0], [30.0, 20.0, 0.0])
@@ -163,12 +162,22 @@ def test_a_thinned_path_says_how_far_it_is_off() -> None:
     assert thinned(points[:1], keep[:1], 10).error_mm == 0.0
 
 
-def test_times_add_up_with_dwells(job: sc.Job) -> None:
-    text = "G21 G90 G54\nG0 X0 Y0 Z5\nG1 Z0 F60\nG4 P2.5\nG1 X10 F600\nG0 Z5\nM2\n"
+def test_places_along_arcs_have_their_time_and_move(job: sc.Job) -> None:
+    text = "G21 G90 G54 G17\nG0 X0 Y0 Z5\nG1 Z0 F60\nG4 P2.5\nG3 X20 Y0 I10 J0 F600\nG1 X30\nG0 Z5\nM2\n"
     program = sc.read_gcode(text, job.machine())
-    times = end_times(program)
-    assert times[-1] == pytest.approx(program.duration) == pytest.approx(5.0 + 2.5 + 1.0 + 0.1)
-    assert (np.diff(times) >= 0.0).all()
+    subject = Subject("arc", "arc.ngc", program, job.machine())
+    assert len(subject.places) > 50 + len(program.moves)
+    assert (np.diff(subject.times) >= 0.0).all() and (np.diff(subject.owners) >= 0).all()
+    ends = np.searchsorted(subject.owners, np.arange(len(program.moves)), side="right") - 1
+    assert subject.times[ends] == pytest.approx(program.times(job.machine()), abs=1e-6)
+    assert np.array_equal(subject.places[ends], program.moves["end"])
+    (arc,) = np.flatnonzero(program.moves["kind"] == 3)
+    on_it = np.flatnonzero(subject.owners == arc)
+    assert np.linalg.norm(subject.places[on_it, :2] - [10.0, 0.0], axis=1) == pytest.approx(10.0, abs=1e-3)
+    assert np.ptp(np.diff(subject.times[on_it])) < 1e-4
+    data = given(report_page(subject))["path"]
+    assert data["sag"] == 0.001 and data["count"] == len(program.moves)
+    assert np.array_equal(unpacked(data["moves"])[:, 0], subject.owners)
 
 
 # --- the part ------------------------------------------------------------------------------------------------------
@@ -289,7 +298,7 @@ def test_the_page_says_the_verdict(pages: tuple[str, str], subjects: tuple[Subje
 
 def test_findings_know_their_moment(pages: tuple[str, str], subjects: tuple[Subject, Subject]) -> None:
     data, subject = given(pages[1]), subjects[1]
-    times, ends = unpacked(data["path"]["times"])[:, 0], unpacked(data["path"]["ends"])
+    times, ends = unpacked(data["path"]["times"])[:, 0], unpacked(data["path"]["places"])
     assert data["findings"]
     for finding, whole in zip(data["findings"], subject.findings, strict=True):
         move = int(np.searchsorted(times, finding["time"]))
@@ -302,10 +311,10 @@ def test_findings_know_their_moment(pages: tuple[str, str], subjects: tuple[Subj
 
 def test_the_path_in_the_page_is_exact(pages: tuple[str, str], subjects: tuple[Subject, Subject]) -> None:
     path, program = given(pages[0])["path"], subjects[0].program
-    assert np.array_equal(unpacked(path["ends"]), program.positions)
+    assert np.array_equal(unpacked(path["places"]), program.positions)
     assert np.array_equal(unpacked(path["lines"])[:, 0], program.moves["line"])
     assert np.array_equal(unpacked(path["feeds"])[:, 0], program.moves["feed"])
-    assert np.abs(unpacked(path["times"])[:, 0] - end_times(program)).max() <= 1e-6
+    assert np.abs(unpacked(path["times"])[:, 0] - program.times(subjects[0].machine)).max() <= 1e-6
 
 
 def test_the_page_loads_nothing(pages: tuple[str, str], subjects: tuple[Subject, Subject]) -> None:
@@ -343,8 +352,8 @@ def test_a_page_without_part_and_job(job: sc.Job) -> None:
     page = report_page(Subject("a.ngc", "a.ngc", program, job.machine()))
     assert "Not judged" in Page(page).text
     data = given(page)
-    assert data["part"] is None and data["path"]["ends"]["scale"] == 0
-    assert np.array_equal(unpacked(data["path"]["ends"]), program.positions)
+    assert data["part"] is None and data["path"]["places"]["scale"] == 0
+    assert np.array_equal(unpacked(data["path"]["places"]), program.positions)
 
 
 def test_without_the_extra_it_says_what_to_install(

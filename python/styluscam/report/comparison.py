@@ -38,6 +38,7 @@ def comparison_page(subjects: Sequence[Subject]) -> str:
 def _plots(subjects: Sequence[Subject]) -> list[Plot]:
     series = []
     for subject in subjects:
-        moves = subject.program.moves[subject.placed]
-        series.append(Series(subject.times, subject.ends[:, 2], moves["feed"], moves["kind"], subject.file))
+        series.append(
+            Series(subject.times, subject.places[:, 2], subject.moves["feed"], subject.moves["kind"], subject.file)
+        )
     return [height_over_time(series), feed_over_time(series)]

@@ -46,15 +46,15 @@ def spoken(kind: str) -> str:
     return kind.replace("-", " ")
 
 
-def placed(findings: Sequence[Document], lines: IntArray, ends: FloatArray, times: FloatArray) -> list[Document]:
+def placed(findings: Sequence[Document], lines: IntArray, places: FloatArray, times: FloatArray) -> list[Document]:
     """The findings, each with its ``time`` in seconds (none where it has no moment).
 
-    ``lines`` (N,), ``ends`` (N, 3) and ``times`` (N,) are those of the moves.
+    ``lines`` (N,), ``places`` (N, 3) and ``times`` (N,) are those along the path.
     """
-    return [{**finding, "time": _moment(finding, lines, ends, times)} for finding in findings]
+    return [{**finding, "time": _moment(finding, lines, places, times)} for finding in findings]
 
 
-def _moment(finding: Document, lines: IntArray, ends: FloatArray, times: FloatArray) -> float | None:
+def _moment(finding: Document, lines: IntArray, places: FloatArray, times: FloatArray) -> float | None:
     """When the tool is nearest to the finding's position on the finding's line."""
     moves = np.flatnonzero(lines == finding["line"]) if finding["line"] else np.zeros(0, dtype=np.int64)
     if not len(moves):
@@ -62,11 +62,11 @@ def _moment(finding: Document, lines: IntArray, ends: FloatArray, times: FloatAr
     if finding["position"] is None:
         return float(times[moves[0]])
     before = np.maximum(moves - 1, 0)
-    start, way = ends[before], ends[moves] - ends[before]
+    start, way = places[before], places[moves] - places[before]
     square = np.einsum("ij,ij->i", way, way)
     along = np.einsum("ij,ij->i", np.asarray(finding["position"]) - start, way)
     share = np.clip(np.divide(along, square, out=np.ones(len(moves)), where=square > 0.0), 0.0, 1.0)
     off = np.linalg.norm(start + share[:, None] * way - np.asarray(finding["position"]), axis=1)
     best = int(np.nanargmin(off)) if np.isfinite(off).any() else 0
-    begins, ends_at = times[before[best]] if moves[best] > 0 else 0.0, times[moves[best]]
-    return float(ends_at if share[best] >= 1.0 else begins + share[best] * (ends_at - begins))
+    begins, ends = times[before[best]] if moves[best] > 0 else 0.0, times[moves[best]]
+    return float(ends if share[best] >= 1.0 else begins + share[best] * (ends - begins))

@@ -9,6 +9,7 @@ import numpy as np
 
 from styluscam.decimation import thinned
 from styluscam.outline import silhouette
+from styluscam.program import SAG
 from styluscam.report import figures, tables
 from styluscam.report.columns import packed
 from styluscam.report.findings import spoken, verdict_of
@@ -81,9 +82,8 @@ def _shown(subject: Subject, progress: Progress | None) -> Shown | None:
 
 
 def _plots(subject: Subject, shown: Shown | None) -> list[figures.Plot]:
-    moves = subject.program.moves[subject.placed]
-    series = [figures.Series(subject.times, subject.ends[:, 2], moves["feed"], moves["kind"])]
-    plots = [figures.height_over_time(series), figures.feed_over_time(series)] if len(moves) else []
+    series = [figures.Series(subject.times, subject.places[:, 2], subject.moves["feed"], subject.moves["kind"])]
+    plots = [figures.height_over_time(series), figures.feed_over_time(series)] if len(subject.places) else []
     if shown is not None and len(shown.scallops):
         plots.append(figures.scallop_histogram(shown.scallops, shown.weights))
     return plots
@@ -141,22 +141,24 @@ def _map(one: HeatMap) -> Document:
 
 def _path(subject: Subject) -> Document:
     """The path twice: thinned for the drawing, exact for the readout."""
-    moves = subject.program.moves[subject.placed]
+    moves, known = subject.moves, len(np.unique(subject.owners))
     changes = np.zeros(len(moves), dtype=bool)
-    if len(moves):
-        for column in (subject.kinds, moves["operation"], moves["feed"]):
-            changes[:-1] |= column[1:] != column[:-1]
-        drawn = thinned(subject.ends, changes, SEGMENTS)
+    for column in (subject.kinds, moves["operation"], moves["feed"]):
+        changes[:-1] |= column[1:] != column[:-1]
+    drawn = thinned(subject.places, changes, SEGMENTS)
     return {
-        "ends": packed(subject.ends),
+        "places": packed(subject.places),
         "times": packed(subject.times),
         "kinds": packed(subject.kinds),
+        "moves": packed(subject.owners),
         "feeds": packed(moves["feed"]),
         "lines": packed(moves["line"]),
         "operations": packed(moves["operation"]),
-        "drawn": packed(drawn.indices if len(moves) else []),
-        "drawnError": drawn.error_mm if len(moves) else 0.0,
-        "unplaced": len(subject.program.moves) - len(moves),
+        "drawn": packed(drawn.indices),
+        "drawnError": drawn.error_mm,
+        "sag": SAG if len(moves) > known else 0.0,
+        "count": len(subject.program.moves),
+        "unplaced": len(subject.program.moves) - known,
     }
 
 

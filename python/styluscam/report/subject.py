@@ -7,6 +7,7 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 
 from styluscam.job import Job
 from styluscam.judging import Report
@@ -16,7 +17,6 @@ from styluscam.picture import arrays_of, program_picture, program_png
 from styluscam.program import RAPID, Program
 from styluscam.report.findings import placed
 from styluscam.report.surface import Surface
-from styluscam.report.timing import end_times
 from styluscam.tool import Tool
 from styluscam.types import Document, FloatArray, IntArray
 
@@ -56,34 +56,53 @@ class Subject:
         return None if self.part is None else Surface.of(arrays_of(self.part), self.frame)
 
     @cached_property
-    def placed(self) -> IntArray:
-        """The moves whose end is known, (N,)."""
+    def _known(self) -> IntArray:
+        """The places of the program's polyline that are known, (N,)."""
         return np.flatnonzero(np.isfinite(self.program.positions).all(axis=1))
 
     @cached_property
-    def ends(self) -> FloatArray:
-        """Where those end, (N, 3), mm."""
-        return self.program.positions[self.placed]
+    def places(self) -> FloatArray:
+        """Along the path, (N, 3), mm: the ends of the moves, and between those of arcs."""
+        return self.program.positions[self._known]
+
+    @cached_property
+    def owners(self) -> IntArray:
+        """The move that leads to each place, (N,): an index that rises."""
+        return self.program.polyline[1][self._known].astype(np.int64)
+
+    @cached_property
+    def moves(self) -> npt.NDArray[np.void]:
+        """The program's record of that move, (N,)."""
+        return self.program.moves[self.owners]
 
     @cached_property
     def times(self) -> FloatArray:
-        """When, (N,), s, in whole microseconds."""
-        return np.asarray(np.rint(end_times(self.program)[self.placed] * 1e6) / 1e6)
+        """When the tip is there, (N,), s, in whole microseconds; along an arc by its length."""
+        if not len(self.places):
+            return np.zeros(0)
+        ends = np.append(0.0, self.program.times(self.machine))
+        way = np.cumsum(np.linalg.norm(np.diff(self.places, axis=0, prepend=self.places[:1]), axis=1))
+        last = np.searchsorted(self.owners, self.owners, side="right") - 1
+        first = np.searchsorted(self.owners, self.owners) - 1
+        begins = np.where(first >= 0, way[first], 0.0)
+        length = way[last] - begins
+        share = np.divide(way - begins, length, out=np.ones(len(way)), where=length > 0.0)
+        times = ends[self.owners] + share * (ends[self.owners + 1] - ends[self.owners])
+        return np.asarray(np.rint(times * 1e6) / 1e6)
 
     @cached_property
     def kinds(self) -> IntArray:
-        """What for, (N,): :data:`RAPIDS`, :data:`UPRIGHT` or :data:`CUT`."""
-        way = np.diff(self.ends, axis=0, prepend=self.ends[:1])
+        """What the move is for, (N,): :data:`RAPIDS`, :data:`UPRIGHT` or :data:`CUT`."""
+        way = np.diff(self.places, axis=0, prepend=self.places[:1])
         upright = (np.abs(way[:, :2]) <= SAME).all(axis=1)
-        at_feed = np.where(upright, UPRIGHT, CUT)
-        return np.where(self.program.moves["kind"][self.placed] == RAPID, RAPIDS, at_feed)
+        return np.where(self.moves["kind"] == RAPID, RAPIDS, np.where(upright, UPRIGHT, CUT))
 
     @cached_property
     def findings(self) -> list[Document]:
         """What the judge found, each with its moment."""
         if self.report is None:
             return []
-        return placed(self.report.findings, self.program.moves["line"][self.placed], self.ends, self.times)
+        return placed(self.report.findings, self.moves["line"], self.places, self.times)
 
     @cached_property
     def tools(self) -> list[tuple[Document, Tool | None]]:

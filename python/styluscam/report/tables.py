@@ -22,7 +22,7 @@ Rows = list[tuple[str, str]]
 
 def figures(subject: Subject) -> Document:
     """The program in numbers, as ``compare`` puts them side by side; mm, s, shares. None where there is none."""
-    program, ends = subject.program, subject.ends
+    program, places = subject.program, subject.places
     at_feed = subject.kinds != RAPIDS
     report = subject.report
     faces = report.coverage() if report is not None else []
@@ -32,7 +32,7 @@ def figures(subject: Subject) -> Document:
         "length_mm": program.length,
         "moves": len(program.moves),
         "blocks": len(np.unique(program.moves["line"])),
-        "lowest_z_mm": float(ends[at_feed, 2].min()) if at_feed.any() else None,
+        "lowest_z_mm": float(places[at_feed, 2].min()) if at_feed.any() else None,
         "findings": sum(report.to_dict()["counts"].values()) if report is not None else None,
         "gouge_mm": report.gouge_max if report is not None else None,
         "excess_mm": report.excess_max if report is not None else None,

@@ -16,15 +16,15 @@ function boxOf(columns) {
 
 async function start() {
   const path = await Path.of(given.path);
-  const box = given.part ? boxOf(await unpacked(given.part.points)) : boxOf(path.ends);
+  const box = given.part ? boxOf(await unpacked(given.part.points)) : boxOf(path.places);
   const stage = new Stage(document.querySelector("#stage canvas"), box);
   const part = given.part && (await PartView.of(stage, given.part));
   const lines = new PathView(stage, path);
   const tool = new ToolView(stage, given.tools);
   const player = new Player(path);
-  player.show = ({ move, tip }) => {
-    lines.done(move);
-    tool.stand(player.toolAt(move), tip);
+  player.show = ({ index, tip }) => {
+    lines.done(index);
+    tool.stand(player.toolAt(index), tip);
   };
   player.seek(path.duration);
   new Findings(stage, player, given.findings);
@@ -51,10 +51,13 @@ function wire(stage, part, lines) {
 }
 
 function note(path) {
-  const said = [`${path.count} moves`];
-  const drawn = path.drawn.length;
-  if (drawn < path.count) said.push(`drawn through ${drawn} of their ends, at most ${short(path.drawnError)} mm off; the readout is exact`);
-  if (path.unplaced) said.push(`${path.unplaced} more go to places that are not known`);
+  const { drawnError, sag, unplaced, count } = given.path;
+  const said = [`${count} moves`];
+  if (sag) said.push(`arcs as chords, at most ${sag} mm off`);
+  if (path.drawn.length < path.known) {
+    said.push(`drawn through ${path.drawn.length} of ${path.known} places, at most ${short(drawnError)} mm off; the readout has them all`);
+  }
+  if (unplaced) said.push(`${unplaced} of them go to places that are not known`);
   if (given.part?.merged) said.push(`the part is drawn coarser: its points are merged in cells of ${short(given.part.merged)} mm`);
   document.getElementById("path-note").textContent = `${said.join("; ")}.`;
 }

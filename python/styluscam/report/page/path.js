@@ -2,36 +2,35 @@
 
 class Path {
   static async of(given) {
-    const names = ["ends", "times", "kinds", "feeds", "lines", "operations", "drawn"];
+    const names = ["places", "times", "kinds", "moves", "feeds", "lines", "operations", "drawn"];
     const columns = await Promise.all(names.map((name) => unpacked(given[name])));
     const path = new Path();
-    names.forEach((name, k) => (path[name] = name === "ends" ? columns[k] : columns[k][0]));
-    path.drawnError = given.drawnError;
-    path.unplaced = given.unplaced;
-    return path;
-  }
-
-  get count() {
-    return this.times.length;
+    names.forEach((name, k) => (path[name] = name === "places" ? columns[k] : columns[k][0]));
+    return Object.assign(path, { count: given.count, known: path.times.length });
   }
 
   get duration() {
-    return this.count ? this.times[this.count - 1] : 0;
+    return this.known ? this.times[this.known - 1] : 0;
   }
 
-  end(move) {
-    return this.ends.map((column) => column[move]);
+  place(index) {
+    return this.places.map((column) => column[index]);
   }
 
-  /** The move under way at a time, and where the tip is. */
+  /** The index of a move's end. */
+  endOf(move) {
+    return firstFrom(this.moves, move + 1) - 1;
+  }
+
+  /** Where the tip is at a time, and the index of the place to which it is going. */
   at(time) {
-    const move = Math.min(firstFrom(this.times, time), this.count - 1);
-    const before = Math.max(move - 1, 0);
-    const begins = move > 0 ? this.times[before] : 0;
-    const takes = this.times[move] - begins;
+    const index = Math.min(firstFrom(this.times, time), this.known - 1);
+    const before = Math.max(index - 1, 0);
+    const begins = index > 0 ? this.times[before] : 0;
+    const takes = this.times[index] - begins;
     const share = takes > 0 ? Math.min(1, (time - begins) / takes) : 1;
-    const [from, to] = [this.end(before), this.end(move)];
-    return { move, tip: share >= 1 ? to : from.map((x, k) => x + (to[k] - x) * share) };
+    const [from, to] = [this.place(before), this.place(index)];
+    return { index, tip: share >= 1 ? to : from.map((x, k) => x + (to[k] - x) * share) };
   }
 }
 
@@ -43,8 +42,8 @@ class PathView {
     const position = new Float32Array(6 * pieces);
     for (let s = 0; s < pieces; s++) {
       for (let end = 0; end < 2; end++) {
-        const move = path.drawn[s + end];
-        for (let k = 0; k < 3; k++) position[6 * s + 3 * end + k] = path.ends[k][move] - stage.origin[k];
+        const index = path.drawn[s + end];
+        for (let k = 0; k < 3; k++) position[6 * s + 3 * end + k] = path.places[k][index] - stage.origin[k];
       }
     }
     this.positions = new THREE.BufferAttribute(position, 3);
@@ -65,9 +64,9 @@ class PathView {
     return lines;
   }
 
-  /** Draws what is done by a move in full colour, and the rest faintly. */
-  done(move) {
-    const pieces = Math.min(Math.max(firstFrom(this.path.drawn, move + 1) - 1, 0), Math.max(this.path.drawn.length - 1, 0));
+  /** Draws what leads to a place in full colour, and the rest faintly. */
+  done(index) {
+    const pieces = Math.min(Math.max(firstFrom(this.path.drawn, index + 1) - 1, 0), Math.max(this.path.drawn.length - 1, 0));
     this.past.geometry.setDrawRange(0, 2 * pieces);
     this.future.geometry.setDrawRange(2 * pieces, Infinity);
     this.stage.redraw();
@@ -100,7 +99,7 @@ class PathView {
   }
 
   scale(by) {
-    const values = by === "feed" ? this.path.feeds : this.path.ends[2];
+    const values = by === "feed" ? this.path.feeds : this.path.places[2];
     let [low, high] = [Infinity, -Infinity];
     for (let i = 0; i < values.length; i++) {
       if (this.path.kinds[i] === 0) continue;

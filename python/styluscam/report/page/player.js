@@ -7,7 +7,7 @@ class Player {
   constructor(path) {
     this.path = path;
     this.time = path.duration;
-    /** Called with the move under way and the tip's place. */
+    /** Called with where the tip is, and the index of the place to which it is going. */
     this.show = () => {};
     this.slider = document.getElementById("time");
     this.slider.max = String(path.duration || 1);
@@ -41,15 +41,15 @@ class Player {
   }
 
   seek(time) {
-    if (!this.path.count) return;
+    if (!this.path.known) return;
     this.time = Math.min(Math.max(time, 0), this.path.duration);
     this.tell(this.path.at(this.time));
   }
 
-  /** To the end of a move; several may end at the same time. */
-  seekMove(move) {
-    this.time = this.path.times[move];
-    this.tell({ move, tip: this.path.end(move) });
+  /** To a place; several may be reached at the same time. */
+  seekPlace(index) {
+    this.time = this.path.times[index];
+    this.tell({ index, tip: this.path.place(index) });
   }
 
   tell(now) {
@@ -66,34 +66,36 @@ class Player {
   /** To the end of the move before or after. */
   step(by) {
     this.pause();
-    if (!this.path.count) return;
-    const { move } = this.now;
-    const ended = this.time >= this.path.times[move];
-    const to = by > 0 ? (ended ? move + 1 : move) : move - 1;
-    this.seekMove(Math.min(Math.max(to, 0), this.path.count - 1));
+    const { path } = this;
+    if (!path.known) return;
+    const end = path.endOf(path.moves[this.now.index]);
+    const ended = this.now.index === end && this.time >= path.times[end];
+    const first = firstFrom(path.moves, path.moves[end]);
+    const on = ended ? path.endOf(path.moves[Math.min(end + 1, path.known - 1)]) : end;
+    this.seekPlace(by > 0 ? on : Math.max(first - 1, 0));
   }
 
-  read({ move, tip }) {
+  read({ index, tip }) {
     const { path } = this;
-    const operation = given.operations[path.operations[move]];
+    const operation = given.operations[path.operations[index]];
     const said = {
       time: clock(this.time),
-      line: path.lines[move] || "–",
+      line: path.lines[index] || "–",
       x: tip[0].toFixed(4),
       y: tip[1].toFixed(4),
       z: tip[2].toFixed(4),
-      feed: path.kinds[move] === 0 ? "rapid" : `${Number(path.feeds[move].toFixed(3))} mm/min`,
-      tool: given.tools[this.toolAt(move)]?.name ?? "–",
+      feed: path.kinds[index] === 0 ? "rapid" : `${Number(path.feeds[index].toFixed(3))} mm/min`,
+      tool: given.tools[this.toolAt(index)]?.name ?? "–",
       operation: operation?.[0] || "–",
-      move: `${move + 1} of ${path.count}`,
+      move: `${path.moves[index] + 1} of ${path.count}`,
     };
     for (const place of document.querySelectorAll("#readout dd")) {
       place.textContent = place.title = String(said[place.dataset.key]);
     }
   }
 
-  toolAt(move) {
-    return given.operations[this.path.operations[move]]?.[1];
+  toolAt(index) {
+    return given.operations[this.path.operations[index]]?.[1];
   }
 
   toggle() {

@@ -43,7 +43,7 @@ class Stage {
   /** From where the whole is seen, in narrow windows too. */
   distance() {
     const half = Math.tan((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect || 1);
-    return (0.44 * this.size) / Math.max(half, 0.1);
+    return (0.48 * this.size) / Math.max(half, 0.1);
   }
 
   /** Brings a place to the middle, from the side from which one looks already. */
