@@ -41,6 +41,12 @@ JOB = {
 }
 MOVED = 0.2
 
+OVERFLOWING = """[...document.querySelectorAll("section *:not(svg *)")].filter(e => {
+  const [inner, outer] = [e.getBoundingClientRect(), e.closest("section").getBoundingClientRect()];
+  return inner.width && !e.closest("#ticks") && (inner.right > outer.right + 1 || inner.left < outer.left - 1);
+}).map(e => e.className || e.tagName)"""
+"""What sticks out of its section."""
+
 
 def spoilt(text: str) -> str:
     """With one coordinate, halfway through, moved into the wall."""
@@ -127,10 +133,11 @@ def test_it_loads_without_a_complaint_and_asks_for_nothing(tab: Tab, page: Path)
 
 
 def test_the_page_fits_wide_and_narrow(opened: Tab) -> None:
-    for size in (WIDE, NARROW):
+    for size in (WIDE, (1050, 700), (700, 900), NARROW):
         opened.size(*size)
         opened.drawn()
         assert opened.run("document.documentElement.scrollWidth") <= size[0]
+        assert opened.run(OVERFLOWING) == []
         width, height = opened.run(
             "(() => { const c = document.querySelector('canvas'); return [c.width, c.height] })()"
         )
