@@ -22,13 +22,13 @@ def python(*arguments):
 
 
 def test_importing_styluscam_loads_nothing_but_numpy():
-    heavy = ("typer", "click", "rich", "OCP", "matplotlib", "trimesh", "networkx", "lxml")
+    heavy = ("typer", "click", "rich", "OCP", "matplotlib", "jinja2", "trimesh", "networkx", "lxml")
     ran = python("-c", f"import sys, styluscam; print([name for name in {heavy} if name in sys.modules])")
     assert ran.stdout == "[]\n", ran.stderr
 
 
 def test_help_loads_no_extra():
-    heavy = ("OCP", "matplotlib", "trimesh", "rich")
+    heavy = ("OCP", "matplotlib", "jinja2", "trimesh", "rich")
     code = "import sys; from styluscam.cli import invoke; invoke(['--help']);"
     assert python("-c", f"{code} print([name for name in {heavy} if name in sys.modules])").stdout.endswith("[]\n")
 
@@ -178,7 +178,7 @@ def test_doctor(cli):
     ran = cli("doctor")
     assert ran.code == 0 and sc.__version__ in ran.out and "works" in ran.out
     document = cli("doctor", "--json").json
-    assert document["engine_ok"] is True and set(document["extras"]) == {"step", "mesh", "plot"}
+    assert document["engine_ok"] is True and set(document["extras"]) == {"step", "mesh", "plot", "report"}
     assert document["packages"]["numpy"]
 
 

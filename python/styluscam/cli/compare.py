@@ -35,9 +35,9 @@ def compare(
     quiet: Quiet = False,
     debug: Debug = False,
 ) -> int:
-    """Put two programs for one job side by side: time, length, depth, gouge, excess, scallop, coverage.
+    """Put two programs for one job side by side.
 
-    Both are judged as `styluscam verify` does; exit code 1 says that one of them must not run.
+    Time, length, depth, gouge, excess, scallop, coverage. Both are judged as `styluscam verify` does; exit code 1 says that one of them must not run.
     """
     with naming(job), progress.shown(not (json or quiet)) as shown:
         work = Job.read(job)

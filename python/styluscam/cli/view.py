@@ -54,9 +54,9 @@ def view(
     quiet: Quiet = False,
     debug: Debug = False,
 ) -> int:
-    """Show a G-code file as a page: path, tool, times, and a part if you name one.
+    """Show a G-code file as a page, ours or not.
 
-    Nothing is judged; `styluscam verify` does that.
+    Path, tool and times, and a part if you name one. Nothing is judged; `styluscam verify` does that.
     """
     if job is not None and part is not None:
         raise JobError("--job and --part: a job has its part", code="usage", where="--part", hint="give one of them")
