@@ -37,7 +37,8 @@ def compare(
 ) -> int:
     """Put two programs for one job side by side.
 
-    Time, length, depth, gouge, excess, scallop, coverage. Both are judged as `styluscam verify` does; exit code 1 says that one of them must not run.
+    Time, length, depth, gouge, excess, scallop, coverage. Both are judged as `styluscam verify` does; exit code 1 says
+    that one of them must not run.
     """
     with naming(job), progress.shown(not (json or quiet)) as shown:
         work = Job.read(job)
