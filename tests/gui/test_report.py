@@ -12,7 +12,7 @@ import pytest
 
 import roots
 import styluscam as sc
-from styluscam.report import Subject, heatmaps, report_page
+from styluscam.report import Subject, comparison_page, heatmaps, report_page
 
 from .browser import Tab, browser
 
@@ -266,6 +266,19 @@ def test_any_program_without_a_part(tab: Tab, folder: Path, subject: Subject) ->
     ends = tab.run("window.styluscam.player.path.places.map(column => [...column])")
     assert np.array_equal(np.transpose(ends), program.positions)
     assert tab.run("document.querySelector('#map')") is None
+
+
+def test_two_programs_fit_side_by_side(tab: Tab, folder: Path, subject: Subject) -> None:
+    both = folder / "both.html"
+    both.write_text(comparison_page([subject, subject]), encoding="utf-8")
+    tab.complaints.clear()
+    tab.requests.clear()
+    for size in (WIDE, NARROW):
+        tab.size(*size)
+        tab.open(both, ready=f"document.readyState === 'complete' && location.href === {both.as_uri()!r}")
+        assert tab.run("document.documentElement.scrollWidth") <= size[0]
+        assert tab.run(OVERFLOWING) == []
+    assert tab.complaints == [] and {url for url in tab.requests if not url.startswith("data:")} == {both.as_uri()}
 
 
 def test_without_webgl_the_picture_stands_in(tab: Tab, page: Path) -> None:
