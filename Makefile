@@ -24,10 +24,12 @@ demo: tools ## A STEP part becomes verified G-code, from nothing
 	.venv-demo/bin/python -m pip install --quiet --upgrade pip
 	.venv-demo/bin/python -m pip wheel --quiet --no-deps --wheel-dir target/demo .
 	.venv-demo/bin/python -m pip install --quiet "$$(ls -t target/demo/styluscam-*.whl | head -n 1)[step,report]"
-	.venv-demo/bin/styluscam run examples/first-light/job.toml --picture examples/first-light/out/cone_cup.png
+	.venv-demo/bin/styluscam run examples/first-light/job.toml --picture examples/first-light/out/cone_cup.png \
+	  --report examples/first-light/out/cone_cup.html
 	@echo
 	@echo "G-code:  examples/first-light/out/cone_cup.ngc"
 	@echo "picture: examples/first-light/out/cone_cup.png"
+	@echo "report:  examples/first-light/out/cone_cup.html"
 
 .PHONY: tools
 tools: ## Checks that Rust and Python are new enough
