@@ -5,13 +5,15 @@ use styluscam_geometry::{Tool, Vector};
 use styluscam_motion::{Program, ToolRecord, Watch};
 use styluscam_post::machine::ToolChange;
 use styluscam_post::{read, Machine, Reading};
-use styluscam_verify::{FaceCoverage, Limits, Order, Reach, Report, Subject, TextFacts};
+use styluscam_verify::{FaceCoverage, Limits, Order, Passes, Reach, Report, Spacing, Subject, TextFacts};
 
 use crate::plan::operation_id;
-use crate::{faces, scene, Coolant, JobDocument, JobError, OperationSection, Scene, Spindle};
+use crate::{
+    faces, scene, Coolant, JobDocument, JobError, OperationKind, OperationSection, Process, Scene, Spindle, Step,
+};
 
 /// Deepest gouge allowed, mm: the posted path may lie this far inside the exact envelope, and not more.
-const GOUGE: f64 = 0.001;
+pub(crate) const GOUGE: f64 = 0.001;
 
 /// The judge's report and the program that was read.
 #[derive(Clone, Debug, Serialize)]
@@ -41,12 +43,13 @@ pub fn judge(
     watch: &Watch,
 ) -> Result<Judgement, JobError> {
     let (tools, records) = tools_in_order(job)?;
-    let Reading { program, first_placed_move, z_placed_move, stray_planes, ended, .. } = read(text, machine, &records)?;
+    let Reading { program, first_placed_move, z_placed_move, stray_planes, stops, ended, .. } =
+        read(text, machine, &records)?;
     let calls_tools = machine.tool.change == ToolChange::M6;
-    let text = TextFacts { z_placed_move, stray_planes, ended, calls_tools };
-    let orders = orders(job, &records);
+    let text = TextFacts { z_placed_move, stray_planes, stops, ended, calls_tools };
+    let orders = orders(job, scene, &records)?;
     let subject = Subject { text: Some(&text), orders: &orders, ..subject(job, scene, &tools, first_placed_move) };
-    let limits = limits(job, scene, machine);
+    let limits = Limits { excess_by_operation: excess(job, &program), ..limits(job, scene, machine) };
     let report = styluscam_verify::judge(&program, &subject, &limits, watch)?;
     Ok(Judgement { report, program, first_placed_move, limits })
 }
@@ -103,19 +106,50 @@ fn subject<'a>(job: &'a JobDocument, scene: &'a Scene, tools: &'a [Tool], first_
 }
 
 /// What the job orders for each of its operations.
-fn orders(job: &JobDocument, records: &[ToolRecord]) -> Vec<Order> {
-    let order = |(index, section): (usize, &OperationSection)| Order {
-        id: operation_id(section, index),
-        tool: records.iter().position(|record| record.name == section.tool).unwrap_or(usize::MAX),
-        cut: section.feeds.cut,
-        plunge: section.feeds.plunge,
-        spindle: match section.spindle {
-            Spindle::Off => None,
-            Spindle::Fixed { rpm, direction } => Some((rpm, direction)),
-        },
-        flood: section.coolant == Coolant::Flood,
+fn orders(job: &JobDocument, scene: &Scene, records: &[ToolRecord]) -> Result<Vec<Order>, JobError> {
+    let order = |(index, section): (usize, &OperationSection)| {
+        Ok(Order {
+            id: operation_id(section, index),
+            tool: records.iter().position(|record| record.name == section.tool).unwrap_or(usize::MAX),
+            cut: section.feeds.cut,
+            plunge: section.feeds.plunge,
+            spindle: match section.spindle {
+                Spindle::Off => None,
+                Spindle::Fixed { rpm, direction } => Some((rpm, direction)),
+            },
+            flood: section.coolant == Coolant::Flood,
+            passes: passes(job, scene, section, index)?,
+            forms: job.process.kind == Process::Spif,
+        })
     };
     job.operations.iter().enumerate().map(order).collect()
+}
+
+/// How an operation's passes are to lie.
+fn passes(
+    job: &JobDocument,
+    scene: &Scene,
+    section: &OperationSection,
+    index: usize,
+) -> Result<Option<Passes>, JobError> {
+    let spacing = match (section.kind, section.step, section.stepover) {
+        (OperationKind::ZLevel, Some(Step::Height(step)), _) => Spacing::Levels(step),
+        (OperationKind::ZigZag, _, Some(stepover)) => Spacing::Rows(stepover, section.angle_deg.to_radians()),
+        _ => return Ok(None),
+    };
+    let heights = [section.z_bottom.unwrap_or(f64::NEG_INFINITY), section.z_top.unwrap_or(f64::INFINITY)];
+    let wanted = scene.looking_up(&faces::of_operation(job, scene, section, index)?);
+    Ok(Some(Passes { spacing, heights, wanted }))
+}
+
+/// The tolerance of each of the text's operations, by the ids in its remarks; the widest of the job where it names none.
+fn excess(job: &JobDocument, program: &Program) -> Vec<Option<f64>> {
+    let tolerance = |id: &str| {
+        let mut sections = job.operations.iter().enumerate();
+        sections.find(|(index, section)| operation_id(section, *index) == id).map(|(_, section)| section.tolerance)
+    };
+    let widest = job.operations.iter().map(|operation| operation.tolerance).reduce(f64::max);
+    program.operations.iter().map(|operation| tolerance(&operation.id).or(widest)).collect()
 }
 
 /// The moves of a text as `machine` would read it for this job.
@@ -133,8 +167,6 @@ fn tools_in_order(job: &JobDocument) -> Result<(Vec<Tool>, Vec<ToolRecord>), Job
     Ok(job.operations.iter().filter_map(|operation| known.remove(&operation.tool)).unzip())
 }
 
-/// Text does not say which operation a move belongs to: the widest tolerance of the job holds for all of it.
-///
 /// Text is rounded: what stands at the clearance height may be half a unit of the machine below it.
 fn limits(job: &JobDocument, scene: &Scene, machine: &Machine) -> Limits {
     let clearance = scene.clearance(job) - 0.5 * machine.resolution_mm();
@@ -142,6 +174,7 @@ fn limits(job: &JobDocument, scene: &Scene, machine: &Machine) -> Limits {
     Limits {
         gouge: GOUGE,
         excess: excess.reduce(f64::max),
+        retract: scene.top + job.setup.retract - 0.5 * machine.resolution_mm(),
         feed_unit: machine.feed_resolution_mm(),
         reach: reach(machine),
         ..Limits::new(clearance)

@@ -12,6 +12,7 @@ use styluscam_toolpath::{
     Heights, Links, Pass, PlanError, Rates, Surface,
 };
 
+use crate::judge::GOUGE;
 use crate::{
     faces, scene, Coolant, Direction, JobDocument, JobError, OperationKind, OperationSection, Scene, Spindle, Step,
 };
@@ -184,12 +185,14 @@ impl Budget {
         let tessellation = scene.inward + scene.outward;
         // half a unit in each of three axes
         let rounding = 0.5 * machine.resolution_mm() * 3.0_f64.sqrt();
-        let left = section.tolerance - tessellation - rounding;
+        // rounding may also go inwards: beyond what a gouge is allowed, that takes room too
+        let inwards = (rounding - 0.9 * GOUGE).max(0.0);
+        let left = section.tolerance - tessellation - rounding - inwards;
         let deviation = EACH_SIDE * left;
         if deviation < LEAST_DEVIATION {
             return Err(PlanError::Budget { tolerance: section.tolerance, tessellation, rounding });
         }
-        Ok(Self { deviation, margin: scene.inward + 0.5 * left })
+        Ok(Self { deviation, margin: scene.inward + inwards + 0.5 * left })
     }
 }
 

@@ -45,6 +45,7 @@ pub(crate) struct Interpreter<'m> {
     stray_plane_since: Option<usize>,
     stray_planes: Vec<Range<usize>>,
     z_placed_move: Option<usize>,
+    stops: Vec<usize>,
     absolute_centre: bool,
     /// mm/min.
     feed: Option<f64>,
@@ -77,6 +78,7 @@ impl<'m> Interpreter<'m> {
             stray_plane_since: None,
             stray_planes: Vec::new(),
             z_placed_move: None,
+            stops: Vec::new(),
             absolute_centre: false,
             feed: None,
             speed: 0.0,
@@ -272,6 +274,9 @@ impl<'m> Interpreter<'m> {
 
     fn stop(&mut self, block: &Block) -> bool {
         let Some((stop, _)) = block.stop else { return false };
+        if stop != Stop::End {
+            self.stops.push(self.program.moves.len());
+        }
         match stop {
             Stop::Pause => self.event(EventKind::Comment { text: "M0: program stop".into() }),
             Stop::OptionalPause => self.event(EventKind::Comment { text: "M1: optional stop".into() }),
@@ -511,6 +516,7 @@ impl<'m> Interpreter<'m> {
             z_placed_move: self.z_placed_move.unwrap_or(self.program.moves.len()),
             unplaced: self.unplaced,
             stray_planes: self.stray_planes,
+            stops: self.stops,
             ended,
             program: self.program,
         })

@@ -26,7 +26,9 @@ pub struct Reading {
     pub unplaced: Vec<Range<usize>>,
     /// Moves made while G18 or G19 was in force and no arc used it, in runs.
     pub stray_planes: Vec<Range<usize>>,
-    /// Whether the text came to M2, M30 or a closing `%`.
+    /// Moves before which M0 or M1 stops the program.
+    pub stops: Vec<usize>,
+    /// Whether the text came to M2 or M30.
     pub ended: bool,
 }
 
@@ -82,6 +84,8 @@ struct Reader<'t> {
     stage: Stage,
     /// Whether the first line was `%`.
     framed: bool,
+    /// Whether M2 or M30 has ended it.
+    by_code: bool,
 }
 
 impl<'t> Reader<'t> {
@@ -94,6 +98,7 @@ impl<'t> Reader<'t> {
             interpreter: Interpreter::new(machine, tools, text.len() / TYPICAL_LINE),
             stage: Stage::Start,
             framed: false,
+            by_code: false,
         }
     }
 
@@ -123,6 +128,7 @@ impl<'t> Reader<'t> {
             return Ok(Progress::Going);
         }
         self.stage = Stage::Ended;
+        self.by_code = true;
         Ok(if self.machine.reader.after_end == AfterEnd::Ignore { Progress::Done } else { Progress::Going })
     }
 
@@ -190,7 +196,7 @@ impl<'t> Reader<'t> {
         if self.machine.reader.end_required && self.stage != Stage::Ended {
             return Err(whole_line(lines, ReadFault::NoEnd));
         }
-        self.interpreter.finish(self.stage == Stage::Ended).map_err(whole_text)
+        self.interpreter.finish(self.by_code).map_err(whole_text)
     }
 }
 

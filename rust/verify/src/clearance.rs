@@ -9,6 +9,10 @@ use crate::Vector;
 /// Rounding that a distance may carry, mm.
 const ROUNDING: f64 = 1e-9;
 
+/// A foot is in the body for the body's own sake, and not because it grazes a ridge, when it is in it by this share of
+/// the depth: under the tip of a slender cone, which is near to its side everywhere, by little.
+const OWN: f64 = 0.05;
+
 /// Where the body is nearest to the part, or deepest in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Touch {
@@ -156,14 +160,14 @@ impl Search<'_> {
         }
     }
 
-    /// The axis passes below the plane: the farthest point counts only if the plane is the nearest way out.
+    /// The axis passes below the plane: the farthest point counts if its foot is well inside the body.
     ///
     /// Else the depth of the foot and of the place where the axis pierces the triangle are taken: with the edges
     /// they find every triangle that the body meets.
     fn deep(&mut self, facet: &Facet, foot: Vector, held: bool, gap: f64, plane: Plane) {
         if held {
             let value = self.body.distance(foot).value;
-            if value <= gap + ROUNDING {
+            if value <= OWN * gap + ROUNDING {
                 self.take(gap, foot, plane);
                 return;
             }

@@ -16,7 +16,7 @@ use styluscam_motion::{Cancelled, Program, Watch};
 use crate::body::Body;
 use crate::bounds::box_bound;
 use crate::convex::{lower, EQUAL};
-use crate::legs::{placed, LegKind};
+use crate::legs::{placed, Leg, LegKind};
 use crate::measure::strokes_of;
 use crate::probes;
 use crate::sweep::Stroke;
@@ -67,7 +67,7 @@ pub fn coverage(
     wanted: &[bool],
     watch: &Watch,
 ) -> Result<Vec<FaceCoverage>, Cancelled> {
-    let sweeps = Sweeps::of(program, subject, limits);
+    let sweeps = Sweeps::of(&placed(program, subject, limits), subject, |_| true);
     let faces = faces(subject, wanted);
     let area: f64 = faces.iter().map(|face| face.area).sum();
     let between_passes = area / sweeps.length.max(f64::MIN_POSITIVE);
@@ -75,7 +75,8 @@ pub fn coverage(
     let of_face = |face: &Face| ((count * face.area / area) as usize).max(OF_A_FACE);
     watch.begin("coverage", faces.iter().map(of_face).sum());
     let looked_at = |face: &Face| {
-        let points = probes::spread(subject.mesh, &face.triangles, of_face(face));
+        let probes = probes::spread(subject.mesh, &face.triangles, of_face(face));
+        let points: Vec<Vector> = probes.iter().map(|probe| probe.point).collect();
         Ok(face.coverage(&points, &sweeps.left_at(&points, watch)?, sweeps.enough))
     };
     faces.iter().map(looked_at).collect()
@@ -134,7 +135,7 @@ impl Face {
 }
 
 /// All moves that are meant to touch, by tool.
-struct Sweeps {
+pub(crate) struct Sweeps {
     tools: Vec<(Body, RTree<Sweep>)>,
     /// Length of all of them, mm.
     length: f64,
@@ -142,29 +143,36 @@ struct Sweeps {
     enough: f64,
 }
 
-/// A straight move of a body's tip.
+/// A straight move of a body's tip, or a chord of an arc.
 #[derive(Clone, Copy, Debug)]
-struct Sweep(Stroke);
+pub(crate) struct Sweep {
+    stroke: Stroke,
+    /// Index of its leg.
+    pub leg: usize,
+}
 
 impl RTreeObject for Sweep {
     type Envelope = AABB<[f64; 3]>;
 
     fn envelope(&self) -> Self::Envelope {
-        AABB::from_corners(self.0.from.into(), self.0.to.into())
+        AABB::from_corners(self.stroke.from.into(), self.stroke.to.into())
     }
 }
 
 impl Sweeps {
-    fn of(program: &Program, subject: &Subject, limits: &Limits) -> Self {
-        let legs = placed(program, subject, limits);
+    /// Those of `legs` for which `counts` says so.
+    pub fn of(legs: &[Leg], subject: &Subject, counts: impl Fn(&Leg) -> bool) -> Self {
         let tools = subject.tools.iter().enumerate().map(|(number, tool)| {
             let body = Body::new(tool, subject.sheet.as_ref());
-            let own = legs.iter().filter(|leg| leg.kind == LegKind::Contact && leg.tool == Some(number));
-            let tree = RTree::bulk_load(own.flat_map(|leg| strokes_of(leg, &body, SAG)).map(Sweep).collect());
+            let own = |leg: &Leg| leg.kind == LegKind::Contact && leg.tool == Some(number) && counts(leg);
+            let own = legs.iter().enumerate().filter(|(_, leg)| own(leg));
+            let strokes = own
+                .flat_map(|(leg, it)| strokes_of(it, &body, SAG).into_iter().map(move |stroke| Sweep { stroke, leg }));
+            let tree = RTree::bulk_load(strokes.collect());
             (body, tree)
         });
         let tools: Vec<(Body, RTree<Sweep>)> = tools.collect();
-        let length = tools.iter().flat_map(|(_, tree)| tree).map(|sweep| sweep.0.length()).sum();
+        let length = tools.iter().flat_map(|(_, tree)| tree).map(|sweep| sweep.stroke.length()).sum();
         let enough = COVERED * subject.tools.iter().map(styluscam_geometry::Tool::diameter).fold(0.0, f64::max);
         Self { tools, length, enough }
     }
@@ -181,11 +189,11 @@ impl Sweeps {
     }
 
     /// Distance from a point to what is swept, mm; `last` holds the move that was nearest to a point near by.
-    fn left(&self, point: Vector, last: &mut Option<(usize, Sweep)>) -> f64 {
+    pub fn left(&self, point: Vector, last: &mut Option<(usize, Sweep)>) -> f64 {
         let best = Cell::new(f64::INFINITY);
         let nearest = Cell::new(*last);
         if let Some((tool, sweep)) = *last {
-            best.set(distance(&self.tools[tool].0, point, &sweep.0, f64::INFINITY));
+            best.set(distance(&self.tools[tool].0, point, &sweep.stroke, f64::INFINITY));
         }
         for (tool, (body, tree)) in self.tools.iter().enumerate() {
             let search = Search { body, tool, point, best: &best, nearest: &nearest };
@@ -214,7 +222,7 @@ impl SelectionFunction<Sweep> for Search<'_> {
     }
 
     fn should_unpack_leaf(&self, sweep: &Sweep) -> bool {
-        let found = distance(self.body, self.point, &sweep.0, self.best.get());
+        let found = distance(self.body, self.point, &sweep.stroke, self.best.get());
         if found < self.best.get() {
             self.best.set(found);
             self.nearest.set(Some((self.tool, *sweep)));

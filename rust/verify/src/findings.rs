@@ -37,6 +37,14 @@ pub enum FindingKind {
     LowRapid,
     /// A contact move does not touch.
     Excess,
+    /// A place that the tool could touch is left, and the distance between passes does not explain it.
+    MissingPass,
+    /// A level is formed after a lower one at the same place.
+    FormingOrder,
+    /// A rapid goes down below the height at which the job wants plunges to begin.
+    DeepRapid,
+    /// The program stops while the tool is below the clearance height.
+    StopBelow,
     /// A feed move without a feed.
     MissingFeed,
     /// A feed move whose start is not known in all axes.

@@ -6,7 +6,10 @@ use crate::findings::{merge, Fault};
 use crate::legs::{placed, Leg, LegKind};
 use crate::measure::{highest, measure, Measured, Sample};
 use crate::orders::{self, Orders};
-use crate::{diagnosis, reach, travel, ContactRecord, FindingKind, Limits, Place, Report, Severity, Subject, SLACK};
+use crate::{
+    diagnosis, passes, reach, sequence, travel, ContactRecord, FindingKind, Limits, Place, Report, Severity, Subject,
+    SLACK,
+};
 
 /// Contacts in a report at most.
 const CONTACTS: usize = 4000;
@@ -29,6 +32,8 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     faults.extend(travel::faults(program, &legs, subject, limits));
     faults.extend(reach::faults(program, subject, &limits.reach));
     faults.extend(Orders::new(program, subject, limits).faults(program, &legs));
+    faults.extend(sequence::faults(program, &legs, subject, limits));
+    faults.extend(passes::faults(program, &legs, subject, limits, watch)?);
     let (mut findings, mut counts) = merge(&faults);
     let nothing = contacts.nothing_touches().then(|| diagnosis::no_contact(program, &legs, &contacts.samples, subject));
     let offset = travel::work_offset(program, subject.wcs);

@@ -28,7 +28,14 @@ pub(crate) enum LegKind {
 /// Largest turn of a leg, rad: a longer arc becomes several legs, so that its contact is sampled all along it.
 const TURN: f64 = std::f64::consts::PI / 12.0;
 
-/// One move, or a piece of an arc.
+/// Longest piece of a straight move that should touch, as a share of the tool's radius: its contact is sampled at both
+/// ends and in the middle.
+const PIECE: f64 = 0.5;
+
+/// Pieces of one move at most.
+const PIECES: f64 = 5000.0;
+
+/// One move, or a piece of one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Leg {
     /// Index of the move in the program.
@@ -59,6 +66,11 @@ impl Leg {
         self.start.is_some_and(|s| same_plan(s, place) && (s[2] - place[2]).abs() <= SAME)
     }
 
+    /// Whether its ends lie at different heights.
+    pub fn falls(&self) -> bool {
+        self.start.is_none_or(|s| (self.end[2] - s[2]).abs() > SAME)
+    }
+
     /// Whether the tip goes down.
     pub fn descends(&self) -> bool {
         self.start.is_some_and(|s| self.end[2] < s[2] - SAME)
@@ -78,26 +90,39 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
             let kind = if way.is_some() { LegKind::Contact } else { kind(step.kind, start, step.end) };
             let excess = limits.excess_of(step.operation).filter(|_| kind == LegKind::Contact);
             let leg = Leg { index, kind, start, end: step.end, bend: None, line: step.line, tool, excess };
-            match way {
-                Some(way) => legs.extend(pieces(&leg, &way)),
-                None => legs.push(leg),
-            }
+            let longest = PIECE * tool.and_then(|t| subject.tools.get(t)).map_or(f64::INFINITY, |t| 0.5 * t.diameter());
+            legs.extend(pieces(&leg, way.as_ref(), longest));
         }
         start = known.then_some(step.end);
     }
     legs
 }
 
-/// The pieces of an arc: its own ends are kept to the bit.
-fn pieces<'a>(leg: &'a Leg, way: &'a ArcWay) -> impl Iterator<Item = Leg> + 'a {
-    let count = (way.sweep().abs() / TURN).ceil().clamp(1.0, 1e6) as usize;
+/// The pieces of an arc, or of a line that should touch and is longer than `longest`, mm: ends are kept to the bit.
+fn pieces<'a>(leg: &'a Leg, way: Option<&'a ArcWay>, longest: f64) -> impl Iterator<Item = Leg> + 'a {
+    let turns = way.map_or(0.0, |way| way.sweep().abs() / TURN);
+    let touches = leg.excess.is_some();
+    let lengths =
+        leg.start.filter(|_| touches && way.is_none()).map_or(0.0, |start| distance(start, leg.end) / longest);
+    let count = turns.max(lengths).ceil().clamp(1.0, PIECES) as usize;
     let share = move |i: usize| i as f64 / count as f64;
-    (0..count).map(move |i| {
-        let bend = way.part(share(i), share(i + 1));
-        let start = if i == 0 { leg.start } else { Some(bend.at(0.0)) };
-        let end = if i + 1 == count { leg.end } else { bend.at(1.0) };
-        Leg { start, end, bend: Some(bend), ..*leg }
+    let at = move |i: usize| way.map_or_else(|| between(leg, share(i)), |way| way.at(share(i)));
+    (0..count).map(move |i| Leg {
+        start: if i == 0 { leg.start } else { Some(at(i)) },
+        end: if i + 1 == count { leg.end } else { at(i + 1) },
+        bend: way.map(|way| way.part(share(i), share(i + 1))),
+        ..*leg
     })
+}
+
+fn between(leg: &Leg, share: f64) -> [f64; 3] {
+    let start = leg.start.unwrap_or(leg.end);
+    [0, 1, 2].map(|axis| start[axis] + share * (leg.end[axis] - start[axis]))
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let [x, y, z] = [0, 1, 2].map(|axis| b[axis] - a[axis]);
+    (x * x + y * y + z * z).sqrt()
 }
 
 fn kind(kind: MoveKind, start: Option<[f64; 3]>, end: [f64; 3]) -> LegKind {

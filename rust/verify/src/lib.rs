@@ -13,7 +13,9 @@
 //! - *Depth* is measured along the triangle's normal where the tool's lowest point lies over the
 //!   triangle. Where the tool is in deeper than its own radius of curvature (at a sharp rim: anywhere),
 //!   the depth given is a lower bound; that it is in is certain.
-//! - *Excess* is sampled: at the start, the middle and the end of every contact move.
+//! - *Excess* is sampled: at the start, the middle and the end of every contact move, every quarter of the tool's radius
+//!   on longer ones.
+//! - *Missing passes* are looked for at 20,000 points of the faces that an operation is for.
 //! - The tool is its profile, and above its base a straight cylinder upwards without end: so a tool
 //!   wholly inside the material still meets the surface above it. A wider shank and the holder are
 //!   bodies of their own, as wide as they are upwards without end.
@@ -34,9 +36,11 @@ mod judge;
 mod legs;
 mod measure;
 mod orders;
+mod passes;
 mod probes;
 mod reach;
 mod report;
+mod sequence;
 mod subject;
 mod sweep;
 mod travel;
@@ -46,6 +50,7 @@ pub use coverage::{coverage, left, FaceCoverage};
 pub use findings::{Finding, FindingKind, Severity};
 pub use judge::judge;
 pub use orders::Order;
+pub use passes::{Passes, Spacing};
 pub use reach::Reach;
 pub use report::{ContactRecord, Place, Report};
 pub use subject::{Limits, Subject, TextFacts};

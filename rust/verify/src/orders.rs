@@ -4,6 +4,7 @@ use styluscam_motion::{EventKind, Program, SpindleDirection};
 
 use crate::findings::{Fault, Finding};
 use crate::legs::{Leg, LegKind};
+use crate::passes::Passes;
 use crate::{FindingKind, Limits, Severity, Subject};
 
 /// What the job orders for an operation.
@@ -21,6 +22,10 @@ pub struct Order {
     pub spindle: Option<(f64, SpindleDirection)>,
     /// Whether coolant flows.
     pub flood: bool,
+    /// How its passes lie; none where that is not to be judged.
+    pub passes: Option<Passes>,
+    /// Whether it forms a sheet, level by level downwards.
+    pub forms: bool,
 }
 
 /// Feeds that differ by less than this share are the same: what arithmetic may cost, as units change.
@@ -41,7 +46,8 @@ impl<'a> Orders<'a> {
         Self { of: program.operations.iter().map(|operation| order(&operation.id)).collect(), limits }
     }
 
-    fn of(&self, operation: u32) -> Option<&'a Order> {
+    /// The order of one of the program's operations.
+    pub fn of(&self, operation: u32) -> Option<&'a Order> {
         self.of.get(operation as usize).copied().flatten()
     }
 

@@ -8,8 +8,16 @@ use crate::Vector;
 /// Source: M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018.
 const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
 
+/// A point of the part.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Probe {
+    pub point: Vector,
+    /// The triangle that it lies on.
+    pub triangle: usize,
+}
+
 /// Points of some triangles, in their order: `count` of them.
-pub(crate) fn spread(mesh: &Mesh, triangles: &[usize], count: usize) -> Vec<Vector> {
+pub(crate) fn spread(mesh: &Mesh, triangles: &[usize], count: usize) -> Vec<Probe> {
     let each = triangles.iter().map(|t| mesh.area(*t)).sum::<f64>() / count as f64;
     let mut points = Vec::with_capacity(count);
     let mut passed = 0.0;
@@ -17,7 +25,7 @@ pub(crate) fn spread(mesh: &Mesh, triangles: &[usize], count: usize) -> Vec<Vect
         passed += mesh.area(*triangle);
         while (points.len() as f64 + 0.5) * each < passed {
             let place = STEPS.map(|step| (0.5 + step * (points.len() + 1) as f64).fract());
-            points.push(within(mesh.corners(*triangle), place));
+            points.push(Probe { point: within(mesh.corners(*triangle), place), triangle: *triangle });
         }
     }
     points
@@ -41,7 +49,7 @@ mod tests {
         assert_eq!(points.len(), 4000);
         for cell in 0..40 {
             let (x, y) = (f64::from(cell % 10), f64::from(cell / 10));
-            let inside = |p: &&Vector| (p.x - x - 0.5).abs() < 0.5 && (p.y - y - 0.5).abs() < 0.5;
+            let inside = |p: &&Probe| (p.point.x - x - 0.5).abs() < 0.5 && (p.point.y - y - 0.5).abs() < 0.5;
             let count = points.iter().filter(inside).count();
             assert!((85..=115).contains(&count), "{x} {y}: {count}");
         }

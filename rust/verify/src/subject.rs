@@ -42,6 +42,8 @@ pub struct TextFacts {
     pub z_placed_move: usize,
     /// Moves made while another plane than G17 was in force and no arc used it, in runs.
     pub stray_planes: Vec<Range<usize>>,
+    /// Moves before which the program stops (M0, M1).
+    pub stops: Vec<usize>,
     /// Whether the text came to its end mark.
     pub ended: bool,
     /// Whether the machine loads tools when the text calls them.
@@ -63,6 +65,8 @@ pub struct Limits {
     pub clearance: f64,
     /// Air that must be left under a rapid that comes down, mm.
     pub rapid_gap: f64,
+    /// Height Z below which rapids do not go, mm; minus infinity where only the air under them counts.
+    pub retract: f64,
     /// By how much a feed may differ from the one ordered: it was rounded, mm/min.
     pub feed_unit: f64,
     /// What the machine can do.
@@ -79,6 +83,7 @@ impl Limits {
             excess_by_operation: Vec::new(),
             clearance,
             rapid_gap: 0.05,
+            retract: f64::NEG_INFINITY,
             feed_unit: 0.0,
             reach: Reach::default(),
         }

@@ -18,6 +18,8 @@ pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits:
     faults.extend(unsafe_start(program, legs, subject, limits));
     faults.extend(unsafe_end(program, legs, limits));
     faults.extend(dwells(program, legs, limits));
+    faults.extend(stops(program, legs, subject, limits));
+    faults.extend(legs.iter().filter_map(|leg| deep_rapid(leg, limits)));
     faults.extend(stray_planes(program, subject));
     faults.extend(no_end(program, subject));
     faults
@@ -65,6 +67,31 @@ fn dwells(program: &Program, legs: &[Leg], limits: &Limits) -> Vec<Fault> {
         low.then(|| Fault { measure, weight: seconds, ..fault_of(FindingKind::Dwell, leg.index, step) })
     });
     down.collect()
+}
+
+/// Stops with the tool down.
+fn stops(program: &Program, legs: &[Leg], subject: &Subject, limits: &Limits) -> Vec<Fault> {
+    let stops = subject.text.iter().flat_map(|text| &text.stops);
+    let down = stops.filter_map(|before| {
+        let leg = legs.get(legs.partition_point(|leg| leg.index < *before).checked_sub(1)?)?;
+        let step = program.moves.get(leg.index)?;
+        (leg.end[2] < limits.clearance - SLACK).then(|| fault_of(FindingKind::StopBelow, leg.index, step))
+    });
+    down.collect()
+}
+
+/// A rapid down to where only feeds should go.
+fn deep_rapid(leg: &Leg, limits: &Limits) -> Option<Fault> {
+    let deep = leg.kind == LegKind::Rapid && leg.descends() && leg.end[2] < limits.retract - SLACK;
+    deep.then(|| Fault {
+        kind: FindingKind::DeepRapid,
+        severity: Severity::Error,
+        index: leg.index,
+        line: leg.line,
+        position: leg.end,
+        measure: Some((leg.end[2], limits.retract)),
+        weight: limits.retract - leg.end[2],
+    })
 }
 
 fn stray_planes(program: &Program, subject: &Subject) -> Vec<Fault> {

@@ -50,6 +50,12 @@ fn what(fault: &Fault) -> String {
         FindingKind::Excess => {
             format!("the tool is {value:.4} mm off the part where it should touch (limit {limit:.4} mm)")
         }
+        FindingKind::MissingPass => {
+            format!("{value:.3} mm are left beside this move where the tool could touch (a pass at the ordered distance leaves {limit:.3})")
+        }
+        FindingKind::FormingOrder => format!("the level Z{value:.3} is formed after Z{limit:.3}, which is lower"),
+        FindingKind::DeepRapid => format!("a rapid goes down to Z{value:.3}, below the retract height {limit:.3}"),
+        FindingKind::StopBelow => "the program stops (M0, M1) while the tool is down".to_owned(),
         FindingKind::MissingFeed => "a feed move has no feed".to_owned(),
         FindingKind::UnplacedFeed => "a feed move starts where not all axes are known".to_owned(),
         FindingKind::MissingToolChange => "a feed move comes before any tool change".to_owned(),
@@ -117,6 +123,10 @@ fn remedy(kind: FindingKind) -> &'static str {
         FindingKind::DogLegRapid => "go across above the clearance height, then straight down",
         FindingKind::LowRapid => "retract to the clearance height first",
         FindingKind::Excess => "correct this coordinate, or plan again with this tool, sheet and zero point",
+        FindingKind::MissingPass => "post the whole operation, with the job's heights and steps",
+        FindingKind::FormingOrder => "form from the top down",
+        FindingKind::DeepRapid => "come down at a feed from there",
+        FindingKind::StopBelow => "stop above the clearance height",
         FindingKind::MissingFeed => "give F before the first feed move",
         FindingKind::UnplacedFeed => "give X, Y and Z in rapids first",
         FindingKind::MissingToolChange => "load the tool and its length before the first feed move",

@@ -1,0 +1,159 @@
+//! Passes that are missing: places of the part that the tool could touch, and that neither the passes of their operation
+//! nor the distance ordered between them explains.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+use styluscam_motion::{Cancelled, Program, Watch};
+
+use crate::body::Body;
+use crate::clearance::Prober;
+use crate::coverage::Sweeps;
+use crate::findings::Fault;
+use crate::legs::{Leg, LegKind};
+use crate::orders::Orders;
+use crate::probes::{self, Probe};
+use crate::sweep::{Question, Stroke};
+use crate::{FindingKind, Limits, Severity, Subject, Vector};
+
+/// Points that are looked at for an operation.
+const POINTS: usize = 20_000;
+/// Points in a piece of work. Fixed, so that the result does not depend on the number of threads.
+const CHUNK: usize = 256;
+/// What may be left where passes lie a whole step away, as a share of what such a pass leaves on a plane: the part is curved.
+const CURVED: f64 = 1.5;
+/// What may be left besides, mm: triangles' corners.
+const ROUGH: f64 = 0.01;
+/// Where a tool that touches a triangle is in others by less than this, it can get there, mm.
+const ROOM: f64 = 0.005;
+
+/// How an operation's passes lie.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Passes {
+    /// What lies between them.
+    pub spacing: Spacing,
+    /// Lowest and highest tip that is asked for, mm.
+    pub heights: [f64; 2],
+    /// Which triangles they are for.
+    pub wanted: Vec<bool>,
+}
+
+/// The distance between neighbouring passes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spacing {
+    /// In height, mm.
+    Levels(f64),
+    /// In plan, mm, across a direction, rad from X.
+    Rows(f64, f64),
+}
+
+/// Faults in the order of the moves that lie beside the missing passes.
+pub(crate) fn faults(
+    program: &Program,
+    legs: &[Leg],
+    subject: &Subject,
+    limits: &Limits,
+    watch: &Watch,
+) -> Result<Vec<Fault>, Cancelled> {
+    let orders = Orders::new(program, subject, limits);
+    let mut worst: BTreeMap<usize, Fault> = BTreeMap::new();
+    for order in subject.orders {
+        let Some(passes) = &order.passes else { continue };
+        let own = |leg: &Leg| orders.of(program.moves[leg.index].operation).is_some_and(|of| std::ptr::eq(of, order));
+        if !legs.iter().any(|leg| leg.kind == LegKind::Contact && own(leg)) {
+            continue;
+        }
+        let Some(tool) = subject.tools.get(order.tool) else { continue };
+        let body = Body::new(tool, subject.sheet.as_ref());
+        let looked = Look { subject, limits, passes, body: &body, sweeps: &Sweeps::of(legs, subject, own), legs };
+        for fault in looked.faults(watch)? {
+            let known = worst.entry(fault.index).or_insert(fault);
+            if fault.weight > known.weight {
+                *known = fault;
+            }
+        }
+    }
+    Ok(worst.into_values().collect())
+}
+
+/// One operation, looked at.
+struct Look<'a> {
+    subject: &'a Subject<'a>,
+    limits: &'a Limits,
+    passes: &'a Passes,
+    body: &'a Body,
+    sweeps: &'a Sweeps,
+    legs: &'a [Leg],
+}
+
+impl Look<'_> {
+    fn faults(&self, watch: &Watch) -> Result<Vec<Fault>, Cancelled> {
+        let wanted: Vec<usize> = (0..self.passes.wanted.len()).filter(|t| self.passes.wanted[*t]).collect();
+        let probes = probes::spread(self.subject.mesh, &wanted, POINTS);
+        watch.begin("missing passes", probes.len().div_ceil(CHUNK));
+        let found: Result<Vec<Vec<Fault>>, Cancelled> = probes
+            .par_chunks(CHUNK)
+            .map(|chunk| {
+                watch.advance(1)?;
+                let mut last = None;
+                Ok(chunk.iter().filter_map(|probe| self.fault(probe, &mut last)).collect())
+            })
+            .collect();
+        Ok(found?.concat())
+    }
+
+    /// What is left at a point, if it is more than the distance between passes explains, and the tool can get there.
+    fn fault(&self, probe: &Probe, last: &mut Option<(usize, crate::coverage::Sweep)>) -> Option<Fault> {
+        let up = self.subject.mesh.normal(probe.triangle);
+        let (witness, _) = self.body.farthest(up);
+        let position = probe.point - witness;
+        let tip = self.body.tip(position);
+        let [lowest, highest] = self.passes.heights;
+        if tip[2] < lowest || tip[2] > highest {
+            return None;
+        }
+        let step = self.passes.spacing.along(up).filter(|step| step.norm() < self.body.radius())?;
+        let explained =
+            [step, -step].map(|step| self.body.distance(witness - step).value).into_iter().fold(0.0, f64::max);
+        let allowed = CURVED * explained + ROUGH + self.limits.excess.unwrap_or(0.0) + self.subject.deviation_outward;
+        let left = self.sweeps.left(probe.point, last);
+        if left <= allowed || !self.can_be_at(position) {
+            return None;
+        }
+        let leg = &self.legs[last.as_ref()?.1.leg];
+        Some(Fault {
+            kind: FindingKind::MissingPass,
+            severity: Severity::Error,
+            index: leg.index,
+            line: leg.line,
+            position: tip,
+            measure: Some((left, allowed)),
+            weight: left,
+        })
+    }
+
+    fn can_be_at(&self, position: Vector) -> bool {
+        let prober = Prober { body: self.body, mesh: self.subject.mesh, bvh: self.subject.bvh };
+        let question = Question { stroke: Stroke::still(position), places: [None; 2], below: -ROOM };
+        prober.survey(question, None).deepest.is_none()
+    }
+}
+
+impl Spacing {
+    /// The way on a plane of this normal from a pass to the next; none where that is beyond all measure.
+    fn along(self, up: Vector) -> Option<Vector> {
+        let steep = (up.x * up.x + up.y * up.y).sqrt();
+        match self {
+            Self::Levels(step) if steep > 1e-6 => {
+                let (run, rise) = (step * up.z / (steep * steep), -step);
+                Some(Vector::new(run * up.x, run * up.y, rise))
+            }
+            Self::Rows(spacing, angle) if up.z > 1e-6 => {
+                let (sin, cos) = libm::sincos(angle);
+                let (x, y) = (-sin * spacing, cos * spacing);
+                Some(Vector::new(x, y, -(up.x * x + up.y * y) / up.z))
+            }
+            _ => None,
+        }
+    }
+}

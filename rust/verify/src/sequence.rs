@@ -1,0 +1,50 @@
+//! The order in which a sheet is formed: no level after a lower one at the same place, or the sheet is stretched twice.
+
+use std::collections::HashMap;
+
+use styluscam_motion::Program;
+
+use crate::findings::Fault;
+use crate::legs::{Leg, LegKind};
+use crate::orders::Orders;
+use crate::passes::Spacing;
+use crate::{FindingKind, Limits, Severity, Subject};
+
+/// A level counts as lower from this share of the step on.
+const LOWER: f64 = 0.25;
+
+/// Faults in the order of the moves.
+pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits: &Limits) -> Vec<Fault> {
+    let orders = Orders::new(program, subject, limits);
+    let mut faults = Vec::new();
+    for order in subject.orders.iter().filter(|order| order.forms) {
+        let Some(Spacing::Levels(step)) = order.passes.as_ref().map(|passes| passes.spacing) else { continue };
+        let Some(tool) = subject.tools.get(order.tool) else { continue };
+        let cell = 0.5 * tool.diameter();
+        let mut lowest: HashMap<[i64; 2], f64> = HashMap::new();
+        for leg in legs.iter().filter(|leg| leg.kind == LegKind::Contact && !leg.falls()) {
+            if !orders.of(program.moves[leg.index].operation).is_some_and(|of| std::ptr::eq(of, order)) {
+                continue;
+            }
+            let [x, y, z] = leg.end;
+            let [i, j] = [x, y].map(|at| (at / cell).floor() as i64);
+            let around = (-1..=1).flat_map(|di| (-1..=1).map(move |dj| [i + di, j + dj]));
+            let formed = around.filter_map(|place| lowest.get(&place)).copied().fold(f64::INFINITY, f64::min);
+            if z > formed + LOWER * step {
+                faults.push(Fault {
+                    kind: FindingKind::FormingOrder,
+                    severity: Severity::Error,
+                    index: leg.index,
+                    line: leg.line,
+                    position: leg.end,
+                    measure: Some((z, formed)),
+                    weight: z - formed,
+                });
+            }
+            let here = lowest.entry([i, j]).or_insert(z);
+            *here = here.min(z);
+        }
+    }
+    faults.sort_by_key(|fault| fault.index);
+    faults
+}
