@@ -16,7 +16,7 @@ SLICE = 12
 ARCS = 4
 
 
-REFUSED = {198: "the planner's own text is in by 0.0011 mm: rounding to 0.0001 inch"}
+REFUSED: dict[int, str] = {}
 """Cases that the judge does not pass, and why."""
 
 

@@ -27,6 +27,9 @@ const ROUGH: f64 = 0.01;
 /// Where a tool that touches a triangle is in others by less than this, it can get there, mm.
 const ROOM: f64 = 0.005;
 
+/// A face goes on where the tool, moved along the plane that it touches, is as near to it as this, mm.
+const TOUCH: f64 = 0.03;
+
 /// How an operation's passes lie.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Passes {
@@ -133,9 +136,21 @@ impl Look<'_> {
     }
 
     fn can_be_at(&self, position: Vector) -> bool {
+        self.clearance(position) >= -ROOM
+    }
+
+    /// Whether the tool touches the part at a place that is asked for.
+    fn goes_on(&self, position: Vector) -> bool {
+        let [lowest, highest] = self.passes.heights;
+        let height = self.body.tip(position)[2];
+        height >= lowest && height <= highest && self.clearance(position).abs() <= TOUCH
+    }
+
+    fn clearance(&self, position: Vector) -> f64 {
         let prober = Prober { body: self.body, mesh: self.subject.mesh, bvh: self.subject.bvh };
-        let question = Question { stroke: Stroke::still(position), places: [None; 2], below: -ROOM };
-        prober.survey(question, None).deepest.is_none()
+        let places = [Some(position), None];
+        let question = Question { stroke: Stroke::still(position), places, below: f64::NEG_INFINITY };
+        prober.survey(question, None).places[0].map_or(f64::INFINITY, |touch| touch.value)
     }
 }
 

@@ -104,14 +104,7 @@ fn stray_planes(program: &Program, subject: &Subject) -> Vec<Fault> {
 /// A text without its end may be cut off; what it has switched on stays on.
 fn no_end(program: &Program, subject: &Subject) -> Option<Fault> {
     let step = program.moves.last().filter(|_| subject.text.is_some_and(|text| !text.ended))?;
-    let on = program.events.iter().fold([false; 2], |[spindle, flood], event| match event.kind {
-        EventKind::SpindleOn { .. } => [true, flood],
-        EventKind::SpindleOff => [false, flood],
-        EventKind::Flood { on } => [spindle, on],
-        _ => [spindle, flood],
-    });
-    let severity = if on.contains(&true) { Severity::Error } else { Severity::Warning };
-    Some(Fault { severity, ..fault_of(FindingKind::NoEnd, program.moves.len() - 1, step) })
+    Some(fault_of(FindingKind::NoEnd, program.moves.len() - 1, step))
 }
 
 /// The finding of a program that never feeds.
