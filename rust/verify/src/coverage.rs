@@ -94,7 +94,7 @@ pub fn left(
     watch: &Watch,
 ) -> Result<Vec<f64>, Cancelled> {
     watch.begin("what is left", points.len());
-    Sweeps::of(program, subject, limits).left_at(points, watch)
+    Sweeps::of(&placed(program, subject, limits), subject, |_| true).left_at(points, watch)
 }
 
 /// A face's wanted triangles.

@@ -22,6 +22,8 @@ const POINTS: usize = 20_000;
 const CHUNK: usize = 256;
 /// What may be left where passes lie a whole step away, as a share of what such a pass leaves on a plane: the part is curved.
 const CURVED: f64 = 1.5;
+/// The same where they lie half a step away: twice as far they leave four times as much.
+const CURVED_AMIDST: f64 = 2.5;
 /// What may be left besides, mm: triangles' corners.
 const ROUGH: f64 = 0.01;
 /// Where a tool that touches a triangle is in others by less than this, it can get there, mm.
@@ -115,12 +117,20 @@ impl Look<'_> {
         if tip[2] < lowest || tip[2] > highest {
             return None;
         }
-        let step = self.passes.spacing.along(up).filter(|step| step.norm() < self.body.radius())?;
-        let explained =
-            [step, -step].map(|step| self.body.distance(witness - step).value).into_iter().fold(0.0, f64::max);
-        let allowed = CURVED * explained + ROUGH + self.limits.excess.unwrap_or(0.0) + self.subject.deviation_outward;
+        let step = self.passes.spacing.along(up).filter(|step| 0.5 * step.norm() < self.body.radius())?;
         let left = self.sweeps.left(probe.point, last);
-        if left <= allowed || !self.can_be_at(position) {
+        let near = [position + 0.5 * step, position - 0.5 * step];
+        if left <= CURVED_AMIDST * self.leaves(probe.point, near) || self.clearance(position) < -ROOM {
+            return None;
+        }
+        // in the midst of a face a pass is half a step away at most, at its ends a whole one
+        let explained = if near.into_iter().all(|place| self.goes_on(place)) {
+            CURVED_AMIDST * self.leaves(probe.point, near)
+        } else {
+            CURVED * self.leaves(probe.point, [position + step, position - step])
+        };
+        let allowed = explained + ROUGH + self.limits.excess.unwrap_or(0.0) + self.subject.deviation_outward;
+        if left <= allowed {
             return None;
         }
         let leg = &self.legs[last.as_ref()?.1.leg];
@@ -135,8 +145,9 @@ impl Look<'_> {
         })
     }
 
-    fn can_be_at(&self, position: Vector) -> bool {
-        self.clearance(position) >= -ROOM
+    /// What passes at these places leave at a point, mm.
+    fn leaves(&self, point: Vector, places: [Vector; 2]) -> f64 {
+        places.map(|place| self.body.distance(point - place).value).into_iter().fold(0.0, f64::max)
     }
 
     /// Whether the tool touches the part at a place that is asked for.
