@@ -43,10 +43,10 @@ pub fn judge(
     watch: &Watch,
 ) -> Result<Judgement, JobError> {
     let (tools, records) = tools_in_order(job)?;
-    let Reading { program, first_placed_move, z_placed_move, stray_planes, stops, ended, .. } =
+    let Reading { program, first_placed_move, z_placed_move, stray_planes, stops, lines, ended, .. } =
         read(text, machine, &records)?;
     let calls_tools = machine.tool.change == ToolChange::M6;
-    let text = TextFacts { z_placed_move, stray_planes, stops, ended, calls_tools };
+    let text = TextFacts { z_placed_move, stray_planes, stops, lines, ended, calls_tools };
     let orders = orders(job, scene, &records)?;
     let subject = Subject { text: Some(&text), orders: &orders, ..subject(job, scene, &tools, first_placed_move) };
     let limits = Limits { excess_by_operation: excess(job, &program), ..limits(job, scene, machine) };

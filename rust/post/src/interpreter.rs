@@ -498,7 +498,7 @@ impl<'m> Interpreter<'m> {
     }
 
     /// What was read; whether the program ended is the reader's to say.
-    pub(crate) fn finish(mut self, ended: bool) -> Result<Reading, ReadFault> {
+    pub(crate) fn finish(mut self, ended: bool, lines: u32) -> Result<Reading, ReadFault> {
         if let Some(since) = self.unplaced_since {
             self.note_unplaced(since);
         }
@@ -517,6 +517,7 @@ impl<'m> Interpreter<'m> {
             unplaced: self.unplaced,
             stray_planes: self.stray_planes,
             stops: self.stops,
+            lines,
             ended,
             program: self.program,
         })

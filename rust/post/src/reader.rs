@@ -28,6 +28,8 @@ pub struct Reading {
     pub stray_planes: Vec<Range<usize>>,
     /// Moves before which M0 or M1 stops the program.
     pub stops: Vec<usize>,
+    /// Lines of the text, up to its end.
+    pub lines: u32,
     /// Whether the text came to M2 or M30.
     pub ended: bool,
 }
@@ -196,7 +198,8 @@ impl<'t> Reader<'t> {
         if self.machine.reader.end_required && self.stage != Stage::Ended {
             return Err(whole_line(lines, ReadFault::NoEnd));
         }
-        self.interpreter.finish(self.by_code).map_err(whole_text)
+        let (program, ended) = (self.interpreter, self.by_code);
+        program.finish(ended, lines).map_err(whole_text)
     }
 }
 

@@ -39,6 +39,8 @@ pub enum FindingKind {
     Excess,
     /// A place that the tool could touch is left, and the distance between passes does not explain it.
     MissingPass,
+    /// Levels are farther apart than ordered, or end too soon.
+    MissingLevel,
     /// A level is formed after a lower one at the same place.
     FormingOrder,
     /// A rapid goes down below the height at which the job wants plunges to begin.

@@ -32,6 +32,15 @@ const ROOM: f64 = 0.005;
 /// A face goes on where the tool, moved along the plane that it touches, is as near to it as this, mm.
 const TOUCH: f64 = 0.03;
 
+/// Points at which it is asked how high the tool can touch.
+const TOUCHING: usize = 2000;
+/// Levels that differ by less are one, mm.
+const SAME_LEVEL: f64 = 1e-3;
+/// Levels may be this many steps apart: a short last step is joined to the one before it.
+const WIDE: f64 = 1.3;
+/// The last level may be this many steps above the lowest height at which the tool can touch.
+const REST: f64 = 0.25;
+
 /// How an operation's passes lie.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Passes {
@@ -71,7 +80,7 @@ pub(crate) fn faults(
         let Some(tool) = subject.tools.get(order.tool) else { continue };
         let body = Body::new(tool, subject.sheet.as_ref());
         let looked = Look { subject, limits, passes, body: &body, sweeps: &Sweeps::of(legs, subject, own), legs };
-        for fault in looked.faults(watch)? {
+        for fault in looked.faults(watch)?.into_iter().chain(looked.levels(own)) {
             let known = worst.entry(fault.index).or_insert(fault);
             if fault.weight > known.weight {
                 *known = fault;
@@ -92,6 +101,52 @@ struct Look<'a> {
 }
 
 impl Look<'_> {
+    /// Levels that are farther apart than ordered, or end too soon, while the tool could touch between or beyond.
+    fn levels(&self, own: impl Fn(&Leg) -> bool) -> Vec<Fault> {
+        let Spacing::Levels(step) = self.passes.spacing else { return Vec::new() };
+        let level = |leg: &&Leg| leg.kind == LegKind::Contact && !leg.falls() && own(leg);
+        let mut levels: Vec<&Leg> = self.legs.iter().filter(level).collect();
+        levels.sort_by(|a, b| b.end[2].total_cmp(&a.end[2]).then(a.index.cmp(&b.index)));
+        levels.dedup_by(|b, a| a.end[2] - b.end[2] <= SAME_LEVEL);
+        let (Some(first), Some(last)) = (levels.first(), levels.last()) else { return Vec::new() };
+        let heights = self.heights();
+        let between = |low: f64, high: f64| heights.iter().any(|h| *h > low && *h < high);
+        let gaps = levels.windows(2).filter_map(|pair| {
+            let (high, low) = (pair[0].end[2], pair[1].end[2]);
+            let inside = 0.3 * (high - low);
+            (high - low > WIDE * step + ROUGH && between(low + inside, high - inside)).then(|| (pair[1], high - low))
+        });
+        let beyond = |leg: &'_ Leg, gap: f64, room: f64| {
+            (gap > room * step + ROUGH).then_some((leg.index, leg.line, leg.end, gap))
+        };
+        let top = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max) - first.end[2];
+        let bottom = last.end[2] - heights.iter().copied().fold(f64::INFINITY, f64::min);
+        let gaps = gaps.map(|(leg, gap)| (leg.index, leg.line, leg.end, gap));
+        let ends = [beyond(first, top, WIDE), beyond(last, bottom, REST)].into_iter().flatten();
+        let fault = |(index, line, position, gap): (usize, u32, [f64; 3], f64)| Fault {
+            kind: FindingKind::MissingLevel,
+            severity: Severity::Error,
+            index,
+            line,
+            position,
+            measure: Some((gap, step)),
+            weight: gap,
+        };
+        gaps.chain(ends).map(fault).collect()
+    }
+
+    /// Heights at which the tool can touch.
+    fn heights(&self) -> Vec<f64> {
+        let wanted: Vec<usize> = (0..self.passes.wanted.len()).filter(|t| self.passes.wanted[*t]).collect();
+        let [lowest, highest] = self.passes.heights;
+        let touching = probes::spread(self.subject.mesh, &wanted, TOUCHING).into_par_iter().filter_map(|probe| {
+            let position = probe.point - self.body.farthest(self.subject.mesh.normal(probe.triangle)).0;
+            let height = self.body.tip(position)[2];
+            (height >= lowest && height <= highest && self.clearance(position) >= -ROOM).then_some(height)
+        });
+        touching.collect()
+    }
+
     fn faults(&self, watch: &Watch) -> Result<Vec<Fault>, Cancelled> {
         let wanted: Vec<usize> = (0..self.passes.wanted.len()).filter(|t| self.passes.wanted[*t]).collect();
         let probes = probes::spread(self.subject.mesh, &wanted, POINTS);

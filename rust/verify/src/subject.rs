@@ -44,6 +44,8 @@ pub struct TextFacts {
     pub stray_planes: Vec<Range<usize>>,
     /// Moves before which the program stops (M0, M1).
     pub stops: Vec<usize>,
+    /// Its lines.
+    pub lines: u32,
     /// Whether the text came to its end mark.
     pub ended: bool,
     /// Whether the machine loads tools when the text calls them.

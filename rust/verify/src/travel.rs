@@ -103,8 +103,9 @@ fn stray_planes(program: &Program, subject: &Subject) -> Vec<Fault> {
 
 /// A text without its end may be cut off; what it has switched on stays on.
 fn no_end(program: &Program, subject: &Subject) -> Option<Fault> {
-    let step = program.moves.last().filter(|_| subject.text.is_some_and(|text| !text.ended))?;
-    Some(fault_of(FindingKind::NoEnd, program.moves.len() - 1, step))
+    let text = subject.text.filter(|text| !text.ended)?;
+    let step = program.moves.last()?;
+    Some(Fault { line: text.lines, ..fault_of(FindingKind::NoEnd, program.moves.len() - 1, step) })
 }
 
 /// The finding of a program that never feeds.

@@ -53,6 +53,9 @@ fn what(fault: &Fault) -> String {
         FindingKind::MissingPass => {
             format!("{value:.3} mm are left beside this move where the tool could touch (a pass at the ordered distance leaves {limit:.3})")
         }
+        FindingKind::MissingLevel => {
+            format!("the tool could touch within {value:.3} mm beside this level and no other does (the job's step is {limit:.3})")
+        }
         FindingKind::FormingOrder => format!("the level Z{value:.3} is formed after Z{limit:.3}, which is lower"),
         FindingKind::DeepRapid => format!("a rapid goes down to Z{value:.3}, below the retract height {limit:.3}"),
         FindingKind::StopBelow => "the program stops (M0, M1) while the tool is down".to_owned(),
@@ -123,7 +126,9 @@ fn remedy(kind: FindingKind) -> &'static str {
         FindingKind::DogLegRapid => "go across above the clearance height, then straight down",
         FindingKind::LowRapid => "retract to the clearance height first",
         FindingKind::Excess => "correct this coordinate, or plan again with this tool, sheet and zero point",
-        FindingKind::MissingPass => "post the whole operation, with the job's heights and steps",
+        FindingKind::MissingPass | FindingKind::MissingLevel => {
+            "post the whole operation, with the job's heights and steps"
+        }
         FindingKind::FormingOrder => "form from the top down",
         FindingKind::DeepRapid => "come down at a feed from there",
         FindingKind::StopBelow => "stop above the clearance height",
