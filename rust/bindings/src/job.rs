@@ -8,6 +8,7 @@ use crate::{
     arrays, errors,
     part::Part,
     program::Program,
+    simulation::{sheet_face, Simulation},
     waiting::{watched, CancelToken},
 };
 
@@ -102,7 +103,7 @@ pub fn shipped_machines() -> Vec<&'static str> {
 /// The part as it lies on the machine.
 #[pyclass(frozen, module = "styluscam._engine")]
 pub struct Scene {
-    scene: styluscam_job::Scene,
+    pub(crate) scene: styluscam_job::Scene,
 }
 
 #[pymethods]
@@ -225,6 +226,25 @@ impl Judgement {
         let points = arrays::vectors(&points, "points")?;
         let work = |watch: &_| styluscam_job::left(&job.document, &scene.scene, &self.judgement, &points, watch);
         Ok(PyArray1::from_vec(py, watched(py, progress, cancel, work)?.map_err(of_job)?))
+    }
+
+    /// The material after the program; `face` of the sheet is "tool", "mid" or "back".
+    #[pyo3(signature = (job, scene, spacing, face=None, progress=None, cancel=None))]
+    #[allow(clippy::too_many_arguments)] // Python's keywords
+    fn simulate(
+        &self,
+        py: Python<'_>,
+        job: &Job,
+        scene: &Scene,
+        spacing: f64,
+        face: Option<&str>,
+        progress: Option<&Bound<'_, PyAny>>,
+        cancel: Option<&CancelToken>,
+    ) -> PyResult<Simulation> {
+        let face = face.map(sheet_face).transpose()?;
+        let work =
+            |watch: &_| styluscam_job::simulate(&job.document, &scene.scene, &self.judgement, spacing, face, watch);
+        Ok(Simulation { simulation: watched(py, progress, cancel, work)?.map_err(of_job)? })
     }
 
     /// The moves as they were read back.

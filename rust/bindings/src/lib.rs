@@ -8,6 +8,7 @@ mod job;
 mod offset;
 mod part;
 mod program;
+mod simulation;
 mod tool;
 mod waiting;
 
@@ -25,6 +26,8 @@ mod _engine {
     use crate::part::Part;
     #[pymodule_export]
     use crate::program::Program;
+    #[pymodule_export]
+    use crate::simulation::Simulation;
     #[pymodule_export]
     use crate::tool::Tool;
     #[pymodule_export]

@@ -1,11 +1,13 @@
 //! Posted text, judged: read back, put against the part, limits taken from the job.
 
 use serde::Serialize;
-use styluscam_geometry::{Tool, Vector};
+use styluscam_geometry::{ModelFace, Sheet, Tool, Vector};
 use styluscam_motion::{Program, ToolRecord, Watch};
 use styluscam_post::machine::ToolChange;
 use styluscam_post::{read, Machine, Reading};
-use styluscam_verify::{FaceCoverage, Limits, Order, Passes, Reach, Report, Spacing, Subject, TextFacts};
+use styluscam_verify::{
+    FaceCoverage, Grid, Limits, Order, Passes, Reach, Report, Simulation, Spacing, Subject, TextFacts,
+};
 
 use crate::plan::operation_id;
 use crate::{
@@ -88,6 +90,28 @@ pub fn left(
     let (tools, _) = tools_in_order(job)?;
     let subject = subject(job, scene, &tools, judgement.first_placed_move);
     Ok(styluscam_verify::left(&judgement.program, &subject, &judgement.limits, points, watch)?)
+}
+
+/// What a judged program makes of the stock: the part's box, or the sheet's blank, of which `face` is followed.
+///
+/// # Errors
+/// A spacing that asks for too many nodes, tools that do not build, `Cancelled`.
+pub fn simulate(
+    job: &JobDocument,
+    scene: &Scene,
+    judgement: &Judgement,
+    spacing: f64,
+    face: Option<ModelFace>,
+    watch: &Watch,
+) -> Result<Simulation, JobError> {
+    let (tools, _) = tools_in_order(job)?;
+    let sheet = scene.sheet.map(|sheet| Sheet { model_face: face.unwrap_or(sheet.model_face), ..sheet });
+    let subject = Subject { sheet, ..subject(job, scene, &tools, judgement.first_placed_move) };
+    let (low, high) = scene.mesh.bounds();
+    let under = sheet.map_or(0.0, |sheet| sheet.along_normal() + sheet.along_vertical());
+    let grid = Grid::over([low.x, low.y], [high.x, high.y], spacing).map_err(JobError::geometry("spacing"))?;
+    let top = scene.top - under;
+    Ok(styluscam_verify::simulate(&judgement.program, &subject, &judgement.limits, grid, top, watch)?)
 }
 
 fn subject<'a>(job: &'a JobDocument, scene: &'a Scene, tools: &'a [Tool], first_placed_move: usize) -> Subject<'a> {

@@ -17,7 +17,7 @@ pub use document::{
     UpAxis, Zero,
 };
 pub use error::JobError;
-pub use judge::{coverage, judge, left, read_back, Judgement};
+pub use judge::{coverage, judge, left, read_back, simulate, Judgement};
 pub use parse::{from_json, from_toml, schema, tool_from_json};
 pub use plan::{plan, OperationSummary, Plan};
 pub use scene::{Part, Scene};

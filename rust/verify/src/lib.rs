@@ -41,6 +41,7 @@ mod probes;
 mod reach;
 mod report;
 mod sequence;
+mod simulation;
 mod subject;
 mod sweep;
 mod travel;
@@ -53,6 +54,7 @@ pub use orders::Order;
 pub use passes::{Passes, Spacing};
 pub use reach::Reach;
 pub use report::{ContactRecord, Place, Report};
+pub use simulation::{simulate, Grid, Simulation};
 pub use subject::{Limits, Subject, TextFacts};
 
 /// A point or vector of space, mm.

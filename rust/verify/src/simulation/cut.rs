@@ -1,0 +1,278 @@
+//! A short way of a tool's tip, straight or bent a little, and how low it brings the tool over a place.
+
+use styluscam_motion::ArcWay;
+
+use super::underside::Underside;
+use crate::body::length;
+
+/// Newton's steps at most, on straight and on bent ways.
+const STEPS: [usize; 2] = [60, 4];
+/// A step so short that the height no longer changes: as a share of the tool's radius.
+const SHORT: f64 = 1e-8;
+
+/// A place in plan, mm.
+pub(super) type Place = [f64; 2];
+
+/// A way of the tip: at a share t from 0 to 1 it is at `from + t along + 4 t (1 - t) bulge`.
+///
+/// On an arc that is short enough for its bulge the parabola is off it by a thousandth of that.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cut {
+    from: [f64; 3],
+    along: [f64; 3],
+    bulge: [f64; 3],
+    /// Index of the tool.
+    pub tool: u32,
+    /// Index of the arc that it is part of, if it is.
+    arc: Option<u32>,
+    /// The part of that arc: halves of halves, exact numbers.
+    part: [f32; 2],
+}
+
+/// A plane that a cut's surface is nowhere below.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plane {
+    /// Height over the place that it was made for, mm.
+    pub height: f64,
+    /// Its gradient.
+    pub gradient: [f64; 2],
+}
+
+impl Plane {
+    /// Height at an offset from that place, mm.
+    #[inline]
+    pub fn at(&self, offset: Place) -> f64 {
+        self.height + self.gradient[0] * offset[0] + self.gradient[1] * offset[1]
+    }
+}
+
+impl Cut {
+    pub fn straight(from: [f64; 3], to: [f64; 3], tool: u32) -> Self {
+        Self { from, along: minus(to, from), bulge: [0.0; 3], tool, arc: None, part: [0.0, 1.0] }
+    }
+
+    /// All of the arc of that index.
+    pub fn bent(way: &ArcWay, arc: u32, tool: u32) -> Self {
+        Self::straight([0.0; 3], [0.0; 3], tool).of_part(way, arc, [0.0, 1.0])
+    }
+
+    /// A part of the arc, told by its ends and its middle.
+    fn of_part(&self, way: &ArcWay, arc: u32, part: [f32; 2]) -> Self {
+        let [from, to] = part.map(|share| way.at(f64::from(share)));
+        let middle = way.at(0.5 * (f64::from(part[0]) + f64::from(part[1])));
+        let bulge = [0, 1, 2].map(|k| middle[k] - 0.5 * (from[k] + to[k]));
+        Self { from, along: minus(to, from), bulge, arc: Some(arc), part, ..*self }
+    }
+
+    /// Both halves of a part of an arc.
+    pub fn halves(&self, arcs: &[ArcWay]) -> Option<[Self; 2]> {
+        let arc = self.arc?;
+        let way = arcs.get(arc as usize)?;
+        let [from, to] = self.part;
+        let middle = 0.5 * (from + to);
+        Some([[from, middle], [middle, to]].map(|part| self.of_part(way, arc, part)))
+    }
+
+    /// How far it is from its chord, mm.
+    pub fn bulge(&self) -> f64 {
+        let [x, y, z] = self.bulge;
+        (x * x + y * y + z * z).sqrt()
+    }
+
+    /// The tool standing where this one is at a share.
+    pub fn still(&self, share: f64) -> Self {
+        let at = self.at(share);
+        Self::straight(at, at, self.tool)
+    }
+
+    /// Lower and upper corner of a box in plan that holds the tip's way.
+    pub fn bounds(&self) -> [Place; 2] {
+        let bulge = self.bulge();
+        let ends = |k: usize| (self.from[k], self.from[k] + self.along[k]);
+        let ((x0, x1), (y0, y1)) = (ends(0), ends(1));
+        [[x0.min(x1) - bulge, y0.min(y1) - bulge], [x0.max(x1) + bulge, y0.max(y1) + bulge]]
+    }
+
+    fn at(&self, share: f64) -> [f64; 3] {
+        let swing = 4.0 * share * (1.0 - share);
+        [0, 1, 2].map(|k| self.from[k] + share * self.along[k] + swing * self.bulge[k])
+    }
+
+    /// Distance in plan from a place to the chord, mm.
+    pub fn distance(&self, place: Place) -> f64 {
+        let share = self.nearest(place).clamp(0.0, 1.0);
+        length(place[0] - self.from[0] - share * self.along[0], place[1] - self.from[1] - share * self.along[1])
+    }
+
+    /// Share at which the line of the chord is nearest to a place in plan; 0 where it has no length there.
+    fn nearest(&self, place: Place) -> f64 {
+        let [x, y, _] = self.along;
+        let square = x * x + y * y;
+        if square > 0.0 {
+            ((place[0] - self.from[0]) * x + (place[1] - self.from[1]) * y) / square
+        } else {
+            0.0
+        }
+    }
+
+    /// The lowest that it brings the tool over a place, mm, and the share at which; infinite where it does not come.
+    #[inline]
+    pub fn over(&self, tool: &Underside, place: Place) -> (f64, f64) {
+        let share = self.share(tool, place);
+        if self.arc.is_none() {
+            return (self.height(tool, place, share), share);
+        }
+        self.bent_over(tool, place, share)
+    }
+
+    fn height(&self, tool: &Underside, place: Place, share: f64) -> f64 {
+        let tip = self.at(share);
+        tip[2] + tool.height(length(place[0] - tip[0], place[1] - tip[1]))
+    }
+
+    /// The share at which the tool on the chord is lowest over a place; where it does not come, the nearest.
+    ///
+    /// Along the chord the height is convex: at its minimum the rise of the tool's surface along the way undoes the way's.
+    fn share(&self, tool: &Underside, place: Place) -> f64 {
+        let [x, y, z] = self.along;
+        let square = x * x + y * y;
+        if square <= 0.0 {
+            return f64::from(u8::from(z < 0.0));
+        }
+        let middle = self.nearest(place);
+        let nearest = middle.clamp(0.0, 1.0);
+        if z == 0.0 {
+            return nearest;
+        }
+        let size = square.sqrt();
+        let aside = ((place[0] - self.from[0]) * y - (place[1] - self.from[1]) * x) / size;
+        let (aside, radius) = (aside * aside, tool.radius());
+        let reach = radius * radius - aside;
+        if reach < 0.0 {
+            return nearest;
+        }
+        // distances along the chord in plan from the place, towards where the chord falls
+        let reach = reach.sqrt();
+        let (first, last) = if z > 0.0 { (middle - 1.0, middle) } else { (-middle, 1.0 - middle) };
+        let (first, last) = ((first * size).max(0.0), (last * size).min(reach));
+        if first >= last {
+            return nearest;
+        }
+        let fall = z.abs() / size;
+        let best = match tool.as_ball() {
+            Some(_) => (fall * reach / (1.0 + fall * fall).sqrt()).clamp(first, last),
+            None => balance(tool, fall, aside, [first, last]),
+        };
+        if best >= last && last < reach {
+            return f64::from(u8::from(z < 0.0));
+        }
+        (middle - (best / size).copysign(z)).clamp(0.0, 1.0)
+    }
+
+    /// The lowest on a bent way, from the share that is best on its chord: Newton, never to a worse place.
+    fn bent_over(&self, tool: &Underside, place: Place, share: f64) -> (f64, f64) {
+        let mut best = (self.height(tool, place, share), share);
+        let mut share = share;
+        for _ in 0..STEPS[1] {
+            let tip = self.at(share);
+            let (turn, bend) = (4.0 - 8.0 * share, -8.0);
+            let rate = [0, 1, 2].map(|k| self.along[k] + turn * self.bulge[k]);
+            let apart = [tip[0] - place[0], tip[1] - place[1]];
+            let distance = length(apart[0], apart[1]);
+            if distance <= 0.0 || !tool.reaches(distance) {
+                break;
+            }
+            let (rise, Some(curvature)) = tool.rise(distance) else { break };
+            let out = (apart[0] * rate[0] + apart[1] * rate[1]) / distance;
+            let away = rate[0] * rate[0] + rate[1] * rate[1] - out * out
+                + bend * (apart[0] * self.bulge[0] + apart[1] * self.bulge[1]);
+            let first = rate[2] + rise * out;
+            let second = bend * self.bulge[2] + curvature * out * out + rise * away / distance;
+            if second <= 0.0 {
+                break;
+            }
+            let next = (share - first / second).clamp(0.0, 1.0);
+            let found = (self.height(tool, place, next), next);
+            if found.0 >= best.0 {
+                break;
+            }
+            best = found;
+            share = next;
+        }
+        best
+    }
+
+    /// A plane that its surface is nowhere below within `around` mm of a place.
+    ///
+    /// Height is convex in place and share together: a plane that touches at one share, and what the share can gain.
+    pub fn plane(&self, tool: &Underside, place: Place, around: f64) -> Plane {
+        let share = self.share(tool, place);
+        let apart = [place[0] - self.from[0] - share * self.along[0], place[1] - self.from[1] - share * self.along[1]];
+        let distance = length(apart[0], apart[1]);
+        let line = tool.line(distance);
+        let out = if distance > f64::MIN_POSITIVE { 1.0 / distance } else { 0.0 };
+        let towards = (apart[0] * self.along[0] + apart[1] * self.along[1]) * out;
+        let inside = share > 0.0 && share < 1.0 && tool.reaches(distance);
+        let balanced = self.along[2] / towards;
+        let rise = if inside && self.along[2] != 0.0 && balanced >= 0.0 && balanced.is_finite() {
+            balanced
+        } else if distance > 0.0 {
+            line.rise
+        } else {
+            0.0
+        };
+        let rate = self.along[2] - rise * towards;
+        let size = length(self.along[0], self.along[1]);
+        let (middle, reach) = (self.nearest(place), (tool.radius() + around) / size);
+        let [first, last] =
+            if size > 0.0 { [(middle - reach).max(0.0), (middle + reach).min(1.0)] } else { [0.0, 1.0] };
+        let gain = (rate * (first - share)).min(rate * (last - share)).min(0.0);
+        let bend = self.bulge() * (1.0 + rise * rise).sqrt();
+        Plane {
+            height: self.from[2] + share * self.along[2] + line.height + gain - bend,
+            gradient: [rise * out * apart[0], rise * out * apart[1]],
+        }
+    }
+}
+
+/// How far along a way that falls by `fall` the tool is lowest over a place that lies the root of `aside` off it, mm.
+fn balance(tool: &Underside, fall: f64, aside: f64, [first, last]: [f64; 2]) -> f64 {
+    let slope = |along: f64| {
+        let distance = (aside + along * along).sqrt().min(tool.radius());
+        if distance <= 0.0 {
+            return (-fall, None);
+        }
+        let (rise, bend) = tool.rise(distance);
+        let share = along / distance;
+        let second = bend.map(|bend| bend * share * share + rise * aside / (distance * distance * distance));
+        (rise * share - fall, second)
+    };
+    let (mut low, mut high) = (first, last);
+    if slope(low).0 >= 0.0 {
+        return low;
+    }
+    if slope(high).0 <= 0.0 {
+        return high;
+    }
+    let mut along = tool.distance_of_rise(fall).clamp(low, high);
+    for _ in 0..STEPS[0] {
+        let (value, second) = slope(along);
+        if value < 0.0 {
+            low = along;
+        } else {
+            high = along;
+        }
+        let next = second.filter(|second| *second > 0.0).map_or(f64::NAN, |second| along - value / second);
+        let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+        let step = (next - along).abs();
+        along = next;
+        if step <= SHORT * tool.radius() {
+            break;
+        }
+    }
+    along
+}
+
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}

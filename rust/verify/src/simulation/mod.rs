@@ -1,0 +1,80 @@
+//! The material as a program leaves it: heights over a grid in plan, cut by every move.
+//!
+//! Tools come from above and are open upwards, so what they leave is one height over each place in plan: the lowest that the
+//! tool's lower surface was there. At the nodes of the grid it is exact, between them nothing is said. Straight moves
+//! are swept as they are; arcs in parabolas that are off them by less than a micrometre's tenth.
+//!
+//! A formed sheet follows the tool: the face that it touches is the same lowest surface, the others are its offsets by the
+//! sheet's law. That is kinematics and no more: the sheet lies where tool and blank put it, does not spring back, and where the
+//! tool was not it stays as flat as it was.
+
+mod cut;
+mod field;
+mod grid;
+mod underside;
+
+use styluscam_motion::{ArcWay, Cancelled, Program, Watch};
+
+use crate::legs::{placed, Leg};
+use crate::{Limits, Subject};
+use cut::Cut;
+use field::{Field, Tile};
+use underside::Underside;
+
+pub use grid::Grid;
+
+/// Material after the last move.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Simulation {
+    /// Where the nodes are.
+    pub grid: Grid,
+    /// Height at every node, row by row from the lowest Y, mm.
+    pub heights: Vec<f64>,
+}
+
+/// Cuts a stock with a flat top with all moves of a program.
+///
+/// With a sheet, the face that is followed is the one that `subject.sheet` names; `top` (mm) is its height on the blank.
+///
+/// # Errors
+/// `Cancelled` when the watch says so.
+pub fn simulate(
+    program: &Program,
+    subject: &Subject,
+    limits: &Limits,
+    grid: Grid,
+    top: f64,
+    watch: &Watch,
+) -> Result<Simulation, Cancelled> {
+    watch.begin("simulating", grid.count());
+    let tools: Vec<Underside> = subject.tools.iter().map(|tool| Underside::new(tool, subject.sheet.as_ref())).collect();
+    let (cuts, arcs) = cuts(&placed(program, subject, limits));
+    let field = Field { grid, top, tools: &tools, arcs: &arcs, watch };
+    let tiles = field.tiles(grid.whole(), &cuts)?;
+    Ok(Simulation { grid, heights: assembled(grid, &tiles) })
+}
+
+/// What every move cuts, and the arcs that some of them are parts of.
+fn cuts(legs: &[Leg]) -> (Vec<Cut>, Vec<ArcWay>) {
+    let mut arcs = Vec::new();
+    let cut = |leg: &Leg| {
+        let tool = leg.tool? as u32;
+        let Some(way) = leg.bend else { return Some(Cut::straight(leg.start.unwrap_or(leg.end), leg.end, tool)) };
+        arcs.push(way);
+        Some(Cut::bent(&way, arcs.len() as u32 - 1, tool))
+    };
+    (legs.iter().filter_map(cut).collect(), arcs)
+}
+
+/// The tiles' heights in the order of the grid.
+fn assembled(grid: Grid, tiles: &[Tile]) -> Vec<f64> {
+    let mut heights = vec![0.0; grid.count()];
+    for tile in tiles {
+        let [width, _] = tile.region.size();
+        for (row, line) in tile.heights.chunks_exact(width).enumerate() {
+            let start = (tile.region.from[1] + row) * grid.nodes[0] + tile.region.from[0];
+            heights[start..start + width].copy_from_slice(line);
+        }
+    }
+    heights
+}
