@@ -4,15 +4,20 @@
 mod common;
 
 use common::{ball, limits, Part, Path};
-use styluscam_geometry::{Tool, Vector};
-use styluscam_motion::{Program, Watch};
+use styluscam_geometry::{Cutter, Tool, Vector};
+use styluscam_motion::{Arc, Move, Plane, Program, Watch};
 use styluscam_verify::{simulate, Grid, Simulation};
 
 const SIZE: [f64; 2] = [20.0, 12.0];
 
+/// A part that is of no matter.
+fn plate() -> Part {
+    let corners = [[0.0, 0.0], [20.0, 0.0], [0.0, 12.0]].map(|[x, y]| Vector::new(x, y, -20.0));
+    Part::new(corners.to_vec(), &[[0, 1, 2]])
+}
+
 fn simulated(tool: &Tool, program: &Program, spacing: f64) -> Simulation {
-    let plate = [[0.0, 0.0], [20.0, 0.0], [0.0, 12.0]].map(|[x, y]| Vector::new(x, y, -20.0));
-    let part = Part::new(plate.to_vec(), &[[0, 1, 2]]);
+    let part = plate();
     let tools = std::slice::from_ref(tool);
     let grid = Grid::over([0.0, 0.0], SIZE, spacing).unwrap();
     simulate(program, &part.subject(tools), &limits(), grid, 0.0, &Watch::default()).unwrap()
@@ -33,5 +38,219 @@ fn a_ball_along_a_line_leaves_its_groove() {
         let aside = (x - x.clamp(4.0, 16.0)).hypot(y - 6.0);
         let groove = if aside < 3.0 { 2.0 - (9.0 - aside * aside).sqrt() } else { 0.0 };
         assert!((height - groove.min(0.0)).abs() < 1e-9, "{x} {y}: {height} {groove}");
+    }
+}
+
+/// Every kind of profile, D6.
+const PROFILES: [&str; 15] = [
+    r#"{"kind": "ball", "diameter": 6.0}"#,
+    r#"{"kind": "ball", "diameter": 6.0, "tip_flat": 0.8}"#,
+    r#"{"kind": "flat", "diameter": 6.0}"#,
+    r#"{"kind": "clothoid", "diameter": 6.0}"#,
+    r#"{"kind": "cycloid", "diameter": 6.0}"#,
+    r#"{"kind": "parabola", "apex_radius": 2.0, "diameter": 6.0}"#,
+    r#"{"kind": "ellipse", "radial": 3.0, "axial": 4.0}"#,
+    r#"{"kind": "power", "coefficient": 0.2, "exponent": 1.4, "diameter": 6.0}"#,
+    r#"{"kind": "bull-nose", "diameter": 6.0, "corner_radius": 1.0}"#,
+    r#"{"kind": "barrel", "diameter": 6.0, "radius": 20.0, "tip_radius": 1.0}"#,
+    r#"{"kind": "cone", "tip_radius": 0.0, "half_angle_deg": 40.0, "diameter": 6.0}"#,
+    r#"{"kind": "tapered-ball", "tip_radius": 1.0, "half_angle_deg": 15.0, "diameter": 6.0}"#,
+    r#"{"kind": "v", "tip_diameter": 1.5, "angle_deg": 80.0, "diameter": 6.0}"#,
+    r#"{"kind": "points", "points": [[0, 0], [1, 0.1], [2, 0.5], [3, 1.6]], "fit_tolerance": 0.001}"#,
+    r#"{"kind": "formula", "z": "r^4 / 60", "diameter": 6.0}"#,
+];
+
+fn tool(profile: &str) -> Tool {
+    common::tool(serde_json::from_str(profile).unwrap())
+}
+
+/// Lines in all directions: level, steep, long, short, straight down, up again.
+fn lines(tool: &Tool) -> Program {
+    let path = Path::new().rapid([2.2, 2.1, 10.0]).feed([2.2, 2.1, -0.7]).feed([17.0, 3.3, -2.0]);
+    let path = path.feed([17.3, 3.5, -1.0]).feed([17.4, 9.1, -1.0]).feed([9.0, 9.1, 0.6]).feed([8.9, 9.0, -3.0]);
+    let path = path.feed([5.0, 8.0, -0.3]).feed([4.9, 8.0, 5.0]).rapid([-4.0, 5.0, 5.0]).feed([12.0, 6.1, -2.4]);
+    path.program(tool)
+}
+
+/// The lowest that a tool comes on a line over a place, by samples and then by thirds.
+fn lowest(cutter: &Cutter, from: [f64; 3], to: [f64; 3], place: [f64; 2]) -> f64 {
+    let height = |share: f64| {
+        let tip = [0, 1, 2].map(|k| from[k] + share * (to[k] - from[k]));
+        let distance = (tip[0] - place[0]).hypot(tip[1] - place[1]);
+        let beyond = distance - cutter.max_radius();
+        // nearer is better as long as it does not come
+        tip[2]
+            + if beyond > 1e-12 { 1e6 + distance } else { cutter.height_at_radius(distance.min(cutter.max_radius())) }
+    };
+    let count = 400;
+    let at = |i: usize| i as f64 / count as f64;
+    let best = (0..=count).min_by(|a, b| height(at(*a)).total_cmp(&height(at(*b)))).unwrap();
+    let (mut low, mut high) = (at(best.saturating_sub(1)), at((best + 1).min(count)));
+    let mut found = height(at(best));
+    for _ in 0..120 {
+        let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+        found = found.min(height(a)).min(height(b));
+        if height(a) > height(b) {
+            low = a;
+        } else {
+            high = b;
+        }
+    }
+    found
+}
+
+#[test]
+fn every_profile_cuts_as_it_does_by_brute_force() {
+    for profile in PROFILES {
+        let tool = tool(profile);
+        let program = lines(&tool);
+        let cutter = tool.cutter();
+        let simulation = simulated(&tool, &program, 0.5);
+        let mut cut = 0;
+        for (place, height) in nodes(&simulation) {
+            let ends = program.segments().filter_map(|(start, step)| Some((start?, step.end)));
+            let expected = ends.map(|(from, to)| lowest(&cutter, from, to, place)).fold(0.0, f64::min);
+            cut += usize::from(expected < 0.0);
+            assert!((height - expected).abs() < 1e-6, "{profile} at {place:?}: {height} {expected}");
+        }
+        assert!(cut > 300, "{profile}: {cut}");
+    }
+}
+
+/// Arcs in a plane, as a helix, upright, and with ends that are not quite as far from the centre.
+fn arcs(tool: &Tool) -> Program {
+    // off the grid: no node lies on a rim, where rounding decides
+    let off = |[x, y, z]: [f64; 3]| [x + 0.0137, y + 0.0071, z];
+    let mut path = Path::new().rapid(off([5.0, 6.0, 10.0])).feed(off([5.0, 6.0, -0.5]));
+    for (end, centre, plane, clockwise) in [
+        ([11.0, 6.0, -0.5], [8.0, 6.0, 0.0], Plane::Xy, true),
+        ([8.0, 3.0, -1.6], [8.0, 6.0, 0.0], Plane::Xy, false),
+        ([14.0, 3.0, -1.6], [11.0, 3.0, 0.4], Plane::Zx, true),
+        ([14.0, 9.0, -1.6], [14.0, 6.0, -5.6], Plane::Yz, false),
+        ([14.0, 9.0, -2.0], [15.0, 9.0005, 0.0], Plane::Xy, false),
+    ] {
+        path = path.feed(off(end));
+        path.moves.last_mut().unwrap().arc = Some(Arc { centre: off(centre), plane, clockwise, turns: 0 });
+    }
+    path.program(tool)
+}
+
+/// The same program with every arc in chords.
+fn chorded(program: &Program, count: usize) -> Program {
+    let mut chorded = Program { moves: Vec::new(), ..program.clone() };
+    for (start, step) in program.segments() {
+        let way = start.and_then(|start| step.way(start));
+        let chord = |i: usize| {
+            let end = way.filter(|_| i < count).map_or(step.end, |way| way.at(i as f64 / count as f64));
+            Move { arc: None, end, ..*step }
+        };
+        chorded.moves.extend((1..=way.map_or(1, |_| count)).map(chord));
+    }
+    chorded
+}
+
+#[test]
+fn arcs_cut_as_ten_thousand_chords_do() {
+    for profile in PROFILES {
+        let tool = tool(profile);
+        let program = arcs(&tool);
+        let found = simulated(&tool, &program, 0.5);
+        let expected = simulated(&tool, &chorded(&program, 10_000), 0.5);
+        let off = |i: usize| (found.heights[i] - expected.heights[i]).abs();
+        let worst = (0..found.heights.len()).max_by(|a, b| off(*a).total_cmp(&off(*b))).unwrap();
+        let place = nodes(&found).nth(worst).unwrap();
+        assert!(off(worst) < 1e-6, "{profile} at {place:?}: off by {}", off(worst));
+    }
+}
+
+#[test]
+fn the_order_of_the_moves_changes_nothing() {
+    let tool = tool(PROFILES[3]);
+    let mut program = lines(&tool);
+    let found = simulated(&tool, &program, 0.3);
+    program.moves.reverse();
+    let turned = simulated(&tool, &program, 0.3);
+    for (a, b) in found.heights.iter().zip(&turned.heights) {
+        assert!((a - b).abs() < 1e-9, "{a} {b}");
+    }
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let tool = tool(PROFILES[8]);
+    let program = lines(&tool);
+    let with = |count: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap();
+        pool.install(|| simulated(&tool, &program, 0.05))
+    };
+    let [one, two] = [1, 2].map(with);
+    assert!(one.heights.iter().zip(&two.heights).all(|(a, b)| a.to_bits() == b.to_bits()));
+}
+
+#[test]
+fn it_stops_when_asked() {
+    let tool = ball(6.0);
+    let program = lines(&tool);
+    let part = plate();
+    let watch = Watch::default();
+    watch.cancel();
+    let grid = Grid::over([0.0, 0.0], SIZE, 0.1).unwrap();
+    let stopped = simulate(&program, &part.subject(std::slice::from_ref(&tool)), &limits(), grid, 0.0, &watch);
+    assert!(stopped.is_err());
+}
+
+#[test]
+fn spacings_that_make_no_grid_are_refused() {
+    for spacing in [0.0, -1.0, f64::NAN, 1e-4] {
+        assert!(Grid::over([0.0, 0.0], SIZE, spacing).is_err(), "{spacing}");
+    }
+    assert_eq!(Grid::over([0.0, 0.0], SIZE, 1e3).unwrap().nodes, [2, 2]);
+}
+
+/// Passes on a wall of some slope that comes down along X, 1 mm apart along it, and what they leave over it, mm.
+fn scallop(profile: &str, wall_deg: f64, up_the_wall: bool) -> f64 {
+    let tool = tool(profile);
+    let (sin, cos) = wall_deg.to_radians().sin_cos();
+    let (radius, height) = tool.point_at(wall_deg.to_radians());
+    // the tip that touches the wall z = -x tan at a place along it
+    let tip = |down: f64, y: f64| [down * cos + radius, y, -down * sin - height];
+    let mut path = Path::new();
+    for pass in -8..14 {
+        let pass = f64::from(pass);
+        let [from, to] = if up_the_wall { [[-30.0, pass], [30.0, pass]] } else { [[pass, -30.0], [pass, 30.0]] };
+        let (from, to) = (tip(from[0], from[1]), tip(to[0], to[1]));
+        path = path.rapid([from[0], from[1], 90.0]).rapid(from).feed(to).rapid([to[0], to[1], 90.0]);
+    }
+    let size = if up_the_wall { [0.04, 3.0] } else { [3.0, 0.04] };
+    let part = plate();
+    let tools = std::slice::from_ref(&tool);
+    let grid = Grid::over([0.0, 0.0], size, 0.001).unwrap();
+    let program = path.program(&tool);
+    let found = simulate(&program, &part.subject(tools), &limits(), grid, 50.0, &Watch::default()).unwrap();
+    let over: Vec<f64> = nodes(&found).map(|([x, _], height)| height * cos + x * sin).collect();
+    let least = over.iter().copied().fold(f64::INFINITY, f64::min);
+    assert!(least.abs() < 1e-5, "{profile} {wall_deg}: {least}");
+    over.into_iter().fold(0.0, f64::max)
+}
+
+#[test]
+fn scallops_are_those_of_the_tables() {
+    let ball = r#"{"kind": "ball", "diameter": 10.0}"#;
+    let parabola = r#"{"kind": "parabola", "apex_radius": 8.0, "diameter": 60.0}"#;
+    let ellipse = r#"{"kind": "ellipse", "radial": 6.0, "axial": 4.0}"#;
+    let power = r#"{"kind": "power", "coefficient": 0.016666666666666666, "exponent": 3.0, "diameter": 24.0}"#;
+    // passes along the levels, then straight up the wall; micrometres by wall angle
+    for (profile, up_the_wall, expected) in [
+        (ball, false, [25.063, 25.063, 25.063]),
+        (parabola, false, [12.965, 5.524, 1.953]),
+        (ellipse, false, [17.078, 28.852, 37.584]),
+        (power, false, [27.866, 19.747, 9.194]),
+        (parabola, true, [14.683, 11.049, 7.813]),
+        (power, true, [15.914, 19.795, 18.409]),
+    ] {
+        for (wall_deg, expected) in [20.0, 45.0, 60.0].into_iter().zip(expected) {
+            let found = scallop(profile, wall_deg, up_the_wall) * 1e3;
+            assert!((found - expected).abs() < 0.01 * expected, "{profile} {wall_deg}: {found} {expected}");
+        }
     }
 }

@@ -6,7 +6,11 @@ use super::underside::Underside;
 use crate::body::length;
 
 /// Newton's steps at most, on straight and on bent ways.
-const STEPS: [usize; 2] = [60, 4];
+const STEPS: [usize; 2] = [60, 6];
+/// A step that changes nothing any more, as a share of a bent way.
+const SHORT_SHARE: f64 = 1e-5;
+/// Thirds that are taken off a way at most: what is left of it is shorter than rounding.
+const THIRDS: u32 = 60;
 /// A step so short that the height no longer changes: as a share of the tool's radius.
 const SHORT: f64 = 1e-8;
 
@@ -21,6 +25,8 @@ pub(super) struct Cut {
     from: [f64; 3],
     along: [f64; 3],
     bulge: [f64; 3],
+    /// How far it is from its chord at most, mm.
+    pub sag: f64,
     /// Index of the tool.
     pub tool: u32,
     /// Index of the arc that it is part of, if it is.
@@ -48,7 +54,7 @@ impl Plane {
 
 impl Cut {
     pub fn straight(from: [f64; 3], to: [f64; 3], tool: u32) -> Self {
-        Self { from, along: minus(to, from), bulge: [0.0; 3], tool, arc: None, part: [0.0, 1.0] }
+        Self { from, along: minus(to, from), bulge: [0.0; 3], sag: 0.0, tool, arc: None, part: [0.0, 1.0] }
     }
 
     /// All of the arc of that index.
@@ -61,7 +67,8 @@ impl Cut {
         let [from, to] = part.map(|share| way.at(f64::from(share)));
         let middle = way.at(0.5 * (f64::from(part[0]) + f64::from(part[1])));
         let bulge = [0, 1, 2].map(|k| middle[k] - 0.5 * (from[k] + to[k]));
-        Self { from, along: minus(to, from), bulge, arc: Some(arc), part, ..*self }
+        let sag = way.part(f64::from(part[0]), f64::from(part[1])).sag();
+        Self { from, along: minus(to, from), bulge, sag, arc: Some(arc), part, ..*self }
     }
 
     /// Both halves of a part of an arc.
@@ -73,24 +80,19 @@ impl Cut {
         Some([[from, middle], [middle, to]].map(|part| self.of_part(way, arc, part)))
     }
 
-    /// How far it is from its chord, mm.
-    pub fn bulge(&self) -> f64 {
-        let [x, y, z] = self.bulge;
-        (x * x + y * y + z * z).sqrt()
-    }
-
-    /// The tool standing where this one is at a share.
-    pub fn still(&self, share: f64) -> Self {
-        let at = self.at(share);
+    /// The tool standing where this one is at a share, on the arc itself.
+    pub fn still(&self, share: f64, arcs: &[ArcWay]) -> Self {
+        let [from, to] = self.part.map(f64::from);
+        let way = self.arc.and_then(|arc| arcs.get(arc as usize));
+        let at = way.map_or_else(|| self.at(share), |way| way.at(from + share * (to - from)));
         Self::straight(at, at, self.tool)
     }
 
     /// Lower and upper corner of a box in plan that holds the tip's way.
     pub fn bounds(&self) -> [Place; 2] {
-        let bulge = self.bulge();
         let ends = |k: usize| (self.from[k], self.from[k] + self.along[k]);
         let ((x0, x1), (y0, y1)) = (ends(0), ends(1));
-        [[x0.min(x1) - bulge, y0.min(y1) - bulge], [x0.max(x1) + bulge, y0.max(y1) + bulge]]
+        [[x0.min(x1) - self.sag, y0.min(y1) - self.sag], [x0.max(x1) + self.sag, y0.max(y1) + self.sag]]
     }
 
     fn at(&self, share: f64) -> [f64; 3] {
@@ -163,43 +165,71 @@ impl Cut {
             Some(_) => (fall * reach / (1.0 + fall * fall).sqrt()).clamp(first, last),
             None => balance(tool, fall, aside, [first, last]),
         };
+        // ends to the bit: elsewhere the tool's rise and the way's are taken to be in balance
+        let lower_end = f64::from(u8::from(z < 0.0));
         if best >= last && last < reach {
-            return f64::from(u8::from(z < 0.0));
+            return lower_end;
+        }
+        if best <= first && first > 0.0 {
+            return 1.0 - lower_end;
         }
         (middle - (best / size).copysign(z)).clamp(0.0, 1.0)
     }
 
-    /// The lowest on a bent way, from the share that is best on its chord: Newton, never to a worse place.
+    /// The lowest on a bent way: Newton from the share that is best on its chord, where that leads to a minimum.
     fn bent_over(&self, tool: &Underside, place: Place, share: f64) -> (f64, f64) {
-        let mut best = (self.height(tool, place, share), share);
         let mut share = share;
         for _ in 0..STEPS[1] {
-            let tip = self.at(share);
-            let (turn, bend) = (4.0 - 8.0 * share, -8.0);
-            let rate = [0, 1, 2].map(|k| self.along[k] + turn * self.bulge[k]);
-            let apart = [tip[0] - place[0], tip[1] - place[1]];
-            let distance = length(apart[0], apart[1]);
-            if distance <= 0.0 || !tool.reaches(distance) {
-                break;
-            }
-            let (rise, Some(curvature)) = tool.rise(distance) else { break };
-            let out = (apart[0] * rate[0] + apart[1] * rate[1]) / distance;
-            let away = rate[0] * rate[0] + rate[1] * rate[1] - out * out
-                + bend * (apart[0] * self.bulge[0] + apart[1] * self.bulge[1]);
-            let first = rate[2] + rise * out;
-            let second = bend * self.bulge[2] + curvature * out * out + rise * away / distance;
-            if second <= 0.0 {
-                break;
+            let Some((first, second)) = self.rates(tool, place, share) else { break };
+            if first == 0.0 {
+                return (self.height(tool, place, share), share);
             }
             let next = (share - first / second).clamp(0.0, 1.0);
-            let found = (self.height(tool, place, next), next);
-            if found.0 >= best.0 {
+            if second.is_nan() || second <= 0.0 {
                 break;
             }
-            best = found;
+            if (next - share).abs() <= SHORT_SHARE {
+                return (self.height(tool, place, next), next);
+            }
             share = next;
         }
-        best
+        self.by_thirds(tool, place)
+    }
+
+    /// How fast the height over a place changes with the share, and how fast that does; none off the tool and beside kinks.
+    fn rates(&self, tool: &Underside, place: Place, share: f64) -> Option<(f64, f64)> {
+        let tip = self.at(share);
+        let (turn, bend) = (4.0 - 8.0 * share, -8.0);
+        let rate = [0, 1, 2].map(|k| self.along[k] + turn * self.bulge[k]);
+        let apart = [tip[0] - place[0], tip[1] - place[1]];
+        let distance = length(apart[0], apart[1]);
+        if distance <= 0.0 || !tool.reaches(distance) {
+            return None;
+        }
+        let (rise, curvature) = tool.rise(distance);
+        let out = (apart[0] * rate[0] + apart[1] * rate[1]) / distance;
+        let away = rate[0] * rate[0] + rate[1] * rate[1] - out * out
+            + bend * (apart[0] * self.bulge[0] + apart[1] * self.bulge[1]);
+        let first = rate[2] + rise * out;
+        Some((first, bend * self.bulge[2] + curvature? * out * out + rise * away / distance))
+    }
+
+    /// The lowest on a bent way by thirds: at rims and kinks.
+    fn by_thirds(&self, tool: &Underside, place: Place) -> (f64, f64) {
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..THIRDS {
+            let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+            let [at_a, at_b] = [a, b].map(|share| self.height(tool, place, share));
+            // where the tool does not come at either, it is nearer at the one that is better on the chord
+            let falls = if at_a.is_finite() || at_b.is_finite() { at_b < at_a } else { self.share(tool, place) > b };
+            if falls {
+                low = a;
+            } else {
+                high = b;
+            }
+        }
+        let ends = [0.0, 0.5 * (low + high), 1.0].map(|share| (self.height(tool, place, share), share));
+        ends.into_iter().fold((f64::INFINITY, 0.0), |best, found| if found.0 < best.0 { found } else { best })
     }
 
     /// A plane that its surface is nowhere below within `around` mm of a place.
@@ -227,7 +257,7 @@ impl Cut {
         let [first, last] =
             if size > 0.0 { [(middle - reach).max(0.0), (middle + reach).min(1.0)] } else { [0.0, 1.0] };
         let gain = (rate * (first - share)).min(rate * (last - share)).min(0.0);
-        let bend = self.bulge() * (1.0 + rise * rise).sqrt();
+        let bend = self.sag * (1.0 + rise * rise).sqrt();
         Plane {
             height: self.from[2] + share * self.along[2] + line.height + gain - bend,
             gradient: [rise * out * apart[0], rise * out * apart[1]],

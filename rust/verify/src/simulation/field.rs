@@ -15,7 +15,7 @@ const TILE: usize = 64;
 /// Nodes along the sides of a region that is not halved any more.
 const LEAF: usize = 6;
 /// Ways are nearer to their chords than this where heights are taken, mm.
-const BULGE: f64 = 1e-4;
+const SAG: f64 = 1e-4;
 /// In larger regions, than this share of their size.
 const COARSE: f64 = 0.01;
 /// Of two heights nearer than this either may be kept, mm.
@@ -72,7 +72,7 @@ impl Field<'_> {
     /// The heights of the nodes of a small region.
     fn lower(&self, region: Region, cuts: &[Cut], tile: &mut Tile) {
         let extent = region.extent(&self.grid);
-        let mut cuts = self.survivors_within(extent, cuts, BULGE);
+        let mut cuts = self.survivors_within(extent, cuts, SAG);
         cuts.sort_by(|a, b| a.0.height.total_cmp(&b.0.height));
         let width = tile.region.size()[0];
         for y in region.from[1]..region.to[1] {
@@ -90,18 +90,18 @@ impl Field<'_> {
     }
 
     fn survivors(&self, extent: Extent, cuts: &[Cut]) -> Survivors {
-        self.survivors_within(extent, cuts, (COARSE * extent.reach()).max(BULGE))
+        self.survivors_within(extent, cuts, (COARSE * extent.reach()).max(SAG))
     }
 
-    /// The cuts that may be lowest somewhere in a region; bent ones in parts nearer to their chords than `bulge` mm.
-    fn survivors_within(&self, extent: Extent, cuts: &[Cut], bulge: f64) -> Survivors {
+    /// The cuts that may be lowest somewhere in a region; bent ones in parts nearer to their chords than `sag` mm.
+    fn survivors_within(&self, extent: Extent, cuts: &[Cut], sag: f64) -> Survivors {
         let mut near = Vec::with_capacity(cuts.len());
         let mut left = Vec::new();
         for cut in cuts {
             left.push(*cut);
             while let Some(cut) = left.pop() {
                 let Some(plane) = self.near(extent, &cut) else { continue };
-                match cut.halves(self.arcs).filter(|_| cut.bulge() > bulge) {
+                match cut.halves(self.arcs).filter(|_| cut.sag > sag) {
                     Some(halves) => left.extend(halves),
                     None => near.push((plane, cut)),
                 }
@@ -120,7 +120,7 @@ impl Field<'_> {
             return None;
         }
         let reach = extent.reach();
-        if cut.distance(extent.middle) > tool.radius() + cut.bulge() + reach {
+        if cut.distance(extent.middle) > tool.radius() + cut.sag + reach {
             return None;
         }
         let plane = cut.plane(tool, extent.middle, reach);
@@ -135,7 +135,7 @@ impl Field<'_> {
         let cut = cuts[lowest].1;
         let tool = self.tool(&cut);
         // along a bent way height is convex for the tool at rest only
-        let cover = if cut.bulge() > 0.0 { cut.still(cut.over(tool, extent.middle).1) } else { cut };
+        let cover = if cut.sag > 0.0 { cut.still(cut.over(tool, extent.middle).1, self.arcs) } else { cut };
         let corners = extent.corners();
         let heights = corners.map(|[x, y]| cover.over(tool, [extent.middle[0] + x, extent.middle[1] + y]).0);
         let covered = |plane: &Plane| corners.iter().zip(heights).all(|(at, height)| plane.at(*at) >= height - EQUAL);

@@ -72,6 +72,10 @@ impl Underside {
 
     /// Rise and its rate at a distance up to the radius; no rate beside kinks and where the rise has no bound.
     pub fn rise(&self, distance: f64) -> (f64, Option<f64>) {
+        if let Some(ball) = self.cutter.as_ball() {
+            let up = (ball * ball - distance * distance).max(0.0).sqrt();
+            return (distance / up, Some(ball * ball / (up * up * up)));
+        }
         match self.cutter.height_with_derivatives(distance) {
             Some(height) => (height.rise, Some(height.bend)),
             None => (libm::tan(self.cutter.slope_at_radius(distance.min(self.radius))), None),
