@@ -28,6 +28,7 @@ from styluscam.part import Part
 from styluscam.planning import Plan, Posted, plan, post, read_gcode
 from styluscam.program import Program
 from styluscam.running import RunResult, run
+from styluscam.simulation import Simulation, simulate
 from styluscam.tool import Tool
 
 __all__ = [
@@ -46,6 +47,7 @@ __all__ = [
     "Program",
     "Report",
     "RunResult",
+    "Simulation",
     "StylusError",
     "Tool",
     "ToolError",
@@ -60,6 +62,7 @@ __all__ = [
     "push_cutter",
     "read_gcode",
     "run",
+    "simulate",
     "slope_matched_offset",
     "starter_job",
     "verify",

@@ -19,6 +19,7 @@ __all__ = [
     "Plan",
     "Program",
     "Scene",
+    "Simulation",
     "Tool",
     "__version__",
     "drop_cutter",
@@ -130,6 +131,10 @@ class Scene:
     def __new__(cls, job: Job, part: Part) -> Scene: ...
     @property
     def frame(self) -> list[list[float]]: ...
+    @property
+    def bounds(self) -> tuple[list[float], list[float]]: ...
+    @property
+    def model_face(self) -> str | None: ...
 
 @final
 class Plan:
@@ -146,8 +151,30 @@ class Judgement:
     def left(
         self, job: Job, scene: Scene, points: _F, progress: _Progress | None = None, cancel: CancelToken | None = None
     ) -> _F: ...
+    def simulate(
+        self,
+        job: Job,
+        scene: Scene,
+        spacing: float,
+        face: str | None = None,
+        progress: _Progress | None = None,
+        cancel: CancelToken | None = None,
+    ) -> Simulation: ...
     @property
     def program(self) -> Program: ...
+
+@final
+class Simulation:
+    @property
+    def origin(self) -> list[float]: ...
+    @property
+    def step(self) -> list[float]: ...
+    @property
+    def heights(self) -> _F: ...
+    @property
+    def top(self) -> float: ...
+    def mesh(self, tolerance: float, floor: float | None = None) -> tuple[_F, npt.NDArray[np.int64]]: ...
+    def distances(self, scene: Scene, progress: _Progress | None = None, cancel: CancelToken | None = None) -> _F: ...
 
 def slope_matched_offset(
     tool: Tool, points: _F, normals: _F, sheet: str | None = None

@@ -8,7 +8,7 @@ use crate::{
     arrays, errors,
     part::Part,
     program::Program,
-    simulation::{sheet_face, Simulation},
+    simulation::{face_name, sheet_face, Simulation},
     waiting::{watched, CancelToken},
 };
 
@@ -118,6 +118,19 @@ impl Scene {
     #[getter]
     fn frame(&self) -> [[f64; 4]; 3] {
         self.scene.frame.rows()
+    }
+
+    /// Lower and upper corner of the part's box, work coordinates.
+    #[getter]
+    fn bounds(&self) -> ([f64; 3], [f64; 3]) {
+        let (low, high) = self.scene.mesh.bounds();
+        (low.into(), high.into())
+    }
+
+    /// The sheet's face that the part is, where there is a sheet.
+    #[getter]
+    fn model_face(&self) -> Option<&'static str> {
+        self.scene.sheet.map(|sheet| face_name(sheet.model_face))
     }
 }
 

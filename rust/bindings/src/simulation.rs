@@ -4,7 +4,13 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use styluscam_geometry::ModelFace;
 
-use crate::errors;
+use crate::{
+    arrays, errors,
+    job::Scene,
+    waiting::{watched, CancelToken},
+};
+
+type Triangles<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<i64>>);
 
 /// Heights after a program; see `styluscam.simulation.Simulation`.
 #[pyclass(frozen, module = "styluscam._engine")]
@@ -32,17 +38,53 @@ impl Simulation {
         let [columns, rows] = self.simulation.grid.nodes;
         PyArray1::from_slice(py, &self.simulation.heights).reshape([rows, columns])
     }
+
+    /// Height before the first move, mm.
+    #[getter]
+    fn top(&self) -> f64 {
+        self.simulation.top
+    }
+
+    /// Vertices (V, 3) and triangles (T, 3) that are off no node by more than `tolerance` mm; closed down to a `floor`.
+    #[pyo3(signature = (tolerance, floor=None))]
+    fn mesh<'py>(&self, py: Python<'py>, tolerance: f64, floor: Option<f64>) -> PyResult<Triangles<'py>> {
+        let skin = py.detach(|| self.simulation.skin(tolerance, floor));
+        let vertices = arrays::matrix(py, skin.vertices.iter().map(|v| [v.x, v.y, v.z]))?;
+        Ok((vertices, arrays::matrix(py, skin.triangles.iter().map(|t| t.map(i64::from)))?))
+    }
+
+    /// Signed distance of every node to the scene's part (rows along Y, columns along X), mm.
+    #[pyo3(signature = (scene, progress=None, cancel=None))]
+    fn distances<'py>(
+        &self,
+        py: Python<'py>,
+        scene: &Scene,
+        progress: Option<&Bound<'_, PyAny>>,
+        cancel: Option<&CancelToken>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let work = |watch: &_| self.simulation.distances(&scene.scene.mesh, &scene.scene.bvh, watch);
+        let distances = watched(py, progress, cancel, work)?.map_err(errors::cancelled)?;
+        let [columns, rows] = self.simulation.grid.nodes;
+        PyArray1::from_vec(py, distances).reshape([rows, columns])
+    }
 }
+
+/// The sheet's faces.
+const FACES: [ModelFace; 3] = [ModelFace::Tool, ModelFace::Mid, ModelFace::Back];
 
 /// A face of the sheet by its name.
 pub fn sheet_face(name: &str) -> PyResult<ModelFace> {
-    match name {
-        "tool" => Ok(ModelFace::Tool),
-        "mid" => Ok(ModelFace::Mid),
-        "back" => Ok(ModelFace::Back),
-        other => {
-            let message = format!("face = {other:?}: \"tool\", \"mid\" or \"back\" expected");
-            Err(errors::raise("GeometryError", &message, "out-of-range", "face", ""))
-        }
+    FACES.into_iter().find(|face| face_name(*face) == name).ok_or_else(|| {
+        let message = format!("face = {name:?}: \"tool\", \"mid\" or \"back\" expected");
+        errors::raise("GeometryError", &message, "out-of-range", "face", "")
+    })
+}
+
+/// The name of a face of the sheet.
+pub fn face_name(face: ModelFace) -> &'static str {
+    match face {
+        ModelFace::Tool => "tool",
+        ModelFace::Mid => "mid",
+        ModelFace::Back => "back",
     }
 }

@@ -54,7 +54,7 @@ pub use orders::Order;
 pub use passes::{Passes, Spacing};
 pub use reach::Reach;
 pub use report::{ContactRecord, Place, Report};
-pub use simulation::{simulate, Grid, Simulation};
+pub use simulation::{simulate, Grid, Simulation, Skin};
 pub use subject::{Limits, Subject, TextFacts};
 
 /// A point or vector of space, mm.

@@ -6,7 +6,7 @@ mod common;
 use common::{ball, limits, Part, Path};
 use styluscam_geometry::{Cutter, Tool, Vector};
 use styluscam_motion::{Arc, Move, Plane, Program, Watch};
-use styluscam_verify::{simulate, Grid, Simulation};
+use styluscam_verify::{simulate, Grid, Simulation, Skin};
 
 const SIZE: [f64; 2] = [20.0, 12.0];
 
@@ -252,5 +252,96 @@ fn scallops_are_those_of_the_tables() {
             let found = scallop(profile, wall_deg, up_the_wall) * 1e3;
             assert!((found - expected).abs() < 0.01 * expected, "{profile} {wall_deg}: {found} {expected}");
         }
+    }
+}
+
+/// How often each side of the triangles is passed in the direction of its lower end to the higher, less the other way.
+fn open_sides(skin: &Skin) -> usize {
+    let mut passed = std::collections::HashMap::new();
+    for [a, b, c] in &skin.triangles {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            *passed.entry((from.min(to), from.max(to))).or_insert(0) += if from < to { 1 } else { -1 };
+        }
+    }
+    passed.values().filter(|count| **count != 0).count()
+}
+
+/// Height of the skin at every node that it covers, by its triangles.
+fn worst_of_skin(simulation: &Simulation, skin: &Skin) -> f64 {
+    let grid = &simulation.grid;
+    let mut worst: f64 = 0.0;
+    let mut covered = vec![false; grid.count()];
+    for triangle in &skin.triangles {
+        let [a, b, c] = triangle.map(|corner| skin.vertices[corner as usize]);
+        let (ab, ac) = (b - a, c - a);
+        let area = ab.x * ac.y - ab.y * ac.x;
+        assert!(area > 0.0);
+        for (index, (place, height)) in nodes(simulation).enumerate() {
+            let (dx, dy) = (place[0] - a.x, place[1] - a.y);
+            let (s, t) = ((dx * ac.y - dy * ac.x) / area, (ab.x * dy - ab.y * dx) / area);
+            if s >= -1e-9 && t >= -1e-9 && s + t <= 1.0 + 1e-9 {
+                covered[index] = true;
+                worst = worst.max((a.z + s * ab.z + t * ac.z - height).abs());
+            }
+        }
+    }
+    assert!(covered.iter().all(|covered| *covered));
+    worst
+}
+
+#[test]
+fn triangles_are_few_without_gaps_and_keep_to_the_nodes() {
+    let tool = ball(6.0);
+    let program = Path::new().rapid([4.0, 6.0, 10.0]).feed([4.0, 6.0, -1.0]).feed([9.0, 7.0, -0.4]).program(&tool);
+    let simulation = simulated(&tool, &program, 0.25);
+    let all = 2 * (simulation.grid.nodes[0] - 1) * (simulation.grid.nodes[1] - 1);
+    let mut last = all;
+    for tolerance in [0.02, 0.05, 0.2] {
+        let skin = simulation.skin(tolerance, None);
+        let worst = worst_of_skin(&simulation, &skin);
+        assert!(worst <= tolerance * (1.0 + 1e-6) && worst > 0.1 * tolerance, "{tolerance}: {worst}");
+        assert!(skin.triangles.len() < last, "{tolerance}: {}", skin.triangles.len());
+        last = skin.triangles.len();
+    }
+    assert!(last < all / 10, "{last} of {all}");
+    let body = simulation.skin(1e-3, Some(-5.0));
+    assert_eq!(open_sides(&body), 0);
+    assert!(open_sides(&simulation.skin(1e-3, None)) > 0);
+    let volume: f64 = body
+        .triangles
+        .iter()
+        .map(|t| t.map(|i| body.vertices[i as usize]))
+        .map(|[a, b, c]| a.dot(&b.cross(&c)) / 6.0)
+        .sum();
+    assert!(volume > 0.9 * 5.0 * SIZE[0] * SIZE[1] && volume < 5.0 * SIZE[0] * SIZE[1], "{volume}");
+}
+
+#[test]
+fn distances_to_the_part_are_what_is_left_and_what_is_taken() {
+    let tool = ball(6.0);
+    let (high, low) = (Vector::new(0.0, 0.0, -1.0), Vector::new(0.0, 0.0, -3.0));
+    // a roof: up to the ridge at Y 6, down again; it ends at X 15
+    let (front, back, along) = (Vector::new(0.0, 0.0, 0.0), Vector::new(0.0, 12.0, 0.0), Vector::new(15.0, 0.0, 0.0));
+    let ridge = Vector::new(0.0, 6.0, 0.0) + high;
+    let corners = vec![front + low, front + low + along, ridge, ridge + along, back + low, back + low + along];
+    let part = Part::new(corners, &[[0, 1, 3], [0, 3, 2], [2, 3, 5], [2, 5, 4]]);
+    let program = Path::new().rapid([4.0, 6.0, 10.0]).feed([4.0, 6.0, -1.5]).program(&tool);
+    let grid = Grid::over([0.0, 0.0], SIZE, 0.25).unwrap();
+    let watch = Watch::default();
+    let simulation =
+        simulate(&program, &part.subject(std::slice::from_ref(&tool)), &limits(), grid, 0.0, &watch).unwrap();
+    let distances = simulation.distances(&part.mesh, &part.bvh, &watch).unwrap();
+    let cos = 6.0 / 40.0_f64.sqrt();
+    for (([x, y], height), found) in nodes(&simulation).zip(distances) {
+        let under = -1.0 - (y - 6.0).abs() / 3.0;
+        let gap = height - under;
+        if x <= 15.0 && gap.abs() < 0.2 && (y - 6.0).abs() > 1.0 && (y - 6.0).abs() < 5.0 {
+            assert!((found - gap * cos).abs() < 1e-9, "{x} {y}: {found} {gap}");
+        }
+        let by_roof = (x > 15.0 && (y - 6.0).abs() < 1e-9).then(|| (x - 15.0).hypot(height + 1.0));
+        let expected = by_roof.filter(|_| height > -1.0);
+        assert!(expected.is_none_or(|expected| (found - expected).abs() < 1e-9), "{x} {y}: {found} {expected:?}");
+        assert!(found.abs() <= gap.abs() + 1e-9 || x > 15.0);
+        assert_eq!(found < 0.0, gap < 0.0 && x <= 15.0, "{x} {y}: {found} {gap}");
     }
 }

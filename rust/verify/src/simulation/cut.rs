@@ -277,26 +277,30 @@ fn balance(tool: &Underside, fall: f64, aside: f64, [first, last]: [f64; 2]) -> 
         let second = bend.map(|bend| bend * share * share + rise * aside / (distance * distance * distance));
         (rise * share - fall, second)
     };
-    let (mut low, mut high) = (first, last);
-    if slope(low).0 >= 0.0 {
-        return low;
-    }
-    if slope(high).0 <= 0.0 {
-        return high;
-    }
-    let mut along = tool.distance_of_rise(fall).clamp(low, high);
+    // where the slope was seen to be below and above 0
+    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+    let mut along = tool.distance_of_rise(fall).clamp(first, last);
     for _ in 0..STEPS[0] {
         let (value, second) = slope(along);
+        // an end that it would pass is the end to the bit
+        if (along <= first && value >= 0.0) || (along >= last && value <= 0.0) {
+            return along;
+        }
         if value < 0.0 {
             low = along;
         } else {
             high = along;
         }
-        let next = second.filter(|second| *second > 0.0).map_or(f64::NAN, |second| along - value / second);
-        let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+        let newton = second.filter(|second| *second > 0.0).map(|second| (along - value / second).clamp(first, last));
+        let next =
+            newton.filter(|next| *next > low && *next < high).unwrap_or(match (low.is_finite(), high.is_finite()) {
+                (true, true) => 0.5 * (low + high),
+                (true, false) => last,
+                _ => first,
+            });
         let step = (next - along).abs();
         along = next;
-        if step <= SHORT * tool.radius() {
+        if step <= SHORT * tool.radius() && next > first && next < last {
             break;
         }
     }

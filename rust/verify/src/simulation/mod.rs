@@ -8,9 +8,11 @@
 //! sheet's law. That is kinematics and no more: the sheet lies where tool and blank put it, does not spring back, and where the
 //! tool was not it stays as flat as it was.
 
+mod compare;
 mod cut;
 mod field;
 mod grid;
+mod mesh;
 mod underside;
 
 use styluscam_motion::{ArcWay, Cancelled, Program, Watch};
@@ -22,6 +24,7 @@ use field::{Field, Tile};
 use underside::Underside;
 
 pub use grid::Grid;
+pub use mesh::Skin;
 
 /// Material after the last move.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +33,8 @@ pub struct Simulation {
     pub grid: Grid,
     /// Height at every node, row by row from the lowest Y, mm.
     pub heights: Vec<f64>,
+    /// Height before the first move, mm.
+    pub top: f64,
 }
 
 /// Cuts a stock with a flat top with all moves of a program.
@@ -51,7 +56,7 @@ pub fn simulate(
     let (cuts, arcs) = cuts(&placed(program, subject, limits));
     let field = Field { grid, top, tools: &tools, arcs: &arcs, watch };
     let tiles = field.tiles(grid.whole(), &cuts)?;
-    Ok(Simulation { grid, heights: assembled(grid, &tiles) })
+    Ok(Simulation { grid, heights: assembled(grid, &tiles), top })
 }
 
 /// What every move cuts, and the arcs that some of them are parts of.

@@ -90,9 +90,11 @@ impl Underside {
     /// A line that the surface is nowhere below, given at `distance`, touching there or at the rim.
     pub fn line(&self, distance: f64) -> Line {
         if distance < self.radius {
-            let (rise, _) = self.rise(distance);
+            let quick = self.cutter.height_with_derivatives(distance);
+            let exact = || (self.cutter.height_at_radius(distance), self.rise(distance).0);
+            let (height, rise) = quick.map_or_else(exact, |quick| (quick.value, quick.rise));
             if (0.0..UPRIGHT).contains(&rise) {
-                return Line { height: self.height(distance), rise };
+                return Line { height: self.tip + height, rise };
             }
         }
         let (radius, line) = self.rim;

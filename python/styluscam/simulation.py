@@ -1,0 +1,174 @@
+"""The material as a judged program leaves it: heights over the plan, as a mesh, and held against the part."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from styluscam import _engine
+from styluscam.errors import GeometryError
+from styluscam.files import drawn_whole
+from styluscam.judging import Report
+from styluscam.types import Document, FloatArray, IntArray, Progress
+
+UNTOUCHED = 1e-9
+"""A node that was lowered by less (mm) was not cut."""
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """The simulated surface against the part, node by node. Lengths mm."""
+
+    distances: FloatArray
+    """Signed distance of every node to the part, (rows along Y, columns along X): negative where it lies below the part's
+    upper surface (gouged), positive where it lies above it or beside the part (left)."""
+    touched: npt.NDArray[np.bool_]
+    """Nodes that the program lowered, of the same shape."""
+    points: FloatArray
+    """The nodes with their heights in work coordinates, (rows, columns, 3)."""
+
+    @property
+    def gouge_max(self) -> float:
+        """Deepest entry into the part, mm; 0 where there is none."""
+        return max(0.0, -float(self.distances.min()))
+
+    @property
+    def gouge_at(self) -> tuple[float, float, float] | None:
+        """Where that is; None where nothing is gouged."""
+        return self._place(int(self.distances.argmin())) if self.gouge_max > 0.0 else None
+
+    @property
+    def left_max(self) -> float:
+        """Most that is left where the program cut, mm; 0 where it cut nothing."""
+        return max(0.0, float(self.distances[self.touched].max(initial=0.0)))
+
+    @property
+    def left_at(self) -> tuple[float, float, float] | None:
+        """Where that is; None where nothing is left."""
+        cut = np.where(self.touched, self.distances, -np.inf)
+        return self._place(int(cut.argmax())) if self.left_max > 0.0 else None
+
+    def share_within(self, tolerance: float) -> float:
+        """Share of the nodes that the program cut that lie within ``tolerance`` (mm) of the part; 1 where it cut none."""
+        cut = self.distances[self.touched]
+        return float((np.abs(cut) <= tolerance).mean()) if len(cut) else 1.0
+
+    def to_dict(self) -> Document:
+        """The figures as plain data: gouge_max, gouge_at, left_max, left_at, touched (share of the nodes)."""
+        return {
+            "gouge_max": self.gouge_max,
+            "gouge_at": self.gouge_at,
+            "left_max": self.left_max,
+            "left_at": self.left_at,
+            "touched": float(self.touched.mean()),
+        }
+
+    def _place(self, index: int) -> tuple[float, float, float]:
+        x, y, z = self.points.reshape(-1, 3)[index]
+        return float(x), float(y), float(z)
+
+
+class Simulation:
+    """The stock, or the sheet, after every move of a program; :func:`simulate` makes it. Work coordinates, mm."""
+
+    def __init__(self, engine: _engine.Simulation, scene: _engine.Scene, face: str | None) -> None:
+        self.engine = engine
+        self.heights: FloatArray = engine.heights
+        """Height of the surface at every node, exact there: (rows along Y, columns along X)."""
+        self._scene, self._face = scene, face
+
+    @property
+    def x(self) -> FloatArray:
+        """X of the columns."""
+        return np.asarray(self.engine.origin[0] + self.engine.step[0] * np.arange(self.heights.shape[1]))
+
+    @property
+    def y(self) -> FloatArray:
+        """Y of the rows."""
+        return np.asarray(self.engine.origin[1] + self.engine.step[1] * np.arange(self.heights.shape[0]))
+
+    @property
+    def points(self) -> FloatArray:
+        """The nodes with their heights, (rows, columns, 3)."""
+        x, y = np.meshgrid(self.x, self.y)
+        return np.stack([x, y, self.heights], axis=-1)
+
+    @property
+    def touched(self) -> npt.NDArray[np.bool_]:
+        """Nodes that the program lowered, (rows, columns)."""
+        return np.asarray(self.heights < self.engine.top - UNTOUCHED)
+
+    def mesh(self, tolerance: float = 0.005) -> tuple[FloatArray, IntArray]:
+        """Vertices (V, 3) and triangles (T, 3), counterclockwise from outside: many where the surface bends, few where not.
+
+        No node is off the triangles by more than ``tolerance`` (mm). Of stock it is the closed body down to the underside
+        of the part's box, of a sheet the face that was followed.
+
+        Raises:
+            GeometryError: a tolerance below 0.
+        """
+        if not tolerance >= 0.0:
+            message = f"tolerance = {tolerance:g}: 0 or more mm expected"
+            raise GeometryError(message, code="out-of-range", where="tolerance", hint="0.005 keeps scallops visible")
+        floor = None if self._face else self._scene.bounds[0][2]
+        return self.engine.mesh(tolerance, floor)
+
+    def save(self, path: str | Path, tolerance: float = 0.005) -> None:
+        """Writes :meth:`mesh` as ``.stl`` or ``.ply`` (extra ``mesh``).
+
+        Raises:
+            StylusError: another ending, or a place that cannot be written to.
+        """
+        file = Path(path)
+        kind = file.suffix.lower().lstrip(".")
+        if kind not in ("stl", "ply"):
+            message = f"{file}: a simulation is written as .stl or .ply"
+            raise GeometryError(message, code="ending-unknown", where=str(file), hint=".stl or .ply")
+        try:
+            import trimesh
+        except ImportError as error:
+            cure = "pip install 'styluscam[mesh]'"
+            message = f"{file}: writing .{kind} files needs trimesh: {cure}"
+            raise GeometryError(message, code="extra-mesh", where=str(file), hint=cure) from error
+        vertices, triangles = self.mesh(tolerance)
+        with drawn_whole(file) as temporary:
+            trimesh.Trimesh(vertices, triangles, process=False).export(temporary, file_type=kind)
+
+    def compare(self, *, progress: Progress | None = None, cancel: _engine.CancelToken | None = None) -> Comparison:
+        """Signed distances of the nodes to the part: what is left on it, what was taken out of it.
+
+        Raises:
+            GeometryError: another face of the sheet was followed than the one that the part is.
+        """
+        if self._face and self._face != self._scene.model_face:
+            message = f"the {self._face} face was followed, the part is the sheet's {self._scene.model_face} face"
+            hint = "simulate without face="
+            raise GeometryError(message, code="another-face", where="face", hint=hint)
+        distances = self.engine.distances(self._scene, progress=progress, cancel=cancel)
+        return Comparison(distances, self.touched, self.points)
+
+
+def simulate(
+    report: Report,
+    spacing: float = 0.05,
+    *,
+    face: str | None = None,
+    progress: Progress | None = None,
+    cancel: _engine.CancelToken | None = None,
+) -> Simulation:
+    """What every move of a judged program, rapids as straight lines, makes of the stock; nodes at most ``spacing`` (mm) apart.
+
+    Milling begins with the part's box. The tool's profile cuts as it passes, exactly at the nodes; shank and holder do not.
+    A sheet begins flat and follows the tool: the face that the tool touches is the lowest that the tool was, ``face``
+    ("tool", "mid", "back"; the part's if None) its offset by the sheet's law. That is kinematics: nothing springs back or
+    wrinkles, and where the tool was not the sheet stays as flat as it was, also within a formed loop.
+
+    Raises:
+        GeometryError: a spacing that is no length or asks for more than forty million nodes, a face that does not exist.
+    """
+    job, scene = report.job, report.scene
+    engine = report.judgement.simulate(job.engine, scene, spacing, face, progress=progress, cancel=cancel)
+    return Simulation(engine, scene, (face or scene.model_face) if scene.model_face else None)
