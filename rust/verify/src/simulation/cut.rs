@@ -11,8 +11,10 @@ const STEPS: [usize; 2] = [60, 6];
 const SHORT_SHARE: f64 = 1e-5;
 /// Thirds that are taken off a way at most: what is left of it is shorter than rounding.
 const THIRDS: u32 = 60;
-/// A step so short that the height no longer changes: as a share of the tool's radius.
-const SHORT: f64 = 1e-8;
+/// A step of Newton's after which there is none to take, as a share of the tool's radius.
+const SHORT: f64 = 1e-6;
+/// Places nearer to each other than this share of the tool's radius are one.
+const ROUNDING: f64 = 1e-12;
 
 /// A place in plan, mm.
 pub(super) type Place = [f64; 2];
@@ -292,15 +294,21 @@ fn balance(tool: &Underside, fall: f64, aside: f64, [first, last]: [f64; 2]) -> 
             high = along;
         }
         let newton = second.filter(|second| *second > 0.0).map(|second| (along - value / second).clamp(first, last));
-        let next =
-            newton.filter(|next| *next > low && *next < high).unwrap_or(match (low.is_finite(), high.is_finite()) {
-                (true, true) => 0.5 * (low + high),
-                (true, false) => last,
-                _ => first,
-            });
-        let step = (next - along).abs();
-        along = next;
-        if step <= SHORT * tool.radius() && next > first && next < last {
+        if let Some(next) = newton.filter(|next| *next > low && *next < high) {
+            let step = (next - along).abs();
+            along = next;
+            // an interior place: the next step would be as its square
+            if step <= SHORT * tool.radius() && next > first && next < last {
+                break;
+            }
+            continue;
+        }
+        along = match (low.is_finite(), high.is_finite()) {
+            (true, true) => 0.5 * (low + high),
+            (true, false) => last,
+            _ => first,
+        };
+        if high - low <= ROUNDING * tool.radius() {
             break;
         }
     }
