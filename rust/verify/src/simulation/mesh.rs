@@ -102,7 +102,7 @@ fn off(heights: &[f64], width: usize, [x, y]: [usize; 2], a: [usize; 2], b: [usi
 /// The ends of the diagonal through the middle of a square: they take turns, so that those of four squares meet.
 fn ends_of_diagonal([x, y]: [usize; 2], half: usize) -> [[usize; 2]; 2] {
     let (low, high) = ([x - half, y - half], [x + half, y + half]);
-    if (low[0] + low[1]) / (2 * half) % 2 == 0 {
+    if ((low[0] + low[1]) / (2 * half)).is_multiple_of(2) {
         [low, high]
     } else {
         [[high[0], low[1]], [low[0], high[1]]]
