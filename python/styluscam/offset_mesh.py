@@ -12,6 +12,7 @@ import numpy.typing as npt
 from styluscam import _engine
 from styluscam.errors import GeometryError
 from styluscam.files import drawn_whole
+from styluscam.meshfile import write_triangles
 from styluscam.offsets import _sheet
 from styluscam.part import Part
 from styluscam.tool import Tool
@@ -88,24 +89,12 @@ class OffsetSurface:
         if file.suffix.lower() not in (".npz", ".ply"):
             message = f"{file}: an offset surface is written as .npz or .ply"
             raise GeometryError(message, code="ending-unknown", where=str(file), hint=".npz or .ply")
-        with drawn_whole(file) as temporary:
-            if file.suffix.lower() == ".npz":
-                columns = {name: value for name, value in vars(self).items() if name != "_regions"}
-                with temporary.open("wb") as stream:  # numpy would append an ending to a name
-                    np.savez_compressed(stream, **columns)
-            else:
-                self._write_ply(temporary, file)
-
-    def _write_ply(self, temporary: Path, file: Path) -> None:
-        try:
-            import trimesh
-        except ImportError as error:
-            cure = "pip install 'styluscam[mesh]'"
-            message = f"{file}: writing .ply files needs trimesh: {cure}"
-            raise GeometryError(message, code="extra-mesh", where=str(file), hint=cure) from error
-        colours = np.array(COLOURS, dtype=np.uint8)[self.flags]
-        mesh = trimesh.Trimesh(self.points, self.triangles, vertex_colors=colours, process=False)
-        mesh.export(temporary, file_type="ply")
+        if file.suffix.lower() == ".ply":
+            write_triangles(file, self.points, self.triangles, np.array(COLOURS, dtype=np.uint8)[self.flags])
+            return
+        columns = {name: value for name, value in vars(self).items() if name != "_regions"}
+        with drawn_whole(file) as temporary, temporary.open("wb") as stream:  # numpy would append an ending to a name
+            np.savez_compressed(stream, **columns)
 
 
 def offset_surface(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,9 +11,13 @@ import numpy.typing as npt
 
 from styluscam import _engine
 from styluscam.errors import GeometryError
-from styluscam.files import drawn_whole
+from styluscam.files import require_writable
 from styluscam.judging import Report
+from styluscam.meshfile import write_triangles, writer
 from styluscam.types import Document, FloatArray, IntArray, Progress
+
+FINE, NODES = 0.05, 200.0 * 200.0 / 0.05**2
+"""mm: the spacing unless another is given, and how many nodes there are then at most."""
 
 UNTOUCHED = 1e-9
 """A node that was lowered by less (mm) was not cut."""
@@ -123,19 +128,8 @@ class Simulation:
             StylusError: another ending, or a place that cannot be written to.
         """
         file = Path(path)
-        kind = file.suffix.lower().lstrip(".")
-        if kind not in ("stl", "ply"):
-            message = f"{file}: a simulation is written as .stl or .ply"
-            raise GeometryError(message, code="ending-unknown", where=str(file), hint=".stl or .ply")
-        try:
-            import trimesh
-        except ImportError as error:
-            cure = "pip install 'styluscam[mesh]'"
-            message = f"{file}: writing .{kind} files needs trimesh: {cure}"
-            raise GeometryError(message, code="extra-mesh", where=str(file), hint=cure) from error
-        vertices, triangles = self.mesh(tolerance)
-        with drawn_whole(file) as temporary:
-            trimesh.Trimesh(vertices, triangles, process=False).export(temporary, file_type=kind)
+        require(file)
+        write_triangles(file, *self.mesh(tolerance))
 
     def compare(self, *, progress: Progress | None = None, cancel: _engine.CancelToken | None = None) -> Comparison:
         """Signed distances of the nodes to the part: what is left on it, what was taken out of it.
@@ -153,13 +147,15 @@ class Simulation:
 
 def simulate(
     report: Report,
-    spacing: float = 0.05,
+    spacing: float | None = None,
     *,
     face: str | None = None,
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
 ) -> Simulation:
     """What every move of a judged program, rapids as straight lines, makes of the stock; nodes at most ``spacing`` (mm) apart.
+
+    Without one they are 0.05 mm apart, on parts larger than 200 x 200 mm as much farther as keeps their number.
 
     Milling begins with the part's box. The tool's profile cuts as it passes, exactly at the nodes; shank and holder do not.
     A sheet begins flat and follows the tool: the face that the tool touches is the lowest that the tool was, ``face``
@@ -170,5 +166,22 @@ def simulate(
         GeometryError: a spacing that is no length or asks for more than forty million nodes, a face that does not exist.
     """
     job, scene = report.job, report.scene
+    if spacing is None:
+        low, high = np.array(scene.bounds)
+        spacing = max(FINE, float(np.sqrt((high - low)[:2].prod() / NODES)))
     engine = report.judgement.simulate(job.engine, scene, spacing, face, progress=progress, cancel=cancel)
     return Simulation(engine, scene, (face or scene.model_face) if scene.model_face else None)
+
+
+def require(file: Path, inputs: Iterable[Path] = ()) -> None:
+    """Asks before long work whether a simulation can be written there.
+
+    Raises:
+        StylusError: another ending than ``.stl`` and ``.ply``, trimesh is missing, a place that cannot be written to, or
+            one of ``inputs``.
+    """
+    if file.suffix.lower() not in (".stl", ".ply"):
+        message = f"{file}: a simulation is written as .stl or .ply"
+        raise GeometryError(message, code="ending-unknown", where=str(file), hint=".stl or .ply")
+    writer(file)
+    require_writable([file], inputs)

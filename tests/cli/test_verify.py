@@ -41,6 +41,17 @@ def test_sound_program_passes(sound, cli):
     assert cli("verify", sound.gcode, "--job", sound.job, "--quiet").out == ""
 
 
+def test_the_material_is_written(sound, cli):
+    trimesh = pytest.importorskip("trimesh", reason="needs the mesh extra")
+    after = sound.folder / "after.stl"
+    ran = cli("verify", sound.gcode, "--job", sound.job, "--simulation", after)
+    assert ran.code == 0 and str(after.name) in ran.out
+    surface = trimesh.load_mesh(after)
+    assert surface.bounds[1, 2] - surface.bounds[0, 2] > 10.0
+    ran = cli("verify", sound.gcode, "--job", sound.job, "--simulation", sound.folder / "after.obj")
+    assert ran.code == 2 and ".stl or .ply" in ran.err
+
+
 def feed_lines(text, axis):
     """Numbers (from 1) of the lines of pure motion that name an axis, and the words there."""
     found = []

@@ -26,6 +26,15 @@ ReportFile: TypeAlias = Annotated[
         "--report", metavar="FILE.html", help="Also write a report: one page, no network.", show_default=False
     ),
 ]
+SimulationFile: TypeAlias = Annotated[
+    Path | None,
+    typer.Option(
+        "--simulation",
+        metavar="FILE.stl",
+        help="Also write the material that the moves leave.",
+        show_default=False,
+    ),
+]
 GcodeFile: TypeAlias = Annotated[Path, typer.Argument(metavar="FILE.ngc", help="The G-code.", show_default=False)]
 ForJob: TypeAlias = Annotated[
     Path, typer.Option("--job", metavar="JOB.toml", help="The job that it is for.", show_default=False)

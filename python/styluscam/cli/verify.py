@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from styluscam import judging
+from styluscam import judging, simulation
 from styluscam.cli import console, findings, pages, progress, summary
 from styluscam.cli.failures import FOUND, naming
-from styluscam.cli.options import Debug, ForJob, GcodeFile, Json, Picture, Quiet, ReportFile
+from styluscam.cli.options import Debug, ForJob, GcodeFile, Json, Picture, Quiet, ReportFile, SimulationFile
 from styluscam.errors import VerifyError
 from styluscam.job import Job
 from styluscam.report import Subject
@@ -21,6 +21,7 @@ def verify(
     *,
     report: ReportFile = None,
     picture: Picture = None,
+    simulated: SimulationFile = None,
     json: Json = False,
     quiet: Quiet = False,
     debug: Debug = False,
@@ -32,9 +33,14 @@ def verify(
     with naming(job), naming(file, VerifyError), progress.shown(not (json or quiet)) as shown:
         work = Job.read(job)
         pages.require(report, picture, inputs=[file, *work.inputs()])
+        if simulated is not None:
+            simulation.require(simulated, inputs=[file, *work.inputs()])
         judged = judging.verify_file(file, work, progress=shown)
         covered = judged.coverage(progress=shown) if json or not quiet else []
         written = pages.write(lambda: Subject.judged(judged, work.machine(), file.name), report, picture, shown)
+        if simulated is not None:
+            simulation.simulate(judged, progress=shown).save(simulated)
+            written.append(simulated)
     if json:
         document = {"file": str(file), "job": str(job), **findings.document(judged), "coverage": covered}
         console.say_json({**document, "written": [str(path) for path in written]})

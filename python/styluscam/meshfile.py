@@ -1,0 +1,43 @@
+"""Triangles out: STL and PLY files through trimesh."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import numpy.typing as npt
+
+from styluscam.errors import GeometryError
+from styluscam.files import drawn_whole
+from styluscam.types import FloatArray, IntArray
+
+
+def write_triangles(
+    file: Path, vertices: FloatArray, triangles: IntArray, colours: npt.NDArray[np.uint8] | None = None
+) -> None:
+    """Writes vertices (V, 3), triangles (T, 3) and, where the format has them, the vertices' colours (V, 3), by the ending.
+
+    Raises:
+        StylusError: trimesh is missing, or a place that cannot be written to.
+    """
+    trimesh = writer(file)
+    mesh = trimesh.Trimesh(vertices, triangles, vertex_colors=colours, process=False)
+    with drawn_whole(file) as temporary:
+        mesh.export(temporary, file_type=file.suffix.lower().lstrip("."))
+
+
+def writer(file: Path) -> ModuleType:
+    """trimesh; ``file`` is what it is needed for.
+
+    Raises:
+        GeometryError: it is missing.
+    """
+    try:
+        import trimesh
+    except ImportError as error:
+        cure = "pip install 'styluscam[mesh]'"
+        message = f"{file}: writing {file.suffix.lower()} files needs trimesh: {cure}"
+        raise GeometryError(message, code="extra-mesh", where=str(file), hint=cure) from error
+    module: ModuleType = trimesh
+    return module
