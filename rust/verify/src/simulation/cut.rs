@@ -126,6 +126,9 @@ impl Cut {
         if self.arc.is_none() {
             return (self.height(tool, place, share), share);
         }
+        if self.distance(place) > tool.radius() + self.sag {
+            return (f64::INFINITY, share);
+        }
         self.bent_over(tool, place, share)
     }
 

@@ -2,7 +2,7 @@
 //!
 //! Tools come from above and are open upwards, so what they leave is one height over each place in plan: the lowest that the
 //! tool's lower surface was there. At the nodes of the grid it is exact, between them nothing is said. Straight moves
-//! are swept as they are; arcs in parabolas that are off them by less than a micrometre's tenth.
+//! are swept as they are, arcs as parabolas that are off them by less than 1e-6 mm. Rapids cut too, as straight lines.
 //!
 //! A formed sheet follows the tool: the face that it touches is the same lowest surface, the others are its offsets by the
 //! sheet's law. That is kinematics and no more: the sheet lies where tool and blank put it, does not spring back, and where the
