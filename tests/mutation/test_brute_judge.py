@@ -162,7 +162,6 @@ def report_of(mesh: tuple[Any, Any], profile: dict[str, Any], start: list[float]
     return sc.verify(text_of(start, end), sc.Job.from_dict(made, part=sc.Part.from_mesh(*mesh)))
 
 
-@pytest.mark.xfail(reason="excess is looked at in the start, the middle and the end of a straight move")
 def test_excess_between_the_samples_is_found() -> None:
     mesh, profile = grooved_plate(), {"kind": "ball", "diameter": 1.0}
     start, end = [0.5, 10.0, 0.0005], [19.5, 10.0, 0.0005]
@@ -170,7 +169,6 @@ def test_excess_between_the_samples_is_found() -> None:
     assert report_of(mesh, profile, start, end).excess_max > 0.9 * everywhere.max()
 
 
-@pytest.mark.xfail(reason="the way out of the tool is measured, not how deep its tip is in")
 @pytest.mark.parametrize("half_angle_deg", [10.0, 30.0])
 def test_a_sharp_tip_in_the_part_is_found(half_angle_deg: float) -> None:
     """Below the tip the part is cut 0.0018 mm too deep."""

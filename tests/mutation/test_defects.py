@@ -12,43 +12,7 @@ from faulty_inputs import FAULTS
 
 from .defective import Trial, input_fault, text_defect, trials
 
-FEEDS = "feeds are not compared with the job's"
-SPINDLE = "spindle and coolant are not compared with the job's"
-LEFT = "what is left of the part is measured, but no finding"
-MISSED = {
-    "arc turned": "it stays on its circle, goes the long way round, and leaves the short one: " + LEFT,
-    "retract missing": "a program may end with the tool in the part",
-    "dog leg": "the first move may come down from an unknown place",
-    "level repeated": "the order of levels is not judged",
-    "cut short": LEFT,
-    "feed times ten": FEEDS,
-    "feed by ten": FEEDS,
-    "work plane": "the plane is not noted by the reader",
-    "tool change missing": "a warning, where the tool table and the length are at stake",
-    "spindle missing": SPINDLE,
-    "spindle turned": SPINDLE,
-    "spindle speed": SPINDLE,
-    "spindle on": SPINDLE,
-    "coolant missing": SPINDLE,
-    "levels swapped": "the order of levels is not judged",
-    "feed missing": FEEDS,
-    "rapid too deep": "the job's retract height is not asked for",
-    "clearance lowered": "a tool may be changed low beside the part",
-    "commented out": "a program may end with the tool in the part",
-    "dwell": "waiting is not judged",
-    "program stop": "waiting is not judged",
-    "spindle stops": SPINDLE,
-    "end early": LEFT,
-    "percent inside": LEFT,
-    "block deleted": "a program may end with the tool in the part",
-    "level skipped": LEFT,
-    "stops too high": LEFT,
-    "begins too low": LEFT,
-    "steps too coarse": LEFT,
-    "wrong feeds": FEEDS,
-    "spindle forgotten": SPINDLE,
-    "clearance too low": "the first move may come down from an unknown place",
-}
+MISSED = {"arc turned": "on wide steps what a turned arc leaves is less than what the step explains"}
 """Kinds that survive the judge as it stands, and why; an entry that is found after all fails here."""
 
 LEAST_SCORE = 0.99
@@ -75,7 +39,7 @@ def test_a_fault_of_the_input_is_found(name: str, folder: Path) -> None:
 
 
 @pytest.mark.long
-@pytest.mark.xfail(raises=AssertionError, reason="the kinds in MISSED survive")
+@pytest.mark.xfail(raises=AssertionError, reason="98.3 % of 529 as it stands")
 def test_three_hundred_defects(folder: Path) -> None:
     made = list(trials(7, folder))
     mattering = [trial for trial in made if trial.verdict.matters]

@@ -16,15 +16,6 @@ SLICE = 12
 ARCS = 4
 
 
-REFUSED: dict[int, str] = {}
-"""Cases that the judge does not pass, and why."""
-
-
-def known(number: int) -> object:
-    """The case's number, expected to fail where that is listed."""
-    return pytest.param(number, marks=pytest.mark.xfail(reason=REFUSED[number])) if number in REFUSED else number
-
-
 def require_sound(case: Case) -> None:
     report = sc.verify(case.text, case.job)
     assert report.ok and report.findings == [], [finding["message"] for finding in report.findings]
@@ -46,6 +37,6 @@ def test_a_sound_program_with_arcs_passes(number: int, folder: Path) -> None:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("number", [known(number) for number in range(SLICE, 200)])
+@pytest.mark.parametrize("number", range(SLICE, 200))
 def test_two_hundred_sound_programs_pass(number: int, folder: Path) -> None:
     require_sound(made_case(number, folder))
