@@ -40,6 +40,10 @@ SUITS: dict[str, Callable[[Case], bool]] = {
 """Cases in which a kind can matter, where that is not all."""
 
 
+LEFT_UNDONE = ("missing-pass", "missing-level")
+"""What a program does not do endangers nothing: the judge warns of it."""
+
+
 @dataclass(frozen=True)
 class Trial:
     """A defect: what was spoilt, whether that matters, and what the judge said."""
@@ -98,9 +102,9 @@ def _judged(text: str, case: Case, verdict: Verdict) -> tuple[bool, str]:
         report = sc.verify(text, case.job)
     except sc.VerifyError as error:
         return _names_line(str(error.where), verdict), f"{error}"
-    errors = [finding for finding in report.findings if finding["severity"] == "error"]
+    telling = [f for f in report.findings if f["severity"] == "error" or f["kind"] in LEFT_UNDONE]
     said = "; ".join(f"{f['severity']} {f['kind']} {f['first_line']}-{f['last_line']}" for f in report.findings[:3])
-    return any(_is_there(finding, verdict) for finding in errors), said or "nothing"
+    return any(_is_there(finding, verdict) for finding in telling), said or "nothing"
 
 
 def _is_there(finding: dict[str, Any], verdict: Verdict) -> bool:

@@ -143,7 +143,7 @@ fn orders(job: &JobDocument, scene: &Scene, records: &[ToolRecord]) -> Result<Ve
             },
             flood: section.coolant == Coolant::Flood,
             passes: passes(job, scene, section, index)?,
-            forms: job.process.kind == Process::Spif,
+            forms: job.process.kind == Process::Spif && job.setup.sheet.is_some(),
         })
     };
     job.operations.iter().enumerate().map(order).collect()

@@ -125,7 +125,7 @@ impl Look<'_> {
         let ends = [beyond(first, top, WIDE), beyond(last, bottom, REST)].into_iter().flatten();
         let fault = |(index, line, position, gap): (usize, u32, [f64; 3], f64)| Fault {
             kind: FindingKind::MissingLevel,
-            severity: Severity::Error,
+            severity: Severity::Warning,
             index,
             line,
             position,
@@ -191,7 +191,7 @@ impl Look<'_> {
         let leg = &self.legs[last.as_ref()?.1.leg];
         Some(Fault {
             kind: FindingKind::MissingPass,
-            severity: Severity::Error,
+            severity: Severity::Warning,
             index: leg.index,
             line: leg.line,
             position: tip,

@@ -13,6 +13,9 @@ use crate::{FindingKind, Limits, Severity, Subject};
 /// A level counts as lower from this share of the step on.
 const LOWER: f64 = 0.25;
 
+/// Heights that differ by less are one level, mm.
+const SAME_LEVEL: f64 = 1e-3;
+
 /// Faults in the order of the moves.
 pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits: &Limits) -> Vec<Fault> {
     let orders = Orders::new(program, subject, limits);
@@ -22,7 +25,17 @@ pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits:
         let Some(tool) = subject.tools.get(order.tool) else { continue };
         let cell = 0.5 * tool.diameter();
         let mut lowest: HashMap<[i64; 2], f64> = HashMap::new();
-        for leg in legs.iter().filter(|leg| leg.kind == LegKind::Contact && !leg.falls()) {
+        let mut level = f64::NAN;
+        for leg in legs {
+            match leg.kind {
+                // the level is where the tool comes down to; on its way it may climb over what stands there
+                LegKind::Rapid | LegKind::Plunge => level = leg.end[2],
+                LegKind::Contact if level.is_nan() => level = leg.end[2],
+                _ => {}
+            }
+            if leg.kind != LegKind::Contact || leg.falls() || (leg.end[2] - level).abs() > SAME_LEVEL {
+                continue;
+            }
             if !orders.of(program.moves[leg.index].operation).is_some_and(|of| std::ptr::eq(of, order)) {
                 continue;
             }
