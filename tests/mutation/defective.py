@@ -40,8 +40,8 @@ SUITS: dict[str, Callable[[Case], bool]] = {
 """Cases in which a kind can matter, where that is not all."""
 
 
-LEFT_UNDONE = ("missing-pass", "missing-level")
-"""What a program does not do endangers nothing: the judge warns of it."""
+WARNED_OF = ("missing-pass", "missing-level", "forming-order")
+"""What is left undone, or done in another order, breaks nothing: the judge warns of it."""
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ def _judged(text: str, case: Case, verdict: Verdict) -> tuple[bool, str]:
         report = sc.verify(text, case.job)
     except sc.VerifyError as error:
         return _names_line(str(error.where), verdict), f"{error}"
-    telling = [f for f in report.findings if f["severity"] == "error" or f["kind"] in LEFT_UNDONE]
+    telling = [f for f in report.findings if f["severity"] == "error" or f["kind"] in WARNED_OF]
     said = "; ".join(f"{f['severity']} {f['kind']} {f['first_line']}-{f['last_line']}" for f in report.findings[:3])
     return any(_is_there(finding, verdict) for finding in telling), said or "nothing"
 

@@ -25,15 +25,19 @@ pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits:
         let Some(tool) = subject.tools.get(order.tool) else { continue };
         let cell = 0.5 * tool.diameter();
         let mut lowest: HashMap<[i64; 2], f64> = HashMap::new();
-        let mut level = f64::NAN;
+        // straight up or down at the path's feed the tool climbs over what stands there, or falls beside it, and comes
+        // back: that is no level
+        let mut away_from: Option<f64> = None;
         for leg in legs {
-            match leg.kind {
-                // the level is where the tool comes down to; on its way it may climb over what stands there
-                LegKind::Rapid | LegKind::Plunge => level = leg.end[2],
-                LegKind::Contact if level.is_nan() => level = leg.end[2],
+            let along =
+                matches!(leg.kind, LegKind::Plunge | LegKind::Retract) && program.moves[leg.index].feed == order.cut;
+            match (leg.kind, away_from, leg.start) {
+                (LegKind::Rapid, ..) => away_from = None,
+                (_, Some(level), _) if (leg.end[2] - level).abs() <= SAME_LEVEL => away_from = None,
+                (_, None, Some(start)) if along => away_from = Some(start[2]),
                 _ => {}
             }
-            if leg.kind != LegKind::Contact || leg.falls() || (leg.end[2] - level).abs() > SAME_LEVEL {
+            if leg.kind != LegKind::Contact || leg.falls() || away_from.is_some() {
                 continue;
             }
             if !orders.of(program.moves[leg.index].operation).is_some_and(|of| std::ptr::eq(of, order)) {
@@ -46,7 +50,7 @@ pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits:
             if z > formed + LOWER * step {
                 faults.push(Fault {
                     kind: FindingKind::FormingOrder,
-                    severity: Severity::Error,
+                    severity: Severity::Warning,
                     index: leg.index,
                     line: leg.line,
                     position: leg.end,
