@@ -29,8 +29,8 @@ pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits:
         // back: that is no level
         let mut away_from: Option<f64> = None;
         for leg in legs {
-            let along =
-                matches!(leg.kind, LegKind::Plunge | LegKind::Retract) && program.moves[leg.index].feed == order.cut;
+            let at_cut = (program.moves[leg.index].feed - order.cut).abs() <= limits.feed_unit;
+            let along = at_cut && matches!(leg.kind, LegKind::Plunge | LegKind::Retract);
             match (leg.kind, away_from, leg.start) {
                 (LegKind::Rapid, ..) => away_from = None,
                 (_, Some(level), _) if (leg.end[2] - level).abs() <= SAME_LEVEL => away_from = None,
