@@ -32,8 +32,8 @@ const TURN: f64 = std::f64::consts::PI / 12.0;
 /// ends and in the middle.
 const PIECE: f64 = 0.5;
 
-/// Pieces of one move at most.
-const PIECES: f64 = 5000.0;
+/// Pieces of one move at most; a line that would have more runs far beyond any part and is looked at as a whole.
+const PIECES: f64 = 1000.0;
 
 /// One move, or a piece of one.
 #[derive(Clone, Copy, Debug)]
@@ -104,6 +104,7 @@ fn pieces<'a>(leg: &'a Leg, way: Option<&'a ArcWay>, longest: f64) -> impl Itera
     let touches = leg.excess.is_some();
     let lengths =
         leg.start.filter(|_| touches && way.is_none()).map_or(0.0, |start| distance(start, leg.end) / longest);
+    let lengths = if lengths > PIECES { 1.0 } else { lengths };
     let count = turns.max(lengths).ceil().clamp(1.0, PIECES) as usize;
     let share = move |i: usize| i as f64 / count as f64;
     let at = move |i: usize| way.map_or_else(|| between(leg, share(i)), |way| way.at(share(i)));
