@@ -35,26 +35,24 @@ impl Dynamics {
     pub fn times(&self, program: &Program) -> (Vec<f64>, f64) {
         let legs = self.legs(program);
         let speeds = self.speeds(&legs);
-        let mut waits = Waits::new(program);
+        let mut upcoming = program.upcoming();
+        let mut waits = |index| upcoming.before(index).map(seconds_of).sum::<f64>();
         let mut clock = 0.0;
         let times = legs.iter().zip(speeds.windows(2)).enumerate();
         let times = times.map(|(index, (leg, ends))| {
-            clock += waits.before(index) + self.seconds(leg, ends[0], ends[1]);
+            clock += waits(index) + self.seconds(leg, ends[0], ends[1]);
             clock
         });
         let times = times.collect();
-        (times, clock + waits.before(program.moves.len()))
+        (times, clock + waits(program.moves.len()))
     }
 
     fn legs(&self, program: &Program) -> Vec<Leg> {
-        let mut stops = program.events.iter().filter(|e| !matches!(e.kind, EventKind::Comment { .. })).peekable();
+        let mut upcoming = program.upcoming();
         let mut legs = Vec::with_capacity(program.moves.len());
         for (index, (start, step)) in program.segments().enumerate() {
-            let mut stopped = start.is_none();
-            while stops.next_if(|e| e.before <= index).is_some() {
-                stopped = true;
-            }
-            legs.push(self.leg(start.unwrap_or(step.end), step, stopped));
+            let halts = upcoming.before(index).filter(|event| !matches!(event, EventKind::Comment { .. })).count();
+            legs.push(self.leg(start.unwrap_or(step.end), step, halts > 0 || start.is_none()));
         }
         legs
     }
@@ -143,25 +141,11 @@ fn direction(a: [f64; 3], b: [f64; 3]) -> Option<[f64; 3]> {
     (length > 0.0).then(|| along.map(|x| x / length))
 }
 
-/// The program's dwells in order.
-struct Waits<'a> {
-    events: std::iter::Peekable<std::slice::Iter<'a, crate::Event>>,
-}
-
-impl<'a> Waits<'a> {
-    fn new(program: &'a Program) -> Self {
-        Self { events: program.events.iter().peekable() }
-    }
-
-    /// Seconds that are waited before a move.
-    fn before(&mut self, index: usize) -> f64 {
-        let mut seconds = 0.0;
-        while let Some(event) = self.events.next_if(|e| e.before <= index) {
-            if let EventKind::Dwell { seconds: more } = event.kind {
-                seconds += more;
-            }
-        }
-        seconds
+/// How long an event lasts, s.
+fn seconds_of(event: &EventKind) -> f64 {
+    match event {
+        EventKind::Dwell { seconds } => *seconds,
+        _ => 0.0,
     }
 }
 

@@ -142,6 +142,31 @@ impl Program {
         starts.zip(&self.moves)
     }
 
+    /// The events, to be taken in step with the moves.
+    #[must_use]
+    pub fn upcoming(&self) -> Upcoming<'_> {
+        Upcoming { events: &self.events }
+    }
+
+    /// The boxes in which the posted points stay, the tools' references, move by move: lowest and highest coordinates, mm.
+    ///
+    /// Until a tool is called the first one is taken to be loaded.
+    pub fn posted_boxes(&self) -> impl Iterator<Item = ([f64; 3], [f64; 3])> + '_ {
+        let above = |tool: usize| self.tools.get(tool).map_or(0.0, |tool| tool.reference_height);
+        let mut upcoming = self.upcoming();
+        let mut height = above(0);
+        self.segments().enumerate().map(move |(index, (start, step))| {
+            for event in upcoming.before(index) {
+                if let EventKind::ToolChange { tool } = event {
+                    height = above(*tool as usize);
+                }
+            }
+            let (low, high) = step.bounds(start);
+            let lifted = |[x, y, z]: [f64; 3]| [x, y, z + height];
+            (lifted(low), lifted(high))
+        })
+    }
+
     /// Places along the program and the move that each belongs to: the ends of all moves, and along arcs so many more that
     /// no chord is farther than `sag` mm from its arc.
     pub fn polyline(&self, sag: f64) -> impl Iterator<Item = ([f64; 3], usize)> + '_ {
@@ -153,5 +178,21 @@ impl Program {
                 _ => (step.end, index),
             })
         })
+    }
+}
+
+/// The events of a program that have not been taken yet.
+#[derive(Clone, Debug)]
+pub struct Upcoming<'a> {
+    events: &'a [Event],
+}
+
+impl<'a> Upcoming<'a> {
+    /// Takes those that come before a move, in their order.
+    pub fn before(&mut self, index: usize) -> impl Iterator<Item = &'a EventKind> + use<'a> {
+        let count = self.events.iter().take_while(|event| event.before <= index).count();
+        let (now, later) = self.events.split_at(count);
+        self.events = later;
+        now.iter().map(|event| &event.kind)
     }
 }

@@ -105,11 +105,13 @@ fn inspect_range(program: &Program, machine: &Machine) -> Result<(), PostError> 
         return Ok(());
     }
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for (index, point) in posted_points(program) {
-        for (axis, value) in point.into_iter().enumerate() {
-            inspect_limit(index, axis, value, ranges.get(axis).copied().flatten())?;
-            low[axis] = low[axis].min(value);
-            high[axis] = high[axis].max(value);
+    for (index, (least, most)) in program.posted_boxes().enumerate() {
+        for axis in 0..3 {
+            for value in [least[axis], most[axis]] {
+                inspect_limit(index, axis, value, ranges[axis])?;
+            }
+            low[axis] = low[axis].min(least[axis]);
+            high[axis] = high[axis].max(most[axis]);
         }
     }
     let Some(travel) = limits.travel else { return Ok(()) };
@@ -129,21 +131,6 @@ fn inspect_limit(index: usize, axis: usize, value: f64, range: Option<[f64; 2]>)
         }
         _ => Ok(()),
     }
-}
-
-/// The posted ends of the moves, and the corners of the boxes around arcs.
-fn posted_points(program: &Program) -> impl Iterator<Item = (usize, [f64; 3])> + '_ {
-    let mut events = program.events.iter().peekable();
-    let mut height = 0.0;
-    program.segments().enumerate().flat_map(move |(index, (start, step))| {
-        while let Some(event) = events.next_if(|e| e.before <= index) {
-            if let EventKind::ToolChange { tool } = event.kind {
-                height = program.tools.get(tool as usize).map_or(0.0, |t| t.reference_height);
-            }
-        }
-        let (low, high) = step.bounds(start);
-        [low, high].map(|[x, y, z]| (index, [x, y, z + height]))
-    })
 }
 
 fn axis_name(axis: usize) -> char {
