@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use styluscam_motion::Move;
 
 use crate::words;
 use crate::SLACK;
@@ -167,6 +168,28 @@ pub(crate) struct Fault {
     pub measure: Option<(f64, f64)>,
     /// How bad this place is, for comparison with others of its kind, mm.
     pub weight: f64,
+}
+
+impl Fault {
+    /// An error of which nothing is measured.
+    pub fn new(kind: FindingKind, index: usize, line: u32, position: [f64; 3]) -> Self {
+        Self { kind, severity: Severity::Error, index, line, position, measure: None, weight: 0.0 }
+    }
+
+    /// An error at the end of a move.
+    pub fn of(kind: FindingKind, index: usize, step: &Move) -> Self {
+        Self::new(kind, index, step.line, step.end)
+    }
+
+    /// With what was measured and what is allowed; it weighs what lies between them.
+    pub fn measured(self, value: f64, limit: f64) -> Self {
+        Self { measure: Some((value, limit)), weight: (value - limit).abs().max(0.0), ..self }
+    }
+
+    /// The same as a warning.
+    pub fn warning(self) -> Self {
+        Self { severity: Severity::Warning, ..self }
+    }
 }
 
 /// Consecutive faults of one kind.

@@ -31,9 +31,10 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let mut faults = tally.faults;
     faults.extend(travel::faults(program, &legs, subject, limits));
     faults.extend(reach::faults(program, subject, &limits.reach));
-    faults.extend(Orders::new(program, subject, limits).faults(program, &legs));
-    faults.extend(sequence::faults(program, &legs, subject, limits));
-    faults.extend(passes::faults(program, &legs, subject, limits, watch)?);
+    let orders = Orders::new(program, subject);
+    faults.extend(orders.faults(program, &legs, limits));
+    faults.extend(sequence::faults(program, &legs, &orders, subject, limits));
+    faults.extend(passes::faults(&legs, &orders, subject, limits, watch)?);
     let (mut findings, mut counts) = merge(&faults);
     let nothing = contacts.nothing_touches().then(|| diagnosis::no_contact(program, &legs, &contacts.samples, subject));
     let offset = travel::work_offset(program, subject.wcs);
@@ -122,15 +123,7 @@ impl Tally<'_> {
     }
 
     fn fault(&mut self, kind: FindingKind, leg: &Leg, at: &Sample, measure: (f64, f64), weight: f64) {
-        self.faults.push(Fault {
-            kind,
-            severity: Severity::Error,
-            index: leg.index,
-            line: leg.line,
-            position: at.tip,
-            measure: Some(measure),
-            weight,
-        });
+        self.faults.push(Fault { position: at.tip, measure: Some(measure), weight, ..leg.fault(kind) });
     }
 }
 

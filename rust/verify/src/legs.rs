@@ -1,8 +1,9 @@
 //! The moves as the judge sees them: what each is meant to do, with which tool, from where.
 
-use styluscam_motion::{ArcWay, Event, EventKind, MoveKind, Program};
+use styluscam_motion::{ArcWay, EventKind, MoveKind, Program};
 
-use crate::{Limits, Subject};
+use crate::findings::Fault;
+use crate::{FindingKind, Limits, Subject, Vector};
 
 /// Two coordinates this close are the same, mm: below what any machine resolves.
 const SAME: f64 = 1e-6;
@@ -40,6 +41,8 @@ const PIECES: f64 = 1000.0;
 pub(crate) struct Leg {
     /// Index of the move in the program.
     pub index: usize,
+    /// Index of the move's operation in the program.
+    pub operation: u32,
     pub kind: LegKind,
     /// The tool's tip where the move starts, when it is known.
     pub start: Option<[f64; 3]>,
@@ -75,21 +78,48 @@ impl Leg {
     pub fn descends(&self) -> bool {
         self.start.is_some_and(|s| self.end[2] < s[2] - SAME)
     }
+
+    /// An error at its end.
+    pub fn fault(&self, kind: FindingKind) -> Fault {
+        Fault::new(kind, self.index, self.line, self.end)
+    }
+}
+
+/// The last of the legs before a move.
+pub(crate) fn last_before(legs: &[Leg], index: usize) -> Option<&Leg> {
+    legs.get(legs.partition_point(|leg| leg.index < index).checked_sub(1)?)
 }
 
 /// The moves that have a place in space, in order.
 pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> Vec<Leg> {
-    let mut tools = LoadedTool::new(program, subject.tools.len());
+    let mut upcoming = program.upcoming();
+    // until a tool is called the first one is taken to be loaded: the check for a missing change says so
+    let known_tool = |tool: usize| Some(tool).filter(|tool| *tool < subject.tools.len());
+    let mut tool = known_tool(0);
     let mut legs = Vec::with_capacity(program.moves.len());
     let mut start = None;
     for (index, step) in program.moves.iter().enumerate() {
-        let tool = tools.before(index);
+        for event in upcoming.before(index) {
+            if let EventKind::ToolChange { tool: called } = event {
+                tool = known_tool(*called as usize);
+            }
+        }
         let known = index >= subject.first_placed_move && in_this_world(step.end);
         if known {
             let way = start.and_then(|start| step.way(start));
             let kind = if way.is_some() { LegKind::Contact } else { kind(step.kind, start, step.end) };
             let excess = limits.excess_of(step.operation).filter(|_| kind == LegKind::Contact);
-            let leg = Leg { index, kind, start, end: step.end, bend: None, line: step.line, tool, excess };
+            let leg = Leg {
+                index,
+                operation: step.operation,
+                kind,
+                start,
+                end: step.end,
+                bend: None,
+                line: step.line,
+                tool,
+                excess,
+            };
             let longest = PIECE * tool.and_then(|t| subject.tools.get(t)).map_or(f64::INFINITY, |t| 0.5 * t.diameter());
             legs.extend(pieces(&leg, way.as_ref(), longest));
         }
@@ -102,8 +132,8 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
 fn pieces<'a>(leg: &'a Leg, way: Option<&'a ArcWay>, longest: f64) -> impl Iterator<Item = Leg> + 'a {
     let turns = way.map_or(0.0, |way| way.sweep().abs() / TURN);
     let touches = leg.excess.is_some();
-    let lengths =
-        leg.start.filter(|_| touches && way.is_none()).map_or(0.0, |start| distance(start, leg.end) / longest);
+    let straight = leg.start.filter(|_| touches && way.is_none());
+    let lengths = straight.map_or(0.0, |start| (Vector::from(leg.end) - Vector::from(start)).norm() / longest);
     let lengths = if lengths > PIECES { 1.0 } else { lengths };
     let count = turns.max(lengths).ceil().clamp(1.0, PIECES) as usize;
     let share = move |i: usize| i as f64 / count as f64;
@@ -117,13 +147,8 @@ fn pieces<'a>(leg: &'a Leg, way: Option<&'a ArcWay>, longest: f64) -> impl Itera
 }
 
 fn between(leg: &Leg, share: f64) -> [f64; 3] {
-    let start = leg.start.unwrap_or(leg.end);
-    [0, 1, 2].map(|axis| start[axis] + share * (leg.end[axis] - start[axis]))
-}
-
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    let [x, y, z] = [0, 1, 2].map(|axis| b[axis] - a[axis]);
-    (x * x + y * y + z * z).sqrt()
+    let (start, end) = (Vector::from(leg.start.unwrap_or(leg.end)), Vector::from(leg.end));
+    (start + share * (end - start)).into()
 }
 
 fn kind(kind: MoveKind, start: Option<[f64; 3]>, end: [f64; 3]) -> LegKind {
@@ -146,27 +171,4 @@ pub(crate) fn in_this_world(place: [f64; 3]) -> bool {
 
 fn same_plan(a: [f64; 3], b: [f64; 3]) -> bool {
     (a[0] - b[0]).abs() <= SAME && (a[1] - b[1]).abs() <= SAME
-}
-
-/// Follows the tool changes.
-struct LoadedTool<'a> {
-    events: std::iter::Peekable<std::slice::Iter<'a, Event>>,
-    count: usize,
-    loaded: Option<usize>,
-}
-
-impl<'a> LoadedTool<'a> {
-    /// Before the first change the first tool is taken to be loaded: the check for a missing change says so.
-    fn new(program: &'a Program, count: usize) -> Self {
-        Self { events: program.events.iter().peekable(), count, loaded: (count > 0).then_some(0) }
-    }
-
-    fn before(&mut self, index: usize) -> Option<usize> {
-        while let Some(event) = self.events.next_if(|e| e.before <= index) {
-            if let EventKind::ToolChange { tool } = event.kind {
-                self.loaded = Some(tool as usize).filter(|t| *t < self.count);
-            }
-        }
-        self.loaded
-    }
 }

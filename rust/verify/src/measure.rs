@@ -145,10 +145,7 @@ impl<'a> Walk<'a> {
     }
 
     fn sample(&self, tip: [f64; 3], prober: &Prober) -> Option<Sample> {
-        let position = prober.body.position(tip);
-        let places = [Some(position), None];
-        let asked = Question { stroke: Stroke::still(position), places, below: f64::NEG_INFINITY };
-        prober.survey(asked, self.warm()).places[0].map(|touch| Sample { tip, touch })
+        prober.at(prober.body.position(tip), self.warm()).map(|touch| Sample { tip, touch })
     }
 
     /// A move that should touch: three samples, and a proof that nothing between them is deeper.
@@ -177,12 +174,8 @@ impl<'a> Walk<'a> {
 
     /// On a long move one search for all would look at too much.
     fn one_by_one(&self, asked: Question, prober: &Prober) -> Seen {
-        let at = |place: Option<Vector>, warm: Option<u32>| {
-            let asked = Question { stroke: Stroke::still(place?), places: [place, None], below: f64::NEG_INFINITY };
-            prober.survey(asked, warm).places[0]
-        };
-        let middle = at(asked.places[0], self.warm());
-        let end = at(asked.places[1], middle.map(|t| t.triangle).or(self.warm()));
+        let middle = asked.places[0].and_then(|place| prober.at(place, self.warm()));
+        let end = asked.places[1].and_then(|place| prober.at(place, middle.map(|t| t.triangle).or(self.warm())));
         let sampled = [middle, end].iter().flatten().fold(f64::INFINITY, |a, t| a.min(t.value));
         let below = asked.below.min(sampled - SLACK);
         let passed = prober.survey(Question { places: [None; 2], below, ..asked }, end.map(|t| t.triangle));

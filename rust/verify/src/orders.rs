@@ -35,29 +35,34 @@ const SAME_FEED: f64 = 1e-6;
 pub(crate) struct Orders<'a> {
     /// For each of the program's operations its order, where the job has one.
     of: Vec<Option<&'a Order>>,
-    limits: &'a Limits,
 }
 
 impl<'a> Orders<'a> {
     /// By their ids; a job with one operation means it, whatever the text calls it.
-    pub fn new(program: &Program, subject: &Subject<'a>, limits: &'a Limits) -> Self {
+    pub fn new(program: &Program, subject: &Subject<'a>) -> Self {
         let only = (subject.orders.len() == 1).then(|| subject.orders.first()).flatten();
         let order = |id: &str| subject.orders.iter().find(|order| order.id == id).or(only);
-        Self { of: program.operations.iter().map(|operation| order(&operation.id)).collect(), limits }
+        Self { of: program.operations.iter().map(|operation| order(&operation.id)).collect() }
     }
 
-    /// The order of one of the program's operations.
-    pub fn of(&self, operation: u32) -> Option<&'a Order> {
-        self.of.get(operation as usize).copied().flatten()
+    /// The order that a leg carries out.
+    fn of(&self, leg: &Leg) -> Option<&'a Order> {
+        self.of.get(leg.operation as usize).copied().flatten()
+    }
+
+    /// Whether a leg carries out this order.
+    pub fn own(&self, order: &Order, leg: &Leg) -> bool {
+        self.of(leg).is_some_and(|of| std::ptr::eq(of, order))
     }
 
     /// Faults of the moves, in their order.
-    pub fn faults(&self, program: &Program, legs: &[Leg]) -> Vec<Fault> {
-        let mut machine = Machine::new(program);
+    pub fn faults(&self, program: &Program, legs: &[Leg], limits: &Limits) -> Vec<Fault> {
+        let mut upcoming = program.upcoming();
+        let mut machine = Machine { spindle: None, flood: false };
         let mut faults = Vec::new();
         let mut last: Option<(usize, LegKind)> = None;
         for leg in legs {
-            machine.advance(leg.index);
+            upcoming.before(leg.index).for_each(|event| machine.take(event));
             let before = last.replace((leg.index, leg.kind));
             // pieces of one move say the same
             if before.is_some_and(|(index, _)| index == leg.index) || leg.kind == LegKind::Rapid {
@@ -65,31 +70,31 @@ impl<'a> Orders<'a> {
             }
             let comes_down = before.is_none_or(|(_, kind)| kind == LegKind::Rapid);
             let step = &program.moves[leg.index];
-            let Some(order) = self.of(step.operation) else { continue };
-            faults.extend(self.feed_fault(order, leg, comes_down, step.feed));
+            let Some(order) = self.of(leg) else { continue };
+            faults.extend(feed_fault(order, leg, comes_down, step.feed, limits.feed_unit));
             faults.extend(spindle_fault(order, leg, machine.spindle));
             if machine.flood != order.flood {
-                faults.push(fault(FindingKind::CoolantDiffers, leg, None));
+                faults.push(leg.fault(FindingKind::CoolantDiffers));
             }
             if leg.tool.is_some_and(|tool| tool != order.tool) {
-                faults.push(fault(FindingKind::ToolDiffers, leg, None));
+                faults.push(leg.fault(FindingKind::ToolDiffers));
             }
         }
         faults
     }
+}
 
-    /// From a rapid the tool comes down at the plunge's feed; on its way along the part straight down is as good as any
-    /// other direction.
-    fn feed_fault(&self, order: &Order, leg: &Leg, comes_down: bool, feed: f64) -> Option<Fault> {
-        let ordered = match leg.kind {
-            LegKind::Plunge if comes_down => order.plunge,
-            // a feed that goes nowhere or up is no faster than any other
-            LegKind::Still | LegKind::Retract => feed.min(order.cut.max(order.plunge)),
-            _ => order.cut,
-        };
-        let same = (feed - ordered).abs() <= self.limits.feed_unit + SAME_FEED * ordered;
-        (feed > 0.0 && !same).then(|| fault(FindingKind::FeedDiffers, leg, Some((feed, ordered))))
-    }
+/// From a rapid the tool comes down at the plunge's feed; on its way along the part straight down is as good as any
+/// other direction.
+fn feed_fault(order: &Order, leg: &Leg, comes_down: bool, feed: f64, unit: f64) -> Option<Fault> {
+    let ordered = match leg.kind {
+        LegKind::Plunge if comes_down => order.plunge,
+        // a feed that goes nowhere or up is no faster than any other
+        LegKind::Still | LegKind::Retract => feed.min(order.cut.max(order.plunge)),
+        _ => order.cut,
+    };
+    let same = (feed - ordered).abs() <= unit + SAME_FEED * ordered;
+    (feed > 0.0 && !same).then(|| leg.fault(FindingKind::FeedDiffers).measured(feed, ordered))
 }
 
 /// The findings of orders that the text does not carry out, when it carries out any by name.
@@ -106,7 +111,7 @@ pub(crate) fn missing(program: &Program, subject: &Subject) -> Vec<Finding> {
 fn spindle_fault(order: &Order, leg: &Leg, turns: Option<(f64, SpindleDirection)>) -> Option<Fault> {
     let (found, ordered) = (signed(turns), signed(order.spindle));
     let same = (found - ordered).abs() <= 0.5 + SAME_FEED * ordered.abs();
-    (!same).then(|| fault(FindingKind::SpindleDiffers, leg, Some((found, ordered))))
+    (!same).then(|| leg.fault(FindingKind::SpindleDiffers).measured(found, ordered))
 }
 
 /// Speed, negative counterclockwise, 0 when it stands.
@@ -118,32 +123,19 @@ fn signed(turns: Option<(f64, SpindleDirection)>) -> f64 {
     }
 }
 
-fn fault(kind: FindingKind, leg: &Leg, measure: Option<(f64, f64)>) -> Fault {
-    let weight = measure.map_or(0.0, |(found, ordered)| (found - ordered).abs());
-    Fault { kind, severity: Severity::Error, index: leg.index, line: leg.line, position: leg.end, measure, weight }
-}
-
 /// The states of the machine that events switch.
-struct Machine<'a> {
-    events: std::iter::Peekable<std::slice::Iter<'a, styluscam_motion::Event>>,
+struct Machine {
     spindle: Option<(f64, SpindleDirection)>,
     flood: bool,
 }
 
-impl<'a> Machine<'a> {
-    fn new(program: &'a Program) -> Self {
-        Self { events: program.events.iter().peekable(), spindle: None, flood: false }
-    }
-
-    /// Lets happen what comes before a move.
-    fn advance(&mut self, index: usize) {
-        while let Some(event) = self.events.next_if(|e| e.before <= index) {
-            match event.kind {
-                EventKind::SpindleOn { rpm, direction } => self.spindle = Some((rpm, direction)),
-                EventKind::SpindleOff => self.spindle = None,
-                EventKind::Flood { on } => self.flood = on,
-                EventKind::ToolChange { .. } | EventKind::Comment { .. } | EventKind::Dwell { .. } => {}
-            }
+impl Machine {
+    fn take(&mut self, event: &EventKind) {
+        match *event {
+            EventKind::SpindleOn { rpm, direction } => self.spindle = Some((rpm, direction)),
+            EventKind::SpindleOff => self.spindle = None,
+            EventKind::Flood { on } => self.flood = on,
+            EventKind::ToolChange { .. } | EventKind::Comment { .. } | EventKind::Dwell { .. } => {}
         }
     }
 }

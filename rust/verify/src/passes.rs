@@ -4,17 +4,16 @@
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
-use styluscam_motion::{Cancelled, Program, Watch};
+use styluscam_motion::{Cancelled, Watch};
 
 use crate::body::Body;
 use crate::clearance::Prober;
-use crate::coverage::Sweeps;
+use crate::coverage::{Sweep, Sweeps};
 use crate::findings::Fault;
 use crate::legs::{Leg, LegKind};
 use crate::orders::Orders;
 use crate::probes::{self, Probe};
-use crate::sweep::{Question, Stroke};
-use crate::{FindingKind, Limits, Severity, Subject, Vector};
+use crate::{FindingKind, Limits, Subject, Vector};
 
 /// Points that are looked at for an operation.
 const POINTS: usize = 20_000;
@@ -35,7 +34,7 @@ const TOUCH: f64 = 0.03;
 /// Points at which it is asked how high the tool can touch.
 const TOUCHING: usize = 2000;
 /// Levels that differ by less are one, mm.
-const SAME_LEVEL: f64 = 1e-3;
+pub(crate) const SAME_LEVEL: f64 = 1e-3;
 /// Levels may be this many steps apart: a short last step is joined to the one before it.
 const WIDE: f64 = 1.3;
 /// The last level may be this many steps above the lowest height at which the tool can touch.
@@ -63,25 +62,26 @@ pub enum Spacing {
 
 /// Faults in the order of the moves that lie beside the missing passes.
 pub(crate) fn faults(
-    program: &Program,
     legs: &[Leg],
+    orders: &Orders,
     subject: &Subject,
     limits: &Limits,
     watch: &Watch,
 ) -> Result<Vec<Fault>, Cancelled> {
-    let orders = Orders::new(program, subject, limits);
-    let mut worst: BTreeMap<usize, Fault> = BTreeMap::new();
+    let mut worst: BTreeMap<(usize, FindingKind), Fault> = BTreeMap::new();
     for order in subject.orders {
         let Some(passes) = &order.passes else { continue };
-        let own = |leg: &Leg| orders.of(program.moves[leg.index].operation).is_some_and(|of| std::ptr::eq(of, order));
-        if !legs.iter().any(|leg| leg.kind == LegKind::Contact && own(leg)) {
+        let own = |leg: &Leg| leg.kind == LegKind::Contact && orders.own(order, leg);
+        if !legs.iter().any(own) {
             continue;
         }
         let Some(tool) = subject.tools.get(order.tool) else { continue };
         let body = Body::new(tool, subject.sheet.as_ref());
-        let looked = Look { subject, limits, passes, body: &body, sweeps: &Sweeps::of(legs, subject, own), legs };
-        for fault in looked.faults(watch)?.into_iter().chain(looked.levels(own)) {
-            let known = worst.entry(fault.index).or_insert(fault);
+        let wanted: Vec<usize> = (0..passes.wanted.len()).filter(|t| passes.wanted[*t]).collect();
+        let look = Look { subject, limits, passes, wanted: &wanted, body: &body, legs };
+        let left = look.left(&Sweeps::of(legs, subject, own), watch)?;
+        for fault in left.into_iter().chain(look.levels(own)) {
+            let known = worst.entry((fault.index, fault.kind)).or_insert(fault);
             if fault.weight > known.weight {
                 *known = fault;
             }
@@ -95,109 +95,95 @@ struct Look<'a> {
     subject: &'a Subject<'a>,
     limits: &'a Limits,
     passes: &'a Passes,
+    /// The triangles that its passes are for.
+    wanted: &'a [usize],
     body: &'a Body,
-    sweeps: &'a Sweeps,
     legs: &'a [Leg],
+}
+
+/// A point of the part, and the tool where it touches the point's triangle there.
+struct Spot {
+    point: Vector,
+    /// The triangle's normal.
+    up: Vector,
+    /// Where the body is.
+    position: Vector,
+    tip: [f64; 3],
 }
 
 impl Look<'_> {
     /// Levels that are farther apart than ordered, or end too soon, while the tool could touch between or beyond.
     fn levels(&self, own: impl Fn(&Leg) -> bool) -> Vec<Fault> {
         let Spacing::Levels(step) = self.passes.spacing else { return Vec::new() };
-        let level = |leg: &&Leg| leg.kind == LegKind::Contact && !leg.falls() && own(leg);
-        let mut levels: Vec<&Leg> = self.legs.iter().filter(level).collect();
+        let mut levels: Vec<&Leg> = self.legs.iter().filter(|leg| own(leg) && !leg.falls()).collect();
         levels.sort_by(|a, b| b.end[2].total_cmp(&a.end[2]).then(a.index.cmp(&b.index)));
         levels.dedup_by(|b, a| a.end[2] - b.end[2] <= SAME_LEVEL);
         let (Some(first), Some(last)) = (levels.first(), levels.last()) else { return Vec::new() };
         let heights = self.heights();
-        let between = |low: f64, high: f64| heights.iter().any(|h| *h > low && *h < high);
-        let gaps = levels.windows(2).filter_map(|pair| {
+        let touches_between = |low: f64, high: f64| heights.iter().any(|h| *h > low && *h < high);
+        let wide = |gap: f64, steps: f64| gap > steps * step + ROUGH;
+        let between = levels.windows(2).filter_map(|pair| {
             let (high, low) = (pair[0].end[2], pair[1].end[2]);
             let inside = 0.3 * (high - low);
-            (high - low > WIDE * step + ROUGH && between(low + inside, high - inside)).then(|| (pair[1], high - low))
+            (wide(high - low, WIDE) && touches_between(low + inside, high - inside)).then(|| (pair[1], high - low))
         });
-        let beyond = |leg: &'_ Leg, gap: f64, room: f64| {
-            (gap > room * step + ROUGH).then_some((leg.index, leg.line, leg.end, gap))
-        };
         let top = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max) - first.end[2];
         let bottom = last.end[2] - heights.iter().copied().fold(f64::INFINITY, f64::min);
-        let gaps = gaps.map(|(leg, gap)| (leg.index, leg.line, leg.end, gap));
-        let ends = [beyond(first, top, WIDE), beyond(last, bottom, REST)].into_iter().flatten();
-        let fault = |(index, line, position, gap): (usize, u32, [f64; 3], f64)| Fault {
-            kind: FindingKind::MissingLevel,
-            severity: Severity::Warning,
-            index,
-            line,
-            position,
-            measure: Some((gap, step)),
-            weight: gap,
-        };
-        gaps.chain(ends).map(fault).collect()
+        let above = wide(top, WIDE).then_some((*first, top));
+        let below = wide(bottom, REST).then_some((*last, bottom));
+        let gaps = between.chain(above).chain(below);
+        gaps.map(|(leg, gap)| leg.fault(FindingKind::MissingLevel).measured(gap, step).warning()).collect()
     }
 
     /// Heights at which the tool can touch.
     fn heights(&self) -> Vec<f64> {
-        let wanted: Vec<usize> = (0..self.passes.wanted.len()).filter(|t| self.passes.wanted[*t]).collect();
-        let [lowest, highest] = self.passes.heights;
-        let touching = probes::spread(self.subject.mesh, &wanted, TOUCHING).into_par_iter().filter_map(|probe| {
-            let position = probe.point - self.body.farthest(self.subject.mesh.normal(probe.triangle)).0;
-            let height = self.body.tip(position)[2];
-            (height >= lowest && height <= highest && self.clearance(position) >= -ROOM).then_some(height)
-        });
-        touching.collect()
+        let spots = probes::spread(self.subject.mesh, self.wanted, TOUCHING).into_par_iter();
+        let touching =
+            spots.filter_map(|probe| self.spot(&probe)).filter(|spot| self.clearance(spot.position) >= -ROOM);
+        touching.map(|spot| spot.tip[2]).collect()
     }
 
-    fn faults(&self, watch: &Watch) -> Result<Vec<Fault>, Cancelled> {
-        let wanted: Vec<usize> = (0..self.passes.wanted.len()).filter(|t| self.passes.wanted[*t]).collect();
-        let probes = probes::spread(self.subject.mesh, &wanted, POINTS);
+    /// Places where more is left than the distance between passes explains.
+    fn left(&self, sweeps: &Sweeps, watch: &Watch) -> Result<Vec<Fault>, Cancelled> {
+        let probes = probes::spread(self.subject.mesh, self.wanted, POINTS);
         watch.begin("missing passes", probes.len().div_ceil(CHUNK));
         let found: Result<Vec<Vec<Fault>>, Cancelled> = probes
             .par_chunks(CHUNK)
             .map(|chunk| {
                 watch.advance(1)?;
                 let mut last = None;
-                Ok(chunk.iter().filter_map(|probe| self.fault(probe, &mut last)).collect())
+                Ok(chunk.iter().filter_map(|probe| self.left_at(probe, sweeps, &mut last)).collect())
             })
             .collect();
         Ok(found?.concat())
     }
 
-    /// What is left at a point, if it is more than the distance between passes explains, and the tool can get there.
-    fn fault(&self, probe: &Probe, last: &mut Option<(usize, crate::coverage::Sweep)>) -> Option<Fault> {
+    /// Where the tool touches a point, when its tip is then at a height that is asked for.
+    fn spot(&self, probe: &Probe) -> Option<Spot> {
         let up = self.subject.mesh.normal(probe.triangle);
-        let (witness, _) = self.body.farthest(up);
-        let position = probe.point - witness;
-        let tip = self.body.tip(position);
-        let [lowest, highest] = self.passes.heights;
-        if tip[2] < lowest || tip[2] > highest {
-            return None;
-        }
-        let step = self.passes.spacing.along(up).filter(|step| 0.5 * step.norm() < self.body.radius())?;
-        let left = self.sweeps.left(probe.point, last);
-        let near = [position + 0.5 * step, position - 0.5 * step];
-        if left <= CURVED_AMIDST * self.leaves(probe.point, near) || self.clearance(position) < -ROOM {
+        let position = probe.point - self.body.farthest(up).0;
+        self.asked_for(position).then(|| Spot { point: probe.point, up, position, tip: self.body.tip(position) })
+    }
+
+    /// What is left at a point, if it is more than the distance between passes explains, and the tool can get there.
+    fn left_at(&self, probe: &Probe, sweeps: &Sweeps, last: &mut Option<(usize, Sweep)>) -> Option<Fault> {
+        let spot = self.spot(probe)?;
+        let step = self.passes.spacing.along(spot.up).filter(|step| 0.5 * step.norm() < self.body.radius())?;
+        let left = sweeps.left(spot.point, last);
+        let places = |share: f64| [spot.position + share * step, spot.position - share * step];
+        let amidst = CURVED_AMIDST * self.leaves(spot.point, places(0.5));
+        if left <= amidst || self.clearance(spot.position) < -ROOM {
             return None;
         }
         // in the midst of a face a pass is half a step away at most, at its ends a whole one
-        let explained = if near.into_iter().all(|place| self.goes_on(place)) {
-            CURVED_AMIDST * self.leaves(probe.point, near)
-        } else {
-            CURVED * self.leaves(probe.point, [position + step, position - step])
-        };
+        let goes_on = places(0.5).into_iter().all(|place| self.goes_on(place));
+        let explained = if goes_on { amidst } else { CURVED * self.leaves(spot.point, places(1.0)) };
         let allowed = explained + ROUGH + self.limits.excess.unwrap_or(0.0) + self.subject.deviation_outward;
         if left <= allowed {
             return None;
         }
-        let leg = &self.legs[last.as_ref()?.1.leg];
-        Some(Fault {
-            kind: FindingKind::MissingPass,
-            severity: Severity::Warning,
-            index: leg.index,
-            line: leg.line,
-            position: tip,
-            measure: Some((left, allowed)),
-            weight: left,
-        })
+        let beside = self.legs[last.as_ref()?.1.leg].fault(FindingKind::MissingPass);
+        Some(Fault { position: spot.tip, ..beside }.measured(left, allowed).warning())
     }
 
     /// What passes at these places leave at a point, mm.
@@ -207,16 +193,18 @@ impl Look<'_> {
 
     /// Whether the tool touches the part at a place that is asked for.
     fn goes_on(&self, position: Vector) -> bool {
+        self.asked_for(position) && self.clearance(position).abs() <= TOUCH
+    }
+
+    /// Whether the tip is at a height that is asked for.
+    fn asked_for(&self, position: Vector) -> bool {
         let [lowest, highest] = self.passes.heights;
-        let height = self.body.tip(position)[2];
-        height >= lowest && height <= highest && self.clearance(position).abs() <= TOUCH
+        (lowest..=highest).contains(&self.body.tip(position)[2])
     }
 
     fn clearance(&self, position: Vector) -> f64 {
         let prober = Prober { body: self.body, mesh: self.subject.mesh, bvh: self.subject.bvh };
-        let places = [Some(position), None];
-        let question = Question { stroke: Stroke::still(position), places, below: f64::NEG_INFINITY };
-        prober.survey(question, None).places[0].map_or(f64::INFINITY, |touch| touch.value)
+        prober.at(position, None).map_or(f64::INFINITY, |touch| touch.value)
     }
 }
 

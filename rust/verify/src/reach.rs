@@ -1,6 +1,6 @@
 //! What the machine can do, held against the text: axes, feeds, spindle speeds.
 
-use styluscam_motion::{EventKind, MoveKind, Program};
+use styluscam_motion::{EventKind, Program};
 
 use crate::findings::{Fault, Finding};
 use crate::legs::in_this_world;
@@ -21,34 +21,19 @@ pub struct Reach {
 
 /// Faults of single moves, in their order.
 pub(crate) fn faults(program: &Program, subject: &Subject, reach: &Reach) -> Vec<Fault> {
-    let mut faults = Vec::new();
     let most = reach.feed.unwrap_or(f64::INFINITY);
-    let mut heights = Heights::new(program);
-    for (index, (start, step)) in program.segments().enumerate() {
-        let height = heights.before(index);
-        let fault = |kind, value: f64, limit: f64| Fault {
-            kind,
-            severity: Severity::Error,
-            index,
-            line: step.line,
-            position: step.end,
-            measure: Some((value, limit)),
-            weight: (value - limit).abs(),
-        };
-        if step.kind == MoveKind::Feed && step.feed > most * (1.0 + SLACK) {
-            faults.push(fault(FindingKind::FeedLimit, step.feed, most));
-        }
-        if index < subject.first_placed_move || !in_this_world(step.end) {
-            continue;
-        }
-        let (low, high) = step.bounds(start.filter(|_| index > subject.first_placed_move));
+    let too_fast = program.moves.iter().enumerate().filter(|(_, step)| step.feed > most * (1.0 + SLACK));
+    let mut faults: Vec<Fault> = too_fast
+        .map(|(index, step)| Fault::of(FindingKind::FeedLimit, index, step).measured(step.feed, most))
+        .collect();
+    for (index, low, high) in boxes(program, subject) {
+        let fault = |axis: usize| Fault::of(FindingKind::AXIS_LIMITS[axis], index, &program.moves[index]);
         for (axis, range) in reach.axes.iter().enumerate() {
             let Some([least, most]) = *range else { continue };
-            let lift = if axis == 2 { height } else { 0.0 };
-            if low[axis] + lift < least - SLACK {
-                faults.push(fault(FindingKind::AXIS_LIMITS[axis], low[axis] + lift, least));
-            } else if high[axis] + lift > most + SLACK {
-                faults.push(fault(FindingKind::AXIS_LIMITS[axis], high[axis] + lift, most));
+            if low[axis] < least - SLACK {
+                faults.push(fault(axis).measured(low[axis], least));
+            } else if high[axis] > most + SLACK {
+                faults.push(fault(axis).measured(high[axis], most));
             }
         }
     }
@@ -58,9 +43,8 @@ pub(crate) fn faults(program: &Program, subject: &Subject, reach: &Reach) -> Vec
 /// The findings of the whole program: travel, spindle speeds.
 pub(crate) fn findings(program: &Program, subject: &Subject, reach: &Reach) -> Vec<Finding> {
     let mut findings = Vec::new();
-    for (axis, name) in ['X', 'Y', 'Z'].into_iter().enumerate() {
-        let Some(travel) = reach.travel.map(|travel| travel[axis]) else { continue };
-        let needed = extent(program, subject, axis);
+    let axes = reach.travel.iter().flat_map(|travel| extent(program, subject).into_iter().zip(*travel));
+    for ((needed, travel), name) in axes.zip(['X', 'Y', 'Z']) {
         if needed > travel + SLACK {
             let message = format!(
                 "{name} needs {needed:.3} mm of travel and the machine has {travel:.3}; turn the part, or split the program"
@@ -88,40 +72,22 @@ pub(crate) fn findings(program: &Program, subject: &Subject, reach: &Reach) -> V
     findings
 }
 
-fn extent(program: &Program, subject: &Subject, axis: usize) -> f64 {
-    let mut heights = Heights::new(program);
-    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-    for (index, (start, step)) in program.segments().enumerate() {
-        let lift = if axis == 2 { heights.before(index) } else { 0.0 };
-        if index < subject.first_placed_move || !in_this_world(step.end) {
-            continue;
-        }
-        let (low, high) = step.bounds(start.filter(|_| index > subject.first_placed_move));
-        (least, most) = (least.min(low[axis] + lift), most.max(high[axis] + lift));
-    }
-    most - least
+/// The boxes of the moves that have a place in space.
+fn boxes<'a>(program: &'a Program, subject: &Subject) -> impl Iterator<Item = (usize, [f64; 3], [f64; 3])> + use<'a> {
+    let first = subject.first_placed_move;
+    let placed = program.posted_boxes().enumerate().filter(move |(index, _)| *index >= first);
+    placed
+        .filter(|(_, (low, high))| in_this_world(*low) && in_this_world(*high))
+        .map(|(index, (low, high))| (index, low, high))
 }
 
-/// Height of the posted point above the tip, as tools change.
-struct Heights<'a> {
-    program: &'a Program,
-    events: std::iter::Peekable<std::slice::Iter<'a, styluscam_motion::Event>>,
-    height: f64,
-}
-
-impl<'a> Heights<'a> {
-    fn new(program: &'a Program) -> Self {
-        // a job's only tool need not be called
-        let height = program.tools.first().map_or(0.0, |tool| tool.reference_height);
-        Self { program, events: program.events.iter().peekable(), height }
-    }
-
-    fn before(&mut self, index: usize) -> f64 {
-        while let Some(event) = self.events.next_if(|e| e.before <= index) {
-            if let EventKind::ToolChange { tool } = event.kind {
-                self.height = self.program.tools.get(tool as usize).map_or(0.0, |tool| tool.reference_height);
-            }
+/// Length of each axis that the program needs, mm.
+fn extent(program: &Program, subject: &Subject) -> [f64; 3] {
+    let (mut least, mut most) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for (_, low, high) in boxes(program, subject) {
+        for axis in 0..3 {
+            (least[axis], most[axis]) = (least[axis].min(low[axis]), most[axis].max(high[axis]));
         }
-        self.height
     }
+    [0, 1, 2].map(|axis| most[axis] - least[axis])
 }

@@ -7,18 +7,20 @@ use styluscam_motion::Program;
 use crate::findings::Fault;
 use crate::legs::{Leg, LegKind};
 use crate::orders::Orders;
-use crate::passes::Spacing;
-use crate::{FindingKind, Limits, Severity, Subject};
+use crate::passes::{Spacing, SAME_LEVEL};
+use crate::{FindingKind, Limits, Subject};
 
 /// A level counts as lower from this share of the step on.
 const LOWER: f64 = 0.25;
 
-/// Heights that differ by less are one level, mm.
-const SAME_LEVEL: f64 = 1e-3;
-
 /// Faults in the order of the moves.
-pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits: &Limits) -> Vec<Fault> {
-    let orders = Orders::new(program, subject, limits);
+pub(crate) fn faults(
+    program: &Program,
+    legs: &[Leg],
+    orders: &Orders,
+    subject: &Subject,
+    limits: &Limits,
+) -> Vec<Fault> {
     let mut faults = Vec::new();
     for order in subject.orders.iter().filter(|order| order.forms) {
         let Some(Spacing::Levels(step)) = order.passes.as_ref().map(|passes| passes.spacing) else { continue };
@@ -37,10 +39,7 @@ pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits:
                 (_, None, Some(start)) if along => away_from = Some(start[2]),
                 _ => {}
             }
-            if leg.kind != LegKind::Contact || leg.falls() || away_from.is_some() {
-                continue;
-            }
-            if !orders.of(program.moves[leg.index].operation).is_some_and(|of| std::ptr::eq(of, order)) {
+            if leg.kind != LegKind::Contact || leg.falls() || away_from.is_some() || !orders.own(order, leg) {
                 continue;
             }
             let [x, y, z] = leg.end;
@@ -48,15 +47,7 @@ pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits:
             let around = (-1..=1).flat_map(|di| (-1..=1).map(move |dj| [i + di, j + dj]));
             let formed = around.filter_map(|place| lowest.get(&place)).copied().fold(f64::INFINITY, f64::min);
             if z > formed + LOWER * step {
-                faults.push(Fault {
-                    kind: FindingKind::FormingOrder,
-                    severity: Severity::Warning,
-                    index: leg.index,
-                    line: leg.line,
-                    position: leg.end,
-                    measure: Some((z, formed)),
-                    weight: z - formed,
-                });
+                faults.push(leg.fault(FindingKind::FormingOrder).measured(z, formed).warning());
             }
             let here = lowest.entry([i, j]).or_insert(z);
             *here = here.min(z);

@@ -83,6 +83,13 @@ pub(crate) struct Seen {
 }
 
 impl Prober<'_> {
+    /// The contact of the body at one place; none where the part is empty. `warm` as in [`Self::survey`].
+    pub fn at(&self, position: Vector, warm: Option<u32>) -> Option<Touch> {
+        let places = [Some(position), None];
+        let question = Question { stroke: Stroke::still(position), places, below: f64::NEG_INFINITY };
+        self.survey(question, warm).places[0]
+    }
+
     /// Answers a question; `warm` is a triangle that may be near and only saves time.
     pub fn survey(&self, question: Question, warm: Option<u32>) -> Seen {
         let survey = Survey {

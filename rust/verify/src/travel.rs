@@ -3,7 +3,7 @@
 use styluscam_motion::{EventKind, Move, MoveKind, Program};
 
 use crate::findings::{Fault, Finding};
-use crate::legs::{in_this_world, Leg, LegKind};
+use crate::legs::{in_this_world, last_before, Leg, LegKind};
 use crate::{FindingKind, Limits, Severity, Subject, SLACK};
 
 /// Faults of the moves' text, in the order of the moves.
@@ -13,12 +13,12 @@ pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits:
         faults.extend(text_faults(index, step, subject));
     }
     faults.extend(legs.iter().filter_map(|leg| height_fault(leg, limits)));
-    faults.extend(legs.iter().filter(|leg| leg.tool.is_none()).map(unknown_tool));
+    faults.extend(legs.iter().filter(|leg| leg.tool.is_none()).map(|leg| leg.fault(FindingKind::UnknownTool)));
     faults.extend(missing_tool_change(program, subject));
     faults.extend(unsafe_start(program, legs, subject, limits));
     faults.extend(unsafe_end(program, legs, limits));
     faults.extend(dwells(program, legs, limits));
-    faults.extend(stops(program, legs, subject, limits));
+    faults.extend(stops(legs, subject, limits));
     faults.extend(legs.iter().filter_map(|leg| deep_rapid(leg, limits)));
     faults.extend(stray_planes(program, subject));
     faults.extend(no_end(program, subject));
@@ -29,14 +29,11 @@ pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits:
 fn unsafe_start(program: &Program, legs: &[Leg], subject: &Subject, limits: &Limits) -> Option<Fault> {
     let blind = subject.text.is_some_and(|text| text.z_placed_move > 0);
     if let Some(step) = program.moves.first().filter(|_| blind) {
-        let measure = Some((f64::NAN, limits.clearance));
-        return Some(Fault { measure, ..fault_of(FindingKind::UnsafeStart, 0, step) });
+        return Some(Fault::of(FindingKind::UnsafeStart, 0, step).measured(f64::NAN, limits.clearance));
     }
     let leg = legs.first()?;
     let low = leg.kind == LegKind::Rapid && leg.end[2] < limits.clearance - SLACK;
-    let measure = Some((leg.end[2], limits.clearance));
-    let step = program.moves.get(leg.index)?;
-    low.then(|| Fault { measure, ..fault_of(FindingKind::UnsafeStart, leg.index, step) })
+    low.then(|| leg.fault(FindingKind::UnsafeStart).measured(leg.end[2], limits.clearance))
 }
 
 /// Places at which the program ends, or changes the tool, with the tool down.
@@ -44,11 +41,9 @@ fn unsafe_end(program: &Program, legs: &[Leg], limits: &Limits) -> Vec<Fault> {
     let changes = program.events.iter().filter(|event| matches!(event.kind, EventKind::ToolChange { .. }));
     let stops = changes.map(|event| event.before).chain([program.moves.len()]);
     let left = stops.filter_map(|before| {
-        let leg = legs.get(legs.partition_point(|leg| leg.index < before).checked_sub(1)?)?;
-        let step = program.moves.get(leg.index)?;
-        let measure = Some((leg.end[2], limits.clearance));
+        let leg = last_before(legs, before)?;
         let low = leg.end[2] < limits.clearance - SLACK && leg.index + 1 == before;
-        low.then(|| Fault { measure, ..fault_of(FindingKind::UnsafeEnd, leg.index, step) })
+        low.then(|| leg.fault(FindingKind::UnsafeEnd).measured(leg.end[2], limits.clearance))
     });
     left.collect()
 }
@@ -60,52 +55,39 @@ fn dwells(program: &Program, legs: &[Leg], limits: &Limits) -> Vec<Fault> {
         _ => None,
     });
     let down = waits.filter_map(|(before, seconds)| {
-        let leg = legs.get(legs.partition_point(|leg| leg.index < before).checked_sub(1)?)?;
-        let step = program.moves.get(leg.index)?;
-        let measure = Some((seconds, 0.0));
+        let leg = last_before(legs, before)?;
         let low = leg.end[2] < limits.clearance - SLACK;
-        low.then(|| Fault { measure, weight: seconds, ..fault_of(FindingKind::Dwell, leg.index, step) })
+        low.then(|| leg.fault(FindingKind::Dwell).measured(seconds, 0.0))
     });
     down.collect()
 }
 
 /// Stops with the tool down.
-fn stops(program: &Program, legs: &[Leg], subject: &Subject, limits: &Limits) -> Vec<Fault> {
+fn stops(legs: &[Leg], subject: &Subject, limits: &Limits) -> Vec<Fault> {
     let stops = subject.text.iter().flat_map(|text| &text.stops);
-    let down = stops.filter_map(|before| {
-        let leg = legs.get(legs.partition_point(|leg| leg.index < *before).checked_sub(1)?)?;
-        let step = program.moves.get(leg.index)?;
-        (leg.end[2] < limits.clearance - SLACK).then(|| fault_of(FindingKind::StopBelow, leg.index, step))
-    });
-    down.collect()
+    let down =
+        stops.filter_map(|before| last_before(legs, *before)).filter(|leg| leg.end[2] < limits.clearance - SLACK);
+    down.map(|leg| leg.fault(FindingKind::StopBelow)).collect()
 }
 
 /// A rapid down to where only feeds should go.
 fn deep_rapid(leg: &Leg, limits: &Limits) -> Option<Fault> {
     let deep = leg.kind == LegKind::Rapid && leg.descends() && leg.end[2] < limits.retract - SLACK;
-    deep.then(|| Fault {
-        kind: FindingKind::DeepRapid,
-        severity: Severity::Error,
-        index: leg.index,
-        line: leg.line,
-        position: leg.end,
-        measure: Some((leg.end[2], limits.retract)),
-        weight: limits.retract - leg.end[2],
-    })
+    deep.then(|| leg.fault(FindingKind::DeepRapid).measured(leg.end[2], limits.retract))
 }
 
 fn stray_planes(program: &Program, subject: &Subject) -> Vec<Fault> {
     let runs = subject.text.iter().flat_map(|text| &text.stray_planes);
     let moves = runs.flat_map(Clone::clone).filter_map(|index| Some((index, program.moves.get(index)?)));
     let feeds = moves.filter(|(_, step)| step.kind == MoveKind::Feed);
-    feeds.map(|(index, step)| fault_of(FindingKind::WorkPlane, index, step)).collect()
+    feeds.map(|(index, step)| Fault::of(FindingKind::WorkPlane, index, step)).collect()
 }
 
 /// A text without its end may be cut off; what it has switched on stays on.
 fn no_end(program: &Program, subject: &Subject) -> Option<Fault> {
     let text = subject.text.filter(|text| !text.ended)?;
     let step = program.moves.last()?;
-    Some(Fault { line: text.lines, ..fault_of(FindingKind::NoEnd, program.moves.len() - 1, step) })
+    Some(Fault { line: text.lines, ..Fault::of(FindingKind::NoEnd, program.moves.len() - 1, step) })
 }
 
 /// The finding of a program that never feeds.
@@ -132,7 +114,7 @@ pub(crate) fn work_offset(program: &Program, wcs: &str) -> Option<Finding> {
 fn text_faults(index: usize, step: &Move, subject: &Subject) -> impl Iterator<Item = Fault> {
     let feeds = step.kind != MoveKind::Rapid;
     let absurd = !in_this_world(step.end);
-    let fault = |kind| fault_of(kind, index, step);
+    let fault = |kind| Fault::of(kind, index, step);
     [
         (feeds && !(step.feed > 0.0 && step.feed.is_finite())).then(|| fault(FindingKind::MissingFeed)),
         (feeds && index <= subject.first_placed_move).then(|| fault(FindingKind::UnplacedFeed)),
@@ -142,10 +124,6 @@ fn text_faults(index: usize, step: &Move, subject: &Subject) -> impl Iterator<It
     .flatten()
 }
 
-fn fault_of(kind: FindingKind, index: usize, step: &Move) -> Fault {
-    Fault { kind, severity: Severity::Error, index, line: step.line, position: step.end, measure: None, weight: 0.0 }
-}
-
 /// A rapid that goes sideways below the clearance height.
 fn height_fault(leg: &Leg, limits: &Limits) -> Option<Fault> {
     let start = leg.start?;
@@ -153,27 +131,9 @@ fn height_fault(leg: &Leg, limits: &Limits) -> Option<Fault> {
     if leg.kind != LegKind::Rapid || !leg.travels() || lowest >= limits.clearance - SLACK {
         return None;
     }
-    Some(Fault {
-        kind: if leg.descends() { FindingKind::DogLegRapid } else { FindingKind::LowRapid },
-        severity: Severity::Error,
-        index: leg.index,
-        line: leg.line,
-        position: if start[2] < leg.end[2] { start } else { leg.end },
-        measure: Some((lowest, limits.clearance)),
-        weight: limits.clearance - lowest,
-    })
-}
-
-fn unknown_tool(leg: &Leg) -> Fault {
-    Fault {
-        kind: FindingKind::UnknownTool,
-        severity: Severity::Error,
-        index: leg.index,
-        line: leg.line,
-        position: leg.end,
-        measure: None,
-        weight: 0.0,
-    }
+    let kind = if leg.descends() { FindingKind::DogLegRapid } else { FindingKind::LowRapid };
+    let position = if start[2] < leg.end[2] { start } else { leg.end };
+    Some(Fault { position, ..leg.fault(kind) }.measured(lowest, limits.clearance))
 }
 
 /// A feed move before any tool change: harmless only where there is but one tool, and the operator loads it.
@@ -184,7 +144,8 @@ fn missing_tool_change(program: &Program, subject: &Subject) -> Option<Fault> {
         return None;
     }
     let called = subject.text.is_some_and(|text| text.calls_tools);
-    let severity = if called || program.tools.len() > 1 { Severity::Error } else { Severity::Warning };
+    let alone = !called && program.tools.len() <= 1;
     let step = program.moves.get(index)?;
-    Some(Fault { severity, ..fault_of(FindingKind::MissingToolChange, index, step) })
+    let fault = Fault::of(FindingKind::MissingToolChange, index, step);
+    Some(if alone { fault.warning() } else { fault })
 }
