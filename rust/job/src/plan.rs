@@ -6,7 +6,7 @@ use styluscam_geometry::{Tool, Vector};
 use styluscam_motion::{Event, EventKind, Move, OperationRecord, Program, ToolRecord, Watch, PROGRAM_SCHEMA};
 use styluscam_post::Machine;
 use styluscam_toolpath::{
-    forming::{levels, z_levels, zig_zag, Floors, Grid, LevelRange, Rows},
+    forming::{levels, selected_range, z_levels, zig_zag, Floors, Grid, LevelRange, Rows},
     link,
     offset::{bridges, Envelope, OffsetSurface, SurfaceFlag},
     Heights, Links, Pass, PlanError, Rates, Surface,
@@ -358,15 +358,14 @@ impl Task<'_> {
     fn levels(&self, surface: &Surface<'_>, watch: &Watch) -> Result<(Vec<Pass>, f64), PlanError> {
         let nothing = || PlanError::NothingReached(self.why_nothing());
         let grid = Grid::sample(surface, self.spacing(), watch)?.ok_or_else(nothing)?;
-        let (lowest, highest) = grid.selected_range(surface).ok_or_else(nothing)?;
-        let lowest = surface.foot_of_walls().map_or(lowest, |foot| foot.min(lowest));
         let Some(Step::Height(step)) = self.section.step else {
             return Err(PlanError::NothingReached(String::new()));
         };
-        // the flat top lies margin below what the grid saw
+        let resolution = self.machine.resolution_mm();
+        let (lowest, highest) = selected_range(surface, &grid, resolution, watch)?.ok_or_else(nothing)?;
+        // the flat top lies margin below what the envelope shows
         let top = self.section.z_top.unwrap_or_else(|| self.round(highest - self.budget.margin));
         let bottom = self.section.z_bottom.unwrap_or(f64::NEG_INFINITY);
-        let resolution = self.machine.resolution_mm();
         let range = LevelRange { top, bottom, reachable: lowest, step, resolution };
         let heights = levels(&range, &Floors::of(surface.envelope()))?;
         let passes = z_levels(surface, &grid, &heights, self.budget.deviation, watch)?;

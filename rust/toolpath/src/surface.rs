@@ -8,8 +8,6 @@ use crate::offset::{Contact, Envelope};
 /// wide enough for tessellated tangent joins, too narrow to roll round an edge.
 const SPREAD: f64 = 0.0175;
 
-/// Walls have a normal that rises or falls by less than this.
-const WALL: f64 = 1e-9;
 /// Heights without limits.
 const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
@@ -33,6 +31,9 @@ pub struct Surface<'a> {
 }
 
 impl<'a> Surface<'a> {
+    /// Walls have a normal that rises or falls by less than this.
+    pub(crate) const WALL: f64 = 1e-9;
+
     /// `selected` says of each triangle whether its face was asked for.
     #[must_use]
     pub fn new(envelope: &'a Envelope<'a>, selected: &'a [bool]) -> Self {
@@ -83,14 +84,14 @@ impl<'a> Surface<'a> {
 
     /// The foot of the selected walls, mm: where they end below; over the plan they are seen at their top only.
     #[must_use]
-    pub fn foot_of_walls(&self) -> Option<f64> {
+    pub(crate) fn foot_of_walls(&self) -> Option<f64> {
         let mesh = self.envelope.mesh();
-        let walls = self.triangles().filter(|t| mesh.normal(*t).z.abs() < WALL);
+        let walls = self.triangles().filter(|t| mesh.normal(*t).z.abs() < Self::WALL);
         walls.flat_map(|t| mesh.corners(t)).map(|p| p.z).min_by(f64::total_cmp)
     }
 
     /// The selected triangles.
-    fn triangles(&self) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn triangles(&self) -> impl Iterator<Item = usize> + '_ {
         let counts = |t: &usize| self.selected.is_none_or(|selected| selected[*t]);
         (0..self.envelope.mesh().triangles().len()).filter(counts)
     }

@@ -60,8 +60,7 @@ impl Grid {
     }
 
     /// Lowest and highest tip among the nodes whose contact is selected.
-    #[must_use]
-    pub fn selected_range(&self, surface: &Surface<'_>) -> Option<(f64, f64)> {
+    pub(super) fn selected_range(&self, surface: &Surface<'_>) -> Option<(f64, f64)> {
         let tips = self.lattice.nodes().zip(&self.contacts).filter_map(|(node, contact)| {
             let [x, y] = self.lattice.place(node.map(|i| i as f64));
             contact.as_ref().map(|c| surface.path_point(x, y, c)).filter(|p| p.selected).map(|p| p.tip.z)
