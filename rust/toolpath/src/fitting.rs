@@ -46,7 +46,7 @@ pub fn densified(
                 continue;
             }
             match between(&a, &b).filter(|m| divides(m, &a, &b)) {
-                Some(m) if stray_about(&m, a.tip, b.tip) > BETWEEN_WITNESSES * deviation => pending.extend([b, m]),
+                Some(m) if stray_around(&a, &m, &b) > BETWEEN_WITNESSES * deviation => pending.extend([b, m]),
                 Some(m) => run.extend([m, b]),
                 None => runs.push(std::mem::replace(&mut run, vec![b])),
             }
@@ -153,10 +153,17 @@ fn stray(exact: &PathPoint, a: Vector, b: Vector) -> f64 {
     aside.dot(&exact.normal).abs().max(aside.norm() / 4.0)
 }
 
-/// How far a path with the exact middle `m` strays from a chord: at the middle, or beside it where it crosses the chord
-/// aslant (an S, or a bend that a kink makes good).
-fn stray_about(m: &PathPoint, a: Vector, b: Vector) -> f64 {
-    stray(m, a, b).max(ASLANT * (b - a).dot(&m.normal).abs())
+/// How far a path with the exact middle `m` strays from a chord, at the middle or beside it.
+fn stray_around(a: &PathPoint, m: &PathPoint, b: &PathPoint) -> f64 {
+    let aslant = ASLANT * (b.tip - a.tip).dot(&m.normal).abs();
+    stray(m, a.tip, b.tip).max(aslant).max(bend(a, m)).max(bend(m, b))
+}
+
+/// How far a path strays from the chord between two of its points, as far as their normals tell: where tangents meet at
+/// the middle, it is half as far as one tangent leads beside the other end.
+fn bend(a: &PathPoint, b: &PathPoint) -> f64 {
+    let along = b.tip - a.tip;
+    0.5 * along.dot(&a.normal).abs().max(along.dot(&b.normal).abs())
 }
 
 #[cfg(test)]
