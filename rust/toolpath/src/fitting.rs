@@ -20,7 +20,7 @@ const ASLANT: f64 = 0.35;
 /// Chords are not divided below this length in plan, mm: a kink is cut by less than a controller resolves.
 const SHORTEST: f64 = 1e-4;
 /// The border of the selected faces is found to this, mm.
-const BORDER: f64 = 1e-3;
+pub const BORDER: f64 = 1e-3;
 /// Points that one chord may pass over: bounds the work on long straight runs.
 const PASSED: usize = 512;
 

@@ -15,7 +15,8 @@
 //!   the depth given is a lower bound; that it is in is certain.
 //! - *Excess* is sampled: at the start, the middle and the end of every contact move, every quarter of the tool's radius
 //!   on longer ones.
-//! - *Missing passes* are looked for at 20,000 points of the faces that an operation is for.
+//! - *Missing passes* are looked for at 20,000 points of the faces that an operation is for, and at as many of the lines
+//!   on which the passes that there are should touch them.
 //! - The tool is its profile, and above its base a straight cylinder upwards without end: so a tool
 //!   wholly inside the material still meets the surface above it. A wider shank and the holder are
 //!   bodies of their own, as wide as they are upwards without end.
@@ -27,6 +28,7 @@
 mod body;
 mod bounds;
 mod clearance;
+mod contact_lines;
 mod convex;
 mod coverage;
 mod diagnosis;

@@ -8,6 +8,7 @@ use styluscam_motion::{Cancelled, Watch};
 
 use crate::body::Body;
 use crate::clearance::Prober;
+use crate::contact_lines::{self, SAME_LEVEL};
 use crate::coverage::{Sweep, Sweeps};
 use crate::findings::Fault;
 use crate::legs::{Leg, LegKind};
@@ -23,6 +24,8 @@ const CHUNK: usize = 256;
 const CURVED: f64 = 1.5;
 /// The same where they lie half a step away: twice as far they leave four times as much.
 const CURVED_AMIDST: f64 = 2.5;
+/// What may be left on a pass, mm: facets that the tool cannot quite touch for their neighbours'.
+const ON_PASS: f64 = 0.015;
 /// What may be left besides, mm: triangles' corners.
 const ROUGH: f64 = 0.01;
 /// Where a tool that touches a triangle is in others by less than this, it can get there, mm.
@@ -33,8 +36,6 @@ const TOUCH: f64 = 0.03;
 
 /// Points at which it is asked how high the tool can touch.
 const TOUCHING: usize = 2000;
-/// Levels that differ by less are one, mm.
-pub(crate) const SAME_LEVEL: f64 = 1e-3;
 /// Levels may be this many steps apart: a short last step is joined to the one before it.
 const WIDE: f64 = 1.3;
 /// The last level may be this many steps above the lowest height at which the tool can touch.
@@ -71,16 +72,19 @@ pub(crate) fn faults(
     let mut worst: BTreeMap<(usize, FindingKind), Fault> = BTreeMap::new();
     for order in subject.orders {
         let Some(passes) = &order.passes else { continue };
-        let own = |leg: &Leg| leg.kind == LegKind::Contact && orders.own(order, leg);
-        if !legs.iter().any(own) {
+        let own = |leg: &&Leg| leg.kind == LegKind::Contact && orders.own(order, leg);
+        let contacts: Vec<Leg> = legs.iter().filter(own).copied().collect();
+        if contacts.is_empty() {
             continue;
         }
         let Some(tool) = subject.tools.get(order.tool) else { continue };
         let body = Body::new(tool, subject.sheet.as_ref());
         let wanted: Vec<usize> = (0..passes.wanted.len()).filter(|t| passes.wanted[*t]).collect();
-        let look = Look { subject, limits, passes, wanted: &wanted, body: &body, legs };
-        let left = look.left(&Sweeps::of(legs, subject, own), watch)?;
-        for fault in left.into_iter().chain(look.levels(own)) {
+        let look = Look { subject, limits, passes, wanted: &wanted, body: &body, contacts: &contacts };
+        let sweeps = Sweeps::of(&contacts, subject);
+        let left = look.left(&sweeps, watch)?;
+        let on_passes = look.left_on_passes(&sweeps, watch)?;
+        for fault in left.into_iter().chain(on_passes).chain(look.levels()) {
             let known = worst.entry((fault.index, fault.kind)).or_insert(fault);
             if fault.weight > known.weight {
                 *known = fault;
@@ -98,7 +102,8 @@ struct Look<'a> {
     /// The triangles that its passes are for.
     wanted: &'a [usize],
     body: &'a Body,
-    legs: &'a [Leg],
+    /// The operation's moves that should touch.
+    contacts: &'a [Leg],
 }
 
 /// A point of the part, and the tool where it touches the point's triangle there.
@@ -113,9 +118,9 @@ struct Spot {
 
 impl Look<'_> {
     /// Levels that are farther apart than ordered, or end too soon, while the tool could touch between or beyond.
-    fn levels(&self, own: impl Fn(&Leg) -> bool) -> Vec<Fault> {
+    fn levels(&self) -> Vec<Fault> {
         let Spacing::Levels(step) = self.passes.spacing else { return Vec::new() };
-        let mut levels: Vec<&Leg> = self.legs.iter().filter(|leg| own(leg) && !leg.falls()).collect();
+        let mut levels: Vec<&Leg> = self.contacts.iter().filter(|leg| !leg.falls()).collect();
         levels.sort_by(|a, b| b.end[2].total_cmp(&a.end[2]).then(a.index.cmp(&b.index)));
         levels.dedup_by(|b, a| a.end[2] - b.end[2] <= SAME_LEVEL);
         let (Some(first), Some(last)) = (levels.first(), levels.last()) else { return Vec::new() };
@@ -146,16 +151,20 @@ impl Look<'_> {
     /// Places where more is left than the distance between passes explains.
     fn left(&self, sweeps: &Sweeps, watch: &Watch) -> Result<Vec<Fault>, Cancelled> {
         let probes = probes::spread(self.subject.mesh, self.wanted, POINTS);
-        watch.begin("missing passes", probes.len().div_ceil(CHUNK));
-        let found: Result<Vec<Vec<Fault>>, Cancelled> = probes
-            .par_chunks(CHUNK)
-            .map(|chunk| {
-                watch.advance(1)?;
-                let mut last = None;
-                Ok(chunk.iter().filter_map(|probe| self.left_at(probe, sweeps, &mut last)).collect())
-            })
-            .collect();
-        Ok(found?.concat())
+        of_all(&probes, watch, |probe, last| self.left_at(probe, sweeps, last))
+    }
+
+    /// Places that the passes should touch, and do not.
+    fn left_on_passes(&self, sweeps: &Sweeps, watch: &Watch) -> Result<Vec<Fault>, Cancelled> {
+        let (mesh, spacing) = (self.subject.mesh, self.passes.spacing);
+        let probes = contact_lines::spread(mesh, self.wanted, self.body, spacing, self.contacts, POINTS);
+        of_all(&probes, watch, |probe, last| {
+            let spot = self.spot(probe)?;
+            let left = sweeps.left(spot.point, last);
+            let allowed = ON_PASS + self.tolerated();
+            let missing = left > allowed && self.clearance(spot.position) >= -ROOM;
+            missing.then(|| self.missing_pass(&spot, last.as_ref(), left, allowed)).flatten()
+        })
     }
 
     /// Where the tool touches a point, when its tip is then at a height that is asked for.
@@ -178,12 +187,19 @@ impl Look<'_> {
         // in the midst of a face a pass is half a step away at most, at its ends a whole one
         let goes_on = places(0.5).into_iter().all(|place| self.goes_on(place));
         let explained = if goes_on { amidst } else { CURVED * self.leaves(spot.point, places(1.0)) };
-        let allowed = explained + ROUGH + self.limits.excess.unwrap_or(0.0) + self.subject.deviation_outward;
-        if left <= allowed {
-            return None;
-        }
-        let beside = self.legs[last.as_ref()?.1.leg].fault(FindingKind::MissingPass);
+        let allowed = explained + ROUGH + self.tolerated();
+        (left > allowed).then(|| self.missing_pass(&spot, last.as_ref(), left, allowed)).flatten()
+    }
+
+    /// The fault of a place at which more is left than allowed; it belongs to the move beside it.
+    fn missing_pass(&self, spot: &Spot, beside: Option<&(usize, Sweep)>, left: f64, allowed: f64) -> Option<Fault> {
+        let beside = self.contacts[beside?.1.leg].fault(FindingKind::MissingPass);
         Some(Fault { position: spot.tip, ..beside }.measured(left, allowed).warning())
+    }
+
+    /// How far off the part a move may be, mm.
+    fn tolerated(&self) -> f64 {
+        self.limits.excess.unwrap_or(0.0) + self.subject.deviation_outward
     }
 
     /// What passes at these places leave at a point, mm.
@@ -208,7 +224,36 @@ impl Look<'_> {
     }
 }
 
+/// Faults at points, in parallel; points near by follow each other, and the last move found is told to the next point.
+fn of_all(
+    probes: &[Probe],
+    watch: &Watch,
+    fault: impl Fn(&Probe, &mut Option<(usize, Sweep)>) -> Option<Fault> + Sync,
+) -> Result<Vec<Fault>, Cancelled> {
+    watch.begin("missing passes", probes.len().div_ceil(CHUNK));
+    let found: Result<Vec<Vec<Fault>>, Cancelled> = probes
+        .par_chunks(CHUNK)
+        .map(|chunk| {
+            watch.advance(1)?;
+            let mut last = None;
+            Ok(chunk.iter().filter_map(|probe| fault(probe, &mut last)).collect())
+        })
+        .collect();
+    Ok(found?.concat())
+}
+
 impl Spacing {
+    /// What is the same all along a pass: the tip's height, or its place across the rows.
+    pub(crate) fn value(self, tip: Vector) -> f64 {
+        match self {
+            Self::Levels(_) => tip.z,
+            Self::Rows(_, angle) => {
+                let (sin, cos) = libm::sincos(angle);
+                -sin * tip.x + cos * tip.y
+            }
+        }
+    }
+
     /// The way on a plane of this normal from a pass to the next; none where that is beyond all measure.
     fn along(self, up: Vector) -> Option<Vector> {
         let steep = (up.x * up.x + up.y * up.y).sqrt();

@@ -4,10 +4,11 @@ use std::collections::HashMap;
 
 use styluscam_motion::Program;
 
+use crate::contact_lines::SAME_LEVEL;
 use crate::findings::Fault;
 use crate::legs::{Leg, LegKind};
 use crate::orders::Orders;
-use crate::passes::{Spacing, SAME_LEVEL};
+use crate::passes::Spacing;
 use crate::{FindingKind, Limits, Subject};
 
 /// A level counts as lower from this share of the step on.

@@ -35,7 +35,7 @@ pub fn levels(range: &LevelRange, floors: &Floors) -> Result<Vec<f64>, PlanError
     // a quarter of a unit higher, so that a floor is clearly below its level and not beside it by chance
     let above = |tip: f64| (tip / resolution + 0.25).ceil() * resolution;
     let stood = |z: f64| Some(floors.raised(z)).filter(|raised| *raised > z).map_or(z, above);
-    let floor = above(reachable).max(stood(rounded(bottom)));
+    let floor = stood(above(reachable).max(rounded(bottom)));
     let count = ((top - floor) / step).ceil().max(0.0);
     if count > LIMIT as f64 {
         return Err(PlanError::TooMany { what: "step.height", value: step, count: count as usize, limit: LIMIT });
@@ -70,6 +70,13 @@ mod tests {
         let found = levels(&range, &Floors::default()).unwrap();
         assert_eq!(found.len(), 2);
         assert!((found[1] + 0.997).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_last_level_stands_on_the_floor_though_the_tool_dips_at_its_border() {
+        let range = LevelRange { top: 0.0, bottom: -9.0, reachable: -0.998, step: 0.5, resolution: 0.001 };
+        let found = levels(&range, &Floors::at(&[-1.0], 0.0034)).unwrap();
+        assert!((found[1] + 0.996).abs() < 1e-12, "{found:?}");
     }
 
     #[test]

@@ -80,18 +80,11 @@ impl Lines {
     }
 
     fn slice(&self, surface: &Surface<'_>, row: usize, deviation: f64) -> Vec<Pass> {
-        let offset = self.first + row as f64 * self.stepover;
         let mut hint = None;
-        let samples = ((self.range[1] - self.range[0]) / self.spacing).ceil().max(1.0) as usize;
-        let places = (0..=samples).map(|i| {
-            let s = self.range[0] + (self.range[1] - self.range[0]) * i as f64 / samples as f64;
-            [s * self.along[0] + offset * self.across[0], s * self.along[1] + offset * self.across[1]]
-        });
-        let sampled: Vec<Option<PathPoint>> = places.map(|[x, y]| surface.at(x, y, &mut hint)).collect();
+        let met = self.met(surface, row, &mut hint);
         let mut between = |a: &PathPoint, b: &PathPoint| surface.between(a, b, &mut hint);
         let mut passes = Vec::new();
-        for met in sampled.split(Option::is_none) {
-            let exact: Vec<PathPoint> = met.iter().flatten().copied().collect();
+        for exact in met {
             for run in fitting::selected_runs(&exact, false, &mut between) {
                 let runs = fitting::densified(&run, deviation, &mut between);
                 let pass = |run| Pass { points: fitting::thinned(run, deviation), closed: false, group: row };
@@ -100,4 +93,52 @@ impl Lines {
         }
         passes
     }
+
+    /// Exact points of a row, as far apart as the spacing says: in runs, as the tool meets something or nothing, from the
+    /// first place at which it does to the last.
+    fn met(&self, surface: &Surface<'_>, row: usize, hint: &mut Option<u32>) -> Vec<Vec<PathPoint>> {
+        let offset = self.first + row as f64 * self.stepover;
+        let [first, last] = self.range;
+        let samples = ((last - first) / self.spacing).ceil().max(1.0) as usize;
+        let mut at = |s: f64| {
+            let [x, y] = [0, 1].map(|axis| s * self.along[axis] + offset * self.across[axis]);
+            surface.at(x, y, hint)
+        };
+        let mut runs = Vec::new();
+        let mut run = Vec::new();
+        let mut before = first;
+        for i in 0..=samples {
+            let s = first + (last - first) * i as f64 / samples as f64;
+            match at(s) {
+                Some(point) => {
+                    if run.is_empty() && i > 0 {
+                        run.extend(outermost(s, before, &mut at));
+                    }
+                    run.push(point);
+                }
+                None if !run.is_empty() => {
+                    run.extend(outermost(before, s, &mut at));
+                    runs.push(std::mem::take(&mut run));
+                }
+                None => {}
+            }
+            before = s;
+        }
+        runs.push(run);
+        runs
+    }
+}
+
+/// The last place at which the tool meets something, on the way from one where it does to one where it does not.
+fn outermost(touching: f64, free: f64, at: &mut impl FnMut(f64) -> Option<PathPoint>) -> Option<PathPoint> {
+    let (mut touching, mut free) = (touching, free);
+    let mut found = None;
+    while (free - touching).abs() > fitting::BORDER {
+        let middle = 0.5 * (touching + free);
+        match at(middle) {
+            Some(point) => (touching, found) = (middle, Some(point)),
+            None => free = middle,
+        }
+    }
+    found
 }

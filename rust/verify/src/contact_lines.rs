@@ -1,0 +1,112 @@
+//! Where the passes that a text has should touch: lines on the triangles, because along a facet the tool's height and its
+//! place change as evenly as the point that it touches.
+
+use styluscam_geometry::Mesh;
+
+use crate::body::Body;
+use crate::legs::Leg;
+use crate::passes::Spacing;
+use crate::probes::Probe;
+use crate::Vector;
+
+/// Levels that differ by less are one, mm.
+pub(crate) const SAME_LEVEL: f64 = 1e-3;
+/// Rows that differ by less are one, mm: places on them are rounded to a machine's last digit.
+const SAME_ROW: f64 = 5e-3;
+/// Moves at one height are a pass when they are as long as so many steps: links along the part are shorter.
+const LONG: f64 = 6.0;
+/// On ground as gentle as this, a sine, the tolerance moves a level far, or leaves none.
+const GENTLE: f64 = 0.15;
+/// On walls as steep as this, a cosine, rows climb.
+const STEEP: f64 = 0.1;
+
+/// Points spread evenly over the lines at which the passes of `legs` should touch the triangles `wanted`, about `count`
+/// of them.
+///
+/// `legs` are those of one operation that should touch.
+pub(crate) fn spread(
+    mesh: &Mesh,
+    wanted: &[usize],
+    body: &Body,
+    spacing: Spacing,
+    legs: &[Leg],
+    count: usize,
+) -> Vec<Probe> {
+    let values = values(spacing, legs);
+    let facets = || wanted.iter().filter_map(|triangle| Facet::new(mesh, *triangle, body, spacing));
+    let length: f64 = facets().map(|facet| facet.lines(&values).map(|[a, b]| (b - a).norm()).sum::<f64>()).sum();
+    let each = length / count as f64;
+    let mut probes = Vec::with_capacity(count);
+    let mut passed = 0.0;
+    for facet in facets() {
+        for [a, b] in facet.lines(&values) {
+            let line = (b - a).norm();
+            while (probes.len() as f64 + 0.5) * each < passed + line {
+                let share = ((probes.len() as f64 + 0.5) * each - passed) / line;
+                probes.push(Probe { point: a + share * (b - a), triangle: facet.triangle });
+            }
+            passed += line;
+        }
+    }
+    probes
+}
+
+/// Heights of the levels, or places of the rows across: ascending.
+fn values(spacing: Spacing, legs: &[Leg]) -> Vec<f64> {
+    let (pitch, same) = match spacing {
+        Spacing::Levels(step) => (step, SAME_LEVEL),
+        Spacing::Rows(stepover, _) => (stepover, SAME_ROW),
+    };
+    let value = |tip: [f64; 3]| spacing.value(tip.into());
+    let along = |leg: &Leg| leg.start.is_some_and(|start| (value(start) - value(leg.end)).abs() <= same);
+    let chains = legs.chunk_by(|a, b| {
+        let joined = b.start == Some(a.end);
+        joined && along(a) && along(b) && (value(a.end) - value(b.end)).abs() <= same
+    });
+    let length = |leg: &Leg| leg.start.map_or(0.0, |start| (Vector::from(leg.end) - Vector::from(start)).norm());
+    let long = chains.filter(|chain| along(&chain[0]) && chain.iter().map(length).sum::<f64>() > LONG * pitch);
+    let mut values: Vec<f64> = long.map(|chain| value(chain[0].end)).collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup_by(|b, a| *b - *a <= same);
+    values
+}
+
+/// A triangle on which passes should show.
+struct Facet {
+    triangle: usize,
+    corners: [Vector; 3],
+    /// The height or place of the tool that touches each corner.
+    values: [f64; 3],
+}
+
+impl Facet {
+    fn new(mesh: &Mesh, triangle: usize, body: &Body, spacing: Spacing) -> Option<Self> {
+        let up = mesh.normal(triangle);
+        let shown = match spacing {
+            Spacing::Levels(_) => up.xy().norm() > GENTLE,
+            Spacing::Rows(..) => up.z > STEEP,
+        };
+        let touching = body.farthest(up).0;
+        let corners = mesh.corners(triangle);
+        let tip = |corner: Vector| Vector::from(body.tip(corner - touching));
+        shown.then(|| Self { triangle, corners, values: corners.map(|corner| spacing.value(tip(corner))) })
+    }
+
+    /// Where the tool at these heights or places touches it.
+    fn lines<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = [Vector; 2]> + 'a {
+        let least = self.values.into_iter().fold(f64::INFINITY, f64::min);
+        let most = self.values.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        let first = values.partition_point(|value| *value <= least);
+        values[first..].iter().take_while(move |value| **value < most).filter_map(|value| self.line(*value))
+    }
+
+    fn line(&self, value: f64) -> Option<[Vector; 2]> {
+        let mut crossings = (0..3).filter_map(|i| {
+            let (a, b) = (self.values[i], self.values[(i + 1) % 3]);
+            let share = (value - a) / (b - a);
+            let between = (a < value) != (b < value);
+            between.then(|| self.corners[i] + share * (self.corners[(i + 1) % 3] - self.corners[i]))
+        });
+        Some([crossings.next()?, crossings.next()?])
+    }
+}
