@@ -9,6 +9,7 @@ mod levels;
 mod reach;
 mod sides;
 mod square;
+mod stances;
 mod trace;
 mod z_level;
 mod zig_zag;

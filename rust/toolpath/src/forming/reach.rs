@@ -3,11 +3,10 @@
 //! A grid sees steep places by chance only: there a step aside is a long way down. But a facet's corners say where the
 //! tool must stand to touch them, and there the envelope is asked.
 
-use rayon::prelude::*;
 use styluscam_geometry::Vector;
 use styluscam_motion::{Cancelled, Watch};
 
-use super::Grid;
+use super::{stances::stances, Grid};
 use crate::Surface;
 
 /// Halvings of an edge between a corner that is touched and one that is not: a thousandth of a millimetre on 1 m.
@@ -28,9 +27,10 @@ pub fn selected_range(
 ) -> Result<Option<(f64, f64)>, Cancelled> {
     let Some((lowest, highest)) = grid.selected_range(surface) else { return Ok(None) };
     let lowest = surface.foot_of_walls().map_or(lowest, |foot| foot.min(lowest));
-    let stances = Stances::of(surface);
-    let lowest = stances.farthest(lowest, fine, Way::Down, watch)?;
-    let highest = stances.farthest(highest, fine, Way::Up, watch)?;
+    let facets = stances(surface);
+    let search = Search { surface, facets: &facets, fine };
+    let lowest = search.farthest(lowest, Way::Down, watch)?;
+    let highest = search.farthest(highest, Way::Up, watch)?;
     Ok(Some((lowest, highest)))
 }
 
@@ -50,28 +50,18 @@ impl Way {
     }
 }
 
-/// Where the tip stands when the tool touches the corners of the selected facets: facet by facet.
-struct Stances<'a> {
+/// A search among stances.
+struct Search<'a> {
     surface: &'a Surface<'a>,
-    facets: Vec<[Vector; 3]>,
+    /// Facet by facet.
+    facets: &'a [[Vector; 3]],
+    fine: f64,
 }
 
-impl<'a> Stances<'a> {
-    fn of(surface: &'a Surface<'a>) -> Self {
-        let (envelope, mesh) = (surface.envelope(), surface.envelope().mesh());
-        let triangles: Vec<usize> = surface.triangles().collect();
-        let stances = triangles.into_par_iter().filter_map(|triangle| {
-            let normal = mesh.normal(triangle);
-            // at the origin the tool touches a plane of this normal there
-            let touching = (normal.z > Surface::WALL).then(|| envelope.touching_point(Vector::zeros(), normal))?;
-            Some(mesh.corners(triangle).map(|corner| corner - touching))
-        });
-        Self { surface, facets: stances.collect() }
-    }
-
+impl Search<'_> {
     /// The farthest height beyond `known` that the tip takes, as far as the facets' corners and edges tell.
-    fn farthest(&self, known: f64, fine: f64, way: Way, watch: &Watch) -> Result<f64, Cancelled> {
-        let beyond = |stance: &Vector| way.passes(stance.z, known, fine);
+    fn farthest(&self, known: f64, way: Way, watch: &Watch) -> Result<f64, Cancelled> {
+        let beyond = |stance: &Vector| way.passes(stance.z, known, self.fine);
         let facets: Vec<&[Vector; 3]> = self.facets.iter().filter(|facet| facet.iter().any(beyond)).collect();
         let places: Vec<[f64; 2]> = facets.iter().flat_map(|facet| facet.map(|stance| [stance.x, stance.y])).collect();
         watch.begin("reach", places.len());
@@ -85,8 +75,8 @@ impl<'a> Stances<'a> {
         let mut far = tips.iter().flatten().copied().fold(known, farther);
         for (facet, tips) in facets.iter().zip(tips.chunks_exact(3)) {
             for (free, kept) in [(0, 1), (1, 0), (1, 2), (2, 1), (2, 0), (0, 2)] {
-                if tips[free].is_some() && tips[kept].is_none() && way.passes(facet[kept].z, far, fine) {
-                    far = farther(far, self.along([facet[free], facet[kept]], far, fine, way));
+                if tips[free].is_some() && tips[kept].is_none() && way.passes(facet[kept].z, far, self.fine) {
+                    far = farther(far, self.along([facet[free], facet[kept]], far, way));
                 }
             }
         }
@@ -94,14 +84,14 @@ impl<'a> Stances<'a> {
     }
 
     /// The farthest height on the way between a stance that touches and one that does not, if it passes `known`.
-    fn along(&self, [free, kept]: [Vector; 2], known: f64, fine: f64, way: Way) -> f64 {
+    fn along(&self, [free, kept]: [Vector; 2], known: f64, way: Way) -> f64 {
         let tip = |share: f64| {
             let stance = free + share * (kept - free);
             self.surface.at(stance.x, stance.y, &mut None).filter(|p| p.selected).map(|p| p.tip.z)
         };
         let target = match way {
-            Way::Down => known - fine,
-            Way::Up => known + fine,
+            Way::Down => known - self.fine,
+            Way::Up => known + self.fine,
         };
         let start = ((target - free.z) / (kept.z - free.z)).clamp(0.0, 1.0);
         let Some(mut far) = tip(start) else { return known };

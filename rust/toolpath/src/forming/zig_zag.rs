@@ -3,8 +3,11 @@
 use rayon::prelude::*;
 use styluscam_motion::Watch;
 
+use super::stances::stances;
 use crate::{fitting, Pass, PathPoint, PlanError, Surface};
 
+/// Distance between samples where a selected facet could be touched between two places at which none is, mm.
+const FINE: f64 = 0.1;
 /// Rows at most.
 const LIMIT: usize = 100_000;
 
@@ -33,11 +36,12 @@ pub fn zig_zag(surface: &Surface<'_>, rows: &Rows, deviation: f64, watch: &Watch
     if lines.count > LIMIT {
         return Err(PlanError::TooMany { what: "stepover", value: rows.stepover, count: lines.count, limit: LIMIT });
     }
+    let facets = lines.facets(surface);
     watch.begin("rows", lines.count);
     let passes: Result<Vec<Vec<Pass>>, PlanError> = (0..lines.count)
         .into_par_iter()
         .map(|row| {
-            let passes = lines.slice(surface, row, deviation);
+            let passes = lines.slice(surface, row, &facets[row], deviation);
             watch.advance(1)?;
             Ok(passes)
         })
@@ -79,9 +83,9 @@ impl Lines {
         Some(Self { along, across, range: range(along), first, count, stepover, spacing })
     }
 
-    fn slice(&self, surface: &Surface<'_>, row: usize, deviation: f64) -> Vec<Pass> {
+    fn slice(&self, surface: &Surface<'_>, row: usize, facets: &[[f64; 2]], deviation: f64) -> Vec<Pass> {
         let mut hint = None;
-        let met = self.met(surface, row, &mut hint);
+        let met = self.met(surface, row, facets, &mut hint);
         let mut between = |a: &PathPoint, b: &PathPoint| surface.between(a, b, &mut hint);
         let mut passes = Vec::new();
         for exact in met {
@@ -94,39 +98,104 @@ impl Lines {
         passes
     }
 
-    /// Exact points of a row, as far apart as the spacing says: in runs, as the tool meets something or nothing, from the
-    /// first place at which it does to the last.
-    fn met(&self, surface: &Surface<'_>, row: usize, hint: &mut Option<u32>) -> Vec<Vec<PathPoint>> {
-        let offset = self.first + row as f64 * self.stepover;
-        let [first, last] = self.range;
-        let samples = ((last - first) / self.spacing).ceil().max(1.0) as usize;
+    /// Exact points of a row, in runs, as the tool meets something or nothing: from the first place at which it does to
+    /// the last.
+    fn met(
+        &self,
+        surface: &Surface<'_>,
+        row: usize,
+        facets: &[[f64; 2]],
+        hint: &mut Option<u32>,
+    ) -> Vec<Vec<PathPoint>> {
+        let offset = self.offset(row);
         let mut at = |s: f64| {
             let [x, y] = [0, 1].map(|axis| s * self.along[axis] + offset * self.across[axis]);
             surface.at(x, y, hint)
         };
         let mut runs = Vec::new();
         let mut run = Vec::new();
-        let mut before = first;
-        for i in 0..=samples {
-            let s = first + (last - first) * i as f64 / samples as f64;
-            match at(s) {
-                Some(point) => {
-                    if run.is_empty() && i > 0 {
-                        run.extend(outermost(s, before, &mut at));
-                    }
+        let mut before: Option<f64> = None;
+        for (s, point) in self.sampled(facets, &mut at) {
+            match (point, before) {
+                (Some(point), Some(before)) if run.is_empty() => {
+                    run.extend(outermost(s, before, &mut at));
                     run.push(point);
                 }
-                None if !run.is_empty() => {
+                (Some(point), _) => run.push(point),
+                (None, Some(before)) if !run.is_empty() => {
                     run.extend(outermost(before, s, &mut at));
                     runs.push(std::mem::take(&mut run));
                 }
-                None => {}
+                (None, _) => {}
             }
-            before = s;
+            before = Some(s);
         }
         runs.push(run);
         runs
     }
+
+    /// Places along a row and what the tool meets there.
+    fn sampled(
+        &self,
+        facets: &[[f64; 2]],
+        at: &mut impl FnMut(f64) -> Option<PathPoint>,
+    ) -> Vec<(f64, Option<PathPoint>)> {
+        let [first, last] = self.range;
+        let samples = ((last - first) / self.spacing).ceil().max(1.0) as usize;
+        let gap = (last - first) / samples as f64;
+        let mut facing = vec![false; samples];
+        for [from, to] in facets {
+            let [from, to] = [from, to].map(|s| (((s - first) / gap).max(0.0) as usize).min(samples - 1));
+            facing[from..=to].fill(true);
+        }
+        let selected = |point: Option<PathPoint>| point.is_some_and(|p| p.selected);
+        let mut before = at(first);
+        let mut sampled = Vec::with_capacity(samples + 1);
+        sampled.push((first, before));
+        for (i, facing) in facing.into_iter().enumerate() {
+            let start = first + i as f64 * gap;
+            let point = at(start + gap);
+            if facing && !selected(before) && !selected(point) {
+                let fine = (gap / FINE).ceil() as usize;
+                let between = (1..fine).map(|j| start + gap * j as f64 / fine as f64);
+                sampled.extend(between.map(|s| (s, at(s))));
+            }
+            sampled.push((start + gap, point));
+            before = point;
+        }
+        sampled
+    }
+
+    /// Place of a row across.
+    fn offset(&self, row: usize) -> f64 {
+        self.first + row as f64 * self.stepover
+    }
+
+    /// By row, from where to where along it the tool could touch selected facets, but for what keeps it from there.
+    fn facets(&self, surface: &Surface<'_>) -> Vec<Vec<[f64; 2]>> {
+        let mut rows = vec![Vec::new(); self.count];
+        for stances in stances(surface) {
+            let plan = stances.map(|tip| {
+                let on = |axis: [f64; 2]| tip.x * axis[0] + tip.y * axis[1];
+                [on(self.along), (on(self.across) - self.first) / self.stepover]
+            });
+            let [low, high] = [f64::min, f64::max].map(|of| plan.map(|p| p[1]).into_iter().reduce(of).unwrap_or(0.0));
+            for row in (low.ceil().max(0.0) as usize..self.count).take_while(|row| *row as f64 <= high) {
+                rows[row].extend(share(&plan, row as f64));
+            }
+        }
+        rows
+    }
+}
+
+/// From where to where along it a triangle (along, across) is cut at a place across.
+fn share(corners: &[[f64; 2]; 3], across: f64) -> Option<[f64; 2]> {
+    let mut cuts = (0..3).filter_map(|i| {
+        let ([a, from], [b, to]) = (corners[i], corners[(i + 1) % 3]);
+        ((from < across) != (to < across)).then(|| a + (b - a) * (across - from) / (to - from))
+    });
+    let (a, b) = (cuts.next()?, cuts.next()?);
+    Some([a.min(b), a.max(b)])
 }
 
 /// The last place at which the tool meets something, on the way from one where it does to one where it does not.

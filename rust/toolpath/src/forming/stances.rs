@@ -1,0 +1,21 @@
+//! Where the tool stands when it touches what was selected.
+
+use rayon::prelude::*;
+use styluscam_geometry::Vector;
+
+use crate::Surface;
+
+/// Tips of the tool that touches the corners of the selected facets, facet by facet; walls have none.
+///
+/// Something else may keep the tool from standing there.
+pub(super) fn stances(surface: &Surface<'_>) -> Vec<[Vector; 3]> {
+    let (envelope, mesh) = (surface.envelope(), surface.envelope().mesh());
+    let triangles: Vec<usize> = surface.triangles().collect();
+    let stances = triangles.into_par_iter().filter_map(|triangle| {
+        let normal = mesh.normal(triangle);
+        // at the origin the tool touches a plane of this normal there
+        let touching = (normal.z > Surface::WALL).then(|| envelope.touching_point(Vector::zeros(), normal))?;
+        Some(mesh.corners(triangle).map(|corner| corner - touching))
+    });
+    stances.collect()
+}
