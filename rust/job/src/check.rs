@@ -1,5 +1,6 @@
 //! What serde cannot know: ranges, and keys that belong together.
 
+use crate::fixture::{FixtureSection, Opening};
 use crate::{JobDocument, JobError, MachineSection, OperationKind, OperationSection, Process, Selection, Step, Zero};
 
 /// A key, the range of its value (the lower end excluded where `open`), and the range in words.
@@ -22,6 +23,12 @@ const RANGES: &[Range] = &[
     above_zero("setup.clearance", 1000.0, "above 0 and up to 1000 mm"),
     Range { key: "setup.retract", low: 0.1, open: false, high: 1000.0, words: "0.1 to 1000 mm" },
     above_zero("sheet.thickness", 50.0, "above 0 and up to 50 mm"),
+    above_zero("sheet.min_thickness", 50.0, "above 0 and up to 50 mm"),
+    Range { key: "max_wall_angle_deg", low: 1.0, open: false, high: 90.0, words: "1 to 90 degrees" },
+    Range { key: "fixture.margin", low: 0.0, open: false, high: 100.0, words: "0 to 100 mm" },
+    above_zero("clamp.height", 500.0, "above 0 and up to 500 mm"),
+    above_zero("opening", 1e4, "above 0 and up to 10000 mm"),
+    Range { key: "fixture.center", low: -1e5, open: false, high: 1e5, words: "-100000 to 100000 mm" },
     above_zero("step.height", 100.0, "above 0 and up to 100 mm"),
     above_zero("stepover", 100.0, "above 0 and up to 100 mm"),
     Range { key: "angle_deg", low: -360.0, open: false, high: 360.0, words: "-360 to 360 degrees" },
@@ -41,6 +48,9 @@ const TABLES: &[(&str, &str)] = &[
     ("spindle", "a table like { mode = \"off\" }"),
     ("profile", "a table like { kind = \"ball\", diameter = 10.0 }"),
     ("sheet", "a table like { thickness = 1.0 }"),
+    ("fixture", "a table like { clamp = { opening = [200.0, 150.0], height = 8.0 } }"),
+    ("clamp", "a table like { opening = [200.0, 150.0], height = 8.0 }"),
+    ("backing", "a table like { opening = 160.0 }"),
 ];
 
 /// What is allowed at a path of the document, in words, where that is known.
@@ -160,6 +170,11 @@ fn setup(job: &JobDocument) -> Result<(), JobError> {
         )),
         (_, Some(sheet)) => {
             number("setup.sheet.thickness", sheet.thickness)?;
+            number("setup.sheet.min_thickness", sheet.min_thickness.unwrap_or(sheet.thickness))?;
+            number("setup.sheet.max_wall_angle_deg", sheet.max_wall_angle_deg.unwrap_or(90.0))?;
+            if let Some(fixture) = &setup.fixture {
+                self::fixture(fixture, setup.clearance)?;
+            }
             if job.part.model_face.is_none() {
                 return Err(JobError::document(
                     "missing",
@@ -174,10 +189,36 @@ fn setup(job: &JobDocument) -> Result<(), JobError> {
     }
 }
 
+/// Openings and heights, and that rapids pass over the clamp.
+fn fixture(fixture: &FixtureSection, clearance: f64) -> Result<(), JobError> {
+    number("setup.fixture.margin", fixture.margin)?;
+    fixture.center.iter().flatten().try_for_each(|x| number("setup.fixture.center", *x))?;
+    let openings = [
+        ("setup.fixture.clamp.opening", fixture.clamp.map(|clamp| clamp.opening)),
+        ("setup.fixture.backing.opening", fixture.backing.map(|backing| backing.opening)),
+    ];
+    for (place, opening) in openings {
+        opening.into_iter().flat_map(Opening::sides).try_for_each(|side| number(place, side))?;
+    }
+    let Some(clamp) = fixture.clamp else { return Ok(()) };
+    number("setup.fixture.clamp.height", clamp.height)?;
+    if clamp.height + fixture.margin <= clearance {
+        return Ok(());
+    }
+    let message =
+        format!("clearance = {clearance}: rapids would cross the clamp, {} mm high, too near to it", clamp.height);
+    let hint = format!("raise clearance to {} or more", shown(clamp.height + fixture.margin));
+    Err(JobError::document("conflict", "setup.clearance", message, hint))
+}
+
 fn without_sheet(job: &JobDocument) -> Result<(), JobError> {
     if job.setup.zero == Some(Zero::SheetTop) {
         let message = "zero = \"sheet-top\" without a sheet";
         return Err(JobError::document("conflict", "setup.zero", message, "write \"model\" or a point [x, y, z]"));
+    }
+    if job.setup.fixture.is_some() {
+        let message = "a fixture holds a sheet, and there is none";
+        return Err(JobError::document("conflict", "setup.fixture", message, "remove it, or add [setup.sheet]"));
     }
     if job.part.model_face.is_some() {
         let message = "model_face says which face of the sheet the model shows, and there is no sheet";

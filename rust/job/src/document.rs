@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 use styluscam_geometry::{Base, Holder, ModelFace, ProfileDocument, SheetLaw};
 use styluscam_motion::{SpindleDirection, ToolReference};
 
+use crate::FixtureSection;
+
 /// A whole job: from a part's faces to a machine's program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -140,6 +142,9 @@ pub struct SetupSection {
     /// The blank.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sheet: Option<SheetSection>,
+    /// What holds it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fixture: Option<FixtureSection>,
 }
 
 impl Default for SetupSection {
@@ -152,6 +157,7 @@ impl Default for SetupSection {
             clearance: 10.0,
             retract: 2.0,
             sheet: None,
+            fixture: None,
         }
     }
 }
@@ -233,6 +239,12 @@ pub struct SheetSection {
     /// How the thickness behaves as the sheet is formed.
     #[serde(default)]
     pub law: SheetLaw,
+    /// Thinnest that the sheet may become, by the sine law, mm; not judged when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub min_thickness: Option<f64>,
+    /// Steepest wall that may be formed, degrees; not judged when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_wall_angle_deg: Option<f64>,
 }
 
 /// What is done to the part.

@@ -6,12 +6,13 @@ use styluscam_motion::{Program, ToolRecord, Watch};
 use styluscam_post::machine::ToolChange;
 use styluscam_post::{read, Machine, Reading};
 use styluscam_verify::{
-    FaceCoverage, Grid, Limits, Order, Passes, Reach, Report, Simulation, Spacing, Subject, TextFacts,
+    FaceCoverage, Forming, Grid, Limits, Order, Passes, Reach, Report, Simulation, Spacing, Subject, TextFacts,
 };
 
 use crate::plan::operation_id;
 use crate::{
-    faces, scene, Coolant, JobDocument, JobError, OperationKind, OperationSection, Process, Scene, Spindle, Step,
+    faces, fixture, scene, Coolant, JobDocument, JobError, OperationKind, OperationSection, Process, Scene,
+    SheetSection, Spindle, Step,
 };
 
 /// Deepest gouge allowed, mm: the posted path may lie this far inside the exact envelope, and not more.
@@ -50,7 +51,9 @@ pub fn judge(
     let calls_tools = machine.tool.change == ToolChange::M6;
     let text = TextFacts { z_placed_move, stray_planes, stops, lines, ended, calls_tools };
     let orders = orders(job, scene, &records)?;
-    let subject = Subject { text: Some(&text), orders: &orders, ..subject(job, scene, &tools, first_placed_move) };
+    let obstacles = fixture::obstacles(job, scene)?;
+    let plain = subject(job, scene, &tools, first_placed_move);
+    let subject = Subject { text: Some(&text), orders: &orders, obstacles: &obstacles, ..plain };
     let limits = Limits { excess_by_operation: excess(job, &program), ..limits(job, scene, machine) };
     let report = styluscam_verify::judge(&program, &subject, &limits, watch)?;
     Ok(Judgement { report, program, first_placed_move, limits })
@@ -126,6 +129,7 @@ fn subject<'a>(job: &'a JobDocument, scene: &'a Scene, tools: &'a [Tool], first_
         first_placed_move,
         text: None,
         orders: &[],
+        obstacles: &[],
     }
 }
 
@@ -201,7 +205,17 @@ fn limits(job: &JobDocument, scene: &Scene, machine: &Machine) -> Limits {
         retract: scene.top + job.setup.retract - 0.5 * machine.resolution_mm(),
         feed_unit: machine.feed_resolution_mm(),
         reach: reach(machine),
+        forming: job.setup.sheet.map(forming),
         ..Limits::new(clearance)
+    }
+}
+
+/// What the sheet bears.
+fn forming(sheet: SheetSection) -> Forming {
+    Forming {
+        thickness: sheet.thickness,
+        min_thickness: sheet.min_thickness.unwrap_or(0.0),
+        max_wall_angle: sheet.max_wall_angle_deg.map_or(f64::INFINITY, f64::to_radians),
     }
 }
 

@@ -28,6 +28,10 @@ pub enum FindingKind {
     ShankCollision,
     /// The holder enters the part.
     HolderCollision,
+    /// The tool, its shank or its holder comes too near to the clamp frame.
+    ClampCollision,
+    /// The sheet is pressed against the backing plate.
+    BackingCollision,
     /// A rapid enters the part.
     RapidIntoMaterial,
     /// A rapid straight down enters the part, or ends with too little air under it.
@@ -42,6 +46,10 @@ pub enum FindingKind {
     MissingPass,
     /// Levels are farther apart than ordered, or end too soon.
     MissingLevel,
+    /// A wall is steeper than the sheet bears.
+    WallAngle,
+    /// The sheet becomes thinner than it may.
+    Thinning,
     /// A level is formed after a lower one at the same place.
     FormingOrder,
     /// A rapid goes down below the height at which the job wants plunges to begin.
@@ -98,7 +106,7 @@ impl FindingKind {
 
     /// Whether what is measured is a length.
     fn is_length(self) -> bool {
-        !matches!(self, Self::FeedDiffers | Self::SpindleDiffers | Self::FeedLimit | Self::Dwell)
+        !matches!(self, Self::FeedDiffers | Self::SpindleDiffers | Self::FeedLimit | Self::Dwell | Self::WallAngle)
     }
 }
 

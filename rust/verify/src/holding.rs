@@ -1,9 +1,10 @@
-//! What of a tool is above its profile: base, shank and holder, as bodies of their own.
+//! What may collide: what of a tool is above its profile with the part, and all of it with what stands around.
 
-use styluscam_geometry::{Base, ProfileDocument, Sheet, Tool, ToolDocument};
+use styluscam_geometry::{Base, Bvh, Mesh, ProfileDocument, Sheet, Tool, ToolDocument};
 
 use crate::body::Body;
-use crate::FindingKind;
+use crate::clearance::Prober;
+use crate::{FindingKind, Subject};
 
 /// Share of a tangent base's height at which the straight hull of its half cosine wave has the shank's radius: the line
 /// from its foot that touches the wave rises pi / 2.3311 (1 - cos 2.3311) / 2 times as fast as the wave does on average.
@@ -11,17 +12,58 @@ const TANGENT_HULL: f64 = 0.878;
 
 /// A body above the profile.
 #[derive(Clone, Debug)]
-pub(crate) struct Holding {
+struct Holding {
     /// What it is when it meets the part.
-    pub kind: FindingKind,
+    kind: FindingKind,
     /// With the tool's own tip for what it is asked.
-    pub body: Body,
+    body: Body,
+}
+
+/// A body and what it must not come near.
+pub(crate) struct Collider<'a> {
+    /// What it is when it does.
+    pub kind: FindingKind,
+    body: Body,
+    mesh: &'a Mesh,
+    bvh: &'a Bvh,
+    /// Height of the mesh's highest point.
+    pub top: f64,
+    /// The clearance that must be left, mm.
+    pub least: f64,
+}
+
+impl Collider<'_> {
+    pub fn prober(&self) -> Prober<'_> {
+        Prober { body: &self.body, mesh: self.mesh, bvh: self.bvh }
+    }
+}
+
+/// What a tool brings along, against the part and all that stands around it; `least` is the clearance that the part must
+/// have, mm.
+pub(crate) fn colliders<'a>(tool: &Tool, subject: &Subject<'a>, least: f64) -> Vec<Collider<'a>> {
+    let above = of(tool, subject.sheet.as_ref()).into_iter().map(|holding| {
+        let (mesh, bvh) = (subject.mesh, subject.bvh);
+        Collider { kind: holding.kind, body: holding.body, mesh, bvh, top: mesh.bounds().1.z, least }
+    });
+    let around = subject.obstacles.iter().flat_map(|obstacle| {
+        let sheet = obstacle.sheet.as_ref();
+        let bodies = of(tool, sheet).into_iter().map(|holding| holding.body);
+        std::iter::once(Body::new(tool, sheet)).chain(bodies).map(|body| Collider {
+            kind: obstacle.kind,
+            body,
+            mesh: &obstacle.mesh,
+            bvh: &obstacle.bvh,
+            top: obstacle.mesh.bounds().1.z,
+            least: obstacle.margin,
+        })
+    });
+    above.chain(around).collect()
 }
 
 /// The bodies above a tool's profile that are wider than it; the profile's own body is its base's cylinder, upwards.
 ///
 /// A tangent base is its straight hull; a wider shank without a base begins at the profile's rim.
-pub(crate) fn of(tool: &Tool, sheet: Option<&Sheet>) -> Vec<Holding> {
+fn of(tool: &Tool, sheet: Option<&Sheet>) -> Vec<Holding> {
     let document = tool.document();
     let (radius, rim) = tool.profile().base();
     let mut holdings = Vec::new();

@@ -4,13 +4,15 @@ use styluscam_motion::{Cancelled, Program, Watch};
 
 use crate::findings::{merge, Fault};
 use crate::legs::{placed, Leg, LegKind};
-use crate::measure::{highest, measure, Measured, Sample};
+use crate::measure::{highest, measure, normal_of, Measured, Sample, Strike};
 use crate::orders::{self, Orders};
 use crate::{
-    diagnosis, passes, reach, sequence, travel, ContactRecord, FindingKind, Limits, Place, Report, Severity, Subject,
-    SLACK,
+    diagnosis, passes, reach, sequence, travel, ContactRecord, FindingKind, Forming, Limits, Place, Report, Severity,
+    Subject, SLACK,
 };
 
+/// What triangles may add to a wall's angle, rad.
+const ANGLE: f64 = 1e-3;
 /// Contacts in a report at most.
 const CONTACTS: usize = 4000;
 
@@ -29,6 +31,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     }
     let contacts = Contacts::of(&legs, &measured, subject, limits);
     let mut faults = tally.faults;
+    faults.extend(limits.forming.iter().flat_map(|forming| contacts.beyond(forming, &legs)));
     faults.extend(travel::faults(program, &legs, subject, limits));
     faults.extend(reach::faults(program, subject, &limits.reach));
     let orders = Orders::new(program, subject);
@@ -53,7 +56,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         excess_at: tally.excess.at,
         contact_share: contacts.share(),
         samples: measured.iter().map(|m| m.samples).sum(),
-        contacts: contacts.records(subject),
+        contacts: contacts.records(subject, &legs),
     })
 }
 
@@ -86,10 +89,15 @@ impl Tally<'_> {
         if let Some(deepest) = &found.deepest {
             self.depth(leg, deepest);
         }
-        if let Some((kind, sample)) = &found.held {
-            let depth = self.subject.deviation_inward - sample.touch.value;
-            if depth > self.limits.gouge + SLACK && !(leg.kind == LegKind::Rapid && leg.starts_at(sample.tip)) {
-                self.fault(*kind, leg, sample, (depth, self.limits.gouge), depth);
+        if let Some(Strike { kind, sample, least }) = &found.struck {
+            let room = sample.touch.value - least;
+            if room < -SLACK && !(leg.kind == LegKind::Rapid && leg.starts_at(sample.tip)) {
+                let depth = self.subject.deviation_inward - sample.touch.value;
+                let measure = match kind {
+                    FindingKind::ShankCollision | FindingKind::HolderCollision => (depth, self.limits.gouge),
+                    _ => (sample.touch.value, *least),
+                };
+                self.fault(*kind, leg, sample, measure, -room);
             }
         }
         if let Some(landing) = &found.landing {
@@ -130,15 +138,16 @@ impl Tally<'_> {
 /// The contact moves' samples, each place once.
 struct Contacts {
     samples: Vec<Sample>,
-    lines: Vec<u32>,
+    /// Their legs.
+    legs: Vec<usize>,
     touching: Vec<usize>,
 }
 
 impl Contacts {
     /// The middle and the end of every contact move: its start is the end of another.
     fn of(legs: &[Leg], measured: &[Measured], subject: &Subject, limits: &Limits) -> Self {
-        let mut contacts = Self { samples: Vec::new(), lines: Vec::new(), touching: Vec::new() };
-        for (leg, found) in legs.iter().zip(measured) {
+        let mut contacts = Self { samples: Vec::new(), legs: Vec::new(), touching: Vec::new() };
+        for (index, (leg, found)) in legs.iter().zip(measured).enumerate() {
             let Some(excess) = leg.excess else { continue };
             for sample in found.contacts[1..].iter().flatten() {
                 let value = sample.touch.value;
@@ -147,7 +156,7 @@ impl Contacts {
                     contacts.touching.push(contacts.samples.len());
                 }
                 contacts.samples.push(*sample);
-                contacts.lines.push(leg.line);
+                contacts.legs.push(index);
             }
         }
         contacts
@@ -161,11 +170,29 @@ impl Contacts {
         self.touching.len() as f64 / self.samples.len().max(1) as f64
     }
 
+    /// Touching samples at which the sheet is formed steeper or thinner than it bears.
+    fn beyond(&self, forming: &Forming, legs: &[Leg]) -> Vec<Fault> {
+        let faults = self.touching.iter().flat_map(|i| {
+            let (sample, leg) = (&self.samples[*i], &legs[self.legs[*i]]);
+            let cos = normal_of(&sample.touch).z.clamp(0.0, 1.0);
+            let (angle, thickness) = (libm::acos(cos), forming.thickness * cos);
+            let fault = |kind| Fault { position: sample.tip, ..leg.fault(kind) };
+            let steep = angle > forming.max_wall_angle + ANGLE;
+            let thin = thickness < forming.min_thickness - SLACK;
+            let most = forming.max_wall_angle.to_degrees();
+            let steep = steep.then(|| fault(FindingKind::WallAngle).measured(angle.to_degrees(), most));
+            steep
+                .into_iter()
+                .chain(thin.then(|| fault(FindingKind::Thinning).measured(thickness, forming.min_thickness)))
+        });
+        faults.collect()
+    }
+
     /// Touching samples, spread evenly.
-    fn records(&self, subject: &Subject) -> Vec<ContactRecord> {
+    fn records(&self, subject: &Subject, legs: &[Leg]) -> Vec<ContactRecord> {
         let count = self.touching.len().min(CONTACTS);
         let chosen = (0..count).map(|i| self.touching[i * self.touching.len() / count]);
-        chosen.map(|i| record(&self.samples[i], self.lines[i], subject)).collect()
+        chosen.map(|i| record(&self.samples[i], legs[self.legs[i]].line, subject)).collect()
     }
 }
 

@@ -7,7 +7,7 @@ use styluscam_motion::{ArcWay, Cancelled, Watch};
 
 use crate::body::Body;
 use crate::clearance::{Prober, Touch};
-use crate::holding::{self, Holding};
+use crate::holding::{colliders, Collider};
 use crate::legs::{Leg, LegKind};
 use crate::sweep::{Passed, Question, Seen, Stroke};
 use crate::{FindingKind, Limits, Subject, Vector, SLACK};
@@ -41,16 +41,25 @@ pub(crate) struct Measured {
     pub contacts: [Option<Sample>; 3],
     /// Too little air under a rapid that comes down: the place where it ends.
     pub landing: Option<Sample>,
-    /// The deepest place of what is above the profile, and what that is.
-    pub held: Option<(FindingKind, Sample)>,
+    /// The worst place of what comes too near to something besides, what that is, and what must be left, mm.
+    pub struck: Option<Strike>,
     /// Positions at which the clearance was measured.
     pub samples: usize,
 }
 
+/// Something that comes too near to something else.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Strike {
+    pub kind: FindingKind,
+    pub sample: Sample,
+    /// The clearance that must be left, mm.
+    pub least: f64,
+}
+
 /// A tool as bodies.
-struct Bodies {
+struct Bodies<'a> {
     profile: Body,
-    above: Vec<Holding>,
+    colliders: Vec<Collider<'a>>,
 }
 
 /// Measures every leg; the results stand in the legs' order.
@@ -61,9 +70,10 @@ pub(crate) fn measure(
     watch: &Watch,
 ) -> Result<Vec<Measured>, Cancelled> {
     watch.begin("verifying", legs.len());
-    let sheet = subject.sheet.as_ref();
-    let bodies = |t| Bodies { profile: Body::new(t, sheet), above: holding::of(t, sheet) };
-    let bodies: Vec<_> = subject.tools.iter().map(bodies).collect();
+    let least = subject.deviation_inward - limits.gouge;
+    let bodies =
+        |tool| Bodies { profile: Body::new(tool, subject.sheet.as_ref()), colliders: colliders(tool, subject, least) };
+    let bodies: Vec<Bodies> = subject.tools.iter().map(bodies).collect();
     let top = subject.mesh.bounds().1.z;
     let chunks: Result<Vec<_>, _> = legs
         .par_chunks(CHUNK)
@@ -83,7 +93,7 @@ pub(crate) fn measure(
 struct Walk<'a> {
     subject: &'a Subject<'a>,
     limits: &'a Limits,
-    bodies: &'a [Bodies],
+    bodies: &'a [Bodies<'a>],
     /// Height of the part's highest point.
     top: f64,
     /// The last sample and its tool.
@@ -101,31 +111,13 @@ impl<'a> Walk<'a> {
             None if leg.excess.is_some() => self.along_contact(leg, tool, &prober),
             None => self.along_air(leg, &prober),
         };
-        let above = bodies.above.iter().filter_map(|holding| {
-            let prober = self.prober(&holding.body);
-            let near = self.over(leg, &prober) <= self.gouge_level();
-            Some((holding.kind, near.then(|| self.deepest_of(leg, &prober)).flatten()?))
-        });
-        Measured { held: above.min_by(|a, b| a.1.touch.value.total_cmp(&b.1.touch.value)), ..found }
+        let strikes = bodies.colliders.iter().filter_map(|collider| strike(leg, collider));
+        let room = |strike: &Strike| strike.sample.touch.value - strike.least;
+        Measured { struck: strikes.min_by(|a, b| room(a).total_cmp(&room(b))), ..found }
     }
 
     fn prober(&self, body: &'a Body) -> Prober<'a> {
         Prober { body, mesh: self.subject.mesh, bvh: self.subject.bvh }
-    }
-
-    /// The deepest place of a leg, if it could be a gouge.
-    fn deepest_of(&self, leg: &Leg, prober: &Prober) -> Option<Sample> {
-        match leg.bend {
-            Some(bend) => deepest_on_arc(&bend, self.gouge_level(), prober),
-            None => deepest(stroke_of(leg, prober.body), self.gouge_level(), prober),
-        }
-    }
-
-    /// Height of the body's tip over the part's highest point where it is lowest, mm.
-    fn over(&self, leg: &Leg, prober: &Prober) -> f64 {
-        let straight = leg.start.map_or(leg.end[2], |s| s[2].min(leg.end[2]));
-        let lowest = leg.bend.map_or(straight, |bend| bend.bounds().0[2]);
-        prober.body.position([0.0, 0.0, lowest]).z - self.top
     }
 
     /// A piece of an arc: samples, if it should touch, and a proof that nothing between them is deeper.
@@ -203,11 +195,11 @@ impl<'a> Walk<'a> {
     /// A move that need not touch: only what goes too deep is looked for.
     fn along_air(&self, leg: &Leg, prober: &Prober) -> Measured {
         let mut found = Measured::default();
-        if self.over(leg, prober) > self.limits.rapid_gap.max(self.gouge_level()) {
+        if lowest_of(leg, prober.body) - self.top > self.limits.rapid_gap.max(self.gouge_level()) {
             return found;
         }
         let stroke = stroke_of(leg, prober.body);
-        found.deepest = self.deepest_of(leg, prober);
+        found.deepest = deepest_of(leg, self.gouge_level(), prober);
         found.samples = usize::from(found.deepest.is_some());
         if leg.kind == LegKind::Rapid && leg.descends() && found.deepest.is_none() {
             found.landing = deepest(Stroke::still(stroke.to), self.limits.rapid_gap, prober);
@@ -218,6 +210,29 @@ impl<'a> Walk<'a> {
     /// The clearance at and below which a place counts as a gouge.
     fn gouge_level(&self) -> f64 {
         self.subject.deviation_inward - self.limits.gouge
+    }
+}
+
+/// Where a body comes too near to something on a leg.
+fn strike(leg: &Leg, collider: &Collider) -> Option<Strike> {
+    let prober = collider.prober();
+    let near = lowest_of(leg, prober.body) - collider.top <= collider.least;
+    let sample = near.then(|| deepest_of(leg, collider.least, &prober)).flatten()?;
+    Some(Strike { kind: collider.kind, sample, least: collider.least })
+}
+
+/// Height of the body's tip where it is lowest, mm.
+fn lowest_of(leg: &Leg, body: &Body) -> f64 {
+    let straight = leg.start.map_or(leg.end[2], |s| s[2].min(leg.end[2]));
+    let lowest = leg.bend.map_or(straight, |bend| bend.bounds().0[2]);
+    body.position([0.0, 0.0, lowest]).z
+}
+
+/// The deepest place of a leg, if it is below `below`.
+fn deepest_of(leg: &Leg, below: f64, prober: &Prober) -> Option<Sample> {
+    match leg.bend {
+        Some(bend) => deepest_on_arc(&bend, below, prober),
+        None => deepest(stroke_of(leg, prober.body), below, prober),
     }
 }
 

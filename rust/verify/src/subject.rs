@@ -6,6 +6,7 @@ use styluscam_geometry::{Bvh, Mesh, Sheet, Tool};
 
 use crate::orders::Order;
 use crate::reach::Reach;
+use crate::FindingKind;
 
 /// The part and the tools, in the program's work coordinates.
 #[derive(Clone, Copy, Debug)]
@@ -33,6 +34,34 @@ pub struct Subject<'a> {
     pub text: Option<&'a TextFacts>,
     /// What the job orders; none when feeds, spindle and coolant are not to be judged.
     pub orders: &'a [Order],
+    /// What stands around the part.
+    pub obstacles: &'a [Obstacle],
+}
+
+/// Something that the tool, or tool and sheet, must not come near.
+#[derive(Debug)]
+pub struct Obstacle {
+    /// What it is when they do.
+    pub kind: FindingKind,
+    /// Its faces as tools from above meet them, work coordinates, mm.
+    pub mesh: Mesh,
+    /// The mesh's index.
+    pub bvh: Bvh,
+    /// The sheet between tool and obstacle, when it lies there.
+    pub sheet: Option<Sheet>,
+    /// What must stay between them, mm.
+    pub margin: f64,
+}
+
+/// What a sheet bears.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Forming {
+    /// Its thickness before, mm.
+    pub thickness: f64,
+    /// Thinnest that it may become by the sine law, mm.
+    pub min_thickness: f64,
+    /// Steepest wall, rad.
+    pub max_wall_angle: f64,
 }
 
 /// What a text says besides its moves.
@@ -73,6 +102,8 @@ pub struct Limits {
     pub feed_unit: f64,
     /// What the machine can do.
     pub reach: Reach,
+    /// What the sheet bears, where one is formed.
+    pub forming: Option<Forming>,
 }
 
 impl Limits {
@@ -88,6 +119,7 @@ impl Limits {
             retract: f64::NEG_INFINITY,
             feed_unit: 0.0,
             reach: Reach::default(),
+            forming: None,
         }
     }
 

@@ -36,6 +36,8 @@ fn what(fault: &Fault) -> String {
         FindingKind::Gouge => format!("the tool enters the part by {value:.4} mm (limit {limit:.4} mm)"),
         FindingKind::ShankCollision => format!("the shank enters the part by {value:.4} mm"),
         FindingKind::HolderCollision => format!("the holder enters the part by {value:.4} mm"),
+        FindingKind::ClampCollision => near("the tool", "the clamp frame", value, limit),
+        FindingKind::BackingCollision => near("the sheet under the tool", "the backing plate", value, limit),
         FindingKind::RapidIntoMaterial => format!("a rapid enters the part by {value:.4} mm"),
         FindingKind::RapidPlunge if value < 0.0 => {
             format!("a rapid goes straight down into the part by {:.4} mm", -value)
@@ -55,6 +57,10 @@ fn what(fault: &Fault) -> String {
         }
         FindingKind::MissingLevel => {
             format!("the tool could touch within {value:.3} mm beside this level and no other does (the job's step is {limit:.3})")
+        }
+        FindingKind::WallAngle => format!("the wall is at {value:.1} degrees, and the sheet bears {limit:.1}"),
+        FindingKind::Thinning => {
+            format!("the sheet becomes {value:.3} mm thin by the sine law, and must keep {limit:.3}")
         }
         FindingKind::FormingOrder => format!("the level Z{value:.3} is formed after Z{limit:.3}, which is lower"),
         FindingKind::DeepRapid => format!("a rapid goes down to Z{value:.3}, below the retract height {limit:.3}"),
@@ -95,6 +101,15 @@ fn what(fault: &Fault) -> String {
     }
 }
 
+/// What comes too near to something, or into it.
+fn near(what: &str, other: &str, value: f64, limit: f64) -> String {
+    if value < 0.0 {
+        format!("{what} enters {other} by {:.3} mm", -value)
+    } else {
+        format!("{what} comes to {value:.3} mm from {other} ({limit:.3} mm are kept)")
+    }
+}
+
 /// A number without needless places.
 fn plain(value: f64) -> String {
     format!("{}", (value * 1e3).round() / 1e3)
@@ -122,6 +137,11 @@ fn remedy(kind: FindingKind) -> &'static str {
         FindingKind::Gouge => "correct this coordinate, or plan again with this tool, sheet and zero point",
         FindingKind::ShankCollision => "take a tool with a longer base, or a thinner shank",
         FindingKind::HolderCollision => "let the tool stick out farther, or take a smaller holder",
+        FindingKind::ClampCollision => "take a wider frame or a lower one, or a longer tool",
+        FindingKind::BackingCollision => "take a plate with a wider opening, or move the part in it",
+        FindingKind::WallAngle | FindingKind::Thinning => {
+            "turn the part so that its walls share the angle, or form in stages"
+        }
         FindingKind::RapidIntoMaterial | FindingKind::RapidPlunge => "retract first, and come down at a feed",
         FindingKind::DogLegRapid => "go across above the clearance height, then straight down",
         FindingKind::LowRapid => "retract to the clearance height first",

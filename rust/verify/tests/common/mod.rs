@@ -63,6 +63,7 @@ impl Part {
             first_placed_move: 0,
             text: None,
             orders: &[],
+            obstacles: &[],
         }
     }
 }
