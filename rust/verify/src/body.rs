@@ -26,6 +26,8 @@ const SHORT: f64 = 1e-5;
 #[derive(Clone, Debug)]
 pub(crate) struct Body {
     cutter: Cutter,
+    /// Radius of the sphere that it ends in, when it does: then all is told by the centre, mm.
+    ball: Option<f64>,
     tip_above: f64,
     supports: Vec<f64>,
     planes: Vec<Tangency>,
@@ -92,6 +94,7 @@ impl Body {
         let sharpest = planes.iter().map(|p| cutter.curvature_radius_at(p.slope)).fold(f64::INFINITY, f64::min);
         let squares_per_mm = SQUARES as f64 / (REACH * (cutter.max_radius() + cutter.max_height()));
         let mut body = Self {
+            ball: cutter.as_ball(),
             cutter,
             tip_above: Tool::tip_above(sheet, 0.0) - height,
             supports,
@@ -149,6 +152,9 @@ impl Body {
     /// Signed distance to a point: the largest gap that any touching plane leaves.
     pub fn distance(&self, p: Vector) -> Distance {
         let radius = length(p.x, p.y);
+        if let Some(ball) = self.ball {
+            return of_ball(ball, p, radius);
+        }
         let local = self.largest_gap(radius, p.z, self.near_cell(radius, p.z));
         let (value, at) = if local.0 < -self.shallow {
             let other = self.largest_gap(radius, p.z, self.cell_of_all(radius, p.z));
@@ -255,6 +261,10 @@ impl Body {
     ///
     /// The direction is `-up`, where `up` is a unit vector that does not point down.
     pub fn farthest(&self, up: Vector) -> (Vector, Plane) {
+        if let Some(ball) = self.ball {
+            let witness = Vector::new(0.0, 0.0, ball) - ball * up;
+            return (witness, Plane { away: -up, support: ball - ball * up.z });
+        }
         let sin = length(up.x, up.y);
         let (radius, height) = self.cutter.point_at(libm::atan2(sin, up.z));
         let scale = if sin > 0.0 { -radius / sin } else { 0.0 };
@@ -277,11 +287,27 @@ impl Body {
     /// A plane that keeps a point off the body, nearly as far as any can.
     pub fn separating(&self, p: Vector) -> Plane {
         let radius = length(p.x, p.y);
+        if let Some(ball) = self.ball {
+            let d = of_ball(ball, p, radius);
+            return Plane { away: d.away, support: ball - ball * d.cos };
+        }
         let at = &self.planes[self.near_plane(radius, p.z)];
         let outward = if radius > 0.0 { at.sin / radius } else { 0.0 };
         let away = Vector::new(p.x * outward, p.y * outward, -at.cos);
         Plane { away, support: at.radius * at.sin - at.height * at.cos }
     }
+}
+
+/// The distance from a sphere on its lowest point, with its cylinder upwards.
+fn of_ball(ball: f64, p: Vector, radius: f64) -> Distance {
+    let drop = (ball - p.z).max(0.0);
+    let from_centre = length(radius, drop);
+    let (sin, cos) = if from_centre > 0.0 { (radius / from_centre, drop / from_centre) } else { (0.0, 1.0) };
+    let outward = if radius > 0.0 { sin / radius } else { 0.0 };
+    let away = Vector::new(p.x * outward, p.y * outward, -cos);
+    // the curvature is the same everywhere: of the slope only its ends matter
+    let slope = if cos > EDGE { sin } else { FRAC_PI_2 };
+    Distance { value: from_centre - ball, away, radius, slope, sin, cos, straight: false }
 }
 
 impl Tangency {
