@@ -1,0 +1,1 @@
+//! Programs and the moves that they make.

@@ -1,0 +1,422 @@
+//! The interpreter's course: line by line, and the codes of a block in the order in which LinuxCNC carries them out.
+
+use std::collections::{HashMap, HashSet};
+use std::rc::Rc;
+
+use styluscam_motion::{EventKind, Plane, SpindleDirection};
+
+use super::block::Block;
+use super::codes;
+use super::cycles::Sticky;
+use super::fault::{TraceError, TraceFault};
+use super::flow::Frame;
+use super::modes::{FeedMode, Modes, NO_MOTION};
+use super::note::{Gap, Notes};
+use super::offsets::Offsets;
+use super::parameters::Parameters;
+use super::path::Path;
+use super::source::{Content, Line, Source};
+use super::{Trace, BLOCKS};
+
+/// A subroutine's text by its name.
+pub(super) type Find<'f> = &'f dyn Fn(&str) -> Option<String>;
+
+/// The interpreter's state.
+pub(super) struct Tracer<'f> {
+    pub(super) find: Find<'f>,
+    pub(super) sources: Vec<Rc<Source>>,
+    /// Labels of subroutines that are nowhere.
+    pub(super) missing: HashSet<String>,
+    /// Index of the file that is run.
+    pub(super) file: usize,
+    /// Index of the line that is run.
+    pub(super) line: usize,
+    pub(super) root: Frame,
+    /// The subroutines that are running.
+    pub(super) frames: Vec<Frame>,
+    pub(super) parameters: Parameters,
+    pub(super) modes: Modes,
+    pub(super) offsets: Offsets,
+    /// Where the tip stands, in the program's coordinates, mm.
+    pub(super) place: [f64; 3],
+    /// Which axes have been placed.
+    pub(super) placed: [bool; 3],
+    /// T.
+    pub(super) selected: Option<u32>,
+    /// The tool in the spindle.
+    pub(super) loaded: u32,
+    /// By tool number, as far as the program sets them, mm.
+    pub(super) lengths: HashMap<u32, [f64; 3]>,
+    pub(super) cycle: Sticky,
+    /// The end of the last cubic curve: P and Q, mm.
+    pub(super) tangent: Option<[f64; 2]>,
+    pub(super) path: Path,
+    notes: Notes,
+    blocks: u64,
+}
+
+/// What comes after a line.
+pub(super) enum Next {
+    /// The line below.
+    Line,
+    /// Another line of this file.
+    Jump(usize),
+    /// Where file and line have been set to.
+    Elsewhere,
+    /// Nothing.
+    End,
+}
+
+impl<'f> Tracer<'f> {
+    pub(super) fn new(text: &str, find: Find<'f>) -> Self {
+        Self {
+            find,
+            sources: vec![Rc::new(Source::new("", text))],
+            missing: HashSet::new(),
+            file: 0,
+            line: 0,
+            root: Frame::default(),
+            frames: Vec::new(),
+            parameters: Parameters::new(),
+            modes: Modes::default(),
+            offsets: Offsets::default(),
+            place: [0.0; 3],
+            placed: [false; 3],
+            selected: None,
+            loaded: 0,
+            lengths: HashMap::new(),
+            cycle: Sticky::default(),
+            tangent: None,
+            path: Path::new(),
+            notes: Notes::default(),
+            blocks: 0,
+        }
+    }
+
+    /// Runs the program to its end.
+    pub(super) fn run(mut self) -> Result<Trace, TraceError> {
+        loop {
+            match self.step() {
+                Ok(Next::Line) => self.line += 1,
+                Ok(Next::Jump(line)) => self.line = line,
+                Ok(Next::Elsewhere) => {}
+                Ok(Next::End) => break,
+                Err(fault) => return Err(self.error(fault)),
+            }
+        }
+        if self.path.is_empty() {
+            return Err(TraceError { file: String::new(), line: 0, fault: self.nothing() });
+        }
+        let mut program = self.path.program;
+        program.setup.wcs = "G54".into();
+        Ok(Trace { program, notes: self.notes.into_inner() })
+    }
+
+    fn error(&self, fault: TraceFault) -> TraceError {
+        let file = self.sources.get(self.file).map_or_else(String::new, |source| source.name.clone());
+        TraceError { file, line: u32::try_from(self.line + 1).unwrap_or(u32::MAX), fault }
+    }
+
+    /// Why there is nothing to see.
+    fn nothing(&self) -> TraceFault {
+        let subroutines = self.sources.first().map(|source| source.subroutines()).unwrap_or_default();
+        if subroutines.is_empty() {
+            return TraceFault::NoMoves;
+        }
+        TraceFault::OnlySubroutines { names: subroutines.iter().map(|label| format!("o{label}")).collect::<Vec<_>>().join(", ") }
+    }
+
+    pub(super) fn note(&mut self, gap: Gap) {
+        let file = self.sources.get(self.file).map_or("", |source| &source.name);
+        self.notes.add(gap, file, u32::try_from(self.line + 1).unwrap_or(u32::MAX));
+    }
+
+    fn step(&mut self) -> Result<Next, TraceFault> {
+        let Some(source) = self.sources.get(self.file).cloned() else { return Ok(Next::End) };
+        let Some(line) = source.lines.get(self.line) else { return Ok(self.end_of_file()) };
+        self.blocks += 1;
+        if self.blocks > BLOCKS {
+            return Err(TraceFault::TooManyBlocks { limit: BLOCKS });
+        }
+        self.remarks(line)?;
+        match &line.content {
+            Content::Nothing => Ok(Next::Line),
+            Content::Percent if self.end_of_subroutine() => Ok(Next::Elsewhere),
+            Content::Percent => Ok(Next::End),
+            Content::Words(code) => self.words(code),
+            Content::Flow(label, flow, rest) => self.flow(&source, label, *flow, rest),
+            Content::Fault(fault) => Err(fault.clone()),
+        }
+    }
+
+    fn end_of_file(&mut self) -> Next {
+        if self.end_of_subroutine() {
+            return Next::Elsewhere;
+        }
+        self.line = 0;
+        self.notes.add(Gap::NoEnd, "", 0);
+        Next::End
+    }
+
+    /// What the program says to the operator: `(MSG, ...)`, `(PRINT, ...)`, `(DEBUG, ...)`.
+    fn remarks(&mut self, line: &Line) -> Result<(), TraceFault> {
+        for comment in &line.comments {
+            let Some((kind, text)) = comment.split_once(',') else { continue };
+            if ["msg", "print", "debug"].contains(&kind.trim().to_ascii_lowercase().as_str()) {
+                self.path.event(EventKind::Comment { text: text.trim().into() })?;
+            }
+        }
+        Ok(())
+    }
+
+    fn words(&mut self, code: &str) -> Result<Next, TraceFault> {
+        let mut block = Block::read(code, self)?;
+        for name in std::mem::take(&mut block.unset) {
+            self.note(Gap::Unset { name });
+        }
+        for (key, value) in &block.sets {
+            self.assign(key, *value)?;
+        }
+        self.execute(&block)
+    }
+
+    /// Carries out a block, in the order of the manual's chapter "G-Code Order of Execution".
+    fn execute(&mut self, block: &Block) -> Result<Next, TraceFault> {
+        self.note_unknown(block);
+        self.set_feed(block);
+        self.set_speed(block);
+        self.select_tool(block)?;
+        self.wait_for_input(block);
+        self.change_tool(block)?;
+        self.turn_spindle(block)?;
+        self.store_modes(block);
+        self.set_coolant(block)?;
+        self.dwell(block)?;
+        self.set_modes(block);
+        self.set_tool_length(block)?;
+        self.set_system(block);
+        self.set_distance_modes(block);
+        self.turn_local_offset(block);
+        let next = self.move_axes(block)?;
+        self.stop(block, next)
+    }
+
+    fn note_unknown(&mut self, block: &Block) {
+        if block.turns() {
+            self.note(Gap::OtherAxes);
+        }
+        for code in block.g.iter().filter(|code| !codes::known_g(**code)) {
+            self.note(Gap::Code { code: codes::name_g(*code) });
+        }
+        for code in block.m.iter().filter(|code| !codes::known_m(**code)) {
+            self.note(Gap::Code { code: format!("M{code}") });
+        }
+    }
+
+    fn set_feed(&mut self, block: &Block) {
+        let mode = match block.any_g(&[930, 940, 950]) {
+            Some(930) => FeedMode::InverseTime,
+            Some(950) => FeedMode::PerRevolution,
+            Some(_) => FeedMode::PerMinute,
+            None => self.modes.feed_mode,
+        };
+        if mode != self.modes.feed_mode {
+            self.modes.feed_mode = mode;
+            self.modes.feed = 0.0;
+        }
+        if let Some(feed) = block.word(b'f') {
+            self.modes.feed = if mode == FeedMode::InverseTime { feed } else { feed * self.modes.unit() };
+        }
+    }
+
+    fn set_speed(&mut self, block: &Block) {
+        if block.has_g(960) {
+            self.modes.surface_speed = Some(block.word(b'd').unwrap_or_default());
+            self.note(Gap::SurfaceSpeed);
+        }
+        if block.has_g(970) {
+            self.modes.surface_speed = None;
+        }
+        if let Some(speed) = block.word(b's') {
+            self.modes.speed = speed.abs();
+        }
+    }
+
+    fn select_tool(&mut self, block: &Block) -> Result<(), TraceFault> {
+        self.selected = block.count(b't', "T")?.or(self.selected);
+        Ok(())
+    }
+
+    fn wait_for_input(&mut self, block: &Block) {
+        if block.has_m(66) {
+            self.note(Gap::Input);
+            self.parameters.set_number(5399, 0.0);
+        }
+    }
+
+    fn change_tool(&mut self, block: &Block) -> Result<(), TraceFault> {
+        let number = if block.has_m(61) {
+            block.count(b'q', "Q of M61")?
+        } else if block.has_m(6) {
+            self.selected
+        } else {
+            None
+        };
+        let Some(number) = number else { return Ok(()) };
+        self.loaded = number;
+        self.path.load(number)
+    }
+
+    fn turn_spindle(&mut self, block: &Block) -> Result<(), TraceFault> {
+        for code in &block.m {
+            self.modes.direction = match code {
+                3 => Some(SpindleDirection::Clockwise),
+                4 => Some(SpindleDirection::Counterclockwise),
+                5 => None,
+                _ => continue,
+            };
+            let rpm = self.modes.revolutions();
+            let turned = |direction| EventKind::SpindleOn { rpm, direction };
+            self.path.event(self.modes.direction.map_or(EventKind::SpindleOff, turned))?;
+        }
+        Ok(())
+    }
+
+    /// M70 to M73.
+    fn store_modes(&mut self, block: &Block) {
+        let modes = self.modes;
+        for code in &block.m {
+            match code {
+                70 | 73 => {
+                    let frame = self.frame();
+                    frame.stored = Some(modes);
+                    frame.restores = *code == 73;
+                }
+                71 => self.frame().stored = None,
+                72 => {
+                    if let Some(modes) = self.frame().stored {
+                        self.restore(modes);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Brings modes back, but for the motion code.
+    pub(super) fn restore(&mut self, modes: Modes) {
+        self.modes = Modes { motion: self.modes.motion, ..modes };
+        if self.offsets.index != modes.system {
+            self.call_system(modes.system);
+        }
+    }
+
+    fn set_coolant(&mut self, block: &Block) -> Result<(), TraceFault> {
+        for code in &block.m {
+            match code {
+                7 => {
+                    self.modes.mist = true;
+                    self.path.event(EventKind::Comment { text: "M7: mist on".into() })?;
+                }
+                8 | 9 => {
+                    self.modes.flood = *code == 8;
+                    self.modes.mist &= *code == 8;
+                    self.path.event(EventKind::Flood { on: *code == 8 })?;
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn dwell(&mut self, block: &Block) -> Result<(), TraceFault> {
+        if !block.has_g(40) {
+            return Ok(());
+        }
+        let seconds = block.word(b'p').ok_or(TraceFault::WordMissing { what: "P of G4" })?;
+        self.wait(seconds)
+    }
+
+    pub(super) fn wait(&mut self, seconds: f64) -> Result<(), TraceFault> {
+        self.path.event(EventKind::Dwell { seconds: seconds.max(0.0) })
+    }
+
+    fn set_modes(&mut self, block: &Block) {
+        for code in &block.g {
+            match code {
+                70 => self.modes.diameter = true,
+                80 => self.modes.diameter = false,
+                170 => self.modes.plane = Plane::Xy,
+                180 => self.modes.plane = Plane::Zx,
+                190 => self.modes.plane = Plane::Yz,
+                200 => self.modes.inch = true,
+                210 => self.modes.inch = false,
+                400 => self.modes.compensation = 400,
+                410 | 411 | 420 | 421 => {
+                    self.modes.compensation = *code;
+                    self.note(Gap::Compensation);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn set_distance_modes(&mut self, block: &Block) {
+        for code in &block.g {
+            match code {
+                900 => self.modes.incremental = false,
+                910 => self.modes.incremental = true,
+                901 => self.modes.absolute_centre = true,
+                911 => self.modes.absolute_centre = false,
+                980 => self.modes.back_to_begin = true,
+                990 => self.modes.back_to_begin = false,
+                _ => {}
+            }
+        }
+    }
+
+    fn move_axes(&mut self, block: &Block) -> Result<Next, TraceFault> {
+        let mut users = block.g.iter().filter(|code| codes::takes_axes(**code));
+        let user = users.next().copied();
+        if users.next().is_some() {
+            return Err(TraceFault::SameGroup);
+        }
+        match user {
+            Some(code) if codes::moves(code) => self.motion(block, code),
+            Some(800) => {
+                self.modes.motion = NO_MOTION;
+                self.cycle = Sticky::default();
+                Ok(Next::Line)
+            }
+            Some(code) => self.place_offsets(block, code).map(|()| Next::Line),
+            None if block.g.iter().any(|code| !codes::known_g(*code)) => Ok(Next::Line),
+            None if block.m.iter().any(|code| !codes::known_m(*code)) => Ok(Next::Line),
+            None if self.goes_on(block) => self.motion(block, self.modes.motion),
+            None => Ok(Next::Line),
+        }
+    }
+
+    /// Whether a block without a motion code moves by the one in force.
+    fn goes_on(&self, block: &Block) -> bool {
+        let arc = matches!(self.modes.motion, 20 | 30);
+        block.places() || arc && b"ijk".iter().any(|letter| block.word(*letter).is_some())
+    }
+
+    fn stop(&mut self, block: &Block, next: Next) -> Result<Next, TraceFault> {
+        for code in &block.m {
+            match code {
+                0 | 60 => self.path.event(EventKind::Comment { text: format!("M{code}: program stop") })?,
+                1 => self.path.event(EventKind::Comment { text: "M1: optional stop".into() })?,
+                2 | 30 => return Ok(Next::End),
+                98 => return self.call_number(block),
+                99 if self.end_of_subroutine() => return Ok(Next::Elsewhere),
+                99 => {
+                    self.note(Gap::Forever);
+                    return Ok(Next::End);
+                }
+                _ => {}
+            }
+        }
+        Ok(next)
+    }
+}
