@@ -12,6 +12,8 @@ pub(super) struct Block {
     pub(super) distance: Option<f64>,
     /// `^`, degrees.
     pub(super) angle: Option<f64>,
+    /// `$`: the spindle that S, M3, M4 and M5 are for.
+    spindle: Option<f64>,
     /// Numbers of the G words in tenths, in order.
     pub(super) g: Vec<u32>,
     /// Numbers of the M words, in order.
@@ -35,6 +37,7 @@ impl Block {
                 b'g' => block.g.push(tenths(cursor.value()?)?),
                 b'm' => block.m.push(whole(cursor.value()?, "M")?),
                 b'@' => once(&mut block.distance, cursor.value()?, '@')?,
+                b'$' => once(&mut block.spindle, cursor.value()?, '$')?,
                 b'^' => once(&mut block.angle, cursor.value()?, '^')?,
                 b'a'..=b'z' if !matches!(byte, b'n' | b'o') => {
                     let value = cursor.value()?;
@@ -72,6 +75,11 @@ impl Block {
     /// X, Y and Z.
     pub(super) fn axes(&self) -> [Option<f64>; 3] {
         [b'x', b'y', b'z'].map(|letter| self.word(letter))
+    }
+
+    /// Whether its words for a spindle are for the first one, the only one that is shown.
+    pub(super) fn first_spindle(&self) -> bool {
+        self.spindle.is_none_or(|number| number <= 0.0)
     }
 
     /// Whether any word names a place.

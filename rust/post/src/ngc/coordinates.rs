@@ -25,9 +25,9 @@ impl Tracer<'_> {
 
     /// Changes the offsets; the machine stands still, and its place gets other coordinates.
     fn offset(&mut self, change: impl FnOnce(&mut Self)) {
-        let machine = self.offsets.to_machine(self.place);
+        let machine = self.offsets.in_machine(self.place);
         change(self);
-        self.place = self.offsets.from_machine(machine);
+        self.place = self.offsets.of_machine(machine);
     }
 
     pub(super) fn call_system(&mut self, index: usize) {
@@ -76,8 +76,8 @@ impl Tracer<'_> {
         match code {
             100 => self.set_data(block)?,
             280 | 300 => self.go_home(block, code)?,
-            281 => self.parameters.set_run(HOMES[0], self.offsets.to_machine(self.place)),
-            301 => self.parameters.set_run(HOMES[1], self.offsets.to_machine(self.place)),
+            281 => self.parameters.set_run(HOMES[0], self.offsets.in_machine(self.place)),
+            301 => self.parameters.set_run(HOMES[1], self.offsets.in_machine(self.place)),
             520 => {
                 let words = self.lengths(block);
                 let local = [0, 1, 2].map(|axis| words[axis].unwrap_or(self.offsets.local[axis]));
@@ -126,7 +126,7 @@ impl Tracer<'_> {
             let end = self.target(block, false)?;
             self.rapid(end)?;
         }
-        let home = self.offsets.from_machine(self.parameters.run(HOMES[usize::from(code == 300)]));
+        let home = self.offsets.of_machine(self.parameters.run(HOMES[usize::from(code == 300)]));
         let place = self.place;
         self.placed = [0, 1, 2].map(|axis| self.placed[axis] || !any || named[axis]);
         self.rapid([0, 1, 2].map(|axis| if named[axis] || !any { home[axis] } else { place[axis] }))
@@ -174,14 +174,14 @@ impl Tracer<'_> {
     fn measure(&mut self, block: &Block, number: u32, system: usize) {
         let words = self.lengths(block);
         let known = self.lengths.get(&number).copied().unwrap_or_default();
-        let machine = self.offsets.to_machine(self.place);
+        let machine = self.offsets.in_machine(self.place);
         let mut there = self.offsets;
         there.tool = [0.0; 3];
         if system != self.offsets.index {
             there.call(system);
             there.local = [0.0; 3];
         }
-        let place = there.from_machine(machine);
+        let place = there.of_machine(machine);
         self.keep_length(number, [0, 1, 2].map(|axis| words[axis].map_or(known[axis], |word| place[axis] - word)));
     }
 
@@ -195,15 +195,12 @@ impl Tracer<'_> {
     /// L2 and L20: the zero of a coordinate system.
     fn set_zero(&mut self, block: &Block, index: usize, from_place: bool) {
         let words = self.lengths(block);
-        let machine = self.offsets.to_machine(self.place);
+        let machine = self.offsets.in_machine(self.place);
         let turn = block.word(b'r').filter(|_| !from_place);
         let measured = self.offsets.origin_for(machine, words, index);
         let Some(stored) = self.offsets.stored.get_mut(index) else { return };
-        let origin = if from_place {
-            measured
-        } else {
-            [0, 1, 2].map(|axis| words[axis].unwrap_or(stored.origin[axis]))
-        };
+        let origin =
+            if from_place { measured } else { [0, 1, 2].map(|axis| words[axis].unwrap_or(stored.origin[axis])) };
         *stored = System { origin, turn_deg: turn.unwrap_or(stored.turn_deg) };
         if index == self.offsets.index {
             self.call_system(index);
@@ -211,16 +208,16 @@ impl Tracer<'_> {
     }
 
     /// The end that a block's words name, in the program's coordinates, mm.
-    pub(super) fn target(&mut self, block: &Block, in_machine: bool) -> Result<[f64; 3], TraceFault> {
+    pub(super) fn target(&mut self, block: &Block, of_machine: bool) -> Result<[f64; 3], TraceFault> {
         let words = self.lengths(block);
         for (placed, word) in self.placed.iter_mut().zip(words) {
             *placed |= word.is_some();
         }
         let place = self.place;
-        if in_machine {
-            let machine = self.offsets.to_machine(place);
+        if of_machine {
+            let machine = self.offsets.in_machine(place);
             let end = [0, 1, 2].map(|axis| words[axis].unwrap_or(machine[axis]));
-            return Ok(self.offsets.from_machine(end));
+            return Ok(self.offsets.of_machine(end));
         }
         let mut end = [0, 1, 2].map(|axis| match words[axis] {
             Some(word) if self.modes.incremental => place[axis] + word,

@@ -102,10 +102,10 @@ impl Tracer<'_> {
     fn rapid_along(&mut self, along: usize, height: f64) -> Result<(), TraceFault> {
         let mut end = self.place;
         end[along] = height;
-        if end == self.place {
-            return Ok(());
+        if (height - self.place[along]).abs() > 0.0 {
+            self.rapid(end)?;
         }
-        self.rapid(end)
+        Ok(())
     }
 
     fn feed_along(&mut self, along: usize, height: f64) -> Result<(), TraceFault> {

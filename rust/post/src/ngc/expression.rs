@@ -8,8 +8,11 @@ use super::fault::TraceFault;
 /// Brackets, signs and parameters of parameters within one another.
 const DEPTH: u32 = 100;
 
-/// Values that differ less are equal.
-const SAME: f64 = 1e-4;
+/// Values that differ no more are equal to EQ, NE, LE and GE; LinuxCNC 2.9.4 was tried.
+const SAME: f64 = 1e-6;
+
+/// A number may differ so much from the whole one that it is taken for.
+const WHOLE: f64 = 1e-4;
 
 /// Where parameters get their values from.
 pub(super) trait Values {
@@ -210,10 +213,10 @@ pub(super) enum Key {
     Named(String),
 }
 
-/// A number as a count, where it is one within 0.0001.
+/// A number as a count, where it is one.
 pub(super) fn natural(value: f64) -> Option<usize> {
     let whole = value.round();
-    let fits = (value - whole).abs() < SAME && (0.0..=f64::from(u32::MAX)).contains(&whole);
+    let fits = (value - whole).abs() < WHOLE && (0.0..=f64::from(u32::MAX)).contains(&whole);
     fits.then_some(whole as usize)
 }
 
@@ -296,7 +299,7 @@ impl Operator {
     }
 
     fn apply(self, left: f64, right: f64) -> Result<f64, TraceFault> {
-        let same = (left - right).abs() < SAME;
+        let same = (left - right).abs() <= SAME;
         let value = match self {
             Self::Power => libm::pow(left, right),
             Self::Times => left * right,
@@ -308,9 +311,9 @@ impl Operator {
             Self::Equal => truth(same),
             Self::Unequal => truth(!same),
             Self::Greater => truth(left > right),
-            Self::GreaterOrEqual => truth(left >= right),
+            Self::GreaterOrEqual => truth(same || left > right),
             Self::Less => truth(left < right),
-            Self::LessOrEqual => truth(left <= right),
+            Self::LessOrEqual => truth(same || left < right),
             Self::And => truth(left != 0.0 && right != 0.0),
             Self::Or => truth(left != 0.0 || right != 0.0),
             Self::Xor => truth((left != 0.0) != (right != 0.0)),
@@ -356,8 +359,10 @@ mod tests {
             ("[-7mod3]", 2.0),
             ("[1gt2]", 0.0),
             ("[2ge2]", 1.0),
-            ("[1.00005eq1]", 1.0),
-            ("[1.0002ne1]", 1.0),
+            ("[1.0000009eq1]", 1.0),
+            ("[1.000002ne1]", 1.0),
+            ("[1.0000009le1]", 1.0),
+            ("[1.0000009gt1]", 1.0),
             ("[1-[2-3]]", 2.0),
             ("-[2]", -2.0),
             ("--2", 2.0),

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 /// A program that could not be traced, and where.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[error("{}{fault}", place(.file, *.line))]
+#[error("{}{fault}", heading(.file, *.line))]
 pub struct TraceError {
     /// The file that holds the line: a subroutine's name, empty for the program itself.
     pub file: String,
@@ -14,11 +14,43 @@ pub struct TraceError {
     pub fault: TraceFault,
 }
 
-pub(super) fn place(file: &str, line: u32) -> String {
-    match (file.is_empty(), line) {
+/// A place before what is said of it.
+pub(super) fn heading(file: &str, line: u32) -> String {
+    match (file, line) {
         (_, 0) => String::new(),
-        (true, line) => format!("line {line}: "),
-        (false, line) => format!("{file}, line {line}: "),
+        ("", line) => format!("line {line}: "),
+        (file, line) => format!("line {line} of {file}: "),
+    }
+}
+
+impl TraceError {
+    /// A stable name for scripts.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        self.fault.code()
+    }
+
+    /// Where: the line, and its file where it is not the program's own.
+    #[must_use]
+    pub fn place(&self) -> String {
+        match heading(&self.file, self.line).strip_suffix(": ") {
+            Some(place) => place.into(),
+            None => "text".into(),
+        }
+    }
+
+    /// What to do, in a sentence.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        self.fault.hint()
+    }
+}
+
+fn without(left_out: &str) -> String {
+    if left_out.is_empty() {
+        String::new()
+    } else {
+        format!("; not known here: {left_out}")
     }
 }
 
@@ -143,7 +175,86 @@ pub enum TraceFault {
         /// Their labels.
         names: String,
     },
-    /// The program ends and nothing has moved. Check the file.
-    #[error("no move in it: there is nothing to see")]
-    NoMoves,
+    /// The program ends and nothing has moved. Check the file, or give the folder of its subroutines.
+    #[error("no move in it: there is nothing to see{}", without(.left_out))]
+    NoMoves {
+        /// Codes and subroutines that are not known here, in words.
+        left_out: String,
+    },
+    /// Stopped from outside.
+    #[error("cancelled")]
+    Cancelled,
+}
+
+impl TraceFault {
+    /// A stable name for scripts.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Character { .. } => "trace-character",
+            Self::NumberExpected => "trace-number-expected",
+            Self::Expected { .. } => "trace-expected",
+            Self::Function { .. } => "trace-function",
+            Self::UnclosedComment => "trace-unclosed-comment",
+            Self::TooDeep => "trace-too-deep",
+            Self::DivisionByZero => "trace-division-by-zero",
+            Self::Domain { .. } => "trace-domain",
+            Self::TooLarge => "trace-too-large",
+            Self::ParameterNumber => "trace-parameter-number",
+            Self::NotNatural { .. } => "trace-not-natural",
+            Self::WordTwice { .. } => "trace-word-twice",
+            Self::SameGroup => "trace-same-group",
+            Self::WordMissing { .. } => "trace-word-missing",
+            Self::NoMotionMode => "trace-no-motion-mode",
+            Self::PolarWithCartesian => "trace-polar-with-cartesian",
+            Self::ArcForm => "trace-arc-form",
+            Self::ArcRadius => "trace-arc-radius",
+            Self::CycleDepths => "trace-cycle-depths",
+            Self::Thread => "trace-thread",
+            Self::FlowWord => "trace-flow-word",
+            Self::Unmatched { .. } => "trace-unmatched",
+            Self::CallDepth => "trace-call-depth",
+            Self::TooManyBlocks { .. } => "trace-too-many-blocks",
+            Self::TooManyMoves { .. } => "trace-too-many-moves",
+            Self::TooFar => "trace-too-far",
+            Self::OnlySubroutines { .. } => "trace-only-subroutines",
+            Self::NoMoves { .. } => "trace-no-moves",
+            Self::Cancelled => "cancelled",
+        }
+    }
+
+    /// What to do, in a sentence.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Character { .. } => "remove the character",
+            Self::NumberExpected => "write a number, a parameter or an expression in brackets",
+            Self::Expected { .. } => "write it",
+            Self::Function { .. } => "correct its name",
+            Self::UnclosedComment => "close the comment on its line",
+            Self::TooDeep => "split the expression",
+            Self::DivisionByZero => "ask before whether the divisor is 0",
+            Self::Domain { .. } => "ask before whether the value is in its range",
+            Self::TooLarge => "correct the number",
+            Self::ParameterNumber => "take #1 to #5602",
+            Self::NotNatural { .. } => "write a whole number of 0 or more",
+            Self::WordTwice { .. } | Self::SameGroup => "put them in two blocks",
+            Self::WordMissing { .. } => "write the missing word",
+            Self::NoMotionMode => "write the motion code: G0, G1, G2, G3 or a cycle",
+            Self::PolarWithCartesian => "write either @ and ^, or X and Y",
+            Self::ArcForm => "write I, J, K of the plane, or R",
+            Self::ArcRadius => "correct R, the centre, or the end",
+            Self::CycleDepths => "correct R, Z or Q",
+            Self::Thread => "correct P, J, K, R",
+            Self::FlowWord => "write sub, endsub, return, call, if, elseif, else, endif, while, endwhile, do, repeat, endrepeat, break or continue",
+            Self::Unmatched { .. } => "write its other half, with the same number or name",
+            Self::CallDepth => "let the recursion end",
+            Self::TooManyBlocks { .. } => "correct the loop's condition",
+            Self::TooManyMoves { .. } => "split the program",
+            Self::TooFar => "correct the coordinate, or the unit (G20, G21)",
+            Self::OnlySubroutines { .. } => "look at a program that calls them",
+            Self::NoMoves { .. } => "check the file; the folders of its subroutines can be named",
+            Self::Cancelled => "",
+        }
+    }
 }

@@ -25,10 +25,19 @@ mod tracer;
 pub use fault::{TraceError, TraceFault};
 pub use note::{Gap, Note};
 
-use styluscam_motion::Program;
+use styluscam_motion::{Program, Watch};
 
-/// Lines that are run before a program is taken to be endless.
-const BLOCKS: u64 = 20_000_000;
+/// What a program may need before it is given up.
+#[derive(Clone, Copy)]
+struct Limits {
+    /// Lines that are run: more of them are an endless loop.
+    blocks: u64,
+    /// Moves and events that are kept.
+    moves: usize,
+}
+
+/// The moves take half a gigabyte.
+const LIMITS: Limits = Limits { blocks: 20_000_000, moves: 5_000_000 };
 
 /// mm/min: of feed moves whose feed is not known.
 const FEED_UNKNOWN: f64 = 1000.0;
@@ -50,8 +59,8 @@ pub struct Trace {
 ///
 /// # Errors
 /// [`TraceError`] for the first line that cannot be understood, a program without end, and one that moves nothing.
-pub fn trace(text: &str, find: &dyn Fn(&str) -> Option<String>) -> Result<Trace, TraceError> {
-    tracer::Tracer::new(text, find).run()
+pub fn trace(text: &str, find: &dyn Fn(&str) -> Option<String>, watch: &Watch) -> Result<Trace, TraceError> {
+    tracer::Tracer::new(text, find, watch, LIMITS).run()
 }
 
 #[cfg(test)]

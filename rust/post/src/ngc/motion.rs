@@ -3,6 +3,7 @@
 use styluscam_motion::{Arc, MoveKind};
 
 use super::block::Block;
+use super::codes;
 use super::cycles::Sticky;
 use super::fault::TraceFault;
 use super::modes::{FeedMode, NO_MOTION};
@@ -30,6 +31,7 @@ impl Tracer<'_> {
         }
         match code {
             NO_MOTION => return Err(TraceFault::NoMotionMode),
+            _ if !codes::moves(code) => self.note(Gap::Code { code: codes::name_g(code) }),
             0 | 10 if !names_place(block) => {}
             0 => {
                 let end = self.target(block, block.has_g(530))?;
@@ -42,8 +44,9 @@ impl Tracer<'_> {
             52 | 53 => self.control_point(block)?,
             330 => self.thread(block)?,
             331 => self.tap(block)?,
-            382..=385 => self.probe(block)?,
-            700..=722 => return self.contour(block, code),
+            382..=385 => self.probe(block, code)?,
+            700..=722 if block.word(b'q').is_none() => self.note(Gap::Code { code: codes::name_g(code) }),
+            700..=722 => return self.contour(block),
             760 => self.thread_cycle(block)?,
             _ => self.drill(block, code)?,
         }
@@ -96,12 +99,13 @@ impl Tracer<'_> {
         Pace { kind: MoveKind::Feed, feed: if known { feed } else { FEED_UNKNOWN }, line: self.line_of_program() }
     }
 
-    fn probe(&mut self, block: &Block) -> Result<(), TraceFault> {
+    /// G38: without a contact G38.2 and G38.4 are an error, and G38.3 and G38.5 come to their end point.
+    fn probe(&mut self, block: &Block, code: u32) -> Result<(), TraceFault> {
         self.note(Gap::Probe);
         self.straight(block)?;
         let unit = self.modes.unit();
         self.parameters.set_run(PROBED, self.place.map(|length| length / unit));
-        self.parameters.set_number(PROBE_TRIPPED, 1.0);
+        self.parameters.set_number(PROBE_TRIPPED, if matches!(code, 382 | 384) { 1.0 } else { 0.0 });
         Ok(())
     }
 

@@ -4,7 +4,7 @@ use std::fmt;
 
 use thiserror::Error;
 
-use super::fault::place;
+use super::fault::heading;
 
 /// So many different notes are kept.
 const KEPT: usize = 200;
@@ -24,7 +24,7 @@ pub struct Note {
 
 impl fmt::Display for Note {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "{}{}", place(&self.file, self.line), self.gap)?;
+        write!(out, "{}{}", heading(&self.file, self.line), self.gap)?;
         match self.times {
             0 | 1 => Ok(()),
             2 => write!(out, " (twice)"),
@@ -43,7 +43,7 @@ pub enum Gap {
     #[error("cutter compensation is not applied: the path is as programmed")]
     Compensation,
     /// G38.
-    #[error("probing is taken to trip at its end point")]
+    #[error("probing is taken to come to its end point, and G38.2 and G38.4 to trip there")]
     Probe,
     /// G43 and the like: the tool table is the machine's.
     #[error("the tool table is not known: lengths are taken as 0")]
@@ -78,9 +78,9 @@ pub enum Gap {
         /// Its label.
         label: String,
     },
-    /// G71 and G72.
-    #[error("roughing passes (G71, G72) are not shown, only their contour")]
-    Roughing,
+    /// G70 to G72.
+    #[error("of lathe cycles (G70 to G72) the contour is shown, not their passes")]
+    Contour,
     /// G5.2 and G5.3.
     #[error("of a NURBS curve (G5.2) its control points are joined")]
     Nurbs,
@@ -112,6 +112,16 @@ impl Notes {
         } else if self.0.len() < KEPT {
             self.0.push(Note { file: file.into(), line, times: 1, gap });
         }
+    }
+
+    /// What of the program's own was left out, in words.
+    pub(super) fn left_out(&self) -> String {
+        let name = |note: &Note| match &note.gap {
+            Gap::Code { code } => Some(code.clone()),
+            Gap::Subroutine { label } => Some(format!("o{label}")),
+            _ => None,
+        };
+        self.0.iter().filter_map(name).collect::<Vec<_>>().join(", ")
     }
 
     pub(super) fn into_inner(self) -> Vec<Note> {

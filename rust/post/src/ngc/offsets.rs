@@ -29,27 +29,27 @@ pub(super) struct Offsets {
 
 impl Offsets {
     /// The tip's place in space, in the machine's coordinates less the tool's length, mm.
-    pub(super) fn to_space(&self, place: [f64; 3]) -> [f64; 3] {
+    pub(super) fn in_space(&self, place: [f64; 3]) -> [f64; 3] {
         let [x, y, z] = add(place, self.local);
         let [x, y] = turned([x, y], self.system.turn_deg);
         add([x, y, z], self.system.origin)
     }
 
     /// The program's coordinates of a place of the tip.
-    pub(super) fn from_space(&self, place: [f64; 3]) -> [f64; 3] {
+    pub(super) fn of_space(&self, place: [f64; 3]) -> [f64; 3] {
         let [x, y, z] = less(place, self.system.origin);
         let [x, y] = turned([x, y], -self.system.turn_deg);
         less([x, y, z], self.local)
     }
 
     /// Where the machine stands when the tip is at a place in program coordinates, mm.
-    pub(super) fn to_machine(&self, place: [f64; 3]) -> [f64; 3] {
-        add(self.to_space(place), self.tool)
+    pub(super) fn in_machine(&self, place: [f64; 3]) -> [f64; 3] {
+        add(self.in_space(place), self.tool)
     }
 
     /// The program's coordinates of the tip where the machine stands.
-    pub(super) fn from_machine(&self, place: [f64; 3]) -> [f64; 3] {
-        self.from_space(less(place, self.tool))
+    pub(super) fn of_machine(&self, place: [f64; 3]) -> [f64; 3] {
+        self.of_space(less(place, self.tool))
     }
 
     /// Takes a system into force as it is stored.
@@ -62,7 +62,7 @@ impl Offsets {
     pub(super) fn origin_for(&self, machine: [f64; 3], words: [Option<f64>; 3], index: usize) -> [f64; 3] {
         let system = self.stored.get(index).copied().unwrap_or_default();
         let there = Self { system, ..*self };
-        let wanted = there.from_machine(machine);
+        let wanted = there.of_machine(machine);
         let wanted = [0, 1, 2].map(|axis| words[axis].unwrap_or(wanted[axis]));
         let [x, y, z] = add(wanted, self.local);
         let [x, y] = turned([x, y], system.turn_deg);
@@ -104,9 +104,9 @@ mod tests {
             tool: [0.0, 0.0, 4.0],
             ..Offsets::default()
         };
-        assert!(near(offsets.to_space([1.0, 0.0, 0.0]), [1.0, 13.0, 3.0]));
-        assert!(near(offsets.to_machine([1.0, 0.0, 0.0]), [1.0, 13.0, 7.0]));
-        assert!(near(offsets.from_machine([1.0, 13.0, 7.0]), [1.0, 0.0, 0.0]));
+        assert!(near(offsets.in_space([1.0, 0.0, 0.0]), [1.0, 13.0, 3.0]));
+        assert!(near(offsets.in_machine([1.0, 0.0, 0.0]), [1.0, 13.0, 7.0]));
+        assert!(near(offsets.of_machine([1.0, 13.0, 7.0]), [1.0, 0.0, 0.0]));
     }
 
     #[test]
@@ -115,7 +115,7 @@ mod tests {
         let mut offsets = Offsets { local: [10.0, 0.0, 0.0], ..Offsets::default() };
         offsets.stored[0] = System { origin: [1.0, 2.0, 0.0], turn_deg: 30.0 };
         offsets.call(0);
-        let machine = offsets.to_machine([1.0, 0.0, 5.0]);
+        let machine = offsets.in_machine([1.0, 0.0, 5.0]);
         let [x, y, z] = offsets.origin_for(machine, [Some(3.0), Some(3.0), None], 0);
         assert!((x - 0.7679).abs() < 5e-5 && (y + 1.5981).abs() < 5e-5 && z == 0.0, "{x} {y} {z}");
     }

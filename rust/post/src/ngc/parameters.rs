@@ -109,7 +109,7 @@ impl Tracer<'_> {
     }
 
     fn machine_in_unit(&self, axis: usize) -> f64 {
-        self.offsets.to_machine(self.place).get(axis).copied().unwrap_or_default() / self.modes.unit()
+        self.offsets.in_machine(self.place).get(axis).copied().unwrap_or_default() / self.modes.unit()
     }
 
     /// A parameter that tells the state.
@@ -138,7 +138,7 @@ impl Tracer<'_> {
             "_units_per_minute" => truth(modes.feed_mode == FeedMode::PerMinute),
             "_units_per_rev" => truth(modes.feed_mode == FeedMode::PerRevolution),
             "_coord_system" => self.coordinate_system_code(),
-            "_tool_offset" => truth(self.offsets.tool != [0.0; 3]),
+            "_tool_offset" => truth(self.offsets.tool.iter().any(|offset| offset.abs() > 0.0)),
             "_retract_r_plane" => truth(!modes.back_to_begin),
             "_retract_old_z" => truth(modes.back_to_begin),
             "_spindle_rpm_mode" => truth(modes.surface_speed.is_none()),

@@ -8,9 +8,6 @@ use super::fault::TraceFault;
 use super::offsets::{turned, Offsets};
 use crate::interpreter::bare_tool;
 
-/// Moves and events that are kept: a gigabyte.
-const KEPT: usize = 5_000_000;
-
 /// mm: no machine reaches so far.
 const FAR: f64 = 1e6;
 
@@ -28,6 +25,8 @@ pub(super) struct Path {
     /// Index of the tool in the program.
     tool: Option<u32>,
     operation_due: bool,
+    /// Of moves and events.
+    limit: usize,
 }
 
 /// How a move is made.
@@ -41,7 +40,7 @@ pub(super) struct Pace {
 }
 
 impl Path {
-    pub(super) fn new() -> Self {
+    pub(super) fn new(limit: usize) -> Self {
         let setup = SetupRecord {
             title: String::new(),
             wcs: String::new(),
@@ -59,7 +58,7 @@ impl Path {
             moves: Vec::new(),
             events: Vec::new(),
         };
-        Self { program, anchor: None, tool: None, operation_due: true }
+        Self { program, anchor: None, tool: None, operation_due: true, limit }
     }
 
     pub(super) fn is_empty(&self) -> bool {
@@ -74,10 +73,10 @@ impl Path {
     }
 
     fn require_room(&self) -> Result<(), TraceFault> {
-        if self.program.moves.len() + self.program.events.len() < KEPT {
+        if self.program.moves.len() + self.program.events.len() < self.limit {
             Ok(())
         } else {
-            Err(TraceFault::TooManyMoves { limit: KEPT })
+            Err(TraceFault::TooManyMoves { limit: self.limit })
         }
     }
 
@@ -139,7 +138,7 @@ impl Path {
         if (anchor.system, anchor.local) == (offsets.system, offsets.local) {
             return place;
         }
-        anchor.from_space(offsets.to_space(place))
+        anchor.of_space(offsets.in_space(place))
     }
 
     fn push(&mut self, end: [f64; 3], arc: Option<Arc>, pace: Pace) -> Result<(), TraceFault> {

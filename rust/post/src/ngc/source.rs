@@ -208,7 +208,8 @@ fn flow_of(code: &str) -> Result<Content, TraceFault> {
     if rest.is_empty() {
         return Ok(Content::Flow(label, Flow::Number, String::new()));
     }
-    let found = Flow::KEYWORDS.into_iter().filter(|(text, _)| rest.starts_with(text)).max_by_key(|(text, _)| text.len());
+    let found =
+        Flow::KEYWORDS.into_iter().filter(|(text, _)| rest.starts_with(text)).max_by_key(|(text, _)| text.len());
     let (text, flow) = found.ok_or(TraceFault::FlowWord)?;
     let rest = rest.get(text.len()..).unwrap_or_default();
     if rest.starts_with(|c: char| c.is_ascii_lowercase()) && !matches!(flow, Flow::Return | Flow::EndSub) {

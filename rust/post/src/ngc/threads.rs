@@ -146,10 +146,8 @@ impl Tracer<'_> {
     }
 
     /// G70 to G72: to the place that is named, and along the contour.
-    pub(super) fn contour(&mut self, block: &Block, code: u32) -> Result<Next, TraceFault> {
-        if code >= 710 {
-            self.note(Gap::Roughing);
-        }
+    pub(super) fn contour(&mut self, block: &Block) -> Result<Next, TraceFault> {
+        self.note(Gap::Contour);
         let label = block.count(b'q', "Q of a contour")?.ok_or(TraceFault::WordMissing { what: "Q of a contour" })?;
         let words = self.lengths(block);
         let place = self.place;

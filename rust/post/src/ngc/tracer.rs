@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
-use styluscam_motion::{EventKind, Plane, SpindleDirection};
+use styluscam_motion::{Cancelled, EventKind, Plane, SpindleDirection, Watch};
 
 use super::block::Block;
 use super::codes;
@@ -16,7 +16,7 @@ use super::offsets::Offsets;
 use super::parameters::Parameters;
 use super::path::Path;
 use super::source::{Content, Line, Source};
-use super::{Trace, BLOCKS};
+use super::{Limits, Trace};
 
 /// A subroutine's text by its name.
 pub(super) type Find<'f> = &'f dyn Fn(&str) -> Option<String>;
@@ -52,6 +52,9 @@ pub(super) struct Tracer<'f> {
     pub(super) tangent: Option<[f64; 2]>,
     pub(super) path: Path,
     notes: Notes,
+    watch: &'f Watch,
+    /// Of lines that are run.
+    limit: u64,
     blocks: u64,
 }
 
@@ -68,7 +71,7 @@ pub(super) enum Next {
 }
 
 impl<'f> Tracer<'f> {
-    pub(super) fn new(text: &str, find: Find<'f>) -> Self {
+    pub(super) fn new(text: &str, find: Find<'f>, watch: &'f Watch, limits: Limits) -> Self {
         Self {
             find,
             sources: vec![Rc::new(Source::new("", text))],
@@ -87,14 +90,17 @@ impl<'f> Tracer<'f> {
             lengths: HashMap::new(),
             cycle: Sticky::default(),
             tangent: None,
-            path: Path::new(),
+            path: Path::new(limits.moves),
             notes: Notes::default(),
+            watch,
+            limit: limits.blocks,
             blocks: 0,
         }
     }
 
     /// Runs the program to its end.
     pub(super) fn run(mut self) -> Result<Trace, TraceError> {
+        self.watch.begin("reading", self.sources.first().map_or(0, |source| source.lines.len()));
         loop {
             match self.step() {
                 Ok(Next::Line) => self.line += 1,
@@ -120,10 +126,12 @@ impl<'f> Tracer<'f> {
     /// Why there is nothing to see.
     fn nothing(&self) -> TraceFault {
         let subroutines = self.sources.first().map(|source| source.subroutines()).unwrap_or_default();
-        if subroutines.is_empty() {
-            return TraceFault::NoMoves;
+        let left_out = self.notes.left_out();
+        if subroutines.is_empty() || !left_out.is_empty() {
+            return TraceFault::NoMoves { left_out };
         }
-        TraceFault::OnlySubroutines { names: subroutines.iter().map(|label| format!("o{label}")).collect::<Vec<_>>().join(", ") }
+        let names: Vec<String> = subroutines.iter().map(|label| format!("o{label}")).collect();
+        TraceFault::OnlySubroutines { names: names.join(", ") }
     }
 
     pub(super) fn note(&mut self, gap: Gap) {
@@ -134,9 +142,10 @@ impl<'f> Tracer<'f> {
     fn step(&mut self) -> Result<Next, TraceFault> {
         let Some(source) = self.sources.get(self.file).cloned() else { return Ok(Next::End) };
         let Some(line) = source.lines.get(self.line) else { return Ok(self.end_of_file()) };
+        self.watch.advance(1).map_err(|Cancelled| TraceFault::Cancelled)?;
         self.blocks += 1;
-        if self.blocks > BLOCKS {
-            return Err(TraceFault::TooManyBlocks { limit: BLOCKS });
+        if self.blocks > self.limit {
+            return Err(TraceFault::TooManyBlocks { limit: self.limit });
         }
         self.remarks(line)?;
         match &line.content {
@@ -237,7 +246,7 @@ impl<'f> Tracer<'f> {
         if block.has_g(970) {
             self.modes.surface_speed = None;
         }
-        if let Some(speed) = block.word(b's') {
+        if let Some(speed) = block.word(b's').filter(|_| block.first_spindle()) {
             self.modes.speed = speed.abs();
         }
     }
@@ -268,7 +277,7 @@ impl<'f> Tracer<'f> {
     }
 
     fn turn_spindle(&mut self, block: &Block) -> Result<(), TraceFault> {
-        for code in &block.m {
+        for code in block.m.iter().filter(|_| block.first_spindle()) {
             self.modes.direction = match code {
                 3 => Some(SpindleDirection::Clockwise),
                 4 => Some(SpindleDirection::Counterclockwise),
@@ -389,11 +398,18 @@ impl<'f> Tracer<'f> {
                 Ok(Next::Line)
             }
             Some(code) => self.place_offsets(block, code).map(|()| Next::Line),
-            None if block.g.iter().any(|code| !codes::known_g(*code)) => Ok(Next::Line),
+            None if self.unknown_motion(block) => Ok(Next::Line),
             None if block.m.iter().any(|code| !codes::known_m(*code)) => Ok(Next::Line),
             None if self.goes_on(block) => self.motion(block, self.modes.motion),
             None => Ok(Next::Line),
         }
+    }
+
+    /// A code that is not known takes the axis words, of this block and of those that go on with it.
+    fn unknown_motion(&mut self, block: &Block) -> bool {
+        let unknown = block.g.iter().copied().find(|code| !codes::known_g(*code));
+        self.modes.motion = unknown.unwrap_or(self.modes.motion);
+        unknown.is_some()
     }
 
     /// Whether a block without a motion code moves by the one in force.
