@@ -73,7 +73,7 @@ def _traced(text: str, folders: Sequence[Path], progress: Progress | None) -> tu
     try:
         program, gaps = _engine.trace_gcode(text, subroutines_in(folders), progress)
     except VerifyError as error:
-        hint = f"{error.hint}; or name its machine"
+        hint = f"{error.hint}; or name its machine" if error.where else error.hint
         raise VerifyError(str(error), code=error.code, where=error.where, hint=hint) from error
     return Program(program), tuple(gaps)
 

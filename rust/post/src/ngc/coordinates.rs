@@ -37,11 +37,16 @@ impl Tracer<'_> {
 
     pub(super) fn set_system(&mut self, block: &Block) {
         for code in &block.g {
-            match code {
-                540..=590 if code % 10 == 0 => self.call_system((*code as usize - 540) / 10),
-                591..=593 => self.call_system(*code as usize - 585),
-                _ => {}
+            let index = match code {
+                540..=590 if code % 10 == 0 => (*code as usize - 540) / 10,
+                591..=593 => *code as usize - 585,
+                _ => continue,
+            };
+            let set = self.offsets.stored.get(index).is_some_and(|stored| *stored != System::default());
+            if index != self.offsets.index && !set {
+                self.note(Gap::WorkOffset);
             }
+            self.call_system(index);
         }
     }
 

@@ -30,13 +30,10 @@ impl TraceError {
         self.fault.code()
     }
 
-    /// Where: the line, and its file where it is not the program's own.
+    /// Where: the line, and its file where it is not the program's own; nothing when the whole program is meant.
     #[must_use]
     pub fn place(&self) -> String {
-        match heading(&self.file, self.line).strip_suffix(": ") {
-            Some(place) => place.into(),
-            None => "text".into(),
-        }
+        heading(&self.file, self.line).trim_end_matches(": ").into()
     }
 
     /// What to do, in a sentence.

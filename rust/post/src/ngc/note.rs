@@ -48,6 +48,9 @@ pub enum Gap {
     /// G43 and the like: the tool table is the machine's.
     #[error("the tool table is not known: lengths are taken as 0")]
     ToolTable,
+    /// G55 and the like: the work offsets are the machine's.
+    #[error("work offsets that the program does not set are not known: taken as 0")]
+    WorkOffset,
     /// G33, G76, tapping.
     #[error("threading is shown as a feed of pitch times S")]
     Threading,
