@@ -12,7 +12,7 @@ const BACK: f64 = 0.254;
 pub(super) struct Sticky {
     /// Where the first of the cycles in a row began, along the drilling axis.
     begin: Option<f64>,
-    /// As written, mm.
+    /// As written, in the unit in force.
     bottom: Option<f64>,
     retract: Option<f64>,
     peck: Option<f64>,
@@ -23,6 +23,7 @@ pub(super) struct Sticky {
 /// The heights of a cycle along the drilling axis, mm.
 #[derive(Clone, Copy)]
 struct Heights {
+    begin: f64,
     retract: f64,
     bottom: f64,
     /// Where it ends.
@@ -33,12 +34,12 @@ impl Tracer<'_> {
     pub(super) fn drill(&mut self, block: &Block, code: u32) -> Result<(), TraceFault> {
         let along = self.modes.plane.axes()[2];
         let heights = self.heights(block, along)?;
+        if heights.begin < heights.retract {
+            self.rapid_along(along, heights.retract)?;
+        }
         for _ in 0..block.count(b'l', "L of a cycle")?.unwrap_or(1) {
             let mut over = self.target(block, false)?;
             over[along] = self.place[along].max(heights.retract);
-            if self.place[along] < heights.retract {
-                self.rapid_along(along, heights.retract)?;
-            }
             self.rapid(over)?;
             self.rapid_along(along, heights.retract)?;
             self.begin()?;
@@ -50,20 +51,21 @@ impl Tracer<'_> {
     fn heights(&mut self, block: &Block, along: usize) -> Result<Heights, TraceFault> {
         let begin = *self.cycle.begin.get_or_insert(self.place[along]);
         let unit = self.modes.unit();
+        let bottom = self.lengths(block)[along].map(|length| length / unit);
         let sticky = &mut self.cycle;
-        sticky.retract = block.word(b'r').map(|word| word * unit).or(sticky.retract);
-        sticky.peck = block.word(b'q').map(|word| word * unit).or(sticky.peck);
+        sticky.bottom = bottom.or(sticky.bottom);
+        sticky.retract = block.word(b'r').or(sticky.retract);
+        sticky.peck = block.word(b'q').or(sticky.peck);
         sticky.wait = block.word(b'p').or(sticky.wait);
-        self.cycle.bottom = self.lengths(block)[along].or(self.cycle.bottom);
-        let retract = self.cycle.retract.ok_or(TraceFault::WordMissing { what: "R of a cycle" })?;
-        let bottom = self.cycle.bottom.ok_or(TraceFault::WordMissing { what: "the depth of a cycle" })?;
+        let retract = unit * sticky.retract.ok_or(TraceFault::WordMissing { what: "R of a cycle" })?;
+        let bottom = unit * sticky.bottom.ok_or(TraceFault::WordMissing { what: "the depth of a cycle" })?;
         let (retract, bottom) =
             if self.modes.incremental { (begin + retract, begin + retract + bottom) } else { (retract, bottom) };
         if bottom > retract {
             return Err(TraceFault::CycleDepths);
         }
         let clear = if self.modes.back_to_begin { begin.max(retract) } else { retract };
-        Ok(Heights { retract, bottom, clear })
+        Ok(Heights { begin, retract, bottom, clear })
     }
 
     fn hole(&mut self, code: u32, along: usize, heights: Heights) -> Result<(), TraceFault> {
@@ -77,14 +79,14 @@ impl Tracer<'_> {
             }
         }
         if matches!(code, 740 | 840 | 850 | 890) {
-            self.feed_along(along, heights.retract)?;
+            self.feed_along(along, heights.clear)?;
         }
         self.rapid_along(along, heights.clear)
     }
 
     /// Down by and by, out to the retract plane between, or a little back only.
     fn pecks(&mut self, along: usize, heights: Heights, out: bool) -> Result<(), TraceFault> {
-        let peck = self.cycle.peck.filter(|peck| *peck > 0.0).ok_or(TraceFault::CycleDepths)?;
+        let peck = self.cycle.peck.filter(|peck| *peck > 0.0).ok_or(TraceFault::CycleDepths)? * self.modes.unit();
         let mut count = 1.0;
         let mut depth = heights.retract - peck;
         while depth > heights.bottom {

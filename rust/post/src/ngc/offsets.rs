@@ -58,7 +58,7 @@ impl Offsets {
         self.system = self.stored.get(index).copied().unwrap_or_default();
     }
 
-    /// Where the zero of a system has to be that a machine place has these coordinates in it.
+    /// Where the zero of a system has to be that a machine place has these coordinates in it, and else those it has.
     pub(super) fn origin_for(&self, machine: [f64; 3], words: [Option<f64>; 3], index: usize) -> [f64; 3] {
         let system = self.stored.get(index).copied().unwrap_or_default();
         let there = Self { system, ..*self };
@@ -66,8 +66,7 @@ impl Offsets {
         let wanted = [0, 1, 2].map(|axis| words[axis].unwrap_or(wanted[axis]));
         let [x, y, z] = add(wanted, self.local);
         let [x, y] = turned([x, y], system.turn_deg);
-        let origin = less(less(machine, self.tool), [x, y, z]);
-        [0, 1, 2].map(|axis| if words[axis].is_some() { origin[axis] } else { system.origin[axis] })
+        less(less(machine, self.tool), [x, y, z])
     }
 }
 

@@ -266,8 +266,15 @@ fn holes_are_drilled_from_the_retract_plane() {
     let text = "F100 G0 X0 Y0 Z10\nG99 G81 X1 Y2 Z-3 R1\nM2";
     assert_eq!(drilled(text), [('R', 10.0), ('R', 10.0), ('R', 1.0), ('F', -3.0), ('R', 1.0)]);
     let text = "F100 G0 X0 Y0 Z10\nG98 G85 X1 Y2 Z-3 R1\nX2\nM2";
-    assert_eq!(drilled(text)[2..6], [('R', 1.0), ('F', -3.0), ('F', 1.0), ('R', 10.0)]);
-    assert_eq!(drilled(text).len(), 11);
+    assert_eq!(
+        drilled(text)[2..],
+        [('R', 1.0), ('F', -3.0), ('F', 10.0), ('R', 10.0), ('R', 1.0), ('F', -3.0), ('F', 10.0)]
+    );
+    // LinuxCNC 2.9.4: where the series began below R, that is gone to first, from above too
+    let found = ends("F100 G0 X0 Y0 Z0\nG99 G81 X1 Z-3 R5\nX2 R2\nM2");
+    assert_eq!(found[4..6], [[1.0, 0.0, 5.0], [1.0, 0.0, 2.0]]);
+    // what is not said again is kept as it was written
+    assert_eq!(ends("F100 G0 X0 Y0 Z9\nG99 G81 X1 Z-1 R1\nG20 X2\nM2").last(), Some(&[50.8, 0.0, 25.4]));
 }
 
 #[test]
@@ -320,6 +327,9 @@ fn what_follows_a_change_of_offsets_lies_where_it_is_in_space() {
     assert_eq!(places("G0 X1\nG10 L2 P1 X100\nG0 X1\nG55 G0 X1\nM2"), [1.0, 101.0, 1.0]);
     assert_eq!(places("G0 X5\nG92 X0\nG0 X1\nG92.1 G0 X1\nG52 X3\nG0 X1\nM2"), [5.0, 6.0, 1.0, 4.0]);
     assert_eq!(places("G0 X5\nG10 L20 P1 X0\nG0 X1\nG53 G0 X1\nM2"), [5.0, 6.0, 1.0]);
+    // LinuxCNC 2.9.4 puts the zero to X1.5981 Y-1.5
+    let turned = ends("G0 X0 Y0\nG10 L2 P1 X-1 Y-3 R30\nG0 X7 Y-13\nG10 L20 P1 X4\nG0 X0 Y0\nM2");
+    assert!((turned[2][0] - 1.5981).abs() < 5e-5 && (turned[2][1] + 1.5).abs() < 5e-5, "{turned:?}");
     let turned = ends("G0 X0 Y0\nG10 L2 P1 X1 R90\nG0 X2 Y0\nM2");
     assert!((turned[1][0] - 1.0).abs() < 1e-9 && (turned[1][1] - 2.0).abs() < 1e-9);
 }
