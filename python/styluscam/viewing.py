@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 
@@ -17,6 +18,9 @@ from styluscam.program import Program
 from styluscam.report import Subject
 from styluscam.types import Progress
 
+Find: TypeAlias = Callable[[str], str | None]
+"""A subroutine's text by its name in lower case."""
+
 
 def viewed(
     text: str,
@@ -24,13 +28,13 @@ def viewed(
     machine: Machine | None = None,
     part: Part | None = None,
     *,
-    folders: Sequence[Path] = (),
+    find: Find = lambda _: None,
     progress: Progress | None = None,
 ) -> Subject:
     """A text as a machine reads it; without a machine, as the first shipped one that understands it.
 
-    What none understands is traced: run as LinuxCNC's language says, with subroutines from ``folders``. ``name`` is the
-    file's; a part stands in the program's coordinates as it is.
+    What none understands is traced: run as LinuxCNC's language says, with the subroutines that ``find`` gives. ``name``
+    is the file's; a part stands in the program's coordinates as it is.
 
     Raises:
         VerifyError: the machine does not understand the text; or no machine does, and the tracer neither, or nothing in
@@ -44,7 +48,7 @@ def viewed(
         understood = _read(text, one)
         if understood is not None:
             return Subject(name, name, understood, one, part=part)
-    traced, gaps = _traced(text, folders, progress)
+    traced, gaps = _traced(text, find, progress)
     return Subject(name, name, traced, machines[0], part=part, gaps=gaps)
 
 
@@ -69,16 +73,16 @@ def _read(text: str, machine: Machine) -> Program | None:
         return None
 
 
-def _traced(text: str, folders: Sequence[Path], progress: Progress | None) -> tuple[Program, tuple[str, ...]]:
+def _traced(text: str, find: Find, progress: Progress | None) -> tuple[Program, tuple[str, ...]]:
     try:
-        program, gaps = _engine.trace_gcode(text, subroutines_in(folders), progress)
+        program, gaps = _engine.trace_gcode(text, find, progress)
     except VerifyError as error:
         hint = f"{error.hint}; or name its machine" if error.where else error.hint
         raise VerifyError(str(error), code=error.code, where=error.where, hint=hint) from error
     return Program(program), tuple(gaps)
 
 
-def subroutines_in(folders: Sequence[Path]) -> Callable[[str], str | None]:
+def subroutines_in(folders: Sequence[Path]) -> Find:
     """Finds a subroutine's text by its name, whatever its case: ``NAME.ngc`` in the first folder that has it.
 
     Raises:

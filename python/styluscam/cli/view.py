@@ -80,8 +80,8 @@ def view(
             subject = viewing.viewed_for_job(text, file.name, Job.read(job), reader)
         else:
             solid = Part.read(part, SHOWN_TOLERANCE, units, shown) if part is not None else None
-            folders = (file.parent, *(subroutines or ()))
-            subject = viewing.viewed(text, file.name, reader, solid, folders=folders, progress=shown)
+            find = viewing.subroutines_in((file.parent, *(subroutines or ())))
+            subject = viewing.viewed(text, file.name, reader, solid, find=find, progress=shown)
         written = pages.write(lambda: subject, page, picture, shown)
     numbers = figures(subject)
     if json:
