@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import random
 from collections.abc import Iterator, Sequence
 from functools import cache, lru_cache
 from pathlib import Path
@@ -11,6 +12,7 @@ from typing import TypeAlias
 
 import pytest
 
+import ngc_words
 import roots
 import rs274
 from styluscam import _engine
@@ -74,6 +76,10 @@ def traced(path: Path) -> list[Place] | str:
         program, _ = _engine.trace_gcode(path.read_text(encoding="utf-8"), subroutines_in([path.parent, *libraries()]))
     except VerifyError as error:
         return f"{error.code}: {error}"
+    return _ends(program)
+
+
+def _ends(program: _engine.Program) -> list[Place]:
     return [(float(x), float(y), float(z)) for x, y, z in program.columns()[1]]
 
 
@@ -104,6 +110,18 @@ def test_they_go_where_linuxcnc_goes(samples: list[Path]) -> None:
             elsewhere.add(path.name)
     assert elsewhere == set(ELSEWHERE)
     assert compared >= 40
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_random_programs_go_where_linuxcnc_goes(samples: list[Path], seed: int) -> None:
+    text = ngc_words.program(random.Random(seed))
+    said = rs274.interpret(text, tools=UNKNOWN_TOOLS)
+    try:
+        program, _ = _engine.trace_gcode(text, lambda _: None)
+    except VerifyError:
+        assert not said.ok, text
+    else:
+        assert goes_along(_ends(program), list(places_of(said))), text
 
 
 def goes_along(ours: Sequence[Place], theirs: Sequence[Place | None]) -> bool:

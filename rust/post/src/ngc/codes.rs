@@ -1,21 +1,18 @@
 //! Which codes there are. G codes are in tenths: 382 is G38.2.
 
-/// Codes that move, and G80, which ends moving.
-const MOTIONS: [u32; 31] = [
-    0, 10, 20, 30, 50, 51, 52, 53, 330, 331, 382, 383, 384, 385, 700, 710, 711, 712, 720, 721, 722, 730, 740, 760, 800,
-    810, 820, 830, 840, 850, 860,
+/// Codes that move.
+const MOTIONS: [u32; 32] = [
+    0, 10, 20, 30, 50, 51, 52, 53, 330, 331, 382, 383, 384, 385, 700, 710, 711, 712, 720, 721, 722, 730, 740, 760, 810,
+    820, 830, 840, 850, 860, 880, 890,
 ];
-
-/// Cycles that are rarer.
-const CYCLES: [u32; 2] = [880, 890];
 
 /// Codes that use the axis words of their block otherwise.
 const SETTINGS: [u32; 9] = [100, 280, 281, 300, 301, 431, 432, 520, 920];
 
 /// Codes that use no axis words.
-const OTHERS: [u32; 45] = [
+const OTHERS: [u32; 46] = [
     40, 70, 80, 170, 171, 180, 181, 190, 191, 200, 210, 400, 410, 411, 420, 421, 430, 490, 530, 540, 550, 560, 570,
-    580, 590, 591, 592, 593, 610, 611, 640, 900, 901, 910, 911, 921, 922, 923, 930, 940, 950, 960, 970, 980, 990,
+    580, 590, 591, 592, 593, 610, 611, 640, 800, 900, 901, 910, 911, 921, 922, 923, 930, 940, 950, 960, 970, 980, 990,
 ];
 
 /// M codes whose meaning is known; those that say nothing about motion are passed over.
@@ -34,12 +31,12 @@ pub(super) fn known_m(code: u32) -> bool {
 
 /// Whether a code moves by the axis words of its block.
 pub(super) fn moves(code: u32) -> bool {
-    code != 800 && (MOTIONS.contains(&code) || CYCLES.contains(&code))
+    MOTIONS.contains(&code)
 }
 
 /// Whether a code uses the axis words of its block; two such codes do not go together.
 pub(super) fn takes_axes(code: u32) -> bool {
-    MOTIONS.contains(&code) || CYCLES.contains(&code) || SETTINGS.contains(&code)
+    moves(code) || SETTINGS.contains(&code)
 }
 
 /// As it is written.

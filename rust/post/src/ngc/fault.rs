@@ -92,7 +92,7 @@ pub enum TraceFault {
         /// The function.
         function: &'static str,
     },
-    /// A number past the largest that a computer holds. Correct it.
+    /// A number past what a computer holds, or past any use: turns of an arc, a wait. Correct it.
     #[error("the number is too large")]
     TooLarge,
     /// A parameter of a number that there is not. The language has #1 to #5602.

@@ -15,6 +15,13 @@ use super::FEED_UNKNOWN;
 /// mm: ends of an arc may differ so much in their distance from its centre, and by a thousandth of it, unmentioned.
 const ROUNDED: f64 = 0.005;
 
+/// mm/min: a feed beyond them is none.
+const SLOWEST: f64 = 1e-3;
+const FASTEST: f64 = 1e7;
+
+/// Turns of one arc: each takes its chords.
+const TURNS: u32 = 1000;
+
 /// The parameters that hold where a probe tripped, and whether it did.
 const PROBED: usize = 5061;
 const PROBE_TRIPPED: usize = 5070;
@@ -92,7 +99,7 @@ impl Tracer<'_> {
     }
 
     pub(super) fn pace_of(&mut self, feed: f64) -> Pace {
-        let known = feed > 0.0 && feed.is_finite();
+        let known = (SLOWEST..=FASTEST).contains(&feed);
         if !known {
             self.note(Gap::Feed);
         }
@@ -120,6 +127,9 @@ impl Tracer<'_> {
             None => self.centre_by_words(start, block)?,
         };
         let turns = block.count(b'p', "P of an arc")?.unwrap_or(1).saturating_sub(1);
+        if turns > TURNS {
+            return Err(TraceFault::TooLarge);
+        }
         let arc = Arc { centre, plane: self.modes.plane, clockwise, turns };
         let way = arc.way(start, end);
         if way.radius() <= 0.0 {

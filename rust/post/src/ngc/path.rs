@@ -1,5 +1,7 @@
 //! The program that a trace records: moves and events, consistent in space.
 
+use std::collections::HashMap;
+
 use styluscam_motion::{
     Arc, Event, EventKind, Move, MoveKind, OperationRecord, Plane, Program, SetupRecord, PROGRAM_SCHEMA,
 };
@@ -22,7 +24,9 @@ pub(super) struct Path {
     pub(super) program: Program,
     /// The offsets at the first move.
     anchor: Option<Offsets>,
-    /// Index of the tool in the program.
+    /// The tools' indices in the program, by number.
+    tools: HashMap<u32, u32>,
+    /// Index of the tool in the spindle.
     tool: Option<u32>,
     operation_due: bool,
     /// Of moves and events.
@@ -58,7 +62,7 @@ impl Path {
             moves: Vec::new(),
             events: Vec::new(),
         };
-        Self { program, anchor: None, tool: None, operation_due: true, limit }
+        Self { program, anchor: None, tools: HashMap::new(), tool: None, operation_due: true, limit }
     }
 
     pub(super) fn is_empty(&self) -> bool {
@@ -96,11 +100,10 @@ impl Path {
 
     fn tool_of_number(&mut self, number: u32) -> u32 {
         let tools = &mut self.program.tools;
-        let index = tools.iter().position(|tool| tool.number == number).unwrap_or_else(|| {
+        *self.tools.entry(number).or_insert_with(|| {
             tools.push(bare_tool(number));
-            tools.len() - 1
-        });
-        u32::try_from(index).unwrap_or(u32::MAX)
+            u32::try_from(tools.len() - 1).unwrap_or(u32::MAX)
+        })
     }
 
     /// A straight move to a place in the program's coordinates.

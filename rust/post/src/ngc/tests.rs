@@ -186,7 +186,7 @@ fn arcs_by_radius_and_by_centre_are_one() {
     let by_centre = moves("G0 X0 Y0 Z0\nG2 X10 Y0 I5 J0 F100\nG90.1 G3 X0 Y0 I5 J0\nG17 G3 X0 Y0 I5 J5 P3 Z2\nM2");
     let by_radius = moves("G0 X0 Y0 Z0\nG2 X10 Y0 R5 F100\nG3 X0 Y0 R5\nM2");
     assert_eq!(by_centre[1].arc, by_radius[1].arc);
-    assert_eq!(by_centre[2].arc.unwrap().centre[0], 5.0);
+    assert_eq!(by_centre[2].arc.map(|arc| arc.centre), Some([5.0, 0.0, 0.0]));
     assert_eq!(by_centre[3].arc.unwrap().turns, 2);
     // LinuxCNC 2.9.4 prints these centres
     let x = |text: &str| moves(text).last().unwrap().arc.unwrap().centre;
@@ -305,7 +305,9 @@ fn cycles_that_do_not_fit_are_refused() {
     assert_eq!(fault("G0 Z5\nG81 X1 Z3 R1\nM2").1, TraceFault::CycleDepths);
     assert_eq!(fault("G0 Z5\nG83 X1 Z0 R1\nM2").1, TraceFault::CycleDepths);
     assert_eq!(fault("G0 Z5\nG81 X1 Z0\nM2").1, TraceFault::WordMissing { what: "R of a cycle" });
-    assert_eq!(fault("G80 X1\nX2\nM2"), (2, TraceFault::NoMotionMode));
+    assert_eq!(fault("G0 X1\nG80 X1\nM2"), (2, TraceFault::NoMotionMode));
+    assert_eq!(places("G80 G0 X1\nX2\nG80 G28 X3\nM2"), [1.0, 2.0, 3.0, 0.0]);
+    assert_eq!(fault("G0 X1\nG0 X1 G1\nM2"), (2, TraceFault::SameGroup));
 }
 
 #[test]
@@ -385,6 +387,9 @@ fn a_library_and_a_still_program_are_told_apart() {
 #[test]
 fn places_out_of_this_world_are_refused() {
     assert_eq!(fault("G0 X2000000\nM2"), (1, TraceFault::TooFar));
+    assert_eq!(fault("G0 X1 Y1\nG2 I1 P4000000000\nM2"), (2, TraceFault::TooLarge));
+    assert_eq!(fault("G0 X1 Y1\nG4 P4000000\nM2"), (2, TraceFault::TooLarge));
+    assert_eq!(gaps("F0.0000001 G0 X0 Y0 Z0\nG1 X1\nM2"), [Gap::Feed]);
 }
 
 const WORDS: [&str; 60] = [

@@ -18,6 +18,9 @@ use super::path::Path;
 use super::source::{Content, Line, Source};
 use super::{Limits, Trace};
 
+/// s: more than a month is no wait.
+const LONGEST_WAIT: f64 = 3e6;
+
 /// A subroutine's text by its name.
 pub(super) type Find<'f> = &'f dyn Fn(&str) -> Option<String>;
 
@@ -347,6 +350,9 @@ impl<'f> Tracer<'f> {
     }
 
     pub(super) fn wait(&mut self, seconds: f64) -> Result<(), TraceFault> {
+        if seconds > LONGEST_WAIT {
+            return Err(TraceFault::TooLarge);
+        }
         self.path.event(EventKind::Dwell { seconds: seconds.max(0.0) })
     }
 
@@ -390,13 +396,12 @@ impl<'f> Tracer<'f> {
         if users.next().is_some() {
             return Err(TraceFault::SameGroup);
         }
+        if block.has_g(NO_MOTION) {
+            self.modes.motion = NO_MOTION;
+            self.cycle = Sticky::default();
+        }
         match user {
             Some(code) if codes::moves(code) => self.motion(block, code),
-            Some(800) => {
-                self.modes.motion = NO_MOTION;
-                self.cycle = Sticky::default();
-                Ok(Next::Line)
-            }
             Some(code) => self.place_offsets(block, code).map(|()| Next::Line),
             None if self.unknown_motion(block) => Ok(Next::Line),
             None if block.m.iter().any(|code| !codes::known_m(*code)) => Ok(Next::Line),
