@@ -78,8 +78,10 @@ impl Tracer<'_> {
                 self.wait(seconds)?;
             }
         }
-        if matches!(code, 740 | 840 | 850 | 890) {
-            self.feed_along(along, heights.clear)?;
+        match code {
+            850 => self.feed_along(along, heights.retract)?,
+            740 | 840 | 890 => self.feed_along(along, heights.clear)?,
+            _ => {}
         }
         self.rapid_along(along, heights.clear)
     }

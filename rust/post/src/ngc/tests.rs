@@ -265,11 +265,11 @@ fn drilled(text: &str) -> Vec<(char, f64)> {
 fn holes_are_drilled_from_the_retract_plane() {
     let text = "F100 G0 X0 Y0 Z10\nG99 G81 X1 Y2 Z-3 R1\nM2";
     assert_eq!(drilled(text), [('R', 10.0), ('R', 10.0), ('R', 1.0), ('F', -3.0), ('R', 1.0)]);
-    let text = "F100 G0 X0 Y0 Z10\nG98 G85 X1 Y2 Z-3 R1\nX2\nM2";
-    assert_eq!(
-        drilled(text)[2..],
-        [('R', 1.0), ('F', -3.0), ('F', 10.0), ('R', 10.0), ('R', 1.0), ('F', -3.0), ('F', 10.0)]
-    );
+    // LinuxCNC 2.9.4: G85 feeds out to R, G89 and tapping to where the cycle ends
+    let out = |cycle: &str| drilled(&format!("F100 G0 X0 Y0 Z10\nG98 {cycle} X1 Y2 Z-3 R1\nM2"))[3..].to_vec();
+    assert_eq!(out("G85"), [('F', -3.0), ('F', 1.0), ('R', 10.0)]);
+    assert_eq!(out("G89"), [('F', -3.0), ('F', 10.0)]);
+    assert_eq!(out("G84"), [('F', -3.0), ('F', 10.0)]);
     // LinuxCNC 2.9.4: where the series began below R, that is gone to first, from above too
     let found = ends("F100 G0 X0 Y0 Z0\nG99 G81 X1 Z-3 R5\nX2 R2\nM2");
     assert_eq!(found[4..6], [[1.0, 0.0, 5.0], [1.0, 0.0, 2.0]]);
