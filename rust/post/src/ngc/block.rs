@@ -39,19 +39,21 @@ impl Block {
                 b'@' => once(&mut block.distance, cursor.value()?, '@')?,
                 b'$' => once(&mut block.spindle, cursor.value()?, '$')?,
                 b'^' => once(&mut block.angle, cursor.value()?, '^')?,
-                b'a'..=b'z' if !matches!(byte, b'n' | b'o') => {
-                    let value = cursor.value()?;
-                    once(block.slot(byte), value, char::from(byte.to_ascii_uppercase()))?;
+                _ => {
+                    let slot = block.slot(byte);
+                    let slot = slot.ok_or_else(|| TraceFault::Character { character: character_at(code, byte) })?;
+                    once(slot, cursor.value()?, char::from(byte.to_ascii_uppercase()))?;
                 }
-                _ => return Err(TraceFault::Character { character: character_at(code, byte) }),
             }
         }
         block.unset = cursor.unset;
         Ok(block)
     }
 
-    fn slot(&mut self, letter: u8) -> &mut Option<f64> {
-        &mut self.words[usize::from(letter - b'a') % 26]
+    /// Where the value of a word goes; nothing for what is no letter, N and O.
+    fn slot(&mut self, letter: u8) -> Option<&mut Option<f64>> {
+        let index = usize::from(letter.checked_sub(b'a')?);
+        self.words.get_mut(index).filter(|_| !matches!(letter, b'n' | b'o'))
     }
 
     /// The value of a word, by its small letter.

@@ -126,7 +126,7 @@ impl Tracer<'_> {
     /// G28 and G30: over the place that is named, if any, to the stored one; then only along the axes that are named.
     fn go_home(&mut self, block: &Block, code: u32) -> Result<(), TraceFault> {
         let named = self.lengths(block).map(|word| word.is_some());
-        let any = named.contains(&true);
+        let any = named.contains(&true) || block.turns();
         if any {
             let end = self.target(block, false)?;
             self.rapid(end)?;

@@ -9,7 +9,7 @@ use super::fault::TraceFault;
 use super::modes::Modes;
 use super::note::Gap;
 use super::parameters::LOCALS;
-use super::source::{Flow, Label, Source};
+use super::source::{Content, Flow, Label, Source};
 use super::tracer::{Next, Tracer};
 
 /// Subroutines within subroutines.
@@ -140,9 +140,7 @@ impl Tracer<'_> {
             let branches = [Flow::ElseIf, Flow::Else, Flow::EndIf];
             let (line, flow) = seek(source.after(from, label, &branches), label, "endif")?;
             let taken = match source.lines.get(line).map(|line| &line.content) {
-                Some(super::source::Content::Flow(_, Flow::ElseIf, condition)) if flow == Flow::ElseIf => {
-                    self.holds(condition)?
-                }
+                Some(Content::Flow(_, Flow::ElseIf, condition)) if flow == Flow::ElseIf => self.holds(condition)?,
                 _ => true,
             };
             if taken {

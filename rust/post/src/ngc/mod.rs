@@ -18,6 +18,7 @@ mod note;
 mod offsets;
 mod parameters;
 mod path;
+mod settings;
 mod source;
 mod threads;
 mod tracer;

@@ -36,6 +36,9 @@ impl fmt::Display for Note {
 /// What a trace does not know or does not show.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum Gap {
+    /// Lengths before G20 or G21: they are in the unit that the machine starts in.
+    #[error("neither G20 nor G21 came before: lengths are taken as mm")]
+    Unit,
     /// Words of rotary or secondary axes.
     #[error("axes A, B, C, U, V, W are not shown")]
     OtherAxes,

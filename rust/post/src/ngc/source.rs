@@ -145,7 +145,7 @@ impl Source {
 
     /// The labels of the subroutines, in the order of the text.
     pub(super) fn subroutines(&self) -> Vec<String> {
-        let label = |line: &'_ Line| match &line.content {
+        let label = |line: &Line| match &line.content {
             Content::Flow(Label::Fixed(label), Flow::Sub, _) => Some(label.clone()),
             _ => None,
         };

@@ -23,8 +23,10 @@ fn places(text: &str) -> Vec<f64> {
     ends(text).iter().map(|end| end[0]).collect()
 }
 
+/// What is noted, but for the unit that most of these programs leave out.
 fn gaps(text: &str) -> Vec<Gap> {
-    traced(text).unwrap().notes.into_iter().map(|note| note.gap).collect()
+    let notes = traced(text).unwrap().notes.into_iter().map(|note| note.gap);
+    notes.filter(|gap| *gap != Gap::Unit).collect()
 }
 
 fn fault(text: &str) -> (u32, TraceFault) {
@@ -54,9 +56,9 @@ fn the_machine_tells_its_state() {
 fn what_has_no_value_is_zero_and_noted() {
     let text = "G0 X[1+#<_hal[a.pin]>]\nG0 X[2+#<_hal[a.pin]>]\nM2";
     assert_eq!(places(text), [1.0, 2.0]);
-    let trace = traced(text).unwrap();
+    let trace = traced(&format!("G21\n{text}")).unwrap();
     assert_eq!(trace.notes.len(), 1);
-    assert_eq!(trace.notes[0].to_string(), "line 1: #<_hal[a.pin]> has no value here: 0 is taken (twice)");
+    assert_eq!(trace.notes[0].to_string(), "line 2: #<_hal[a.pin]> has no value here: 0 is taken (twice)");
 }
 
 // Flow
@@ -120,7 +122,7 @@ fn subroutines_come_from_files_and_computed_numbers() {
     let trace = super::trace("o<HOP> call [3]\nG0 X1\nM2", &find, &Watch::default()).unwrap();
     let shown: Vec<_> = trace.program.moves.iter().map(|one| (one.end[0], one.line)).collect();
     assert_eq!(shown, [(3.0, 1), (9.0, 1), (1.0, 2)]);
-    assert_eq!(trace.notes[0].file, "hop");
+    assert_eq!(trace.notes[0].to_string(), "line 2 of hop: neither G20 nor G21 came before: lengths are taken as mm");
     assert_eq!(places("o101 sub\nG0 X1\no101 endsub\no[100+1] call\nM2"), [1.0]);
     let text = "o<gone> call\nG0 X1\no<gone> call\nM2";
     assert_eq!(
@@ -250,7 +252,8 @@ fn a_feed_from_an_unknown_place_begins_at_the_machines_zero() {
     let trace = traced("F100\nG1 X5\nM2").unwrap();
     let kinds: Vec<_> = trace.program.moves.iter().map(|one| (one.kind, one.end[0])).collect();
     assert_eq!(kinds, [(MoveKind::Rapid, 0.0), (MoveKind::Feed, 5.0)]);
-    assert_eq!(trace.notes.len(), 3);
+    let starts = ['X', 'Y', 'Z'].map(|axis| Gap::Start { axis });
+    assert_eq!(trace.notes.into_iter().map(|note| note.gap).collect::<Vec<_>>(), [&[Gap::Unit], &starts[..]].concat());
 }
 
 // Cycles
@@ -339,6 +342,7 @@ fn what_follows_a_change_of_offsets_lies_where_it_is_in_space() {
 #[test]
 fn homes_are_gone_to_over_a_place() {
     assert_eq!(ends("G0 X5 Y5 Z5\nG28.1\nG0 X9 Y9 Z9\nG91 G28 Z1\nM2")[2..], [[9.0, 9.0, 10.0], [9.0, 9.0, 5.0]]);
+    assert_eq!(places("G0 X5\nG28 U0\nG28\nM2"), [5.0, 5.0, 5.0, 0.0]);
 }
 
 #[test]
