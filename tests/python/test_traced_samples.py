@@ -93,7 +93,7 @@ def test_they_are_shown_or_only_define_subroutines_or_move_nothing(samples: list
     still, libraries_only, shown = (found.pop(kind) for kind in ("trace-no-moves", "trace-only-subroutines", "shown"))
     assert [name for names in found.values() for name in names] == list(REFUSED)
     assert all(way.endswith(REFUSED[path.name]) for path in samples if path.name in REFUSED for way in [traced(path)])
-    assert len(shown) >= 75 and len(still) <= 20 and len(libraries_only) <= 230
+    assert len(shown) >= 75 and len(still) <= 40 and len(libraries_only) <= 230
 
 
 def test_they_go_where_linuxcnc_goes(samples: list[Path]) -> None:

@@ -209,6 +209,7 @@ impl Tracer<'_> {
             return Err(TraceFault::CallDepth);
         }
         let back = Back { file: self.file, line: self.line, locals: self.parameters.locals(), entry, again };
+        self.called = true;
         self.frames.push(Frame { back: Some(back), ..Frame::default() });
         (self.file, self.line) = (file, entry);
         Ok(())

@@ -6,6 +6,7 @@ use styluscam_motion::{
     Arc, Event, EventKind, Move, MoveKind, OperationRecord, Plane, Program, SetupRecord, PROGRAM_SCHEMA,
 };
 
+use super::codes;
 use super::fault::TraceFault;
 use super::offsets::{turned, Offsets};
 use crate::interpreter::bare_tool;
@@ -21,7 +22,7 @@ const SAME: f64 = 1e-6;
 
 /// Moves in the coordinates that were in force at the first one.
 pub(super) struct Path {
-    pub(super) program: Program,
+    program: Program,
     /// The offsets at the first move.
     anchor: Option<Offsets>,
     /// The tools' indices in the program, by number.
@@ -74,6 +75,14 @@ impl Path {
         let Some(end) = self.program.moves.last().map(|last| last.end) else { return false };
         let place = self.shown(offsets, place);
         end.iter().zip(place).all(|(a, b)| (a - b).abs() <= SAME)
+    }
+
+    /// The program, in the work coordinates of its first move.
+    pub(super) fn finish(mut self) -> Program {
+        let system = self.anchor.map_or(0, |anchor| anchor.index as u32);
+        let code = if system < 6 { 540 + 10 * system } else { 585 + system };
+        self.program.setup.wcs = codes::name_g(code);
+        self.program
     }
 
     fn require_room(&self) -> Result<(), TraceFault> {

@@ -340,6 +340,14 @@ fn what_follows_a_change_of_offsets_lies_where_it_is_in_space() {
 }
 
 #[test]
+fn the_work_offset_is_that_of_the_first_move() {
+    let offset = |text: &str| traced(text).unwrap().program.setup.wcs;
+    assert_eq!(offset("G0 X1\nG55 G0 X2\nM2"), "G54");
+    assert_eq!(offset("G59 G0 X1\nM2"), "G59");
+    assert_eq!(offset("G59.3 G0 X1\nM2"), "G59.3");
+}
+
+#[test]
 fn homes_are_gone_to_over_a_place() {
     assert_eq!(ends("G0 X5 Y5 Z5\nG28.1\nG0 X9 Y9 Z9\nG91 G28 Z1\nM2")[2..], [[9.0, 9.0, 10.0], [9.0, 9.0, 5.0]]);
     assert_eq!(places("G0 X5\nG28 U0\nG28\nM2"), [5.0, 5.0, 5.0, 0.0]);
@@ -383,6 +391,8 @@ fn codes_of_one_machine_are_left_out_with_their_axes() {
 fn a_library_and_a_still_program_are_told_apart() {
     let text = "o<a> sub\nG0 X1\no<a> endsub\no7 sub\no7 endsub\nM2";
     assert_eq!(fault(text), (0, TraceFault::OnlySubroutines { names: "o<a>, o7".into() }));
+    let called = fault("o1 sub\nT1 M6\no1 endsub\no1 call\nM2");
+    assert_eq!(called, (0, TraceFault::NoMoves { left_out: String::new() }));
     assert_eq!(fault("G21\nM2"), (0, TraceFault::NoMoves { left_out: String::new() }));
     let missing = traced("o<gone> call\nM6 T1\nM2").unwrap_err();
     assert_eq!(missing.to_string(), "no move in it: there is nothing to see; not known here: o<gone>");

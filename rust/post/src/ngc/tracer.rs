@@ -32,6 +32,8 @@ pub(super) struct Tracer<'f> {
     /// Index of the line that is run.
     pub(super) line: usize,
     pub(super) root: Frame,
+    /// Whether a subroutine has run.
+    pub(super) called: bool,
     /// The subroutines that are running.
     pub(super) frames: Vec<Frame>,
     pub(super) parameters: Parameters,
@@ -81,6 +83,7 @@ impl<'f> Tracer<'f> {
             file: 0,
             line: 0,
             root: Frame::default(),
+            called: false,
             frames: Vec::new(),
             parameters: Parameters::new(),
             modes: Modes::default(),
@@ -116,9 +119,7 @@ impl<'f> Tracer<'f> {
         if self.path.is_empty() {
             return Err(TraceError { file: String::new(), line: 0, fault: self.nothing() });
         }
-        let mut program = self.path.program;
-        program.setup.wcs = "G54".into();
-        Ok(Trace { program, notes: self.notes.into_inner() })
+        Ok(Trace { program: self.path.finish(), notes: self.notes.into_inner() })
     }
 
     fn error(&self, fault: TraceFault) -> TraceError {
@@ -130,7 +131,7 @@ impl<'f> Tracer<'f> {
     fn nothing(&self) -> TraceFault {
         let subroutines = self.sources.first().map(|source| source.subroutines()).unwrap_or_default();
         let left_out = self.notes.left_out();
-        if subroutines.is_empty() || !left_out.is_empty() {
+        if subroutines.is_empty() || self.called || !left_out.is_empty() {
             return TraceFault::NoMoves { left_out };
         }
         let names: Vec<String> = subroutines.iter().map(|label| format!("o{label}")).collect();
