@@ -34,6 +34,7 @@ __all__ = [
     "shipped_machines",
     "slope_matched_offset",
     "starter",
+    "trace_gcode",
     "waterlines",
 ]
 __version__: str
@@ -229,6 +230,12 @@ def plan(
 ) -> Plan: ...
 def post(program: Program, machine: Machine) -> str: ...
 def read_gcode(text: str, machine: Machine) -> Program: ...
+def trace_gcode(
+    text: str,
+    find: Callable[[str], str | None],
+    progress: _Progress | None = None,
+    cancel: CancelToken | None = None,
+) -> tuple[Program, list[str]]: ...
 def read_back(job: Job, machine: Machine, text: str) -> Program: ...
 def judge(
     job: Job,

@@ -43,6 +43,8 @@ PNG: Any = {"format": "png", "dpi": DPI, "metadata": {"Software": None}}
 """How pictures are saved."""
 MOVES = 60_000
 """Of a path on one picture, about: more are no finer than its pixels."""
+LABEL = 40
+"""Pixels that the numbers of a ruler need beside one another."""
 LABELS = 60
 """Names on one picture at most: the largest faces get theirs."""
 
@@ -507,6 +509,8 @@ def _rulers(axes: Axes, view: View, box: FloatArray) -> None:
         pixels = float(np.linalg.norm(b - a))
         steps = MaxNLocator(max(2, int(pixels / 70)), steps=[1, 2, 5, 10]).tick_values(low, high)
         ticks = [tick for tick in steps if low <= tick <= high]
+        if pixels < LABEL:  # a flat program: one number says it all
+            ticks = ticks[len(ticks) // 2 :][:1]
         for tick in ticks:
             at = a + (b - a) * (tick - low) / max(high - low, 1e-9)
             axes.plot(*np.array([at + 6.0 * out, at + 11.0 * out]).T, color=SOFT, linewidth=0.9)

@@ -1,28 +1,55 @@
-"""Programs to look at: any text that a known controller understands, with a part or without."""
+"""Programs to look at: any text that a known controller or the language's tracer understands, with a part or without."""
 
 from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 
 from styluscam import _engine
-from styluscam.errors import StylusError, VerifyError
+from styluscam.errors import VerifyError
+from styluscam.files import read_text
 from styluscam.job import Job
 from styluscam.machine import Machine
 from styluscam.part import Part
 from styluscam.program import Program
 from styluscam.report import Subject
+from styluscam.types import Progress
+
+Find: TypeAlias = Callable[[str], str | None]
+"""A subroutine's text by its name in lower case."""
 
 
-def viewed(text: str, name: str, machine: Machine | None = None, part: Part | None = None) -> Subject:
+def viewed(
+    text: str,
+    name: str,
+    machine: Machine | None = None,
+    part: Part | None = None,
+    *,
+    find: Find = lambda _: None,
+    progress: Progress | None = None,
+) -> Subject:
     """A text as a machine reads it; without a machine, as the first shipped one that understands it.
 
-    ``name`` is the file's; a part stands in the program's coordinates as it is.
+    What none understands is traced: run as LinuxCNC's language says, with the subroutines that ``find`` gives. ``name``
+    is the file's; a part stands in the program's coordinates as it is.
 
     Raises:
-        VerifyError: no machine understands the text; the first one's reason.
+        VerifyError: the machine does not understand the text; or no machine does, and the tracer neither, or nothing in
+            it moves.
     """
-    machine, program = _read(text, machine)
-    return Subject(name, name, _going(program, name), machine, part=part)
+    if machine is not None:
+        read = Program(_engine.read_gcode(text, machine.engine))
+        return Subject(name, name, _going(read, name), machine, part=part)
+    machines = [Machine.shipped(one) for one in shipped_by_use()]
+    for one in machines:
+        understood = _read(text, one)
+        if understood is not None:
+            return Subject(name, name, understood, one, part=part)
+    traced, gaps = _traced(text, find, progress)
+    return Subject(name, name, traced, machines[0], part=part, gaps=gaps)
 
 
 def viewed_for_job(text: str, name: str, job: Job, machine: Machine | None = None) -> Subject:
@@ -38,19 +65,48 @@ def viewed_for_job(text: str, name: str, job: Job, machine: Machine | None = Non
     return Subject(title, name, _going(program, name), machine, job, job.part(), np.array(scene.frame))
 
 
-def _read(text: str, machine: Machine | None) -> tuple[Machine, Program]:
-    machines = [machine] if machine is not None else [Machine.shipped(name) for name in shipped_by_use()]
-    first: StylusError | None = None
-    for one in machines:
-        try:
-            return one, Program(_engine.read_gcode(text, one.engine))
-        except VerifyError as error:
-            first = first or error
-    assert first is not None
-    if machine is not None:
-        raise first
-    hint = f"{first.hint}; or name its machine: this is what {machines[0].name} says"
-    raise VerifyError(str(first), code=first.code, where=first.where, hint=hint) from first
+def _read(text: str, machine: Machine) -> Program | None:
+    """The program as a machine reads it, if it does and the program goes somewhere."""
+    try:
+        return _going(Program(_engine.read_gcode(text, machine.engine)), "")
+    except VerifyError:
+        return None
+
+
+def _traced(text: str, find: Find, progress: Progress | None) -> tuple[Program, tuple[str, ...]]:
+    try:
+        program, gaps = _engine.trace_gcode(text, find, progress)
+    except VerifyError as error:
+        hint = f"{error.hint}; or name its machine" if error.where else error.hint
+        raise VerifyError(str(error), code=error.code, where=error.where, hint=hint) from error
+    return Program(program), tuple(gaps)
+
+
+def subroutines_in(folders: Sequence[Path]) -> Find:
+    """Finds a subroutine's text by its name, whatever its case: ``NAME.ngc`` in the first folder that has it.
+
+    Raises:
+        VerifyError: a folder or a file that cannot be read; by the finder too.
+    """
+    files: dict[str, Path] = {}
+    for folder in folders:
+        for path in _listed(folder):
+            if path.suffix.lower() == ".ngc":
+                files.setdefault(path.stem.lower(), path)
+
+    def find(name: str) -> str | None:
+        path = files.get(name)
+        return read_text(path, VerifyError) if path is not None else None
+
+    return find
+
+
+def _listed(folder: Path) -> list[Path]:
+    try:
+        return sorted(folder.iterdir())
+    except OSError as error:
+        message = f"{folder}: not a folder that can be read"
+        raise VerifyError(message, code="unreadable", where=str(folder), hint="name the subroutines' folder") from error
 
 
 def shipped_by_use() -> list[str]:

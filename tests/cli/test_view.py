@@ -12,6 +12,19 @@ from .conftest import COARSE_CUP, changed
 
 PNG = b"\x89PNG\r\n\x1a\n"
 INCHES = "%\n(somebody else's)\nG20 G90\nT3 M6\nS5000 M3\nG0 X0 Y0 Z1\nG1 Z-0.1 F7\nX1.5\nY2\nG0 Z1\nM30\n%\n"
+LOOP = """\
+(holes on a row, slots between them)
+G20 G90 G94 F10
+#<pitch>=0.5
+o10 while [#<n> LT 3]
+G81 X[#<n>*#<pitch>] Y0 Z-0.25 R0.1
+o<Slot> call [#<n>*#<pitch>] [0.2]
+#<n>=[#<n>+1]
+o10 endwhile
+G41 D1 G0 Z1
+M2
+"""
+SLOT = "o<slot> sub\nG0 X#1 Y0.1\nG1 Z-0.1\nG3 X#1 Y[0.1+2*#2] R#2\nG0 Z0.1\no<slot> endsub\nM2\n"
 
 
 @pytest.fixture(autouse=True)
@@ -33,6 +46,36 @@ def test_a_foreign_program_is_shown_beside_its_file(cli, foreign):
     assert "as linuxcnc reads it; not judged" in ran.out and re.search(r"lowest Z +-2\.540 mm", ran.out)
     page = foreign.with_suffix(".html").read_text()
     assert "Not judged" in page and "foreign.ngc" in page
+
+
+def test_what_no_machine_reads_is_traced(cli, tmp_path):
+    program = tmp_path / "loop.ngc"
+    program.write_text(LOOP)
+    (tmp_path / "Slot.NGC").write_text(SLOT)
+    ran = cli("view", program)
+    assert ran.code == 0 and ran.err == ""
+    assert "read as RS-274NGC, traced; not judged" in ran.out and re.search(r"lowest Z +-6\.350 mm", ran.out)
+    assert "note: line 9: cutter compensation is not applied" in ran.out
+    page = program.with_suffix(".html").read_text()
+    assert "read as RS-274NGC, traced" in page and "#&lt;n&gt; has no value here: 0 is taken" in page
+    assert cli("view", program, "--machine", "linuxcnc").code == 2
+
+
+def test_subroutines_come_from_the_folders_that_are_named(cli, tmp_path):
+    program, folder = tmp_path / "loop.ngc", tmp_path / "shared"
+    program.write_text(LOOP)
+    alone = cli("view", program, "--json")
+    assert "line 6: there is no subroutine o<slot> here: its call is left out (3 times)" in alone.json["gaps"]
+    folder.mkdir()
+    (folder / "slot.ngc").write_text(SLOT)
+    together = cli("view", program, "--subroutines", folder, "--json")
+    assert together.json["machine"] == "RS-274NGC, traced" and not any(
+        "o<slot>" in gap for gap in together.json["gaps"]
+    )
+    assert together.json["figures"]["moves"] == alone.json["figures"]["moves"] + 12
+    (folder / "slot.ngc").write_text("o<slot> sub\nG1 X[1/0]\no<slot> endsub\n")
+    faulty = cli("view", program, "--subroutines", folder)
+    assert faulty.code == 2 and "line 2 of slot: a division by zero" in faulty.err
 
 
 def test_json_says_figures_and_files(cli, foreign, tmp_path):
@@ -62,6 +105,9 @@ def test_our_program_with_its_job_or_a_part(cli, coarse, tmp_path, box_step):
         (["{missing}"], ["missing.ngc", "cannot be read"]),
         (["{text}"], ["text.ngc", "line 1", "name its machine"]),
         (["{empty}"], ["empty.ngc", "no move"]),
+        (["{library}"], ["library.ngc", "only defines subroutines (o<slot>)", "a program that calls them"]),
+        (["{endless}"], ["endless.ngc", "line 3", "endless loop"]),
+        (["{foreign}", "--subroutines", "{missing}"], ["missing.ngc", "not a folder"]),
         (["{foreign}", "--machine", "linuxnc"], ["linuxnc", "linuxcnc"]),
         (["{foreign}", "--machine", "{missing}.toml"], ["missing.ngc.toml", "cannot be read"]),
         (["{foreign}", "--part", "{missing}"], ["missing.ngc"]),
@@ -73,7 +119,9 @@ def test_our_program_with_its_job_or_a_part(cli, coarse, tmp_path, box_step):
 def test_what_cannot_be_shown_is_said_in_one_line(cli, foreign, tmp_path, arguments, words):
     (tmp_path / "text.ngc").write_text("Dear machine,\n")
     (tmp_path / "empty.ngc").write_text("G21\nM2\n")
-    names = {name: tmp_path / f"{name}.ngc" for name in ("missing", "text", "empty")}
+    (tmp_path / "library.ngc").write_text(SLOT)
+    (tmp_path / "endless.ngc").write_text("o1 while [1]\n" + "#1=2\n" + "o1 endwhile\n")
+    names = {name: tmp_path / f"{name}.ngc" for name in ("missing", "text", "empty", "library", "endless")}
     there = set(tmp_path.iterdir())
     ran = cli("view", *(word.format(foreign=foreign, here=tmp_path, **names) for word in arguments))
     assert ran.code == 2 and ran.out == "" and ran.err.count("\n") == 1, ran.err

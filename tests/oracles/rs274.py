@@ -19,7 +19,7 @@ import dataclasses
 import re
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import roots
@@ -158,11 +158,12 @@ def interpret(
     inch: bool = False,
     tools: Mapping[int, float] = TOOLS,
     timeout: float = 120.0,
+    subroutines: Sequence[str] = (),
 ) -> Interpretation:
     """Lets LinuxCNC read a program on a machine whose native unit is mm, or inch.
 
     The machine's unit is that of the tool lengths in `tools`, not that of the program: a program
-    that has neither G20 nor G21 is read in mm either way. A program that does not end
+    that has neither G20 nor G21 is read in mm either way. `subroutines` are folders inside the root. A program that does not end
     within `timeout` seconds raises subprocess.TimeoutExpired.
     """
     with tempfile.TemporaryDirectory(prefix="rs274-") as name:
@@ -172,7 +173,10 @@ def interpret(
             "".join(f"T{number} P{number} Z{length:.6f}\n" for number, length in tools.items())
         )
         (job / "job.var").touch()
-        (job / "job.ini").write_text(f"[TRAJ]\nLINEAR_UNITS = {'inch' if inch else 'mm'}\nANGULAR_UNITS = degree\n")
+        (job / "job.ini").write_text(
+            f"[TRAJ]\nLINEAR_UNITS = {'inch' if inch else 'mm'}\nANGULAR_UNITS = degree\n"
+            f"[RS274NGC]\nSUBROUTINE_PATH = {':'.join(['.', *subroutines])}\n"
+        )
         done = roots.run(
             ROOT,
             [

@@ -32,6 +32,15 @@ WithPart = Annotated[
     Path | None,
     typer.Option("--part", metavar="PART", help="A part in the program's coordinates.", show_default=False),
 ]
+Subroutines = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--subroutines",
+        metavar="FOLDER",
+        help="Where else O-words find their files; besides the program's own.",
+        show_default=False,
+    ),
+]
 Out = Annotated[
     Path | None,
     typer.Option("--out", metavar="FILE.html", help="The page; beside the G-code when left out.", show_default=False),
@@ -48,6 +57,7 @@ def view(
     job: WithJob = None,
     part: WithPart = None,
     units: Units = None,
+    subroutines: Subroutines = None,
     out: Out = None,
     picture: Picture = None,
     json: Json = False,
@@ -56,7 +66,8 @@ def view(
 ) -> int:
     """Show a G-code file as a page, ours or not.
 
-    Path, tool and times, and a part if you name one. Nothing is judged; `styluscam verify` does that.
+    Path, tool and times, and a part if you name one. What no machine here reads is traced: loops, subroutines, cycles and
+    parameters are run as LinuxCNC does. Nothing is judged; `styluscam verify` does that.
     """
     if job is not None and part is not None:
         raise JobError("--job and --part: a job has its part", code="usage", where="--part", hint="give one of them")
@@ -69,13 +80,19 @@ def view(
             subject = viewing.viewed_for_job(text, file.name, Job.read(job), reader)
         else:
             solid = Part.read(part, SHOWN_TOLERANCE, units, shown) if part is not None else None
-            subject = viewing.viewed(text, file.name, reader, solid)
+            find = viewing.subroutines_in((file.parent, *(subroutines or ())))
+            subject = viewing.viewed(text, file.name, reader, solid, find=find, progress=shown)
         written = pages.write(lambda: subject, page, picture, shown)
     numbers = figures(subject)
     if json:
         names = [str(path) for path in written]
-        console.say_json({"file": str(file), "machine": subject.machine.name, "figures": numbers, "written": names})
+        gaps = list(subject.gaps or ())
+        document = {"file": str(file), "machine": subject.reader, "gaps": gaps, "figures": numbers, "written": names}
+        console.say_json(document)
     elif not quiet:
-        console.say(f"{file}: as {subject.machine.name} reads it; not judged")
+        read = f"as {subject.reader} reads it" if subject.gaps is None else f"read as {subject.reader}"
+        console.say(f"{file}: {read}; not judged")
         console.fields([*in_words(numbers), *(("written", summary.shown_path(path)) for path in written)])
+        for gap in subject.gaps or ():
+            console.say(f"note: {gap}")
     return 0

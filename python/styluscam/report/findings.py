@@ -20,10 +20,15 @@ class Verdict:
     explained: str
 
 
-def verdict_of(report: Report | None) -> Verdict:
-    """What a person wants to know first."""
+def verdict_of(report: Report | None, traced: bool = False) -> Verdict:
+    """What a person wants to know first; ``traced`` says that no machine has read the program."""
     if report is None:
-        explained = "The program is shown as the machine reads it. Nothing was held against a part."
+        shown = (
+            "as the language RS-274NGC says it, not as one machine would run it"
+            if traced
+            else "as the machine reads it"
+        )
+        explained = f"The program is shown {shown}. Nothing was held against a part."
         return Verdict("unjudged", "Not judged", explained)
     document = report.to_dict()
     errors = [finding for finding in report.findings if finding["severity"] == "error"]

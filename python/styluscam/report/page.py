@@ -45,7 +45,7 @@ def report_page(subject: Subject, progress: Progress | None = None) -> str:
         GeometryError: a part that keeps no triangles to draw, or a program that goes nowhere.
     """
     shown = _shown(subject, progress)
-    verdict = verdict_of(subject.report)
+    verdict = verdict_of(subject.report, subject.gaps is not None)
     return str(
         template("report.html.jinja").render(
             subject=subject,

@@ -23,6 +23,9 @@ from styluscam.types import Document, FloatArray, IntArray
 RAPIDS, UPRIGHT, CUT = 0, 1, 2
 """What moves are for, as a page colours them: rapids; straight down or up at a feed; any other at a feed."""
 
+TRACED = "RS-274NGC, traced"
+"""The reader of a text that is no machine's."""
+
 SAME = 1e-6
 """mm: as the judge tells a plunge from a cut."""
 
@@ -31,7 +34,8 @@ SAME = 1e-6
 class Subject:
     """A program read from a text, with the job, the part and the judgement where there are any.
 
-    ``frame`` holds the rows (3, 4) from the part's coordinates to the program's.
+    ``gaps`` says in sentences what is not shown of a text that no machine read but the language's tracer; times are
+    those of ``machine`` then too. ``frame`` holds the rows (3, 4) from the part's coordinates to the program's.
     """
 
     title: str
@@ -42,6 +46,12 @@ class Subject:
     part: Part | None = None
     frame: FloatArray = field(default_factory=lambda: np.eye(3, 4))
     report: Report | None = None
+    gaps: tuple[str, ...] | None = None
+
+    @property
+    def reader(self) -> str:
+        """Who read the text: a machine's name, or :data:`TRACED`."""
+        return self.machine.name if self.gaps is None else TRACED
 
     @classmethod
     def judged(cls, report: Report, machine: Machine, file: str) -> Subject:

@@ -118,7 +118,8 @@ def versions(subject: Subject) -> Rows:
     return [
         ("StylusCAM", __version__),
         ("three.js", THREE_VERSION),
-        ("machine", f"{subject.machine.name}: {subject.machine.description}"),
+        *([("read as", subject.reader)] if subject.gaps is not None else []),
+        ("machine" if subject.gaps is None else "times of", f"{subject.machine.name}: {subject.machine.description}"),
         *([("machine file", _machine_file(subject))] if _machine_file(subject) else []),
     ]
 

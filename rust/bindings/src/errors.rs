@@ -5,6 +5,7 @@ use pyo3::types::PyDict;
 use styluscam_geometry::GeometryError;
 use styluscam_job::JobError;
 use styluscam_motion::Cancelled;
+use styluscam_post::{TraceError, TraceFault};
 
 /// The exception of class `class` with its code, place and hint.
 pub fn raise(class: &str, message: &str, code: &str, place: &str, hint: &str) -> PyErr {
@@ -26,6 +27,14 @@ fn build(py: Python<'_>, class: &str, message: &str, code: &str, place: &str, hi
 /// A job's error.
 pub fn of_job(error: &JobError) -> PyErr {
     raise(error.class(), &error.to_string(), error.code(), &error.place(), &error.hint())
+}
+
+/// What keeps a program from being traced.
+pub fn of_trace(error: &TraceError) -> PyErr {
+    if error.fault == TraceFault::Cancelled {
+        return cancelled(Cancelled);
+    }
+    raise("VerifyError", &error.to_string(), error.code(), &error.place(), error.hint())
 }
 
 /// A shape's error.

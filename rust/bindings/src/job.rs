@@ -1,5 +1,7 @@
 //! Jobs: documents, scenes, plans, posted text and its judgement.
 
+use std::cell::RefCell;
+
 use numpy::{PyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use styluscam_job::{JobDocument, JobError, StarterFace, StarterPart, Summary};
@@ -188,6 +190,38 @@ pub fn post(py: Python<'_>, program: &Program, machine: &Machine) -> PyResult<St
 pub fn read_gcode(py: Python<'_>, text: &str, machine: &Machine) -> PyResult<Program> {
     let reading = py.detach(|| styluscam_post::read(text, &machine.machine, &[]));
     Ok(Program { program: reading.map_err(|e| of_job(e.into()))?.program })
+}
+
+/// The program that a text of the RS-274NGC language makes, and in words what is not shown of it.
+///
+/// `find` gives the text of a subroutine's file by its name, or None; what it raises is passed on.
+#[pyfunction]
+#[pyo3(signature = (text, find, progress=None, cancel=None))]
+pub fn trace_gcode(
+    py: Python<'_>,
+    text: &str,
+    find: Py<PyAny>,
+    progress: Option<&Bound<'_, PyAny>>,
+    cancel: Option<&CancelToken>,
+) -> PyResult<(Program, Vec<String>)> {
+    let (traced, raised) = watched(py, progress, cancel, move |watch| {
+        let raised = RefCell::new(None);
+        let found = |name: &str| {
+            Python::attach(|py| find.call1(py, (name,))?.extract::<Option<String>>(py)).unwrap_or_else(|error| {
+                raised.borrow_mut().get_or_insert(error);
+                watch.cancel();
+                None
+            })
+        };
+        let traced = styluscam_post::trace(text, &found, watch);
+        (traced, raised.into_inner())
+    })?;
+    if let Some(error) = raised {
+        return Err(error);
+    }
+    let trace = traced.map_err(|error| errors::of_trace(&error))?;
+    let notes = trace.notes.iter().map(ToString::to_string).collect();
+    Ok((Program { program: trace.program }, notes))
 }
 
 /// The moves of a text as a machine would read it for this job.

@@ -17,7 +17,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _engine {
     #[pymodule_export]
-    use crate::job::{job_schema, judge, plan, post, read_back, read_gcode, shipped_machines, starter};
+    use crate::job::{job_schema, judge, plan, post, read_back, read_gcode, shipped_machines, starter, trace_gcode};
     #[pymodule_export]
     use crate::job::{Job, Judgement, Machine, Plan, Scene};
     #[pymodule_export]

@@ -543,7 +543,7 @@ fn empty_program(tools: &[ToolRecord], typical_moves: usize) -> Program {
 }
 
 /// A tool of which the text gives the number only: its tip is what moves.
-fn bare_tool(number: u32) -> ToolRecord {
+pub(crate) fn bare_tool(number: u32) -> ToolRecord {
     ToolRecord {
         name: format!("T{number}"),
         number,

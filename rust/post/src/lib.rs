@@ -1,7 +1,7 @@
 //! Between motion and text: machine files, templates, writers and readers of G-code.
 //!
 //! [`post`] writes a [`Program`](styluscam_motion::Program) for a [`Machine`]; [`read`] reads text as that machine
-//! would. A controller of this family is a TOML file; nothing here knows geometry, clocks or files.
+//! would, and [`trace`] shows what no machine file describes. A controller of this family is a TOML file; nothing here knows geometry, clocks or files.
 
 mod block;
 mod circle;
@@ -10,6 +10,7 @@ mod inspect;
 mod interpreter;
 mod lexer;
 pub mod machine;
+mod ngc;
 mod number;
 mod post_error;
 mod read_error;
@@ -21,6 +22,7 @@ mod trial;
 mod writer;
 
 pub use machine::{shipped, Machine, MachineError, OptionRule, OptionValue};
+pub use ngc::{trace, Gap, Note, Trace, TraceError, TraceFault};
 pub use post_error::PostError;
 pub use read_error::{ReadError, ReadFault};
 pub use reader::{read, Reading};

@@ -1,0 +1,120 @@
+//! Drilling cycles: G73, G74, G81 to G89.
+
+use super::block::Block;
+use super::fault::TraceFault;
+use super::tracer::Tracer;
+
+/// mm: how far a peck goes back to break the chip, and how far above the last depth the next one begins.
+const BACK: f64 = 0.254;
+
+/// What cycles keep from block to block.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sticky {
+    /// Where the first of the cycles in a row began, along the drilling axis.
+    begin: Option<f64>,
+    /// As written, in the unit in force.
+    bottom: Option<f64>,
+    retract: Option<f64>,
+    peck: Option<f64>,
+    /// s.
+    wait: Option<f64>,
+}
+
+/// The heights of a cycle along the drilling axis, mm.
+#[derive(Clone, Copy)]
+struct Heights {
+    begin: f64,
+    retract: f64,
+    bottom: f64,
+    /// Where it ends.
+    clear: f64,
+}
+
+impl Tracer<'_> {
+    pub(super) fn drill(&mut self, block: &Block, code: u32) -> Result<(), TraceFault> {
+        let along = self.modes.plane.axes()[2];
+        let heights = self.heights(block, along)?;
+        if heights.begin < heights.retract {
+            self.rapid_along(along, heights.retract)?;
+        }
+        for _ in 0..block.count(b'l', "L of a cycle")?.unwrap_or(1) {
+            let mut over = self.target(block, false)?;
+            over[along] = self.place[along].max(heights.retract);
+            self.rapid(over)?;
+            self.rapid_along(along, heights.retract)?;
+            self.begin()?;
+            self.hole(code, along, heights)?;
+        }
+        Ok(())
+    }
+
+    fn heights(&mut self, block: &Block, along: usize) -> Result<Heights, TraceFault> {
+        let begin = *self.cycle.begin.get_or_insert(self.place[along]);
+        let unit = self.modes.unit();
+        let bottom = self.lengths(block)[along].map(|length| length / unit);
+        let sticky = &mut self.cycle;
+        sticky.bottom = bottom.or(sticky.bottom);
+        sticky.retract = block.word(b'r').or(sticky.retract);
+        sticky.peck = block.word(b'q').or(sticky.peck);
+        sticky.wait = block.word(b'p').or(sticky.wait);
+        let retract = unit * sticky.retract.ok_or(TraceFault::WordMissing { what: "R of a cycle" })?;
+        let bottom = unit * sticky.bottom.ok_or(TraceFault::WordMissing { what: "the depth of a cycle" })?;
+        let (retract, bottom) =
+            if self.modes.incremental { (begin + retract, begin + retract + bottom) } else { (retract, bottom) };
+        if bottom > retract {
+            return Err(TraceFault::CycleDepths);
+        }
+        let clear = if self.modes.back_to_begin { begin.max(retract) } else { retract };
+        Ok(Heights { begin, retract, bottom, clear })
+    }
+
+    fn hole(&mut self, code: u32, along: usize, heights: Heights) -> Result<(), TraceFault> {
+        match code {
+            730 | 830 => self.pecks(along, heights, code == 830)?,
+            _ => self.feed_along(along, heights.bottom)?,
+        }
+        if matches!(code, 740 | 820 | 840 | 860 | 880 | 890) {
+            if let Some(seconds) = self.cycle.wait {
+                self.wait(seconds)?;
+            }
+        }
+        match code {
+            850 => self.feed_along(along, heights.retract)?,
+            740 | 840 | 890 => self.feed_along(along, heights.clear)?,
+            _ => {}
+        }
+        self.rapid_along(along, heights.clear)
+    }
+
+    /// Down by and by, out to the retract plane between, or a little back only.
+    fn pecks(&mut self, along: usize, heights: Heights, out: bool) -> Result<(), TraceFault> {
+        let peck = self.cycle.peck.filter(|peck| *peck > 0.0).ok_or(TraceFault::CycleDepths)? * self.modes.unit();
+        let mut count = 1.0;
+        let mut depth = heights.retract - peck;
+        while depth > heights.bottom {
+            self.feed_along(along, depth)?;
+            if out {
+                self.rapid_along(along, heights.retract)?;
+            }
+            self.rapid_along(along, depth + BACK)?;
+            count += 1.0;
+            depth = heights.retract - count * peck;
+        }
+        self.feed_along(along, heights.bottom)
+    }
+
+    fn rapid_along(&mut self, along: usize, height: f64) -> Result<(), TraceFault> {
+        let mut end = self.place;
+        end[along] = height;
+        if (height - self.place[along]).abs() > 0.0 {
+            self.rapid(end)?;
+        }
+        Ok(())
+    }
+
+    fn feed_along(&mut self, along: usize, height: f64) -> Result<(), TraceFault> {
+        let mut end = self.place;
+        end[along] = height;
+        self.feed_to(end)
+    }
+}

@@ -1,0 +1,204 @@
+//! Parameters: those that a program sets, and those that tell the state of the machine.
+
+use std::collections::HashMap;
+
+use styluscam_motion::{Plane, SpindleDirection};
+
+use super::expression::{Key, Values};
+use super::fault::TraceFault;
+use super::modes::FeedMode;
+use super::offsets::SYSTEMS;
+use super::tracer::Tracer;
+
+/// The largest number of a parameter.
+const LARGEST: usize = 5602;
+
+/// How many numbered parameters a subroutine has of its own: #1 to #30.
+pub(super) const LOCALS: usize = 30;
+
+/// The first parameter of the coordinate systems, and how many each has: X to W, and its turn.
+const SYSTEM_FIRST: usize = 5221;
+const SYSTEM_STRIDE: usize = 20;
+const TURN: usize = 9;
+
+/// Values that a program has set, but for those that are the machine's.
+#[derive(Debug)]
+pub(super) struct Parameters {
+    numbered: Vec<f64>,
+    global: HashMap<String, f64>,
+}
+
+impl Parameters {
+    pub(super) fn new() -> Self {
+        Self { numbered: vec![0.0; LARGEST + 1], global: HashMap::new() }
+    }
+
+    /// #1 to #30.
+    pub(super) fn locals(&self) -> [f64; LOCALS] {
+        std::array::from_fn(|i| self.numbered.get(i + 1).copied().unwrap_or_default())
+    }
+
+    pub(super) fn set_locals(&mut self, values: [f64; LOCALS]) {
+        self.numbered.iter_mut().skip(1).zip(values).for_each(|(slot, value)| *slot = value);
+    }
+
+    /// Sets a run of parameters.
+    pub(super) fn set_run(&mut self, first: usize, values: [f64; 3]) {
+        self.numbered.iter_mut().skip(first).zip(values).for_each(|(slot, value)| *slot = value);
+    }
+
+    /// Three parameters in a row.
+    pub(super) fn run(&self, first: usize) -> [f64; 3] {
+        std::array::from_fn(|i| self.numbered.get(first + i).copied().unwrap_or_default())
+    }
+
+    pub(super) fn set_number(&mut self, number: usize, value: f64) {
+        if let Some(slot) = self.numbered.get_mut(number) {
+            *slot = value;
+        }
+    }
+
+    pub(super) fn set_global(&mut self, name: &str, value: f64) {
+        if let Some(slot) = self.global.get_mut(name) {
+            *slot = value;
+        } else {
+            self.global.insert(name.into(), value);
+        }
+    }
+}
+
+/// The coordinate system and the item in it that a parameter belongs to.
+fn of_system(number: usize) -> Option<(usize, usize)> {
+    let offset = number.checked_sub(SYSTEM_FIRST)?;
+    let (system, item) = (offset / SYSTEM_STRIDE, offset % SYSTEM_STRIDE);
+    (system < SYSTEMS && (item < 3 || item == TURN)).then_some((system, item))
+}
+
+impl Tracer<'_> {
+    /// Carries out an assignment.
+    pub(super) fn assign(&mut self, key: &Key, value: f64) -> Result<(), TraceFault> {
+        match key {
+            Key::Numbered(number) if (1..=LARGEST).contains(number) => {
+                self.parameters.set_number(*number, value);
+                self.set_of_system(*number, value);
+            }
+            Key::Numbered(_) => return Err(TraceFault::ParameterNumber),
+            Key::Named(name) if name.starts_with('_') => self.parameters.set_global(name, value),
+            Key::Named(name) => self.set_local(name, value),
+        }
+        Ok(())
+    }
+
+    fn set_of_system(&mut self, number: usize, value: f64) {
+        let Some((index, item)) = of_system(number) else { return };
+        let Some(system) = self.offsets.stored.get_mut(index) else { return };
+        match system.origin.get_mut(item) {
+            Some(slot) => *slot = value,
+            None => system.turn_deg = value,
+        }
+    }
+
+    fn system_value(&self, index: usize, item: usize) -> f64 {
+        let system = self.offsets.stored.get(index).copied().unwrap_or_default();
+        system.origin.get(item).copied().unwrap_or(system.turn_deg)
+    }
+
+    /// The place in the unit in force.
+    fn place_in_unit(&self, axis: usize) -> f64 {
+        self.place.get(axis).copied().unwrap_or_default() / self.modes.unit()
+    }
+
+    fn machine_in_unit(&self, axis: usize) -> f64 {
+        self.offsets.in_machine(self.place).get(axis).copied().unwrap_or_default() / self.modes.unit()
+    }
+
+    /// A parameter that tells the state.
+    fn told(&self, name: &str) -> Option<f64> {
+        let modes = &self.modes;
+        let truth = |value: bool| f64::from(u8::from(value));
+        let code = |tenths: u32| f64::from(tenths);
+        Some(match name {
+            "_vmajor" => 2.9,
+            "_vminor" => 4.0,
+            "_line" => self.line as f64 + 1.0,
+            "_motion_mode" => code(modes.motion),
+            "_plane" => match modes.plane {
+                Plane::Xy => 170.0,
+                Plane::Zx => 180.0,
+                Plane::Yz => 190.0,
+            },
+            "_ccomp" => code(modes.compensation),
+            "_metric" => truth(!modes.inch),
+            "_imperial" => truth(modes.inch),
+            "_metric_machine" => 1.0,
+            "_imperial_machine" => 0.0,
+            "_absolute" => truth(!modes.incremental),
+            "_incremental" => truth(modes.incremental),
+            "_inverse_time" => truth(modes.feed_mode == FeedMode::InverseTime),
+            "_units_per_minute" => truth(modes.feed_mode == FeedMode::PerMinute),
+            "_units_per_rev" => truth(modes.feed_mode == FeedMode::PerRevolution),
+            "_coord_system" => self.coordinate_system_code(),
+            "_tool_offset" => truth(self.offsets.tool.iter().any(|offset| offset.abs() > 0.0)),
+            "_retract_r_plane" => truth(!modes.back_to_begin),
+            "_retract_old_z" => truth(modes.back_to_begin),
+            "_spindle_rpm_mode" => truth(modes.surface_speed.is_none()),
+            "_spindle_css_mode" => truth(modes.surface_speed.is_some()),
+            "_ijk_absolute_mode" => truth(modes.absolute_centre),
+            "_lathe_diameter_mode" => truth(modes.diameter),
+            "_lathe_radius_mode" => truth(!modes.diameter),
+            "_spindle_on" => truth(modes.direction.is_some()),
+            "_spindle_cw" => truth(modes.direction == Some(SpindleDirection::Clockwise)),
+            "_mist" => truth(modes.mist),
+            "_flood" => truth(modes.flood),
+            "_speed_override" | "_feed_override" => 1.0,
+            "_adaptive_feed" | "_feed_hold" | "_task" | "_remap_level" => 0.0,
+            "_feed" if modes.feed_mode == FeedMode::InverseTime => modes.feed,
+            "_feed" => modes.feed / modes.unit(),
+            "_rpm" => modes.speed,
+            "_x" => self.place_in_unit(0),
+            "_y" => self.place_in_unit(1),
+            "_z" => self.place_in_unit(2),
+            "_abs_x" => self.machine_in_unit(0),
+            "_abs_y" => self.machine_in_unit(1),
+            "_abs_z" => self.machine_in_unit(2),
+            "_a" | "_b" | "_c" | "_u" | "_v" | "_w" => 0.0,
+            "_abs_a" | "_abs_b" | "_abs_c" | "_abs_u" | "_abs_v" | "_abs_w" => 0.0,
+            "_current_tool" | "_current_pocket" => f64::from(self.loaded),
+            "_selected_tool" | "_selected_pocket" => self.selected.map_or(-1.0, f64::from),
+            "_call_level" => self.depth() as f64,
+            _ => return None,
+        })
+    }
+
+    /// 540 to 590, 591 to 593.
+    fn coordinate_system_code(&self) -> f64 {
+        let index = self.offsets.index as f64;
+        if index < 6.0 {
+            540.0 + 10.0 * index
+        } else {
+            585.0 + index
+        }
+    }
+}
+
+impl Values for Tracer<'_> {
+    fn numbered(&self, number: usize) -> Option<f64> {
+        if let Some((index, item)) = of_system(number) {
+            return Some(self.system_value(index, item));
+        }
+        match number {
+            5220 => Some(self.offsets.index as f64 + 1.0),
+            5400 => Some(f64::from(self.loaded)),
+            5401..=5403 => self.offsets.tool.get(number - 5401).map(|offset| offset / self.modes.unit()),
+            5420..=5422 => Some(self.place_in_unit(number - 5420)),
+            _ => self.parameters.numbered.get(number).copied(),
+        }
+    }
+
+    fn named(&self, name: &str) -> Option<f64> {
+        if !name.starts_with('_') {
+            return self.local(name);
+        }
+        self.told(name).or_else(|| self.parameters.global.get(name).copied())
+    }
+}

@@ -1,0 +1,190 @@
+//! The program that a trace records: moves and events, consistent in space.
+
+use std::collections::HashMap;
+
+use styluscam_motion::{
+    Arc, Event, EventKind, Move, MoveKind, OperationRecord, Plane, Program, SetupRecord, PROGRAM_SCHEMA,
+};
+
+use super::codes;
+use super::fault::TraceFault;
+use super::offsets::{turned, Offsets};
+use crate::interpreter::bare_tool;
+
+/// mm: no machine reaches so far.
+const FAR: f64 = 1e6;
+
+/// mm: how far chords may be from an arc that is in none of the machine's planes.
+pub(super) const SAG: f64 = 0.005;
+
+/// mm: places that differ less are one.
+const SAME: f64 = 1e-6;
+
+/// Moves in the coordinates that were in force at the first one.
+pub(super) struct Path {
+    program: Program,
+    /// The offsets at the first move.
+    anchor: Option<Offsets>,
+    /// The tools' indices in the program, by number.
+    tools: HashMap<u32, u32>,
+    /// Index of the tool in the spindle.
+    tool: Option<u32>,
+    operation_due: bool,
+    /// Of moves and events.
+    limit: usize,
+}
+
+/// How a move is made.
+#[derive(Clone, Copy)]
+pub(super) struct Pace {
+    pub(super) kind: MoveKind,
+    /// mm/min; 0 for rapids.
+    pub(super) feed: f64,
+    /// The line, from 1.
+    pub(super) line: u32,
+}
+
+impl Path {
+    pub(super) fn new(limit: usize) -> Self {
+        let setup = SetupRecord {
+            title: String::new(),
+            wcs: String::new(),
+            zero: String::new(),
+            part_min: [0.0; 3],
+            part_max: [0.0; 3],
+            clearance: 0.0,
+            notes: Vec::new(),
+        };
+        let program = Program {
+            schema: PROGRAM_SCHEMA,
+            setup,
+            tools: Vec::new(),
+            operations: Vec::new(),
+            moves: Vec::new(),
+            events: Vec::new(),
+        };
+        Self { program, anchor: None, tools: HashMap::new(), tool: None, operation_due: true, limit }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.program.moves.is_empty()
+    }
+
+    /// Whether it has come to a place in the program's coordinates.
+    pub(super) fn stands_at(&mut self, offsets: &Offsets, place: [f64; 3]) -> bool {
+        let Some(end) = self.program.moves.last().map(|last| last.end) else { return false };
+        let place = self.shown(offsets, place);
+        end.iter().zip(place).all(|(a, b)| (a - b).abs() <= SAME)
+    }
+
+    /// The program, in the work coordinates of its first move.
+    pub(super) fn finish(mut self) -> Program {
+        let system = self.anchor.map_or(0, |anchor| anchor.index as u32);
+        let code = if system < 6 { 540 + 10 * system } else { 585 + system };
+        self.program.setup.wcs = codes::name_g(code);
+        self.program
+    }
+
+    fn require_room(&self) -> Result<(), TraceFault> {
+        if self.program.moves.len() + self.program.events.len() < self.limit {
+            Ok(())
+        } else {
+            Err(TraceFault::TooManyMoves { limit: self.limit })
+        }
+    }
+
+    pub(super) fn event(&mut self, kind: EventKind) -> Result<(), TraceFault> {
+        self.require_room()?;
+        self.program.events.push(Event { before: self.program.moves.len(), kind });
+        Ok(())
+    }
+
+    /// A tool of this number is in the spindle from now on.
+    pub(super) fn load(&mut self, number: u32) -> Result<(), TraceFault> {
+        let tool = self.tool_of_number(number);
+        self.tool = Some(tool);
+        self.operation_due = true;
+        self.event(EventKind::ToolChange { tool })
+    }
+
+    fn tool_of_number(&mut self, number: u32) -> u32 {
+        let tools = &mut self.program.tools;
+        *self.tools.entry(number).or_insert_with(|| {
+            tools.push(bare_tool(number));
+            u32::try_from(tools.len() - 1).unwrap_or(u32::MAX)
+        })
+    }
+
+    /// A straight move to a place in the program's coordinates.
+    pub(super) fn line(&mut self, offsets: &Offsets, end: [f64; 3], pace: Pace) -> Result<(), TraceFault> {
+        let end = self.shown(offsets, end);
+        self.push(end, None, pace)
+    }
+
+    /// An arc from one place in the program's coordinates to another.
+    pub(super) fn arc(
+        &mut self,
+        offsets: &Offsets,
+        [start, end]: [[f64; 3]; 2],
+        arc: Arc,
+        pace: Pace,
+    ) -> Result<(), TraceFault> {
+        let turn = offsets.system.turn_deg - self.anchor(offsets).system.turn_deg;
+        if arc.plane == Plane::Xy || turn == 0.0 {
+            let centre = self.shown(offsets, arc.centre);
+            let end = self.shown(offsets, end);
+            return self.push(end, Some(Arc { centre, ..arc }), pace);
+        }
+        let way = arc.way(start, end);
+        let count = way.chords(SAG);
+        (1..=count).try_for_each(|i| self.line(offsets, way.at(i as f64 / count as f64), pace))
+    }
+
+    fn anchor(&mut self, offsets: &Offsets) -> Offsets {
+        *self.anchor.get_or_insert(*offsets)
+    }
+
+    /// A place as the path shows it: as called by the offsets of the first move.
+    fn shown(&mut self, offsets: &Offsets, place: [f64; 3]) -> [f64; 3] {
+        let anchor = self.anchor(offsets);
+        if (anchor.system, anchor.local) == (offsets.system, offsets.local) {
+            return place;
+        }
+        anchor.of_space(offsets.in_space(place))
+    }
+
+    fn push(&mut self, end: [f64; 3], arc: Option<Arc>, pace: Pace) -> Result<(), TraceFault> {
+        self.require_room()?;
+        let centre = arc.map_or(end, |arc| arc.centre);
+        if !end.iter().chain(&centre).all(|coordinate| coordinate.abs() <= FAR) {
+            return Err(TraceFault::TooFar);
+        }
+        let operation = self.operation();
+        let Pace { kind, feed, line } = pace;
+        self.program.moves.push(Move { kind, end, arc, feed, operation, line });
+        Ok(())
+    }
+
+    /// The index of the operation that the next move belongs to: a new one after a tool change.
+    fn operation(&mut self) -> u32 {
+        if self.operation_due {
+            self.operation_due = false;
+            let tool = self.tool.unwrap_or_else(|| self.tool_of_number(0));
+            self.tool = Some(tool);
+            let number = self.program.tools.get(tool as usize).map_or(0, |tool| tool.number);
+            let id = format!("{}-T{number}", self.program.operations.len() + 1);
+            self.program.operations.push(OperationRecord { id, kind: "text".into(), tool });
+        }
+        u32::try_from(self.program.operations.len().saturating_sub(1)).unwrap_or(u32::MAX)
+    }
+}
+
+/// The distance of a place from zero and its angle, degrees.
+pub(super) fn polar([x, y, _]: [f64; 3]) -> (f64, f64) {
+    (libm::hypot(x, y), libm::atan2(y, x).to_degrees())
+}
+
+/// The place at a distance and an angle.
+pub(super) fn cartesian(distance: f64, degrees: f64) -> [f64; 2] {
+    turned([distance, 0.0], degrees)
+}
