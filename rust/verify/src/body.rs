@@ -134,6 +134,11 @@ impl Body {
         cell + usize::from(gap(cell + 1) > gap(cell))
     }
 
+    /// Radius of the sphere that it ends in, when it does, mm; its cylinder is as wide.
+    pub fn ball(&self) -> Option<f64> {
+        self.ball
+    }
+
     /// Radius of the body's cylinder, mm.
     pub fn radius(&self) -> f64 {
         self.cutter.max_radius()
@@ -277,6 +282,9 @@ impl Body {
     ///
     /// The support function is convex over the directions, so the chords of a table lie above it.
     pub fn support_bound(&self, steep: f64, fall: f64) -> f64 {
+        if let Some(ball) = self.ball {
+            return ball * (length(steep, fall) - fall) + ROUNDING;
+        }
         let sum = steep + fall;
         let place = steep / sum * CELLS as f64;
         let cell = (place as usize).min(CELLS - 1);

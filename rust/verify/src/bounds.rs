@@ -11,6 +11,10 @@ use crate::Vector;
 
 /// A bound for a node; the cheap ones first, until one is above `limit`. `hint` is a plane worth trying.
 pub(crate) fn node_bound(body: &Body, node: &Node, stroke: Stroke, limit: f64, hint: Option<&Plane>) -> f64 {
+    let apart = apart(body, node, stroke);
+    if apart > limit {
+        return apart;
+    }
     let gap = |plane: &Plane| {
         let position = stroke.farther(plane);
         patch_gap(node, plane, position).max(box_gap(node.low, node.high, plane, position))
@@ -29,6 +33,15 @@ pub(crate) fn node_bound(body: &Body, node: &Node, stroke: Stroke, limit: f64, h
         return patch;
     }
     patch.max(gap(&box_plane(body, node.low, node.high, position)))
+}
+
+/// The bound by the boxes alone: the body on its way is in its cylinder, or in the sphere that it ends in and above that.
+fn apart(body: &Body, node: &Node, Stroke { from, to }: Stroke) -> f64 {
+    let beside = |low: f64, high: f64, a: f64, b: f64| (low - a.max(b)).max(a.min(b) - high).max(0.0);
+    let x = beside(node.low.x, node.high.x, from.x, to.x);
+    let y = beside(node.low.y, node.high.y, from.y, to.y);
+    let over = body.ball().map_or(0.0, |ball| (from.z.min(to.z) + ball - node.high.z).max(0.0));
+    (x * x + y * y + over * over).sqrt() - body.radius()
 }
 
 /// A bound for whatever a box holds, by one plane; the body stands at the origin.

@@ -24,7 +24,7 @@ pub(crate) struct Sample {
 }
 
 /// Length of a move, as a share of the tool's radius, up to which one search answers for all its places.
-const JOINT: f64 = 0.3;
+const JOINT: f64 = 1.0;
 
 /// A chord this near to its arc stands for it, mm.
 const FLAT: f64 = 1e-7;

@@ -142,7 +142,8 @@ impl Survey<'_> {
 
     fn visit(&self, triangle: u32) {
         let corners = self.prober.mesh.corners(triangle as usize);
-        if self.kept_off(&corners) {
+        let kept = self.kept_off(&corners);
+        if kept >= self.limit.get() - EQUAL {
             return;
         }
         let mut seen = self.seen.get();
@@ -161,7 +162,8 @@ impl Survey<'_> {
         if better {
             self.update(seen);
         }
-        if self.facet_bound(&corners) < self.below.get() {
+        let below = self.below.get();
+        if kept < below && self.facet_bound(&corners) < below {
             self.pass(triangle, &corners);
         }
     }
@@ -184,26 +186,29 @@ impl Survey<'_> {
         self.seen.set(seen);
     }
 
-    /// Whether a plane keeps a triangle off over the whole stroke: the hint, or one found for its middle.
-    fn kept_off(&self, corners: &[Vector; 3]) -> bool {
-        let stroke = self.question.stroke;
-        let keeps = |plane: &Plane| {
+    /// How far planes keep a triangle off over the whole stroke, mm: the hint, and if that is too little, one found for the
+    /// triangle's middle, and one half way to the corner that this leaves nearest.
+    fn kept_off(&self, corners: &[Vector; 3]) -> f64 {
+        let (stroke, enough) = (self.question.stroke, self.limit.get() - EQUAL);
+        let gap = |plane: &Plane| {
             let position = stroke.farther(plane);
-            corners.iter().all(|p| plane.away.dot(&(p - position)) - plane.support >= self.limit.get() - EQUAL)
+            let gaps = corners.map(|p| plane.away.dot(&(p - position)) - plane.support);
+            gaps[0].min(gaps[1]).min(gaps[2])
         };
-        if self.hint.get().as_ref().is_some_and(keeps) {
-            return true;
+        let hinted = self.hint.get().as_ref().map_or(f64::NEG_INFINITY, gap);
+        if hinted >= enough {
+            return hinted;
         }
         let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
         let position = stroke.at(stroke.share_near(middle));
         let plane = self.prober.body.separating(middle - position);
-        if keeps(&plane) {
-            return true;
+        let kept = gap(&plane).max(hinted);
+        if kept >= enough {
+            return kept;
         }
-        // half way to the corner that this plane leaves nearest
-        let gap = |p: &Vector| plane.away.dot(p);
-        let nearest = corners.iter().fold(corners[0], |a, b| if gap(b) < gap(&a) { *b } else { a });
-        keeps(&self.prober.body.separating(0.5 * (middle + nearest) - position))
+        let reach = |p: &Vector| plane.away.dot(p);
+        let nearest = corners.iter().fold(corners[0], |a, b| if reach(b) < reach(&a) { *b } else { a });
+        kept.max(gap(&self.prober.body.separating(0.5 * (middle + nearest) - position)))
     }
 
     /// A bound, from below, of the distance between the swept body and a triangle's plane.
