@@ -168,15 +168,7 @@ mod tests {
         };
         Program {
             schema: PROGRAM_SCHEMA,
-            setup: SetupRecord {
-                title: String::new(),
-                wcs: "G54".into(),
-                zero: String::new(),
-                part_min: [0.0; 3],
-                part_max: [0.0; 3],
-                clearance: 0.0,
-                notes: Vec::new(),
-            },
+            setup: SetupRecord { wcs: "G54".into(), ..SetupRecord::default() },
             tools: Vec::new(),
             operations: vec![OperationRecord { id: "a".into(), kind: "z-level".into(), tool: 0 }],
             moves: moves.iter().map(step).collect(),

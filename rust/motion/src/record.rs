@@ -34,7 +34,7 @@ pub struct ToolRecord {
 }
 
 /// The set-up: everything about zero that a person checks before pressing start.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SetupRecord {
     /// The job's title.
     pub title: String,

@@ -529,17 +529,15 @@ fn dwells_by(block: &Block, machine: &Machine, letter: char) -> bool {
 }
 
 fn empty_program(tools: &[ToolRecord], typical_moves: usize) -> Program {
-    let setup = SetupRecord {
-        title: String::new(),
-        wcs: String::new(),
-        zero: String::new(),
-        part_min: [0.0; 3],
-        part_max: [0.0; 3],
-        clearance: 0.0,
-        notes: Vec::new(),
-    };
     let moves = Vec::with_capacity(typical_moves);
-    Program { schema: PROGRAM_SCHEMA, setup, tools: tools.to_vec(), operations: Vec::new(), moves, events: Vec::new() }
+    Program {
+        schema: PROGRAM_SCHEMA,
+        setup: SetupRecord::default(),
+        tools: tools.to_vec(),
+        operations: Vec::new(),
+        moves,
+        events: Vec::new(),
+    }
 }
 
 /// A tool of which the text gives the number only: its tip is what moves.

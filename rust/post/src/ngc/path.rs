@@ -46,18 +46,9 @@ pub(super) struct Pace {
 
 impl Path {
     pub(super) fn new(limit: usize) -> Self {
-        let setup = SetupRecord {
-            title: String::new(),
-            wcs: String::new(),
-            zero: String::new(),
-            part_min: [0.0; 3],
-            part_max: [0.0; 3],
-            clearance: 0.0,
-            notes: Vec::new(),
-        };
         let program = Program {
             schema: PROGRAM_SCHEMA,
-            setup,
+            setup: SetupRecord::default(),
             tools: Vec::new(),
             operations: Vec::new(),
             moves: Vec::new(),

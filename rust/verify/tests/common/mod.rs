@@ -125,15 +125,7 @@ impl Path {
             reference_height: 0.0,
             diameter: tool.diameter(),
         };
-        let setup = SetupRecord {
-            title: "test".to_owned(),
-            wcs: "G54".to_owned(),
-            zero: "test".to_owned(),
-            part_min: [0.0; 3],
-            part_max: [0.0; 3],
-            clearance: CLEARANCE,
-            notes: Vec::new(),
-        };
+        let setup = SetupRecord { wcs: "G54".to_owned(), clearance: CLEARANCE, ..SetupRecord::default() };
         Program {
             schema: PROGRAM_SCHEMA,
             setup,
