@@ -70,15 +70,20 @@ def text_of(start: list[float], end: list[float]) -> str:
     )
 
 
-@pytest.mark.parametrize("part", WAYS)
-@pytest.mark.parametrize("name", TOOLS)
-def test_gouge_and_excess_are_those_of_the_brute_force(name: str, part: str) -> None:
+def subject_of(name: str, part: str) -> tuple[sc.Job, Tool, Solid]:
+    """A tool on a part, for the judge and for the brute force."""
     profile, sheet = TOOLS[name]
     made = document("zig-zag", profile, {"name": "linuxcnc"}, sheet=sheet)
     made["setup"]["zero"] = "model"
     vertices, triangles = PARTS[part]
     job = sc.Job.from_dict(made, part=sc.Part.from_mesh(vertices, triangles))
-    tool, solid = Tool.of(profile, *(sheet or ())), Solid(vertices[triangles])
+    return job, Tool.of(profile, *(sheet or ())), Solid(vertices[triangles])
+
+
+@pytest.mark.parametrize("part", WAYS)
+@pytest.mark.parametrize("name", TOOLS)
+def test_gouge_and_excess_are_those_of_the_brute_force(name: str, part: str) -> None:
+    job, tool, solid = subject_of(name, part)
     for low, high in WAYS[part]:
         start, end = ([x, y, z + tool.raised] for x, y, z in (low, high))
         report = sc.verify(text_of(start, end), job)
@@ -89,7 +94,7 @@ def test_gouge_and_excess_are_those_of_the_brute_force(name: str, part: str) -> 
             assert report.gouge_max == pytest.approx(depth, abs=1e-6)
         else:
             assert report.gouge_max > 0.2 * depth
-        pieces = int(np.ceil(np.linalg.norm(np.subtract(end, start)) / (0.25 * profile["diameter"]) - 1e-9))
+        pieces = int(np.ceil(np.linalg.norm(np.subtract(end, start)) / (0.25 * TOOLS[name][0]["diameter"]) - 1e-9))
         looked_at = solid.clearances(tool, np.linspace(start, end, 2 * max(pieces, 1) + 1))
         # where a sharp tool is deep in, the search jumps between the sides of what it is in
         if depth < SHALLOW or name not in SHARP:
@@ -108,12 +113,7 @@ ARC_WAYS: dict[str, list[tuple[list[float], list[float], list[float], str]]] = {
 @pytest.mark.parametrize("part", ARC_WAYS)
 @pytest.mark.parametrize("name", ["ball", "bull nose", "tapered ball", "ball over a sheet"])
 def test_arcs_are_those_of_the_brute_force(name: str, part: str) -> None:
-    profile, sheet = TOOLS[name]
-    made = document("zig-zag", profile, {"name": "linuxcnc"}, sheet=sheet)
-    made["setup"]["zero"] = "model"
-    vertices, triangles = PARTS[part]
-    job = sc.Job.from_dict(made, part=sc.Part.from_mesh(vertices, triangles))
-    tool, solid = Tool.of(profile, *(sheet or ())), Solid(vertices[triangles])
+    job, tool, solid = subject_of(name, part)
     for low, high, centre, code in ARC_WAYS[part]:
         start, end = ([x, y, z + tool.raised] for x, y, z in (low, high))
         arc = f"{code} I{centre[0]:.6f} J{centre[1]:.6f}"

@@ -26,8 +26,6 @@ const SHORT: f64 = 1e-5;
 #[derive(Clone, Debug)]
 pub(crate) struct Body {
     cutter: Cutter,
-    /// Radius of the sphere that it ends in, when it does: then all is told by the centre, mm.
-    ball: Option<f64>,
     tip_above: f64,
     supports: Vec<f64>,
     planes: Vec<Tangency>,
@@ -94,7 +92,6 @@ impl Body {
         let sharpest = planes.iter().map(|p| cutter.curvature_radius_at(p.slope)).fold(f64::INFINITY, f64::min);
         let squares_per_mm = SQUARES as f64 / (REACH * (cutter.max_radius() + cutter.max_height()));
         let mut body = Self {
-            ball: cutter.as_ball(),
             cutter,
             tip_above: Tool::tip_above(sheet, 0.0) - height,
             supports,
@@ -134,9 +131,9 @@ impl Body {
         cell + usize::from(gap(cell + 1) > gap(cell))
     }
 
-    /// Radius of the sphere that it ends in, when it does, mm; its cylinder is as wide.
+    /// Radius of the sphere that it ends in, when it does, mm: then all is told by the centre. Its cylinder is as wide.
     pub fn ball(&self) -> Option<f64> {
-        self.ball
+        self.cutter.as_ball()
     }
 
     /// Radius of the body's cylinder, mm.
@@ -157,7 +154,7 @@ impl Body {
     /// Signed distance to a point: the largest gap that any touching plane leaves.
     pub fn distance(&self, p: Vector) -> Distance {
         let radius = length(p.x, p.y);
-        if let Some(ball) = self.ball {
+        if let Some(ball) = self.ball() {
             return of_ball(ball, p, radius);
         }
         let local = self.largest_gap(radius, p.z, self.near_cell(radius, p.z));
@@ -266,7 +263,7 @@ impl Body {
     ///
     /// The direction is `-up`, where `up` is a unit vector that does not point down.
     pub fn farthest(&self, up: Vector) -> (Vector, Plane) {
-        if let Some(ball) = self.ball {
+        if let Some(ball) = self.ball() {
             let witness = Vector::new(0.0, 0.0, ball) - ball * up;
             return (witness, Plane { away: -up, support: ball - ball * up.z });
         }
@@ -282,7 +279,7 @@ impl Body {
     ///
     /// The support function is convex over the directions, so the chords of a table lie above it.
     pub fn support_bound(&self, steep: f64, fall: f64) -> f64 {
-        if let Some(ball) = self.ball {
+        if let Some(ball) = self.ball() {
             return ball * (length(steep, fall) - fall) + ROUNDING;
         }
         let sum = steep + fall;
@@ -295,7 +292,7 @@ impl Body {
     /// A plane that keeps a point off the body, nearly as far as any can.
     pub fn separating(&self, p: Vector) -> Plane {
         let radius = length(p.x, p.y);
-        if let Some(ball) = self.ball {
+        if let Some(ball) = self.ball() {
             let d = of_ball(ball, p, radius);
             return Plane { away: d.away, support: ball - ball * d.cos };
         }

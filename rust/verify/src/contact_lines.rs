@@ -33,12 +33,12 @@ pub(crate) fn spread(
     count: usize,
 ) -> Vec<Probe> {
     let values = values(spacing, legs);
-    let facets = || wanted.iter().filter_map(|triangle| Facet::new(mesh, *triangle, body, spacing));
-    let length: f64 = facets().map(|facet| facet.lines(&values).map(|[a, b]| (b - a).norm()).sum::<f64>()).sum();
+    let facets: Vec<Facet> = wanted.iter().filter_map(|triangle| Facet::new(mesh, *triangle, body, spacing)).collect();
+    let length: f64 = facets.iter().map(|facet| facet.lines(&values).map(|[a, b]| (b - a).norm()).sum::<f64>()).sum();
     let each = length / count as f64;
     let mut probes = Vec::with_capacity(count);
     let mut passed = 0.0;
-    for facet in facets() {
+    for facet in &facets {
         for [a, b] in facet.lines(&values) {
             let line = (b - a).norm();
             while (probes.len() as f64 + 0.5) * each < passed + line {
@@ -63,8 +63,7 @@ fn values(spacing: Spacing, legs: &[Leg]) -> Vec<f64> {
         let joined = b.start == Some(a.end);
         joined && along(a) && along(b) && (value(a.end) - value(b.end)).abs() <= same
     });
-    let length = |leg: &Leg| leg.start.map_or(0.0, |start| (Vector::from(leg.end) - Vector::from(start)).norm());
-    let long = chains.filter(|chain| along(&chain[0]) && chain.iter().map(length).sum::<f64>() > LONG * pitch);
+    let long = chains.filter(|chain| along(&chain[0]) && chain.iter().map(Leg::chord).sum::<f64>() > LONG * pitch);
     let mut values: Vec<f64> = long.map(|chain| value(chain[0].end)).collect();
     values.sort_by(f64::total_cmp);
     values.dedup_by(|b, a| *b - *a <= same);

@@ -177,6 +177,11 @@ impl Sweeps {
         Self { tools, length, enough }
     }
 
+    /// Tool and sheet, by the tool's index.
+    pub fn body(&self, tool: usize) -> Option<&Body> {
+        self.tools.get(tool).map(|(body, _)| body)
+    }
+
     /// Distances from points to what is swept, mm; points near by follow each other.
     fn left_at(&self, points: &[Vector], watch: &Watch) -> Result<Vec<f64>, Cancelled> {
         let of_chunk = |chunk: &[Vector]| {

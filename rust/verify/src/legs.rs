@@ -59,6 +59,11 @@ pub(crate) struct Leg {
 }
 
 impl Leg {
+    /// Distance between its ends, mm; 0 when the start is not known.
+    pub fn chord(&self) -> f64 {
+        self.start.map_or(0.0, |start| (Vector::from(self.end) - Vector::from(start)).norm())
+    }
+
     /// Whether the tip moves sideways.
     pub fn travels(&self) -> bool {
         self.start.is_some_and(|s| !same_plan(s, self.end))
@@ -132,8 +137,7 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
 fn pieces<'a>(leg: &'a Leg, way: Option<&'a ArcWay>, longest: f64) -> impl Iterator<Item = Leg> + 'a {
     let turns = way.map_or(0.0, |way| way.sweep().abs() / TURN);
     let touches = leg.excess.is_some();
-    let straight = leg.start.filter(|_| touches && way.is_none());
-    let lengths = straight.map_or(0.0, |start| (Vector::from(leg.end) - Vector::from(start)).norm() / longest);
+    let lengths = if touches && way.is_none() { leg.chord() / longest } else { 0.0 };
     let lengths = if lengths > PIECES { 1.0 } else { lengths };
     let count = turns.max(lengths).ceil().clamp(1.0, PIECES) as usize;
     let share = move |i: usize| i as f64 / count as f64;

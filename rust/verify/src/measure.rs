@@ -70,7 +70,7 @@ pub(crate) fn measure(
     watch: &Watch,
 ) -> Result<Vec<Measured>, Cancelled> {
     watch.begin("verifying", legs.len());
-    let least = subject.deviation_inward - limits.gouge;
+    let least = gouge_level(subject, limits);
     let bodies =
         |tool| Bodies { profile: Body::new(tool, subject.sheet.as_ref()), colliders: colliders(tool, subject, least) };
     let bodies: Vec<Bodies> = subject.tools.iter().map(bodies).collect();
@@ -207,10 +207,14 @@ impl<'a> Walk<'a> {
         found
     }
 
-    /// The clearance at and below which a place counts as a gouge.
     fn gouge_level(&self) -> f64 {
-        self.subject.deviation_inward - self.limits.gouge
+        gouge_level(self.subject, self.limits)
     }
+}
+
+/// The clearance at and below which a place counts as a gouge, mm.
+fn gouge_level(subject: &Subject, limits: &Limits) -> f64 {
+    subject.deviation_inward - limits.gouge
 }
 
 /// Where a body comes too near to something on a leg.

@@ -77,11 +77,10 @@ pub(crate) fn faults(
         if contacts.is_empty() {
             continue;
         }
-        let Some(tool) = subject.tools.get(order.tool) else { continue };
-        let body = Body::new(tool, subject.sheet.as_ref());
-        let wanted: Vec<usize> = (0..passes.wanted.len()).filter(|t| passes.wanted[*t]).collect();
-        let look = Look { subject, limits, passes, wanted: &wanted, body: &body, contacts: &contacts };
         let sweeps = Sweeps::of(&contacts, subject);
+        let Some(body) = sweeps.body(order.tool) else { continue };
+        let wanted: Vec<usize> = (0..passes.wanted.len()).filter(|t| passes.wanted[*t]).collect();
+        let look = Look { subject, limits, passes, wanted: &wanted, body, contacts: &contacts };
         let left = look.left(&sweeps, watch)?;
         let on_passes = look.left_on_passes(&sweeps, watch)?;
         for fault in left.into_iter().chain(on_passes).chain(look.levels()) {
