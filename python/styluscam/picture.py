@@ -43,6 +43,8 @@ PNG: Any = {"format": "png", "dpi": DPI, "metadata": {"Software": None}}
 """How pictures are saved."""
 MOVES = 60_000
 """Of a path on one picture, about: more are no finer than its pixels."""
+MARGIN = 0.03
+"""Left and right of the titles, as a share of the width."""
 LABEL = 40
 """Pixels that the numbers of a ruler need beside one another."""
 LABELS = 60
@@ -529,11 +531,17 @@ def _titles(figure: Figure, program: Program, title: str) -> None:
         if seconds < 3600
         else f"{seconds // 3600} h {seconds // 60 % 60:02} min"
     )
-    facts = [strategies, tools, f"{program.length / 1000.0:.3g} m in {time}"]
+    facts = [strategies, tools, f"{program.length / 1000.0:.3g} m in {time} at the ordered feeds"]
     title = title or str(program.setup.get("title", ""))
-    figure.text(0.03, 0.955, title, ha="left", va="center", color=INK, fontsize=18, weight="bold")
-    line = ", ".join(fact for fact in facts if fact)
-    figure.text(0.03, 0.912, line, ha="left", va="center", color=SOFT, fontsize=12.5)
+    _line(figure, 0.955, title, color=INK, fontsize=18, weight="bold")
+    _line(figure, 0.912, ", ".join(fact for fact in facts if fact), color=SOFT, fontsize=12.5)
+
+
+def _line(figure: Figure, height: float, text: str, **looks: Any) -> None:
+    """A line at the figure's left, smaller where it would not fit."""
+    line = figure.text(MARGIN, height, text, ha="left", va="center", **looks)
+    room = (1.0 - 2.0 * MARGIN) * figure.bbox.width
+    line.set_fontsize(min(1.0, room / max(line.get_window_extent().width, 1.0)) * looks["fontsize"])
 
 
 def _scale(figure: Figure, drawn: LineCollection) -> None:

@@ -22,7 +22,8 @@ def lines_of(summary: Document, job: Document) -> list[tuple[str, str]]:
     ]
     for operation in summary["operations"]:
         rows += _operation(operation)
-    rows.append(("length", f"{summary['length']:.0f} mm at feed, {clock(summary['duration'])} without acceleration"))
+    counted = "acceleration counted" if summary["accelerates"] else "without acceleration"
+    rows.append(("length", f"{summary['length']:.0f} mm at feed, {clock(summary['duration'])}, {counted}"))
     if summary["gouge_max"] is not None:
         rows.append(("worst gouge", f"{summary['gouge_max']:.4f} mm"))
         rows.append(("worst excess", f"{summary['excess_max']:.4f} mm where the tool should touch"))

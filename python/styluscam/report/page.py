@@ -21,7 +21,7 @@ from styluscam.tool import Tool
 from styluscam.toolplot import tool_svg
 from styluscam.types import Document, FloatArray, Progress
 
-SCRIPTS = ("data", "colours", "stage", "part", "path", "tool", "player", "findings", "main")
+SCRIPTS = ("data", "colours", "stage", "part", "path", "tool", "fixture", "player", "findings", "main")
 """In the order in which they build upon each other."""
 
 SEGMENTS = 200_000
@@ -114,6 +114,7 @@ def _data(subject: Subject, shown: Shown | None) -> Document:
         "part": None if shown is None else _part(shown),
         "path": _path(subject),
         "tools": [_tool(record, tool) for record, tool in subject.tools],
+        "fixture": [{"opening": opening, "heights": heights} for _, opening, heights in subject.fixture],
         "operations": [[str(one["id"] or one["kind"]), int(one["tool"])] for one in subject.program.operations],
         "findings": [{key: finding[key] for key in ("position", "time", "kind")} for finding in subject.findings],
         "colours": {"map": _colour_map("viridis"), "path": _colour_map("plasma")},

@@ -66,6 +66,11 @@ class Subject:
         return None if self.part is None else Surface.of(arrays_of(self.part), self.frame)
 
     @cached_property
+    def fixture(self) -> list[tuple[str, list[list[float]], list[float]]]:
+        """What holds the sheet: name, corners of the opening, heights of the lower and the upper face, mm."""
+        return [] if self.report is None else self.report.scene.fixture(self.report.job.engine)
+
+    @cached_property
     def _known(self) -> IntArray:
         """The places of the program's polyline that are known, (N,)."""
         return np.flatnonzero(np.isfinite(self.program.positions).all(axis=1))

@@ -129,6 +129,12 @@ impl Scene {
         (low.into(), high.into())
     }
 
+    /// What holds the sheet: name, corners of the opening, heights of the lower and the upper face; work coordinates.
+    fn fixture(&self, job: &Job) -> Vec<(&'static str, Vec<[f64; 2]>, [f64; 2])> {
+        let plates = styluscam_job::plates(&job.document, &self.scene);
+        plates.into_iter().map(|plate| (plate.name, plate.opening, plate.heights)).collect()
+    }
+
     /// The sheet's face that the part is, where there is a sheet.
     #[getter]
     fn model_face(&self) -> Option<&'static str> {

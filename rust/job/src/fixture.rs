@@ -7,6 +7,7 @@ use styluscam_verify::{FindingKind, Obstacle};
 
 use crate::{JobDocument, JobError, Scene};
 
+const CLAMP: &str = "clamp frame";
 /// Sides of a round opening; the polygon lies in the circle.
 const SIDES: usize = 360;
 /// How far the plates reach beyond their openings, mm.
@@ -91,41 +92,75 @@ impl Opening {
     }
 }
 
-/// What the judge keeps tools, or tools and sheet, away from; the sheet lies at the height of the scene's top.
-///
-/// # Errors
-/// An opening that makes no plate.
-pub(crate) fn obstacles(job: &JobDocument, scene: &Scene) -> Result<Vec<Obstacle>, JobError> {
-    let (Some(fixture), Some(sheet)) = (job.setup.fixture, scene.sheet) else { return Ok(Vec::new()) };
+/// A piece of the fixture in work coordinates: all of a plate but its opening.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plate {
+    /// "clamp frame" or "backing plate".
+    pub name: &'static str,
+    /// Corners of the opening, counterclockwise, mm.
+    pub opening: Vec<[f64; 2]>,
+    /// Heights of its lower and its upper face, mm.
+    pub heights: [f64; 2],
+}
+
+/// The clamp frame on the sheet, whose top is the scene's, and the backing plate under it, as far as the job has them.
+#[must_use]
+pub fn plates(job: &JobDocument, scene: &Scene) -> Vec<Plate> {
+    let (Some(fixture), Some(sheet)) = (job.setup.fixture, scene.sheet) else { return Vec::new() };
     let (low, high) = scene.mesh.bounds();
-    let center = fixture.center.unwrap_or([0.5 * (low.x + high.x), 0.5 * (low.y + high.y)]);
-    let obstacle = |opening: Opening, kind: FindingKind, [foot, top]: [f64; 2], sheet: Option<Sheet>| {
-        let mesh = plate(opening, center, foot, top).map_err(JobError::geometry("setup.fixture"))?;
-        Ok(Obstacle { kind, bvh: Bvh::new(&mesh), mesh, sheet, margin: fixture.margin })
-    };
-    let clamp = fixture.clamp.map(|clamp| {
-        let heights = [scene.top, scene.top + clamp.height];
-        obstacle(clamp.opening, FindingKind::ClampCollision, heights, None)
+    let [x, y] = fixture.center.unwrap_or([0.5 * (low.x + high.x), 0.5 * (low.y + high.y)]);
+    let moved = |opening: Opening| opening.corners().into_iter().map(|[cx, cy]| [x + cx, y + cy]).collect();
+    let under = scene.top - sheet.thickness;
+    let clamp = fixture.clamp.map(|clamp| Plate {
+        name: CLAMP,
+        opening: moved(clamp.opening),
+        heights: [scene.top, scene.top + clamp.height],
     });
-    let backing = fixture.backing.map(|backing| {
-        let under = scene.top - sheet.thickness;
-        let whole = Sheet { model_face: ModelFace::Back, ..sheet };
-        obstacle(backing.opening, FindingKind::BackingCollision, [under - DEEP, under], Some(whole))
+    let backing = fixture.backing.map(|backing| Plate {
+        name: "backing plate",
+        opening: moved(backing.opening),
+        heights: [under - DEEP, under],
     });
     clamp.into_iter().chain(backing).collect()
 }
 
-/// A plate with an opening: its upper face, and the walls of the opening and of its outer edge.
-fn plate(opening: Opening, [x, y]: [f64; 2], foot: f64, top: f64) -> Result<Mesh, styluscam_geometry::GeometryError> {
-    let corners = opening.corners();
-    let [w, h] = opening.sides();
-    let outward = [1.0 + 2.0 * WIDTH / w, 1.0 + 2.0 * WIDTH / h];
+/// What the judge keeps tools, or tools and sheet, away from.
+///
+/// # Errors
+/// An opening that makes no plate.
+pub(crate) fn obstacles(job: &JobDocument, scene: &Scene) -> Result<Vec<Obstacle>, JobError> {
+    let margin = job.setup.fixture.map_or(0.0, |fixture| fixture.margin);
+    let whole = scene.sheet.map(|sheet| Sheet { model_face: ModelFace::Back, ..sheet });
+    let obstacle = |plate: Plate| {
+        let mesh = mesh_of(&plate).map_err(JobError::geometry("setup.fixture"))?;
+        let (kind, sheet) = match plate.name {
+            CLAMP => (FindingKind::ClampCollision, None),
+            _ => (FindingKind::BackingCollision, whole),
+        };
+        Ok(Obstacle { kind, bvh: Bvh::new(&mesh), mesh, sheet, margin })
+    };
+    plates(job, scene).into_iter().map(obstacle).collect()
+}
+
+/// Its upper face, and the walls of the opening and of its outer edge.
+fn mesh_of(plate: &Plate) -> Result<Mesh, styluscam_geometry::GeometryError> {
+    let [foot, top] = plate.heights;
+    let corners = &plate.opening;
+    let range = |axis: usize| {
+        let values = corners.iter().map(|corner| corner[axis]);
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
+    };
+    let ([(left, right), (front, back)], count) = ([0, 1].map(range), corners.len());
+    let middle = [0.5 * (left + right), 0.5 * (front + back)];
+    let grow = [right - left, back - front].map(|side| 1.0 + 2.0 * WIDTH / side);
     let ring = |grow: [f64; 2], z: f64| {
-        corners.iter().map(move |[cx, cy]| Vector::new(x + cx * grow[0], y + cy * grow[1], z)).collect::<Vec<_>>()
+        let at = move |[x, y]: &[f64; 2]| {
+            Vector::new(middle[0] + (x - middle[0]) * grow[0], middle[1] + (y - middle[1]) * grow[1], z)
+        };
+        corners.iter().map(at).collect::<Vec<_>>()
     };
     // from the foot of the opening up, over the plate and down at its outer edge
-    let rings = [ring([1.0; 2], foot), ring([1.0; 2], top), ring(outward, top), ring(outward, foot)];
-    let count = corners.len();
+    let rings = [ring([1.0; 2], foot), ring([1.0; 2], top), ring(grow, top), ring(grow, foot)];
     let mut triangles = Vec::with_capacity(6 * count);
     for inner in 0..rings.len() - 1 {
         for i in 0..count {
@@ -143,7 +178,8 @@ mod tests {
 
     #[test]
     fn a_plate_is_open_in_the_middle_and_looks_up() {
-        let mesh = plate(Opening::Sides([40.0, 20.0]), [5.0, 6.0], -3.0, 2.0).unwrap();
+        let opening = Opening::Sides([40.0, 20.0]).corners().into_iter().map(|[x, y]| [x + 5.0, y + 6.0]).collect();
+        let mesh = mesh_of(&Plate { name: CLAMP, opening, heights: [-3.0, 2.0] }).unwrap();
         let up: f64 = (0..mesh.triangles().len()).filter(|t| mesh.normal(*t).z > 0.5).map(|t| mesh.area(t)).sum();
         assert!((up - (440.0 * 420.0 - 40.0 * 20.0)).abs() < 1e-6, "{up}");
         assert!((0..mesh.triangles().len()).all(|t| mesh.normal(t).z > -1e-9));

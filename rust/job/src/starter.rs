@@ -71,6 +71,12 @@ retract = 2.0               # and come down to here
 [setup.sheet]               # for milling: remove this table and model_face, set process.kind = "milling"
 thickness = {thickness}
 law = "constant"            # or "sine"
+# max_wall_angle_deg = 65.0   # steeper walls are refused; min_thickness = 0.4: thinner ones by the sine law
+
+# [setup.fixture]           # what holds the sheet is kept clear: an opening is [width, height] or a diameter
+# clamp = {{ opening = {opening}, height = 8.0 }}
+# backing = {{ opening = {opening} }}
+# margin = 1.0
 
 [process]
 kind = "spif"               # single-point incremental forming
@@ -102,6 +108,7 @@ program = {program}
         file = quoted(part.file),
         gcode = quoted(&format!("{stem}.ngc")),
         program = quoted(&format!("{stem}.program.json")),
+        opening = format_args!("[{:.1}, {:.1}]", x + diameter, y + diameter),
         diameter = toml_number(diameter),
         thickness = toml_number(thickness),
         step = toml_number(step),

@@ -29,8 +29,10 @@ pub struct Summary {
     pub operations: Vec<OperationSummary>,
     /// Length at feed.
     pub length: f64,
-    /// Time without acceleration.
+    /// Time.
     pub duration: f64,
+    /// Whether the machine's acceleration is known and counted in it.
+    pub accelerates: bool,
     /// Checked deviation of the part's triangles: inward and outward.
     pub tessellation: [f64; 2],
     /// Deepest gouge found in the posted text; absent before it is judged.
@@ -83,6 +85,7 @@ impl Summary {
             operations: plan.operations.clone(),
             length: statistics.feed_length,
             duration: statistics.duration,
+            accelerates: machine.limits.acceleration.is_some(),
             tessellation: [scene.inward, scene.outward],
             gouge_max: judgement.map(|j| j.report.gouge_max),
             excess_max: judgement.map(|j| j.report.excess_max),
@@ -109,7 +112,8 @@ impl Summary {
             }));
             notes.extend(operation.undercut.iter().map(|(face, area)| format!("undercut: Face{face}, {area:.1} mm2")));
         }
-        notes.push(format!("length {:.0} mm, time {}", self.length, clock(self.duration)));
+        let counted = if self.accelerates { "" } else { " without acceleration" };
+        notes.push(format!("length {:.0} mm, time {}{counted}", self.length, clock(self.duration)));
         notes.push(self.verdict());
         notes
     }

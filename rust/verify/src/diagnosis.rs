@@ -4,6 +4,7 @@ use styluscam_motion::Program;
 
 use crate::legs::{Leg, LegKind};
 use crate::measure::{normal_of, Sample};
+use crate::tally::Tally;
 use crate::{Finding, FindingKind, Severity, Subject};
 
 /// Lengths agree when they differ by less than this share.
@@ -16,17 +17,18 @@ const INCH: f64 = 25.4;
 const ABOUT: f64 = 1.6;
 
 /// The finding, with a hint of the probable cause.
-pub(crate) fn no_contact(program: &Program, legs: &[Leg], samples: &[Sample], subject: &Subject) -> Finding {
+pub(crate) fn no_contact(program: &Program, legs: &[Leg], tally: &Tally, subject: &Subject) -> Finding {
+    let samples: Vec<Sample> = tally.kept.iter().map(|kept| kept.sample).collect();
     let clearance = median(samples.iter().map(|s| s.touch.value));
     let away = if clearance < 0.0 { "inside it" } else { "away from it" };
-    let hint = hint(program, legs, samples, subject, clearance).map_or_else(String::new, |h| format!(" ({h})"));
+    let hint = hint(program, legs, &samples, subject, clearance).map_or_else(String::new, |h| format!(" ({h})"));
     let message = format!(
         "nothing touches the part: the tool's median distance is {:.4} mm {away}; \
          check zero, units and tool reference{hint}",
         clearance.abs()
     );
     let value_mm = Some(clearance);
-    Finding { moves: samples.len(), value_mm, ..Finding::of_all(FindingKind::NoContact, Severity::Error, message) }
+    Finding { moves: tally.contacts, value_mm, ..Finding::of_all(FindingKind::NoContact, Severity::Error, message) }
 }
 
 fn hint(program: &Program, legs: &[Leg], samples: &[Sample], subject: &Subject, clearance: f64) -> Option<String> {

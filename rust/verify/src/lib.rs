@@ -46,6 +46,7 @@ mod sequence;
 mod simulation;
 mod subject;
 mod sweep;
+mod tally;
 mod travel;
 mod words;
 

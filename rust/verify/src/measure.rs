@@ -10,6 +10,7 @@ use crate::clearance::{Prober, Touch};
 use crate::holding::{colliders, Collider};
 use crate::legs::{Leg, LegKind};
 use crate::sweep::{Passed, Question, Seen, Stroke};
+use crate::tally::{Rule, Tally};
 use crate::{FindingKind, Limits, Subject, Vector, SLACK};
 
 /// Moves in a piece of work. Fixed, so that the result does not depend on the number of threads.
@@ -62,31 +63,40 @@ struct Bodies<'a> {
     colliders: Vec<Collider<'a>>,
 }
 
-/// Measures every leg; the results stand in the legs' order.
-pub(crate) fn measure(
-    legs: &[Leg],
-    subject: &Subject,
-    limits: &Limits,
-    watch: &Watch,
-) -> Result<Vec<Measured>, Cancelled> {
+/// Measures every leg.
+pub(crate) fn measure(legs: &[Leg], subject: &Subject, limits: &Limits, watch: &Watch) -> Result<Tally, Cancelled> {
     watch.begin("verifying", legs.len());
     let least = gouge_level(subject, limits);
     let bodies =
         |tool| Bodies { profile: Body::new(tool, subject.sheet.as_ref()), colliders: colliders(tool, subject, least) };
     let bodies: Vec<Bodies> = subject.tools.iter().map(bodies).collect();
     let top = subject.mesh.bounds().1.z;
-    let chunks: Result<Vec<_>, _> = legs
-        .par_chunks(CHUNK)
-        .map(|chunk| {
-            let mut walk = Walk { subject, limits, bodies: &bodies, top, last: None };
-            let measured = chunk.iter().map(|leg| {
-                let measured = walk.along(leg);
-                watch.advance(1).map(|()| measured)
-            });
-            measured.collect::<Result<Vec<_>, _>>()
-        })
-        .collect();
-    Ok(chunks?.into_iter().flatten().collect())
+    let rule = Rule::new(legs, subject, limits);
+    let chunks: Vec<&[Leg]> = legs.chunks(CHUNK).collect();
+    let tallies = chunks.par_iter().zip(contacts_before(&chunks)).map(|(chunk, mut ordinal)| {
+        let mut walk = Walk { subject, limits, bodies: &bodies, top, last: None };
+        let mut tally = Tally::default();
+        for leg in *chunk {
+            rule.add(&mut tally, leg, &walk.along(leg), ordinal);
+            ordinal += usize::from(leg.excess.is_some());
+            watch.advance(1)?;
+        }
+        Ok(tally)
+    });
+    let mut whole = Tally::default();
+    tallies.collect::<Result<Vec<_>, _>>()?.into_iter().for_each(|tally| whole.join(tally));
+    Ok(whole)
+}
+
+/// How many moves that should touch come before each chunk.
+fn contacts_before(chunks: &[&[Leg]]) -> Vec<usize> {
+    let mut before = 0;
+    let count = |chunk: &&[Leg]| {
+        let own = chunk.iter().filter(|leg| leg.excess.is_some()).count();
+        before += own;
+        before - own
+    };
+    chunks.iter().map(count).collect()
 }
 
 /// A walk along consecutive moves, which remembers the last contact.

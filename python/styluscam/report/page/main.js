@@ -14,13 +14,22 @@ function boxOf(columns) {
   return [low, high];
 }
 
+function widen([low, high], place) {
+  place.forEach((x, k) => {
+    low[k] = Math.min(low[k], x);
+    high[k] = Math.max(high[k], x);
+  });
+}
+
 async function start() {
   const path = await Path.of(given.path);
   const box = given.part ? boxOf(await unpacked(given.part.points)) : boxOf(path.places);
+  for (const [x, y] of given.fixture.flatMap(outerCorners)) widen(box, [x, y]);
   const stage = new Stage(document.querySelector("#stage canvas"), box);
   const part = given.part && (await PartView.of(stage, given.part));
   const lines = new PathView(stage, path);
   const tool = new ToolView(stage, given.tools);
+  const fixture = new FixtureView(stage, given.fixture);
   const player = new Player(path);
   player.show = ({ index, tip }) => {
     lines.done(index);
@@ -28,14 +37,14 @@ async function start() {
   };
   player.seek(path.duration);
   new Findings(stage, player, given.findings);
-  wire(stage, part, lines);
+  wire(stage, part, lines, fixture);
   await part?.show("");
   lines.show("kind");
   note(path);
-  return { stage, part, player, tool };
+  return { stage, part, player, tool, fixture };
 }
 
-function wire(stage, part, lines) {
+function wire(stage, part, lines, fixture) {
   const map = document.getElementById("map");
   const colour = document.getElementById("path-colour");
   colour.addEventListener("change", () => lines.show(colour.value));
@@ -45,6 +54,8 @@ function wire(stage, part, lines) {
     lines.show(colour.value);
     part.show(map.value);
   });
+  const held = document.getElementById("fixture");
+  held?.addEventListener("change", () => fixture.show(held.checked));
   for (const button of document.querySelectorAll("[data-view]")) {
     button.addEventListener("click", () => stage.look(button.dataset.view));
   }
