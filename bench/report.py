@@ -25,6 +25,7 @@ import styluscam as sc  # noqa: E402
 from styluscam.report import Subject, report_page  # noqa: E402
 
 TRIANGLES, ROWS = 200_000, 1000
+STEPOVER = SIDE / (ROWS - 1)
 ABOVE = 0.002
 """mm: what rounding to 0.001 mm and the chords between the points need."""
 
@@ -33,7 +34,7 @@ JOB = {
     "part": {"file": "wavy.stl", "units": "mm"},
     "process": {"kind": "milling"},
     "tools": {"ball": {"profile": {"kind": "ball", "diameter": 6.0}}},
-    "operations": [{"kind": "zig-zag", "tool": "ball", "stepover": 0.1, "tolerance": 0.01}],
+    "operations": [{"kind": "zig-zag", "tool": "ball", "stepover": STEPOVER, "tolerance": 0.01}],
     "machine": {"name": "linuxcnc"},
 }
 SEEK = """(() => { const p = window.styluscam.player; const begun = performance.now();
@@ -50,7 +51,7 @@ def write_part(path: Path) -> None:
 
 def program(job: sc.Job) -> str:
     """Rows over the part, a million points."""
-    along = np.round(np.linspace(0.03 * SIDE, 0.97 * SIDE, ROWS), 3)
+    along = np.round(np.linspace(0.0, SIDE, ROWS), 3)
     x = np.tile(along, (ROWS, 1))
     x[1::2] = x[1::2, ::-1]
     tips = places(job, np.column_stack([x.reshape(-1), np.repeat(along, ROWS)]))

@@ -29,7 +29,7 @@ pub(crate) fn spread(
     wanted: &[usize],
     body: &Body,
     spacing: Spacing,
-    legs: &[Leg],
+    legs: &[&Leg],
     count: usize,
 ) -> Vec<Probe> {
     let values = values(spacing, legs);
@@ -52,7 +52,7 @@ pub(crate) fn spread(
 }
 
 /// Heights of the levels, or places of the rows across: ascending.
-fn values(spacing: Spacing, legs: &[Leg]) -> Vec<f64> {
+fn values(spacing: Spacing, legs: &[&Leg]) -> Vec<f64> {
     let (pitch, same) = match spacing {
         Spacing::Levels(step) => (step, SAME_LEVEL),
         Spacing::Rows(stepover, _) => (stepover, SAME_ROW),
@@ -63,7 +63,8 @@ fn values(spacing: Spacing, legs: &[Leg]) -> Vec<f64> {
         let joined = b.start == Some(a.end);
         joined && along(a) && along(b) && (value(a.end) - value(b.end)).abs() <= same
     });
-    let long = chains.filter(|chain| along(&chain[0]) && chain.iter().map(Leg::chord).sum::<f64>() > LONG * pitch);
+    let long =
+        chains.filter(|chain| along(chain[0]) && chain.iter().map(|leg| leg.chord()).sum::<f64>() > LONG * pitch);
     let mut values: Vec<f64> = long.map(|chain| value(chain[0].end)).collect();
     values.sort_by(f64::total_cmp);
     values.dedup_by(|b, a| *b - *a <= same);

@@ -67,7 +67,7 @@ pub fn coverage(
     wanted: &[bool],
     watch: &Watch,
 ) -> Result<Vec<FaceCoverage>, Cancelled> {
-    let sweeps = Sweeps::of(&placed(program, subject, limits), subject);
+    let sweeps = Sweeps::of_all(&placed(program, subject, limits), subject);
     let faces = faces(subject, wanted);
     let area: f64 = faces.iter().map(|face| face.area).sum();
     let between_passes = area / sweeps.length.max(f64::MIN_POSITIVE);
@@ -94,7 +94,7 @@ pub fn left(
     watch: &Watch,
 ) -> Result<Vec<f64>, Cancelled> {
     watch.begin("what is left", points.len());
-    Sweeps::of(&placed(program, subject, limits), subject).left_at(points, watch)
+    Sweeps::of_all(&placed(program, subject, limits), subject).left_at(points, watch)
 }
 
 /// A face's wanted triangles.
@@ -147,7 +147,7 @@ pub(crate) struct Sweeps {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sweep {
     stroke: Stroke,
-    /// Index of its leg.
+    /// Index of its leg among those that are meant to touch.
     pub leg: usize,
 }
 
@@ -161,11 +161,16 @@ impl RTreeObject for Sweep {
 
 impl Sweeps {
     /// Those of `legs` that are meant to touch.
-    pub fn of(legs: &[Leg], subject: &Subject) -> Self {
+    fn of_all(legs: &[Leg], subject: &Subject) -> Self {
+        let contacts: Vec<&Leg> = legs.iter().filter(|leg| leg.kind == LegKind::Contact).collect();
+        Self::of(&contacts, subject)
+    }
+
+    /// Of moves that are meant to touch.
+    pub fn of(contacts: &[&Leg], subject: &Subject) -> Self {
         let tools = subject.tools.iter().enumerate().map(|(number, tool)| {
             let body = Body::new(tool, subject.sheet.as_ref());
-            let own = |leg: &Leg| leg.kind == LegKind::Contact && leg.tool == Some(number);
-            let own = legs.iter().enumerate().filter(|(_, leg)| own(leg));
+            let own = contacts.iter().enumerate().filter(|(_, leg)| leg.tool == Some(number));
             let strokes = own
                 .flat_map(|(leg, it)| strokes_of(it, &body, SAG).into_iter().map(move |stroke| Sweep { stroke, leg }));
             let tree = RTree::bulk_load(strokes.collect());

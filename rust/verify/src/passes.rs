@@ -73,7 +73,7 @@ pub(crate) fn faults(
     for order in subject.orders {
         let Some(passes) = &order.passes else { continue };
         let own = |leg: &&Leg| leg.kind == LegKind::Contact && orders.own(order, leg);
-        let contacts: Vec<Leg> = legs.iter().filter(own).copied().collect();
+        let contacts: Vec<&Leg> = legs.iter().filter(own).collect();
         if contacts.is_empty() {
             continue;
         }
@@ -102,7 +102,7 @@ struct Look<'a> {
     wanted: &'a [usize],
     body: &'a Body,
     /// The operation's moves that should touch.
-    contacts: &'a [Leg],
+    contacts: &'a [&'a Leg],
 }
 
 /// A point of the part, and the tool where it touches the point's triangle there.
@@ -119,7 +119,7 @@ impl Look<'_> {
     /// Levels that are farther apart than ordered, or end too soon, while the tool could touch between or beyond.
     fn levels(&self) -> Vec<Fault> {
         let Spacing::Levels(step) = self.passes.spacing else { return Vec::new() };
-        let mut levels: Vec<&Leg> = self.contacts.iter().filter(|leg| !leg.falls()).collect();
+        let mut levels: Vec<&Leg> = self.contacts.iter().copied().filter(|leg| !leg.falls()).collect();
         levels.sort_by(|a, b| b.end[2].total_cmp(&a.end[2]).then(a.index.cmp(&b.index)));
         levels.dedup_by(|b, a| a.end[2] - b.end[2] <= SAME_LEVEL);
         let (Some(first), Some(last)) = (levels.first(), levels.last()) else { return Vec::new() };
