@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.collections import LineCollection
     from matplotlib.colors import Colormap
     from matplotlib.figure import Figure
+    from matplotlib.text import Text
 
 SIZE, DPI = (1200, 800), 100
 FINER = 2
@@ -533,15 +534,15 @@ def _titles(figure: Figure, program: Program, title: str) -> None:
     )
     facts = [strategies, tools, f"{program.length / 1000.0:.3g} m in {time} at the ordered feeds"]
     title = title or str(program.setup.get("title", ""))
-    _line(figure, 0.955, title, color=INK, fontsize=18, weight="bold")
-    _line(figure, 0.912, ", ".join(fact for fact in facts if fact), color=SOFT, fontsize=12.5)
+    _fit(figure.text(MARGIN, 0.955, title, ha="left", va="center", color=INK, fontsize=18, weight="bold"))
+    line = ", ".join(fact for fact in facts if fact)
+    _fit(figure.text(MARGIN, 0.912, line, ha="left", va="center", color=SOFT, fontsize=12.5))
 
 
-def _line(figure: Figure, height: float, text: str, **looks: Any) -> None:
-    """A line at the figure's left, smaller where it would not fit."""
-    line = figure.text(MARGIN, height, text, ha="left", va="center", **looks)
-    room = (1.0 - 2.0 * MARGIN) * figure.bbox.width
-    line.set_fontsize(min(1.0, room / max(line.get_window_extent().width, 1.0)) * looks["fontsize"])
+def _fit(text: Text) -> None:
+    """Makes a line that begins at the left margin smaller where it would cross the right one."""
+    room = (1.0 - 2.0 * MARGIN) * text.get_figure().bbox.width
+    text.set_fontsize(min(1.0, room / max(text.get_window_extent().width, 1.0)) * text.get_fontsize())
 
 
 def _scale(figure: Figure, drawn: LineCollection) -> None:

@@ -1,0 +1,206 @@
+//! What the measured moves come to: their faults, the worst places, and some of the contacts.
+
+use crate::findings::Fault;
+use crate::legs::{Leg, LegKind};
+use crate::measure::{highest, normal_of, Measured, Sample, Strike};
+use crate::{ContactRecord, FindingKind, Forming, Limits, Place, Subject, SLACK};
+
+/// What triangles may add to a wall's angle, rad.
+const ANGLE: f64 = 1e-3;
+/// Contacts that are kept at most.
+const KEPT: usize = 4000;
+
+/// The largest value so far and its place.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Worst {
+    pub value: f64,
+    pub at: Option<Place>,
+}
+
+impl Worst {
+    fn take(&mut self, value: f64, place: Place) {
+        if value > 0.0 && (self.at.is_none() || value > self.value + SLACK) {
+            *self = Self { value, at: Some(place) };
+        }
+    }
+}
+
+/// A contact sample that is kept.
+pub(crate) struct Kept {
+    pub sample: Sample,
+    line: u32,
+    touches: bool,
+}
+
+impl Kept {
+    fn record(&self, subject: &Subject) -> ContactRecord {
+        let touch = &self.sample.touch;
+        ContactRecord {
+            line: self.line,
+            tip: self.sample.tip,
+            point: touch.point.into(),
+            clearance: touch.value,
+            triangle: touch.triangle,
+            face: subject.mesh.faces().get(touch.triangle as usize).copied().unwrap_or(0),
+        }
+    }
+}
+
+/// What consecutive moves come to.
+#[derive(Default)]
+pub(crate) struct Tally {
+    /// In the moves' order, kind by kind.
+    pub faults: Vec<Fault>,
+    pub gouge: Worst,
+    pub excess: Worst,
+    /// Positions at which the clearance was measured.
+    pub samples: usize,
+    /// Samples of moves that should touch, each place once.
+    pub contacts: usize,
+    /// How many of them do.
+    touching: usize,
+    /// Some of them, spread evenly.
+    pub kept: Vec<Kept>,
+}
+
+impl Tally {
+    /// Of these moves and those that follow.
+    pub fn join(&mut self, next: Self) {
+        self.faults.extend(next.faults);
+        for (worst, other) in [(&mut self.gouge, next.gouge), (&mut self.excess, next.excess)] {
+            other.at.into_iter().for_each(|place| worst.take(other.value, place));
+        }
+        self.samples += next.samples;
+        self.contacts += next.contacts;
+        self.touching += next.touching;
+        self.kept.extend(next.kept);
+    }
+
+    pub fn nothing_touches(&self) -> bool {
+        self.touching == 0 && self.contacts > 0
+    }
+
+    /// The share of contacts that touch.
+    pub fn share(&self) -> f64 {
+        self.touching as f64 / self.contacts.max(1) as f64
+    }
+
+    /// Kept contacts that touch.
+    pub fn records(&self, subject: &Subject) -> Vec<ContactRecord> {
+        self.kept.iter().filter(|kept| kept.touches).map(|kept| kept.record(subject)).collect()
+    }
+}
+
+/// By what moves are tallied.
+#[derive(Clone, Copy)]
+pub(crate) struct Rule<'a> {
+    pub subject: &'a Subject<'a>,
+    pub limits: &'a Limits,
+    /// One of so many moves that should touch keeps its contacts.
+    keep_every: usize,
+}
+
+impl<'a> Rule<'a> {
+    pub fn new(legs: &[Leg], subject: &'a Subject<'a>, limits: &'a Limits) -> Self {
+        let contacts = 2 * legs.iter().filter(|leg| leg.excess.is_some()).count();
+        Self { subject, limits, keep_every: contacts.div_ceil(KEPT).max(1) }
+    }
+
+    /// Adds a move to its tally; `ordinal` counts the moves before it that should touch.
+    pub fn add(&self, tally: &mut Tally, leg: &Leg, found: &Measured, ordinal: usize) {
+        tally.samples += found.samples;
+        if let Some(deepest) = &found.deepest {
+            tally.gouge.take(self.depth(deepest), place(leg, deepest));
+            tally.faults.extend(self.entry(leg, deepest));
+        }
+        tally.faults.extend(found.struck.as_ref().and_then(|strike| self.strike(leg, strike)));
+        if let Some(landing) = &found.landing {
+            let (air, limit) = (landing.touch.value, self.limits.rapid_gap);
+            tally.faults.push(fault(FindingKind::RapidPlunge, leg, landing, (air, limit), limit - air));
+        }
+        if let Some(limit) = leg.excess {
+            self.contact(tally, leg, found, limit, ordinal.is_multiple_of(self.keep_every));
+        }
+    }
+
+    fn depth(&self, sample: &Sample) -> f64 {
+        self.subject.deviation_inward - sample.touch.value
+    }
+
+    fn distance(&self, sample: &Sample) -> f64 {
+        sample.touch.value + self.subject.deviation_outward
+    }
+
+    /// The fault of a move that is too deep in the part.
+    ///
+    /// A rapid that is deepest where it starts only leaves a place that the move before it is blamed for.
+    fn entry(&self, leg: &Leg, deepest: &Sample) -> Option<Fault> {
+        let depth = self.depth(deepest);
+        let brought_here = leg.kind == LegKind::Rapid && leg.starts_at(deepest.tip);
+        if depth <= self.limits.gouge + SLACK || brought_here {
+            return None;
+        }
+        let (kind, value) = match leg.kind {
+            LegKind::Rapid if leg.descends() && !leg.travels() => (FindingKind::RapidPlunge, -depth),
+            LegKind::Rapid => (FindingKind::RapidIntoMaterial, depth),
+            _ => (FindingKind::Gouge, depth),
+        };
+        Some(fault(kind, leg, deepest, (value, self.limits.gouge), depth))
+    }
+
+    fn strike(&self, leg: &Leg, Strike { kind, sample, least }: &Strike) -> Option<Fault> {
+        let room = sample.touch.value - least;
+        if room >= -SLACK || leg.kind == LegKind::Rapid && leg.starts_at(sample.tip) {
+            return None;
+        }
+        let measure = match kind {
+            FindingKind::ShankCollision | FindingKind::HolderCollision => (self.depth(sample), self.limits.gouge),
+            _ => (sample.touch.value, *least),
+        };
+        Some(fault(*kind, leg, sample, measure, -room))
+    }
+
+    /// A move that should touch, within `limit` mm. Its middle and its end are counted: its start is the end of another.
+    fn contact(&self, tally: &mut Tally, leg: &Leg, found: &Measured, limit: f64, kept: bool) {
+        if let Some(sample) = highest(&found.contacts) {
+            let excess = self.distance(&sample);
+            tally.excess.take(excess, place(leg, &sample));
+            if excess > limit + SLACK {
+                tally.faults.push(fault(FindingKind::Excess, leg, &sample, (excess, limit), excess));
+            }
+        }
+        for sample in found.contacts[1..].iter().flatten() {
+            let shallow = self.depth(sample) <= self.limits.gouge + SLACK;
+            let touches = shallow && self.distance(sample) <= limit + SLACK;
+            tally.contacts += 1;
+            tally.touching += usize::from(touches);
+            if touches {
+                tally.faults.extend(self.limits.forming.iter().flat_map(|forming| strain(forming, leg, sample)));
+            }
+            if kept {
+                tally.kept.push(Kept { sample: *sample, line: leg.line, touches });
+            }
+        }
+    }
+}
+
+/// A contact at which the sheet is formed steeper or thinner than it bears.
+fn strain(forming: &Forming, leg: &Leg, sample: &Sample) -> impl Iterator<Item = Fault> {
+    let cos = normal_of(&sample.touch).z.clamp(0.0, 1.0);
+    let (angle, thickness) = (libm::acos(cos), forming.thickness * cos);
+    let at = |kind| Fault { position: sample.tip, ..leg.fault(kind) };
+    let most = forming.max_wall_angle;
+    let steep =
+        (angle > most + ANGLE).then(|| at(FindingKind::WallAngle).measured(angle.to_degrees(), most.to_degrees()));
+    let thin = (thickness < forming.min_thickness - SLACK)
+        .then(|| at(FindingKind::Thinning).measured(thickness, forming.min_thickness));
+    steep.into_iter().chain(thin)
+}
+
+fn place(leg: &Leg, sample: &Sample) -> Place {
+    Place { line: leg.line, position: sample.tip }
+}
+
+fn fault(kind: FindingKind, leg: &Leg, at: &Sample, measure: (f64, f64), weight: f64) -> Fault {
+    Fault { position: at.tip, measure: Some(measure), weight, ..leg.fault(kind) }
+}
