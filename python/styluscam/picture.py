@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from matplotlib.collections import LineCollection
     from matplotlib.colors import Colormap
     from matplotlib.figure import Figure
-    from matplotlib.text import Text
 
 SIZE, DPI = (1200, 800), 100
 FINER = 2
@@ -534,15 +533,15 @@ def _titles(figure: Figure, program: Program, title: str) -> None:
     )
     facts = [strategies, tools, f"{program.length / 1000.0:.3g} m in {time} at the ordered feeds"]
     title = title or str(program.setup.get("title", ""))
-    _fit(figure.text(MARGIN, 0.955, title, ha="left", va="center", color=INK, fontsize=18, weight="bold"))
-    line = ", ".join(fact for fact in facts if fact)
-    _fit(figure.text(MARGIN, 0.912, line, ha="left", va="center", color=SOFT, fontsize=12.5))
+    _heading(figure, 0.955, title, 18.0, INK, "bold")
+    _heading(figure, 0.912, ", ".join(fact for fact in facts if fact), 12.5, SOFT)
 
 
-def _fit(text: Text) -> None:
-    """Makes a line that begins at the left margin smaller where it would cross the right one."""
-    room = (1.0 - 2.0 * MARGIN) * text.get_figure().bbox.width
-    text.set_fontsize(min(1.0, room / max(text.get_window_extent().width, 1.0)) * text.get_fontsize())
+def _heading(figure: Figure, height: float, text: str, size: float, color: str, weight: str = "normal") -> None:
+    """A line at the left margin, smaller where it would cross the right one."""
+    line = figure.text(MARGIN, height, text, ha="left", va="center", color=color, fontsize=size, weight=weight)
+    room = (1.0 - 2.0 * MARGIN) * figure.bbox.width
+    line.set_fontsize(size * min(1.0, room / max(line.get_window_extent().width, 1.0)))
 
 
 def _scale(figure: Figure, drawn: LineCollection) -> None:
