@@ -533,11 +533,11 @@ def _titles(figure: Figure, program: Program, title: str) -> None:
     )
     facts = [strategies, tools, f"{program.length / 1000.0:.3g} m in {time} at the ordered feeds"]
     title = title or str(program.setup.get("title", ""))
-    _heading(figure, 0.955, title, 18.0, INK, "bold")
-    _heading(figure, 0.912, ", ".join(fact for fact in facts if fact), 12.5, SOFT)
+    _heading(figure, 0.955, title, 18.0, color=INK, weight="bold")
+    _heading(figure, 0.912, ", ".join(fact for fact in facts if fact), 12.5, color=SOFT)
 
 
-def _heading(figure: Figure, height: float, text: str, size: float, color: str, weight: str = "normal") -> None:
+def _heading(figure: Figure, height: float, text: str, size: float, *, color: str, weight: str = "normal") -> None:
     """A line at the left margin, smaller where it would cross the right one."""
     line = figure.text(MARGIN, height, text, ha="left", va="center", color=color, fontsize=size, weight=weight)
     room = (1.0 - 2.0 * MARGIN) * figure.bbox.width
