@@ -25,7 +25,11 @@ JOB = {
     "schema": 1,
     "title": "Coarse cup",
     "part": {"file": "cone_cup.step", "faces": ["Face1", "Face2", "Face3", "Face4"], "model_face": "back"},
-    "setup": {"zero": "sheet-top", "sheet": {"thickness": 1.0}},
+    "setup": {
+        "zero": "sheet-top",
+        "sheet": {"thickness": 1.0},
+        "fixture": {"clamp": {"opening": [140.0, 120.0], "height": 8.0}, "backing": {"opening": 90.0}},
+    },
     "tools": {
         "stylus": {
             "profile": {"kind": "clothoid", "diameter": 10.0},
@@ -161,6 +165,27 @@ def test_maps_change_what_is_seen(opened: Tab) -> None:
     opened.choose("#map", "")
     opened.until("document.getElementById('legends').textContent.startsWith('path')")
     assert opened.complaints == []
+
+
+def test_the_fixture_stands_where_the_job_says_and_can_be_hidden(opened: Tab) -> None:
+    boxes = np.array(
+        opened.run(
+            """window.styluscam.fixture.group.children.map(({ geometry }) => {
+            geometry.computeBoundingBox();
+            const { origin } = window.styluscam.stage;
+            return [geometry.boundingBox.min, geometry.boundingBox.max].map(p => p.toArray().map((x, k) => x + origin[k]));
+            })"""
+        )
+    )
+    # a band of 8 % of the larger side around the openings; the sheet's top is Z0, and it is 1 mm thick
+    np.testing.assert_allclose(
+        boxes[:, :, :2], [[[-81.2, -71.2], [81.2, 71.2]], [[-52.2, -52.2], [52.2, 52.2]]], atol=1e-4
+    )
+    np.testing.assert_allclose(boxes[:, 1, 2], [8.0, -1.0], atol=1e-4)
+    shown = opened.picture("#stage")
+    opened.click("#fixture")
+    opened.drawn()
+    assert opened.picture("#stage") != shown
 
 
 def test_the_path_has_its_colours(opened: Tab) -> None:
