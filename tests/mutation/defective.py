@@ -40,7 +40,7 @@ SUITS: dict[str, Callable[[Case], bool]] = {
 """Cases in which a kind can matter, where that is not all."""
 
 
-WARNED_OF = ("missing-pass", "missing-level", "forming-order")
+WARNED_OF = ("missing-pass", "missing-level", "missing-row", "forming-order")
 """What is left undone, or done in another order, breaks nothing: the judge warns of it."""
 
 

@@ -51,24 +51,46 @@ pub(crate) fn spread(
     probes
 }
 
-/// Heights of the levels, or places of the rows across: ascending.
+/// Heights of the levels, or places of the rows across, that are long enough: ascending.
 fn values(spacing: Spacing, legs: &[&Leg]) -> Vec<f64> {
-    let (pitch, same) = match spacing {
-        Spacing::Levels(step) => (step, SAME_LEVEL),
-        Spacing::Rows(stepover, _) => (stepover, SAME_ROW),
-    };
+    let (pitch, same) = spacing.measures();
     let value = |tip: [f64; 3]| spacing.value(tip.into());
-    let along = |leg: &Leg| leg.start.is_some_and(|start| (value(start) - value(leg.end)).abs() <= same);
     let chains = legs.chunk_by(|a, b| {
         let joined = b.start == Some(a.end);
-        joined && along(a) && along(b) && (value(a.end) - value(b.end)).abs() <= same
+        joined && spacing.holds(a) && spacing.holds(b) && (value(a.end) - value(b.end)).abs() <= same
     });
-    let long =
-        chains.filter(|chain| along(chain[0]) && chain.iter().map(|leg| leg.chord()).sum::<f64>() > LONG * pitch);
+    let length = |chain: &[&Leg]| chain.iter().map(|leg| leg.chord()).sum::<f64>();
+    let long = chains.filter(|chain| spacing.holds(chain[0]) && length(chain) > LONG * pitch);
     let mut values: Vec<f64> = long.map(|chain| value(chain[0].end)).collect();
     values.sort_by(f64::total_cmp);
     values.dedup_by(|b, a| *b - *a <= same);
     values
+}
+
+/// Every height or place across at which one of the moves lies, however short, with the first such move: ascending.
+pub(crate) fn passes<'a>(spacing: Spacing, legs: &[&'a Leg]) -> Vec<(f64, &'a Leg)> {
+    let own = legs.iter().filter(|leg| spacing.holds(leg));
+    let mut passes: Vec<(f64, &Leg)> = own.map(|leg| (spacing.value(leg.end.into()), *leg)).collect();
+    passes.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.index.cmp(&b.1.index)));
+    let (_, same) = spacing.measures();
+    passes.dedup_by(|b, a| b.0 - a.0 <= same);
+    passes
+}
+
+impl Spacing {
+    /// The distance ordered, and that of passes that are one; mm.
+    fn measures(self) -> (f64, f64) {
+        match self {
+            Self::Levels(step) => (step, SAME_LEVEL),
+            Self::Rows(stepover, _) => (stepover, SAME_ROW),
+        }
+    }
+
+    /// Whether a move lies on one pass.
+    fn holds(self, leg: &Leg) -> bool {
+        let value = |tip: [f64; 3]| self.value(tip.into());
+        leg.start.is_some_and(|start| (value(start) - value(leg.end)).abs() <= self.measures().1)
+    }
 }
 
 /// A triangle on which passes should show.

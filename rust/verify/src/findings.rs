@@ -46,6 +46,8 @@ pub enum FindingKind {
     MissingPass,
     /// Levels are farther apart than ordered, or end too soon.
     MissingLevel,
+    /// Rows are farther apart than ordered, or end too soon.
+    MissingRow,
     /// A wall is steeper than the sheet bears.
     WallAngle,
     /// The sheet becomes thinner than it may.

@@ -8,7 +8,7 @@ use styluscam_motion::{Cancelled, Watch};
 
 use crate::body::Body;
 use crate::clearance::Prober;
-use crate::contact_lines::{self, SAME_LEVEL};
+use crate::contact_lines;
 use crate::coverage::{Sweep, Sweeps};
 use crate::findings::Fault;
 use crate::legs::{Leg, LegKind};
@@ -34,9 +34,9 @@ const ROOM: f64 = 0.005;
 /// A face goes on where the tool, moved along the plane that it touches, is as near to it as this, mm.
 const TOUCH: f64 = 0.03;
 
-/// Points at which it is asked how high the tool can touch.
+/// Points at which it is asked where the tool can touch.
 const TOUCHING: usize = 2000;
-/// Levels may be this many steps apart: a short last step is joined to the one before it.
+/// Passes may be this many steps apart: a short last step is joined to the one before it.
 const WIDE: f64 = 1.3;
 /// The last level may be this many steps above the lowest height at which the tool can touch.
 const REST: f64 = 0.25;
@@ -83,7 +83,7 @@ pub(crate) fn faults(
         let look = Look { subject, limits, passes, wanted: &wanted, body, contacts: &contacts };
         let left = look.left(&sweeps, watch)?;
         let on_passes = look.left_on_passes(&sweeps, watch)?;
-        for fault in left.into_iter().chain(on_passes).chain(look.levels()) {
+        for fault in left.into_iter().chain(on_passes).chain(look.gaps()) {
             let known = worst.entry((fault.index, fault.kind)).or_insert(fault);
             if fault.weight > known.weight {
                 *known = fault;
@@ -116,35 +116,38 @@ struct Spot {
 }
 
 impl Look<'_> {
-    /// Levels that are farther apart than ordered, or end too soon, while the tool could touch between or beyond.
-    fn levels(&self) -> Vec<Fault> {
-        let Spacing::Levels(step) = self.passes.spacing else { return Vec::new() };
-        let mut levels: Vec<&Leg> = self.contacts.iter().copied().filter(|leg| !leg.falls()).collect();
-        levels.sort_by(|a, b| b.end[2].total_cmp(&a.end[2]).then(a.index.cmp(&b.index)));
-        levels.dedup_by(|b, a| a.end[2] - b.end[2] <= SAME_LEVEL);
-        let (Some(first), Some(last)) = (levels.first(), levels.last()) else { return Vec::new() };
-        let heights = self.heights();
-        let touches_between = |low: f64, high: f64| heights.iter().any(|h| *h > low && *h < high);
+    /// Passes that are farther apart than ordered, or end too soon, while the tool could touch between or beyond.
+    fn gaps(&self) -> Vec<Fault> {
+        let spacing = self.passes.spacing;
+        let (kind, step, [rest_low, rest_high]) = match spacing {
+            Spacing::Levels(step) => (FindingKind::MissingLevel, step, [REST, WIDE]),
+            Spacing::Rows(stepover, _) => (FindingKind::MissingRow, stepover, [WIDE, WIDE]),
+        };
+        let passes = contact_lines::passes(spacing, self.contacts);
+        let (Some((lowest, first)), Some((highest, last))) = (passes.first(), passes.last()) else { return Vec::new() };
+        let touching = self.touching();
+        let touches_between = |low: f64, high: f64| touching.iter().any(|value| *value > low && *value < high);
         let wide = |gap: f64, steps: f64| gap > steps * step + ROUGH;
-        let between = levels.windows(2).filter_map(|pair| {
-            let (high, low) = (pair[0].end[2], pair[1].end[2]);
-            let inside = 0.3 * (high - low);
-            (wide(high - low, WIDE) && touches_between(low + inside, high - inside)).then(|| (pair[1], high - low))
+        let between = passes.windows(2).filter_map(|pair| {
+            let [(low, before), (high, after)] = [pair[0], pair[1]];
+            let (gap, inside) = (high - low, 0.3 * (high - low));
+            let later = if before.index > after.index { before } else { after };
+            (wide(gap, WIDE) && touches_between(low + inside, high - inside)).then_some((later, gap))
         });
-        let top = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max) - first.end[2];
-        let bottom = last.end[2] - heights.iter().copied().fold(f64::INFINITY, f64::min);
-        let above = wide(top, WIDE).then_some((*first, top));
-        let below = wide(bottom, REST).then_some((*last, bottom));
-        let gaps = between.chain(above).chain(below);
-        gaps.map(|(leg, gap)| leg.fault(FindingKind::MissingLevel).measured(gap, step).warning()).collect()
+        let below = lowest - touching.iter().copied().fold(f64::INFINITY, f64::min);
+        let above = touching.iter().copied().fold(f64::NEG_INFINITY, f64::max) - highest;
+        let below = wide(below, rest_low).then_some((*first, below));
+        let above = wide(above, rest_high).then_some((*last, above));
+        let gaps = between.chain(below).chain(above);
+        gaps.map(|(leg, gap)| leg.fault(kind).measured(gap, step).warning()).collect()
     }
 
-    /// Heights at which the tool can touch.
-    fn heights(&self) -> Vec<f64> {
+    /// Heights, or places across the rows, at which the tool can touch.
+    fn touching(&self) -> Vec<f64> {
         let spots = probes::spread(self.subject.mesh, self.wanted, TOUCHING).into_par_iter();
         let touching =
             spots.filter_map(|probe| self.spot(&probe)).filter(|spot| self.clearance(spot.position) >= -ROOM);
-        touching.map(|spot| spot.tip[2]).collect()
+        touching.map(|spot| self.passes.spacing.value(spot.tip.into())).collect()
     }
 
     /// Places where more is left than the distance between passes explains.

@@ -58,6 +58,9 @@ fn what(fault: &Fault) -> String {
         FindingKind::MissingLevel => {
             format!("the tool could touch within {value:.3} mm beside this level and no other does (the job's step is {limit:.3})")
         }
+        FindingKind::MissingRow => {
+            format!("the tool could touch within {value:.3} mm beside this row and no other does (the job's stepover is {limit:.3})")
+        }
         FindingKind::WallAngle => format!("the wall is at {value:.1} degrees, and the sheet bears {limit:.1}"),
         FindingKind::Thinning => {
             format!("the sheet becomes {value:.3} mm thin by the sine law, and must keep {limit:.3}")
@@ -146,7 +149,7 @@ fn remedy(kind: FindingKind) -> &'static str {
         FindingKind::DogLegRapid => "go across above the clearance height, then straight down",
         FindingKind::LowRapid => "retract to the clearance height first",
         FindingKind::Excess => "correct this coordinate, or plan again with this tool, sheet and zero point",
-        FindingKind::MissingPass | FindingKind::MissingLevel => {
+        FindingKind::MissingPass | FindingKind::MissingLevel | FindingKind::MissingRow => {
             "post the whole operation, with the job's heights and steps"
         }
         FindingKind::FormingOrder => "form from the top down",
