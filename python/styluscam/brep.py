@@ -45,6 +45,7 @@ def _finding(contact: Document, value: float, limit: float) -> Document:
         "first_line": line,
         "last_line": line,
         "moves": 1,
+        "length_mm": 0.0,
         "position": contact["tip"],
         "value_mm": value,
         "limit": limit,

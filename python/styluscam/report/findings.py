@@ -39,11 +39,17 @@ def verdict_of(report: Report | None, traced: bool = False) -> Verdict:
     )
     if errors or not report.ok:
         kinds = dict.fromkeys(str(finding["kind"]) for finding in errors)
-        counts = ", ".join(f"{spoken(kind)} ({document['counts'].get(kind, 1)})" for kind in kinds)
-        return Verdict("faulty", "Must not run", f"Found: {counts}. {judged}")
+        found = ", ".join(f"{spoken(kind)} ({_extent(document, kind)})" for kind in kinds)
+        return Verdict("faulty", "Must not run", f"Found: {found}. {judged}")
     if report.findings:
         return Verdict("sound", "May run, with warnings", judged)
     return Verdict("sound", "Nothing was found", judged)
+
+
+def _extent(document: Document, kind: str) -> str:
+    """How often, and along how much of the path."""
+    count, length = document["counts"].get(kind, 1), document["lengths"].get(kind, 0.0)
+    return f"{count}, along {length:.1f} mm of path" if length else str(count)
 
 
 def spoken(kind: str) -> str:

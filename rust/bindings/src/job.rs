@@ -102,6 +102,9 @@ pub fn shipped_machines() -> Vec<&'static str> {
     styluscam_post::shipped()
 }
 
+/// Name, corners of the opening, heights of the lower and the upper face.
+type Plate = (&'static str, Vec<[f64; 2]>, [f64; 2]);
+
 /// The part as it lies on the machine.
 #[pyclass(frozen, module = "styluscam._engine")]
 pub struct Scene {
@@ -130,9 +133,9 @@ impl Scene {
     }
 
     /// What holds the sheet: name, corners of the opening, heights of the lower and the upper face; work coordinates.
-    fn fixture(&self, job: &Job) -> Vec<(&'static str, Vec<[f64; 2]>, [f64; 2])> {
+    fn fixture(&self, job: &Job) -> Vec<Plate> {
         let plates = styluscam_job::plates(&job.document, &self.scene);
-        plates.into_iter().map(|plate| (plate.name, plate.opening, plate.heights)).collect()
+        plates.into_iter().map(|plate| (plate.holder.name(), plate.opening, plate.heights)).collect()
     }
 
     /// The sheet's face that the part is, where there is a sheet.

@@ -7,7 +7,6 @@ use styluscam_verify::{FindingKind, Obstacle};
 
 use crate::{JobDocument, JobError, Scene};
 
-const CLAMP: &str = "clamp frame";
 /// Sides of a round opening; the polygon lies in the circle.
 const SIDES: usize = 360;
 /// How far the plates reach beyond their openings, mm.
@@ -92,11 +91,31 @@ impl Opening {
     }
 }
 
+/// What a plate is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Holder {
+    /// It lies on the sheet.
+    Clamp,
+    /// The sheet lies on it.
+    Backing,
+}
+
+impl Holder {
+    /// In words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Clamp => "clamp frame",
+            Self::Backing => "backing plate",
+        }
+    }
+}
+
 /// A piece of the fixture in work coordinates: all of a plate but its opening.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plate {
-    /// "clamp frame" or "backing plate".
-    pub name: &'static str,
+    /// What it is for.
+    pub holder: Holder,
     /// Corners of the opening, counterclockwise, mm.
     pub opening: Vec<[f64; 2]>,
     /// Heights of its lower and its upper face, mm.
@@ -112,12 +131,12 @@ pub fn plates(job: &JobDocument, scene: &Scene) -> Vec<Plate> {
     let moved = |opening: Opening| opening.corners().into_iter().map(|[cx, cy]| [x + cx, y + cy]).collect();
     let under = scene.top - sheet.thickness;
     let clamp = fixture.clamp.map(|clamp| Plate {
-        name: CLAMP,
+        holder: Holder::Clamp,
         opening: moved(clamp.opening),
         heights: [scene.top, scene.top + clamp.height],
     });
     let backing = fixture.backing.map(|backing| Plate {
-        name: "backing plate",
+        holder: Holder::Backing,
         opening: moved(backing.opening),
         heights: [under - DEEP, under],
     });
@@ -133,9 +152,9 @@ pub(crate) fn obstacles(job: &JobDocument, scene: &Scene) -> Result<Vec<Obstacle
     let whole = scene.sheet.map(|sheet| Sheet { model_face: ModelFace::Back, ..sheet });
     let obstacle = |plate: Plate| {
         let mesh = mesh_of(&plate).map_err(JobError::geometry("setup.fixture"))?;
-        let (kind, sheet) = match plate.name {
-            CLAMP => (FindingKind::ClampCollision, None),
-            _ => (FindingKind::BackingCollision, whole),
+        let (kind, sheet) = match plate.holder {
+            Holder::Clamp => (FindingKind::ClampCollision, None),
+            Holder::Backing => (FindingKind::BackingCollision, whole),
         };
         Ok(Obstacle { kind, bvh: Bvh::new(&mesh), mesh, sheet, margin })
     };
@@ -179,7 +198,7 @@ mod tests {
     #[test]
     fn a_plate_is_open_in_the_middle_and_looks_up() {
         let opening = Opening::Sides([40.0, 20.0]).corners().into_iter().map(|[x, y]| [x + 5.0, y + 6.0]).collect();
-        let mesh = mesh_of(&Plate { name: CLAMP, opening, heights: [-3.0, 2.0] }).unwrap();
+        let mesh = mesh_of(&Plate { holder: Holder::Clamp, opening, heights: [-3.0, 2.0] }).unwrap();
         let up: f64 = (0..mesh.triangles().len()).filter(|t| mesh.normal(*t).z > 0.5).map(|t| mesh.area(t)).sum();
         assert!((up - (440.0 * 420.0 - 40.0 * 20.0)).abs() < 1e-6, "{up}");
         assert!((0..mesh.triangles().len()).all(|t| mesh.normal(t).z > -1e-9));

@@ -1,5 +1,7 @@
 //! Posted text, judged: read back, put against the part, limits taken from the job.
 
+use std::ops::Range;
+
 use serde::Serialize;
 use styluscam_geometry::{ModelFace, Sheet, Tool, Vector};
 use styluscam_motion::{Program, ToolRecord, Watch};
@@ -26,9 +28,9 @@ pub struct Judgement {
     /// The moves as they were read back.
     #[serde(skip)]
     pub program: Program,
-    /// Index of the first move whose end is known in all three axes.
+    /// Moves whose end is not known in all three axes, in runs.
     #[serde(skip)]
-    first_placed_move: usize,
+    unplaced: Vec<Range<usize>>,
     /// What was allowed.
     #[serde(skip)]
     limits: Limits,
@@ -46,17 +48,18 @@ pub fn judge(
     watch: &Watch,
 ) -> Result<Judgement, JobError> {
     let (tools, records) = tools_in_order(job)?;
-    let Reading { program, first_placed_move, z_placed_move, stray_planes, stops, lines, ended, .. } =
-        read(text, machine, &records)?;
+    let reading = read(text, machine, &records)?;
+    let Reading { program, unplaced, blind, machine_moves, optional_lines, stray_planes, stops, lines, ended, .. } =
+        reading;
     let calls_tools = machine.tool.change == ToolChange::M6;
-    let text = TextFacts { z_placed_move, stray_planes, stops, lines, ended, calls_tools };
+    let text = TextFacts { blind, machine_moves, optional_lines, stray_planes, stops, lines, ended, calls_tools };
     let orders = orders(job, scene, &records)?;
     let obstacles = fixture::obstacles(job, scene)?;
-    let plain = subject(job, scene, &tools, first_placed_move);
+    let plain = subject(job, scene, &tools, &unplaced);
     let subject = Subject { text: Some(&text), orders: &orders, obstacles: &obstacles, ..plain };
     let limits = Limits { excess_by_operation: excess(job, &program), ..limits(job, scene, machine) };
     let report = styluscam_verify::judge(&program, &subject, &limits, watch)?;
-    Ok(Judgement { report, program, first_placed_move, limits })
+    Ok(Judgement { report, program, unplaced, limits })
 }
 
 /// What a judged program leaves on the faces that the job's operations are for, face by face.
@@ -74,7 +77,7 @@ pub fn coverage(
     for (index, section) in job.operations.iter().enumerate() {
         faces.extend(faces::of_operation(job, scene, section, index)?);
     }
-    let subject = subject(job, scene, &tools, judgement.first_placed_move);
+    let subject = subject(job, scene, &tools, &judgement.unplaced);
     let wanted = scene.looking_up(&faces);
     Ok(styluscam_verify::coverage(&judgement.program, &subject, &judgement.limits, &wanted, watch)?)
 }
@@ -91,7 +94,7 @@ pub fn left(
     watch: &Watch,
 ) -> Result<Vec<f64>, JobError> {
     let (tools, _) = tools_in_order(job)?;
-    let subject = subject(job, scene, &tools, judgement.first_placed_move);
+    let subject = subject(job, scene, &tools, &judgement.unplaced);
     Ok(styluscam_verify::left(&judgement.program, &subject, &judgement.limits, points, watch)?)
 }
 
@@ -109,7 +112,7 @@ pub fn simulate(
 ) -> Result<Simulation, JobError> {
     let (tools, _) = tools_in_order(job)?;
     let sheet = scene.sheet.map(|sheet| Sheet { model_face: face.unwrap_or(sheet.model_face), ..sheet });
-    let subject = Subject { sheet, ..subject(job, scene, &tools, judgement.first_placed_move) };
+    let subject = Subject { sheet, ..subject(job, scene, &tools, &judgement.unplaced) };
     let (low, high) = scene.mesh.bounds();
     let under = sheet.map_or(0.0, |sheet| sheet.along_normal() + sheet.along_vertical());
     let grid = Grid::over([low.x, low.y], [high.x, high.y], spacing).map_err(JobError::geometry("spacing"))?;
@@ -117,7 +120,7 @@ pub fn simulate(
     Ok(styluscam_verify::simulate(&judgement.program, &subject, &judgement.limits, grid, top, watch)?)
 }
 
-fn subject<'a>(job: &'a JobDocument, scene: &'a Scene, tools: &'a [Tool], first_placed_move: usize) -> Subject<'a> {
+fn subject<'a>(job: &'a JobDocument, scene: &'a Scene, tools: &'a [Tool], unplaced: &'a [Range<usize>]) -> Subject<'a> {
     Subject {
         mesh: &scene.mesh,
         bvh: &scene.bvh,
@@ -126,7 +129,7 @@ fn subject<'a>(job: &'a JobDocument, scene: &'a Scene, tools: &'a [Tool], first_
         deviation_inward: scene.inward,
         deviation_outward: scene.outward,
         wcs: &job.setup.wcs,
-        first_placed_move,
+        unplaced,
         text: None,
         orders: &[],
         obstacles: &[],

@@ -18,7 +18,7 @@ pub use document::{
     UpAxis, Zero,
 };
 pub use error::JobError;
-pub use fixture::{plates, BackingSection, ClampSection, FixtureSection, Opening, Plate};
+pub use fixture::{plates, BackingSection, ClampSection, FixtureSection, Holder, Opening, Plate};
 pub use judge::{coverage, judge, left, read_back, simulate, Judgement};
 pub use parse::{from_json, from_toml, schema, tool_from_json};
 pub use plan::{plan, OperationSummary, Plan};

@@ -12,7 +12,7 @@ mod watch;
 
 pub use arc::{Arc, ArcWay, Plane};
 pub use dynamics::Dynamics;
-pub use program::{Event, EventKind, Move, MoveKind, Program, SpindleDirection, Upcoming};
+pub use program::{Event, EventKind, MachineMove, Move, MoveKind, Program, SpindleDirection, Upcoming};
 pub use record::{OperationRecord, SetupRecord, ToolRecord, ToolReference};
 pub use statistics::Statistics;
 pub use watch::{Cancelled, Watch};

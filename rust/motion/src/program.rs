@@ -88,6 +88,11 @@ pub enum EventKind {
     },
     /// Stop the spindle.
     SpindleOff,
+    /// Mist coolant on or off.
+    Mist {
+        /// On.
+        on: bool,
+    },
     /// Flood coolant (or forming lubricant) on or off.
     Flood {
         /// On or off.
@@ -133,6 +138,17 @@ pub struct Program {
     pub moves: Vec<Move>,
     /// Events in order of `before`.
     pub events: Vec<Event>,
+}
+
+/// A move in the machine's own coordinates (G53): where that is in the work is not known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MachineMove {
+    /// Index of the move before which it comes.
+    pub before: usize,
+    /// Line of the text, from 1.
+    pub line: u32,
+    /// Where it goes, machine coordinates, mm; none for axes that stay.
+    pub places: [Option<f64>; 3],
 }
 
 impl Program {

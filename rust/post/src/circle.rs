@@ -8,6 +8,10 @@ use crate::lexer::Word;
 use crate::machine::ArcRules;
 use crate::read_error::ReadFault;
 
+/// Turns of one arc at most.
+const TURNS: u32 = 1000;
+/// An arc of a smaller angle, rad, may be none or a full circle: GRBL makes a full circle of 5e-7 and less.
+const LEAST: f64 = 1e-6;
 /// A chord may be this much longer than the circle's diameter, mm: R was rounded.
 const CHORD: f64 = 0.005;
 
@@ -46,6 +50,9 @@ impl Circle {
         let radius = way.radius();
         if radius <= 0.0 {
             return Err((ReadFault::ArcOfNoRadius, Some(code)));
+        }
+        if way.sweep().abs() < LEAST {
+            return Err((ReadFault::ArcOfNoAngle, Some(code)));
         }
         if !rules.radius_error.takes(way.mismatch(), radius) {
             return Err((ReadFault::ArcEnds { mismatch: way.mismatch() }, Some(code)));
@@ -104,6 +111,9 @@ impl Circle {
 /// Full turns beyond the first arrival: P counts arrivals.
 fn turns(block: &Block) -> Result<u32, Flaw> {
     let Some(word) = block.p else { return Ok(0) };
-    let arrivals = word.number.natural().filter(|p| *p > 0);
-    arrivals.map(|p| p - 1).ok_or((ReadFault::NotNatural, Some(word)))
+    let arrivals = word.number.natural().filter(|p| *p > 0).ok_or((ReadFault::NotNatural, Some(word)))?;
+    if arrivals > TURNS {
+        return Err((ReadFault::ArcTurns { most: TURNS }, Some(word)));
+    }
+    Ok(arrivals - 1)
 }

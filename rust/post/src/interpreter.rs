@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use styluscam_motion::{
-    Arc, Event, EventKind, Move, MoveKind, OperationRecord, Plane, Program, SetupRecord, SpindleDirection, ToolRecord,
-    ToolReference, PROGRAM_SCHEMA,
+    Arc, Event, EventKind, MachineMove, Move, MoveKind, OperationRecord, Plane, Program, SetupRecord, SpindleDirection,
+    ToolRecord, ToolReference, PROGRAM_SCHEMA,
 };
 
 use crate::block::{Block, Motion, Spindle, Stop};
@@ -44,7 +44,10 @@ pub(crate) struct Interpreter<'m> {
     /// Since which move another plane than G17 is in force and no arc has used it.
     stray_plane_since: Option<usize>,
     stray_planes: Vec<Range<usize>>,
-    z_placed_move: Option<usize>,
+    /// Since which move Z is not known.
+    blind_since: Option<usize>,
+    blind: Vec<Range<usize>>,
+    machine_moves: Vec<MachineMove>,
     stops: Vec<usize>,
     absolute_centre: bool,
     /// mm/min.
@@ -52,6 +55,7 @@ pub(crate) struct Interpreter<'m> {
     /// rev/min.
     speed: f64,
     direction: Option<SpindleDirection>,
+    mist: bool,
     selected: Option<u32>,
     tool: Option<u32>,
     /// Height of the posted point above the tip, mm.
@@ -77,12 +81,15 @@ impl<'m> Interpreter<'m> {
             plane: Plane::Xy,
             stray_plane_since: None,
             stray_planes: Vec::new(),
-            z_placed_move: None,
+            blind_since: Some(0),
+            blind: Vec::new(),
+            machine_moves: Vec::new(),
             stops: Vec::new(),
             absolute_centre: false,
             feed: None,
             speed: 0.0,
             direction: None,
+            mist: false,
             selected: None,
             tool: None,
             height: 0.0,
@@ -240,12 +247,16 @@ impl<'m> Interpreter<'m> {
 
     fn set_coolant(&mut self, block: &Block) {
         if block.mist.is_some() {
-            self.event(EventKind::Comment { text: "M7: mist on".into() });
+            self.mist = true;
+            self.event(EventKind::Mist { on: true });
         }
         if block.flood.is_some() {
             self.event(EventKind::Flood { on: true });
         }
         if block.coolant_off.is_some() {
+            if std::mem::take(&mut self.mist) {
+                self.event(EventKind::Mist { on: false });
+            }
             self.event(EventKind::Flood { on: false });
         }
     }
@@ -320,7 +331,7 @@ impl<'m> Interpreter<'m> {
             self.motion = Some(motion);
         }
         if let Some(code) = block.machine_coordinates {
-            return self.go_to_machine_place(block, code);
+            return self.go_to_machine_place(block, code, line);
         }
         let arc_words = matches!(self.motion, Some(Motion::Arc(_))).then(|| block.arc_words().next()).flatten();
         let Some(first) = block.any_axis().or(arc_words) else { return Ok(()) };
@@ -420,7 +431,7 @@ impl<'m> Interpreter<'m> {
         }
         *axis = Axis { place, known: true, ever: true, pending: moves };
         if index == Z {
-            self.z_placed_move.get_or_insert(moves);
+            self.end_blindness();
         }
     }
 
@@ -433,6 +444,14 @@ impl<'m> Interpreter<'m> {
             axis.pending = moves;
         }
         self.unplaced_since = self.unplaced_since.or(Some(moves));
+        if index == Z {
+            self.blind_since = self.blind_since.or(Some(moves));
+        }
+    }
+
+    fn end_blindness(&mut self) {
+        let moves = self.program.moves.len();
+        self.blind.extend(self.blind_since.take().map(|since| since..moves).filter(|run| !run.is_empty()));
     }
 
     fn require_places(&self, word: Word) -> Result<(), Flaw> {
@@ -478,7 +497,7 @@ impl<'m> Interpreter<'m> {
     }
 
     /// A move in the machine's own coordinates ends at a place that the work's zero says nothing about.
-    fn go_to_machine_place(&mut self, block: &Block, code: Word) -> Result<(), Flaw> {
+    fn go_to_machine_place(&mut self, block: &Block, code: Word, line: u32) -> Result<(), Flaw> {
         let moves = matches!(self.motion, Some(Motion::Rapid | Motion::Feed));
         if !moves || self.incremental {
             return Err((ReadFault::MachineCoordinates, Some(code)));
@@ -487,21 +506,25 @@ impl<'m> Interpreter<'m> {
             return Err((ReadFault::MissingWord { what: "an axis word of G53" }, Some(code)));
         }
         let mut text = String::from("G53, place in the work unknown:");
+        let mut places = [None; 3];
         for (index, (word, name)) in block.axes.iter().zip(AXES).enumerate() {
             let Some(word) = *word else { continue };
             let place = self.mm(word)?;
             text.push_str(&format!(" {name}{place} mm"));
+            places[index] = Some(place);
             self.forget(index);
         }
         self.event(EventKind::Comment { text });
+        self.machine_moves.push(MachineMove { before: self.program.moves.len(), line, places });
         Ok(())
     }
 
     /// What was read; whether the program ended is the reader's to say.
-    pub(crate) fn finish(mut self, ended: bool, lines: u32) -> Result<Reading, ReadFault> {
+    pub(crate) fn finish(mut self, ended: bool, lines: u32, optional_lines: Vec<u32>) -> Result<Reading, ReadFault> {
         if let Some(since) = self.unplaced_since {
             self.note_unplaced(since);
         }
+        self.end_blindness();
         self.close_stray_plane();
         if !self.program.moves.is_empty() {
             if let Some((_, axis)) = self.axes.iter().zip(AXES).find(|(axis, _)| !axis.ever) {
@@ -513,7 +536,9 @@ impl<'m> Interpreter<'m> {
         let first_placed_move = self.unplaced.first().filter(|run| run.start == 0).map_or(0, |run| run.end);
         Ok(Reading {
             first_placed_move,
-            z_placed_move: self.z_placed_move.unwrap_or(self.program.moves.len()),
+            blind: self.blind,
+            machine_moves: self.machine_moves,
+            optional_lines,
             unplaced: self.unplaced,
             stray_planes: self.stray_planes,
             stops: self.stops,

@@ -170,6 +170,15 @@ pub enum ReadFault {
         /// The difference, mm.
         mismatch: f64,
     },
+    /// An arc that turns more often than is read. Split it.
+    #[error("the arc turns more than {most} times")]
+    ArcTurns {
+        /// How often is read.
+        most: u32,
+    },
+    /// An arc whose ends all but meet: controllers differ in whether it is a full circle. Write a line, or the start as the end.
+    #[error("the arc's ends all but meet: some controllers make a full circle of it")]
+    ArcOfNoAngle,
     /// A full circle without X, Y or Z, which the machine needs. Write the end.
     #[error("a full circle needs an axis word here")]
     ArcNeedsAxis,
@@ -270,6 +279,8 @@ impl ReadFault {
             Self::ArcOfNoRadius => "read-arc-of-no-radius",
             Self::ArcOfShortRadius => "read-arc-of-short-radius",
             Self::ArcEnds { .. } => "read-arc-ends",
+            Self::ArcTurns { .. } => "read-arc-turns",
+            Self::ArcOfNoAngle => "read-arc-of-no-angle",
             Self::ArcNeedsAxis => "read-arc-needs-axis",
             Self::Wcs => "read-wcs",
             Self::WcsChanged => "read-wcs-changed",
@@ -326,6 +337,8 @@ impl ReadFault {
             Self::ArcOfNoRadius => "write the centre's offset from the arc's start",
             Self::ArcOfShortRadius => "correct R, or the arc's end",
             Self::ArcEnds { .. } => "correct the arc's end, or its centre",
+            Self::ArcTurns { .. } => "split the arc",
+            Self::ArcOfNoAngle => "write a line, or exactly the start as the end for a full circle",
             Self::ArcNeedsAxis => "write the end's X, Y or Z",
             Self::Wcs => "take a work offset that the machine has",
             Self::WcsChanged => "split the program: one zero point each",

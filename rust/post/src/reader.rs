@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use styluscam_motion::{Program, ToolRecord};
+use styluscam_motion::{MachineMove, Program, ToolRecord};
 
 use crate::block::Block;
 use crate::interpreter::{Flaw, Interpreter};
@@ -18,8 +18,12 @@ pub struct Reading {
     pub program: Program,
     /// Index of the first move at whose end all three axes have been commanded; the number of moves when none is.
     pub first_placed_move: usize,
-    /// Index of the first move that commands Z; the number of moves when none does.
-    pub z_placed_move: usize,
+    /// Moves at whose end the place of Z is not known, in runs.
+    pub blind: Vec<Range<usize>>,
+    /// Moves in the machine's own coordinates.
+    pub machine_moves: Vec<MachineMove>,
+    /// Lines that were passed over and that run where the operator's switch for optional blocks says so.
+    pub optional_lines: Vec<u32>,
     /// Moves at whose end the place of some axis is not known, in runs: at the start, after a tool change (Z), after G53.
     ///
     /// There the axis stands at the next place commanded, or at the last one when none follows.
@@ -43,7 +47,7 @@ const TYPICAL_LINE: usize = 20;
 /// any, tools are made up from their numbers and coordinates are taken for the tip's. A job's only tool need not be
 /// called. An axis that has not been commanded takes the first place commanded for it; feed moves are refused until all
 /// three have a place. After a tool change that holds for Z, after G53 for its axes: its move is a remark only.
-/// M0, M1 and M7 become remarks too. On machines without M6 a T word is the tool change.
+/// M0 and M1 become remarks too. On machines without M6 a T word is the tool change.
 ///
 /// # Errors
 /// [`ReadError`] for the first thing that cannot be read.
@@ -88,6 +92,7 @@ struct Reader<'t> {
     framed: bool,
     /// Whether M2 or M30 has ended it.
     by_code: bool,
+    optional_lines: Vec<u32>,
 }
 
 impl<'t> Reader<'t> {
@@ -101,6 +106,7 @@ impl<'t> Reader<'t> {
             stage: Stage::Start,
             framed: false,
             by_code: false,
+            optional_lines: Vec::new(),
         }
     }
 
@@ -109,8 +115,10 @@ impl<'t> Reader<'t> {
             return self.read_percent(text, number);
         }
         self.check_length(text).map_err(|fault| whole_line(number, fault))?;
+        self.check_characters(text).map_err(|misfit| misfit_at(text, number, misfit))?;
         self.line.cut(text).map_err(|misfit| misfit_at(text, number, misfit))?;
         if !self.runs().map_err(|fault| whole_line(number, fault))? {
+            self.optional_lines.push(number);
             return Ok(Progress::Going);
         }
         for comment in &self.line.comments {
@@ -161,6 +169,15 @@ impl<'t> Reader<'t> {
         Err(ReadFault::LineTooLong { length, max })
     }
 
+    /// Some characters the machine acts on wherever they stand.
+    fn check_characters(&self, text: &str) -> Result<(), Misfit> {
+        let forbidden = &self.machine.line.forbidden;
+        let found = text.char_indices().find(|(_, char)| forbidden.contains(*char)).filter(|_| !forbidden.is_empty());
+        let misfit =
+            |(start, char): (usize, char)| Misfit { fault: ReadFault::Character, start, end: start + char.len_utf8() };
+        found.map_or(Ok(()), |found| Err(misfit(found)))
+    }
+
     /// Whether the machine runs this line.
     fn runs(&self) -> Result<bool, ReadFault> {
         match self.machine.reader.block_delete {
@@ -199,7 +216,7 @@ impl<'t> Reader<'t> {
             return Err(whole_line(lines, ReadFault::NoEnd));
         }
         let (program, ended) = (self.interpreter, self.by_code);
-        program.finish(ended, lines).map_err(whole_text)
+        program.finish(ended, lines, self.optional_lines).map_err(whole_text)
     }
 }
 

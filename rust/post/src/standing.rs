@@ -48,10 +48,11 @@ impl Standing {
     pub(crate) fn take_path(&mut self, block: &Block, mm: impl Fn(Word) -> Result<f64, Flaw>) -> Result<(), Flaw> {
         let Some(code) = block.smoothing else { return Ok(()) };
         let exact = code.number.tenths().is_some_and(|tenths| EXACT.contains(&tenths));
-        self.path = match block.p {
+        self.path = match (block.p, block.q) {
             _ if exact => 0.0,
-            Some(p) => mm(p)?,
-            None => f64::INFINITY,
+            // Q is what lines near to one another may be joined by; left out, it is P
+            (Some(p), q) => q.map_or(Ok(0.0), &mm)?.max(mm(p)?),
+            (None, _) => f64::INFINITY,
         };
         Ok(())
     }

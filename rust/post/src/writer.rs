@@ -4,7 +4,7 @@ use styluscam_motion::{Arc, ArcWay, Event, EventKind, Move, MoveKind, Plane, Pro
 
 use crate::comment::CommentFormat;
 use crate::inspect::inspect;
-use crate::machine::{Counted, LineEnd, Machine, Repeat, Separator, TimeUnit, ToolChange};
+use crate::machine::{CoolantRules, Counted, LineEnd, Machine, Repeat, Separator, TimeUnit, ToolChange};
 use crate::number::{write_integer, NumberFormat};
 use crate::post_error::PostError;
 use crate::rounded::RoundedArc;
@@ -155,7 +155,8 @@ impl<'a> Writer<'a> {
             EventKind::ToolChange { tool } => self.change_tool(number, *tool),
             EventKind::SpindleOn { rpm, direction } => self.start_spindle(*rpm, *direction),
             EventKind::SpindleOff => self.stop_spindle(),
-            EventKind::Flood { on } => self.switch_flood(*on),
+            EventKind::Mist { on } => self.switch_coolant(*on, |words| words.mist.as_deref()),
+            EventKind::Flood { on } => self.switch_coolant(*on, |words| words.flood.as_deref()),
             EventKind::Comment { text } => self.write_comment(text),
             EventKind::Dwell { seconds } => self.dwell(number, *seconds),
         }
@@ -204,9 +205,10 @@ impl<'a> Writer<'a> {
         self.write_word(self.machine.spindle.off.as_deref(), "the spindle's stop")
     }
 
-    fn switch_flood(&mut self, on: bool) -> Result<(), PostError> {
+    /// One word switches all coolant off.
+    fn switch_coolant(&mut self, on: bool, word: fn(&CoolantRules) -> Option<&str>) -> Result<(), PostError> {
         let words = &self.machine.coolant;
-        self.write_word(if on { words.flood.as_deref() } else { words.off.as_deref() }, "coolant")
+        self.write_word(if on { word(words) } else { words.off.as_deref() }, "coolant")
     }
 
     fn write_word(&mut self, word: Option<&str>, what: &'static str) -> Result<(), PostError> {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use styluscam_motion::Move;
+use styluscam_motion::{Move, Program};
 
 use crate::words;
 use crate::SLACK;
@@ -72,6 +72,14 @@ pub enum FindingKind {
     UnsafeStart,
     /// The program ends, or changes the tool, below the clearance height.
     UnsafeEnd,
+    /// A move goes across, or down, where it is not known at which height, or where, the tool is.
+    UnknownPlace,
+    /// A move in the machine's own coordinates that is not one to its top: nothing is known of the way.
+    MachinePlace,
+    /// Lines run or do not, as a switch at the machine stands.
+    OptionalLines,
+    /// The text names none of several operations: nothing can be held against what the job orders.
+    UnnamedOperations,
     /// The text has no end mark.
     NoEnd,
     /// A feed is not the one that the job orders.
@@ -137,6 +145,8 @@ pub struct Finding {
     pub last_line: u32,
     /// Consecutive moves that show it.
     pub moves: usize,
+    /// Their length, mm.
+    pub length_mm: f64,
     /// The tool's tip at the worst place, work coordinates, mm.
     pub position: Option<[f64; 3]>,
     /// What was measured there, mm: depth, distance or height.
@@ -157,6 +167,7 @@ impl Finding {
             first_line: 0,
             last_line: 0,
             moves: 0,
+            length_mm: 0.0,
             position: None,
             value_mm: None,
             limit: None,
@@ -209,20 +220,46 @@ struct Run {
     last: usize,
     last_line: u32,
     moves: usize,
+    /// Length of the moves, mm.
+    length: f64,
 }
 
-/// Merges faults, given in the order of the moves, and keeps the worst of each kind; counts them all.
-pub(crate) fn merge(faults: &[Fault]) -> (Vec<Finding>, BTreeMap<FindingKind, usize>) {
+/// Faults, merged.
+pub(crate) struct Merged {
+    /// The worst of each kind, kind by kind in the order of the moves.
+    pub findings: Vec<Finding>,
+    /// How many there are of each kind.
+    pub counts: BTreeMap<FindingKind, usize>,
+    /// The length of all moves that show each kind, mm.
+    pub lengths: BTreeMap<FindingKind, f64>,
+}
+
+/// Merges faults, given kind by kind in the order of the program's moves.
+pub(crate) fn merge(faults: &[Fault], program: &Program) -> Merged {
     let mut runs: BTreeMap<FindingKind, Vec<Run>> = BTreeMap::new();
     for fault in faults {
         let runs = runs.entry(fault.kind).or_default();
+        let length = length_of(fault.index, program);
         match runs.last_mut().filter(|run| fault.index <= run.last + 1) {
-            Some(run) => run.extend(fault),
-            None => runs.push(Run::new(fault)),
+            Some(run) => run.extend(fault, length),
+            None => runs.push(Run::new(fault, length)),
         }
     }
     let counts = runs.iter().map(|(kind, runs)| (*kind, runs.len())).collect();
-    (runs.into_values().flat_map(worst_in_order).map(|run| run.finding()).collect(), counts)
+    let lengths = runs.iter().map(|(kind, runs)| (*kind, runs.iter().map(|run| run.length).sum())).collect();
+    let findings = runs.into_values().flat_map(worst_in_order).map(Run::finding).collect();
+    Merged { findings, counts, lengths }
+}
+
+/// Length of a move, mm; 0 when its start or its end is not known.
+fn length_of(index: usize, program: &Program) -> f64 {
+    let start = index.checked_sub(1).and_then(|before| program.moves.get(before));
+    let length = start.zip(program.moves.get(index)).map_or(0.0, |(start, step)| step.length(start.end));
+    if length.is_finite() {
+        length
+    } else {
+        0.0
+    }
 }
 
 /// The worst runs, in the order of the moves.
@@ -234,15 +271,18 @@ fn worst_in_order(mut runs: Vec<Run>) -> Vec<Run> {
 }
 
 impl Run {
-    fn new(fault: &Fault) -> Self {
-        Self { worst: *fault, first_line: fault.line, last: fault.index, last_line: fault.line, moves: 1 }
+    fn new(fault: &Fault, length: f64) -> Self {
+        Self { worst: *fault, first_line: fault.line, last: fault.index, last_line: fault.line, moves: 1, length }
     }
 
-    fn extend(&mut self, fault: &Fault) {
+    fn extend(&mut self, fault: &Fault, length: f64) {
         if fault.weight > self.worst.weight + SLACK {
             self.worst = *fault;
         }
-        self.moves += usize::from(fault.index != self.last);
+        if fault.index != self.last {
+            self.moves += 1;
+            self.length += length;
+        }
         self.last = fault.index;
         self.last_line = fault.line;
     }
@@ -257,10 +297,11 @@ impl Run {
             first_line: self.first_line,
             last_line: self.last_line,
             moves: self.moves,
-            position: Some(worst.position),
+            length_mm: self.length,
+            position: Some(worst.position).filter(|place| place.iter().all(|x| x.is_finite())),
             value_mm: length.map(|m| m.0),
             limit: length.map(|m| m.1),
-            message: words::message(&worst, self.first_line, self.last_line, self.moves),
+            message: words::message(&worst, [self.first_line, self.last_line], self.moves, self.length),
         }
     }
 }

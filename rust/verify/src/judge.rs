@@ -2,7 +2,7 @@
 
 use styluscam_motion::{Cancelled, Program, Watch};
 
-use crate::findings::merge;
+use crate::findings::{merge, Merged};
 use crate::legs::placed;
 use crate::measure::measure;
 use crate::orders::{self, Orders};
@@ -24,10 +24,11 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     faults.extend(orders.faults(program, &legs, limits));
     faults.extend(sequence::faults(program, &legs, &orders, subject, limits));
     faults.extend(passes::faults(&legs, &orders, subject, limits, watch)?);
-    let (mut findings, mut counts) = merge(&faults);
+    let Merged { mut findings, mut counts, lengths } = merge(&faults, program);
     let nothing = tally.nothing_touches().then(|| diagnosis::no_contact(program, &legs, &tally, subject));
     let offset = travel::work_offset(program, subject.wcs);
     let wholes = reach::findings(program, subject, &limits.reach).into_iter().chain(orders::missing(program, subject));
+    let wholes = wholes.chain(orders.unnamed(subject)).chain(travel::optional_lines(subject));
     for whole in wholes.chain(travel::no_feed_moves(program)).chain(offset).chain(nothing) {
         *counts.entry(whole.kind).or_default() += 1;
         findings.insert(0, whole);
@@ -36,6 +37,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         ok: findings.iter().all(|f| f.severity != Severity::Error),
         findings,
         counts,
+        lengths,
         gouge_max: tally.gouge.value,
         gouge_at: tally.gouge.at,
         excess_max: tally.excess.value,

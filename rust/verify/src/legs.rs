@@ -109,7 +109,7 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
                 tool = known_tool(*called as usize);
             }
         }
-        let known = index >= subject.first_placed_move && in_this_world(step.end);
+        let known = subject.places(index) && in_this_world(step.end);
         if known {
             let way = start.and_then(|start| step.way(start));
             let kind = if way.is_some() { LegKind::Contact } else { kind(step.kind, start, step.end) };

@@ -48,6 +48,7 @@ mod subject;
 mod sweep;
 mod tally;
 mod travel;
+mod unplaced;
 mod words;
 
 pub use coverage::{coverage, left, FaceCoverage};

@@ -38,11 +38,32 @@ pub(crate) struct Orders<'a> {
 }
 
 impl<'a> Orders<'a> {
-    /// By their ids; a job with one operation means it, whatever the text calls it.
+    /// By their ids. A text that names none of them means them all, when it loads their tools in their order.
     pub fn new(program: &Program, subject: &Subject<'a>) -> Self {
-        let only = (subject.orders.len() == 1).then(|| subject.orders.first()).flatten();
-        let order = |id: &str| subject.orders.iter().find(|order| order.id == id).or(only);
-        Self { of: program.operations.iter().map(|operation| order(&operation.id)).collect() }
+        let orders = subject.orders;
+        let order = |id: &str| orders.iter().find(|order| order.id == id);
+        let of: Vec<Option<&Order>> = program.operations.iter().map(|operation| order(&operation.id)).collect();
+        let tools = || program.operations.iter().map(|operation| operation.tool as usize);
+        if of.iter().any(Option::is_some) {
+            Self { of }
+        } else if orders.len() == 1 {
+            Self { of: vec![orders.first(); of.len()] }
+        } else if tools().eq(orders.iter().map(|order| order.tool)) {
+            Self { of: orders.iter().map(Some).collect() }
+        } else {
+            Self { of }
+        }
+    }
+
+    /// The finding of a text of which nothing can be held against what the job orders.
+    pub fn unnamed(&self, subject: &Subject) -> Option<Finding> {
+        let known = subject.orders.is_empty() || self.of.is_empty() || self.of.iter().any(Option::is_some);
+        let message = format!(
+            "the text names none of the job's {} operations, and does not load their tools in their order: it cannot be \
+             held against what they order; post the job again, with its remarks",
+            subject.orders.len()
+        );
+        (!known).then(|| Finding::of_all(FindingKind::UnnamedOperations, Severity::Error, message))
     }
 
     /// The order that a leg carries out.
@@ -58,7 +79,7 @@ impl<'a> Orders<'a> {
     /// Faults of the moves, in their order.
     pub fn faults(&self, program: &Program, legs: &[Leg], limits: &Limits) -> Vec<Fault> {
         let mut upcoming = program.upcoming();
-        let mut machine = Machine { spindle: None, flood: false };
+        let mut machine = Machine { spindle: None, flood: false, mist: false };
         let mut faults = Vec::new();
         let mut last: Option<(usize, LegKind)> = None;
         for leg in legs {
@@ -73,7 +94,7 @@ impl<'a> Orders<'a> {
             let Some(order) = self.of(leg) else { continue };
             faults.extend(feed_fault(order, leg, comes_down, step.feed, limits.feed_unit));
             faults.extend(spindle_fault(order, leg, machine.spindle));
-            if machine.flood != order.flood {
+            if machine.flood != order.flood || machine.mist {
                 faults.push(leg.fault(FindingKind::CoolantDiffers));
             }
             if leg.tool.is_some_and(|tool| tool != order.tool) {
@@ -127,6 +148,7 @@ fn signed(turns: Option<(f64, SpindleDirection)>) -> f64 {
 struct Machine {
     spindle: Option<(f64, SpindleDirection)>,
     flood: bool,
+    mist: bool,
 }
 
 impl Machine {
@@ -135,6 +157,7 @@ impl Machine {
             EventKind::SpindleOn { rpm, direction } => self.spindle = Some((rpm, direction)),
             EventKind::SpindleOff => self.spindle = None,
             EventKind::Flood { on } => self.flood = on,
+            EventKind::Mist { on } => self.mist = on,
             EventKind::ToolChange { .. } | EventKind::Comment { .. } | EventKind::Dwell { .. } => {}
         }
     }

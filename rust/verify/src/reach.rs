@@ -73,9 +73,8 @@ pub(crate) fn findings(program: &Program, subject: &Subject, reach: &Reach) -> V
 }
 
 /// The boxes of the moves that have a place in space.
-fn boxes<'a>(program: &'a Program, subject: &Subject) -> impl Iterator<Item = (usize, [f64; 3], [f64; 3])> + use<'a> {
-    let first = subject.first_placed_move;
-    let placed = program.posted_boxes().enumerate().filter(move |(index, _)| *index >= first);
+fn boxes<'a>(program: &'a Program, subject: &'a Subject) -> impl Iterator<Item = (usize, [f64; 3], [f64; 3])> + 'a {
+    let placed = program.posted_boxes().enumerate().filter(|(index, _)| subject.places(*index));
     placed
         .filter(|(_, (low, high))| in_this_world(*low) && in_this_world(*high))
         .map(|(index, (low, high))| (index, low, high))

@@ -42,6 +42,8 @@ pub struct Report {
     pub findings: Vec<Finding>,
     /// How many findings of each kind there are in all.
     pub counts: BTreeMap<FindingKind, usize>,
+    /// Length of all moves that show each kind, mm.
+    pub lengths: BTreeMap<FindingKind, f64>,
     /// Deepest entry into the part by any move, with the mesh's inward deviation, mm; 0 when nothing enters.
     pub gouge_max: f64,
     /// Where that is.

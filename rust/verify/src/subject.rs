@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use styluscam_geometry::{Bvh, Mesh, Sheet, Tool};
+use styluscam_motion::MachineMove;
 
 use crate::orders::Order;
 use crate::reach::Reach;
@@ -27,9 +28,9 @@ pub struct Subject<'a> {
     pub deviation_outward: f64,
     /// Work offset in which the part stands; the program must be in it.
     pub wcs: &'a str,
-    /// Index of the first move whose end is known in all three axes. Moves before it have no place
-    /// in space; it has no start.
-    pub first_placed_move: usize,
+    /// Moves whose end is not known in all three axes, in ascending runs. They have no place in space, and the move
+    /// after them has no start.
+    pub unplaced: &'a [Range<usize>],
     /// What its text says besides the moves; none for a program that was not read from text.
     pub text: Option<&'a TextFacts>,
     /// What the job orders; none when feeds, spindle and coolant are not to be judged.
@@ -67,8 +68,12 @@ pub struct Forming {
 /// What a text says besides its moves.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TextFacts {
-    /// Index of the first move that commands Z; the number of moves when none does.
-    pub z_placed_move: usize,
+    /// Moves at whose end the height is not known, in ascending runs.
+    pub blind: Vec<Range<usize>>,
+    /// Moves in the machine's own coordinates.
+    pub machine_moves: Vec<MachineMove>,
+    /// Lines that run where a switch at the machine says so, and that the moves leave out.
+    pub optional_lines: Vec<u32>,
     /// Moves made while another plane than G17 was in force and no arc used it, in runs.
     pub stray_planes: Vec<Range<usize>>,
     /// Moves before which the program stops (M0, M1).
@@ -104,6 +109,18 @@ pub struct Limits {
     pub reach: Reach,
     /// What the sheet bears, where one is formed.
     pub forming: Option<Forming>,
+}
+
+impl Subject<'_> {
+    /// Whether a move's end is known.
+    pub(crate) fn places(&self, index: usize) -> bool {
+        !within(self.unplaced, index)
+    }
+}
+
+/// Whether one of the ascending runs holds an index.
+pub(crate) fn within(runs: &[Range<usize>], index: usize) -> bool {
+    runs.get(runs.partition_point(|run| run.end <= index)).is_some_and(|run| run.contains(&index))
 }
 
 impl Limits {

@@ -3,7 +3,8 @@
 use styluscam_motion::{EventKind, Move, MoveKind, Program};
 
 use crate::findings::{Fault, Finding};
-use crate::legs::{in_this_world, last_before, Leg, LegKind};
+use crate::legs::{in_this_world, Leg, LegKind};
+use crate::unplaced::{self, standing_low};
 use crate::{FindingKind, Limits, Severity, Subject, SLACK};
 
 /// Faults of the moves' text, in the order of the moves.
@@ -15,9 +16,9 @@ pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits:
     faults.extend(legs.iter().filter_map(|leg| height_fault(leg, limits)));
     faults.extend(legs.iter().filter(|leg| leg.tool.is_none()).map(|leg| leg.fault(FindingKind::UnknownTool)));
     faults.extend(missing_tool_change(program, subject));
-    faults.extend(unsafe_start(program, legs, subject, limits));
-    faults.extend(unsafe_end(program, legs, limits));
-    faults.extend(dwells(program, legs, limits));
+    faults.extend(unplaced::faults(program, legs, subject, limits));
+    faults.extend(unsafe_end(program, legs, subject, limits));
+    faults.extend(dwells(program, legs, subject, limits));
     faults.extend(stops(legs, subject, limits));
     faults.extend(legs.iter().filter_map(|leg| deep_rapid(leg, limits)));
     faults.extend(stray_planes(program, subject));
@@ -25,39 +26,26 @@ pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits:
     faults
 }
 
-/// Moves across before the tool is known to be up, and the first move to a known place.
-fn unsafe_start(program: &Program, legs: &[Leg], subject: &Subject, limits: &Limits) -> Option<Fault> {
-    let blind = subject.text.is_some_and(|text| text.z_placed_move > 0);
-    if let Some(step) = program.moves.first().filter(|_| blind) {
-        return Some(Fault::of(FindingKind::UnsafeStart, 0, step).measured(f64::NAN, limits.clearance));
-    }
-    let leg = legs.first()?;
-    let low = leg.kind == LegKind::Rapid && leg.end[2] < limits.clearance - SLACK;
-    low.then(|| leg.fault(FindingKind::UnsafeStart).measured(leg.end[2], limits.clearance))
-}
-
 /// Places at which the program ends, or changes the tool, with the tool down.
-fn unsafe_end(program: &Program, legs: &[Leg], limits: &Limits) -> Vec<Fault> {
+fn unsafe_end(program: &Program, legs: &[Leg], subject: &Subject, limits: &Limits) -> Vec<Fault> {
     let changes = program.events.iter().filter(|event| matches!(event.kind, EventKind::ToolChange { .. }));
     let stops = changes.map(|event| event.before).chain([program.moves.len()]);
     let left = stops.filter_map(|before| {
-        let leg = last_before(legs, before)?;
-        let low = leg.end[2] < limits.clearance - SLACK && leg.index + 1 == before;
-        low.then(|| leg.fault(FindingKind::UnsafeEnd).measured(leg.end[2], limits.clearance))
+        let leg = standing_low(legs, before, subject, limits).filter(|leg| leg.index + 1 == before)?;
+        Some(leg.fault(FindingKind::UnsafeEnd).measured(leg.end[2], limits.clearance))
     });
     left.collect()
 }
 
 /// Waits with the tool down.
-fn dwells(program: &Program, legs: &[Leg], limits: &Limits) -> Vec<Fault> {
+fn dwells(program: &Program, legs: &[Leg], subject: &Subject, limits: &Limits) -> Vec<Fault> {
     let waits = program.events.iter().filter_map(|event| match event.kind {
         EventKind::Dwell { seconds } if seconds > 0.0 => Some((event.before, seconds)),
         _ => None,
     });
     let down = waits.filter_map(|(before, seconds)| {
-        let leg = last_before(legs, before)?;
-        let low = leg.end[2] < limits.clearance - SLACK;
-        low.then(|| leg.fault(FindingKind::Dwell).measured(seconds, 0.0))
+        let leg = standing_low(legs, before, subject, limits)?;
+        Some(leg.fault(FindingKind::Dwell).measured(seconds, 0.0))
     });
     down.collect()
 }
@@ -65,8 +53,7 @@ fn dwells(program: &Program, legs: &[Leg], limits: &Limits) -> Vec<Fault> {
 /// Stops with the tool down.
 fn stops(legs: &[Leg], subject: &Subject, limits: &Limits) -> Vec<Fault> {
     let stops = subject.text.iter().flat_map(|text| &text.stops);
-    let down =
-        stops.filter_map(|before| last_before(legs, *before)).filter(|leg| leg.end[2] < limits.clearance - SLACK);
+    let down = stops.filter_map(|before| standing_low(legs, *before, subject, limits));
     down.map(|leg| leg.fault(FindingKind::StopBelow)).collect()
 }
 
@@ -97,6 +84,19 @@ pub(crate) fn no_feed_moves(program: &Program) -> Option<Finding> {
     none.then(|| Finding::of_all(FindingKind::NoFeedMoves, Severity::Error, message))
 }
 
+/// The finding of lines that run where the machine's switch for optional blocks says so.
+pub(crate) fn optional_lines(subject: &Subject) -> Option<Finding> {
+    let lines = &subject.text?.optional_lines;
+    let (line, last_line) = (*lines.first()?, *lines.last()?);
+    let count = lines.len();
+    let message = format!(
+        "line {line}: {count} of the text's lines begin with / and run or do not, as a switch at the machine stands; \
+         take them out, or their marks"
+    );
+    let finding = Finding::of_all(FindingKind::OptionalLines, Severity::Error, message);
+    Some(Finding { line, first_line: line, last_line, ..finding })
+}
+
 /// The finding of a program in another work offset than the part's.
 pub(crate) fn work_offset(program: &Program, wcs: &str) -> Option<Finding> {
     let found = &program.setup.wcs;
@@ -114,11 +114,13 @@ pub(crate) fn work_offset(program: &Program, wcs: &str) -> Option<Finding> {
 fn text_faults(index: usize, step: &Move, subject: &Subject) -> impl Iterator<Item = Fault> {
     let feeds = step.kind != MoveKind::Rapid;
     let absurd = !in_this_world(step.end);
+    let placed = subject.places(index);
+    let from_a_place = index.checked_sub(1).is_some_and(|before| subject.places(before));
     let fault = |kind| Fault::of(kind, index, step);
     [
         (feeds && !(step.feed > 0.0 && step.feed.is_finite())).then(|| fault(FindingKind::MissingFeed)),
-        (feeds && index <= subject.first_placed_move).then(|| fault(FindingKind::UnplacedFeed)),
-        (absurd && index >= subject.first_placed_move).then(|| fault(FindingKind::NotFinite)),
+        (feeds && !(placed && from_a_place)).then(|| fault(FindingKind::UnplacedFeed)),
+        (absurd && placed).then(|| fault(FindingKind::NotFinite)),
     ]
     .into_iter()
     .flatten()

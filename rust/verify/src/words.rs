@@ -4,10 +4,10 @@ use crate::findings::Fault;
 use crate::FindingKind;
 
 /// The whole sentence of a fault at its worst place.
-pub(crate) fn message(fault: &Fault, first_line: u32, last_line: u32, moves: usize) -> String {
+pub(crate) fn message(fault: &Fault, lines: [u32; 2], moves: usize, length: f64) -> String {
     let what = what(fault);
     let place = place(fault.line, fault.index, fault.position);
-    let extent = extent(first_line, last_line, moves);
+    let extent = extent(lines, moves, length);
     let remedy = remedy(fault.kind);
     format!("{place}: {what}{extent}; {remedy}")
 }
@@ -22,11 +22,11 @@ fn place(line: u32, index: usize, [x, y, z]: [f64; 3]) -> String {
     }
 }
 
-fn extent(first_line: u32, last_line: u32, moves: usize) -> String {
+fn extent([first_line, last_line]: [u32; 2], moves: usize, length: f64) -> String {
     match moves {
         0 | 1 => String::new(),
-        _ if first_line > 0 => format!(" (lines {first_line} to {last_line}, {moves} moves)"),
-        _ => format!(" ({moves} moves in a row)"),
+        _ if first_line > 0 => format!(" (lines {first_line} to {last_line}, {moves} moves, {length:.1} mm)"),
+        _ => format!(" ({moves} moves in a row, {length:.1} mm)"),
     }
 }
 
@@ -73,11 +73,25 @@ fn what(fault: &Fault) -> String {
         FindingKind::MissingToolChange => "a feed move comes before any tool change".to_owned(),
         FindingKind::UnknownTool => "the tool loaded here is not one of the job's".to_owned(),
         FindingKind::MissingOperation => "an operation of the job is missing".to_owned(),
+        FindingKind::UnnamedOperations => "the job's operations are not named".to_owned(),
+        FindingKind::OptionalLines => "lines run or do not, as a switch stands".to_owned(),
         FindingKind::UnsafeStart if value.is_nan() => {
             "the first move goes across at a height that is not known".to_owned()
         }
         FindingKind::UnsafeStart => {
             format!("the program starts by going across at Z{value:.3}, below the clearance height {limit:.3}")
+        }
+        FindingKind::UnknownPlace if value.is_nan() => {
+            "a rapid goes across where the tool's height is not known".to_owned()
+        }
+        FindingKind::UnknownPlace => {
+            format!("a rapid goes to Z{value:.3}, below the clearance height {limit:.3}, from where is not known")
+        }
+        FindingKind::MachinePlace if value.is_nan() => {
+            "a move in machine coordinates (G53) goes across while the tool is not known to be up".to_owned()
+        }
+        FindingKind::MachinePlace => {
+            format!("a move goes to Z{value:.3} of the machine (G53), and where that is in the work is not known")
         }
         FindingKind::UnsafeEnd => format!("the tool is left at Z{value:.3}, below the clearance height {limit:.3}"),
         FindingKind::NoEnd => "the text ends without M2 or M30".to_owned(),
@@ -161,12 +175,16 @@ fn remedy(kind: FindingKind) -> &'static str {
         FindingKind::UnknownTool => "add the tool to the job, or correct the T word",
         FindingKind::WorkOffset => "write the part's work offset before the moves",
         FindingKind::MissingOperation => "post the whole job",
+        FindingKind::UnnamedOperations => "post the job again",
+        FindingKind::OptionalLines => "take them out, or their marks",
         FindingKind::UnsafeStart => "go up to the clearance height in a block of its own first",
+        FindingKind::UnknownPlace => "go up to the clearance height in a block of its own first",
+        FindingKind::MachinePlace => "go to the machine's top only (G53 G0 Z0), and across from there",
         FindingKind::UnsafeEnd => "go up to the clearance height first",
         FindingKind::NoEnd => "the file may be cut off: get the whole file, or write M2",
         FindingKind::FeedDiffers => "correct F, or the job",
         FindingKind::SpindleDiffers => "correct M3, M4, M5 and S, or the job",
-        FindingKind::CoolantDiffers => "correct M8 and M9, or the job",
+        FindingKind::CoolantDiffers => "correct M7, M8 and M9, or the job",
         FindingKind::ToolDiffers => "correct T, or the job",
         FindingKind::Dwell => "take the wait out, or wait above the part",
         FindingKind::WorkPlane => "write G17",

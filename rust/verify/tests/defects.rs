@@ -220,7 +220,8 @@ fn a_feed_move_from_an_unknown_place_is_found() {
     let program = levels(&tool, true, None).path().program(&tool);
     let tools = [tool];
     let mut subject = part.subject(&tools);
-    subject.first_placed_move = 3;
+    let run = 0..3;
+    subject.unplaced = std::slice::from_ref(&run);
     let report = judge(&program, &subject, &limits(), &Watch::default()).unwrap();
     let found = of_kind(&report, FindingKind::UnplacedFeed);
     assert_eq!((found[0].first_line, found[0].last_line), (12, 14));
@@ -310,10 +311,12 @@ fn nothing_is_too_strange_to_be_judged() {
     }
     let mut program = path.program(&tool);
     let tools = [tool];
-    for (first_placed_move, tools, excess) in [(0, &tools[..], Some(0.005)), (9999, &tools, None), (0, &[], Some(-1.0))]
+    let nowhere = 0..9999;
+    for (unplaced, tools, excess) in
+        [(&[][..], &tools[..], Some(0.005)), (std::slice::from_ref(&nowhere), &tools, None), (&[], &[], Some(-1.0))]
     {
         program.operations.clear();
-        let subject = styluscam_verify::Subject { first_placed_move, tools, ..part.subject(tools) };
+        let subject = styluscam_verify::Subject { unplaced, tools, ..part.subject(tools) };
         let strange = Limits { excess, gouge: f64::NAN, clearance: f64::INFINITY, ..limits() };
         for limits in [limits(), strange] {
             assert!(!judge(&program, &subject, &limits, &Watch::default()).unwrap().ok);

@@ -290,6 +290,8 @@ pub struct SpindleRules {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CoolantRules {
+    /// Mist on: `M7`.
+    pub mist: Option<String>,
     /// Flood on: `M8`.
     pub flood: Option<String>,
     /// Everything off: `M9`.

@@ -128,7 +128,7 @@ impl Tracer<'_> {
             match code {
                 7 => {
                     self.modes.mist = true;
-                    self.path.event(EventKind::Comment { text: "M7: mist on".into() })?;
+                    self.path.event(EventKind::Mist { on: true })?;
                 }
                 8 | 9 => {
                     self.modes.flood = *code == 8;

@@ -1,0 +1,86 @@
+//! Moves whose place is not known: at the start, after a tool change, and in the machine's own coordinates.
+
+use styluscam_motion::{MachineMove, Program};
+
+use crate::findings::Fault;
+use crate::legs::{last_before, Leg, LegKind};
+use crate::subject::within;
+use crate::{FindingKind, Limits, Subject, TextFacts, SLACK};
+
+/// The share of the Z axis, from its upper end, in which a machine place counts as its top.
+const TOP: f64 = 0.1;
+
+/// Moves across before the tool is known to be up, and down before it is known where.
+pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits: &Limits) -> Vec<Fault> {
+    let first = legs.iter().filter(|leg| leg.start.is_none() && leg.kind == LegKind::Rapid);
+    let low = first.filter(|leg| leg.end[2] < limits.clearance - SLACK);
+    let begins = subject.unplaced.first().filter(|run| run.start == 0).map_or(0, |run| run.end);
+    let fault = |index: usize, height: f64| {
+        let kind = if index <= begins { FindingKind::UnsafeStart } else { FindingKind::UnknownPlace };
+        Fault::of(kind, index, &program.moves[index]).measured(height, limits.clearance)
+    };
+    let mut faults: Vec<Fault> = low.map(|leg| fault(leg.index, leg.end[2])).collect();
+    let Some(text) = subject.text else { return faults };
+    for index in subject.unplaced.iter().flat_map(Clone::clone) {
+        let height = program.moves.get(index).map_or(f64::NAN, |step| step.end[2]);
+        let known = !within(&text.blind, index);
+        if known && height < limits.clearance - SLACK {
+            faults.push(fault(index, height));
+        } else if !known && !at_the_top(text, index, limits) {
+            faults.push(fault(index, f64::NAN));
+        }
+    }
+    faults.extend(text.machine_moves.iter().filter_map(|step| machine_fault(program, step, legs, subject, limits)));
+    faults.sort_by_key(|fault| fault.index);
+    faults
+}
+
+/// Machine coordinates say nothing about the work: the tool goes up to the machine's top, and only there across.
+fn machine_fault(
+    program: &Program,
+    step: &MachineMove,
+    legs: &[Leg],
+    subject: &Subject,
+    limits: &Limits,
+) -> Option<Fault> {
+    let text = subject.text?;
+    let across = step.places[..2].iter().any(Option::is_some);
+    let down = step.places[2].is_some() && !goes_up(step, limits);
+    let low = || {
+        let blind = step.before == 0 || within(&text.blind, step.before.saturating_sub(1));
+        let raised = blind && at_the_top(text, step.before, limits);
+        !raised && (blind || standing_low(legs, step.before, subject, limits).is_some())
+    };
+    if !(down || across && low()) {
+        return None;
+    }
+    let nowhere = [f64::NAN; 3];
+    let position = last_before(legs, step.before).map_or(nowhere, |leg| leg.end);
+    let index = step.before.min(program.moves.len().saturating_sub(1));
+    let fault = Fault::new(FindingKind::MachinePlace, index, step.line, position);
+    Some(fault.measured(step.places[2].unwrap_or(f64::NAN), f64::NAN))
+}
+
+/// Whether a move in machine coordinates ends at the machine's top: where its travel is not known, at its zero or over it.
+fn goes_up(step: &MachineMove, limits: &Limits) -> bool {
+    let top = limits.reach.axes[2].map_or(0.0, |[low, high]| high - TOP * (high - low));
+    step.places[2].is_some_and(|z| z >= top - SLACK)
+}
+
+/// Whether the tool, whose height in the work is not known after a move, was sent to the machine's top before.
+fn at_the_top(text: &TextFacts, index: usize, limits: &Limits) -> bool {
+    let since = text.blind.iter().find(|run| run.contains(&index)).map_or(index, |run| run.start);
+    let last =
+        text.machine_moves.iter().rev().find(|step| step.places[2].is_some() && (since..=index).contains(&step.before));
+    last.is_some_and(|step| goes_up(step, limits))
+}
+
+/// The move that left the tool below the clearance height where it stands before a move, unless it went to the
+/// machine's top since.
+pub(crate) fn standing_low<'a>(legs: &'a [Leg], before: usize, subject: &Subject, limits: &Limits) -> Option<&'a Leg> {
+    let leg = last_before(legs, before).filter(|leg| leg.end[2] < limits.clearance - SLACK)?;
+    let since = subject.text.iter().flat_map(|text| &text.machine_moves);
+    let raised =
+        since.filter(|step| step.before > leg.index && step.before <= before).any(|step| goes_up(step, limits));
+    (!raised).then_some(leg)
+}
