@@ -170,7 +170,7 @@ fn passes(
     };
     let heights = [section.z_bottom.unwrap_or(f64::NEG_INFINITY), section.z_top.unwrap_or(f64::INFINITY)];
     let wanted = scene.looking_up(&faces::of_operation(job, scene, section, index)?);
-    Ok(Some(Passes { spacing, heights, wanted }))
+    Ok(Some(Passes { spacing, smallest_feature: section.smallest_feature, heights, wanted }))
 }
 
 /// The tolerance of each of the text's operations, by the ids in its remarks; the widest of the job where it names none.

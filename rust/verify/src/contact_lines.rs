@@ -78,6 +78,11 @@ pub(crate) fn passes<'a>(spacing: Spacing, legs: &[&'a Leg]) -> Vec<(f64, &'a Le
 }
 
 impl Spacing {
+    /// The distance ordered, mm.
+    pub(crate) fn pitch(self) -> f64 {
+        self.measures().0
+    }
+
     /// The distance ordered, and that of passes that are one; mm.
     fn measures(self) -> (f64, f64) {
         match self {

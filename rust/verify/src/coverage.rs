@@ -8,7 +8,7 @@ use std::cell::Cell;
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
-use rstar::{RTree, RTreeObject, SelectionFunction, AABB};
+use rstar::{PointDistance, RTree, RTreeObject, SelectionFunction, AABB};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use styluscam_motion::{Cancelled, Program, Watch};
@@ -159,6 +159,14 @@ impl RTreeObject for Sweep {
     }
 }
 
+impl PointDistance for Sweep {
+    fn distance_2(&self, point: &[f64; 3]) -> f64 {
+        let (point, way) = (Vector::from(*point), self.stroke.to - self.stroke.from);
+        let share = (point - self.stroke.from).dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE);
+        (point - self.stroke.at(share.clamp(0.0, 1.0))).norm_squared()
+    }
+}
+
 impl Sweeps {
     /// Those of `legs` that are meant to touch.
     fn of_all(legs: &[Leg], subject: &Subject) -> Self {
@@ -185,6 +193,12 @@ impl Sweeps {
     /// Tool and sheet, by the tool's index.
     pub fn body(&self, tool: usize) -> Option<&Body> {
         self.tools.get(tool).map(|(body, _)| body)
+    }
+
+    /// The moves whose body is within a distance of a place on its way, mm.
+    pub fn near(&self, position: Vector, distance: f64) -> impl Iterator<Item = &Sweep> {
+        let trees = self.tools.iter().map(|(_, tree)| tree);
+        trees.flat_map(move |tree| tree.locate_within_distance(position.into(), distance * distance))
     }
 
     /// Distances from points to what is swept, mm; points near by follow each other.

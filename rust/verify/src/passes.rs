@@ -26,6 +26,10 @@ const CURVED: f64 = 1.5;
 const CURVED_AMIDST: f64 = 2.5;
 /// What may be left on a pass, mm: facets that the tool cannot quite touch for their neighbours'.
 const ON_PASS: f64 = 0.015;
+/// A pass this near, as a share of the tool's radius, is the one that should be at a place.
+const BESIDE: f64 = 0.5;
+/// Passes that differ by less than this share of what lies between neighbours are one.
+const SAME_PASS: f64 = 0.25;
 /// What may be left besides, mm: triangles' corners.
 const ROUGH: f64 = 0.01;
 /// Where a tool that touches a triangle is in others by less than this, it can get there, mm.
@@ -46,6 +50,8 @@ const REST: f64 = 0.25;
 pub struct Passes {
     /// What lies between them.
     pub spacing: Spacing,
+    /// Loops that hold no disc of this diameter may be missing, mm.
+    pub smallest_feature: f64,
     /// Lowest and highest tip that is asked for, mm.
     pub heights: [f64; 2],
     /// Which triangles they are for.
@@ -160,13 +166,42 @@ impl Look<'_> {
     fn left_on_passes(&self, sweeps: &Sweeps, watch: &Watch) -> Result<Vec<Fault>, Cancelled> {
         let (mesh, spacing) = (self.subject.mesh, self.passes.spacing);
         let probes = contact_lines::spread(mesh, self.wanted, self.body, spacing, self.contacts, POINTS);
-        of_all(&probes, watch, |probe, last| {
+        let faults = of_all(&probes, watch, |probe, last| {
             let spot = self.spot(probe)?;
             let left = sweeps.left(spot.point, last);
             let allowed = ON_PASS + self.tolerated();
-            let missing = left > allowed && self.clearance(spot.position) >= -ROOM;
+            let missing =
+                left > allowed && self.clearance(spot.position) >= -ROOM && !self.passes_beside(&spot, sweeps);
             missing.then(|| self.missing_pass(&spot, last.as_ref(), left, allowed)).flatten()
-        })
+        })?;
+        Ok(self.of_long_gaps(faults))
+    }
+
+    /// Those that have company on their pass: what is shorter than the smallest feature may be missing.
+    fn of_long_gaps(&self, mut faults: Vec<Fault>) -> Vec<Fault> {
+        let value = |fault: &Fault| self.passes.spacing.value(fault.position.into());
+        faults.sort_by(|a, b| value(a).total_cmp(&value(b)));
+        let same = SAME_PASS * self.passes.spacing.pitch();
+        let passes = faults.chunk_by(|a, b| value(b) - value(a) <= same);
+        let long = |pass: &[Fault]| -> Vec<Fault> {
+            pass.iter().filter(|fault| pass.iter().any(|other| self.are_apart(fault, other))).copied().collect()
+        };
+        passes.flat_map(long).collect()
+    }
+
+    /// Whether two places are ends of a gap that is too long.
+    fn are_apart(&self, a: &Fault, b: &Fault) -> bool {
+        let distance = (Vector::from(a.position) - Vector::from(b.position)).norm();
+        let shortest = self.passes.smallest_feature;
+        (shortest..=3.0 * shortest + self.body.radius()).contains(&distance)
+    }
+
+    /// Whether the pass lies beside a spot on it: within the tolerance the same height may be some way off.
+    fn passes_beside(&self, spot: &Spot, sweeps: &Sweeps) -> bool {
+        let value = self.passes.spacing.value(spot.tip.into());
+        let pitch = self.passes.spacing.pitch();
+        let same = |leg: &Leg| (self.passes.spacing.value(leg.end.into()) - value).abs() <= SAME_PASS * pitch;
+        sweeps.near(spot.position, BESIDE * self.body.radius()).any(|sweep| same(self.contacts[sweep.leg]))
     }
 
     /// Where the tool touches a point, when its tip is then at a height that is asked for.
@@ -186,9 +221,13 @@ impl Look<'_> {
         if left <= amidst || self.clearance(spot.position) < -ROOM {
             return None;
         }
-        // in the midst of a face a pass is half a step away at most, at its ends a whole one
-        let goes_on = places(0.5).into_iter().all(|place| self.goes_on(place));
-        let explained = if goes_on { amidst } else { CURVED * self.leaves(spot.point, places(1.0)) };
+        // in the midst of a face a pass is half a step away at most, at its ends a whole one; where it does not go on at
+        // all, what lies around is not like it
+        let explained = match places(0.5).into_iter().filter(|place| self.goes_on(*place)).count() {
+            0 => return None,
+            1 => CURVED * self.leaves(spot.point, places(1.0)),
+            _ => amidst,
+        };
         let allowed = explained + ROUGH + self.tolerated();
         (left > allowed).then(|| self.missing_pass(&spot, last.as_ref(), left, allowed)).flatten()
     }
