@@ -208,15 +208,16 @@ fn limits(job: &JobDocument, scene: &Scene, machine: &Machine) -> Limits {
         retract: scene.top + job.setup.retract - 0.5 * machine.resolution_mm(),
         feed_unit: machine.feed_resolution_mm(),
         reach: reach(machine),
-        forming: job.setup.sheet.map(forming),
+        forming: job.setup.sheet.map(|sheet| forming(sheet, scene.top)),
         ..Limits::new(clearance)
     }
 }
 
 /// What the sheet bears.
-fn forming(sheet: SheetSection) -> Forming {
+fn forming(sheet: SheetSection, top: f64) -> Forming {
     Forming {
         thickness: sheet.thickness,
+        top,
         min_thickness: sheet.min_thickness.unwrap_or(0.0),
         max_wall_angle: sheet.max_wall_angle_deg.map_or(f64::INFINITY, f64::to_radians),
     }

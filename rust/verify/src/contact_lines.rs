@@ -59,7 +59,7 @@ fn values(spacing: Spacing, legs: &[&Leg]) -> Vec<f64> {
         let joined = b.start == Some(a.end);
         joined && spacing.holds(a) && spacing.holds(b) && (value(a.end) - value(b.end)).abs() <= same
     });
-    let length = |chain: &[&Leg]| chain.iter().map(|leg| leg.chord()).sum::<f64>();
+    let length = |chain: &[&Leg]| chain.iter().map(|leg| leg.length()).sum::<f64>();
     let long = chains.filter(|chain| spacing.holds(chain[0]) && length(chain) > LONG * pitch);
     let mut values: Vec<f64> = long.map(|chain| value(chain[0].end)).collect();
     values.sort_by(f64::total_cmp);

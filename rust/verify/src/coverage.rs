@@ -179,8 +179,10 @@ impl Sweeps {
         let tools = subject.tools.iter().enumerate().map(|(number, tool)| {
             let body = Body::new(tool, subject.sheet.as_ref());
             let own = contacts.iter().enumerate().filter(|(_, leg)| leg.tool == Some(number));
-            let strokes = own
-                .flat_map(|(leg, it)| strokes_of(it, &body, SAG).into_iter().map(move |stroke| Sweep { stroke, leg }));
+            let pieces = own.flat_map(|(leg, whole)| whole.pieces().map(move |piece| (leg, piece)));
+            let strokes = pieces.flat_map(|(leg, piece)| {
+                strokes_of(&piece, &body, SAG).into_iter().map(move |stroke| Sweep { stroke, leg })
+            });
             let tree = RTree::bulk_load(strokes.collect());
             (body, tree)
         });

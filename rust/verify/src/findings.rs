@@ -52,6 +52,8 @@ pub enum FindingKind {
     WallAngle,
     /// The sheet becomes thinner than it may.
     Thinning,
+    /// The tool goes deeper than a step below all that is formed so far.
+    Punch,
     /// A level is formed after a lower one at the same place.
     FormingOrder,
     /// A rapid goes down below the height at which the job wants plunges to begin.

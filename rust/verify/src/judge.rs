@@ -23,6 +23,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let orders = Orders::new(program, subject);
     faults.extend(orders.faults(program, &legs, limits));
     faults.extend(sequence::faults(program, &legs, &orders, subject, limits));
+    faults.extend(sequence::punches(&legs, &orders, limits));
     faults.extend(passes::faults(&legs, &orders, subject, limits, watch)?);
     let Merged { mut findings, mut counts, lengths } = merge(&faults, program);
     let nothing = tally.nothing_touches().then(|| diagnosis::no_contact(program, &legs, &tally, subject));

@@ -26,15 +26,15 @@ pub(crate) enum LegKind {
     Contact,
 }
 
-/// Largest turn of a leg, rad: a longer arc becomes several legs, so that its contact is sampled all along it.
+/// Largest turn of a piece, rad.
 const TURN: f64 = std::f64::consts::PI / 12.0;
 
-/// Longest piece of a straight move that should touch, as a share of the tool's radius: its contact is sampled at both
-/// ends and in the middle.
+/// Longest piece of a move that should touch, as a share of the tool's radius: its contact is sampled at both ends and in
+/// the middle.
 const PIECE: f64 = 0.5;
 
-/// Pieces of one move at most; a line that would have more runs far beyond any part and is looked at as a whole.
-const PIECES: f64 = 1000.0;
+/// A line that is longer than so many diagonals of the part ends far from it, where its ends show what is wrong.
+const FAR: f64 = 4.0;
 
 /// One move, or a piece of one.
 #[derive(Clone, Copy, Debug)]
@@ -56,12 +56,47 @@ pub(crate) struct Leg {
     pub tool: Option<usize>,
     /// Distance at which it still touches, when it is meant to, mm.
     pub excess: Option<f64>,
+    /// Pieces in which it is looked at.
+    pieces: u32,
 }
 
 impl Leg {
-    /// Distance between its ends, mm; 0 when the start is not known.
-    pub fn chord(&self) -> f64 {
-        self.start.map_or(0.0, |start| (Vector::from(self.end) - Vector::from(start)).norm())
+    /// Its length, mm; 0 when the start is not known.
+    pub fn length(&self) -> f64 {
+        let chord = self.start.map_or(0.0, |start| (Vector::from(self.end) - Vector::from(start)).norm());
+        self.bend.map_or(chord, |bend| bend.length())
+    }
+
+    /// How many pieces there are.
+    pub fn piece_count(&self) -> usize {
+        self.pieces as usize
+    }
+
+    /// The pieces of an arc, or of a move that should touch and is long, one after the other; ends are kept to the bit.
+    pub fn pieces(&self) -> impl Iterator<Item = Self> + '_ {
+        let share = |i: u32| f64::from(i) / f64::from(self.pieces);
+        let at = move |i: u32| self.bend.map_or_else(|| self.between(share(i)), |bend| bend.at(share(i)));
+        (0..self.pieces).map(move |i| Self {
+            start: if i == 0 { self.start } else { Some(at(i)) },
+            end: if i + 1 == self.pieces { self.end } else { at(i + 1) },
+            bend: self.bend.map(|bend| bend.part(share(i), share(i + 1))),
+            pieces: 1,
+            ..*self
+        })
+    }
+
+    /// Pieces that are no longer than `longest` and turn no more than is good; what is longer than `far` (mm) is not
+    /// divided for its length.
+    fn count(&self, longest: f64, far: f64) -> u32 {
+        let turns = self.bend.map_or(0.0, |bend| bend.sweep().abs() / TURN);
+        let length = if self.excess.is_some() { self.length() } else { 0.0 };
+        let lengths = if length > far { 1.0 } else { length / longest };
+        turns.max(lengths).ceil().clamp(1.0, f64::from(u32::MAX)) as u32
+    }
+
+    fn between(&self, share: f64) -> [f64; 3] {
+        let (start, end) = (Vector::from(self.start.unwrap_or(self.end)), Vector::from(self.end));
+        (start + share * (end - start)).into()
     }
 
     /// Whether the tip moves sideways.
@@ -74,9 +109,16 @@ impl Leg {
         self.start.is_some_and(|s| same_plan(s, place) && (s[2] - place[2]).abs() <= SAME)
     }
 
-    /// Whether its ends lie at different heights.
+    /// Whether it leaves its height.
     pub fn falls(&self) -> bool {
-        self.start.is_none_or(|s| (self.end[2] - s[2]).abs() > SAME)
+        let bent = self.bend.map(|bend| bend.bounds()).is_some_and(|(low, high)| high[2] - low[2] > SAME);
+        bent || self.start.is_none_or(|s| (self.end[2] - s[2]).abs() > SAME)
+    }
+
+    /// The lowest height of the tip on its way, mm.
+    pub fn lowest(&self) -> f64 {
+        let straight = self.start.map_or(self.end[2], |start| start[2].min(self.end[2]));
+        self.bend.map_or(straight, |bend| bend.bounds().0[2])
     }
 
     /// Whether the tip goes down.
@@ -102,6 +144,8 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
     let known_tool = |tool: usize| Some(tool).filter(|tool| *tool < subject.tools.len());
     let mut tool = known_tool(0);
     let mut legs = Vec::with_capacity(program.moves.len());
+    let (low, high) = subject.mesh.bounds();
+    let part = (high - low).norm();
     let mut start = None;
     for (index, step) in program.moves.iter().enumerate() {
         for event in upcoming.before(index) {
@@ -120,39 +164,18 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
                 kind,
                 start,
                 end: step.end,
-                bend: None,
+                bend: way,
                 line: step.line,
                 tool,
                 excess,
+                pieces: 1,
             };
-            let longest = PIECE * tool.and_then(|t| subject.tools.get(t)).map_or(f64::INFINITY, |t| 0.5 * t.diameter());
-            legs.extend(pieces(&leg, way.as_ref(), longest));
+            let radius = tool.and_then(|t| subject.tools.get(t)).map_or(f64::INFINITY, |t| 0.5 * t.diameter());
+            legs.push(Leg { pieces: leg.count(PIECE * radius, FAR * (part + 2.0 * radius)), ..leg });
         }
         start = known.then_some(step.end);
     }
     legs
-}
-
-/// The pieces of an arc, or of a line that should touch and is longer than `longest`, mm: ends are kept to the bit.
-fn pieces<'a>(leg: &'a Leg, way: Option<&'a ArcWay>, longest: f64) -> impl Iterator<Item = Leg> + 'a {
-    let turns = way.map_or(0.0, |way| way.sweep().abs() / TURN);
-    let touches = leg.excess.is_some();
-    let lengths = if touches && way.is_none() { leg.chord() / longest } else { 0.0 };
-    let lengths = if lengths > PIECES { 1.0 } else { lengths };
-    let count = turns.max(lengths).ceil().clamp(1.0, PIECES) as usize;
-    let share = move |i: usize| i as f64 / count as f64;
-    let at = move |i: usize| way.map_or_else(|| between(leg, share(i)), |way| way.at(share(i)));
-    (0..count).map(move |i| Leg {
-        start: if i == 0 { leg.start } else { Some(at(i)) },
-        end: if i + 1 == count { leg.end } else { at(i + 1) },
-        bend: way.map(|way| way.part(share(i), share(i + 1))),
-        ..*leg
-    })
-}
-
-fn between(leg: &Leg, share: f64) -> [f64; 3] {
-    let (start, end) = (Vector::from(leg.start.unwrap_or(leg.end)), Vector::from(leg.end));
-    (start + share * (end - start)).into()
 }
 
 fn kind(kind: MoveKind, start: Option<[f64; 3]>, end: [f64; 3]) -> LegKind {

@@ -77,8 +77,10 @@ pub(crate) fn measure(legs: &[Leg], subject: &Subject, limits: &Limits, watch: &
         let mut walk = Walk { subject, limits, bodies: &bodies, top, last: None };
         let mut tally = Tally::default();
         for leg in *chunk {
-            rule.add(&mut tally, leg, &walk.along(leg), ordinal);
-            ordinal += usize::from(leg.excess.is_some());
+            for piece in leg.pieces() {
+                rule.add(&mut tally, &piece, &walk.along(&piece), ordinal);
+                ordinal += usize::from(leg.excess.is_some());
+            }
             watch.advance(1)?;
         }
         Ok(tally)
@@ -88,11 +90,11 @@ pub(crate) fn measure(legs: &[Leg], subject: &Subject, limits: &Limits, watch: &
     Ok(whole)
 }
 
-/// How many moves that should touch come before each chunk.
+/// How many pieces that should touch come before each chunk.
 fn contacts_before(chunks: &[&[Leg]]) -> Vec<usize> {
     let mut before = 0;
     let count = |chunk: &&[Leg]| {
-        let own = chunk.iter().filter(|leg| leg.excess.is_some()).count();
+        let own: usize = chunk.iter().filter(|leg| leg.excess.is_some()).map(Leg::piece_count).sum();
         before += own;
         before - own
     };
@@ -237,9 +239,7 @@ fn strike(leg: &Leg, collider: &Collider) -> Option<Strike> {
 
 /// Height of the body's tip where it is lowest, mm.
 fn lowest_of(leg: &Leg, body: &Body) -> f64 {
-    let straight = leg.start.map_or(leg.end[2], |s| s[2].min(leg.end[2]));
-    let lowest = leg.bend.map_or(straight, |bend| bend.bounds().0[2]);
-    body.position([0.0, 0.0, lowest]).z
+    body.position([0.0, 0.0, leg.lowest()]).z
 }
 
 /// The deepest place of a leg, if it is below `below`.

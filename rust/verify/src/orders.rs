@@ -67,7 +67,7 @@ impl<'a> Orders<'a> {
     }
 
     /// The order that a leg carries out.
-    fn of(&self, leg: &Leg) -> Option<&'a Order> {
+    pub fn of(&self, leg: &Leg) -> Option<&'a Order> {
         self.of.get(leg.operation as usize).copied().flatten()
     }
 
@@ -81,15 +81,14 @@ impl<'a> Orders<'a> {
         let mut upcoming = program.upcoming();
         let mut machine = Machine { spindle: None, flood: false, mist: false };
         let mut faults = Vec::new();
-        let mut last: Option<(usize, LegKind)> = None;
+        let mut last: Option<LegKind> = None;
         for leg in legs {
             upcoming.before(leg.index).for_each(|event| machine.take(event));
-            let before = last.replace((leg.index, leg.kind));
-            // pieces of one move say the same
-            if before.is_some_and(|(index, _)| index == leg.index) || leg.kind == LegKind::Rapid {
+            let before = last.replace(leg.kind);
+            if leg.kind == LegKind::Rapid {
                 continue;
             }
-            let comes_down = before.is_none_or(|(_, kind)| kind == LegKind::Rapid);
+            let comes_down = before.is_none_or(|kind| kind == LegKind::Rapid);
             let step = &program.moves[leg.index];
             let Some(order) = self.of(leg) else { continue };
             faults.extend(feed_fault(order, leg, comes_down, step.feed, limits.feed_unit));

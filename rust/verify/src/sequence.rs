@@ -11,8 +11,33 @@ use crate::orders::Orders;
 use crate::passes::Spacing;
 use crate::{FindingKind, Limits, Subject};
 
+/// The tool may go deeper than all that is formed by so many steps: a short last step is joined to the one before it.
+const DEEPER: f64 = 1.3;
+/// What it may go deeper besides, mm.
+const ROUGH: f64 = 0.01;
 /// A level counts as lower from this share of the step on.
 const LOWER: f64 = 0.25;
+
+/// Moves that go deeper than a step below all that is formed before them: there the sheet stands as it was.
+pub(crate) fn punches(legs: &[Leg], orders: &Orders, limits: &Limits) -> Vec<Fault> {
+    let Some(forming) = limits.forming else { return Vec::new() };
+    let mut formed = forming.top;
+    let mut faults = Vec::new();
+    for leg in legs {
+        let Some(order) = orders.of(leg).filter(|order| order.forms) else { continue };
+        let Some(passes) = &order.passes else { continue };
+        let Spacing::Levels(step) = passes.spacing else { continue };
+        formed = formed.min(passes.heights[1]);
+        let lowest = leg.lowest();
+        if lowest < formed - DEEPER * step - ROUGH {
+            faults.push(leg.fault(FindingKind::Punch).measured(lowest, formed));
+        }
+        if leg.kind != LegKind::Rapid {
+            formed = formed.min(lowest);
+        }
+    }
+    faults
+}
 
 /// Faults in the order of the moves.
 pub(crate) fn faults(
@@ -31,7 +56,7 @@ pub(crate) fn faults(
         // straight up or down at the path's feed the tool climbs over what stands there, or falls beside it, and comes
         // back: that is no level
         let mut away_from: Option<f64> = None;
-        for leg in legs {
+        for leg in legs.iter().flat_map(Leg::pieces) {
             let at_cut = (program.moves[leg.index].feed - order.cut).abs() <= limits.feed_unit;
             let along = at_cut && matches!(leg.kind, LegKind::Plunge | LegKind::Retract);
             match (leg.kind, away_from, leg.start) {
@@ -40,7 +65,7 @@ pub(crate) fn faults(
                 (_, None, Some(start)) if along => away_from = Some(start[2]),
                 _ => {}
             }
-            if leg.kind != LegKind::Contact || leg.falls() || away_from.is_some() || !orders.own(order, leg) {
+            if leg.kind != LegKind::Contact || leg.falls() || away_from.is_some() || !orders.own(order, &leg) {
                 continue;
             }
             let [x, y, z] = leg.end;

@@ -59,6 +59,8 @@ pub struct Obstacle {
 pub struct Forming {
     /// Its thickness before, mm.
     pub thickness: f64,
+    /// Height of its upper side before, mm.
+    pub top: f64,
     /// Thinnest that it may become by the sine law, mm.
     pub min_thickness: f64,
     /// Steepest wall, rad.

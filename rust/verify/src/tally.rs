@@ -96,17 +96,17 @@ impl Tally {
 pub(crate) struct Rule<'a> {
     pub subject: &'a Subject<'a>,
     pub limits: &'a Limits,
-    /// One of so many moves that should touch keeps its contacts.
+    /// One of so many pieces that should touch keeps its contacts.
     keep_every: usize,
 }
 
 impl<'a> Rule<'a> {
     pub fn new(legs: &[Leg], subject: &'a Subject<'a>, limits: &'a Limits) -> Self {
-        let contacts = 2 * legs.iter().filter(|leg| leg.excess.is_some()).count();
+        let contacts = 2 * legs.iter().filter(|leg| leg.excess.is_some()).map(Leg::piece_count).sum::<usize>();
         Self { subject, limits, keep_every: contacts.div_ceil(KEPT).max(1) }
     }
 
-    /// Adds a move to its tally; `ordinal` counts the moves before it that should touch.
+    /// Adds a piece of a move to its tally; `ordinal` counts the pieces before it that should touch.
     pub fn add(&self, tally: &mut Tally, leg: &Leg, found: &Measured, ordinal: usize) {
         tally.samples += found.samples;
         if let Some(deepest) = &found.deepest {

@@ -65,6 +65,11 @@ fn what(fault: &Fault) -> String {
         FindingKind::Thinning => {
             format!("the sheet becomes {value:.3} mm thin by the sine law, and must keep {limit:.3}")
         }
+        FindingKind::Punch => {
+            format!(
+                "the tool goes down to Z{value:.3}, and the sheet is formed to Z{limit:.3} only: it punches through"
+            )
+        }
         FindingKind::FormingOrder => format!("the level Z{value:.3} is formed after Z{limit:.3}, which is lower"),
         FindingKind::DeepRapid => format!("a rapid goes down to Z{value:.3}, below the retract height {limit:.3}"),
         FindingKind::StopBelow => "the program stops (M0, M1) while the tool is down".to_owned(),
@@ -166,6 +171,7 @@ fn remedy(kind: FindingKind) -> &'static str {
         FindingKind::MissingPass | FindingKind::MissingLevel | FindingKind::MissingRow => {
             "post the whole operation, with the job's heights and steps"
         }
+        FindingKind::Punch => "form level by level; where the sheet is formed already, give the operation z_top",
         FindingKind::FormingOrder => "form from the top down",
         FindingKind::DeepRapid => "come down at a feed from there",
         FindingKind::StopBelow => "stop above the clearance height",

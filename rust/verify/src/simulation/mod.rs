@@ -62,13 +62,13 @@ pub fn simulate(
 /// What every move cuts, and the arcs that some of them are parts of.
 fn cuts(legs: &[Leg]) -> (Vec<Cut>, Vec<ArcWay>) {
     let mut arcs = Vec::new();
-    let cut = |leg: &Leg| {
+    let cut = |leg: Leg| {
         let tool = leg.tool? as u32;
         let Some(way) = leg.bend else { return Some(Cut::straight(leg.start.unwrap_or(leg.end), leg.end, tool)) };
         arcs.push(way);
         Some(Cut::bent(&way, arcs.len() as u32 - 1, tool))
     };
-    (legs.iter().filter_map(cut).collect(), arcs)
+    (legs.iter().flat_map(Leg::pieces).filter_map(cut).collect(), arcs)
 }
 
 /// The tiles' heights in the order of the grid.
