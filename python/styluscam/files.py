@@ -6,10 +6,11 @@ import contextlib
 import errno
 import os
 import tempfile
+import unicodedata
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from styluscam.errors import StylusError
+from styluscam.errors import StylusError, VerifyError
 
 
 def read_text(path: str | Path, failure: type[StylusError]) -> str:
@@ -19,6 +20,23 @@ def read_text(path: str | Path, failure: type[StylusError]) -> str:
     except (OSError, ValueError) as error:
         why = "it is not text in UTF-8" if isinstance(error, UnicodeDecodeError) else _reason(error)
         raise failure(f"{path}: cannot be read: {why}", code="unreadable", where=str(path)) from error
+
+
+def read_gcode_text(path: str | Path) -> str:
+    """The text of a G-code file: UTF-8, or where it is not, in the code page that controllers' editors write (1252).
+
+    Raises:
+        VerifyError: the file cannot be read, or is no text.
+    """
+    try:
+        return read_text(path, VerifyError).removeprefix("\ufeff")
+    except VerifyError as error:
+        if not isinstance(error.__cause__, UnicodeDecodeError):
+            raise
+        text = Path(path).read_bytes().decode("cp1252", errors="replace")
+        if any(unicodedata.category(char) == "Cc" and char not in "\t\r\n\f\x1a" for char in text):
+            raise
+        return text
 
 
 def write_whole(path: Path, text: str) -> None:

@@ -9,8 +9,7 @@ import numpy.typing as npt
 
 from styluscam import _engine
 from styluscam.brep import recheck
-from styluscam.errors import VerifyError
-from styluscam.files import read_text
+from styluscam.files import read_gcode_text
 from styluscam.job import Job
 from styluscam.machine import Machine
 from styluscam.planning import Plan, Posted
@@ -58,8 +57,8 @@ class Report:
         Keys: face, area (mm2), covered (share of it), scallop, mean, left (mm), at (where most is left), points (looked at).
 
         What is left at a point is its distance from all that tool and sheet sweep on moves that are meant to touch. A
-        place is covered where that is at most a hundredth of the tool's diameter; the scallop is the most among these.
-        Whole faces count, whatever heights the operations stop at.
+        place is covered where that is at most a hundredth of the smallest used tool's diameter; the scallop is the most
+        among these. Whole faces count, whatever heights the operations stop at.
         """
         if self._coverage is None:
             found = self.judgement.coverage(self.job.engine, self.scene, progress=progress, cancel=cancel)
@@ -121,7 +120,7 @@ def verify(
 
 def verify_file(path: str | Path, job: Job, *, progress: Progress | None = None) -> Report:
     """As :func:`verify`, for a file."""
-    text = read_text(path, VerifyError)
+    text = read_gcode_text(path)
     return verify(text, job, progress=progress)
 
 

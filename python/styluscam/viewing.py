@@ -10,7 +10,7 @@ import numpy as np
 
 from styluscam import _engine
 from styluscam.errors import VerifyError
-from styluscam.files import read_text
+from styluscam.files import read_gcode_text
 from styluscam.job import Job
 from styluscam.machine import Machine
 from styluscam.part import Part
@@ -96,7 +96,7 @@ def subroutines_in(folders: Sequence[Path]) -> Find:
 
     def find(name: str) -> str | None:
         path = files.get(name)
-        return read_text(path, VerifyError) if path is not None else None
+        return read_gcode_text(path) if path is not None else None
 
     return find
 

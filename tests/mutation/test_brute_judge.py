@@ -14,6 +14,7 @@ from gcode import read
 
 from .cases import document, lopsided, roof, stack, terrain
 
+DIAMETER = 4.0
 BALL = {"kind": "ball", "diameter": 4.0}
 CLOTHOID = {"kind": "clothoid", "diameter": 4.0}
 FLAT = {"kind": "flat", "diameter": 4.0}
@@ -126,7 +127,8 @@ def test_arcs_are_those_of_the_brute_force(name: str, part: str) -> None:
             assert report.gouge_max == pytest.approx(depth, abs=1e-6)
         else:
             assert report.gouge_max > 0.2 * depth
-        pieces = int(np.ceil(move.angle / np.radians(15.0) - 1e-9))
+        length = np.hypot(move.angle * np.hypot(*centre), end[2] - start[2])
+        pieces = int(np.ceil(max(move.angle / np.radians(15.0), length / (0.25 * DIAMETER)) - 1e-9))
         looked_at = solid.clearances(tool, np.array([move.at(i / (2 * pieces)) for i in range(2 * pieces + 1)]))
         assert report.excess_max == pytest.approx(max(0.0, looked_at.max()), abs=1e-6)
 
@@ -178,4 +180,18 @@ def test_a_sharp_tip_in_the_part_is_found(half_angle_deg: float) -> None:
     profile = {"kind": "cone", "diameter": 2.0, "half_angle_deg": half_angle_deg}
     report = report_of(stack(4, [(20, 0), (10, 0)]), profile, [-4.0, -4.0, -0.0018], [4.0, 4.0, -0.0018])
     assert report.gouge_max == pytest.approx(0.0018, abs=1e-6)
+    assert not report.ok
+
+
+@pytest.mark.parametrize("half_angle_deg", [0.5, 1.0, 2.0, 2.5, 3.0, 8.0])
+def test_the_tip_of_a_needle_is_as_deep_as_it_is_pressed(half_angle_deg: float) -> None:
+    depth = 0.02
+    made = document(
+        "zig-zag", {"kind": "cone", "diameter": 1.0, "half_angle_deg": half_angle_deg}, {"name": "linuxcnc"}
+    )
+    made["setup"]["zero"] = "model"
+    corners = np.array([[0.0, 0.0, 0.0], [20.0, 0.0, 0.0], [20.0, 20.0, 0.0], [0.0, 20.0, 0.0]])
+    job = sc.Job.from_dict(made, part=sc.Part.from_mesh(corners, np.array([[0, 1, 2], [0, 2, 3]])))
+    report = sc.verify(text_of([5.0, 10.0, -depth], [9.0, 11.0, -depth]), job)
+    assert report.gouge_max == pytest.approx(depth, abs=1e-9)
     assert not report.ok

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from styluscam.judging import Report
+from styluscam.report.findings import unlisted
 from styluscam.types import Document
 
 
 def lines(report: Report) -> list[str]:
     """One line per finding, and one where more were counted than are listed."""
     said = [f"{finding['severity']}: {finding['message']}" for finding in report.findings]
-    counted = sum(report.to_dict()["counts"].values())
-    listed = sum(1 for finding in report.findings if finding["kind"] in report.to_dict()["counts"])
-    return said + ([f"and {counted - listed} more of these kinds"] if counted > listed else [])
+    more = unlisted(report)
+    return said + ([f"and {more} more of these kinds"] if more else [])
 
 
 def document(report: Report) -> Document:

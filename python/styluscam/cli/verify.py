@@ -52,7 +52,7 @@ def verify(
 
 def _tell(report: judging.Report, file: Path) -> None:
     document = report.to_dict()
-    console.say(f"{file}: {'nothing was found' if report.ok else 'must not run'}")
+    console.say(f"{file}: {_verdict(report)}")
     for line in findings.lines(report):
         console.say(line)
     console.fields(
@@ -63,6 +63,12 @@ def _tell(report: judging.Report, file: Path) -> None:
             *(("coverage", _coverage(face)) for face in report.coverage()),
         ]
     )
+
+
+def _verdict(report: judging.Report) -> str:
+    if not report.ok:
+        return "must not run"
+    return "may run, with the warnings below" if report.findings else "nothing was found"
 
 
 def _coverage(face: Document) -> str:

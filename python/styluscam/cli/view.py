@@ -12,7 +12,7 @@ from styluscam.cli import console, pages, progress, summary
 from styluscam.cli.failures import naming
 from styluscam.cli.options import Debug, GcodeFile, Json, Picture, Quiet, Units
 from styluscam.errors import JobError, VerifyError
-from styluscam.files import read_text
+from styluscam.files import read_gcode_text
 from styluscam.job import Job
 from styluscam.machine import Machine
 from styluscam.part import Part
@@ -74,7 +74,7 @@ def view(
     page = out or file.with_suffix(".html")
     with naming(job or file), naming(file, VerifyError), progress.shown(not (json or quiet)) as shown:
         pages.require(page, picture, inputs=[path for path in (file, job, part) if path is not None])
-        text = read_text(file, VerifyError)
+        text = read_gcode_text(file)
         reader = Machine.find(machine) if machine is not None else None
         if job is not None:
             subject = viewing.viewed_for_job(text, file.name, Job.read(job), reader)

@@ -13,7 +13,7 @@ from styluscam.types import Document, FloatArray, IntArray
 
 @dataclass(frozen=True)
 class Verdict:
-    """The whole report in a few words; ``state`` is "sound", "faulty" or "unjudged"."""
+    """The whole report in a few words; ``state`` is "sound", "warned", "faulty" or "unjudged"."""
 
     state: str
     headline: str
@@ -37,13 +37,19 @@ def verdict_of(report: Report | None, traced: bool = False) -> Verdict:
         "The text was read back as the machine reads it; every move was held against the whole part, "
         f"{document['samples']} places measured{exact}."
     )
+    kinds = dict.fromkeys(str(finding["kind"]) for finding in [*errors, *report.findings])
+    found = f"Found: {', '.join(f'{spoken(kind)} ({_extent(document, kind)})' for kind in kinds)}. {judged}"
     if errors or not report.ok:
-        kinds = dict.fromkeys(str(finding["kind"]) for finding in errors)
-        found = ", ".join(f"{spoken(kind)} ({_extent(document, kind)})" for kind in kinds)
-        return Verdict("faulty", "Must not run", f"Found: {found}. {judged}")
+        return Verdict("faulty", "Must not run", found)
     if report.findings:
-        return Verdict("sound", "May run, with warnings", judged)
+        return Verdict("warned", "May run, with warnings", found)
     return Verdict("sound", "Nothing was found", judged)
+
+
+def unlisted(report: Report) -> int:
+    """Findings that were counted and are not in the list, of which it holds the worst."""
+    counts: dict[str, int] = report.to_dict()["counts"]
+    return sum(counts.values()) - sum(1 for finding in report.findings if finding["kind"] in counts)
 
 
 def _extent(document: Document, kind: str) -> str:

@@ -17,7 +17,8 @@ PER_PASS = 4.0
 """Sides of triangles for each mean distance between passes."""
 
 COVERED = 0.01
-"""A place counts as covered when no more than this share of the largest tool's diameter is left: as the judge has it."""
+"""A place counts as covered when no more than this share of the diameter of the smallest tool used is left: as the judge
+has it."""
 
 SHOWN_SHARE = 0.99
 """Of the covered points on the scale of what is left over: few high ones must not make all others look alike."""
@@ -88,7 +89,9 @@ def shown_judged(surface: Surface, report: Report, progress: Progress | None = N
     vertices = vertices_of(surface)
     asked = np.zeros(len(vertices.at), dtype=bool)
     asked[vertices.triangles[wanted]] = True
-    enough = COVERED * max((float(tool["diameter"]) for tool in report.program.tools), default=0.0)
+    used = {int(operation["tool"]) for operation in report.program.operations}
+    diameters = (float(tool["diameter"]) for number, tool in enumerate(report.program.tools) if number in used)
+    enough = COVERED * min(diameters, default=0.0)
     covered = asked & (left[vertices.at] <= enough)
     share = np.repeat(surface.areas[wanted] / 3.0, 3)
     weights: FloatArray = np.asarray(

@@ -171,6 +171,14 @@ fn setup(job: &JobDocument) -> Result<(), JobError> {
         (_, Some(sheet)) => {
             number("setup.sheet.thickness", sheet.thickness)?;
             number("setup.sheet.min_thickness", sheet.min_thickness.unwrap_or(sheet.thickness))?;
+            if sheet.min_thickness.is_some_and(|least| least > sheet.thickness) {
+                return Err(JobError::document(
+                    "conflict",
+                    "setup.sheet.min_thickness",
+                    "the sheet is thinner than that before it is formed",
+                    "make min_thickness smaller than thickness",
+                ));
+            }
             number("setup.sheet.max_wall_angle_deg", sheet.max_wall_angle_deg.unwrap_or(90.0))?;
             if let Some(fixture) = &setup.fixture {
                 self::fixture(fixture, setup.clearance)?;

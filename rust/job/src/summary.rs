@@ -124,7 +124,8 @@ impl Summary {
     fn verdict(&self) -> String {
         let figure = |value: Option<f64>| value.map_or("-.----".to_owned(), |v| format!("{v:.4}"));
         let [gouge, excess] = [self.gouge_max, self.excess_max].map(figure);
-        format!("judged from this text: worst gouge {gouge} mm, worst excess {excess} mm")
+        let verdict = self.ok.map_or("------", |ok| if ok { "passed" } else { "FAILED" });
+        format!("judged from this text: {verdict}, worst gouge {gouge} mm, worst excess {excess} mm")
     }
 }
 

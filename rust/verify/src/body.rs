@@ -19,6 +19,10 @@ const REACH: f64 = 3.0;
 const ROUNDING: f64 = 1e-11;
 /// Slopes this near to 0 and to a right angle count as the flat and the cylinder, rad.
 const EDGE: f64 = 1e-9;
+/// The share of the depth for a tool that is blunt.
+const OWN: f64 = 0.05;
+/// A straight flank that begins nearer to the axis than this share of the radius makes a sharp tip.
+const SLENDER: f64 = 0.1;
 /// A step of the root of the slope so short that a parabola gives the distance to 1e-14 of the tool's size.
 const SHORT: f64 = 1e-5;
 
@@ -34,6 +38,8 @@ pub(crate) struct Body {
     squares_per_mm: f64,
     /// Depth from which the nearest way out may not be the one that a local search finds, mm.
     shallow: f64,
+    /// See [`Body::own`].
+    own: f64,
 }
 
 /// The body's meridian at one slope, with the plane that touches there.
@@ -90,6 +96,8 @@ impl Body {
             a.slope.total_cmp(&b.slope).then(a.radius.total_cmp(&b.radius)).then(a.height.total_cmp(&b.height))
         });
         let sharpest = planes.iter().map(|p| cutter.curvature_radius_at(p.slope)).fold(f64::INFINITY, f64::min);
+        let at_the_tip = cutter.straights().iter().filter(|s| s.inner.0 < SLENDER * cutter.max_radius());
+        let own = at_the_tip.map(|s| 0.5 * libm::cos(s.slope)).fold(OWN, f64::min);
         let squares_per_mm = SQUARES as f64 / (REACH * (cutter.max_radius() + cutter.max_height()));
         let mut body = Self {
             cutter,
@@ -99,6 +107,7 @@ impl Body {
             atlas: Vec::new(),
             squares_per_mm,
             shallow: 0.5 * sharpest,
+            own,
         };
         body.atlas = (0..SQUARES * SQUARES).map(|i| body.best_plane_of_square(i)).collect();
         body
@@ -129,6 +138,12 @@ impl Body {
     fn better_end(&self, cell: usize, radius: f64, height: f64) -> usize {
         let gap = |i: usize| self.planes[i].gap(radius, height);
         cell + usize::from(gap(cell + 1) > gap(cell))
+    }
+
+    /// A point of the part is in the body for the body's own sake, and not because it grazes a ridge, when it is in it by
+    /// this share of the depth: on the axis of a slender cone, which is near to its side everywhere, by little.
+    pub fn own(&self) -> f64 {
+        self.own
     }
 
     /// Radius of the sphere that it ends in, when it does, mm: then all is told by the centre. Its cylinder is as wide.

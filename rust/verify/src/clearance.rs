@@ -9,10 +9,6 @@ use crate::Vector;
 /// Rounding that a distance may carry, mm.
 const ROUNDING: f64 = 1e-9;
 
-/// A foot is in the body for the body's own sake, and not because it grazes a ridge, when it is in it by this share of
-/// the depth: under the tip of a slender cone, which is near to its side everywhere, by little.
-const OWN: f64 = 0.05;
-
 /// Where the body is nearest to the part, or deepest in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Touch {
@@ -167,7 +163,7 @@ impl Search<'_> {
     fn deep(&mut self, facet: &Facet, foot: Vector, held: bool, gap: f64, plane: Plane) {
         if held {
             let value = self.body.distance(foot).value;
-            if value <= OWN * gap + ROUNDING {
+            if value <= self.body.own() * gap + ROUNDING {
                 self.take(gap, foot, plane);
                 return;
             }

@@ -30,7 +30,8 @@ const OF_A_FACE: usize = 400;
 const POINTS: [f64; 2] = [20_000.0, 400_000.0];
 /// Points in a piece of work. Fixed, so that the result does not depend on the number of threads.
 const CHUNK: usize = 256;
-/// A place counts as covered when no more than this share of the tool's diameter is left there.
+/// A place counts as covered when no more than this share of the diameter is left there, that of the smallest tool that
+/// touches anything.
 const COVERED: f64 = 0.01;
 /// Arcs are looked at as chords that are nearer than this, mm.
 const SAG: f64 = 1e-4;
@@ -42,7 +43,7 @@ pub struct FaceCoverage {
     pub face: u32,
     /// Its area, mm^2, without what looks down.
     pub area: f64,
-    /// Share of it that is covered: where at most a hundredth of the tool's diameter is left.
+    /// Share of it that is covered: where at most a hundredth of the diameter of the smallest tool used is left.
     pub covered: f64,
     /// Most that is left where it is covered, mm: the scallop.
     pub scallop: f64,
@@ -188,7 +189,9 @@ impl Sweeps {
         });
         let tools: Vec<(Body, RTree<Sweep>)> = tools.collect();
         let length = tools.iter().flat_map(|(_, tree)| tree).map(|sweep| sweep.stroke.length()).sum();
-        let enough = COVERED * subject.tools.iter().map(styluscam_geometry::Tool::diameter).fold(0.0, f64::max);
+        let used = tools.iter().zip(subject.tools).filter(|((_, tree), _)| tree.size() > 0);
+        let smallest = used.map(|(_, tool)| tool.diameter()).fold(f64::INFINITY, f64::min);
+        let enough = if smallest.is_finite() { COVERED * smallest } else { 0.0 };
         Self { tools, length, enough }
     }
 

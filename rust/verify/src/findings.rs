@@ -70,6 +70,8 @@ pub enum FindingKind {
     UnknownTool,
     /// An operation of the job is not in the text.
     MissingOperation,
+    /// An operation comes after one that the job has behind it.
+    OperationOrder,
     /// The program begins with a move across before it has gone up, or goes across below the clearance height.
     UnsafeStart,
     /// The program ends, or changes the tool, below the clearance height.

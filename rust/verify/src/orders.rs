@@ -55,6 +55,22 @@ impl<'a> Orders<'a> {
         }
     }
 
+    /// The finding of operations that come in another order than the job's.
+    pub fn out_of_order(&self, program: &Program, subject: &Subject) -> Option<Finding> {
+        let place = |order: &&Order| subject.orders.iter().position(|other| std::ptr::eq(other, *order));
+        let known = self.of.iter().enumerate().filter_map(|(i, order)| Some((i, place(&(*order)?)?)));
+        let known: Vec<(usize, usize)> = known.collect();
+        let pair = known.windows(2).find(|pair| pair[1].1 < pair[0].1)?;
+        let [before, id] = [pair[0], pair[1]].map(|(_, order)| &subject.orders[order].id);
+        let first = program.moves.iter().find(|step| step.operation as usize == pair[1].0);
+        let line = first.map_or(0, |step| step.line);
+        let message = format!(
+            "line {line}: operation {id:?} comes after {before:?}, and in the job before it; post the job again"
+        );
+        let finding = Finding::of_all(FindingKind::OperationOrder, Severity::Error, message);
+        Some(Finding { line, first_line: line, last_line: line, ..finding })
+    }
+
     /// The finding of a text of which nothing can be held against what the job orders.
     pub fn unnamed(&self, subject: &Subject) -> Option<Finding> {
         let known = subject.orders.is_empty() || self.of.is_empty() || self.of.iter().any(Option::is_some);

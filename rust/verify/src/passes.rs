@@ -42,6 +42,8 @@ const TOUCH: f64 = 0.03;
 const TOUCHING: usize = 2000;
 /// Passes may be this many steps apart: a short last step is joined to the one before it.
 const WIDE: f64 = 1.3;
+/// Passes that are more steps apart are no oversight of a few places: the program is not the job's.
+const MANY: f64 = 3.0;
 /// The last level may be this many steps above the lowest height at which the tool can touch.
 const REST: f64 = 0.25;
 
@@ -145,7 +147,15 @@ impl Look<'_> {
         let below = wide(below, rest_low).then_some((*first, below));
         let above = wide(above, rest_high).then_some((*last, above));
         let gaps = between.chain(below).chain(above);
-        gaps.map(|(leg, gap)| leg.fault(kind).measured(gap, step).warning()).collect()
+        let fault = |(leg, gap): (&Leg, f64)| {
+            let fault = leg.fault(kind).measured(gap, step);
+            if gap > MANY * step {
+                fault
+            } else {
+                fault.warning()
+            }
+        };
+        gaps.map(fault).collect()
     }
 
     /// Heights, or places across the rows, at which the tool can touch.

@@ -19,18 +19,33 @@ const ROUGH: f64 = 0.01;
 const LOWER: f64 = 0.25;
 
 /// Moves that go deeper than a step below all that is formed before them: there the sheet stands as it was.
-pub(crate) fn punches(legs: &[Leg], orders: &Orders, limits: &Limits) -> Vec<Fault> {
+///
+/// Where an operation begins, the sheet is taken to stand at its highest level. A fall at the path's own feed is a part of
+/// a pass over a wall, and worth a warning.
+pub(crate) fn punches(program: &Program, legs: &[Leg], orders: &Orders, limits: &Limits) -> Vec<Fault> {
     let Some(forming) = limits.forming else { return Vec::new() };
+    let levels = |leg: &Leg| {
+        let order = orders.of(leg).filter(|order| order.forms)?;
+        match order.passes.as_ref()?.spacing {
+            Spacing::Levels(step) => Some((order, step)),
+            Spacing::Rows(..) => None,
+        }
+    };
+    let mut highest: HashMap<u32, f64> = HashMap::new();
+    for leg in legs.iter().filter(|leg| leg.kind == LegKind::Contact && !leg.falls()) {
+        let known = highest.entry(leg.operation).or_insert(f64::NEG_INFINITY);
+        *known = known.max(leg.end[2]);
+    }
     let mut formed = forming.top;
     let mut faults = Vec::new();
     for leg in legs {
-        let Some(order) = orders.of(leg).filter(|order| order.forms) else { continue };
-        let Some(passes) = &order.passes else { continue };
-        let Spacing::Levels(step) = passes.spacing else { continue };
-        formed = formed.min(passes.heights[1]);
+        let (Some((order, step)), Some(begins)) = (levels(leg), highest.get(&leg.operation)) else { continue };
+        formed = formed.min(*begins);
         let lowest = leg.lowest();
         if lowest < formed - DEEPER * step - ROUGH {
-            faults.push(leg.fault(FindingKind::Punch).measured(lowest, formed));
+            let fault = leg.fault(FindingKind::Punch).measured(lowest, formed);
+            let falls = leg.kind == LegKind::Plunge && at_cut(program, leg, order.cut, limits);
+            faults.push(if falls { fault.warning() } else { fault });
         }
         if leg.kind != LegKind::Rapid {
             formed = formed.min(lowest);
@@ -57,8 +72,8 @@ pub(crate) fn faults(
         // back: that is no level
         let mut away_from: Option<f64> = None;
         for leg in legs.iter().flat_map(Leg::pieces) {
-            let at_cut = (program.moves[leg.index].feed - order.cut).abs() <= limits.feed_unit;
-            let along = at_cut && matches!(leg.kind, LegKind::Plunge | LegKind::Retract);
+            let along =
+                at_cut(program, &leg, order.cut, limits) && matches!(leg.kind, LegKind::Plunge | LegKind::Retract);
             match (leg.kind, away_from, leg.start) {
                 (LegKind::Rapid, ..) => away_from = None,
                 (_, Some(level), _) if (leg.end[2] - level).abs() <= SAME_LEVEL => away_from = None,
@@ -81,4 +96,9 @@ pub(crate) fn faults(
     }
     faults.sort_by_key(|fault| fault.index);
     faults
+}
+
+/// Whether a move has the feed of the path.
+fn at_cut(program: &Program, leg: &Leg, cut: f64, limits: &Limits) -> bool {
+    (program.moves[leg.index].feed - cut).abs() <= limits.feed_unit
 }

@@ -25,7 +25,9 @@ fn place(line: u32, index: usize, [x, y, z]: [f64; 3]) -> String {
 fn extent([first_line, last_line]: [u32; 2], moves: usize, length: f64) -> String {
     match moves {
         0 | 1 => String::new(),
-        _ if first_line > 0 => format!(" (lines {first_line} to {last_line}, {moves} moves, {length:.1} mm)"),
+        _ if first_line > 0 => {
+            format!(" (it begins at line {first_line} and lasts to line {last_line}: {moves} moves, {length:.1} mm)")
+        }
         _ => format!(" ({moves} moves in a row, {length:.1} mm)"),
     }
 }
@@ -78,6 +80,7 @@ fn what(fault: &Fault) -> String {
         FindingKind::MissingToolChange => "a feed move comes before any tool change".to_owned(),
         FindingKind::UnknownTool => "the tool loaded here is not one of the job's".to_owned(),
         FindingKind::MissingOperation => "an operation of the job is missing".to_owned(),
+        FindingKind::OperationOrder => "operations come in another order than the job's".to_owned(),
         FindingKind::UnnamedOperations => "the job's operations are not named".to_owned(),
         FindingKind::OptionalLines => "lines run or do not, as a switch stands".to_owned(),
         FindingKind::UnsafeStart if value.is_nan() => {
@@ -156,7 +159,9 @@ fn axis(kind: FindingKind) -> char {
 
 fn remedy(kind: FindingKind) -> &'static str {
     match kind {
-        FindingKind::Gouge => "correct this coordinate, or plan again with this tool, sheet and zero point",
+        FindingKind::Gouge => {
+            "correct the coordinate where it begins, or plan again with this tool, sheet and zero point"
+        }
         FindingKind::ShankCollision => "take a tool with a longer base, or a thinner shank",
         FindingKind::HolderCollision => "let the tool stick out farther, or take a smaller holder",
         FindingKind::ClampCollision => "take a wider frame or a lower one, or a longer tool",
@@ -171,7 +176,7 @@ fn remedy(kind: FindingKind) -> &'static str {
         FindingKind::MissingPass | FindingKind::MissingLevel | FindingKind::MissingRow => {
             "post the whole operation, with the job's heights and steps"
         }
-        FindingKind::Punch => "form level by level; where the sheet is formed already, give the operation z_top",
+        FindingKind::Punch => "form level by level, from the top down",
         FindingKind::FormingOrder => "form from the top down",
         FindingKind::DeepRapid => "come down at a feed from there",
         FindingKind::StopBelow => "stop above the clearance height",
@@ -181,7 +186,7 @@ fn remedy(kind: FindingKind) -> &'static str {
         FindingKind::UnknownTool => "add the tool to the job, or correct the T word",
         FindingKind::WorkOffset => "write the part's work offset before the moves",
         FindingKind::MissingOperation => "post the whole job",
-        FindingKind::UnnamedOperations => "post the job again",
+        FindingKind::UnnamedOperations | FindingKind::OperationOrder => "post the job again",
         FindingKind::OptionalLines => "take them out, or their marks",
         FindingKind::UnsafeStart => "go up to the clearance height in a block of its own first",
         FindingKind::UnknownPlace => "go up to the clearance height in a block of its own first",
