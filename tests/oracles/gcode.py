@@ -265,7 +265,7 @@ class _Reader:
     def _move(self, codes: list[str], values: dict[str, float], number: int) -> None:
         named = [axis for axis in "XYZ" if axis in values]
         arc = self.motion in ("G2", "G3")
-        if not named or "G4" in codes:
+        if not named:
             if {"I", "J", "K", "R"} & set(values) and not named and not (arc and self.family == "linuxcnc"):
                 raise Refused("an arc without an end")
             if not (arc and {"I", "J", "K"} & set(values)):
