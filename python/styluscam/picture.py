@@ -459,7 +459,7 @@ def _path(axes: Axes, view: View, raster: Raster, program: Program, box: FloatAr
     thin = rapid & ~hidden & (middles[:, 2] <= box[1, 2] + 0.2 * size)
     axes.add_collection(LineCollection(list(lines[thin]), colors=SOFT, linewidths=0.5, alpha=0.6, zorder=2))
     fat = ~rapid & ~hidden
-    depth = ends[1:][kinds[1:] != RAPID, 2]
+    depth = middles[~rapid, 2]
     drawn = LineCollection(list(lines[fat]), cmap=_colours(), linewidths=_width(lines[fat]), capstyle="round", zorder=3)
     drawn.set_array(middles[fat, 2])
     drawn.set_clim(*((depth.min(), depth.max()) if len(depth) else (0.0, 1.0)))

@@ -62,7 +62,8 @@ def viewed_for_job(text: str, name: str, job: Job, machine: Machine | None = Non
     program = Program(_engine.read_back(job.engine, machine.engine, text))
     scene = _engine.Scene(job.engine, job.part().engine)
     title = str(job.document["title"] or job.name)
-    return Subject(title, name, _going(program, name), machine, job, job.part(), np.array(scene.frame))
+    frame = np.array(scene.frame)
+    return Subject(title, name, _going(program, name), machine, job, job.part(), frame, scene=scene)
 
 
 def _read(text: str, machine: Machine) -> Program | None:

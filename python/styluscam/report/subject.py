@@ -9,13 +9,14 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from styluscam import _engine
 from styluscam.job import Job
 from styluscam.judging import Report
 from styluscam.machine import Machine
 from styluscam.part import Part
 from styluscam.picture import arrays_of, program_picture, program_png
 from styluscam.program import RAPID, Program
-from styluscam.report.findings import placed
+from styluscam.report.findings import placed, verdict_of
 from styluscam.report.surface import Surface
 from styluscam.tool import Tool
 from styluscam.types import Document, FloatArray, IntArray
@@ -47,6 +48,7 @@ class Subject:
     frame: FloatArray = field(default_factory=lambda: np.eye(3, 4))
     report: Report | None = None
     gaps: tuple[str, ...] | None = None
+    scene: _engine.Scene | None = None
 
     @property
     def reader(self) -> str:
@@ -58,7 +60,8 @@ class Subject:
         """A judged text; ``file`` is its name."""
         job = report.job
         title = str(job.document["title"] or job.name)
-        return cls(title, file, report.program, machine, job, job.part(), np.array(report.scene.frame), report)
+        frame = np.array(report.scene.frame)
+        return cls(title, file, report.program, machine, job, job.part(), frame, report, scene=report.scene)
 
     @cached_property
     def surface(self) -> Surface | None:
@@ -68,7 +71,7 @@ class Subject:
     @cached_property
     def fixture(self) -> list[tuple[str, list[list[float]], list[float]]]:
         """What holds the sheet: name, corners of the opening, heights of the lower and the upper face, mm."""
-        return [] if self.report is None else self.report.scene.fixture(self.report.job.engine)
+        return [] if self.scene is None or self.job is None else self.scene.fixture(self.job.engine)
 
     @cached_property
     def _known(self) -> IntArray:
@@ -127,11 +130,17 @@ class Subject:
 
     def draw(self, path: Path) -> None:
         """Writes a picture, PNG."""
-        program_picture(self.part, self.program, path, self.frame, self._first_tool(), title=self.title)
+        program_picture(self.part, self.program, path, self.frame, self._first_tool(), title=self._heading())
 
     def png(self) -> bytes:
         """The same picture's bytes."""
-        return program_png(self.part, self.program, self.frame, self._first_tool(), self.title)
+        return program_png(self.part, self.program, self.frame, self._first_tool(), self._heading())
+
+    def _heading(self) -> str:
+        """The title, and the verdict where it is one to know before anything else."""
+        if self.report is None or not self.report.findings:
+            return self.title
+        return f"{self.title}: {verdict_of(self.report).headline.lower()}"
 
     def _first_tool(self) -> Tool | None:
         return next((tool for _, tool in self.tools if tool is not None), None)
