@@ -11,14 +11,14 @@ from conftest import Floats, Mesh
 import styluscam as sc
 
 
-def job(mesh: Mesh, **operation: Any) -> sc.Job:
-    """Milling by a ball of 6 mm."""
+def job(mesh: Mesh, profile: dict[str, Any] | None = None, **operation: Any) -> sc.Job:
+    """Milling by a ball of 6 mm, or another tool."""
     document = {
         "schema": 1,
         "part": {"file": "made.stl", "units": "mm"},
         "setup": {},
         "process": {"kind": "milling"},
-        "tools": {"ball": {"profile": {"kind": "ball", "diameter": 6.0}}},
+        "tools": {"ball": {"profile": profile or {"kind": "ball", "diameter": 6.0}}},
         "operations": [{"tool": "ball", **operation}],
         "machine": {"name": "linuxcnc"},
     }
@@ -56,6 +56,34 @@ def test_rows_over_facets_enter_nothing(cell: float, angle_deg: float) -> None:
     assert report.ok
     assert report.gouge_max == 0.0
     assert report.excess_max <= 0.005
+
+
+SHARP = {
+    "v": {"kind": "v", "tip_diameter": 0.5, "angle_deg": 60.0, "diameter": 6.0},
+    "cone": {"kind": "cone", "tip_radius": 0.5, "half_angle_deg": 30.0, "diameter": 6.0},
+    "flat": {"kind": "flat", "diameter": 6.0},
+}
+
+
+@pytest.mark.parametrize("turn_deg", [0.0, 17.0])
+@pytest.mark.parametrize("profile", SHARP)
+@pytest.mark.parametrize("kind", ["z-level", "zig-zag"])
+def test_rims_and_tips_ride_over_corners(profile: str, kind: str, turn_deg: float) -> None:
+    """They meet a corner of the triangles for a tenth of a millimetre of their way: links and rows rise over it."""
+    axis = np.linspace(-20.0, 20.0, 31)
+    x, y = np.meshgrid(axis, axis)
+    turn = np.radians(turn_deg)
+    z = (
+        4.0 * np.sin(x / 5.0) * np.cos(y / 6.0)
+        if kind == "z-level"
+        else np.round(3.0 * np.sin(x / 6.0) + 2.0 * np.cos(y / 5.0))
+    )
+    mesh = net(x * np.cos(turn) - y * np.sin(turn), x * np.sin(turn) + y * np.cos(turn), z)
+    pitch: dict[str, Any] = {"step": {"height": 2.0}} if kind == "z-level" else {"stepover": 3.0, "angle_deg": 37.0}
+    of = job(mesh, SHARP[profile], kind=kind, tolerance=0.02, **pitch)
+    report = sc.verify(sc.post(sc.plan(of)).text, of)
+    assert report.gouge_max <= 0.001
+    assert report.excess_max <= 0.02
 
 
 ARC = np.linspace(0.0, 0.5 * np.pi, 60)

@@ -342,6 +342,10 @@ struct Task<'a> {
     budget: &'a Budget,
 }
 
+/// What rows and links look for, as a share of the distance between the grid's nodes: the tool's rim and its tip meet
+/// ridges that are narrower than any feature.
+const NARROW: f64 = 0.2;
+
 impl Task<'_> {
     fn passes(&self, surface: &Surface<'_>, watch: &Watch) -> Result<(Vec<Pass>, f64), PlanError> {
         match self.section.kind {
@@ -377,7 +381,12 @@ impl Task<'_> {
 
     fn rows(&self, surface: &Surface<'_>, watch: &Watch) -> Result<(Vec<Pass>, f64), PlanError> {
         let stepover = self.section.stepover.unwrap_or(f64::INFINITY);
-        let rows = Rows { angle: self.section.angle_deg.to_radians(), stepover, spacing: self.spacing() };
+        let rows = Rows {
+            angle: self.section.angle_deg.to_radians(),
+            stepover,
+            spacing: self.spacing(),
+            narrow: NARROW * self.spacing(),
+        };
         let passes = zig_zag(surface, &rows, self.budget.deviation, watch)?;
         if passes.is_empty() {
             return Err(PlanError::NothingReached(self.why_nothing()));
@@ -409,6 +418,7 @@ impl Task<'_> {
             alternate: self.section.direction == Direction::Alternate,
             ride: RIDE * pitch,
             deviation: self.budget.deviation,
+            narrow: NARROW * self.spacing(),
             heights: Heights { clearance, retract: self.scene.top + self.job.setup.retract },
             rates: Rates { cut: self.section.feeds.cut, plunge: self.section.feeds.plunge },
             operation: self.index as u32,

@@ -24,13 +24,15 @@ pub const BORDER: f64 = 1e-3;
 /// Points that one chord may pass over: bounds the work on long straight runs.
 const PASSED: usize = 512;
 
-/// Adds exact points between those given, dense enough for [`thinned`] to keep chords within `deviation` mm of the path.
+/// Adds exact points between those given, dense enough for [`thinned`] to keep chords within `deviation` mm of the path,
+/// and in plan no farther apart than `longest` mm: what is narrower may pass unseen.
 ///
 /// `between` gives the exact point over the middle of two others, or none where there is none: there the path has
 /// no middle to keep to, and ends; what follows is another run. The middles are kept: they are witnesses.
 pub fn densified(
     points: &[PathPoint],
     deviation: f64,
+    longest: f64,
     mut between: impl FnMut(&PathPoint, &PathPoint) -> Option<PathPoint>,
 ) -> Vec<Vec<PathPoint>> {
     let Some(first) = points.first() else { return Vec::new() };
@@ -41,12 +43,15 @@ pub fn densified(
         pending.push(*end);
         while let Some(b) = pending.pop() {
             let a = run[run.len() - 1];
-            if (b.tip - a.tip).xy().norm() <= SHORTEST {
+            let length = (b.tip - a.tip).xy().norm();
+            if length <= SHORTEST {
                 run.push(b);
                 continue;
             }
             match between(&a, &b).filter(|m| divides(m, &a, &b)) {
-                Some(m) if stray_around(&a, &m, &b) > BETWEEN_WITNESSES * deviation => pending.extend([b, m]),
+                Some(m) if 0.5 * length > longest || stray_around(&a, &m, &b) > BETWEEN_WITNESSES * deviation => {
+                    pending.extend([b, m]);
+                }
                 Some(m) => run.extend([m, b]),
                 None => runs.push(std::mem::replace(&mut run, vec![b])),
             }
@@ -182,7 +187,7 @@ mod tests {
     #[test]
     fn chords_stay_within_the_deviation_and_are_few() {
         let ends = [point(-3.0, 0.9, true), point(3.0, 0.9, true)];
-        let dense = densified(&ends, 1e-3, parabola);
+        let dense = densified(&ends, 1e-3, f64::INFINITY, parabola);
         assert_eq!(dense.len(), 1);
         let thin = thinned(&dense[0], 1e-3);
         for pair in thin.windows(2) {
@@ -197,7 +202,7 @@ mod tests {
     fn a_middle_that_lies_elsewhere_ends_the_run() {
         let ends = [point(0.0, 0.0, true), point(1.0, 0.0, false)];
         let astray = |_: &PathPoint, _: &PathPoint| Some(point(5.0, 7.0, true));
-        assert!(densified(&ends, 1e-3, astray).is_empty());
+        assert!(densified(&ends, 1e-3, f64::INFINITY, astray).is_empty());
         assert_eq!(selected_runs(&ends, false, astray).len(), 1);
     }
 
@@ -207,7 +212,7 @@ mod tests {
         let torn = |a: &PathPoint, b: &PathPoint| {
             parabola(a, b).filter(|m| (m.tip.x - 1.5).abs() > 0.1).map(|m| point(m.tip.x, 0.0, true))
         };
-        let runs = densified(&points, 1e-3, torn);
+        let runs = densified(&points, 1e-3, f64::INFINITY, torn);
         let ends: Vec<[f64; 2]> = runs.iter().map(|run| [run[0].tip.x, run[run.len() - 1].tip.x]).collect();
         assert_eq!(ends, [[0.0, 1.0], [2.0, 4.0]]);
     }
@@ -227,7 +232,7 @@ mod tests {
             let x = 0.5 * (a.tip.x + b.tip.x);
             Some(point(x, if x < 0.3 { 0.0 } else { 20.0 }, true))
         };
-        let dense = densified(&[point(0.0, 0.0, true), point(1.0, 20.0, true)], 1e-3, step);
+        let dense = densified(&[point(0.0, 0.0, true), point(1.0, 20.0, true)], 1e-3, f64::INFINITY, step);
         assert_eq!(dense.len(), 1);
         for pair in thinned(&dense[0], 1e-3).windows(2) {
             let climbs = pair[1].tip.z - pair[0].tip.z > 1e-3;

@@ -35,6 +35,8 @@ pub struct Links {
     pub ride: f64,
     /// How far ridden chords may stray, mm.
     pub deviation: f64,
+    /// What is narrower may be ridden over unseen, mm.
+    pub narrow: f64,
     /// Heights of the ways that are flown.
     pub heights: Heights,
     /// Feeds.
@@ -121,7 +123,7 @@ impl Route<'_> {
         }
         let mut hint = None;
         let mut sound = true;
-        let runs = fitting::densified(&[*from, *to], self.links.deviation, |a, b| {
+        let runs = fitting::densified(&[*from, *to], self.links.deviation, self.links.narrow, |a, b| {
             let middle = self.surface.between(a, b, &mut hint);
             sound &= middle.is_some_and(|m| m.selected);
             middle

@@ -123,7 +123,9 @@ impl<'a, 'c> Trace<'a, 'c> {
             let [low, _, high, _] = square.corners().map(|node| self.sides.place(node));
             let slack = OUTSIDE * (high[0] - low[0]);
             let is_inside = |m: &PathPoint| (0..2).all(|i| m.tip[i] >= low[i] - slack && m.tip[i] <= high[i] + slack);
-            let runs = fitting::densified(&chord, self.deviation, |a, b| self.curve.between(a, b).filter(is_inside));
+            let runs = fitting::densified(&chord, self.deviation, f64::INFINITY, |a, b| {
+                self.curve.between(a, b).filter(is_inside)
+            });
             runs.into_iter().find(|run| run[0] == a && run[run.len() - 1] == b)
         } else {
             Some(chord.to_vec())

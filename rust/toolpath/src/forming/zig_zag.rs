@@ -20,6 +20,8 @@ pub struct Rows {
     pub stepover: f64,
     /// First spacing of samples along a row, mm; refined where the tolerance asks for it.
     pub spacing: f64,
+    /// What is narrower may be passed over unseen, mm.
+    pub narrow: f64,
 }
 
 /// All rows over the selected faces, side by side, each in the direction of `angle`.
@@ -60,6 +62,7 @@ struct Lines {
     count: usize,
     stepover: f64,
     spacing: f64,
+    narrow: f64,
 }
 
 impl Lines {
@@ -79,8 +82,8 @@ impl Lines {
         let [left, right] = range(across);
         let count = ((right - left) / rows.stepover).floor() as usize + 1;
         let first = 0.5 * (left + right - (count - 1) as f64 * rows.stepover);
-        let (stepover, spacing) = (rows.stepover, rows.spacing);
-        Some(Self { along, across, range: range(along), first, count, stepover, spacing })
+        let Rows { stepover, spacing, narrow, .. } = *rows;
+        Some(Self { along, across, range: range(along), first, count, stepover, spacing, narrow })
     }
 
     fn slice(&self, surface: &Surface<'_>, row: usize, facets: &[[f64; 2]], deviation: f64) -> Vec<Pass> {
@@ -90,7 +93,7 @@ impl Lines {
         let mut passes = Vec::new();
         for exact in met {
             for run in fitting::selected_runs(&exact, false, &mut between) {
-                let runs = fitting::densified(&run, deviation, &mut between);
+                let runs = fitting::densified(&run, deviation, self.narrow, &mut between);
                 let pass = |run| Pass { points: fitting::thinned(run, deviation), closed: false, group: row };
                 passes.extend(runs.iter().map(|run| pass(run)));
             }
