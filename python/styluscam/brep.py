@@ -48,7 +48,9 @@ def _finding(contact: Document, value: float, limit: float) -> Document:
         "length_mm": 0.0,
         "position": contact["tip"],
         "value_mm": value,
+        "value": value,
         "limit": limit,
+        "unit": "mm",
         "message": f"line {line}, {place}: the contact on Face{face} misses the model's surface by "
         f"{value:.4f} mm: the part's triangles or its set-up are wrong",
     }

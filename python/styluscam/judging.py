@@ -35,7 +35,7 @@ class Report:
 
     @property
     def findings(self) -> list[Document]:
-        """Each with kind, severity, line, position, value_mm, limit and a message."""
+        """Each with kind, severity, line, position, value, limit, unit and a message."""
         findings: list[Document] = self._document["findings"]
         return findings
 

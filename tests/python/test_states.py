@@ -146,3 +146,20 @@ def test_a_text_is_refused(name: str) -> None:
     with pytest.raises(sc.VerifyError) as caught:
         sc.verify(text.replace(found, written), of)
     assert caught.value.code == code
+
+
+@pytest.mark.parametrize(("code", "said"), [("G90 ", "G90"), ("G54\n", "G54")])
+def test_modes_that_are_not_said_are_warned_of(code: str, said: str) -> None:
+    of = job()
+    text = text_of(of).replace(code, "", 1)
+    (finding,) = sc.verify(text, of).findings
+    assert (finding["kind"], finding["severity"]) == ("unsaid-mode", "warning")
+    assert f"has not said {said}:" in finding["message"]
+
+
+def test_what_is_measured_has_its_unit() -> None:
+    of = job()
+    text = re.sub(r"F1500", "F1700", text_of(of))
+    finding = next(f for f in sc.verify(text, of).findings if f["kind"] == "feed-differs")
+    assert (finding["value"], finding["limit"], finding["unit"]) == (1700.0, 1500.0, "mm/min")
+    assert finding["value_mm"] is None

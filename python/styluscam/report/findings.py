@@ -63,6 +63,11 @@ def spoken(kind: str) -> str:
     return kind.replace("-", " ")
 
 
+def measured(value: float, unit: str) -> str:
+    """A number with its unit: lengths to a ten-thousandth."""
+    return f"{value:.4f} mm" if unit == "mm" else f"{value:.6g} {unit}"
+
+
 def placed(findings: Sequence[Document], lines: IntArray, places: FloatArray, times: FloatArray) -> list[Document]:
     """The findings, each with its ``time`` in seconds (none where it has no moment).
 

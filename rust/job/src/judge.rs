@@ -49,10 +49,22 @@ pub fn judge(
 ) -> Result<Judgement, JobError> {
     let (tools, records) = tools_in_order(job)?;
     let reading = read(text, machine, &records)?;
-    let Reading { program, unplaced, blind, machine_moves, optional_lines, stray_planes, stops, lines, ended, .. } =
-        reading;
+    let Reading {
+        program,
+        unplaced,
+        blind,
+        machine_moves,
+        optional_lines,
+        unsaid,
+        stray_planes,
+        stops,
+        lines,
+        ended,
+        ..
+    } = reading;
     let calls_tools = machine.tool.change == ToolChange::M6;
-    let text = TextFacts { blind, machine_moves, optional_lines, stray_planes, stops, lines, ended, calls_tools };
+    let text =
+        TextFacts { blind, machine_moves, optional_lines, unsaid, stray_planes, stops, lines, ended, calls_tools };
     let orders = orders(job, scene, &records)?;
     let obstacles = fixture::obstacles(job, scene)?;
     let plain = subject(job, scene, &tools, &unplaced);

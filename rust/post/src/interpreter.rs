@@ -39,6 +39,9 @@ pub(crate) struct Interpreter<'m> {
     machine: &'m Machine,
     units: Option<LengthUnit>,
     incremental: bool,
+    distance_said: bool,
+    /// Codes that the first move relies on and that no block has said.
+    unsaid: Vec<&'static str>,
     motion: Option<Motion>,
     plane: Plane,
     /// Since which move another plane than G17 is in force and no arc has used it.
@@ -77,6 +80,8 @@ impl<'m> Interpreter<'m> {
             machine,
             units: machine.reader.default_units,
             incremental: false,
+            distance_said: false,
+            unsaid: Vec::new(),
             motion: None,
             plane: Plane::Xy,
             stray_plane_since: None,
@@ -127,6 +132,7 @@ impl<'m> Interpreter<'m> {
         self.set_path(block)?;
         self.set_wcs(block)?;
         self.incremental = block.incremental.unwrap_or(self.incremental);
+        self.distance_said |= block.incremental.is_some();
         if let Some((plane, _)) = block.plane {
             self.set_plane(plane);
         }
@@ -463,6 +469,10 @@ impl<'m> Interpreter<'m> {
 
     fn push_move(&mut self, kind: MoveKind, arc: Option<Arc>, feed: f64, line: u32) {
         self.close_unplaced();
+        if self.program.moves.is_empty() {
+            self.unsaid.extend((!self.distance_said).then_some("G90"));
+            self.unsaid.extend(self.wcs.is_none().then_some("G54"));
+        }
         let operation = self.operation();
         self.program.moves.push(Move { kind, end: self.tip(), arc, feed, operation, line });
     }
@@ -539,6 +549,7 @@ impl<'m> Interpreter<'m> {
             blind: self.blind,
             machine_moves: self.machine_moves,
             optional_lines,
+            unsaid: self.unsaid,
             unplaced: self.unplaced,
             stray_planes: self.stray_planes,
             stops: self.stops,

@@ -28,6 +28,8 @@ pub struct Reading {
     ///
     /// There the axis stands at the next place commanded, or at the last one when none follows.
     pub unplaced: Vec<Range<usize>>,
+    /// Modal codes that the first move relies on and that the text does not say: G90, G54.
+    pub unsaid: Vec<&'static str>,
     /// Moves made while G18 or G19 was in force and no arc used it, in runs.
     pub stray_planes: Vec<Range<usize>>,
     /// Moves before which M0 or M1 stops the program.

@@ -28,7 +28,12 @@ pub(crate) fn no_contact(program: &Program, legs: &[Leg], tally: &Tally, subject
         clearance.abs()
     );
     let value_mm = Some(clearance);
-    Finding { moves: tally.contacts, value_mm, ..Finding::of_all(FindingKind::NoContact, Severity::Error, message) }
+    Finding {
+        moves: tally.contacts,
+        value_mm,
+        value: value_mm,
+        ..Finding::of_all(FindingKind::NoContact, Severity::Error, message)
+    }
 }
 
 fn hint(program: &Program, legs: &[Leg], samples: &[Sample], subject: &Subject, clearance: f64) -> Option<String> {

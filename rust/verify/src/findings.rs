@@ -80,6 +80,8 @@ pub enum FindingKind {
     UnknownPlace,
     /// A move in the machine's own coordinates that is not one to its top: nothing is known of the way.
     MachinePlace,
+    /// The text does not say a mode that its moves rely on.
+    UnsaidMode,
     /// Lines run or do not, as a switch at the machine stands.
     OptionalLines,
     /// The text names none of several operations: nothing can be held against what the job orders.
@@ -118,9 +120,15 @@ impl FindingKind {
     /// What a place beyond an axis' end is, by axis.
     pub(crate) const AXIS_LIMITS: [Self; 3] = [Self::XLimit, Self::YLimit, Self::ZLimit];
 
-    /// Whether what is measured is a length.
-    fn is_length(self) -> bool {
-        !matches!(self, Self::FeedDiffers | Self::SpindleDiffers | Self::FeedLimit | Self::Dwell | Self::WallAngle)
+    /// The unit of what is measured.
+    fn unit(self) -> &'static str {
+        match self {
+            Self::FeedDiffers | Self::FeedLimit => "mm/min",
+            Self::SpindleDiffers => "rev/min",
+            Self::Dwell => "s",
+            Self::WallAngle => "deg",
+            _ => "mm",
+        }
     }
 }
 
@@ -153,10 +161,14 @@ pub struct Finding {
     pub length_mm: f64,
     /// The tool's tip at the worst place, work coordinates, mm.
     pub position: Option<[f64; 3]>,
-    /// What was measured there, mm: depth, distance or height.
+    /// What was measured there, where that is a length, mm: depth, distance or height.
     pub value_mm: Option<f64>,
-    /// What is allowed, mm.
+    /// What was measured there, in `unit`.
+    pub value: Option<f64>,
+    /// What is allowed, in `unit`.
     pub limit: Option<f64>,
+    /// "mm", "mm/min", "rev/min", "s" or "deg".
+    pub unit: String,
     /// What, where and what to do.
     pub message: String,
 }
@@ -174,7 +186,9 @@ impl Finding {
             length_mm: 0.0,
             position: None,
             value_mm: None,
+            value: None,
             limit: None,
+            unit: "mm".to_owned(),
             message,
         }
     }
@@ -293,7 +307,8 @@ impl Run {
 
     fn finding(self) -> Finding {
         let worst = self.worst;
-        let length = worst.measure.filter(|_| worst.kind.is_length());
+        let unit = worst.kind.unit();
+        let [value, limit] = [worst.measure.map(|m| m.0), worst.measure.map(|m| m.1)];
         Finding {
             kind: worst.kind,
             severity: worst.severity,
@@ -303,8 +318,10 @@ impl Run {
             moves: self.moves,
             length_mm: self.length,
             position: Some(worst.position).filter(|place| place.iter().all(|x| x.is_finite())),
-            value_mm: length.map(|m| m.0),
-            limit: length.map(|m| m.1),
+            value_mm: value.filter(|_| unit == "mm"),
+            value,
+            limit,
+            unit: unit.to_owned(),
             message: words::message(&worst, [self.first_line, self.last_line], self.moves, self.length),
         }
     }

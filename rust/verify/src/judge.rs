@@ -33,6 +33,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         .chain(orders.unnamed(subject))
         .chain(orders.out_of_order(program, subject))
         .chain(travel::optional_lines(subject));
+    let wholes = wholes.chain(travel::unsaid(program, subject));
     for whole in wholes.chain(travel::no_feed_moves(program)).chain(offset).chain(nothing) {
         *counts.entry(whole.kind).or_default() += 1;
         findings.insert(0, whole);

@@ -76,6 +76,8 @@ pub struct TextFacts {
     pub machine_moves: Vec<MachineMove>,
     /// Lines that run where a switch at the machine says so, and that the moves leave out.
     pub optional_lines: Vec<u32>,
+    /// Modal codes that the first move relies on and that the text does not say.
+    pub unsaid: Vec<&'static str>,
     /// Moves made while another plane than G17 was in force and no arc used it, in runs.
     pub stray_planes: Vec<Range<usize>>,
     /// Moves before which the program stops (M0, M1).

@@ -97,6 +97,17 @@ pub(crate) fn optional_lines(subject: &Subject) -> Option<Finding> {
     Some(Finding { line, first_line: line, last_line, ..finding })
 }
 
+/// The finding of modal codes that are not said: the controller is as the last program, or the operator, left it.
+pub(crate) fn unsaid(program: &Program, subject: &Subject) -> Option<Finding> {
+    let codes = subject.text.map(|text| text.unsaid.join(" and ")).filter(|codes| !codes.is_empty())?;
+    let line = program.moves.first().map_or(0, |step| step.line);
+    let message = format!(
+        "line {line}: the text moves and has not said {codes}: what the controller was left in counts; write {codes} first"
+    );
+    let finding = Finding::of_all(FindingKind::UnsaidMode, Severity::Warning, message);
+    Some(Finding { line, first_line: line, last_line: line, ..finding })
+}
+
 /// The finding of a program in another work offset than the part's.
 pub(crate) fn work_offset(program: &Program, wcs: &str) -> Option<Finding> {
     let found = &program.setup.wcs;

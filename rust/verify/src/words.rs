@@ -82,6 +82,7 @@ fn what(fault: &Fault) -> String {
         FindingKind::MissingOperation => "an operation of the job is missing".to_owned(),
         FindingKind::OperationOrder => "operations come in another order than the job's".to_owned(),
         FindingKind::UnnamedOperations => "the job's operations are not named".to_owned(),
+        FindingKind::UnsaidMode => "a mode is not said".to_owned(),
         FindingKind::OptionalLines => "lines run or do not, as a switch stands".to_owned(),
         FindingKind::UnsafeStart if value.is_nan() => {
             "the first move goes across at a height that is not known".to_owned()
@@ -187,6 +188,7 @@ fn remedy(kind: FindingKind) -> &'static str {
         FindingKind::WorkOffset => "write the part's work offset before the moves",
         FindingKind::MissingOperation => "post the whole job",
         FindingKind::UnnamedOperations | FindingKind::OperationOrder => "post the job again",
+        FindingKind::UnsaidMode => "say it first",
         FindingKind::OptionalLines => "take them out, or their marks",
         FindingKind::UnsafeStart => "go up to the clearance height in a block of its own first",
         FindingKind::UnknownPlace => "go up to the clearance height in a block of its own first",
