@@ -67,13 +67,31 @@ fn values(spacing: Spacing, legs: &[&Leg]) -> Vec<f64> {
     values
 }
 
-/// Every height or place across at which one of the moves lies, however short, with the first such move: ascending.
-pub(crate) fn passes<'a>(spacing: Spacing, legs: &[&'a Leg]) -> Vec<(f64, &'a Leg)> {
+/// A height or a place across at which moves lie.
+#[derive(Clone, Copy)]
+pub(crate) struct Pass<'a> {
+    pub value: f64,
+    pub first: &'a Leg,
+    pub last: &'a Leg,
+}
+
+/// Every height or place across at which one of the moves lies, however short: ascending.
+pub(crate) fn passes<'a>(spacing: Spacing, legs: &[&'a Leg]) -> Vec<Pass<'a>> {
     let own = legs.iter().filter(|leg| spacing.holds(leg));
-    let mut passes: Vec<(f64, &Leg)> = own.map(|leg| (spacing.value(leg.end.into()), *leg)).collect();
-    passes.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.index.cmp(&b.1.index)));
+    let mut passes: Vec<Pass> =
+        own.map(|leg| Pass { value: spacing.value(leg.end.into()), first: leg, last: leg }).collect();
+    passes.sort_by(|a, b| a.value.total_cmp(&b.value));
     let (_, same) = spacing.measures();
-    passes.dedup_by(|b, a| b.0 - a.0 <= same);
+    passes.dedup_by(|b, a| {
+        let one = b.value - a.value <= same;
+        if one && b.first.index < a.first.index {
+            a.first = b.first;
+        }
+        if one && b.last.index > a.last.index {
+            a.last = b.last;
+        }
+        one
+    });
     passes
 }
 

@@ -27,7 +27,7 @@ const CURVED_AMIDST: f64 = 2.5;
 /// What may be left on a pass, mm: facets that the tool cannot quite touch for their neighbours'.
 const ON_PASS: f64 = 0.015;
 /// A pass this near, as a share of the tool's radius, is the one that should be at a place.
-const BESIDE: f64 = 0.5;
+const BESIDE: f64 = 0.35;
 /// Passes that differ by less than this share of what lies between neighbours are one.
 const SAME_PASS: f64 = 0.25;
 /// What may be left besides, mm: triangles' corners.
@@ -132,20 +132,21 @@ impl Look<'_> {
             Spacing::Rows(stepover, _) => (FindingKind::MissingRow, stepover, [WIDE, WIDE]),
         };
         let passes = contact_lines::passes(spacing, self.contacts);
-        let (Some((lowest, first)), Some((highest, last))) = (passes.first(), passes.last()) else { return Vec::new() };
+        let (Some(lowest), Some(highest)) = (passes.first(), passes.last()) else { return Vec::new() };
         let touching = self.touching();
         let touches_between = |low: f64, high: f64| touching.iter().any(|value| *value > low && *value < high);
         let wide = |gap: f64, steps: f64| gap > steps * step + ROUGH;
         let between = passes.windows(2).filter_map(|pair| {
-            let [(low, before), (high, after)] = [pair[0], pair[1]];
-            let (gap, inside) = (high - low, 0.3 * (high - low));
-            let later = if before.index > after.index { before } else { after };
-            (wide(gap, WIDE) && touches_between(low + inside, high - inside)).then_some((later, gap))
+            let (low, high) = (pair[0], pair[1]);
+            let gap = high.value - low.value;
+            let later = if low.first.index > high.first.index { low } else { high };
+            let touches = || touches_between(low.value + 0.3 * gap, high.value - 0.3 * gap);
+            (wide(gap, WIDE) && touches()).then_some((later.first, gap))
         });
-        let below = lowest - touching.iter().copied().fold(f64::INFINITY, f64::min);
-        let above = touching.iter().copied().fold(f64::NEG_INFINITY, f64::max) - highest;
-        let below = wide(below, rest_low).then_some((*first, below));
-        let above = wide(above, rest_high).then_some((*last, above));
+        let below = lowest.value - touching.iter().copied().fold(f64::INFINITY, f64::min);
+        let above = touching.iter().copied().fold(f64::NEG_INFINITY, f64::max) - highest.value;
+        let below = wide(below, rest_low).then_some((lowest.last, below));
+        let above = wide(above, rest_high).then_some((highest.last, above));
         let gaps = between.chain(below).chain(above);
         let fault = |(leg, gap): (&Leg, f64)| {
             let fault = leg.fault(kind).measured(gap, step);
