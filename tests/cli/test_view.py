@@ -178,3 +178,10 @@ def test_run_writes_the_report_of_a_faulty_program_but_not_the_program(cli, tmp_
     assert ran.code == 1 and ran.err.splitlines()[-1].startswith("no program was written")
     assert "Must not run" in (tmp_path / "r.html").read_text()
     assert sorted(path.name for path in tmp_path.iterdir()) == ["job.toml", "r.html"]
+
+
+@pytest.mark.parametrize("encoding", ["latin-1", "utf-8-sig"])
+def test_texts_of_other_editors_are_read(encoding, tmp_path, cli):
+    file = tmp_path / "other.ngc"
+    file.write_bytes("(Größe Ø 3)\nG21 G90 G54\nG0 Z5\nX1 Y1\nG1 Z-1 F100\nG0 Z5\nM2\n".encode(encoding))
+    assert cli("view", file, "--machine", "linuxcnc", "--out", tmp_path / "other.html").code == 0

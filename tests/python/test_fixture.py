@@ -127,3 +127,9 @@ def test_fixtures_that_make_no_sense_are_refused(setup: dict[str, Any], where: s
         judged(setup)
     assert refused.value.where is not None
     assert where in refused.value.where
+
+
+def test_a_sheet_cannot_keep_more_than_it_has() -> None:
+    with pytest.raises(sc.JobError) as caught:
+        judged(sheet={"min_thickness": 1.5 * THICKNESS})
+    assert caught.value.where == "setup.sheet.min_thickness"
