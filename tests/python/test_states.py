@@ -163,3 +163,11 @@ def test_what_is_measured_has_its_unit() -> None:
     finding = next(f for f in sc.verify(text, of).findings if f["kind"] == "feed-differs")
     assert (finding["value"], finding["limit"], finding["unit"]) == (1700.0, 1500.0, "mm/min")
     assert finding["value_mm"] is None
+
+
+def test_one_operation_is_meant_whatever_the_text_calls_it() -> None:
+    of = job()
+    text = text_of(of)
+    end = "M2\n"
+    again = re.sub(r"F1500", "F9000", text[text.index("G0 Z") :])
+    assert kinds(f"{text.removesuffix(end)}T1 M6\nG43 H1\n{again}", of)["feed-differs"] == "error"

@@ -38,20 +38,20 @@ pub(crate) struct Orders<'a> {
 }
 
 impl<'a> Orders<'a> {
-    /// By their ids. A text that names none of them means them all, when it loads their tools in their order.
+    /// By their ids; a job with one operation means it, whatever the text calls it. A text that names none of several means
+    /// them all, when it loads their tools in their order.
     pub fn new(program: &Program, subject: &Subject<'a>) -> Self {
         let orders = subject.orders;
         let order = |id: &str| orders.iter().find(|order| order.id == id);
         let of: Vec<Option<&Order>> = program.operations.iter().map(|operation| order(&operation.id)).collect();
         let tools = || program.operations.iter().map(|operation| operation.tool as usize);
-        if of.iter().any(Option::is_some) {
-            Self { of }
-        } else if orders.len() == 1 {
-            Self { of: vec![orders.first(); of.len()] }
-        } else if tools().eq(orders.iter().map(|order| order.tool)) {
-            Self { of: orders.iter().map(Some).collect() }
-        } else {
-            Self { of }
+        let named = of.iter().any(Option::is_some);
+        match orders {
+            [only] => Self { of: vec![Some(only); of.len()] },
+            _ if !named && tools().eq(orders.iter().map(|order| order.tool)) => {
+                Self { of: orders.iter().map(Some).collect() }
+            }
+            _ => Self { of },
         }
     }
 
@@ -67,8 +67,7 @@ impl<'a> Orders<'a> {
         let message = format!(
             "line {line}: operation {id:?} comes after {before:?}, and in the job before it; post the job again"
         );
-        let finding = Finding::of_all(FindingKind::OperationOrder, Severity::Error, message);
-        Some(Finding { line, first_line: line, last_line: line, ..finding })
+        Some(Finding::of_all(FindingKind::OperationOrder, Severity::Error, message).at_line(line))
     }
 
     /// The finding of a text of which nothing can be held against what the job orders.
