@@ -11,6 +11,7 @@ from styluscam.cli.options import Debug, ForJob, GcodeFile, Json, Picture, Quiet
 from styluscam.errors import VerifyError
 from styluscam.job import Job
 from styluscam.report import Subject
+from styluscam.report.findings import verdict_of
 from styluscam.types import Document
 from styluscam.words import place
 
@@ -52,7 +53,7 @@ def verify(
 
 def _tell(report: judging.Report, file: Path) -> None:
     document = report.to_dict()
-    console.say(f"{file}: {_verdict(report)}")
+    console.say(f"{file}: {verdict_of(report).headline.lower()}")
     for line in findings.lines(report):
         console.say(line)
     console.fields(
@@ -63,12 +64,6 @@ def _tell(report: judging.Report, file: Path) -> None:
             *(("coverage", _coverage(face)) for face in report.coverage()),
         ]
     )
-
-
-def _verdict(report: judging.Report) -> str:
-    if not report.ok:
-        return "must not run"
-    return "may run, with the warnings below" if report.findings else "nothing was found"
 
 
 def _coverage(face: Document) -> str:

@@ -174,10 +174,13 @@ impl<'t> Reader<'t> {
     /// Some characters the machine acts on wherever they stand.
     fn check_characters(&self, text: &str) -> Result<(), Misfit> {
         let forbidden = &self.machine.line.forbidden;
-        let found = text.char_indices().find(|(_, char)| forbidden.contains(*char)).filter(|_| !forbidden.is_empty());
-        let misfit =
-            |(start, char): (usize, char)| Misfit { fault: ReadFault::Character, start, end: start + char.len_utf8() };
-        found.map_or(Ok(()), |found| Err(misfit(found)))
+        if forbidden.is_empty() {
+            return Ok(());
+        }
+        match text.char_indices().find(|(_, char)| forbidden.contains(*char)) {
+            Some((start, char)) => Err(Misfit { fault: ReadFault::Character, start, end: start + char.len_utf8() }),
+            None => Ok(()),
+        }
     }
 
     /// Whether the machine runs this line.

@@ -84,11 +84,9 @@ pub(crate) fn passes<'a>(spacing: Spacing, legs: &[&'a Leg]) -> Vec<Pass<'a>> {
     let (_, same) = spacing.measures();
     passes.dedup_by(|b, a| {
         let one = b.value - a.value <= same;
-        if one && b.first.index < a.first.index {
-            a.first = b.first;
-        }
-        if one && b.last.index > a.last.index {
-            a.last = b.last;
+        if one {
+            a.first = if b.first.index < a.first.index { b.first } else { a.first };
+            a.last = if b.last.index > a.last.index { b.last } else { a.last };
         }
         one
     });

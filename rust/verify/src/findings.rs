@@ -192,6 +192,11 @@ impl Finding {
             message,
         }
     }
+
+    /// The same, told at a line.
+    pub(crate) fn at_line(self, line: u32) -> Self {
+        Self { line, first_line: line, last_line: line, ..self }
+    }
 }
 
 /// A fault that one move shows.

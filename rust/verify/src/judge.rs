@@ -29,11 +29,8 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let nothing = tally.nothing_touches().then(|| diagnosis::no_contact(program, &legs, &tally, subject));
     let offset = travel::work_offset(program, subject.wcs);
     let wholes = reach::findings(program, subject, &limits.reach).into_iter().chain(orders::missing(program, subject));
-    let wholes = wholes
-        .chain(orders.unnamed(subject))
-        .chain(orders.out_of_order(program, subject))
-        .chain(travel::optional_lines(subject));
-    let wholes = wholes.chain(travel::unsaid(program, subject));
+    let wholes = wholes.chain(orders.unnamed(subject)).chain(orders.out_of_order(program, subject));
+    let wholes = wholes.chain(travel::optional_lines(subject)).chain(travel::unsaid(program, subject));
     for whole in wholes.chain(travel::no_feed_moves(program)).chain(offset).chain(nothing) {
         *counts.entry(whole.kind).or_default() += 1;
         findings.insert(0, whole);

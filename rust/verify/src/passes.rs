@@ -31,7 +31,7 @@ const BESIDE: f64 = 0.35;
 /// Passes that differ by less than this share of what lies between neighbours are one.
 const SAME_PASS: f64 = 0.25;
 /// What may be left besides, mm: triangles' corners.
-const ROUGH: f64 = 0.01;
+pub(crate) const ROUGH: f64 = 0.01;
 /// Where a tool that touches a triangle is in others by less than this, it can get there, mm.
 const ROOM: f64 = 0.005;
 
@@ -41,7 +41,7 @@ const TOUCH: f64 = 0.03;
 /// Points at which it is asked where the tool can touch.
 const TOUCHING: usize = 2000;
 /// Passes may be this many steps apart: a short last step is joined to the one before it.
-const WIDE: f64 = 1.3;
+pub(crate) const WIDE: f64 = 1.3;
 /// Passes that are more steps apart are no oversight of a few places: the program is not the job's.
 const MANY: f64 = 3.0;
 /// The last level may be this many steps above the lowest height at which the tool can touch.
@@ -126,10 +126,10 @@ struct Spot {
 impl Look<'_> {
     /// Passes that are farther apart than ordered, or end too soon, while the tool could touch between or beyond.
     fn gaps(&self) -> Vec<Fault> {
-        let spacing = self.passes.spacing;
-        let (kind, step, [rest_low, rest_high]) = match spacing {
-            Spacing::Levels(step) => (FindingKind::MissingLevel, step, [REST, WIDE]),
-            Spacing::Rows(stepover, _) => (FindingKind::MissingRow, stepover, [WIDE, WIDE]),
+        let (spacing, step) = (self.passes.spacing, self.passes.spacing.pitch());
+        let (kind, [rest_low, rest_high]) = match spacing {
+            Spacing::Levels(_) => (FindingKind::MissingLevel, [REST, WIDE]),
+            Spacing::Rows(..) => (FindingKind::MissingRow, [WIDE, WIDE]),
         };
         let passes = contact_lines::passes(spacing, self.contacts);
         let (Some(lowest), Some(highest)) = (passes.first(), passes.last()) else { return Vec::new() };

@@ -62,12 +62,7 @@ pub(crate) fn findings(program: &Program, subject: &Subject, reach: &Reach) -> V
         let message = format!(
             "before line {line}: the spindle is to turn at {rpm} rev/min, and the machine's turns at {least} to {most}; correct S"
         );
-        findings.push(Finding {
-            line,
-            first_line: line,
-            last_line: line,
-            ..Finding::of_all(FindingKind::SpindleLimit, Severity::Error, message)
-        });
+        findings.push(Finding::of_all(FindingKind::SpindleLimit, Severity::Error, message).at_line(line));
     }
     findings
 }

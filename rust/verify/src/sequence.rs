@@ -8,13 +8,9 @@ use crate::contact_lines::SAME_LEVEL;
 use crate::findings::Fault;
 use crate::legs::{Leg, LegKind};
 use crate::orders::Orders;
-use crate::passes::Spacing;
+use crate::passes::{Spacing, ROUGH, WIDE};
 use crate::{FindingKind, Limits, Subject};
 
-/// The tool may go deeper than all that is formed by so many steps: a short last step is joined to the one before it.
-const DEEPER: f64 = 1.3;
-/// What it may go deeper besides, mm.
-const ROUGH: f64 = 0.01;
 /// A level counts as lower from this share of the step on.
 const LOWER: f64 = 0.25;
 
@@ -42,7 +38,7 @@ pub(crate) fn punches(program: &Program, legs: &[Leg], orders: &Orders, limits: 
         let (Some((order, step)), Some(begins)) = (levels(leg), highest.get(&leg.operation)) else { continue };
         formed = formed.min(*begins);
         let lowest = leg.lowest();
-        if lowest < formed - DEEPER * step - ROUGH {
+        if lowest < formed - WIDE * step - ROUGH {
             let fault = leg.fault(FindingKind::Punch).measured(lowest, formed);
             let falls = leg.kind == LegKind::Plunge && at_cut(program, leg, order.cut, limits);
             faults.push(if falls { fault.warning() } else { fault });

@@ -118,13 +118,13 @@ pub struct Limits {
 impl Subject<'_> {
     /// Whether a move's end is known.
     pub(crate) fn places(&self, index: usize) -> bool {
-        !within(self.unplaced, index)
+        run_of(self.unplaced, index).is_none()
     }
 }
 
-/// Whether one of the ascending runs holds an index.
-pub(crate) fn within(runs: &[Range<usize>], index: usize) -> bool {
-    runs.get(runs.partition_point(|run| run.end <= index)).is_some_and(|run| run.contains(&index))
+/// The one of the ascending runs that holds an index.
+pub(crate) fn run_of(runs: &[Range<usize>], index: usize) -> Option<&Range<usize>> {
+    runs.get(runs.partition_point(|run| run.end <= index)).filter(|run| run.contains(&index))
 }
 
 impl Limits {

@@ -93,8 +93,8 @@ pub(crate) fn optional_lines(subject: &Subject) -> Option<Finding> {
         "line {line}: {count} of the text's lines begin with / and run or do not, as a switch at the machine stands; \
          take them out, or their marks"
     );
-    let finding = Finding::of_all(FindingKind::OptionalLines, Severity::Error, message);
-    Some(Finding { line, first_line: line, last_line, ..finding })
+    let finding = Finding::of_all(FindingKind::OptionalLines, Severity::Error, message).at_line(line);
+    Some(Finding { last_line, ..finding })
 }
 
 /// The finding of modal codes that are not said: the controller is as the last program, or the operator, left it.
@@ -104,8 +104,7 @@ pub(crate) fn unsaid(program: &Program, subject: &Subject) -> Option<Finding> {
     let message = format!(
         "line {line}: the text moves and has not said {codes}: what the controller was left in counts; write {codes} first"
     );
-    let finding = Finding::of_all(FindingKind::UnsaidMode, Severity::Warning, message);
-    Some(Finding { line, first_line: line, last_line: line, ..finding })
+    Some(Finding::of_all(FindingKind::UnsaidMode, Severity::Warning, message).at_line(line))
 }
 
 /// The finding of a program in another work offset than the part's.
@@ -114,11 +113,8 @@ pub(crate) fn work_offset(program: &Program, wcs: &str) -> Option<Finding> {
     let line = program.moves.first().map_or(0, |m| m.line);
     let message = format!("line {line}: the moves are in {found}, the part stands in {wcs}; write {wcs} before them");
     (found != wcs).then(|| Finding {
-        line,
-        first_line: line,
-        last_line: line,
         moves: program.moves.len(),
-        ..Finding::of_all(FindingKind::WorkOffset, Severity::Error, message)
+        ..Finding::of_all(FindingKind::WorkOffset, Severity::Error, message).at_line(line)
     })
 }
 

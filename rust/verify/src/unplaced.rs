@@ -4,7 +4,7 @@ use styluscam_motion::{MachineMove, Program};
 
 use crate::findings::Fault;
 use crate::legs::{last_before, Leg, LegKind};
-use crate::subject::within;
+use crate::subject::run_of;
 use crate::{FindingKind, Limits, Subject, TextFacts, SLACK};
 
 /// The share of the Z axis, from its upper end, in which a machine place counts as its top.
@@ -23,7 +23,7 @@ pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits:
     let Some(text) = subject.text else { return faults };
     for index in subject.unplaced.iter().flat_map(Clone::clone) {
         let height = program.moves.get(index).map_or(f64::NAN, |step| step.end[2]);
-        let known = !within(&text.blind, index);
+        let known = run_of(&text.blind, index).is_none();
         if known && height < limits.clearance - SLACK {
             faults.push(fault(index, height));
         } else if !known && !at_the_top(text, index, limits) {
@@ -47,7 +47,7 @@ fn machine_fault(
     let across = step.places[..2].iter().any(Option::is_some);
     let down = step.places[2].is_some() && !goes_up(step, limits);
     let low = || {
-        let blind = step.before == 0 || within(&text.blind, step.before.saturating_sub(1));
+        let blind = step.before == 0 || run_of(&text.blind, step.before.saturating_sub(1)).is_some();
         let raised = blind && at_the_top(text, step.before, limits);
         !raised && (blind || standing_low(legs, step.before, subject, limits).is_some())
     };
@@ -69,7 +69,7 @@ fn goes_up(step: &MachineMove, limits: &Limits) -> bool {
 
 /// Whether the tool, whose height in the work is not known after a move, was sent to the machine's top before.
 fn at_the_top(text: &TextFacts, index: usize, limits: &Limits) -> bool {
-    let since = text.blind.iter().find(|run| run.contains(&index)).map_or(index, |run| run.start);
+    let since = run_of(&text.blind, index).map_or(index, |run| run.start);
     let last =
         text.machine_moves.iter().rev().find(|step| step.places[2].is_some() && (since..=index).contains(&step.before));
     last.is_some_and(|step| goes_up(step, limits))
