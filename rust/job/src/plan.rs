@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use styluscam_geometry::{Tool, Vector};
-use styluscam_motion::{Event, EventKind, Move, OperationRecord, Program, ToolRecord, Watch, PROGRAM_SCHEMA};
+use styluscam_motion::{Event, EventKind, Move, OperationRecord, Program, ToolRecord, Watch};
 use styluscam_post::Machine;
 use styluscam_toolpath::{
     forming::{levels, selected_range, z_levels, zig_zag, Floors, Grid, LevelRange, Rows},
@@ -99,14 +99,7 @@ pub struct BridgedFace {
 /// Anything of [`JobError`]; nothing is planned then.
 pub fn plan(job: &JobDocument, scene: &Scene, machine: &Machine, watch: &Watch) -> Result<Plan, JobError> {
     let tools = scene::tools(job)?;
-    let mut program = Program {
-        schema: PROGRAM_SCHEMA,
-        setup: scene.record(job),
-        tools: Vec::new(),
-        operations: Vec::new(),
-        moves: Vec::new(),
-        events: Vec::new(),
-    };
+    let mut program = Program::empty(scene.record(job), Vec::new(), Vec::new());
     let mut summaries = Vec::new();
     for (index, section) in job.operations.iter().enumerate() {
         let Some((tool, record)) = tools.get(&section.tool) else { continue };

@@ -152,7 +152,7 @@ fn seconds_of(event: &EventKind) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Arc, Event, OperationRecord, Plane, SetupRecord, PROGRAM_SCHEMA};
+    use crate::{Arc, Event, OperationRecord, Plane, SetupRecord};
 
     const PLAIN: Dynamics =
         Dynamics { rapid_rate: 6000.0, acceleration: Some(1000.0), corner_tolerance: 0.0, blocks_per_second: None };
@@ -166,14 +166,9 @@ mod tests {
             operation: 0,
             line: 0,
         };
-        Program {
-            schema: PROGRAM_SCHEMA,
-            setup: SetupRecord { wcs: "G54".into(), ..SetupRecord::default() },
-            tools: Vec::new(),
-            operations: vec![OperationRecord { id: "a".into(), kind: "z-level".into(), tool: 0 }],
-            moves: moves.iter().map(step).collect(),
-            events: Vec::new(),
-        }
+        let setup = SetupRecord { wcs: "G54".into(), ..SetupRecord::default() };
+        let operations = vec![OperationRecord { id: "a".into(), kind: "z-level".into(), tool: 0 }];
+        Program { moves: moves.iter().map(step).collect(), ..Program::empty(setup, Vec::new(), operations) }
     }
 
     fn line() -> Program {

@@ -4,15 +4,19 @@
 //! controlled point is the tool's tip. Nothing here knows shapes or controllers.
 
 mod arc;
+mod cycle;
 mod dynamics;
+mod event;
 mod program;
 mod record;
 mod statistics;
 mod watch;
 
 pub use arc::{Arc, ArcWay, Plane};
+pub use cycle::{Cycle, CycleKind, CycleStart, CycleStep};
 pub use dynamics::Dynamics;
-pub use program::{Event, EventKind, MachineMove, Move, MoveKind, Program, SpindleDirection, Upcoming};
+pub use event::{Event, EventKind, SpindleDirection, Upcoming};
+pub use program::{MachineMove, Move, MoveKind, Program};
 pub use record::{OperationRecord, SetupRecord, ToolRecord, ToolReference};
 pub use statistics::Statistics;
 pub use watch::{Cancelled, Watch};

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Arc, ArcWay, OperationRecord, SetupRecord, ToolRecord};
+use crate::{Arc, ArcWay, Cycle, Event, EventKind, OperationRecord, SetupRecord, ToolRecord, Upcoming, PROGRAM_SCHEMA};
 
 /// What a move is for the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -60,66 +60,6 @@ fn is_zero(line: &u32) -> bool {
     *line == 0
 }
 
-/// Sense of the spindle's rotation, seen from above the tool.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum SpindleDirection {
-    /// M3.
-    Clockwise,
-    /// M4.
-    Counterclockwise,
-}
-
-/// What happens between moves.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case", tag = "kind")]
-pub enum EventKind {
-    /// Load a tool and apply its length: index into [`Program::tools`].
-    ToolChange {
-        /// Index of the tool.
-        tool: u32,
-    },
-    /// Turn the spindle.
-    SpindleOn {
-        /// Speed, rev/min.
-        rpm: f64,
-        /// Sense of rotation.
-        direction: SpindleDirection,
-    },
-    /// Stop the spindle.
-    SpindleOff,
-    /// Mist coolant on or off.
-    Mist {
-        /// On.
-        on: bool,
-    },
-    /// Flood coolant (or forming lubricant) on or off.
-    Flood {
-        /// On or off.
-        on: bool,
-    },
-    /// A remark for the operator.
-    Comment {
-        /// One line of text.
-        text: String,
-    },
-    /// Wait.
-    Dwell {
-        /// How long, s.
-        seconds: f64,
-    },
-}
-
-/// An event and its place: it happens before move `before`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Event {
-    /// Index of the move that follows; the number of moves when none does.
-    pub before: usize,
-    /// What happens.
-    #[serde(flatten)]
-    pub kind: EventKind,
-}
-
 /// A whole program of one channel.
 ///
 /// The first move goes to a known place from wherever the machine stands: its posted form goes
@@ -138,6 +78,12 @@ pub struct Program {
     pub moves: Vec<Move>,
     /// Events in order of `before`.
     pub events: Vec<Event>,
+    /// Moves and events that a controller's canned cycle makes, in their order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cycles: Vec<Cycle>,
+    /// The tool's axis at the end of every move, a unit vector from the tip up; empty when it is +Z throughout.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub axes: Vec<[f64; 3]>,
 }
 
 /// A move in the machine's own coordinates (G53): where that is in the work is not known.
@@ -152,6 +98,13 @@ pub struct MachineMove {
 }
 
 impl Program {
+    /// A program without motion.
+    #[must_use]
+    pub fn empty(setup: SetupRecord, tools: Vec<ToolRecord>, operations: Vec<OperationRecord>) -> Self {
+        let (moves, events, cycles, axes) = Default::default();
+        Self { schema: PROGRAM_SCHEMA, setup, tools, operations, moves, events, cycles, axes }
+    }
+
     /// The moves paired with the place where each starts; the first has none.
     pub fn segments(&self) -> impl Iterator<Item = (Option<[f64; 3]>, &Move)> {
         let starts = std::iter::once(None).chain(self.moves.iter().map(|m| Some(m.end)));
@@ -161,7 +114,7 @@ impl Program {
     /// The events, to be taken in step with the moves.
     #[must_use]
     pub fn upcoming(&self) -> Upcoming<'_> {
-        Upcoming { events: &self.events }
+        Upcoming::of(&self.events)
     }
 
     /// The boxes in which the posted points stay, the tools' references, move by move: lowest and highest coordinates, mm.
@@ -194,21 +147,5 @@ impl Program {
                 _ => (step.end, index),
             })
         })
-    }
-}
-
-/// The events of a program that have not been taken yet.
-#[derive(Clone, Debug)]
-pub struct Upcoming<'a> {
-    events: &'a [Event],
-}
-
-impl<'a> Upcoming<'a> {
-    /// Takes those that come before a move, in their order.
-    pub fn before(&mut self, index: usize) -> impl Iterator<Item = &'a EventKind> + use<'a> {
-        let count = self.events.iter().take_while(|event| event.before <= index).count();
-        let (now, later) = self.events.split_at(count);
-        self.events = later;
-        now.iter().map(|event| &event.kind)
     }
 }

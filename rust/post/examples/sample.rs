@@ -1,7 +1,7 @@
 //! Prints a short program as every shipped machine is given it.
 
 use styluscam_motion::{
-    Event, EventKind, Move, MoveKind, OperationRecord, Program, SetupRecord, ToolRecord, ToolReference, PROGRAM_SCHEMA,
+    Event, EventKind, Move, MoveKind, OperationRecord, Program, SetupRecord, ToolRecord, ToolReference,
 };
 use styluscam_post::{post, shipped, Machine};
 
@@ -33,11 +33,8 @@ fn cone() -> Program {
         clearance: 10.0,
         notes: vec!["sheet 1 mm (constant law), steepest wall 60°".into()],
     };
+    let operations = vec![OperationRecord { id: "walls".into(), kind: "z-level".into(), tool: 0 }];
     Program {
-        schema: PROGRAM_SCHEMA,
-        setup,
-        tools: vec![tool],
-        operations: vec![OperationRecord { id: "walls".into(), kind: "z-level".into(), tool: 0 }],
         moves: vec![
             step(MoveKind::Rapid, [10.0, -5.0, 10.0], 0.0),
             step(MoveKind::Rapid, [12.0, -5.0, 1.0], 0.0),
@@ -47,5 +44,6 @@ fn cone() -> Program {
             step(MoveKind::Rapid, [20.125, 7.5, 10.0], 0.0),
         ],
         events: vec![Event { before: 0, kind: EventKind::ToolChange { tool: 0 } }],
+        ..Program::empty(setup, vec![tool], operations)
     }
 }

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use styluscam_motion::{
-    Event, EventKind, Move, MoveKind, OperationRecord, Program, SetupRecord, ToolRecord, ToolReference, PROGRAM_SCHEMA,
+    Event, EventKind, Move, MoveKind, OperationRecord, Program, SetupRecord, ToolRecord, ToolReference,
 };
 use styluscam_post::{post, read, Machine};
 
@@ -48,13 +48,11 @@ fn helix() -> Program {
         clearance: 10.0,
         notes: Vec::new(),
     };
+    let operations = vec![OperationRecord { id: "helix".into(), kind: "spiral".into(), tool: 0 }];
     Program {
-        schema: PROGRAM_SCHEMA,
-        setup,
-        tools: vec![tool],
-        operations: vec![OperationRecord { id: "helix".into(), kind: "spiral".into(), tool: 0 }],
         moves: (0..MOVES).map(turn).collect(),
         events: vec![Event { before: 0, kind: EventKind::ToolChange { tool: 0 } }],
+        ..Program::empty(setup, vec![tool], operations)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Remarks made fit for a controller: its characters, its length, its marks.
 
-use crate::machine::{CommentForm, CommentRules, Machine};
+use crate::machine::{CommentForm, CommentRules, Machine, Numbered};
 
 /// The way remarks are written for one machine.
 #[derive(Clone, Debug)]
@@ -14,7 +14,7 @@ impl CommentFormat {
     /// Remarks by a machine's rules.
     pub(crate) fn new(machine: &Machine) -> Self {
         let marks = 2; // "(" and ")", or "; "
-        let line = machine.line.max_chars as usize;
+        let line = (machine.line.max_chars as usize).saturating_sub(number_width(machine));
         let width = machine.comment.max_len.map_or(line, |l| l as usize).min(line.saturating_sub(marks)).max(1);
         Self { rules: machine.comment.clone(), allowed: allowed_characters(machine), width }
     }
@@ -26,6 +26,7 @@ impl CommentFormat {
             CommentForm::None => Vec::new(),
             CommentForm::Paren => self.wrapped(&clean).map(|l| format!("({l})")).collect(),
             CommentForm::Semicolon => self.wrapped(&clean).map(|l| format!("; {l}")).collect(),
+            CommentForm::Colon => self.wrapped(&clean).map(|l| format!(": {l}")).collect(),
         }
     }
 
@@ -64,6 +65,12 @@ impl CommentFormat {
     fn takes(&self, c: char) -> bool {
         c == ' ' || usize::try_from(u32::from(c)).ok().and_then(|i| self.allowed.get(i)).copied().unwrap_or(false)
     }
+}
+
+/// Characters that the number before a remark takes.
+fn number_width(machine: &Machine) -> usize {
+    let numbered = machine.block_number.as_ref().filter(|rules| rules.which == Numbered::Lines);
+    numbered.map_or(0, |rules| rules.prefix.len() + 1 + rules.max.to_string().len().max(usize::from(rules.digits)))
 }
 
 /// What may stand for a character outside the set, best first.

@@ -1,20 +1,143 @@
-//! Checks on a program before anything is written: records, order of events, the machine's limits.
+//! Checks on a program before it is written: records, order of events, the machine's limits.
 
-use styluscam_motion::{EventKind, MoveKind, Program, ToolRecord};
+use styluscam_motion::{EventKind, Move, MoveKind, Program, ToolRecord};
 
 use crate::machine::Machine;
 use crate::post_error::PostError;
 
-/// Finds the first thing that keeps `program` from this machine.
-pub(crate) fn inspect(program: &Program, machine: &Machine) -> Result<(), PostError> {
-    if program.moves.is_empty() {
-        return Err(PostError::Empty);
+/// The sine of the angle by which a tool's axis may lean on a machine that cannot turn it: rounding only.
+const UPRIGHT: f64 = 1e-9;
+/// How far Y may be from 0 on a machine without it, mm: rounding only.
+const FLAT: f64 = 1e-9;
+
+/// Looks at a program, move by move.
+pub(crate) struct Inspector<'a> {
+    head: &'a Program,
+    machine: &'a Machine,
+    /// Height of the posted point above the tip, mm.
+    height: f64,
+    moves: usize,
+    low: [f64; 3],
+    high: [f64; 3],
+}
+
+impl<'a> Inspector<'a> {
+    /// Looks at the records of a program.
+    pub fn new(head: &'a Program, machine: &'a Machine) -> Result<Self, PostError> {
+        inspect_wcs(head, machine)?;
+        inspect_tools(head, machine)?;
+        inspect_axes(head)?;
+        // until a tool is called the first one is taken to be loaded
+        let height = head.tools.first().map_or(0.0, |tool| tool.reference_height);
+        Ok(Self { head, machine, height, moves: 0, low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] })
     }
-    inspect_wcs(program, machine)?;
-    inspect_tools(program, machine)?;
-    inspect_events(program, machine)?;
-    inspect_moves(program, machine)?;
-    inspect_range(program, machine)
+
+    /// Whether events and cycles stand in the order of the moves.
+    pub fn inspect_order(&self, program: &Program) -> Result<(), PostError> {
+        if program.moves.is_empty() {
+            return Err(PostError::Empty);
+        }
+        let mut last = 0;
+        for (event, before) in program.events.iter().map(|e| e.before).enumerate() {
+            if before < last || before > program.moves.len() {
+                return Err(PostError::EventOrder { event });
+            }
+            last = before;
+        }
+        let mut free = 0;
+        for (cycle, hole) in program.cycles.iter().enumerate() {
+            if hole.first < free || hole.count == 0 || hole.first + hole.count > program.moves.len() {
+                return Err(PostError::CycleOrder { cycle });
+            }
+            if hole.kind.is_tapping() && !self.machine.cycle.as_ref().is_some_and(|c| c.kinds.contains(&hole.kind)) {
+                return Err(PostError::Unsupported { what: "a tapping cycle, and plain moves cannot tap" });
+            }
+            free = hole.first + hole.count;
+        }
+        Ok(())
+    }
+
+    /// Looks at an event.
+    pub fn event(&mut self, number: usize, kind: &EventKind) -> Result<(), PostError> {
+        match *kind {
+            EventKind::ToolChange { tool } => {
+                self.height = self.head.tools.get(tool as usize).map_or(self.height, |tool| tool.reference_height);
+                Ok(())
+            }
+            EventKind::SpindleOn { rpm, .. } => {
+                let max = self.machine.limits.max_rpm.unwrap_or(f64::INFINITY);
+                if !(0.0..=max).contains(&rpm) || rpm.is_infinite() {
+                    return Err(PostError::SpindleSpeed { rpm, max });
+                }
+                Ok(())
+            }
+            EventKind::Dwell { seconds } if seconds < 0.0 => Err(PostError::Dwell { event: number, seconds }),
+            EventKind::Dwell { seconds } => finite("the dwell", || format!("events[{number}]"), seconds),
+            _ => Ok(()),
+        }
+    }
+
+    /// Looks at a move from `start`: its operation, its feed, its way in the machine.
+    pub fn step(&mut self, index: usize, start: Option<[f64; 3]>, step: &Move) -> Result<(), PostError> {
+        self.moves += 1;
+        if step.operation as usize >= self.head.operations.len() {
+            let place = format!("moves[{index}]");
+            return Err(PostError::NoSuchRecord { place, what: "operation", index: step.operation });
+        }
+        if self.machine.motion.lathe.is_some() && step.end[1].abs() > FLAT {
+            return Err(PostError::NoSuchAxis { index, axis: 'Y', value: step.end[1] });
+        }
+        self.inspect_feed(index, step)?;
+        self.inspect_range(index, start, step)
+    }
+
+    /// Compares the whole with the machine's travel.
+    pub fn finish(&self) -> Result<(), PostError> {
+        if self.moves == 0 {
+            return Err(PostError::Empty);
+        }
+        let Some(travel) = self.machine.limits.travel else { return Ok(()) };
+        for (axis, travel) in travel.into_iter().enumerate() {
+            let needed = self.high[axis] - self.low[axis];
+            if needed > travel {
+                return Err(PostError::Travel { axis: axis_name(axis), needed, travel });
+            }
+        }
+        Ok(())
+    }
+
+    fn inspect_feed(&self, index: usize, step: &Move) -> Result<(), PostError> {
+        if step.kind == MoveKind::Rapid {
+            return Ok(());
+        }
+        let max = self.machine.limits.max_feed.unwrap_or(f64::INFINITY);
+        if !step.feed.is_finite() || step.feed <= 0.0 {
+            return Err(PostError::Feed { index, feed: step.feed });
+        }
+        if step.feed > max {
+            return Err(PostError::FeedTooHigh { index, feed: step.feed, max });
+        }
+        Ok(())
+    }
+
+    /// Compares the posted point, the tool's reference, with the machine's range.
+    fn inspect_range(&mut self, index: usize, start: Option<[f64; 3]>, step: &Move) -> Result<(), PostError> {
+        let limits = &self.machine.limits;
+        let ranges = [limits.x, limits.y, limits.z];
+        if ranges.iter().all(Option::is_none) && limits.travel.is_none() {
+            return Ok(());
+        }
+        let (least, most) = step.bounds(start);
+        for axis in 0..3 {
+            let above = if axis == 2 { self.height } else { 0.0 };
+            for value in [least[axis] + above, most[axis] + above] {
+                inspect_limit(index, axis, value, ranges[axis])?;
+            }
+            self.low[axis] = self.low[axis].min(least[axis] + above);
+            self.high[axis] = self.high[axis].max(most[axis] + above);
+        }
+        Ok(())
+    }
 }
 
 fn inspect_wcs(program: &Program, machine: &Machine) -> Result<(), PostError> {
@@ -47,81 +170,10 @@ fn moves_alike(a: &ToolRecord, b: &ToolRecord) -> bool {
     a.length_offset == b.length_offset && a.reference_height == b.reference_height
 }
 
-fn inspect_events(program: &Program, machine: &Machine) -> Result<(), PostError> {
-    let mut last = 0;
-    for (number, event) in program.events.iter().enumerate() {
-        if event.before < last || event.before > program.moves.len() {
-            return Err(PostError::EventOrder { event: number });
-        }
-        last = event.before;
-        inspect_event(number, &event.kind, machine)?;
-    }
-    Ok(())
-}
-
-fn inspect_event(number: usize, kind: &EventKind, machine: &Machine) -> Result<(), PostError> {
-    match *kind {
-        EventKind::SpindleOn { rpm, .. } => {
-            let max = machine.limits.max_rpm.unwrap_or(f64::INFINITY);
-            if !(0.0..=max).contains(&rpm) || rpm.is_infinite() {
-                return Err(PostError::SpindleSpeed { rpm, max });
-            }
-            Ok(())
-        }
-        EventKind::Dwell { seconds } if seconds < 0.0 => Err(PostError::Dwell { event: number, seconds }),
-        EventKind::Dwell { seconds } => finite("the dwell", || format!("events[{number}]"), seconds),
-        _ => Ok(()),
-    }
-}
-
-fn inspect_moves(program: &Program, machine: &Machine) -> Result<(), PostError> {
-    let max = machine.limits.max_feed.unwrap_or(f64::INFINITY);
-    for (index, step) in program.moves.iter().enumerate() {
-        if step.operation as usize >= program.operations.len() {
-            return Err(PostError::NoSuchRecord {
-                place: format!("moves[{index}]"),
-                what: "operation",
-                index: step.operation,
-            });
-        }
-        if step.kind == MoveKind::Rapid {
-            continue;
-        }
-        if !step.feed.is_finite() || step.feed <= 0.0 {
-            return Err(PostError::Feed { index, feed: step.feed });
-        }
-        if step.feed > max {
-            return Err(PostError::FeedTooHigh { index, feed: step.feed, max });
-        }
-    }
-    Ok(())
-}
-
-/// Compares the posted points, the tools' references, with the machine's range and travel.
-fn inspect_range(program: &Program, machine: &Machine) -> Result<(), PostError> {
-    let limits = &machine.limits;
-    let ranges = [limits.x, limits.y, limits.z];
-    if ranges.iter().all(Option::is_none) && limits.travel.is_none() {
-        return Ok(());
-    }
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for (index, (least, most)) in program.posted_boxes().enumerate() {
-        for axis in 0..3 {
-            for value in [least[axis], most[axis]] {
-                inspect_limit(index, axis, value, ranges[axis])?;
-            }
-            low[axis] = low[axis].min(least[axis]);
-            high[axis] = high[axis].max(most[axis]);
-        }
-    }
-    let Some(travel) = limits.travel else { return Ok(()) };
-    for axis in 0..3 {
-        let needed = high[axis] - low[axis];
-        if needed > travel[axis] {
-            return Err(PostError::Travel { axis: axis_name(axis), needed, travel: travel[axis] });
-        }
-    }
-    Ok(())
+/// No machine file describes axes that turn the tool.
+fn inspect_axes(program: &Program) -> Result<(), PostError> {
+    let leans = |[x, y, z]: &[f64; 3]| x.hypot(*y) > UPRIGHT || z.is_nan() || *z <= 0.0;
+    program.axes.iter().position(leans).map_or(Ok(()), |index| Err(PostError::ToolAxis { index }))
 }
 
 fn inspect_limit(index: usize, axis: usize, value: f64, range: Option<[f64; 2]>) -> Result<(), PostError> {

@@ -3,12 +3,8 @@
 //! [`post`] writes a [`Program`](styluscam_motion::Program) for a [`Machine`]; [`read`] reads text as that machine
 //! would, and [`trace`] shows what no machine file describes. A controller of this family is a TOML file; nothing here knows geometry, clocks or files.
 
-mod block;
-mod circle;
 mod comment;
 mod inspect;
-mod interpreter;
-mod lexer;
 pub mod machine;
 mod ngc;
 mod number;
@@ -16,7 +12,6 @@ mod post_error;
 mod read_error;
 mod reader;
 mod rounded;
-mod standing;
 mod template;
 mod trial;
 mod writer;
@@ -26,5 +21,6 @@ pub use ngc::{trace, Gap, Note, Trace, TraceError, TraceFault};
 pub use post_error::PostError;
 pub use read_error::{ReadError, ReadFault};
 pub use reader::{read, Reading};
+pub use template::Facts;
 pub use trial::{try_out, TrialError};
-pub use writer::{post, Posted};
+pub use writer::{post, post_to, Posted, Poster};

@@ -2,6 +2,7 @@
 
 mod check;
 mod error;
+mod inherit;
 mod option;
 mod rules;
 
@@ -13,13 +14,8 @@ use styluscam_motion::Dynamics;
 
 pub(crate) use error::most_similar;
 pub use error::MachineError;
-pub use option::{OptionRule, OptionValue};
-pub use rules::{
-    AfterEnd, ArcRules, BlockDelete, BlockNumber, CommentForm, CommentRules, CoolantRules, Counted, Decimals,
-    DwellRules, Family, LengthOffset, LengthUnit, Limits, LineEnd, LineRules, NumberRules, Point, RadiusError,
-    ReaderRules, Repeat, Separator, SmoothingRules, Source, SpindleRules, Templates, TimeUnit, ToolChange, ToolRules,
-    TrailingZeros, Units, WordRules,
-};
+pub use option::{OptionRule, OptionValue, BUILT_IN_OPTIONS};
+pub use rules::*;
 
 use crate::number::NumberFormat;
 
@@ -29,10 +25,6 @@ pub const MACHINE_SCHEMA: u32 = 1;
 /// The machine files that come with the release: a name and the text.
 const SHIPPED: [(&str, &str); 2] =
     [("grbl", include_str!("../machines/grbl.toml")), ("linuxcnc", include_str!("../machines/linuxcnc.toml"))];
-
-/// The options that every machine has besides its own.
-const UNITS_OPTION: &str = "units";
-const SMOOTHING_OPTION: &str = "smoothing_tolerance";
 
 /// A controller, as data. Lengths mm, feeds mm/min, speeds rev/min, times s, whatever the output's units.
 ///
@@ -48,12 +40,18 @@ pub struct Machine {
     pub family: Family,
     /// What it is, in words.
     pub description: String,
-    /// Work offsets that it takes: `G54`.
+    /// Work offsets that it takes: `G54`, `G54.1 P1`. The first is in force when a program says none.
     pub wcs: Vec<String>,
+    /// What the controller calls them, one for one, where that differs: `G15 H1`.
+    #[serde(default)]
+    pub wcs_words: Vec<String>,
     /// The word that ends a program: `M2`.
     pub end: String,
     /// What the facts were taken from.
     pub source: Source,
+    /// How programs are named.
+    #[serde(default)]
+    pub program: ProgramRules,
     /// Units of the output.
     pub units: Units,
     /// How numbers are written.
@@ -67,8 +65,17 @@ pub struct Machine {
     /// How words are put together.
     #[serde(default)]
     pub words: WordRules,
+    /// How moves are written.
+    #[serde(default)]
+    pub motion: MotionRules,
+    /// Feeds.
+    #[serde(default)]
+    pub feed: FeedRules,
     /// Tool changes and lengths.
     pub tool: ToolRules,
+    /// The way up between tools.
+    #[serde(default)]
+    pub retract: RetractRules,
     /// Spindle words.
     #[serde(default)]
     pub spindle: SpindleRules,
@@ -80,8 +87,15 @@ pub struct Machine {
     pub smoothing: SmoothingRules,
     /// The wait; a machine without one refuses dwells.
     pub dwell: Option<DwellRules>,
+    /// Words that stop the program.
+    #[serde(default)]
+    pub stop: StopRules,
     /// Arcs; a machine without them gets lines.
     pub arc: Option<ArcRules>,
+    /// Drilling cycles; a machine without them gets moves.
+    pub cycle: Option<CycleRules>,
+    /// Probing; a machine without it refuses it.
+    pub probe: Option<ProbeRules>,
     /// What the machine can do.
     pub limits: Limits,
     /// Options of the templates.
@@ -120,13 +134,20 @@ impl Machine {
             .ok_or_else(|| MachineError::UnknownMachine { name: name.into(), similar: most_similar(name, shipped()) })
     }
 
-    /// Reads a machine file and checks it.
+    /// Reads a machine file and checks it. It may extend a shipped machine: `extends = "fanuc"`.
     ///
     /// # Errors
     /// [`MachineError`]: text that is not TOML, unknown or missing keys, values out of range, templates that do not compile.
     pub fn from_toml(text: &str) -> Result<Self, MachineError> {
-        let document = toml::de::Deserializer::parse(text).map_err(|e| syntax_error(text, &e))?;
-        let machine: Self = serde_path_to_error::deserialize(document).map_err(|e| document_error(text, &e))?;
+        Self::from_toml_beside(text, &|_| None)
+    }
+
+    /// The same for a file that may extend other files: `extends = "ours.toml"`; `file` gives their text, or nothing.
+    ///
+    /// # Errors
+    /// Those of [`from_toml`](Self::from_toml).
+    pub fn from_toml_beside(text: &str, file: &dyn Fn(&str) -> Option<String>) -> Result<Self, MachineError> {
+        let machine = inherit::machine(text, file)?;
         machine.check()?;
         Ok(machine)
     }
@@ -145,18 +166,14 @@ impl Machine {
         schemars::schema_for!(Machine)
     }
 
-    /// Sets an option: `units` ("mm" or "inch"), `smoothing_tolerance` (mm; where the machine has a word for it), or one of its own.
+    /// Sets an option: one that every machine has (see [`BUILT_IN_OPTIONS`]), or one of its own.
     ///
     /// # Errors
     /// [`MachineError::UnknownOption`], [`MachineError::Option`], [`MachineError::Value`]; the machine stays as it was.
     pub fn set_option(&mut self, name: &str, value: OptionValue) -> Result<(), MachineError> {
         let mut machine = self.clone();
-        match (name, &value) {
-            (UNITS_OPTION, _) => machine.units.output = length_unit(&value)?,
-            (SMOOTHING_OPTION, OptionValue::Number(mm)) if self.smoothing.on.is_some() => {
-                machine.smoothing.tolerance = *mm;
-            }
-            _ => machine.set_own_option(name, value)?,
+        if !option::set_built_in(&mut machine, name, &value)? {
+            machine.set_own_option(name, value)?;
         }
         machine.check()?;
         *self = machine;
@@ -164,7 +181,7 @@ impl Machine {
     }
 
     fn set_own_option(&mut self, name: &str, value: OptionValue) -> Result<(), MachineError> {
-        let built_in = [UNITS_OPTION, SMOOTHING_OPTION];
+        let built_in = BUILT_IN_OPTIONS.iter().map(|(name, _)| *name);
         let similar = most_similar(name, self.options.keys().map(String::as_str).chain(built_in));
         let Some(rule) = self.options.get_mut(name) else {
             return Err(MachineError::UnknownOption { name: name.into(), similar });
@@ -185,7 +202,7 @@ impl Machine {
     /// One unit of the last posted place of a feed, mm/min.
     #[must_use]
     pub fn feed_resolution_mm(&self) -> f64 {
-        self.units.output.in_mm() / self.feed_format().per_one()
+        self.units.output.in_mm() / self.feed_format().per_one() / self.feed_scale()
     }
 
     /// How far the controller itself may leave the posted path, mm: part of the path's tolerance.
@@ -223,9 +240,34 @@ impl Machine {
         NumberFormat::new(&self.number, self.decimals().linear)
     }
 
-    /// The way feeds are written.
+    /// The way feeds are written in the mode in force; they are never negative.
     pub(crate) fn feed_format(&self) -> NumberFormat {
-        NumberFormat::new(&self.number, self.decimals().feed)
+        let decimals = self.decimals();
+        let places = match self.feed.mode {
+            FeedMode::PerMinute => decimals.feed,
+            FeedMode::PerRevolution => decimals.feed_per_revolution,
+            FeedMode::InverseTime => decimals.inverse_time,
+        };
+        NumberFormat::new(&self.number, places).unsigned()
+    }
+
+    /// How many F there are to one output unit in a minute.
+    pub(crate) fn feed_scale(&self) -> f64 {
+        self.feed_scale_of(Some(self.units.output))
+    }
+
+    /// How many F there are to one of these units in a minute.
+    pub(crate) fn feed_scale_of(&self, units: Option<LengthUnit>) -> f64 {
+        match units {
+            Some(LengthUnit::Inch) => self.feed.inch_scale,
+            _ => self.feed.mm_scale,
+        }
+    }
+
+    /// What the controller calls a work offset.
+    pub(crate) fn wcs_words_of(&self, wcs: &str) -> Option<&str> {
+        let index = self.wcs.iter().position(|name| name == wcs)?;
+        self.wcs_words.get(index).or_else(|| self.wcs.get(index)).map(String::as_str)
     }
 
     /// The word that selects the output's units.
@@ -235,37 +277,4 @@ impl Machine {
             LengthUnit::Inch => self.units.inch.as_deref(),
         }
     }
-}
-
-fn length_unit(value: &OptionValue) -> Result<LengthUnit, MachineError> {
-    match value {
-        OptionValue::Text(text) if text == "mm" => Ok(LengthUnit::Mm),
-        OptionValue::Text(text) if text == "inch" => Ok(LengthUnit::Inch),
-        _ => Err(MachineError::Option { name: UNITS_OPTION.into(), problem: "it takes \"mm\" or \"inch\"".into() }),
-    }
-}
-
-fn syntax_error(text: &str, error: &toml::de::Error) -> MachineError {
-    MachineError::Document { place: line_of(text, error), message: error.message().into(), similar: None }
-}
-
-fn document_error(text: &str, error: &serde_path_to_error::Error<toml::de::Error>) -> MachineError {
-    let message = error.inner().message().to_string();
-    let path = error.path().to_string();
-    let line = line_of(text, error.inner());
-    let place = if path == "." { line } else { format!("{path} ({line})") };
-    MachineError::Document { place, similar: similar_key(&message), message }
-}
-
-fn line_of(text: &str, error: &toml::de::Error) -> String {
-    let start = error.span().map_or(0, |s| s.start);
-    let before = text.get(..start).unwrap_or_default();
-    format!("line {}", before.matches('\n').count() + 1)
-}
-
-/// The known key most like the unknown one: serde names both between backticks.
-fn similar_key(message: &str) -> Option<String> {
-    let mut names = message.strip_prefix("unknown field `")?.split('`').step_by(2);
-    let unknown = names.next()?;
-    most_similar(unknown, names)
 }

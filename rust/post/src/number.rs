@@ -46,6 +46,11 @@ impl NumberFormat {
         }
     }
 
+    /// The same without a `+`: for numbers that have no sign.
+    pub(crate) fn unsigned(self) -> Self {
+        Self { plus_sign: false, ..self }
+    }
+
     /// How many last places one whole unit has.
     #[allow(clippy::cast_precision_loss)] // at most 1e8
     pub(crate) fn per_one(&self) -> f64 {

@@ -175,6 +175,40 @@ pub enum PostError {
         /// The character.
         character: char,
     },
+    /// A cycle's moves overlap another's, or go past the end. Whoever built the program is at fault.
+    #[error("cycle {cycle} is out of order")]
+    CycleOrder {
+        /// The cycle.
+        cycle: usize,
+    },
+    /// The program turns the tool's axis; the machine has three axes. Post it for a machine that turns the tool.
+    #[error("move {index} leans the tool; this machine has three axes and cannot")]
+    ToolAxis {
+        /// The move.
+        index: usize,
+    },
+    /// A move leaves 0 along an axis that the machine does not have. Turn the part into its plane, or take another machine.
+    #[error("move {index} goes to {axis}{value} mm; the machine has no {axis}")]
+    NoSuchAxis {
+        /// The move.
+        index: usize,
+        /// The axis.
+        axis: char,
+        /// Where it goes, mm.
+        value: f64,
+    },
+    /// Feeds are posted per revolution and the spindle stands. Turn it on before, or post feeds per minute.
+    #[error("move {index} is at a feed per revolution while the spindle stands")]
+    NoRevolutions {
+        /// The move.
+        index: usize,
+    },
+    /// The text could not be written where it goes. Look at the disk.
+    #[error("the text cannot be written: {message}")]
+    Output {
+        /// What the system says.
+        message: String,
+    },
 }
 
 impl PostError {
@@ -203,6 +237,11 @@ impl PostError {
             Self::Dwell { .. } => "post-dwell",
             Self::LineTooLong { .. } => "post-line-too-long",
             Self::Character { .. } => "post-character",
+            Self::CycleOrder { .. } => "post-cycle-order",
+            Self::ToolAxis { .. } => "post-tool-axis",
+            Self::NoSuchAxis { .. } => "post-no-such-axis",
+            Self::NoRevolutions { .. } => "post-no-revolutions",
+            Self::Output { .. } => "post-output",
         }
     }
 
@@ -218,11 +257,16 @@ impl PostError {
             | Self::FeedTooHigh { index, .. }
             | Self::AxisLimit { index, .. }
             | Self::NoTool { index }
+            | Self::ToolAxis { index }
+            | Self::NoSuchAxis { index, .. }
+            | Self::NoRevolutions { index }
             | Self::FeedFromUnknown { index } => format!("moves[{index}]"),
             Self::Travel { .. } => "limits.travel".into(),
             Self::EventOrder { event } | Self::ToolChange { event } | Self::Dwell { event, .. } => {
                 format!("events[{event}]")
             }
+            Self::CycleOrder { cycle } => format!("cycles[{cycle}]"),
+            Self::Output { .. } => "output".into(),
             Self::ToolNumber { .. } | Self::ToolNumberTwice { .. } => "tools".into(),
             Self::SpindleSpeed { .. } | Self::SpindleDirection { .. } => "spindle".into(),
             Self::Unsupported { .. } => "machine".into(),
@@ -237,7 +281,7 @@ impl PostError {
             Self::Machine(error) => return error.hint(),
             Self::Empty => "look at why planning found nothing to do",
             Self::Wcs { .. } => "take a work offset that the machine has",
-            Self::Number { .. } | Self::EventOrder { .. } | Self::NoSuchRecord { .. } => {
+            Self::Number { .. } | Self::EventOrder { .. } | Self::CycleOrder { .. } | Self::NoSuchRecord { .. } => {
                 "whoever built the program is at fault: report it"
             }
             Self::Feed { .. } => "give the operation a feed above zero",
@@ -254,6 +298,10 @@ impl PostError {
             Self::SpindleDirection { .. } => "take the other direction, or correct [spindle] of the machine",
             Self::Unsupported { .. } => "leave it out of the job, or correct the machine file",
             Self::Dwell { .. } => "give a time of 0 s or more",
+            Self::ToolAxis { .. } => "post it for a machine that turns the tool",
+            Self::NoSuchAxis { .. } => "turn the part into the machine's plane, or take another machine",
+            Self::NoRevolutions { .. } => "turn the spindle on first, or take feed_mode = \"per-minute\"",
+            Self::Output { .. } => "look at the disk that it goes to",
             Self::LineTooLong { .. } => "shorten the line in the machine's template",
             Self::Character { .. } => "take the character out of the template, or put the text through comment()",
         };

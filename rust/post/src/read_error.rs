@@ -209,6 +209,24 @@ pub enum ReadFault {
     /// The text ends and the machine asks for M2 or M30 (or a closing %): it may be cut off. Write the end, or get the whole file.
     #[error("the program has no end")]
     NoEnd,
+    /// A feed per revolution while the spindle stands. Turn it on before.
+    #[error("a feed per revolution while the spindle stands")]
+    NoRevolutions,
+    /// A second G or M on a line, and the machine takes one. Put it on a line of its own.
+    #[error("a second code on one line")]
+    SecondCommand,
+    /// G28 by way of another place than where the axis stands. Write `G91 G28 Z0`.
+    #[error("G28 goes by way of the place that is written, at rapid")]
+    HomeByWay,
+    /// A canned cycle whose bottom is above its retract plane. Correct Z or R.
+    #[error("the cycle's bottom is above its retract plane")]
+    CycleUpwards,
+    /// More pecks than are read. Correct Q.
+    #[error("the hole takes too many pecks")]
+    TooManyPecks,
+    /// Words that this reader does not know. Take them out, or post the program again.
+    #[error("these words are not known")]
+    UnknownWords,
     /// Code after the end, which the machine would run. Remove it.
     #[error("code after the program's end, which the machine would run")]
     AfterEnd,
@@ -288,6 +306,12 @@ impl ReadFault {
             Self::FeedFromUnknown { .. } => "read-feed-from-unknown",
             Self::MachineCoordinates => "read-machine-coordinates",
             Self::NeverPlaced { .. } => "read-never-placed",
+            Self::NoRevolutions => "read-no-revolutions",
+            Self::SecondCommand => "read-second-command",
+            Self::HomeByWay => "read-home-by-way",
+            Self::CycleUpwards => "read-cycle-upwards",
+            Self::TooManyPecks => "read-too-many-pecks",
+            Self::UnknownWords => "read-unknown-words",
             Self::NoEnd => "read-no-end",
             Self::AfterEnd => "read-after-end",
         }
@@ -345,6 +369,12 @@ impl ReadFault {
             Self::IncrementalFromUnknown => "place the axis with G90 G0 first",
             Self::FeedFromUnknown { .. } | Self::NeverPlaced { .. } => "place the axis with G0 first",
             Self::MachineCoordinates => "write G53 G0 and an axis, with G90 active",
+            Self::NoRevolutions => "turn the spindle on before, or write feeds per minute (G94)",
+            Self::SecondCommand => "put each code on a line of its own",
+            Self::HomeByWay => "write G91 G28 Z0, or G53 G0 Z0",
+            Self::CycleUpwards => "correct Z or R of the cycle",
+            Self::TooManyPecks => "correct Q of the cycle",
+            Self::UnknownWords => "take them out, or post the program again for this machine",
             Self::NoEnd => "the file may be cut off: get the whole file, or write M2 at its end",
             Self::AfterEnd => "remove what follows the end, or the end before it",
         };

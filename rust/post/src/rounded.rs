@@ -13,17 +13,39 @@ pub(crate) struct RoundedArc {
     pub to: [i64; 3],
     /// The centre from the start.
     pub offset: [i64; 3],
+    /// How often X is counted in `from` and `to`: twice where it is a diameter.
+    x_scale: f64,
 }
 
 impl RoundedArc {
+    /// `centre` counts every axis once.
+    pub fn new(arc: Arc, from: [i64; 3], to: [i64; 3], centre: [i64; 3], x_scale: f64) -> Self {
+        let once = |axis: usize, count: i64| if axis == 0 && x_scale > 1.0 { count / 2 } else { count };
+        let offset = [0, 1, 2].map(|axis| centre[axis] - once(axis, from[axis]));
+        Self { arc, from, to, offset, x_scale }
+    }
+
+    /// The centre from the zero point.
+    pub fn centre(&self) -> [i64; 3] {
+        [0, 1, 2].map(|axis| self.from[axis] + self.offset[axis])
+    }
+
     /// Whether a controller takes it for the way that is meant; `unit` is the last place, mm.
     ///
     /// A way too short for its ends to differ once rounded would be taken for a full circle.
     pub fn stands_for(&self, way: &ArcWay, rules: &ArcRules, unit: f64) -> bool {
-        let place = |count: [i64; 3]| count.map(|c| c as f64 * unit);
-        let centre = [0, 1, 2].map(|axis| self.from[axis] + self.offset[axis]);
-        let posted = Arc { centre: place(centre), ..self.arc }.way(place(self.from), place(self.to));
+        let [_, _, third] = self.arc.plane.axes();
+        if !rules.planes.contains(&self.arc.plane) || !(rules.helix || self.from[third] == self.to[third]) {
+            return false;
+        }
+        let scale = [self.x_scale, 1.0, 1.0];
+        let place = |count: [i64; 3]| [0, 1, 2].map(|axis| count[axis] as f64 * unit / scale[axis]);
+        let start = place(self.from);
+        let centre = [0, 1, 2].map(|axis| start[axis] + self.offset[axis] as f64 * unit);
+        let posted = Arc { centre, ..self.arc }.way(start, place(self.to));
         let as_meant = (posted.sweep() - way.sweep()).abs() < 1.0;
-        as_meant && posted.radius() > 0.0 && rules.radius_error.takes(posted.mismatch(), posted.radius())
+        let radius = posted.radius();
+        let in_range = radius > rules.min_radius && rules.max_radius.is_none_or(|most| radius <= most);
+        as_meant && in_range && radius > 0.0 && rules.radius_error.takes(posted.mismatch(), radius)
     }
 }

@@ -6,7 +6,7 @@ use minijinja::{Environment, Error, UndefinedBehavior, Value};
 use styluscam_motion::{EventKind, MoveKind, OperationRecord, Program, ToolRecord, ToolReference};
 
 use crate::comment::CommentFormat;
-use crate::machine::{LengthOffset, LengthUnit, Machine, MachineError, OptionValue, ToolChange};
+use crate::machine::{Evidence, LengthUnit, Machine, MachineError, OptionValue, ToolChange};
 use crate::number::NumberFormat;
 
 /// Most steps that one template may take: a header of a thousand lines needs a fiftieth of it.
@@ -18,7 +18,27 @@ const RECURSION: usize = 50;
 const HEADER: &str = include_str!("../templates/header.jinja");
 const CHANGE_M6: &str = include_str!("../templates/change_m6.jinja");
 const CHANGE_PAUSE: &str = include_str!("../templates/change_pause.jinja");
+const CHANGE_T: &str = include_str!("../templates/change_t.jinja");
+const CHANGE_TOOL_CALL: &str = include_str!("../templates/change_tool_call.jinja");
 const CHANGE_NONE: &str = include_str!("../templates/change_none.jinja");
+
+/// What the templates say about a program as a whole, over and above its records.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Facts {
+    /// Lowest Z of a tip at feed, mm.
+    pub deepest_z: f64,
+    /// Whether the spindle turns.
+    pub uses_spindle: bool,
+}
+
+impl Facts {
+    /// Those of a whole program.
+    #[must_use]
+    pub fn of(program: &Program) -> Self {
+        let uses_spindle = program.events.iter().any(|e| matches!(e.kind, EventKind::SpindleOn { .. }));
+        Self { deepest_z: deepest(program), uses_spindle }
+    }
+}
 
 /// Names and values that a template may use.
 type Names = BTreeMap<String, Value>;
@@ -58,6 +78,10 @@ impl<'m> Templater<'m> {
             ("templates.program_start", &templates.program_start),
             ("templates.tool_change", self.tool_change_source()),
             ("templates.operation_start", &templates.operation_start),
+            ("templates.operation_end", &templates.operation_end),
+            ("templates.stop", templates.stop.as_deref().unwrap_or_default()),
+            ("templates.sync", templates.sync.as_deref().unwrap_or_default()),
+            ("retract.lines", &self.machine.retract.lines),
             ("templates.program_end", &templates.program_end),
             ("smoothing.on", self.machine.smoothing.on.as_deref().unwrap_or_default()),
         ]
@@ -78,28 +102,39 @@ impl<'m> Templater<'m> {
     fn tool_change_source(&self) -> &'m str {
         self.machine.templates.tool_change.as_deref().unwrap_or(match self.machine.tool.change {
             ToolChange::M6 => CHANGE_M6,
+            ToolChange::T => CHANGE_T,
+            ToolChange::ToolCall => CHANGE_TOOL_CALL,
             ToolChange::Pause => CHANGE_PAUSE,
             ToolChange::LoadBeforeStart => CHANGE_NONE,
         })
     }
 
     /// What every template may use.
-    pub(crate) fn names(&self, program: &Program) -> Result<Names, MachineError> {
+    pub(crate) fn names(&self, program: &Program, facts: &Facts) -> Result<Names, MachineError> {
         let machine = self.machine;
         let mut names = Names::new();
         let mut name = |key: &str, value: Value| names.insert(key.into(), value);
         name(
             "machine",
-            map([("name", machine.name.as_str().into()), ("description", machine.description.as_str().into())]),
+            map([
+                ("name", machine.name.as_str().into()),
+                ("description", machine.description.as_str().into()),
+                ("verified", (machine.source.evidence == Evidence::Read).into()),
+            ]),
         );
-        name("program", program_value(program));
+        name("program", program_value(program, facts, machine));
         name("tools", program.tools.iter().map(tool_value).collect());
         name("units", unit_name(machine.units.output).into());
         name("units_word", machine.units_word().unwrap_or_default().into());
-        name("wcs", program.setup.wcs.as_str().into());
+        name("feed_word", machine.feed.word().unwrap_or_default().into());
+        name("wcs", machine.wcs_words_of(&program.setup.wcs).unwrap_or_default().into());
+        name("wcs_number", machine.wcs.iter().position(|w| *w == program.setup.wcs).map_or(0, |i| i + 1).into());
         name("end", machine.end.as_str().into());
         name("options", Value::from(options(machine)));
-        name("has_length_offsets", (machine.tool.length == LengthOffset::G43H).into());
+        name("has_length_offsets", machine.tool.length.is_some().into());
+        name("length_with_z", machine.tool.length.as_ref().is_some_and(|length| length.with_z).into());
+        name("path_tolerance", path_tolerance(machine).into());
+        names.insert("retract".into(), self.fill("retract.lines", &machine.retract.lines, &names)?.into());
         let smoothing = self.smoothing()?;
         names.insert("smoothing".into(), smoothing.into());
         let header = self.fill("templates.header", self.header_source(), &names)?;
@@ -107,7 +142,8 @@ impl<'m> Templater<'m> {
         Ok(names)
     }
 
-    fn smoothing(&self) -> Result<String, MachineError> {
+    /// The block that says how closely the path is kept.
+    pub(crate) fn smoothing(&self) -> Result<String, MachineError> {
         let smoothing = &self.machine.smoothing;
         match (&smoothing.on, tolerance_words(self.machine)) {
             (Some(source), Some(tolerance)) => {
@@ -132,16 +168,56 @@ impl<'m> Templater<'m> {
     pub(crate) fn tool_change(&self, names: &Names, tool: &ToolRecord, first: bool) -> Result<String, MachineError> {
         let mut names = names.clone();
         names.insert("tool".into(), tool_value(tool));
+        let length = self.machine.tool.length.as_ref();
+        let length_words = length.map(|l| format!("{} {}{}", l.code, l.word, tool.length_offset)).unwrap_or_default();
+        names.insert("length_words".into(), length_words.into());
         names.insert("first".into(), first.into());
         self.fill("templates.tool_change", self.tool_change_source(), &names)
     }
 
     /// The text where an operation begins.
     pub(crate) fn operation_start(&self, names: &Names, operation: &OperationRecord) -> Result<String, MachineError> {
-        let mut names = names.clone();
-        let record = [("id", operation.id.as_str().into()), ("kind", operation.kind.as_str().into())];
-        names.insert("operation".into(), map(record));
+        let names = with_operation(names, operation);
         self.fill("templates.operation_start", &self.machine.templates.operation_start, &names)
+    }
+
+    /// The text where an operation ends.
+    pub(crate) fn operation_end(&self, names: &Names, operation: &OperationRecord) -> Result<String, MachineError> {
+        let source = &self.machine.templates.operation_end;
+        if source.is_empty() {
+            return Ok(String::new());
+        }
+        self.fill("templates.operation_end", source, &with_operation(names, operation))
+    }
+
+    /// The text where the program stops for the operator.
+    pub(crate) fn stop(&self, names: &Names, optional: bool) -> Result<String, MachineError> {
+        let mut names = names.clone();
+        names.insert("optional".into(), optional.into());
+        self.fill("templates.stop", self.machine.templates.stop.as_deref().unwrap_or_default(), &names)
+    }
+
+    /// The text where the programs of a pair wait for one another.
+    pub(crate) fn sync(&self, names: &Names, mark: u32) -> Result<String, MachineError> {
+        let mut names = names.clone();
+        names.insert("mark".into(), mark.into());
+        self.fill("templates.sync", self.machine.templates.sync.as_deref().unwrap_or_default(), &names)
+    }
+}
+
+fn with_operation(names: &Names, operation: &OperationRecord) -> Names {
+    let mut names = names.clone();
+    let record = [("id", operation.id.as_str().into()), ("kind", operation.kind.as_str().into())];
+    names.insert("operation".into(), map(record));
+    names
+}
+
+/// What the controller may do to the path, in words.
+fn path_tolerance(machine: &Machine) -> String {
+    match (&machine.smoothing.on, machine.smoothing.tolerance > 0.0) {
+        (Some(_), true) => format!("{} mm", machine.smoothing.tolerance),
+        (_, false) if machine.smoothing.off.is_some() => "exact".into(),
+        _ => "unknown: the controller decides".into(),
     }
 }
 
@@ -185,19 +261,41 @@ fn map<const N: usize>(entries: [(&str, Value); N]) -> Value {
     Value::from(entries.into_iter().map(|(k, v)| (k.to_string(), v)).collect::<Names>())
 }
 
-fn program_value(program: &Program) -> Value {
+fn program_value(program: &Program, facts: &Facts, machine: &Machine) -> Value {
     let setup = &program.setup;
     map([
+        ("number", program_number(machine).into()),
+        ("name", program_name(&setup.title, machine).into()),
         ("title", setup.title.as_str().into()),
         ("wcs", setup.wcs.as_str().into()),
         ("zero", setup.zero.as_str().into()),
         ("part_min", setup.part_min.into_iter().collect()),
         ("part_max", setup.part_max.into_iter().collect()),
         ("clearance", setup.clearance.into()),
-        ("deepest_z", deepest(program).into()),
+        ("deepest_z", facts.deepest_z.into()),
         ("notes", setup.notes.iter().map(String::as_str).collect()),
-        ("uses_spindle", program.events.iter().any(|e| matches!(e.kind, EventKind::SpindleOn { .. })).into()),
+        ("uses_spindle", facts.uses_spindle.into()),
     ])
+}
+
+/// `0001`; nothing where programs have no numbers.
+fn program_number(machine: &Machine) -> String {
+    let format = |n: crate::machine::ProgramNumber| format!("{:0width$}", n.value, width = usize::from(n.digits));
+    machine.program.number.map(format).unwrap_or_default()
+}
+
+/// The title in characters that the controller takes; nothing where programs have no names.
+fn program_name(title: &str, machine: &Machine) -> String {
+    let Some(rules) = &machine.program.name else { return String::new() };
+    let ranges = crate::comment::ranges(&rules.charset);
+    let takes = |c: char| ranges.iter().any(|(a, b)| (*a..=*b).contains(&c));
+    let fit = |c: char| [c, c.to_ascii_uppercase(), '_'].into_iter().find(|c| takes(*c));
+    let name: String = title.chars().filter_map(fit).take(usize::from(rules.max_len)).collect();
+    if name.is_empty() {
+        "PROGRAM".chars().filter_map(fit).take(usize::from(rules.max_len)).collect()
+    } else {
+        name
+    }
 }
 
 fn tool_value(tool: &ToolRecord) -> Value {

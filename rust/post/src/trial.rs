@@ -2,7 +2,7 @@
 
 use styluscam_motion::{
     Event, EventKind, Move, MoveKind, OperationRecord, Program, SetupRecord, SpindleDirection, ToolRecord,
-    ToolReference, PROGRAM_SCHEMA,
+    ToolReference,
 };
 use thiserror::Error;
 
@@ -101,7 +101,9 @@ fn difference(program: &Program, posted: &Posted, reading: &Reading, machine: &M
 }
 
 fn words_of(program: &Program) -> Vec<&EventKind> {
-    program.events.iter().map(|e| &e.kind).filter(|k| !matches!(k, EventKind::Comment { .. })).collect()
+    let said =
+        |kind: &&EventKind| !matches!(kind, EventKind::Comment { .. } | EventKind::Stop { .. } | EventKind::Raw { .. });
+    program.events.iter().map(|e| &e.kind).filter(said).collect()
 }
 
 fn move_difference(step: &Move, line: u32, reading: &Reading, machine: &Machine) -> Option<String> {
@@ -133,14 +135,7 @@ fn small_program(machine: &Machine) -> Program {
         diameter: 2.0,
     };
     let operations = vec![OperationRecord { id: "trial".into(), kind: "z-level".into(), tool: 0 }];
-    Program {
-        schema: PROGRAM_SCHEMA,
-        setup,
-        tools: vec![tool],
-        operations,
-        moves: moves(machine),
-        events: events(machine),
-    }
+    Program { moves: moves(machine), events: events(machine), ..Program::empty(setup, vec![tool], operations) }
 }
 
 /// Across, down, along at feed, up: inside the machine's range.

@@ -78,7 +78,7 @@ fn options() {
     assert!(error.hint().starts_with("did you mean \"vacuum\"?"));
     assert!(matches!(
         grbl().set_option("smoothing_tolerance", OptionValue::Number(0.1)),
-        Err(MachineError::UnknownOption { .. })
+        Err(MachineError::Option { .. })
     ));
 }
 

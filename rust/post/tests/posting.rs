@@ -170,7 +170,7 @@ fn styles_of_other_controllers() {
     let mut machine = linuxcnc();
     machine.number.point = Point::Always;
     machine.words.separator = Separator::None;
-    machine.block_number = Some(BlockNumber { start: 5, step: 5, max: 20 });
+    machine.block_number = Some(BlockNumber::plain(5, 5, 20));
     machine.line.eol = LineEnd::Crlf;
     machine.comment.form = CommentForm::None;
     let text = post(&cone(), &machine).unwrap().text;
@@ -180,7 +180,7 @@ fn styles_of_other_controllers() {
     machine.number.plus_sign = true;
     machine.number.leading_zero = false;
     let text = post(&cone(), &machine).unwrap().text;
-    assert!(text.contains("G1Z-.500F+100.0"), "{text}");
+    assert!(text.contains("G1Z-.500F100.0"), "{text}");
 }
 
 #[test]

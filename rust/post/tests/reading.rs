@@ -193,9 +193,9 @@ fn remarks_name_operations() {
 
 #[test]
 fn the_place_of_an_error() {
-    let error = refusal_with("G21\nG0 X1 (ß) G81 Y1\n", &linuxcnc(), &[]);
-    assert_eq!((error.line, error.column, error.word.as_str()), (2, 11, "G81"));
-    assert_eq!(error.to_string(), "line 2, column 11: canned cycles are not read yet: \"G81\"");
+    let error = refusal_with("G21\nG0 X1 (ß) G10 Y1\n", &linuxcnc(), &[]);
+    assert_eq!((error.line, error.column, error.word.as_str()), (2, 11, "G10"));
+    assert_eq!(error.to_string(), "line 2, column 11: shifts of the zero point are not read yet: \"G10\"");
     assert_eq!(error.place(), "line 2, column 11");
 }
 
@@ -227,10 +227,8 @@ fn codes_that_are_not_read() {
         "G41",
         "G42.1",
         "G43.1 Z1",
-        "G93",
-        "G95",
-        "G38.2 Z-1",
-        "G81",
+        "G76",
+        "G38.4 Z-1",
         "G28",
         "G92 X0",
         "G10 L2",
@@ -272,7 +270,8 @@ fn blocks_that_contradict_themselves() {
     assert_eq!(fault("G1 X1"), ReadFault::NoFeed);
     assert_eq!(fault("G80 X1"), ReadFault::NoMotionMode);
     assert_eq!(fault("M6"), ReadFault::NoToolSelected);
-    assert_eq!(fault("G55"), ReadFault::WcsChanged);
+    let changed = refusal_with("G21 G90\nT1 M6\nG43 H1 G61\nG0 X0 Y0 Z5\nG55\nM2\n", &linuxcnc(), &[stylus(1)]);
+    assert_eq!((changed.line, changed.fault), (5, ReadFault::WcsChanged));
     assert_eq!(fault("G53 G91 G0 Z0"), ReadFault::MachineCoordinates);
     assert_eq!(fault("G53 G80 Z0"), ReadFault::MachineCoordinates);
     assert!(matches!(fault("G53 G0"), ReadFault::MissingWord { .. }));

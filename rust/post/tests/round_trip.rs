@@ -98,7 +98,10 @@ fn found(reading: &Reading) -> Vec<Item> {
     for index in 0..=program.moves.len() {
         let events = program.events.iter().filter(|e| e.before == index);
         items.extend(
-            events.filter(|e| !matches!(e.kind, EventKind::Comment { .. })).map(|e| Item::Event(e.kind.clone())),
+            // a stop is how an operator changes the tool
+            events
+                .filter(|e| !matches!(e.kind, EventKind::Comment { .. } | EventKind::Stop { .. }))
+                .map(|e| Item::Event(e.kind.clone())),
         );
         let step = program.moves.get(index);
         items.extend(step.map(|m| Item::Move { kind: m.kind, end: m.end, feed: m.feed }));
@@ -272,7 +275,7 @@ fn styled(machine: Machine) -> impl Strategy<Value = Machine> {
         machine.words.separator = if pick(5) { Separator::Space } else { Separator::None };
         machine.words.repeat_g = if pick(6) { Repeat::Always } else { Repeat::Modal };
         machine.words.repeat_axes = if pick(7) { Repeat::Always } else { Repeat::Modal };
-        machine.block_number = pick(8).then_some(BlockNumber { start: 10, step: 10, max: 200 });
+        machine.block_number = pick(8).then_some(BlockNumber::plain(10, 10, 200));
         machine.line.eol = if pick(9) { LineEnd::Crlf } else { LineEnd::Lf };
         if pick(8) {
             machine.comment.form = CommentForm::Semicolon;

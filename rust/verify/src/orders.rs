@@ -172,7 +172,7 @@ impl Machine {
             EventKind::SpindleOff => self.spindle = None,
             EventKind::Flood { on } => self.flood = on,
             EventKind::Mist { on } => self.mist = on,
-            EventKind::ToolChange { .. } | EventKind::Comment { .. } | EventKind::Dwell { .. } => {}
+            _ => {}
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Checks on a machine file that its types do not make.
 
-use super::{LengthOffset, Machine, MachineError, ToolChange, MACHINE_SCHEMA};
+use super::{Machine, MachineError, ToolChange, MACHINE_SCHEMA};
 use crate::comment::{ranges, CommentFormat};
 use crate::number::MAX_DECIMALS;
 use crate::template::Templater;
@@ -45,15 +45,26 @@ fn check_names(machine: &Machine) -> Result<(), MachineError> {
     require(!machine.name.trim().is_empty(), "name", "it is empty")?;
     require(!machine.wcs.is_empty(), "wcs", "list at least one work offset")?;
     for (index, wcs) in machine.wcs.iter().enumerate() {
-        check_code(&format!("wcs[{index}]"), wcs)?;
+        let words = wcs.split(' ').filter_map(crate::reader::code).count();
+        let written = wcs.split(' ').count();
+        let holds = words == written && words <= 2;
+        require(holds, &format!("wcs[{index}]"), "write one word or two, as in G54 or G54.1 P1")?;
     }
     check_code("end", &machine.end)?;
+    if let Some(number) = machine.program.number {
+        let holds = (number.least..=number.most).contains(&number.value) && number.digits <= 10;
+        require(holds, "program.number", "its value lies between least and most, and it has at most 10 digits")?;
+    }
+    if let Some(name) = &machine.program.name {
+        require(name.max_len >= 1, "program.name.max_len", "at least 1")?;
+        require(ranges(&name.charset).iter().all(|(a, b)| a <= b), "program.name.charset", "a range runs backwards")?;
+    }
     require(machine.units_word().is_some(), "units", "the word for the output's unit is missing")
 }
 
 /// A single word, a letter and a number: `G54`, `G59.1`, `M2`.
 fn check_code(key: &str, code: &str) -> Result<(), MachineError> {
-    require(crate::lexer::code(code).is_some(), key, "write one word: a capital letter and a number, as in G54")
+    require(crate::reader::code(code).is_some(), key, "write one word: a capital letter and a number, as in G54")
 }
 
 fn check_numbers(machine: &Machine) -> Result<(), MachineError> {
@@ -87,7 +98,7 @@ fn check_lines(machine: &Machine) -> Result<(), MachineError> {
     let probe = CommentFormat::new(machine).lines("A 0");
     let silent = machine.comment.form == super::CommentForm::None;
     require(silent || !probe.is_empty(), "comment.charset", "neither letters nor digits are left")?;
-    let Some(number) = machine.block_number else { return Ok(()) };
+    let Some(number) = &machine.block_number else { return Ok(()) };
     require(number.step >= 1, "block_number.step", "at least 1; leave the table out for none")?;
     require(number.start <= number.max, "block_number.max", "it is below the start")
 }
@@ -101,6 +112,12 @@ fn check_words(machine: &Machine) -> Result<(), MachineError> {
         ("spindle.off", &machine.spindle.off),
         ("coolant.flood", &machine.coolant.flood),
         ("coolant.off", &machine.coolant.off),
+        ("coolant.mist", &machine.coolant.mist),
+        ("stop.always", &machine.stop.always),
+        ("stop.optional", &machine.stop.optional),
+        ("feed.per_minute", &machine.feed.per_minute),
+        ("feed.per_revolution", &machine.feed.per_revolution),
+        ("feed.inverse_time", &machine.feed.inverse_time),
     ];
     for (key, word) in optional {
         if let Some(word) = word {
@@ -112,13 +129,23 @@ fn check_words(machine: &Machine) -> Result<(), MachineError> {
     let floods = machine.coolant.flood.is_some();
     require(!floods || machine.coolant.off.is_some(), "coolant.off", "coolant that starts needs a word to stop")?;
     let dwell = machine.dwell.as_ref().map_or('P', |d| d.word);
-    require(matches!(dwell, 'P' | 'X' | 'S'), "dwell.word", "P, X or S")
+    require(matches!(dwell, 'P' | 'X' | 'S' | 'F'), "dwell.word", "P, X, S or F")?;
+    let start = machine.spindle.start_dwell;
+    require((0.0..=600.0).contains(&start), "spindle.start_dwell", "0 to 600 s")?;
+    require(start <= 0.0 || machine.dwell.is_some(), "spindle.start_dwell", "a wait needs the words of [dwell]")?;
+    let percent = machine.spindle.unit == super::SpeedUnit::Percent;
+    require(!percent || machine.limits.max_rpm.is_some(), "limits.max_rpm", "percent of what: name the largest speed")
 }
 
 fn check_tools(machine: &Machine) -> Result<(), MachineError> {
     let tool = &machine.tool;
     require(tool.max_number >= 1, "tool.max_number", "at least 1")?;
-    let lengths_matter = tool.change == ToolChange::Pause && tool.length == LengthOffset::G43H;
+    if let Some(length) = &tool.length {
+        check_code("tool.length.code", &length.code)?;
+        require(matches!(length.word, 'H' | 'D'), "tool.length.word", "H or D")?;
+        length.cancel.as_deref().map_or(Ok(()), |word| check_code("tool.length.cancel", word))?;
+    }
+    let lengths_matter = tool.change == ToolChange::Pause && tool.length.is_some();
     require(
         !lengths_matter || machine.templates.tool_change.is_some(),
         "templates.tool_change",
@@ -136,7 +163,11 @@ fn check_smoothing(machine: &Machine) -> Result<(), MachineError> {
 }
 
 fn check_arc(machine: &Machine) -> Result<(), MachineError> {
-    let Some(arc) = machine.arc else { return Ok(()) };
+    let Some(arc) = &machine.arc else { return Ok(()) };
+    require((10.0..=360.0).contains(&arc.max_sweep_deg), "arc.max_sweep_deg", "10 to 360")?;
+    require((0.0..=1e6).contains(&arc.min_radius), "arc.min_radius", "0 or more, in mm")?;
+    require(arc.max_radius.is_none_or(|r| r > arc.min_radius), "arc.max_radius", "above min_radius, in mm")?;
+    require(arc.radius_word.is_none_or(|w| w == 'R' || w == 'L'), "arc.radius_word", "R or L")?;
     let error = arc.radius_error;
     for (key, value) in [("absolute", error.absolute), ("relative", error.relative), ("most", error.most)] {
         require((0.0..=10.0).contains(&value), &format!("arc.radius_error.{key}"), "0 to 10")?;
@@ -183,6 +214,9 @@ fn check_options(machine: &Machine) -> Result<(), MachineError> {
 fn check_reader(machine: &Machine) -> Result<(), MachineError> {
     for (index, code) in machine.reader.refused.iter().enumerate() {
         check_code(&format!("reader.refused[{index}]"), code)?;
+    }
+    for (index, code) in machine.reader.passed.iter().enumerate() {
+        check_code(&format!("reader.passed[{index}]"), code)?;
     }
     Ok(())
 }

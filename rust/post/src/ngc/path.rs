@@ -2,14 +2,12 @@
 
 use std::collections::HashMap;
 
-use styluscam_motion::{
-    Arc, Event, EventKind, Move, MoveKind, OperationRecord, Plane, Program, SetupRecord, PROGRAM_SCHEMA,
-};
+use styluscam_motion::{Arc, Event, EventKind, Move, MoveKind, OperationRecord, Plane, Program, SetupRecord};
 
 use super::codes;
 use super::fault::TraceFault;
 use super::offsets::{turned, Offsets};
-use crate::interpreter::bare_tool;
+use crate::reader::bare_tool;
 
 /// mm: no machine reaches so far.
 const FAR: f64 = 1e6;
@@ -46,14 +44,7 @@ pub(super) struct Pace {
 
 impl Path {
     pub(super) fn new(limit: usize) -> Self {
-        let program = Program {
-            schema: PROGRAM_SCHEMA,
-            setup: SetupRecord::default(),
-            tools: Vec::new(),
-            operations: Vec::new(),
-            moves: Vec::new(),
-            events: Vec::new(),
-        };
+        let program = Program::empty(SetupRecord::default(), Vec::new(), Vec::new());
         Self { program, anchor: None, tools: HashMap::new(), tool: None, operation_due: true, limit }
     }
 

@@ -4,7 +4,7 @@
 
 use styluscam_motion::{
     Event, EventKind, Move, MoveKind, OperationRecord, Program, SetupRecord, SpindleDirection, ToolRecord,
-    ToolReference, PROGRAM_SCHEMA,
+    ToolReference,
 };
 use styluscam_post::machine::ToolChange;
 use styluscam_post::Machine;
@@ -66,22 +66,17 @@ pub fn ball_by_center(number: u32, height: f64) -> ToolRecord {
 }
 
 pub fn program(moves: Vec<Move>, events: Vec<Event>, tools: Vec<ToolRecord>) -> Program {
-    Program {
-        schema: PROGRAM_SCHEMA,
-        setup: SetupRecord {
-            title: "cone, first side".into(),
-            wcs: "G54".into(),
-            zero: "sheet top, centre of the blank".into(),
-            part_min: [-50.0, -50.0, -20.0],
-            part_max: [50.0, 50.0, 0.0],
-            clearance: 10.0,
-            notes: vec!["Sheet 1 mm, wall angle at most 60°; clamp the blank (M6 screws) before the start.".into()],
-        },
-        tools,
-        operations: vec![OperationRecord { id: "walls".into(), kind: "z-level".into(), tool: 0 }],
-        moves,
-        events,
-    }
+    let setup = SetupRecord {
+        title: "cone, first side".into(),
+        wcs: "G54".into(),
+        zero: "sheet top, centre of the blank".into(),
+        part_min: [-50.0, -50.0, -20.0],
+        part_max: [50.0, 50.0, 0.0],
+        clearance: 10.0,
+        notes: vec!["Sheet 1 mm, wall angle at most 60°; clamp the blank (M6 screws) before the start.".into()],
+    };
+    let operations = vec![OperationRecord { id: "walls".into(), kind: "z-level".into(), tool: 0 }];
+    Program { moves, events, ..Program::empty(setup, tools, operations) }
 }
 
 /// A short program of one tool.

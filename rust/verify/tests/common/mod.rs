@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 
 use styluscam_geometry::{Bvh, Cutter, Mesh, ProfileDocument, Sheet, Tool, ToolDocument, Vector};
 use styluscam_motion::{
-    Event, EventKind, Move, MoveKind, OperationRecord, Program, SetupRecord, ToolRecord, ToolReference, PROGRAM_SCHEMA,
+    Event, EventKind, Move, MoveKind, OperationRecord, Program, SetupRecord, ToolRecord, ToolReference,
 };
 use styluscam_verify::{Limits, Subject};
 
@@ -126,13 +126,11 @@ impl Path {
             diameter: tool.diameter(),
         };
         let setup = SetupRecord { wcs: "G54".to_owned(), clearance: CLEARANCE, ..SetupRecord::default() };
+        let operations = vec![OperationRecord { id: "walls".to_owned(), kind: "z-level".to_owned(), tool: 0 }];
         Program {
-            schema: PROGRAM_SCHEMA,
-            setup,
-            tools: vec![record],
-            operations: vec![OperationRecord { id: "walls".to_owned(), kind: "z-level".to_owned(), tool: 0 }],
             moves: self.moves,
             events: vec![Event { before: 0, kind: EventKind::ToolChange { tool: 0 } }],
+            ..Program::empty(setup, vec![record], operations)
         }
     }
 }

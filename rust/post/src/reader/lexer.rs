@@ -1,6 +1,10 @@
 //! Lines of G-code cut into words and remarks.
 
+use crate::machine::{CommentForm, Machine};
 use crate::read_error::ReadFault;
+
+/// In place of a letter: Sinumerik's `TURN=`.
+pub(crate) const TURN: u8 = 1;
 
 /// Most decimal places of a number, and the smallest number of as many digits: fifteen digits are exact in an f64.
 const MAX_PLACES: u8 = 15;
@@ -16,6 +20,11 @@ pub(crate) struct Number {
 }
 
 impl Number {
+    /// A whole number.
+    pub(crate) fn whole(value: i64) -> Self {
+        Self { mantissa: value, places: 0 }
+    }
+
     /// The nearest f64.
     #[allow(clippy::cast_precision_loss)] // below 2^53
     pub(crate) fn value(self) -> f64 {
@@ -65,9 +74,28 @@ pub(crate) struct Line<'t> {
     pub(crate) deleted: bool,
 }
 
+/// The forms of remarks that a machine takes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Remarks {
+    pub(crate) paren: bool,
+    pub(crate) semicolon: bool,
+    pub(crate) colon: bool,
+}
+
+impl Remarks {
+    pub(crate) fn of(machine: &Machine) -> Self {
+        let takes = |form| machine.comment.form == form || machine.reader.comments.contains(&form);
+        Self {
+            paren: takes(CommentForm::Paren),
+            semicolon: takes(CommentForm::Semicolon),
+            colon: takes(CommentForm::Colon),
+        }
+    }
+}
+
 impl<'t> Line<'t> {
     /// Cuts `text`, one line without its end mark.
-    pub(crate) fn cut(&mut self, text: &'t str) -> Result<(), Misfit> {
+    pub(crate) fn cut(&mut self, text: &'t str, remarks: Remarks) -> Result<(), Misfit> {
         self.words.clear();
         self.comments.clear();
         self.deleted = false;
@@ -77,8 +105,9 @@ impl<'t> Line<'t> {
             at = match byte {
                 b' ' | b'\t' | b'\r' => at + 1,
                 b'a'..=b'z' | b'A'..=b'Z' => self.cut_word(bytes, at)?,
-                b'(' => self.cut_comment(text, at)?,
-                b';' => self.cut_tail(text, at),
+                b'(' if remarks.paren => self.cut_comment(text, at)?,
+                b';' if remarks.semicolon => self.cut_tail(text, at),
+                b':' if remarks.colon && self.words.is_empty() => self.cut_tail(text, at),
                 b'/' if self.words.is_empty() && !self.deleted => {
                     self.deleted = true;
                     at + 1
@@ -109,13 +138,13 @@ impl<'t> Line<'t> {
         Ok(start + length + 2)
     }
 
-    fn cut_tail(&mut self, text: &'t str, start: usize) -> usize {
+    pub(super) fn cut_tail(&mut self, text: &'t str, start: usize) -> usize {
         self.comments.push(text.get(start + 1..).unwrap_or_default().trim());
         text.len()
     }
 }
 
-fn stranger(text: &str, start: usize) -> Misfit {
+pub(super) fn stranger(text: &str, start: usize) -> Misfit {
     let character = text.get(start..).and_then(|t| t.chars().next()).unwrap_or('?');
     let fault = match character {
         '#' | '[' | '=' | '<' => ReadFault::NotRead { what: "parameters and expressions" },
@@ -126,7 +155,7 @@ fn stranger(text: &str, start: usize) -> Misfit {
 }
 
 /// A number from `start` on, and where it ends. White space inside is no part of it, as both controllers have it.
-fn cut_number(bytes: &[u8], start: usize) -> Result<(Number, usize), Misfit> {
+pub(super) fn cut_number(bytes: &[u8], start: usize) -> Result<(Number, usize), Misfit> {
     let (mut at, mut end) = (start, start);
     let (mut mantissa, mut places) = (0_i64, 0_u8);
     let (mut negative, mut signed, mut digits, mut point) = (false, false, false, false);

@@ -2,9 +2,9 @@
 
 use styluscam_motion::{Arc, Plane};
 
-use crate::block::Block;
-use crate::interpreter::Flaw;
-use crate::lexer::Word;
+use super::block::Block;
+use super::interpreter::Flaw;
+use super::lexer::Word;
 use crate::machine::ArcRules;
 use crate::read_error::ReadFault;
 
@@ -110,6 +110,18 @@ impl Circle {
 
 /// Full turns beyond the first arrival: P counts arrivals.
 fn turns(block: &Block) -> Result<u32, Flaw> {
+    if let Some(word) = block.polar {
+        let turns = (word.number.value().abs() / 360.0).ceil() - 1.0;
+        return if turns < f64::from(TURNS) {
+            Ok(turns.max(0.0) as u32)
+        } else {
+            Err((ReadFault::ArcTurns { most: TURNS }, Some(word)))
+        };
+    }
+    if let Some(word) = block.turns {
+        let turns = word.number.natural().ok_or((ReadFault::NotNatural, Some(word)))?;
+        return if turns < TURNS { Ok(turns) } else { Err((ReadFault::ArcTurns { most: TURNS }, Some(word))) };
+    }
     let Some(word) = block.p else { return Ok(0) };
     let arrivals = word.number.natural().filter(|p| *p > 0).ok_or((ReadFault::NotNatural, Some(word)))?;
     if arrivals > TURNS {

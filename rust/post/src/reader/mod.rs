@@ -1,15 +1,28 @@
 //! Text to motion: the reader of G-code.
 
+mod block;
+mod circle;
+mod codes;
+mod drilling;
+mod interpreter;
+mod klartext;
+mod lexer;
+mod siemens;
+mod standing;
+
 use std::ops::Range;
 
 use styluscam_motion::{MachineMove, Program, ToolRecord};
 
-use crate::block::Block;
-use crate::interpreter::{Flaw, Interpreter};
-use crate::lexer::{code, Line, Misfit, Word};
-use crate::machine::{AfterEnd, BlockDelete, Machine};
+use crate::machine::{AfterEnd, BlockDelete, Family, Machine, Turns};
 use crate::read_error::{ReadError, ReadFault};
 use crate::writer::counted_length;
+use block::{Block, Force};
+use codes::{Codes, Meaning};
+pub(crate) use interpreter::bare_tool;
+use interpreter::{Flaw, Interpreter};
+pub(crate) use lexer::code;
+use lexer::{Line, Misfit, Remarks, Word};
 
 /// A program read from text.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,7 +68,10 @@ const TYPICAL_LINE: usize = 20;
 /// [`ReadError`] for the first thing that cannot be read.
 pub fn read(text: &str, machine: &Machine, tools: &[ToolRecord]) -> Result<Reading, ReadError> {
     machine.check().map_err(|e| whole_text(e.into()))?;
-    let mut reader = Reader::new(text, machine, tools);
+    if machine.family == Family::Klartext {
+        return klartext::read(text, machine, tools);
+    }
+    let mut reader = Reader::new(text, machine, tools).map_err(|e| whole_text(e.into()))?;
     let mut line_number = 0_u32;
     for line in text.lines() {
         line_number = line_number.checked_add(1).ok_or_else(|| whole_text(ReadFault::TooManyLines))?;
@@ -85,7 +101,9 @@ enum Stage {
 
 struct Reader<'t> {
     machine: &'t Machine,
-    refused: Vec<(u8, i64)>,
+    codes: Codes,
+    remarks: Remarks,
+    radius_word: u8,
     dwell_word: char,
     line: Line<'t>,
     interpreter: Interpreter<'t>,
@@ -98,10 +116,13 @@ struct Reader<'t> {
 }
 
 impl<'t> Reader<'t> {
-    fn new(text: &str, machine: &'t Machine, tools: &[ToolRecord]) -> Self {
-        Self {
+    fn new(text: &str, machine: &'t Machine, tools: &[ToolRecord]) -> Result<Self, crate::machine::MachineError> {
+        let radius_word = machine.arc.as_ref().and_then(|rules| rules.radius_word).unwrap_or('R');
+        Ok(Self {
             machine,
-            refused: machine.reader.refused.iter().filter_map(|c| code(c)).collect(),
+            codes: Codes::new(machine)?,
+            remarks: Remarks::of(machine),
+            radius_word: u8::try_from(radius_word).unwrap_or(b'R'),
             dwell_word: machine.dwell.as_ref().map_or('P', |d| d.word),
             line: Line::default(),
             interpreter: Interpreter::new(machine, tools, text.len() / TYPICAL_LINE),
@@ -109,7 +130,7 @@ impl<'t> Reader<'t> {
             framed: false,
             by_code: false,
             optional_lines: Vec::new(),
-        }
+        })
     }
 
     fn read_line(&mut self, text: &'t str, number: u32) -> Result<Progress, ReadError> {
@@ -118,7 +139,7 @@ impl<'t> Reader<'t> {
         }
         self.check_length(text).map_err(|fault| whole_line(number, fault))?;
         self.check_characters(text).map_err(|misfit| misfit_at(text, number, misfit))?;
-        self.line.cut(text).map_err(|misfit| misfit_at(text, number, misfit))?;
+        self.cut(text).map_err(|misfit| misfit_at(text, number, misfit))?;
         if !self.runs().map_err(|fault| whole_line(number, fault))? {
             self.optional_lines.push(number);
             return Ok(Progress::Going);
@@ -136,7 +157,7 @@ impl<'t> Reader<'t> {
         if self.stage == Stage::Start {
             self.stage = Stage::Inside;
         }
-        if empty || !self.run_block(number).map_err(|(fault, word)| flaw_at(text, number, fault, word))? {
+        if empty || !self.run_block(text, number).map_err(|(fault, word)| flaw_at(text, number, fault, word))? {
             return Ok(Progress::Going);
         }
         self.stage = Stage::Ended;
@@ -193,27 +214,67 @@ impl<'t> Reader<'t> {
         }
     }
 
-    fn run_block(&mut self, number: u32) -> Result<bool, Flaw> {
-        let mut block = Block::default();
-        for word in &self.line.words {
-            self.check_refused(*word)?;
-            block.take(*word).map_err(|fault| (fault, Some(*word)))?;
+    fn cut(&mut self, text: &'t str) -> Result<(), Misfit> {
+        match self.machine.family {
+            Family::Siemens => self.line.cut_siemens(text, self.remarks),
+            _ => self.line.cut(text, self.remarks),
         }
-        let arc = self.interpreter.arc_after(&block);
-        let turns = arc && self.machine.arc.is_some_and(|rules| rules.turns);
-        block.settle(self.dwell_word, arc, turns).map_err(|(fault, word)| (fault, Some(word)))?;
-        self.interpreter.run(&block, number)
     }
 
-    fn check_refused(&self, word: Word) -> Result<(), Flaw> {
-        if !matches!(word.letter, b'G' | b'M') || self.refused.is_empty() {
-            return Ok(());
+    fn run_block(&mut self, text: &str, number: u32) -> Result<bool, Flaw> {
+        self.check_words()?;
+        if self.is_passed()? {
+            self.interpreter.pass(text, self.codes.tolerance_after(text));
+            return Ok(false);
         }
-        let refused = word.number.tenths().is_some_and(|t| self.refused.contains(&(word.letter, t)));
-        if refused {
-            return Err((ReadFault::Refused { machine: self.machine.name.clone() }, Some(word)));
+        let mut block = Block::default();
+        for word in &self.line.words {
+            block.take(*word, &self.codes, self.radius_word).map_err(|fault| (fault, Some(*word)))?;
+        }
+        let arc = self.interpreter.arc_after(&block);
+        let arrivals = self.machine.arc.as_ref().is_some_and(|rules| rules.turns == Turns::Arrivals);
+        let force = Force {
+            codes: &self.codes,
+            dwell_word: self.dwell_word,
+            length_word: self.interpreter.length_word(),
+            edges: self.machine.family == Family::Siemens,
+            arc,
+            turns: arc && arrivals,
+            cycle: self.interpreter.cycle_after(&block),
+        };
+        block.settle(&force).map_err(|(fault, word)| (fault, Some(word)))?;
+        if let (Some(word), None, false) = (block.any_axis(), block.motion, self.machine.reader.modal_motion) {
+            return Err((ReadFault::NoMotionMode, Some(word)));
+        }
+        self.interpreter.run(&block, &self.codes, number)
+    }
+
+    /// Codes that this controller refuses, and how many it takes in a line.
+    fn check_words(&self) -> Result<(), Flaw> {
+        let mut commands = 0;
+        for word in self.line.words.iter().filter(|word| matches!(word.letter, b'G' | b'M')) {
+            commands += 1;
+            if self.codes.meaning(*word) == Some(Meaning::Refused) {
+                return Err((ReadFault::Refused { machine: self.machine.name.clone() }, Some(*word)));
+            }
+            if commands > 1 && self.machine.words.one_command {
+                return Err((ReadFault::SecondCommand, Some(*word)));
+            }
         }
         Ok(())
+    }
+
+    /// Whether a block is to be handed on as it stands. Nothing in it may move an axis or mean something to the reader.
+    fn is_passed(&self) -> Result<bool, Flaw> {
+        let passed = |word: &Word| self.codes.meaning(*word) == Some(Meaning::Passed);
+        if !self.line.words.iter().any(passed) {
+            return Ok(false);
+        }
+        let strange = |word: &&Word| b"GMXYZIJKRABCUVWFST".contains(&word.letter) && !passed(word);
+        match self.line.words.iter().find(strange) {
+            Some(word) => Err((ReadFault::StrayWord, Some(*word))),
+            None => Ok(true),
+        }
     }
 
     fn finish(self, lines: u32) -> Result<Reading, ReadError> {

@@ -3,17 +3,19 @@
 use std::ops::Range;
 
 use styluscam_motion::{
-    Arc, Event, EventKind, MachineMove, Move, MoveKind, OperationRecord, Plane, Program, SetupRecord, SpindleDirection,
-    ToolRecord, ToolReference, PROGRAM_SCHEMA,
+    Arc, Cycle, CycleStart, CycleStep, Event, EventKind, MachineMove, Move, MoveKind, OperationRecord, Plane, Program,
+    SetupRecord, SpindleDirection, ToolRecord, ToolReference,
 };
 
-use crate::block::{Block, Motion, Spindle, Stop};
-use crate::circle::Circle;
-use crate::lexer::Word;
-use crate::machine::{LengthUnit, Machine, TimeUnit, ToolChange};
+use super::block::{Block, Motion, Spindle, Stop};
+use super::circle::Circle;
+use super::codes::Codes;
+use super::drilling::Series;
+use super::lexer::Word;
+use super::standing::Standing;
+use super::Reading;
+use crate::machine::{FeedMode, Lathe, LengthUnit, Machine, SpeedUnit, TimeUnit, ToolChange};
 use crate::read_error::ReadFault;
-use crate::reader::Reading;
-use crate::standing::Standing;
 
 const AXES: [char; 3] = ['X', 'Y', 'Z'];
 const Z: usize = 2;
@@ -53,12 +55,16 @@ pub(crate) struct Interpreter<'m> {
     machine_moves: Vec<MachineMove>,
     stops: Vec<usize>,
     absolute_centre: bool,
-    /// mm/min.
+    /// As written, for the mode in force.
     feed: Option<f64>,
+    feed_mode: FeedMode,
     /// rev/min.
     speed: f64,
     direction: Option<SpindleDirection>,
     mist: bool,
+    /// Whether a cycle ends at its R, not where it came from.
+    low_return: bool,
+    series: Option<Series>,
     selected: Option<u32>,
     tool: Option<u32>,
     /// Height of the posted point above the tip, mm.
@@ -92,9 +98,12 @@ impl<'m> Interpreter<'m> {
             stops: Vec::new(),
             absolute_centre: false,
             feed: None,
+            feed_mode: FeedMode::PerMinute,
             speed: 0.0,
             direction: None,
             mist: false,
+            low_return: false,
+            series: None,
             selected: None,
             tool: None,
             height: 0.0,
@@ -120,23 +129,26 @@ impl<'m> Interpreter<'m> {
     }
 
     /// Carries out a block, in the order in which controllers do; says whether it ended the program.
-    pub(crate) fn run(&mut self, block: &Block, line: u32) -> Result<bool, Flaw> {
+    pub(crate) fn run(&mut self, block: &Block, codes: &Codes, line: u32) -> Result<bool, Flaw> {
         self.set_units(block)?;
+        self.set_feed_mode(block);
         self.set_feed(block)?;
         self.set_speed(block)?;
         self.set_tool(block)?;
         self.set_spindle(block);
         self.set_coolant(block);
         self.dwell(block)?;
-        self.standing.take_length(block, self.job_tool().map(|tool| tool.length_offset))?;
+        let letter = self.length_word();
+        self.standing.take_length(block, self.job_tool().map(|tool| tool.length_offset), letter)?;
         self.set_path(block)?;
-        self.set_wcs(block)?;
+        self.set_wcs(block, codes)?;
         self.incremental = block.incremental.unwrap_or(self.incremental);
         self.distance_said |= block.incremental.is_some();
         if let Some((plane, _)) = block.plane {
             self.set_plane(plane);
         }
         self.absolute_centre = block.absolute_centre.unwrap_or(self.absolute_centre);
+        self.low_return = block.low_return.unwrap_or(self.low_return);
         self.go(block, line)?;
         Ok(self.stop(block))
     }
@@ -162,7 +174,10 @@ impl<'m> Interpreter<'m> {
 
     fn set_feed(&mut self, block: &Block) -> Result<(), Flaw> {
         let Some(word) = block.feed else { return Ok(()) };
-        let feed = self.mm(word)?;
+        let feed = match self.feed_mode {
+            FeedMode::InverseTime => word.number.value(),
+            _ => self.mm(word)? / self.machine.feed_scale_of(self.units),
+        };
         if feed <= 0.0 {
             return Err((ReadFault::ZeroFeed, Some(word)));
         }
@@ -170,9 +185,33 @@ impl<'m> Interpreter<'m> {
         Ok(())
     }
 
+    /// A feed of one mode means nothing in another.
+    fn set_feed_mode(&mut self, block: &Block) {
+        let Some((mode, _)) = block.feed_mode else { return };
+        if mode != self.feed_mode {
+            self.feed = None;
+        }
+        self.feed_mode = mode;
+    }
+
+    /// The feed of a block whose way is so long, mm/min.
+    fn feed_of(&self, block: &Block, length: f64, word: Word) -> Result<f64, Flaw> {
+        let feed = self.feed.ok_or((ReadFault::NoFeed, Some(word)))?;
+        match self.feed_mode {
+            FeedMode::PerMinute => Ok(feed),
+            FeedMode::PerRevolution if self.direction.is_some() && self.speed > 0.0 => Ok(feed * self.speed),
+            FeedMode::PerRevolution => Err((ReadFault::NoRevolutions, Some(word))),
+            FeedMode::InverseTime if block.feed.is_some() => Ok(feed * length),
+            FeedMode::InverseTime => Err((ReadFault::NoFeed, Some(word))),
+        }
+    }
+
     fn set_speed(&mut self, block: &Block) -> Result<(), Flaw> {
-        let Some(word) = block.speed.filter(|_| !dwells_by(block, self.machine, 'S')) else { return Ok(()) };
-        let rpm = word.number.value();
+        let Some(word) = block.speed else { return Ok(()) };
+        let rpm = match (self.machine.spindle.unit, self.machine.limits.max_rpm) {
+            (SpeedUnit::Percent, Some(most)) => word.number.value() / 100.0 * most,
+            _ => word.number.value(),
+        };
         if rpm < 0.0 {
             return Err((ReadFault::Negative, Some(word)));
         }
@@ -190,7 +229,8 @@ impl<'m> Interpreter<'m> {
             self.selected = Some(word.number.natural().ok_or((ReadFault::NotNatural, Some(word)))?);
         }
         // Without M6 the T word is all that the text says about a change.
-        let by_word = if self.machine.tool.change == ToolChange::M6 { None } else { block.tool };
+        let by_code = matches!(self.machine.tool.change, ToolChange::M6 | ToolChange::ToolCall);
+        let by_word = if by_code { None } else { block.tool };
         let Some(word) = block.change.or(by_word) else { return Ok(()) };
         let number = self.selected.ok_or((ReadFault::NoToolSelected, Some(word)))?;
         let index =
@@ -270,12 +310,7 @@ impl<'m> Interpreter<'m> {
     fn dwell(&mut self, block: &Block) -> Result<(), Flaw> {
         let Some(code) = block.dwell else { return Ok(()) };
         let Some(rules) = &self.machine.dwell else { return Err((self.refusal(), Some(code))) };
-        let (word, what) = match rules.word {
-            'X' => (block.x_of_dwell, "the time (X) of G4"),
-            'S' => (block.speed, "the time (S) of G4"),
-            _ => (block.p, "the time (P) of G4"),
-        };
-        let word = word.ok_or((ReadFault::MissingWord { what }, Some(code)))?;
+        let word = block.time.ok_or((ReadFault::MissingWord { what: "the time of G4" }, Some(code)))?;
         let per_second = if rules.unit == TimeUnit::S { 1.0 } else { 1000.0 };
         let seconds = word.number.value() / per_second;
         if seconds < 0.0 {
@@ -295,25 +330,31 @@ impl<'m> Interpreter<'m> {
             self.stops.push(self.program.moves.len());
         }
         match stop {
-            Stop::Pause => self.event(EventKind::Comment { text: "M0: program stop".into() }),
-            Stop::OptionalPause => self.event(EventKind::Comment { text: "M1: optional stop".into() }),
+            Stop::Pause => self.event(EventKind::Stop { optional: false }),
+            Stop::OptionalPause => self.event(EventKind::Stop { optional: true }),
             Stop::End => {}
         }
         stop == Stop::End
     }
 
-    fn set_wcs(&mut self, block: &Block) -> Result<(), Flaw> {
+    fn set_wcs(&mut self, block: &Block, codes: &Codes) -> Result<(), Flaw> {
         let Some(word) = block.wcs else { return Ok(()) };
-        let tenths = word.number.tenths().unwrap_or_default();
-        let name =
-            if tenths % 10 == 0 { format!("G{}", tenths / 10) } else { format!("G{}.{}", tenths / 10, tenths % 10) };
-        if !self.machine.wcs.contains(&name) {
-            return Err((ReadFault::Wcs, Some(word)));
-        }
+        let index = codes.wcs(word, block.p, block.h).ok_or((ReadFault::Wcs, Some(word)))?;
+        self.choose_wcs(index).map_err(|fault| (fault, Some(word)))
+    }
+
+    /// The work offset with this index is in force from here on.
+    pub(crate) fn choose_wcs(&mut self, index: usize) -> Result<(), ReadFault> {
+        let name = self.machine.wcs.get(index).cloned().ok_or(ReadFault::Wcs)?;
         // Before the first G54 to G59 the controller is in its first work offset.
         let now = self.wcs.as_deref().or(self.machine.wcs.first().map(String::as_str));
         if !self.program.moves.is_empty() && now != Some(name.as_str()) {
-            return Err((ReadFault::WcsChanged, Some(word)));
+            if self.tools_given {
+                return Err(ReadFault::WcsChanged);
+            }
+            self.event(EventKind::WorkOffset { wcs: name });
+            (0..3).for_each(|axis| self.forget(axis));
+            return Ok(());
         }
         self.wcs = Some(name);
         Ok(())
@@ -339,6 +380,16 @@ impl<'m> Interpreter<'m> {
         if let Some(code) = block.machine_coordinates {
             return self.go_to_machine_place(block, code, line);
         }
+        if let Some(code) = block.home {
+            return self.go_home(block, code, line);
+        }
+        if let Some((must_touch, code)) = block.probe {
+            return self.probe(block, must_touch, code);
+        }
+        if let Some(Motion::Cycle(number)) = self.motion {
+            return self.drill(block, number, line);
+        }
+        self.series = None;
         let arc_words = matches!(self.motion, Some(Motion::Arc(_))).then(|| block.arc_words().next()).flatten();
         let Some(first) = block.any_axis().or(arc_words) else { return Ok(()) };
         let kind = match self.motion {
@@ -348,15 +399,12 @@ impl<'m> Interpreter<'m> {
         };
         self.load_only_tool(first)?;
         self.allow_motion(first)?;
-        let feed = match kind {
-            MoveKind::Rapid => 0.0,
-            MoveKind::Feed => self.feed.ok_or((ReadFault::NoFeed, Some(first)))?,
-        };
         let start = self.tip();
         if let Some(Motion::Arc(_)) = self.motion {
             self.require_places(first)?;
         }
         self.place_axes(block)?;
+        self.turn_axes(block)?;
         if kind == MoveKind::Feed {
             self.require_places(first)?;
         }
@@ -367,8 +415,134 @@ impl<'m> Interpreter<'m> {
             }
             _ => None,
         };
+        let feed = match kind {
+            MoveKind::Rapid => 0.0,
+            MoveKind::Feed => {
+                let step = Move { kind, end: self.tip(), arc, feed: 0.0, operation: 0, line };
+                self.feed_of(block, step.length(start), first)?
+            }
+        };
         self.push_move(kind, arc, feed, line);
         Ok(())
+    }
+
+    /// One hole of a canned cycle.
+    fn drill(&mut self, block: &Block, number: u16, line: u32) -> Result<(), Flaw> {
+        let said = block.motion.map(|(_, word)| word);
+        let [x, y, z] = block.axes;
+        let Some(first) = x.or(y).or(z).or(said) else { return Ok(()) };
+        let Some(rules) = &self.machine.cycle else { return Err((self.refusal(), Some(first))) };
+        if self.incremental {
+            return Err((ReadFault::NotRead { what: "canned cycles with G91" }, Some(first)));
+        }
+        self.load_only_tool(first)?;
+        self.allow_motion(first)?;
+        let before = self.series.take().filter(|series| series.number == number);
+        let start = self.tip();
+        let mut series = Series::next(before, number, start[2]);
+        for (word, slot) in [(z, &mut series.bottom), (block.radius, &mut series.retract)] {
+            if let Some(word) = word {
+                *slot = Some(self.mm(word)? - self.height);
+            }
+        }
+        if let Some(word) = block.q {
+            series.peck = self.mm(word)?;
+        }
+        if let Some(word) = block.p {
+            let per_second = if rules.dwell_unit == TimeUnit::S { 1.0 } else { 1000.0 };
+            series.dwell = word.number.value() / per_second;
+        }
+        for (axis, word) in [x, y].into_iter().enumerate() {
+            if let Some(word) = word {
+                let place = self.mm(word)?;
+                self.axes[axis] = Axis { place, known: true, ever: true, pending: self.program.moves.len() };
+            }
+        }
+        self.require_places(first)?;
+        let feed = self.feed_of(block, 1.0, first)?;
+        let [x, y, _] = self.axes;
+        let cycle = series.hole([x.place, y.place], feed, self.low_return).map_err(|fault| (fault, Some(first)))?;
+        if !rules.kinds.contains(&cycle.kind) {
+            return Err((self.refusal(), said.or(Some(first))));
+        }
+        let spindle = self.direction.map(|direction| (self.speed, direction));
+        let steps = cycle.steps(&CycleStart { place: start, spindle });
+        let steps = steps.ok_or((ReadFault::TooManyPecks, block.q.or(Some(first))))?;
+        let from = self.program.moves.len();
+        for step in steps {
+            match step {
+                CycleStep::Move(kind, place) => {
+                    self.axes[Z].place = place[2] + self.height;
+                    let [end_x, end_y, end_z] = place;
+                    let feed = if kind == MoveKind::Feed { feed } else { 0.0 };
+                    self.push_move_to([end_x, end_y, end_z], kind, None, feed, line);
+                }
+                CycleStep::Event(kind) => self.event(kind),
+            }
+        }
+        let count = self.program.moves.len() - from;
+        self.program.cycles.push(Cycle { first: from, count, ..cycle });
+        self.series = Some(series);
+        Ok(())
+    }
+
+    /// A way until the probe touches: where it ends is not known.
+    fn probe(&mut self, block: &Block, must_touch: bool, code: Word) -> Result<(), Flaw> {
+        if self.incremental {
+            return Err((ReadFault::NotRead { what: "probing moves with G91" }, Some(code)));
+        }
+        self.load_only_tool(code)?;
+        let feed = self.feed_of(block, 1.0, code)?;
+        let mut end = [None; 3];
+        for (axis, word) in block.axes.iter().enumerate() {
+            let Some(word) = *word else { continue };
+            end[axis] = Some(self.mm(word)? - if axis == Z { self.height } else { 0.0 });
+            self.forget(axis);
+        }
+        if end.iter().all(Option::is_none) {
+            return Err((ReadFault::MissingWord { what: "an axis word of the probing move" }, Some(code)));
+        }
+        self.motion = None;
+        self.event(EventKind::Probe { end, feed, must_touch });
+        Ok(())
+    }
+
+    /// G28 by way of where the axis stands: `G91 G28 Z0`. Over any other place it may cut through the work.
+    fn go_home(&mut self, block: &Block, code: Word, line: u32) -> Result<(), Flaw> {
+        let home = self.machine.reader.home.unwrap_or_default();
+        let straight = self.incremental && block.axes.iter().flatten().all(|word| word.number.value() == 0.0);
+        if !straight || block.any_axis().is_none() {
+            return Err((ReadFault::HomeByWay, Some(code)));
+        }
+        let mut places = [None; 3];
+        for axis in 0..3 {
+            if block.axes[axis].is_some() {
+                places[axis] = Some(home[axis]);
+                self.forget(axis);
+            }
+        }
+        self.event(EventKind::Comment { text: "G28, place in the work unknown".into() });
+        self.machine_moves.push(MachineMove { before: self.program.moves.len(), line, places });
+        Ok(())
+    }
+
+    /// The letter of a length offset's number.
+    pub(crate) fn length_word(&self) -> u8 {
+        let word = self.machine.tool.length.as_ref().map_or('H', |length| length.word);
+        u8::try_from(word).unwrap_or(b'H')
+    }
+
+    /// A block of the machine's own, which moves nothing; `tolerance` is what it sets the path's to, mm.
+    pub(crate) fn pass(&mut self, text: &str, tolerance: Option<f64>) {
+        if let Some(tolerance) = tolerance {
+            self.standing.keep_path(tolerance);
+        }
+        self.event(EventKind::Raw { text: text.trim().into() });
+    }
+
+    /// Whether a canned cycle is in force once a block has said its word.
+    pub(crate) fn cycle_after(&self, block: &Block) -> bool {
+        matches!(block.motion.map(|(motion, _)| motion).or(self.motion), Some(Motion::Cycle(_)))
     }
 
     /// Whether an arc is in force once a block has said its word.
@@ -399,6 +573,15 @@ impl<'m> Interpreter<'m> {
         [x.place, y.place, z.place - self.height]
     }
 
+    /// How often X is counted: twice where it is a diameter.
+    fn scale(&self, axis: usize) -> f64 {
+        if axis == 0 && self.machine.motion.lathe == Some(Lathe::Diameter) {
+            2.0
+        } else {
+            1.0
+        }
+    }
+
     /// A job with one tool may run it without calling it; without any tool from the job, the tool is unknown.
     fn load_only_tool(&mut self, word: Word) -> Result<(), Flaw> {
         if self.tool.is_some() {
@@ -417,12 +600,30 @@ impl<'m> Interpreter<'m> {
     fn place_axes(&mut self, block: &Block) -> Result<(), Flaw> {
         for (index, word) in block.axes.iter().enumerate() {
             let Some(word) = *word else { continue };
-            let value = self.mm(word)?;
+            let value = self.mm(word)? / self.scale(index);
             let axis = self.axes.get(index).copied().unwrap_or_default();
             if self.incremental && !axis.known {
                 return Err((ReadFault::IncrementalFromUnknown, Some(word)));
             }
             self.place(index, if self.incremental { axis.place + value } else { value });
+        }
+        Ok(())
+    }
+
+    /// The end of an arc that is given by an angle about its centre.
+    fn turn_axes(&mut self, block: &Block) -> Result<(), Flaw> {
+        let (Some(angle), [Some(x), Some(y), _]) = (block.polar, block.offsets) else { return Ok(()) };
+        let centre = [self.mm(x)?, self.mm(y)?];
+        let degrees = angle.number.value();
+        let (sin, cos) = libm::sincos(degrees.rem_euclid(360.0).to_radians());
+        let [from_x, from_y] = [0, 1].map(|axis| self.axes[axis].place - centre[axis]);
+        if degrees.rem_euclid(360.0) != 0.0 {
+            self.place(0, centre[0] + cos * from_x - sin * from_y);
+            self.place(1, centre[1] + sin * from_x + cos * from_y);
+        }
+        if let Some(rise) = block.rise {
+            let rise = self.mm(rise)?;
+            self.place(Z, self.axes[Z].place + rise);
         }
         Ok(())
     }
@@ -468,13 +669,17 @@ impl<'m> Interpreter<'m> {
     }
 
     fn push_move(&mut self, kind: MoveKind, arc: Option<Arc>, feed: f64, line: u32) {
+        self.push_move_to(self.tip(), kind, arc, feed, line);
+    }
+
+    fn push_move_to(&mut self, end: [f64; 3], kind: MoveKind, arc: Option<Arc>, feed: f64, line: u32) {
         self.close_unplaced();
         if self.program.moves.is_empty() {
             self.unsaid.extend((!self.distance_said).then_some("G90"));
             self.unsaid.extend(self.wcs.is_none().then_some("G54"));
         }
         let operation = self.operation();
-        self.program.moves.push(Move { kind, end: self.tip(), arc, feed, operation, line });
+        self.program.moves.push(Move { kind, end, arc, feed, operation, line });
     }
 
     /// Ends the run of moves that lack a place, once every axis has one.
@@ -560,20 +765,9 @@ impl<'m> Interpreter<'m> {
     }
 }
 
-fn dwells_by(block: &Block, machine: &Machine, letter: char) -> bool {
-    block.dwell.is_some() && machine.dwell.as_ref().is_some_and(|d| d.word == letter)
-}
-
 fn empty_program(tools: &[ToolRecord], typical_moves: usize) -> Program {
     let moves = Vec::with_capacity(typical_moves);
-    Program {
-        schema: PROGRAM_SCHEMA,
-        setup: SetupRecord::default(),
-        tools: tools.to_vec(),
-        operations: Vec::new(),
-        moves,
-        events: Vec::new(),
-    }
+    Program { moves, ..Program::empty(SetupRecord::default(), tools.to_vec(), Vec::new()) }
 }
 
 /// A tool of which the text gives the number only: its tip is what moves.

@@ -2,10 +2,10 @@
 
 use styluscam_motion::ToolRecord;
 
-use crate::block::Block;
-use crate::interpreter::Flaw;
-use crate::lexer::Word;
-use crate::machine::{LengthOffset, Machine};
+use super::block::Block;
+use super::interpreter::Flaw;
+use super::lexer::Word;
+use crate::machine::Machine;
 use crate::read_error::ReadFault;
 
 /// G61 and G61.1 in tenths: the path is kept exactly.
@@ -27,9 +27,9 @@ impl Standing {
         Self { length: None, path: f64::INFINITY }
     }
 
-    /// G43 and G49; a bare G43 takes `loaded`, the loaded tool's offset.
-    pub(crate) fn take_length(&mut self, block: &Block, loaded: Option<u32>) -> Result<(), Flaw> {
-        match (block.length, block.h) {
+    /// G43 and G49; a bare G43 takes `loaded`, the loaded tool's offset. The number's letter is `letter`.
+    pub(crate) fn take_length(&mut self, block: &Block, loaded: Option<u32>, letter: u8) -> Result<(), Flaw> {
+        match (block.length, block.length_number(letter)) {
             (Some((true, _)), Some(h)) => {
                 let found = h.number.natural().ok_or((ReadFault::NotNatural, Some(h)))?;
                 if let Some(expected) = loaded.filter(|expected| *expected != found) {
@@ -57,11 +57,16 @@ impl Standing {
         Ok(())
     }
 
+    /// A block of the machine's own that sets how closely the path is kept, mm.
+    pub(crate) fn keep_path(&mut self, tolerance: f64) {
+        self.path = tolerance;
+    }
+
     /// Whether `tool` may be moved on `machine` as things stand; `word` is the move's.
     pub(crate) fn allows(&self, machine: &Machine, tool: &ToolRecord, word: Word) -> Result<(), Flaw> {
         let expected = tool.length_offset;
         match self.length {
-            _ if machine.tool.length != LengthOffset::G43H => {}
+            _ if machine.tool.length.is_none() => {}
             Some(found) if found != expected => {
                 return Err((ReadFault::LengthOffset { found, expected }, Some(word)));
             }

@@ -1,0 +1,376 @@
+//! Heidenhain's conversational blocks, line by line, as the blocks that the interpreter carries out.
+//!
+//! Sources: TNC 320 user's manual 7/2008 p. 155 (CC, C), TNC 426/430 user's manual p. 134 (TOOL CALL) and p. 180 (CP),
+//! TNC 620 Klartext 10/2017 p. 154 (blocks), TNC 640 ISO p. 631 (ranges of numbers).
+
+use styluscam_motion::{Plane, ToolRecord};
+
+use super::block::{Block, Motion, Spindle, Stop};
+use super::codes::Codes;
+use super::interpreter::{Flaw, Interpreter};
+use super::lexer::{cut_number, Misfit, Number, Word};
+use super::{flaw_at, misfit_at, whole_line, whole_text, Reading};
+use crate::machine::{LengthUnit, Machine};
+use crate::read_error::{ReadError, ReadFault};
+
+/// Typical length of a line, to reserve memory.
+const TYPICAL_LINE: usize = 20;
+
+/// Reads `text` as `machine` would.
+pub(super) fn read(text: &str, machine: &Machine, tools: &[ToolRecord]) -> Result<Reading, ReadError> {
+    let codes = Codes::new(machine).map_err(|e| whole_text(e.into()))?;
+    let mut reader = Reader {
+        machine,
+        codes,
+        interpreter: Interpreter::new(machine, tools, text.len() / TYPICAL_LINE),
+        units: None,
+        centre: [None; 2],
+        cycle: None,
+        continues: false,
+        ended: false,
+        by_code: false,
+    };
+    let mut number = 0_u32;
+    for line in text.lines() {
+        number = number.checked_add(1).ok_or_else(|| whole_text(ReadFault::TooManyLines))?;
+        reader.read_line(line, number)?;
+    }
+    if !reader.ended {
+        return Err(whole_line(number, ReadFault::NoEnd));
+    }
+    reader.interpreter.finish(reader.by_code, number, Vec::new()).map_err(whole_text)
+}
+
+struct Reader<'m> {
+    machine: &'m Machine,
+    codes: Codes,
+    interpreter: Interpreter<'m>,
+    units: Option<LengthUnit>,
+    /// X and Y of the last CC.
+    centre: [Option<Word>; 2],
+    /// Number of the cycle that the lines belong to.
+    cycle: Option<u32>,
+    /// Whether this line goes on from the last one.
+    continues: bool,
+    /// Whether END PGM was read.
+    ended: bool,
+    /// Whether M2 or M30 was.
+    by_code: bool,
+}
+
+/// A word of a block, and where it stands in the line.
+#[derive(Clone, Copy, Debug)]
+struct Token<'t> {
+    text: &'t str,
+    start: usize,
+}
+
+impl Token<'_> {
+    fn end(&self) -> usize {
+        self.start + self.text.len()
+    }
+
+    fn misfit(&self, fault: ReadFault) -> Misfit {
+        Misfit { fault, start: self.start, end: self.end() }
+    }
+
+    /// The number behind an address; `letter` is what the word becomes.
+    fn word(&self, address: &str, letter: u8) -> Result<Word, Misfit> {
+        let from = address.len();
+        let (number, end) = cut_number(self.text.as_bytes(), from).map_err(|m| self.misfit(m.fault))?;
+        if end != self.text.len() {
+            return Err(self.misfit(ReadFault::UnknownWord));
+        }
+        Ok(Word { letter, number, start: self.start, end: self.end() })
+    }
+}
+
+impl Reader<'_> {
+    fn read_line(&mut self, text: &str, number: u32) -> Result<(), ReadError> {
+        let length = text.trim_end().chars().count();
+        let max = self.machine.line.max_chars;
+        if length > max as usize {
+            return Err(whole_line(number, ReadFault::LineTooLong { length, max }));
+        }
+        let (code, remark) = split_remark(text);
+        let tokens = tokens(code);
+        let goes_on = std::mem::replace(&mut self.continues, text.trim_end().ends_with('~'));
+        let tokens = if goes_on { &tokens[..] } else { without_number(&tokens) };
+        if let Some(remark) = remark {
+            self.interpreter.remark(remark.trim().trim_end_matches('~').trim_end());
+        }
+        if tokens.is_empty() {
+            return Ok(());
+        }
+        if self.ended {
+            return Err(whole_line(number, ReadFault::AfterEnd));
+        }
+        if goes_on {
+            return self.read_parameter(tokens).map_err(|m| misfit_at(text, number, m));
+        }
+        let block = self.block(tokens, text, number)?;
+        let Some(block) = block else { return Ok(()) };
+        let ends = self.interpreter.run(&block, &self.codes, number);
+        self.by_code |= ends.map_err(|(fault, word): Flaw| flaw_at(text, number, fault, word))?;
+        Ok(())
+    }
+
+    /// What a block asks for; none when it asks for nothing.
+    fn block(&mut self, tokens: &[Token], text: &str, number: u32) -> Result<Option<Block>, ReadError> {
+        let head: Vec<&str> = tokens.iter().map(|t| t.text).collect();
+        let misfit = |m: Misfit| misfit_at(text, number, m);
+        match head.as_slice() {
+            ["BEGIN", "PGM", _, unit] => self.begin(unit, tokens).map(Some).map_err(misfit),
+            ["END", "PGM", ..] => {
+                self.ended = true;
+                Ok(None)
+            }
+            ["BLK", "FORM", ..] | ["TOOL", "DEF", ..] => Ok(None),
+            ["*", ..] => {
+                let heading = text.split_once('*').map_or("", |(_, rest)| rest.trim_start_matches([' ', '-']));
+                self.interpreter.remark(heading.trim());
+                Ok(None)
+            }
+            ["TOOL", "CALL", ..] => tool_call(&tokens[2..]).map(Some).map_err(misfit),
+            ["CYCL", "DEF", ..] => self.cycle(&tokens[2..]).map_err(misfit),
+            ["CC", ..] => self.set_centre(&tokens[1..]).map(|()| None).map_err(misfit),
+            ["L", ..] => self.line(&tokens[1..]).map(Some).map_err(misfit),
+            ["C" | "CR" | "CP", ..] => self.circle(&tokens[1..], &tokens[0]).map(Some).map_err(misfit),
+            ["STOP", ..] => functions(tokens, 1).map(Some).map_err(misfit),
+            [first, ..] if first.starts_with('M') => functions(tokens, 0).map(Some).map_err(misfit),
+            _ => Err(misfit(tokens[0].misfit(ReadFault::UnknownWords))),
+        }
+    }
+
+    fn begin(&mut self, unit: &str, tokens: &[Token]) -> Result<Block, Misfit> {
+        let units = match unit {
+            "MM" => LengthUnit::Mm,
+            "INCH" => LengthUnit::Inch,
+            _ => return Err(tokens[3].misfit(ReadFault::NoUnits)),
+        };
+        if self.units.is_some() {
+            return Err(tokens[0].misfit(ReadFault::SameGroup));
+        }
+        self.units = Some(units);
+        Ok(Block { units: Some(units), incremental: Some(false), absolute_centre: Some(true), ..Block::default() })
+    }
+
+    /// X, Y and Z of a block, and what else may stand in it: R0, F, M.
+    fn line(&self, tokens: &[Token]) -> Result<Block, Misfit> {
+        let mut block = Block::default();
+        let mut rapid = None;
+        for token in tokens {
+            match token.text {
+                "FMAX" => rapid = Some(*token),
+                text if text.starts_with('F') => once(&mut block.feed, token.word("F", b'F')?, token)?,
+                _ => take_common(&mut block, token)?,
+            }
+        }
+        let code = tokens.first().map_or(Word { letter: b'L', number: Number::whole(0), start: 0, end: 0 }, |t| Word {
+            letter: b'L',
+            number: Number::whole(0),
+            start: t.start,
+            end: t.end(),
+        });
+        let motion = if rapid.is_some() { Motion::Rapid } else { Motion::Feed };
+        block.motion = Some((motion, code));
+        Ok(block)
+    }
+
+    fn set_centre(&mut self, tokens: &[Token]) -> Result<(), Misfit> {
+        for token in tokens {
+            match token.text.as_bytes().first() {
+                Some(b'X') => self.centre[0] = Some(token.word("X", b'I')?),
+                Some(b'Y') => self.centre[1] = Some(token.word("Y", b'J')?),
+                _ => return Err(token.misfit(ReadFault::NotRead { what: "centres other than by X and Y" })),
+            }
+        }
+        Ok(())
+    }
+
+    /// C about the last CC, CR with a radius, CP with an angle about the last CC.
+    fn circle(&self, tokens: &[Token], head: &Token) -> Result<Block, Misfit> {
+        let mut block = Block::default();
+        let mut clockwise = None;
+        for token in tokens {
+            match token.text {
+                "DR+" => clockwise = Some(false),
+                "DR-" => clockwise = Some(true),
+                text if text.starts_with("IPA") && head.text == "CP" => {
+                    once(&mut block.polar, token.word("IPA", b'P')?, token)?;
+                }
+                text if text.starts_with("IZ") && head.text == "CP" => {
+                    once(&mut block.rise, token.word("IZ", b'Z')?, token)?;
+                }
+                text if text.starts_with("R") && head.text == "CR" => {
+                    once(&mut block.radius, token.word("R", b'R')?, token)?;
+                }
+                text if text.starts_with('F') => once(&mut block.feed, token.word("F", b'F')?, token)?,
+                _ => take_common(&mut block, token)?,
+            }
+        }
+        let missing = |what| head.misfit(ReadFault::MissingWord { what });
+        let clockwise = clockwise.ok_or(missing("the sense of the arc (DR+ or DR-)"))?;
+        if head.text == "CP" {
+            let angle = block.polar.ok_or(missing("the angle of the arc (IPA)"))?;
+            if (angle.number.value() < 0.0) != clockwise {
+                return Err(head.misfit(ReadFault::ArcForm));
+            }
+        }
+        if head.text == "CR" {
+            block.radius.ok_or(missing("the radius of the arc (R)"))?;
+        } else {
+            let [Some(x), Some(y)] = self.centre else { return Err(missing("the arc's centre (CC)")) };
+            block.offsets = [Some(x), Some(y), None];
+        }
+        let code = Word { letter: b'C', number: Number::whole(0), start: head.start, end: head.end() };
+        block.motion = Some((Motion::Arc(clockwise), code));
+        block.plane = Some((Plane::Xy, code));
+        Ok(block)
+    }
+
+    /// CYCL DEF: 9 waits, 32 says how far the path may be left, 247 chooses a datum.
+    fn cycle(&mut self, tokens: &[Token]) -> Result<Option<Block>, Misfit> {
+        let Some(first) = tokens.first() else { return Ok(None) };
+        let value = |address: &str, letter| {
+            tokens
+                .get(1..)
+                .unwrap_or_default()
+                .iter()
+                .rev()
+                .find(|t| t.text.starts_with(address))
+                .map(|t| t.word(address, letter))
+        };
+        match first.text {
+            "9.0" | "32.0" | "32.2" => Ok(None),
+            "9.1" => {
+                let last = tokens.last().unwrap_or(first);
+                let time = last.word("", b'P')?;
+                Ok(Some(Block { dwell: Some(time), time: Some(time), ..Block::default() }))
+            }
+            "32.1" => {
+                let code = Word { letter: b'G', number: Number::whole(64), start: first.start, end: first.end() };
+                let p = value("T", b'P').transpose()?;
+                Ok(Some(Block { smoothing: Some(code), p, ..Block::default() }))
+            }
+            "247" => {
+                self.cycle = Some(247);
+                Ok(None)
+            }
+            _ => Err(first.misfit(ReadFault::NotRead { what: "cycles of this kind" })),
+        }
+    }
+
+    /// A line of a cycle's parameters: `Q339=+1`.
+    fn read_parameter(&mut self, tokens: &[Token]) -> Result<(), Misfit> {
+        let (Some(247), Some(first)) = (self.cycle, tokens.first()) else {
+            return Err(tokens[0].misfit(ReadFault::UnknownWords));
+        };
+        let Some(datum) = first.text.strip_prefix("Q339=") else {
+            return Err(first.misfit(ReadFault::UnknownWord));
+        };
+        let from = first.text.len() - datum.len();
+        let (number, end) = cut_number(first.text.as_bytes(), from).map_err(|m| first.misfit(m.fault))?;
+        let index = number.natural().filter(|_| end == first.text.len()).and_then(|n| n.checked_sub(1));
+        let index = index.and_then(|i| usize::try_from(i).ok()).ok_or_else(|| first.misfit(ReadFault::Wcs))?;
+        self.interpreter.choose_wcs(index).map_err(|fault| first.misfit(fault))?;
+        Ok(())
+    }
+}
+
+/// X, Y, Z, R0 and M words of any block.
+fn take_common(block: &mut Block, token: &Token) -> Result<(), Misfit> {
+    let [x, y, z] = &mut block.axes;
+    match token.text.as_bytes() {
+        [b'X', ..] => once(x, token.word("X", b'X')?, token),
+        [b'Y', ..] => once(y, token.word("Y", b'Y')?, token),
+        [b'Z', ..] => once(z, token.word("Z", b'Z')?, token),
+        b"R0" => Ok(()),
+        [b'R', b'L' | b'R', ..] => Err(token.misfit(ReadFault::NotRead { what: "radius compensations" })),
+        [b'M', ..] => take_function(block, token),
+        [b'I', ..] => Err(token.misfit(ReadFault::NotRead { what: "incremental words" })),
+        _ => Err(token.misfit(ReadFault::UnknownWord)),
+    }
+}
+
+fn take_function(block: &mut Block, token: &Token) -> Result<(), Misfit> {
+    let word = token.word("M", b'M')?;
+    let number = word.number.natural().ok_or_else(|| token.misfit(ReadFault::UnknownCode))?;
+    match number {
+        0 => once(&mut block.stop, (Stop::Pause, word), token),
+        1 => once(&mut block.stop, (Stop::OptionalPause, word), token),
+        2 | 30 => once(&mut block.stop, (Stop::End, word), token),
+        3 => once(&mut block.spindle, (Spindle::Clockwise, word), token),
+        4 => once(&mut block.spindle, (Spindle::Counterclockwise, word), token),
+        5 => once(&mut block.spindle, (Spindle::Off, word), token),
+        7 => once(&mut block.mist, word, token),
+        8 => once(&mut block.flood, word, token),
+        9 => once(&mut block.coolant_off, word, token),
+        91 => once(&mut block.machine_coordinates, word, token),
+        _ => Err(token.misfit(ReadFault::UnknownCode)),
+    }
+}
+
+/// Blocks of M words only; the first `skip` tokens are no M words. STOP alone stops until the operator goes on.
+fn functions(tokens: &[Token], skip: usize) -> Result<Block, Misfit> {
+    let mut block = Block::default();
+    for token in tokens.get(skip..).unwrap_or_default() {
+        take_function(&mut block, token)?;
+    }
+    if skip > 0 && block.stop.is_none() {
+        let word = Word { letter: b'M', number: Number::whole(0), start: tokens[0].start, end: tokens[0].end() };
+        block.stop = Some((Stop::Pause, word));
+    }
+    Ok(block)
+}
+
+/// `TOOL CALL 1 Z S1000`; without a number only the speed changes.
+fn tool_call(tokens: &[Token]) -> Result<Block, Misfit> {
+    let mut block = Block::default();
+    for token in tokens {
+        match token.text.as_bytes() {
+            [b'0'..=b'9', ..] => {
+                let word = token.word("", b'T')?;
+                block.tool = Some(word);
+                block.change = Some(word);
+            }
+            b"Z" => {}
+            [b'S', ..] => once(&mut block.speed, token.word("S", b'S')?, token)?,
+            [b'F', ..] => once(&mut block.feed, token.word("F", b'F')?, token)?,
+            [b'D', b'L' | b'R', ..] => {
+                return Err(token.misfit(ReadFault::NotRead { what: "oversizes of tools" }));
+            }
+            _ => return Err(token.misfit(ReadFault::NotRead { what: "tools by name, and tool axes other than Z" })),
+        }
+    }
+    Ok(block)
+}
+
+fn once<T>(slot: &mut Option<T>, value: T, token: &Token) -> Result<(), Misfit> {
+    if slot.is_some() {
+        return Err(token.misfit(ReadFault::WordTwice));
+    }
+    *slot = Some(value);
+    Ok(())
+}
+
+/// Code and remark of a line.
+fn split_remark(text: &str) -> (&str, Option<&str>) {
+    text.split_once(';').map_or((text, None), |(code, remark)| (code, Some(remark)))
+}
+
+fn tokens(text: &str) -> Vec<Token<'_>> {
+    let base = text.as_ptr() as usize;
+    text.split_whitespace()
+        .filter(|t| *t != "~")
+        .map(|t| Token { text: t, start: t.as_ptr() as usize - base })
+        .collect()
+}
+
+/// A block's number comes first.
+fn without_number<'s, 't>(tokens: &'s [Token<'t>]) -> &'s [Token<'t>] {
+    match tokens {
+        [first, rest @ ..] if first.text.bytes().all(|b| b.is_ascii_digit()) => rest,
+        _ => tokens,
+    }
+}

@@ -1,0 +1,84 @@
+//! Sinumerik's lines cut into words: addresses of several letters become the words that mean the same elsewhere.
+
+use super::lexer::{cut_number, stranger, Line, Misfit, Number, Remarks, Word, TURN};
+use crate::read_error::ReadFault;
+
+impl<'t> Line<'t> {
+    /// Cuts `text`, one line without its end mark (programming manual Fundamentals, "Structure of an NC program").
+    pub(super) fn cut_siemens(&mut self, text: &'t str, remarks: Remarks) -> Result<(), Misfit> {
+        self.words.clear();
+        self.comments.clear();
+        self.deleted = false;
+        let bytes = text.as_bytes();
+        let mut at = 0;
+        while let Some(byte) = bytes.get(at) {
+            at = match byte {
+                b' ' | b'\t' | b'\r' => at + 1,
+                b';' if remarks.semicolon => self.cut_tail(text, at),
+                b'/' if self.words.is_empty() && !self.deleted => {
+                    self.deleted = true;
+                    at + 1
+                }
+                b'a'..=b'z' | b'A'..=b'Z' => self.cut_address(text, at)?,
+                _ => return Err(stranger(text, at)),
+            };
+        }
+        Ok(())
+    }
+
+    fn cut_address(&mut self, text: &'t str, start: usize) -> Result<usize, Misfit> {
+        let rest = text.get(start..).unwrap_or_default();
+        let length = rest.find(|c: char| !c.is_ascii_alphabetic() && c != '_').unwrap_or(rest.len());
+        let name = rest.get(..length).unwrap_or_default().to_ascii_uppercase();
+        let after = start + length;
+        let next = text.as_bytes().get(after).copied();
+        match (name.as_str(), next) {
+            ("SUPA", _) => Ok(self.word(b'G', Number::whole(53), start, after)),
+            ("CYCLE", Some(b'8')) if rest.to_ascii_uppercase().starts_with("CYCLE832(") => {
+                self.cut_tolerance(text, start)
+            }
+            ("CR", Some(b'=')) => self.cut_assigned(text, b'R', start, after + 1),
+            ("TURN", Some(b'=')) => self.cut_assigned(text, TURN, start, after + 1),
+            (_, Some(b'=')) if length == 1 => {
+                let letter = name.bytes().next().unwrap_or(b'?');
+                self.cut_assigned(text, letter, start, after + 1)
+            }
+            _ if length == 1 => {
+                let letter = name.bytes().next().unwrap_or(b'?');
+                self.cut_assigned(text, letter, start, after)
+            }
+            _ => Err(Misfit { fault: ReadFault::UnknownWords, start, end: after }),
+        }
+    }
+
+    fn word(&mut self, letter: u8, number: Number, start: usize, end: usize) -> usize {
+        self.words.push(Word { letter, number, start, end });
+        end
+    }
+
+    fn cut_assigned(&mut self, text: &str, letter: u8, start: usize, from: usize) -> Result<usize, Misfit> {
+        if text.as_bytes().get(from).is_some_and(|b| b.is_ascii_alphabetic() || *b == b'"') {
+            let fault = ReadFault::NotRead { what: "names, AC() and IC()" };
+            return Err(Misfit { fault, start, end: text.len() });
+        }
+        let (number, end) = cut_number(text.as_bytes(), from).map_err(|m| Misfit { start, ..m })?;
+        Ok(self.word(letter, number, start, end))
+    }
+
+    /// `CYCLE832(0.01,1,1)` says how far the path may be left, in the program's units; without numbers, that nothing says so.
+    fn cut_tolerance(&mut self, text: &'t str, start: usize) -> Result<usize, Misfit> {
+        let open = start + "CYCLE832(".len();
+        let rest = text.get(open..).unwrap_or_default();
+        let Some(length) = rest.find(')') else {
+            return Err(Misfit { fault: ReadFault::UnclosedComment, start, end: text.len() });
+        };
+        let end = open + length + 1;
+        self.word(b'G', Number::whole(64), start, end);
+        let first = rest.get(..length).unwrap_or_default().split(',').next().unwrap_or_default().trim();
+        if !first.is_empty() {
+            let (number, _) = cut_number(first.as_bytes(), 0).map_err(|m| Misfit { start, end, ..m })?;
+            self.word(b'P', number, start, end);
+        }
+        Ok(end)
+    }
+}

@@ -1,0 +1,68 @@
+//! What a family of controllers must be able to say; who walks through the program decides when.
+
+use styluscam_motion::CycleKind;
+
+use super::lines::Lines;
+use crate::post_error::PostError;
+use crate::rounded::RoundedArc;
+
+/// Where the posted point stands, in last places; none where that is not known.
+pub(super) type Place = [Option<i64>; 3];
+
+/// A feed as it is posted: in last places of the mode that is in force.
+pub(super) type Feed = i64;
+
+/// A hole in last places.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Hole {
+    pub kind: CycleKind,
+    pub at: [i64; 2],
+    pub retract: i64,
+    pub bottom: i64,
+    pub peck: i64,
+    /// Wait at the bottom, s.
+    pub dwell: f64,
+    pub feed: Feed,
+    /// Whether it ends where it came from, not at `retract`.
+    pub lift: bool,
+}
+
+impl Hole {
+    /// Whether nothing but the place differs.
+    pub fn is_like(&self, other: &Self) -> bool {
+        Self { at: other.at, ..*self } == *other
+    }
+}
+
+/// The blocks of one family.
+pub(super) trait Dialect {
+    /// Text of templates may have changed modes: say them again.
+    fn forget(&mut self);
+
+    /// Another tool is in the spindle; its length offset has this number.
+    fn tool_changed(&mut self, length_offset: u32);
+
+    /// What was begun and must end before anything else is said: a canned cycle.
+    fn close(&mut self, lines: &mut Lines) -> Result<(), PostError>;
+
+    /// A rapid; axes at `from` already are left out unless every axis is repeated.
+    fn rapid(&mut self, lines: &mut Lines, from: Place, to: Place) -> Result<(), PostError>;
+
+    /// A line at feed.
+    fn feed(&mut self, lines: &mut Lines, from: Place, to: Place, feed: Feed) -> Result<(), PostError>;
+
+    /// An arc that the machine takes.
+    fn arc(&mut self, lines: &mut Lines, arc: &RoundedArc, feed: Feed) -> Result<(), PostError>;
+
+    /// A hole of a kind that the machine has a cycle for.
+    fn hole(&mut self, lines: &mut Lines, hole: &Hole) -> Result<(), PostError>;
+
+    /// The spindle's speed, in last places, and the word that turns it.
+    fn spindle(&mut self, lines: &mut Lines, speed: i64, word: &str) -> Result<(), PostError>;
+
+    /// A wait, s; false when it cannot be written as a number.
+    fn dwell(&mut self, lines: &mut Lines, seconds: f64) -> Result<bool, PostError>;
+
+    /// A way to a place until the probe touches, by this word.
+    fn probe(&mut self, lines: &mut Lines, word: &str, to: Place, feed: Feed) -> Result<(), PostError>;
+}

@@ -1,0 +1,265 @@
+//! Words of a letter and a number: G-code, and Sinumerik's dialect of it.
+
+use styluscam_motion::{CycleKind, Plane};
+
+use super::dialect::{Dialect, Feed, Hole, Place};
+use super::lines::Lines;
+use crate::machine::{ArcCentre, CycleRules, DwellRules, FeedMode, LengthRules, Machine, Repeat, TimeUnit, Turns};
+use crate::number::NumberFormat;
+use crate::post_error::PostError;
+use crate::rounded::RoundedArc;
+
+const RAPID: &str = "G0";
+const LINE: &str = "G1";
+const CLOCKWISE: &str = "G2";
+const COUNTERCLOCKWISE: &str = "G3";
+const CANCEL: &str = "G80";
+const AXES: [&str; 3] = ["X", "Y", "Z"];
+/// The letters of a centre's offsets from its arc's start.
+const OFFSETS: [&str; 3] = ["I", "J", "K"];
+const Z: usize = 2;
+/// Decimal places of seconds.
+const DWELL_PLACES: u8 = 3;
+
+/// What was said last and holds until something else is said.
+#[derive(Default)]
+struct Said {
+    motion: Option<&'static str>,
+    plane: Option<Plane>,
+    feed: Option<Feed>,
+    hole: Option<Hole>,
+}
+
+pub(super) struct Words<'m> {
+    machine: &'m Machine,
+    linear: NumberFormat,
+    feed_format: NumberFormat,
+    said: Said,
+    /// A length offset to be named in the next block that moves Z.
+    length: Option<(&'m LengthRules, u32)>,
+}
+
+impl<'m> Words<'m> {
+    pub fn new(machine: &'m Machine) -> Self {
+        Self {
+            machine,
+            linear: machine.linear_format(),
+            feed_format: machine.feed_format(),
+            said: Said::default(),
+            length: None,
+        }
+    }
+
+    fn begin_motion(&mut self, lines: &mut Lines, word: &'static str) {
+        lines.begin();
+        if self.said.motion != Some(word) || self.machine.words.repeat_g == Repeat::Always {
+            lines.word(word);
+            self.said.motion = Some(word);
+        }
+    }
+
+    /// Axis words of what changes, or of every axis.
+    fn axes(&mut self, lines: &mut Lines, from: Place, to: Place) {
+        let every = self.machine.words.repeat_axes == Repeat::Always;
+        for (axis, (from, to)) in from.into_iter().zip(to).enumerate() {
+            let Some(count) = to else { continue };
+            if every || from != to {
+                self.length_before(lines, axis);
+                lines.number(AXES[axis], &self.linear, count);
+                self.length_number(lines, axis);
+            }
+        }
+    }
+
+    /// `G43` before the Z that it corrects,
+    fn length_before(&self, lines: &mut Lines, axis: usize) {
+        if let Some((rules, _)) = self.length.filter(|_| axis == Z) {
+            lines.word(&rules.code);
+        }
+    }
+
+    /// and its `H1` behind.
+    fn length_number(&mut self, lines: &mut Lines, axis: usize) {
+        if axis != Z {
+            return;
+        }
+        if let Some((rules, number)) = self.length.take() {
+            lines.number(rules.word.encode_utf8(&mut [0; 4]), &NumberFormat::plain(0), i64::from(number));
+        }
+    }
+
+    /// F, where it changes; with inverse time in every block.
+    fn changed_feed(&mut self, lines: &mut Lines, feed: Feed) {
+        if self.said.feed == Some(feed) && self.machine.feed.mode != FeedMode::InverseTime {
+            return;
+        }
+        lines.number("F", &self.feed_format, feed);
+        self.said.feed = Some(feed);
+    }
+
+    fn plane(&mut self, lines: &mut Lines, plane: Plane) -> Result<(), PostError> {
+        if self.said.plane == Some(plane) {
+            return Ok(());
+        }
+        self.said.plane = Some(plane);
+        lines.block(match plane {
+            Plane::Xy => "G17",
+            Plane::Zx => "G18",
+            Plane::Yz => "G19",
+        })
+    }
+
+    fn turns(&self, lines: &mut Lines, turns: u32) {
+        let rules = self.machine.arc.as_ref().map_or(Turns::None, |rules| rules.turns);
+        match rules {
+            _ if turns == 0 => {}
+            Turns::Arrivals => lines.number("P", &NumberFormat::plain(0), i64::from(turns) + 1),
+            Turns::Extra => lines.number("TURN=", &NumberFormat::plain(0), i64::from(turns)),
+            Turns::None => {}
+        }
+    }
+
+    fn time(&self, unit: TimeUnit, seconds: f64) -> Option<(NumberFormat, i64)> {
+        let (format, per_second) = match unit {
+            TimeUnit::S => (NumberFormat::new(&self.machine.number, DWELL_PLACES).unsigned(), 1.0),
+            TimeUnit::Ms => (NumberFormat::plain(0), 1000.0),
+        };
+        Some((format, format.count(seconds * per_second)?))
+    }
+}
+
+impl Dialect for Words<'_> {
+    fn forget(&mut self) {
+        self.said = Said::default();
+    }
+
+    fn tool_changed(&mut self, length_offset: u32) {
+        let rules = self.machine.tool.length.as_ref();
+        self.length = rules.filter(|rules| rules.with_z).map(|rules| (rules, length_offset));
+    }
+
+    fn close(&mut self, lines: &mut Lines) -> Result<(), PostError> {
+        if self.said.hole.take().is_none() {
+            return Ok(());
+        }
+        self.forget();
+        lines.block(CANCEL)
+    }
+
+    fn rapid(&mut self, lines: &mut Lines, from: Place, to: Place) -> Result<(), PostError> {
+        self.begin_motion(lines, RAPID);
+        self.axes(lines, from, to);
+        lines.end()
+    }
+
+    fn feed(&mut self, lines: &mut Lines, from: Place, to: Place, feed: Feed) -> Result<(), PostError> {
+        self.begin_motion(lines, LINE);
+        self.axes(lines, from, to);
+        self.changed_feed(lines, feed);
+        lines.end()
+    }
+
+    fn arc(&mut self, lines: &mut Lines, arc: &RoundedArc, feed: Feed) -> Result<(), PostError> {
+        let [first, second, third] = arc.arc.plane.axes();
+        self.plane(lines, arc.arc.plane)?;
+        self.begin_motion(lines, if arc.arc.clockwise { CLOCKWISE } else { COUNTERCLOCKWISE });
+        for (axis, (from, to)) in arc.from.into_iter().zip(arc.to).enumerate() {
+            if axis != third || from != to {
+                lines.number(AXES[axis], &self.linear, to);
+            }
+        }
+        let absolute = self.machine.arc.as_ref().is_some_and(|rules| rules.centre == ArcCentre::Absolute);
+        let centre = if absolute { arc.centre() } else { arc.offset };
+        for axis in [first, second] {
+            lines.number(OFFSETS[axis], &self.linear, centre[axis]);
+        }
+        self.turns(lines, arc.arc.turns);
+        self.changed_feed(lines, feed);
+        lines.end()
+    }
+
+    fn hole(&mut self, lines: &mut Lines, hole: &Hole) -> Result<(), PostError> {
+        let goes_on = self.said.hole.is_some_and(|last| last.is_like(hole));
+        if !goes_on {
+            self.close(lines)?;
+        }
+        if self.said.plane.is_some_and(|plane| plane != Plane::Xy) {
+            self.plane(lines, Plane::Xy)?;
+        }
+        lines.begin();
+        let every = !goes_on || self.machine.words.repeat_g == Repeat::Always;
+        if every {
+            lines.word(if hole.lift { "G98" } else { "G99" });
+            lines.word(code(hole));
+        }
+        lines.number("X", &self.linear, hole.at[0]);
+        lines.number("Y", &self.linear, hole.at[1]);
+        if every {
+            lines.number("Z", &self.linear, hole.bottom);
+            lines.number("R", &self.linear, hole.retract);
+            if hole.peck > 0 {
+                lines.number("Q", &self.linear, hole.peck);
+            }
+            let unit = self.machine.cycle.as_ref().map(|rules: &CycleRules| rules.dwell_unit);
+            if let Some((format, time)) = unit.and_then(|unit| self.time(unit, hole.dwell)).filter(|(_, t)| *t > 0) {
+                lines.number("P", &format, time);
+            }
+            lines.number("F", &self.feed_format, hole.feed);
+        }
+        self.said = Said { hole: Some(*hole), plane: self.said.plane, ..Said::default() };
+        lines.end()
+    }
+
+    fn spindle(&mut self, lines: &mut Lines, speed: i64, word: &str) -> Result<(), PostError> {
+        lines.begin();
+        let format = NumberFormat::plain(self.machine.number.rpm);
+        let mut letter = [0; 4];
+        let letter: &str = self.machine.spindle.word.encode_utf8(&mut letter);
+        if self.machine.words.one_command {
+            lines.word(word);
+            lines.number(letter, &format, speed);
+        } else {
+            lines.number(letter, &format, speed);
+            lines.word(word);
+        }
+        lines.end()
+    }
+
+    fn dwell(&mut self, lines: &mut Lines, seconds: f64) -> Result<bool, PostError> {
+        let Some(DwellRules { word, unit, before }) = &self.machine.dwell else { return Ok(false) };
+        let Some((format, time)) = self.time(*unit, seconds) else { return Ok(false) };
+        lines.begin();
+        before.iter().for_each(|word| lines.word(word));
+        lines.word("G4");
+        if *word == 'F' {
+            self.said.feed = None;
+        }
+        lines.number(word.encode_utf8(&mut [0; 4]), &format, time);
+        lines.end()?;
+        Ok(true)
+    }
+
+    fn probe(&mut self, lines: &mut Lines, word: &str, to: Place, feed: Feed) -> Result<(), PostError> {
+        self.forget();
+        lines.begin();
+        lines.word(word);
+        self.axes(lines, [None; 3], to);
+        lines.number("F", &self.feed_format, feed);
+        lines.end()
+    }
+}
+
+/// The code of a hole's cycle.
+fn code(hole: &Hole) -> &'static str {
+    match hole.kind {
+        CycleKind::Drill if hole.dwell > 0.0 => "G82",
+        CycleKind::Drill => "G81",
+        CycleKind::Peck => "G83",
+        CycleKind::ChipBreak => "G73",
+        CycleKind::Tap => "G84",
+        CycleKind::LeftTap => "G74",
+        CycleKind::Bore if hole.dwell > 0.0 => "G89",
+        CycleKind::Bore => "G85",
+        CycleKind::StopBore => "G86",
+    }
+}
