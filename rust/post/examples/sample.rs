@@ -1,4 +1,4 @@
-//! Prints a short program as every shipped machine is given it.
+//! Prints a short program as the machines named are given it; as every shipped machine without names.
 
 use styluscam_motion::{
     Event, EventKind, Move, MoveKind, OperationRecord, Program, SetupRecord, ToolRecord, ToolReference,
@@ -6,7 +6,8 @@ use styluscam_motion::{
 use styluscam_post::{post, shipped, Machine};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    for name in shipped() {
+    let names: Vec<String> = std::env::args().skip(1).collect();
+    for name in shipped().into_iter().filter(|name| names.is_empty() || names.iter().any(|n| n == name)) {
         let posted = post(&cone(), &Machine::shipped(name)?)?;
         println!("{}", posted.text);
     }

@@ -2,6 +2,29 @@
 
 use crate::machine::{CommentForm, CommentRules, Machine, Numbered};
 
+/// What stands for characters that no controller takes.
+const ASCII: [(char, &str); 19] = [
+    ('°', " deg"),
+    ('µ', "u"),
+    ('±', "+-"),
+    ('²', "2"),
+    ('³', "3"),
+    ('×', "x"),
+    ('Ø', "D"),
+    ('ø', "d"),
+    ('–', "-"),
+    ('—', "-"),
+    ('…', "..."),
+    ('ä', "ae"),
+    ('ö', "oe"),
+    ('ü', "ue"),
+    ('Ä', "Ae"),
+    ('Ö', "Oe"),
+    ('Ü', "Ue"),
+    ('ß', "ss"),
+    ('%', " percent"),
+];
+
 /// The way remarks are written for one machine.
 #[derive(Clone, Debug)]
 pub(crate) struct CommentFormat {
@@ -57,6 +80,8 @@ impl CommentFormat {
                     .map(|s| if self.rules.uppercase { s.to_ascii_uppercase() } else { s })
                     .filter(|s| self.takes(*s)),
             );
+        } else if let Some(text) = ASCII.iter().find(|(known, _)| *known == c).map(|(_, text)| *text) {
+            text.chars().for_each(|s| self.push_clean(out, s));
         } else if let Some(other) = stand_ins(c).iter().find(|s| self.takes(**s)) {
             out.push(*other);
         }
@@ -76,9 +101,12 @@ fn number_width(machine: &Machine) -> usize {
 /// What may stand for a character outside the set, best first.
 fn stand_ins(c: char) -> &'static [char] {
     match c {
-        '(' | '[' | '{' => &['[', '<', '_'],
-        ')' | ']' | '}' => &[']', '>', '_'],
+        '(' | '[' | '{' => &['[', '<', '-', '_'],
+        ')' | ']' | '}' => &[']', '>', '-', '_'],
         ';' => &[',', '_'],
+        ':' => &['=', '-', '_'],
+        '/' => &['-', '_'],
+        '\'' => &[],
         _ => &['_'],
     }
 }

@@ -23,8 +23,29 @@ use crate::number::NumberFormat;
 pub const MACHINE_SCHEMA: u32 = 1;
 
 /// The machine files that come with the release: a name and the text.
-const SHIPPED: [(&str, &str); 2] =
-    [("grbl", include_str!("../machines/grbl.toml")), ("linuxcnc", include_str!("../machines/linuxcnc.toml"))];
+const SHIPPED: [(&str, &str); 21] = [
+    ("brother", include_str!("../machines/brother.toml")),
+    ("carvera", include_str!("../machines/carvera.toml")),
+    ("centroid", include_str!("../machines/centroid.toml")),
+    ("fanuc", include_str!("../machines/fanuc.toml")),
+    ("fluidnc", include_str!("../machines/fluidnc.toml")),
+    ("grbl", include_str!("../machines/grbl.toml")),
+    ("grblhal", include_str!("../machines/grblhal.toml")),
+    ("haas", include_str!("../machines/haas.toml")),
+    ("heidenhain", include_str!("../machines/heidenhain.toml")),
+    ("linuxcnc", include_str!("../machines/linuxcnc.toml")),
+    ("mach3", include_str!("../machines/mach3.toml")),
+    ("mach4", include_str!("../machines/mach4.toml")),
+    ("marlin", include_str!("../machines/marlin.toml")),
+    ("masso", include_str!("../machines/masso.toml")),
+    ("mazak", include_str!("../machines/mazak.toml")),
+    ("mitsubishi", include_str!("../machines/mitsubishi.toml")),
+    ("okuma", include_str!("../machines/okuma.toml")),
+    ("reprapfirmware", include_str!("../machines/reprapfirmware.toml")),
+    ("siemens", include_str!("../machines/siemens.toml")),
+    ("smoothieware", include_str!("../machines/smoothieware.toml")),
+    ("uccnc", include_str!("../machines/uccnc.toml")),
+];
 
 /// A controller, as data. Lengths mm, feeds mm/min, speeds rev/min, times s, whatever the output's units.
 ///
@@ -45,7 +66,7 @@ pub struct Machine {
     /// What the controller calls them, one for one, where that differs: `G15 H1`.
     #[serde(default)]
     pub wcs_words: Vec<String>,
-    /// The word that ends a program: `M2`.
+    /// The word that ends a program: `M2`; empty where there is none.
     pub end: String,
     /// What the facts were taken from.
     pub source: Source,
@@ -203,6 +224,16 @@ impl Machine {
     #[must_use]
     pub fn feed_resolution_mm(&self) -> f64 {
         self.units.output.in_mm() / self.feed_format().per_one() / self.feed_scale()
+    }
+
+    /// One unit of the last posted place of a spindle's speed, rev/min.
+    #[must_use]
+    pub fn speed_resolution(&self) -> f64 {
+        let unit = NumberFormat::plain(self.number.rpm).per_one().recip();
+        match (self.spindle.unit, self.limits.max_rpm) {
+            (SpeedUnit::Percent, Some(most)) => unit * most / 100.0,
+            _ => unit,
+        }
     }
 
     /// How far the controller itself may leave the posted path, mm: part of the path's tolerance.

@@ -20,7 +20,8 @@ const CHANGE_M6: &str = include_str!("../templates/change_m6.jinja");
 const CHANGE_PAUSE: &str = include_str!("../templates/change_pause.jinja");
 const CHANGE_T: &str = include_str!("../templates/change_t.jinja");
 const CHANGE_TOOL_CALL: &str = include_str!("../templates/change_tool_call.jinja");
-const CHANGE_NONE: &str = include_str!("../templates/change_none.jinja");
+const CHANGE_LOADED: &str = include_str!("../templates/change_loaded.jinja");
+const CHANGE_UNSAID: &str = include_str!("../templates/change_unsaid.jinja");
 
 /// What the templates say about a program as a whole, over and above its records.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,6 +81,7 @@ impl<'m> Templater<'m> {
             ("templates.operation_start", &templates.operation_start),
             ("templates.operation_end", &templates.operation_end),
             ("templates.stop", templates.stop.as_deref().unwrap_or_default()),
+            ("templates.work_offset", templates.work_offset.as_deref().unwrap_or_default()),
             ("templates.sync", templates.sync.as_deref().unwrap_or_default()),
             ("retract.lines", &self.machine.retract.lines),
             ("templates.program_end", &templates.program_end),
@@ -105,7 +107,8 @@ impl<'m> Templater<'m> {
             ToolChange::T => CHANGE_T,
             ToolChange::ToolCall => CHANGE_TOOL_CALL,
             ToolChange::Pause => CHANGE_PAUSE,
-            ToolChange::LoadBeforeStart => CHANGE_NONE,
+            ToolChange::LoadBeforeStart => CHANGE_LOADED,
+            ToolChange::Unsaid => CHANGE_UNSAID,
         })
     }
 
@@ -119,7 +122,8 @@ impl<'m> Templater<'m> {
             map([
                 ("name", machine.name.as_str().into()),
                 ("description", machine.description.as_str().into()),
-                ("verified", (machine.source.evidence == Evidence::Read).into()),
+                ("verified", (machine.source.evidence != Evidence::Unverified).into()),
+                ("unconfirmed", machine.source.unconfirmed.iter().map(String::as_str).collect()),
             ]),
         );
         name("program", program_value(program, facts, machine));
@@ -127,8 +131,7 @@ impl<'m> Templater<'m> {
         name("units", unit_name(machine.units.output).into());
         name("units_word", machine.units_word().unwrap_or_default().into());
         name("feed_word", machine.feed.word().unwrap_or_default().into());
-        name("wcs", machine.wcs_words_of(&program.setup.wcs).unwrap_or_default().into());
-        name("wcs_number", machine.wcs.iter().position(|w| *w == program.setup.wcs).map_or(0, |i| i + 1).into());
+        wcs_names(machine, &program.setup.wcs).into_iter().for_each(|(key, value)| _ = name(&key, value));
         name("end", machine.end.as_str().into());
         name("options", Value::from(options(machine)));
         name("has_length_offsets", machine.tool.length.is_some().into());
@@ -164,9 +167,16 @@ impl<'m> Templater<'m> {
         self.fill("templates.program_end", &self.machine.templates.program_end, names)
     }
 
-    /// The text of a tool change; `first` when no tool was called before.
-    pub(crate) fn tool_change(&self, names: &Names, tool: &ToolRecord, first: bool) -> Result<String, MachineError> {
+    /// The text of a tool change; `first` when no tool was called before, `next` the number of the one that comes after it.
+    pub(crate) fn tool_change(
+        &self,
+        names: &Names,
+        tool: &ToolRecord,
+        first: bool,
+        next: Option<u32>,
+    ) -> Result<String, MachineError> {
         let mut names = names.clone();
+        names.insert("next_tool".into(), next.filter(|_| self.machine.tool.preselect).unwrap_or(0).into());
         names.insert("tool".into(), tool_value(tool));
         let length = self.machine.tool.length.as_ref();
         let length_words = length.map(|l| format!("{} {}{}", l.code, l.word, tool.length_offset)).unwrap_or_default();
@@ -190,6 +200,13 @@ impl<'m> Templater<'m> {
         self.fill("templates.operation_end", source, &with_operation(names, operation))
     }
 
+    /// The text where the work offset changes to the one of this name.
+    pub(crate) fn work_offset(&self, names: &Names, wcs: &str) -> Result<String, MachineError> {
+        let mut names = names.clone();
+        names.extend(wcs_names(self.machine, wcs));
+        self.fill("templates.work_offset", self.machine.templates.work_offset.as_deref().unwrap_or("{{ wcs }}"), &names)
+    }
+
     /// The text where the program stops for the operator.
     pub(crate) fn stop(&self, names: &Names, optional: bool) -> Result<String, MachineError> {
         let mut names = names.clone();
@@ -210,6 +227,13 @@ fn with_operation(names: &Names, operation: &OperationRecord) -> Names {
     let record = [("id", operation.id.as_str().into()), ("kind", operation.kind.as_str().into())];
     names.insert("operation".into(), map(record));
     names
+}
+
+/// The controller's words for a work offset, and which one it is, from 1.
+fn wcs_names(machine: &Machine, wcs: &str) -> [(String, Value); 2] {
+    let words = machine.wcs_words_of(wcs).unwrap_or_default();
+    let number = machine.wcs.iter().position(|name| name == wcs).map_or(0, |index| index + 1);
+    [("wcs".into(), words.into()), ("wcs_number".into(), number.into())]
 }
 
 /// What the controller may do to the path, in words.
@@ -265,7 +289,7 @@ fn program_value(program: &Program, facts: &Facts, machine: &Machine) -> Value {
     let setup = &program.setup;
     map([
         ("number", program_number(machine).into()),
-        ("name", program_name(&setup.title, machine).into()),
+        ("name", machine.program.name.as_ref().map(|rules| rules.of(&setup.title)).unwrap_or_default().into()),
         ("title", setup.title.as_str().into()),
         ("wcs", setup.wcs.as_str().into()),
         ("zero", setup.zero.as_str().into()),
@@ -282,20 +306,6 @@ fn program_value(program: &Program, facts: &Facts, machine: &Machine) -> Value {
 fn program_number(machine: &Machine) -> String {
     let format = |n: crate::machine::ProgramNumber| format!("{:0width$}", n.value, width = usize::from(n.digits));
     machine.program.number.map(format).unwrap_or_default()
-}
-
-/// The title in characters that the controller takes; nothing where programs have no names.
-fn program_name(title: &str, machine: &Machine) -> String {
-    let Some(rules) = &machine.program.name else { return String::new() };
-    let ranges = crate::comment::ranges(&rules.charset);
-    let takes = |c: char| ranges.iter().any(|(a, b)| (*a..=*b).contains(&c));
-    let fit = |c: char| [c, c.to_ascii_uppercase(), '_'].into_iter().find(|c| takes(*c));
-    let name: String = title.chars().filter_map(fit).take(usize::from(rules.max_len)).collect();
-    if name.is_empty() {
-        "PROGRAM".chars().filter_map(fit).take(usize::from(rules.max_len)).collect()
-    } else {
-        name
-    }
 }
 
 fn tool_value(tool: &ToolRecord) -> Value {

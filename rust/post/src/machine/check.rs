@@ -50,7 +50,9 @@ fn check_names(machine: &Machine) -> Result<(), MachineError> {
         let holds = words == written && words <= 2;
         require(holds, &format!("wcs[{index}]"), "write one word or two, as in G54 or G54.1 P1")?;
     }
-    check_code("end", &machine.end)?;
+    if !machine.end.is_empty() {
+        check_code("end", &machine.end)?;
+    }
     if let Some(number) = machine.program.number {
         let holds = (number.least..=number.most).contains(&number.value) && number.digits <= 10;
         require(holds, "program.number", "its value lies between least and most, and it has at most 10 digits")?;

@@ -44,11 +44,12 @@ fn unread(parent: &str) -> Table {
     Table::from_iter([("read".to_owned(), Value::Array(vec![format!("extends {parent}").into()]))])
 }
 
-/// Puts `upper` over `lower`, table by table; a list replaces the other one.
+/// Puts `upper` over `lower`, table by table; a list replaces the other one, and `false` takes away what is no switch.
 fn lay_over(lower: &mut Table, upper: Table) {
     for (key, value) in upper {
         match (lower.get_mut(&key), value) {
             (Some(Value::Table(below)), Value::Table(above)) if key != "source" => lay_over(below, above),
+            (Some(below), Value::Boolean(false)) if !below.is_bool() => _ = lower.remove(&key),
             (_, value) => {
                 lower.insert(key, value);
             }

@@ -97,6 +97,10 @@ impl Block {
             Some(Meaning::Length(on)) => return once(&mut self.length, (on, word), group),
             Some(Meaning::Wcs) => return once(&mut self.wcs, word, group),
             Some(Meaning::Probe(must)) => return once(&mut self.probe, (must, word), group),
+            Some(Meaning::Stop(optional)) => {
+                let stop = if optional { Stop::OptionalPause } else { Stop::Pause };
+                return once(&mut self.stop, (stop, word), group);
+            }
             Some(Meaning::Home) => return once(&mut self.home, word, group),
             Some(Meaning::Passed) => return once(&mut self.passed, word, group),
             Some(Meaning::Refused) | None => {}

@@ -21,6 +21,8 @@ pub(super) enum Meaning {
     Probe(bool),
     /// The machine's own stored place.
     Home,
+    /// Whether the operator's switch decides.
+    Stop(bool),
 }
 
 /// A work offset's words: the code, the number's letter and ten times the number.
@@ -61,8 +63,14 @@ impl Codes {
             say(Some("G28"), Meaning::Home);
         }
         reader.passed.iter().for_each(|word| say(Some(word), Meaning::Passed));
-        reader.refused.iter().for_each(|word| say(Some(word), Meaning::Refused));
+        say(machine.stop.always.as_deref(), Meaning::Stop(false));
+        say(machine.stop.optional.as_deref(), Meaning::Stop(true));
         words.iter().for_each(|(code, _)| _ = meanings.insert(*code, Meaning::Wcs));
+        reader
+            .refused
+            .iter()
+            .filter_map(|word| code(word))
+            .for_each(|code| _ = meanings.insert(code, Meaning::Refused));
         Ok(Self { meanings, wcs: words, smoothing: smoothing(machine)? })
     }
 

@@ -229,7 +229,7 @@ impl<'m> Interpreter<'m> {
             self.selected = Some(word.number.natural().ok_or((ReadFault::NotNatural, Some(word)))?);
         }
         // Without M6 the T word is all that the text says about a change.
-        let by_code = matches!(self.machine.tool.change, ToolChange::M6 | ToolChange::ToolCall);
+        let by_code = matches!(self.machine.tool.change, ToolChange::M6 | ToolChange::ToolCall | ToolChange::Unsaid);
         let by_word = if by_code { None } else { block.tool };
         let Some(word) = block.change.or(by_word) else { return Ok(()) };
         let number = self.selected.ok_or((ReadFault::NoToolSelected, Some(word)))?;
@@ -676,7 +676,8 @@ impl<'m> Interpreter<'m> {
         self.close_unplaced();
         if self.program.moves.is_empty() {
             self.unsaid.extend((!self.distance_said).then_some("G90"));
-            self.unsaid.extend(self.wcs.is_none().then_some("G54"));
+            let choice = self.machine.wcs.len() > 1;
+            self.unsaid.extend((choice && self.wcs.is_none()).then_some("G54"));
         }
         let operation = self.operation();
         self.program.moves.push(Move { kind, end, arc, feed, operation, line });

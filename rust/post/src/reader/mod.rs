@@ -139,6 +139,9 @@ impl<'t> Reader<'t> {
         }
         self.check_length(text).map_err(|fault| whole_line(number, fault))?;
         self.check_characters(text).map_err(|misfit| misfit_at(text, number, misfit))?;
+        if self.stage == Stage::Start && self.names_program(text) {
+            return Ok(Progress::Going);
+        }
         self.cut(text).map_err(|misfit| misfit_at(text, number, misfit))?;
         if !self.runs().map_err(|fault| whole_line(number, fault))? {
             self.optional_lines.push(number);
@@ -163,6 +166,16 @@ impl<'t> Reader<'t> {
         self.stage = Stage::Ended;
         self.by_code = true;
         Ok(if self.machine.reader.after_end == AfterEnd::Ignore { Progress::Done } else { Progress::Going })
+    }
+
+    /// Whether a line is the program's number or name and a remark: `O0001 (CUP)`, `OCUP`.
+    fn names_program(&self, text: &str) -> bool {
+        let code = text.split('(').next().unwrap_or_default().trim();
+        let Some(rest) = code.strip_prefix('O').filter(|rest| !rest.is_empty()) else { return false };
+        let rules = &self.machine.program;
+        let number =
+            rules.number.is_some_and(|rules| rest.parse().is_ok_and(|n| (rules.least..=rules.most).contains(&n)));
+        number || rules.name.as_ref().is_some_and(|rules| rules.takes(rest))
     }
 
     /// The first `%` opens the program when nothing comes before it, the second ends the text.

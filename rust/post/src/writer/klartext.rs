@@ -18,11 +18,12 @@ pub(super) struct Klartext<'m> {
     linear: NumberFormat,
     feed_format: NumberFormat,
     feed: Option<Feed>,
+    speed: Option<i64>,
 }
 
 impl<'m> Klartext<'m> {
     pub fn new(machine: &'m Machine) -> Self {
-        Self { machine, linear: machine.linear_format(), feed_format: machine.feed_format(), feed: None }
+        Self { machine, linear: machine.linear_format(), feed_format: machine.feed_format(), feed: None, speed: None }
     }
 
     fn line(&self, lines: &mut Lines, from: Place, to: Place) {
@@ -48,8 +49,10 @@ impl Dialect for Klartext<'_> {
         self.feed = None;
     }
 
-    /// TOOL CALL has its length.
-    fn tool_changed(&mut self, _length_offset: u32) {}
+    /// TOOL CALL has its length, and may have a speed of its own.
+    fn tool_changed(&mut self, _length_offset: u32) {
+        self.speed = None;
+    }
 
     fn close(&mut self, _lines: &mut Lines) -> Result<(), PostError> {
         Ok(())
@@ -91,10 +94,13 @@ impl Dialect for Klartext<'_> {
 
     /// The speed is part of a tool call; the word follows in a block of its own.
     fn spindle(&mut self, lines: &mut Lines, speed: i64, word: &str) -> Result<(), PostError> {
-        lines.begin();
-        lines.word("TOOL CALL Z");
-        lines.number("S", &NumberFormat::plain(self.machine.number.rpm), speed);
-        lines.end()?;
+        if self.speed != Some(speed) {
+            lines.begin();
+            lines.word("TOOL CALL Z");
+            lines.number("S", &NumberFormat::plain(self.machine.number.rpm), speed);
+            lines.end()?;
+            self.speed = Some(speed);
+        }
         lines.block(word)
     }
 

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::io;
 
 use styluscam_motion::{
-    Arc, ArcWay, Cycle, EventKind, Move, MoveKind, OperationRecord, Program, SpindleDirection, ToolRecord,
+    Arc, ArcWay, Cycle, Event, EventKind, Move, MoveKind, OperationRecord, Program, SpindleDirection, ToolRecord,
 };
 
 use crate::inspect::Inspector;
@@ -82,6 +82,8 @@ pub struct Poster<'a> {
     /// Moves and events that came before.
     moves: usize,
     events: usize,
+    /// The tools that are called, in order; those that were are taken away.
+    calls: std::collections::VecDeque<u32>,
     /// The last line with motion.
     motion_line: u32,
     position: Place,
@@ -136,6 +138,7 @@ impl<'a> Poster<'a> {
             x_scale: if machine.motion.lathe == Some(Lathe::Diameter) { 2.0 } else { 1.0 },
             moves: 0,
             events: 0,
+            calls: tool_calls(head),
             motion_line: 0,
             position: [None; 3],
             tip: None,
@@ -246,7 +249,7 @@ impl<'a> Poster<'a> {
 
     fn change_tool(&mut self, event: usize, tool: u32) -> Result<(), PostError> {
         let first = self.tool.is_none();
-        if !first && self.machine.tool.change == ToolChange::LoadBeforeStart {
+        if !first && matches!(self.machine.tool.change, ToolChange::LoadBeforeStart | ToolChange::Unsaid) {
             return Err(PostError::ToolChange { event });
         }
         if self.rpm.is_some() {
@@ -255,7 +258,8 @@ impl<'a> Poster<'a> {
         let record = self.head.tools.get(tool as usize);
         let record =
             record.ok_or(PostError::NoSuchRecord { place: format!("events[{event}]"), what: "tool", index: tool })?;
-        let text = self.templater.tool_change(&self.names, record, first)?;
+        let next = self.next_tool();
+        let text = self.templater.tool_change(&self.names, record, first, next)?;
         self.lines.mark();
         self.speak(&text)?;
         self.tool = Some(record);
@@ -263,6 +267,13 @@ impl<'a> Poster<'a> {
         self.position = [None; 3];
         self.dialect.forget();
         Ok(())
+    }
+
+    /// The number of the tool after this one, where the head of the program says so.
+    fn next_tool(&mut self) -> Option<u32> {
+        self.calls.pop_front();
+        let next = self.calls.front()?;
+        self.head.tools.get(*next as usize).map(|tool| tool.number)
     }
 
     fn start_spindle(&mut self, event: usize, rpm: f64, direction: SpindleDirection) -> Result<(), PostError> {
@@ -325,11 +336,12 @@ impl<'a> Poster<'a> {
 
     /// Where the tool stands in the new work offset is not known.
     fn change_wcs(&mut self, wcs: &str) -> Result<(), PostError> {
-        let words = self.machine.wcs_words_of(wcs).map(str::to_owned);
-        let allowed = || self.machine.wcs.join(", ");
-        let words = words.ok_or_else(|| PostError::Wcs { wcs: wcs.into(), allowed: allowed() })?;
+        if !self.machine.wcs.iter().any(|known| known == wcs) {
+            return Err(PostError::Wcs { wcs: wcs.into(), allowed: self.machine.wcs.join(", ") });
+        }
+        let text = self.templater.work_offset(&self.names, wcs)?;
         self.position = [None; 3];
-        self.speak(&words)
+        self.speak(&text)
     }
 
     fn probe(&mut self, event: usize, end: [Option<f64>; 3], feed: f64, must_touch: bool) -> Result<(), PostError> {
@@ -561,4 +573,13 @@ impl<'a> Poster<'a> {
         self.moves += moves.len();
         Ok(())
     }
+}
+
+/// The tools that a program calls, in order.
+fn tool_calls(program: &Program) -> std::collections::VecDeque<u32> {
+    let tool = |event: &Event| match event.kind {
+        EventKind::ToolChange { tool } => Some(tool),
+        _ => None,
+    };
+    program.events.iter().filter_map(tool).collect()
 }

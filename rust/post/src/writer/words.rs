@@ -34,6 +34,8 @@ pub(super) struct Words<'m> {
     machine: &'m Machine,
     linear: NumberFormat,
     feed_format: NumberFormat,
+    /// The feed of rapids, where they need one.
+    rapid_feed: Option<Feed>,
     said: Said,
     /// A length offset to be named in the next block that moves Z.
     length: Option<(&'m LengthRules, u32)>,
@@ -41,10 +43,13 @@ pub(super) struct Words<'m> {
 
 impl<'m> Words<'m> {
     pub fn new(machine: &'m Machine) -> Self {
+        let feed_format = machine.feed_format();
+        let rate = machine.limits.rapid_rate / machine.units.output.in_mm() * machine.feed_scale();
         Self {
             machine,
             linear: machine.linear_format(),
-            feed_format: machine.feed_format(),
+            feed_format,
+            rapid_feed: feed_format.count(rate).filter(|_| machine.motion.rapid_feed),
             said: Said::default(),
             length: None,
         }
@@ -98,7 +103,8 @@ impl<'m> Words<'m> {
     }
 
     fn plane(&mut self, lines: &mut Lines, plane: Plane) -> Result<(), PostError> {
-        if self.said.plane == Some(plane) {
+        let only = self.machine.arc.as_ref().is_some_and(|rules| rules.planes.len() < 2);
+        if only || self.said.plane == Some(plane) {
             return Ok(());
         }
         self.said.plane = Some(plane);
@@ -149,6 +155,9 @@ impl Dialect for Words<'_> {
     fn rapid(&mut self, lines: &mut Lines, from: Place, to: Place) -> Result<(), PostError> {
         self.begin_motion(lines, RAPID);
         self.axes(lines, from, to);
+        if let Some(feed) = self.rapid_feed {
+            self.changed_feed(lines, feed);
+        }
         lines.end()
     }
 

@@ -15,8 +15,10 @@ pub enum ToolChange {
     ToolCall,
     /// The program stops and the operator changes it; lengths must be equal, since nothing corrects them.
     Pause,
-    /// The one tool is in the spindle before the start; a second one is an error.
+    /// The one tool is in the spindle before the start; T names it. A second one is an error.
     LoadBeforeStart,
+    /// The same, and no word names it: T does something else here.
+    Unsaid,
 }
 
 /// How a tool's length is applied: `G43 H1`.

@@ -209,13 +209,16 @@ pub struct MotionRules {
     /// How rapids run.
     #[serde(default)]
     pub rapids: Rapids,
+    /// Whether a rapid needs F, as `limits.rapid_rate`: it runs at the last feed otherwise.
+    #[serde(default)]
+    pub rapid_feed: bool,
     /// A machine with X and Z only, around a turning part.
     pub lathe: Option<Lathe>,
 }
 
 impl Default for MotionRules {
     fn default() -> Self {
-        Self { split_rapids: true, rapids: Rapids::DogLeg, lathe: None }
+        Self { split_rapids: true, rapids: Rapids::DogLeg, rapid_feed: false, lathe: None }
     }
 }
 

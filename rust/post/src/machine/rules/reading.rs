@@ -21,6 +21,8 @@ pub struct Templates {
     /// Where an operation ends.
     #[serde(default)]
     pub operation_end: String,
+    /// Where the work offset changes between operations; its words when left out.
+    pub work_offset: Option<String>,
     /// Where the program stops for the operator; the word of `[stop]` when left out. `optional` says which stop it is.
     pub stop: Option<String>,
     /// Where the two programs of a pair wait for one another, at `mark`; a machine without it takes no pairs.

@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::comment::ranges;
+
 /// The kind of text that the controller reads; it chooses the writer and the reader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -21,6 +23,8 @@ pub enum Family {
 pub enum Evidence {
     /// Every fact was read in the sources named.
     Read,
+    /// All but those listed in `unconfirmed`.
+    Partly,
     /// Facts are guessed, or taken from another machine: the header and `machine list` say so.
     #[default]
     Unverified,
@@ -75,4 +79,23 @@ pub struct ProgramName {
     pub max_len: u8,
     /// Characters that may stand, with ranges: `A-Z0-9_`; others become `_`.
     pub charset: String,
+}
+
+impl ProgramName {
+    /// Whether the controller takes this name.
+    #[must_use]
+    pub fn takes(&self, name: &str) -> bool {
+        name.chars().count() <= usize::from(self.max_len) && name.chars().all(|c| self.takes_character(c))
+    }
+
+    /// The name made of these words.
+    pub(crate) fn of(&self, title: &str) -> String {
+        let fit = |c: char| [c, c.to_ascii_uppercase(), '_'].into_iter().find(|c| self.takes_character(*c));
+        let name = |text: &str| text.chars().filter_map(fit).take(usize::from(self.max_len)).collect::<String>();
+        Some(name(title)).filter(|name| !name.is_empty()).unwrap_or_else(|| name("PROGRAM"))
+    }
+
+    fn takes_character(&self, c: char) -> bool {
+        ranges(&self.charset).iter().any(|(a, b)| (*a..=*b).contains(&c))
+    }
 }

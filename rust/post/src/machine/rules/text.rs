@@ -171,7 +171,8 @@ pub struct CommentRules {
     pub uppercase: bool,
     /// Characters that may stand, with ranges: `A-Z0-9 .,-` (a `-` at an end is itself). All printable ASCII when left out.
     pub charset: Option<String>,
-    /// What stands for characters outside the set; anything else becomes `_`, or is dropped where `_` is outside too.
+    /// What stands for characters outside the set, over and above the common ones (`°` becomes ` deg`); anything else becomes
+    /// `_`, or is dropped where `_` is outside too.
     #[serde(default)]
     pub substitutions: BTreeMap<char, String>,
     /// First words that the controller takes as orders when a comma or the end follows: a `-` is put before them.

@@ -1,0 +1,193 @@
+//! Whether what was read is what was posted.
+
+use styluscam_motion::{Cycle, EventKind, Move, MoveKind, Program};
+
+use crate::machine::{Machine, ToolChange};
+use crate::reader::Reading;
+use crate::writer::Posted;
+
+/// Feeds are compared with this slack over and above their rounding, as a share.
+const FEED_SLACK: f64 = 1e-9;
+/// Places are compared with this slack over and above their rounding, mm.
+const SLACK: f64 = 1e-9;
+/// An arc's centre is rounded too: its way may leave the planned one by so many last places.
+const ARC_PLACES: f64 = 3.0;
+
+/// The first thing that was posted and does not come back: its line and what it is.
+pub(crate) fn difference(
+    program: &Program,
+    posted: &Posted,
+    reading: &Reading,
+    machine: &Machine,
+) -> Option<(u32, String)> {
+    if reading.program.setup.wcs != program.setup.wcs {
+        let (sent, came) = (&program.setup.wcs, &reading.program.setup.wcs);
+        return Some((0, format!("work offset {sent} became {came}")));
+    }
+    event_difference(program, posted, reading, machine)
+        .or_else(|| cycle_difference(program, posted, reading, machine))
+        .or_else(|| move_difference(program, posted, reading, machine))
+}
+
+/// Whether the machine has a cycle for this.
+fn canned(machine: &Machine, cycle: &Cycle) -> bool {
+    machine.cycle.as_ref().is_some_and(|rules| rules.kinds.contains(&cycle.kind))
+}
+
+/// Holes that the machine has cycles for must come back as cycles.
+fn cycle_difference(program: &Program, posted: &Posted, reading: &Reading, machine: &Machine) -> Option<(u32, String)> {
+    let unit = machine.resolution_mm() / 2.0 + SLACK;
+    let mut came = reading.program.cycles.iter();
+    for cycle in program.cycles.iter().filter(|cycle| canned(machine, cycle)) {
+        let line = posted.line_of_move.get(cycle.first).copied().unwrap_or(0);
+        let Some(found) = came.next() else { return Some((line, "the cycle is not there".into())) };
+        let lengths = |c: &Cycle| [c.at[0], c.at[1], c.retract, c.bottom, c.leave, c.peck];
+        let near = lengths(cycle).iter().zip(lengths(found)).all(|(a, b)| (a - b).abs() <= unit);
+        let feeds = (cycle.feed - found.feed).abs() <= machine.feed_resolution_mm() / 2.0 + FEED_SLACK * cycle.feed;
+        if !near || !feeds || cycle.kind != found.kind || (cycle.dwell - found.dwell).abs() > 5.1e-4 {
+            return Some((line, format!("{cycle:?} became {found:?}")));
+        }
+    }
+    came.next().map(|found| {
+        let line = reading.program.moves.get(found.first).map_or(0, |m| m.line);
+        (line, format!("{found:?} was not posted"))
+    })
+}
+
+/// Events in order, each with the number of the move that it comes before.
+fn event_difference(program: &Program, posted: &Posted, reading: &Reading, machine: &Machine) -> Option<(u32, String)> {
+    let (sent, came) = (states(program, machine), states(&reading.program, machine));
+    for (index, (before, kind)) in sent.iter().enumerate() {
+        let line = before.checked_sub(1).and_then(|b| posted.line_of_move.get(b)).copied().unwrap_or(0);
+        match came.get(index) {
+            Some((_, found)) if same_event(kind, found, machine) => {}
+            Some((_, found)) => return Some((line, format!("{kind:?} became {found:?}"))),
+            None => return Some((line, format!("{kind:?} is not there"))),
+        }
+    }
+    came.get(sent.len()).map(|(before, kind)| {
+        let line = reading.program.moves.get(*before).map_or(0, |m| m.line);
+        (line, format!("{kind:?} was not posted"))
+    })
+}
+
+/// The events that the text must say, without those that say nothing new; a cycle's own are its moves'.
+fn states(program: &Program, machine: &Machine) -> Vec<(usize, EventKind)> {
+    let mut out: Vec<(usize, EventKind)> = Vec::new();
+    for event in &program.events {
+        let inside = |cycle: &Cycle| {
+            canned(machine, cycle) && event.before > cycle.first && event.before < cycle.first + cycle.count
+        };
+        let silent = match &event.kind {
+            EventKind::Comment { .. } | EventKind::Raw { .. } => true,
+            EventKind::ToolChange { .. } => machine.tool.change == ToolChange::Unsaid,
+            EventKind::Stop { .. } => machine.tool.change == ToolChange::Pause,
+            // a start may wait, and a stop of the spindle comes before a tool change by itself
+            EventKind::Dwell { .. } => machine.spindle.start_dwell > 0.0,
+            _ => false,
+        };
+        if silent || program.cycles.iter().any(inside) {
+            continue;
+        }
+        // of several states of the spindle at one place the last one counts
+        let spindle = |kind: &EventKind| matches!(kind, EventKind::SpindleOn { .. } | EventKind::SpindleOff);
+        if spindle(&event.kind) && out.last().is_some_and(|(before, last)| *before == event.before && spindle(last)) {
+            out.pop();
+        }
+        // one word switches all coolant off
+        let kind = match &event.kind {
+            EventKind::Mist { on: false } => EventKind::Flood { on: false },
+            kind => kind.clone(),
+        };
+        if kind == (EventKind::Flood { on: false }) && out.last() == Some(&(event.before, kind.clone())) {
+            continue;
+        }
+        out.push((event.before, kind));
+    }
+    out
+}
+
+fn same_event(sent: &EventKind, came: &EventKind, machine: &Machine) -> bool {
+    let unit = machine.resolution_mm() / 2.0 + SLACK;
+    match (sent, came) {
+        (EventKind::Dwell { seconds: a }, EventKind::Dwell { seconds: b }) => (a - b).abs() <= 5.1e-4,
+        (EventKind::SpindleOn { rpm: a, direction: d }, EventKind::SpindleOn { rpm: b, direction: e }) => {
+            let unit = machine.speed_resolution();
+            d == e && (a - b).abs() <= unit / 2.0 + SLACK
+        }
+        (EventKind::Probe { end: a, must_touch: m, .. }, EventKind::Probe { end: b, must_touch: n, .. }) => {
+            let near = |(a, b): (&Option<f64>, &Option<f64>)| match (a, b) {
+                (Some(a), Some(b)) => (a - b).abs() <= unit,
+                (None, None) => true,
+                _ => false,
+            };
+            m == n && a.iter().zip(b).all(near)
+        }
+        (sent, came) => sent == came,
+    }
+}
+
+fn move_difference(program: &Program, posted: &Posted, reading: &Reading, machine: &Machine) -> Option<(u32, String)> {
+    let mut read = reading.program.segments().peekable();
+    let mut last_line = 0;
+    for (index, ((start, step), line)) in program.segments().zip(&posted.line_of_move).enumerate() {
+        let in_cycle = |c: &Cycle| canned(machine, c) && (c.first..c.first + c.count).contains(&index);
+        let mut arrived = None;
+        while let Some((from, found)) = read.next_if(|(_, m)| m.line <= *line) {
+            if let Some(what) = way_difference(start, step, from, found, machine) {
+                return Some((found.line, what));
+            }
+            arrived = Some(found);
+        }
+        if *line == last_line && arrived.is_none() || program.cycles.iter().any(in_cycle) {
+            continue; // rounds to no motion, or is one of a cycle's
+        }
+        last_line = *line;
+        let Some(found) = arrived else { return Some((*line, "the move is not there".into())) };
+        if let Some(what) = end_difference(step, found, machine) {
+            return Some((*line, what));
+        }
+    }
+    read.next().map(|(_, found)| (found.line, format!("a move to {:?} was not posted", found.end)))
+}
+
+fn end_difference(step: &Move, found: &Move, machine: &Machine) -> Option<String> {
+    let slack = machine.resolution_mm() / 2.0 + SLACK;
+    let near = step.end.iter().zip(found.end).all(|(a, b)| (a - b).abs() <= slack);
+    if !near || step.kind != found.kind {
+        return Some(format!("it goes to {:?} instead of {:?} mm", found.end, step.end));
+    }
+    let unit = machine.feed_resolution_mm() / 2.0;
+    let off = (step.feed - found.feed).abs() > unit + FEED_SLACK * step.feed;
+    let per_minute = machine.feed.mode == crate::machine::FeedMode::PerMinute;
+    (off && per_minute && step.kind == MoveKind::Feed)
+        .then(|| format!("its feed is {} instead of {} mm/min", found.feed, step.feed))
+}
+
+/// Whether a posted move leaves an arc that it stands for.
+fn way_difference(
+    start: Option<[f64; 3]>,
+    step: &Move,
+    from: Option<[f64; 3]>,
+    found: &Move,
+    machine: &Machine,
+) -> Option<String> {
+    let (Some(arc), Some(start), Some(from)) = (step.arc, start, from) else { return None };
+    let way = arc.way(start, step.end);
+    let slack = ARC_PLACES * machine.resolution_mm() + way.mismatch();
+    let [first, second, _] = arc.plane.axes();
+    let count = found.way(from).map_or(1, |w| w.chords(machine.resolution_mm()));
+    let places = (1..=count).map(|i| match found.way(from) {
+        Some(w) => w.at(i as f64 / count as f64),
+        None => found.end,
+    });
+    let off = |place: [f64; 3]| {
+        let radius = (place[first] - arc.centre[first]).hypot(place[second] - arc.centre[second]);
+        (radius - way.radius()).abs()
+    };
+    let worst = places.map(off).fold(0.0, f64::max);
+    let sweep = found.way(from).map_or(0.0, |w| w.sweep().abs());
+    let too_far = sweep > way.sweep().abs() + 0.5;
+    (worst > slack || too_far)
+        .then(|| format!("it leaves the arc by {worst:.4} mm, over {:.0} degrees", sweep.to_degrees()))
+}
