@@ -4,6 +4,9 @@ use styluscam_motion::{Arc, ArcWay};
 
 use crate::machine::ArcRules;
 
+/// An arc of a smaller angle, rad, becomes a line: controllers differ in whether one of 1e-6 and less is a full circle.
+const LEAST: f64 = 1e-5;
+
 /// An arc of which the ends and the centre stand in last places.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RoundedArc {
@@ -43,7 +46,7 @@ impl RoundedArc {
         let start = place(self.from);
         let centre = [0, 1, 2].map(|axis| start[axis] + self.offset[axis] as f64 * unit);
         let posted = Arc { centre, ..self.arc }.way(start, place(self.to));
-        let as_meant = (posted.sweep() - way.sweep()).abs() < 1.0;
+        let as_meant = (posted.sweep() - way.sweep()).abs() < 1.0 && posted.sweep().abs() > LEAST;
         let radius = posted.radius();
         let in_range = radius > rules.min_radius && rules.max_radius.is_none_or(|most| radius <= most);
         as_meant && in_range && radius > 0.0 && rules.radius_error.takes(posted.mismatch(), radius)
