@@ -20,6 +20,7 @@ from styluscam.cli import (
     new,
     part,
     plan,
+    post,
     run,
     schema,
     suggest,
@@ -40,6 +41,7 @@ app = typer.Typer(
 )
 app.command("run")(run.run)
 app.command("plan")(plan.plan)
+app.command("post")(post.post)
 app.command("new")(new.new)
 app.command("verify")(verify.verify)
 app.command("view")(view.view)

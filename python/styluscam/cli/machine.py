@@ -1,19 +1,32 @@
-"""``styluscam machine list`` and ``show``: the shipped controllers."""
+"""``styluscam machine list``, ``show``, ``new``, ``check`` and ``diff``: controllers and their files."""
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from styluscam import files
 from styluscam.cli import console
-from styluscam.cli.options import Debug, Json
-from styluscam.machine import Machine
+from styluscam.cli.options import Debug, Force, Json
+from styluscam.cli.summary import shown_path
+from styluscam.errors import MachineError
+from styluscam.machine import Machine, Trial, differences, starter
 from styluscam.types import Document
 
-app = typer.Typer(help="Look at machines.", rich_markup_mode=None)
+app = typer.Typer(help="Look at machines, make files of your own, and try them out.", rich_markup_mode=None)
 
-Name = Annotated[str, typer.Argument(metavar="NAME", help="A shipped machine, or a machine file.", show_default=False)]
+MACHINE_HELP = "A shipped machine, or a machine file."
+Name = Annotated[str, typer.Argument(metavar="NAME|FILE", help=MACHINE_HELP, show_default=False)]
+Other = Annotated[str, typer.Argument(metavar="NAME|FILE", help=MACHINE_HELP, show_default=False)]
+NewFile = Annotated[str, typer.Argument(metavar="NAME", help="The new machine; NAME.toml is written.")]
+From = Annotated[str, typer.Option("--from", metavar="NAME|FILE", help="The machine to begin with.", show_default=False)]
+Toml = Annotated[bool, typer.Option("--toml", help="Print all of it as a machine file.")]
+
+EVIDENCE = {"read": "", "partly": "not all confirmed", "unverified": "UNVERIFIED"}
+"""How a machine's evidence is shown in a list."""
 
 
 @app.callback(invoke_without_command=True)
@@ -24,31 +37,139 @@ def _top(context: typer.Context) -> None:
 
 @app.command("list")
 def list_(json: Json = False, debug: Debug = False) -> int:
-    """List the shipped machines."""
+    """List the shipped machines, and how well their facts are known."""
     machines = [Machine.shipped(name) for name in Machine.names()]
     if json:
         console.say_json([_document(machine) for machine in machines])
     else:
-        console.fields([(machine.name, machine.description) for machine in machines])
+        rows = [[machine.name, machine.description, EVIDENCE[machine.evidence]] for machine in machines]
+        console.table({"machine": "left", "what": "left", "evidence": "left"}, rows)
     return 0
 
 
 @app.command("show")
-def show(name: Name, json: Json = False, debug: Debug = False) -> int:
-    """Say what a machine is: shipped by name, else from a file."""
+def show(name: Name, toml: Toml = False, json: Json = False, debug: Debug = False) -> int:
+    """Say what a machine is and where its facts come from."""
     machine = Machine.find(name)
     if json:
-        console.say_json(_document(machine))
+        console.say_json(machine.document)
+    elif toml:
+        console.say(machine.to_toml().rstrip("\n"))
     else:
-        console.fields(
-            [
-                ("name", machine.name),
-                ("what", machine.description),
-                ("last place", f"{machine.resolution_mm:g} mm"),
-            ]
-        )
+        _show(machine)
     return 0
 
 
+def _show(machine: Machine) -> None:
+    document = machine.document
+    source = document["source"]
+    console.fields(
+        [
+            ("name", machine.name),
+            ("what", machine.description),
+            ("family", document["family"]),
+            ("last place", f"{machine.resolution_mm:g} mm"),
+            ("work offsets", ", ".join(document["wcs"][:9]) + (", ..." if len(document["wcs"]) > 9 else "")),
+            ("tool change", document["tool"]["change"]),
+            ("longest line", f"{document['line']['max_chars']} characters"),
+            ("evidence", machine.evidence),
+        ]
+    )
+    for title in ("read", "unconfirmed", "notes"):
+        for number, line in enumerate(source[title]):
+            console.say(f"{title if not number else '':<13} {line}")
+
+
+@app.command("new")
+def new(name: NewFile, base: From, force: Force = False, debug: Debug = False) -> int:
+    """Write a machine file that begins as another machine."""
+    if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_-]*(\.toml)?", Path(name).name):
+        raise MachineError(
+            f"{name!r} is no name for a machine",
+            code="machine-name",
+            where="NAME",
+            hint="take letters, digits, - and _",
+        )
+    path = Path(name) if name.endswith(".toml") else Path(f"{name}.toml")
+    machine = Machine.find(base)
+    if path.exists() and not force:
+        raise MachineError(
+            f"{path} exists already", code="file-exists", where=str(path), hint="take another name, or --force"
+        )
+    extends = base if base in Machine.names() else _beside(Path(base), path)
+    files.require_writable([path])
+    files.write_whole(path, starter(path.stem, machine, extends))
+    console.say(f"written: {shown_path(path)}")
+    console.say(f"next: fill in its limits, then styluscam machine check {shown_path(path)}")
+    return 0
+
+
+def _beside(base: Path, path: Path) -> str:
+    """A file as another one in its folder names it."""
+    if base.resolve().parent != path.resolve().parent:
+        raise MachineError(
+            f"{base} is in another folder than {path}",
+            code="machine-extends",
+            where="--from",
+            hint="put both files into one folder, or begin with a shipped machine",
+        )
+    return base.name
+
+
+@app.command("check")
+def check(name: Name, json: Json = False, debug: Debug = False) -> int:
+    """Post a torture program by a machine file, read it back and compare. Exit code 1 when something failed."""
+    machine = Machine.find(name)
+    trials = machine.check()
+    failed = [trial for trial in trials if trial.outcome == "failed"]
+    if json:
+        console.say_json({"name": machine.name, "ok": not failed, "trials": [vars(trial) for trial in trials]})
+    else:
+        console.table({"tried": "left", "outcome": "left", "": "left"}, [_row(trial) for trial in trials])
+        for trial in failed:
+            console.say()
+            console.say(f"{trial.name}: {trial.message}")
+            if trial.line:
+                console.say(f"  {trial.where}: {trial.line}")
+            console.say(f"  {trial.hint}")
+        console.say()
+        passed = sum(trial.outcome == "passed" for trial in trials)
+        console.say(f"{machine.name}: {passed} passed, {len(failed)} failed, {len(trials) - passed - len(failed)} without")
+    return 1 if failed else 0
+
+
+def _row(trial: Trial) -> list[str]:
+    shown = trial.message if len(trial.message) <= 60 else trial.message[:57] + "..."
+    return [trial.name, trial.outcome.upper() if trial.outcome == "failed" else trial.outcome, shown]
+
+
+@app.command("diff")
+def diff(name: Name, other: Other, json: Json = False, debug: Debug = False) -> int:
+    """Say in what two machines differ."""
+    rows = differences(Machine.find(name).document, Machine.find(other).document)
+    if json:
+        console.say_json([{"key": key, "first": here, "second": there} for key, here, there in rows])
+    elif not rows:
+        console.say("no difference")
+    else:
+        for key, here, there in rows:
+            console.say(key)
+            console.say(f"  - {_shown(here)}")
+            console.say(f"  + {_shown(there)}")
+    return 0
+
+
+def _shown(value: object) -> str:
+    if value is None:
+        return "(nothing)"
+    text = str(value).strip().replace("\n", "\n    ")
+    return text or "(empty)"
+
+
 def _document(machine: Machine) -> Document:
-    return {"name": machine.name, "description": machine.description, "resolution_mm": machine.resolution_mm}
+    return {
+        "name": machine.name,
+        "description": machine.description,
+        "resolution_mm": machine.resolution_mm,
+        "evidence": machine.evidence,
+    }

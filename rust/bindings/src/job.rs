@@ -8,6 +8,7 @@ use styluscam_job::{JobDocument, JobError, StarterFace, StarterPart, Summary};
 
 use crate::{
     arrays, errors,
+    machine::Machine,
     part::Part,
     program::Program,
     simulation::{face_name, sheet_face, Simulation},
@@ -45,61 +46,6 @@ impl Job {
     fn to_json(&self) -> PyResult<String> {
         json(&self.document)
     }
-}
-
-/// A controller; see `styluscam.Machine`.
-#[pyclass(frozen, module = "styluscam._engine")]
-pub struct Machine {
-    pub(crate) machine: styluscam_post::Machine,
-}
-
-#[pymethods]
-impl Machine {
-    /// A shipped machine.
-    #[staticmethod]
-    fn shipped(name: &str) -> PyResult<Self> {
-        let machine = styluscam_post::Machine::shipped(name).map_err(|e| of_job(e.into()))?;
-        Ok(Self { machine })
-    }
-
-    #[staticmethod]
-    fn from_toml(text: &str) -> PyResult<Self> {
-        let machine = styluscam_post::Machine::from_toml(text).map_err(|e| of_job(e.into()))?;
-        Ok(Self { machine })
-    }
-
-    /// The same machine with values for the options that it declares, as a JSON object.
-    fn with_options(&self, options: &str) -> PyResult<Self> {
-        let options: std::collections::BTreeMap<String, styluscam_post::OptionValue> = serde_json::from_str(options)
-            .map_err(|e| errors::raise("MachineError", &e.to_string(), "document", "machine.options", ""))?;
-        let mut machine = self.machine.clone();
-        for (name, value) in options {
-            machine.set_option(&name, value).map_err(|e| of_job(e.into()))?;
-        }
-        Ok(Self { machine })
-    }
-
-    #[getter]
-    fn name(&self) -> &str {
-        &self.machine.name
-    }
-
-    #[getter]
-    fn description(&self) -> &str {
-        &self.machine.description
-    }
-
-    /// One unit of the last posted place, mm.
-    #[getter]
-    fn resolution_mm(&self) -> f64 {
-        self.machine.resolution_mm()
-    }
-}
-
-/// Names of the shipped machines.
-#[pyfunction]
-pub fn shipped_machines() -> Vec<&'static str> {
-    styluscam_post::shipped()
 }
 
 /// Name, corners of the opening, heights of the lower and the upper face.
@@ -185,20 +131,6 @@ pub fn plan(
     let work = |watch: &_| styluscam_job::plan(&job.document, &scene.scene, &machine.machine, watch);
     let plan = watched(py, progress, cancel, work)?.map_err(of_job)?;
     Ok(Plan { plan })
-}
-
-/// The text of a program for a machine.
-#[pyfunction]
-pub fn post(py: Python<'_>, program: &Program, machine: &Machine) -> PyResult<String> {
-    let posted = py.detach(|| styluscam_post::post(&program.program, &machine.machine));
-    Ok(posted.map_err(|e| of_job(e.into()))?.text)
-}
-
-/// The program that a machine would read from a text; positions are those of the words.
-#[pyfunction]
-pub fn read_gcode(py: Python<'_>, text: &str, machine: &Machine) -> PyResult<Program> {
-    let reading = py.detach(|| styluscam_post::read(text, &machine.machine, &[]));
-    Ok(Program { program: reading.map_err(|e| of_job(e.into()))?.program })
 }
 
 /// The program that a text of the RS-274NGC language makes, and in words what is not shown of it.

@@ -5,6 +5,7 @@
 mod arrays;
 mod errors;
 mod job;
+mod machine;
 mod offset;
 mod part;
 mod program;
@@ -17,9 +18,13 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _engine {
     #[pymodule_export]
-    use crate::job::{job_schema, judge, plan, post, read_back, read_gcode, shipped_machines, starter, trace_gcode};
+    use crate::job::{job_schema, judge, plan, read_back, starter, trace_gcode};
     #[pymodule_export]
-    use crate::job::{Job, Judgement, Machine, Plan, Scene};
+    use crate::job::{Job, Judgement, Plan, Scene};
+    #[pymodule_export]
+    use crate::machine::{
+        cl_text, lines_of_moves, machine_schema, post, post_to, read_gcode, shipped_machines, Machine,
+    };
     #[pymodule_export]
     use crate::offset::{drop_cutter, offset_surface, push_cutter, slope_matched_offset, waterlines};
     #[pymodule_export]

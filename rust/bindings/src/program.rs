@@ -4,7 +4,7 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use styluscam_motion::{Dynamics, Move, MoveKind, Statistics, PROGRAM_SCHEMA};
 
-use crate::{arrays, errors, job::Machine};
+use crate::{arrays, errors, machine::Machine};
 
 /// A machine-independent program; see `styluscam.Program`.
 #[pyclass(frozen, module = "styluscam._engine")]
@@ -106,6 +106,26 @@ impl Program {
         let mut program = self.program.clone();
         program.setup.notes = notes;
         Self { program }
+    }
+
+    /// From a move on, with the state that the machine is in there; None where that cannot be.
+    fn restarted(&self, first: usize) -> Option<Self> {
+        Some(Self { program: self.program.restarted(first)? })
+    }
+
+    /// The first move of a level of an operation, both counted as in the program (levels from 1), or None.
+    fn level_start(&self, operation: u32, level: usize) -> Option<usize> {
+        self.program.level_start(operation, level)
+    }
+
+    /// The same program so many mm higher.
+    fn raised(&self, by: f64) -> Self {
+        Self { program: self.program.raised(by) }
+    }
+
+    /// The same program with an optional stop before every operation but the first.
+    fn with_optional_stops(&self) -> Self {
+        Self { program: self.program.with_optional_stops() }
     }
 
     /// Whether both hold the same moves on the same lines.

@@ -6,6 +6,7 @@
 mod arc;
 mod cycle;
 mod dynamics;
+mod edit;
 mod event;
 mod program;
 mod record;

@@ -3,6 +3,7 @@
 //! [`post`] writes a [`Program`](styluscam_motion::Program) for a [`Machine`]; [`read`] reads text as that machine
 //! would, and [`trace`] shows what no machine file describes. A controller of this family is a TOML file; nothing here knows geometry, clocks or files.
 
+mod cl;
 mod comment;
 mod inspect;
 pub mod machine;
@@ -16,6 +17,7 @@ mod template;
 mod trial;
 mod writer;
 
+pub use cl::cl_text;
 pub use machine::{shipped, Machine, MachineError, OptionRule, OptionValue};
 pub use ngc::{trace, Gap, Note, Trace, TraceError, TraceFault};
 pub use post_error::PostError;

@@ -173,6 +173,18 @@ impl Machine {
         Ok(machine)
     }
 
+    /// The whole of it as a machine file that extends nothing.
+    ///
+    /// # Errors
+    /// [`MachineError::Document`] for values that a file cannot say.
+    pub fn to_toml(&self) -> Result<String, MachineError> {
+        toml::to_string_pretty(self).map_err(|e| MachineError::Document {
+            place: self.name.clone(),
+            message: e.to_string(),
+            similar: None,
+        })
+    }
+
     /// Checks every value and compiles every template.
     ///
     /// # Errors

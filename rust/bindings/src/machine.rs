@@ -1,0 +1,150 @@
+//! Machines, and the text that is posted for them.
+
+use std::fs::File;
+use std::path::Path;
+
+use pyo3::prelude::*;
+use styluscam_job::JobError;
+use styluscam_post::{Outcome, PostError, Trial};
+
+use crate::{errors, program::Program};
+
+/// A controller; see `styluscam.Machine`.
+#[pyclass(frozen, module = "styluscam._engine")]
+pub struct Machine {
+    pub(crate) machine: styluscam_post::Machine,
+}
+
+/// Name, outcome ("passed", "without", "failed"), what is said about it, code, place, the posted line, what to do.
+type Tried = (String, &'static str, String, &'static str, String, String, String);
+
+fn of_job<E: Into<JobError>>(error: E) -> PyErr {
+    errors::of_job(&error.into())
+}
+
+#[pymethods]
+impl Machine {
+    /// A shipped machine.
+    #[staticmethod]
+    fn shipped(name: &str) -> PyResult<Self> {
+        let machine = styluscam_post::Machine::shipped(name).map_err(of_job)?;
+        Ok(Self { machine })
+    }
+
+    /// From the text of a machine file; files that it extends are looked for in `folder`.
+    #[staticmethod]
+    #[pyo3(signature = (text, folder=None))]
+    fn from_toml(text: &str, folder: Option<&str>) -> PyResult<Self> {
+        let file = |name: &str| std::fs::read_to_string(Path::new(folder?).join(name)).ok();
+        let machine = styluscam_post::Machine::from_toml_beside(text, &file).map_err(of_job)?;
+        Ok(Self { machine })
+    }
+
+    /// The whole of it as a machine file that extends nothing.
+    fn to_toml(&self) -> PyResult<String> {
+        self.machine.to_toml().map_err(of_job)
+    }
+
+    /// The same machine with values for the options that it declares, as a JSON object.
+    fn with_options(&self, options: &str) -> PyResult<Self> {
+        let options: std::collections::BTreeMap<String, styluscam_post::OptionValue> = serde_json::from_str(options)
+            .map_err(|e| errors::raise("MachineError", &e.to_string(), "document", "machine.options", ""))?;
+        let mut machine = self.machine.clone();
+        for (name, value) in options {
+            machine.set_option(&name, value).map_err(of_job)?;
+        }
+        Ok(Self { machine })
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.machine.name
+    }
+
+    #[getter]
+    fn description(&self) -> &str {
+        &self.machine.description
+    }
+
+    /// One unit of the last posted place, mm.
+    #[getter]
+    fn resolution_mm(&self) -> f64 {
+        self.machine.resolution_mm()
+    }
+
+    /// Everything in it as JSON.
+    fn to_json(&self) -> PyResult<String> {
+        serde_json::to_string(&self.machine)
+            .map_err(|e| errors::raise("StylusError", &e.to_string(), "internal", "", ""))
+    }
+
+    /// Posts a torture program, reads it back and compares; one entry for everything that was tried.
+    fn check(&self, py: Python<'_>) -> PyResult<Vec<Tried>> {
+        let trials = py.detach(|| styluscam_post::check(&self.machine)).map_err(of_job)?;
+        Ok(trials.into_iter().map(tried).collect())
+    }
+}
+
+fn tried(trial: Trial) -> Tried {
+    let none = String::new;
+    match trial.outcome {
+        Outcome::Passed { lines } => (trial.name, "passed", format!("{lines} lines"), "", none(), none(), none()),
+        Outcome::Without { reason } => (trial.name, "without", reason, "", none(), none(), none()),
+        Outcome::Failed(error) => {
+            let (message, line, hint) = (error.to_string(), error.line().to_owned(), error.hint());
+            (trial.name, "failed", message, error.code(), error.place(), line, hint)
+        }
+    }
+}
+
+/// Names of the shipped machines.
+#[pyfunction]
+pub fn shipped_machines() -> Vec<&'static str> {
+    styluscam_post::shipped()
+}
+
+/// The JSON Schema of machine files.
+#[pyfunction]
+pub fn machine_schema() -> PyResult<String> {
+    serde_json::to_string(&styluscam_post::Machine::schema())
+        .map_err(|e| errors::raise("StylusError", &e.to_string(), "internal", "", ""))
+}
+
+/// The text of a program for a machine.
+#[pyfunction]
+pub fn post(py: Python<'_>, program: &Program, machine: &Machine) -> PyResult<String> {
+    let posted = py.detach(|| styluscam_post::post(&program.program, &machine.machine));
+    Ok(posted.map_err(of_job)?.text)
+}
+
+/// Writes the text of a program for a machine to a new file, piece by piece.
+#[pyfunction]
+pub fn post_to(py: Python<'_>, program: &Program, machine: &Machine, path: &str) -> PyResult<()> {
+    py.detach(|| {
+        let failure = |e: std::io::Error| PostError::Output { message: format!("{path}: {e}") };
+        let mut file = File::create(path).map_err(failure)?;
+        styluscam_post::post_to(&program.program, &machine.machine, &mut file)?;
+        file.sync_all().map_err(failure)
+    })
+    .map_err(of_job)
+}
+
+/// The cutter location text (APT) of a program.
+#[pyfunction]
+pub fn cl_text(py: Python<'_>, program: &Program) -> PyResult<String> {
+    py.detach(|| styluscam_post::cl_text(&program.program)).map_err(of_job)
+}
+
+/// For every move the line of the posted text, from 1, with which the machine arrives at its end.
+#[pyfunction]
+pub fn lines_of_moves(py: Python<'_>, program: &Program, machine: &Machine) -> PyResult<Vec<u32>> {
+    let posted = py.detach(|| styluscam_post::post(&program.program, &machine.machine));
+    Ok(posted.map_err(of_job)?.line_of_move)
+}
+
+/// The program that a machine would read from a text; positions are those of the words.
+#[pyfunction]
+pub fn read_gcode(py: Python<'_>, text: &str, machine: &Machine) -> PyResult<Program> {
+    let reading = py.detach(|| styluscam_post::read(text, &machine.machine, &[]));
+    Ok(Program { program: reading.map_err(of_job)?.program })
+}

@@ -1,0 +1,235 @@
+//! What shops do with a program that stands: go on from the middle, run it in the air, stop between operations.
+
+use crate::{Arc, Cycle, Event, EventKind, Move, MoveKind, Plane, Program};
+
+/// Heights of a level are compared with this slack, mm.
+const SAME_HEIGHT: f64 = 1e-6;
+
+impl Program {
+    /// The program from one of its moves on: tool, spindle, coolant and work offset as they are there, the way to its start
+    /// at the clearance height and then straight down at its feed.
+    ///
+    /// None when there is no such move, when it is the first (nothing comes before it), or when it lies in a canned cycle
+    /// that began before it.
+    #[must_use]
+    pub fn restarted(&self, first: usize) -> Option<Self> {
+        let before = first.checked_sub(1)?;
+        let start = self.moves.get(before)?.end;
+        let step = self.moves.get(first)?;
+        if self.cycles.iter().any(|cycle| cycle.first < first && first < cycle.first + cycle.count) {
+            return None;
+        }
+        let height = self.setup.clearance.max(start[2]);
+        let rapid = |end| Move { kind: MoveKind::Rapid, end, arc: None, feed: 0.0, ..*step };
+        let mut moves = vec![rapid([start[0], start[1], height])];
+        if height > start[2] {
+            let feed = self.moves.iter().skip(first).map(|m| m.feed).find(|feed| *feed > 0.0).unwrap_or(0.0);
+            let down = Move { kind: MoveKind::Feed, end: start, arc: None, feed, ..*step };
+            moves.push(if feed > 0.0 { down } else { rapid(start) });
+        }
+        let shift = moves.len();
+        moves.extend_from_slice(self.moves.get(first..)?);
+        let (state, wcs) = self.state_before(first);
+        let mut setup = self.setup.clone();
+        setup.wcs = wcs.unwrap_or(setup.wcs);
+        let later =
+            self.events.iter().filter(|event| event.before > first || event.before == first && !is_state(&event.kind));
+        let events = state.into_iter().map(|kind| Event { before: 0, kind });
+        let events = events.chain(later.map(|e| Event { before: e.before - first + shift, kind: e.kind.clone() }));
+        let cycles = self.cycles.iter().filter(|cycle| cycle.first >= first);
+        let axes = if self.axes.is_empty() {
+            Vec::new()
+        } else {
+            let upright = self.axes.get(before).copied();
+            upright.into_iter().cycle().take(shift).chain(self.axes.iter().skip(first).copied()).collect()
+        };
+        Some(Self {
+            moves,
+            events: events.collect(),
+            cycles: cycles.map(|c| Cycle { first: c.first - first + shift, ..c.clone() }).collect(),
+            axes,
+            setup,
+            ..Self::empty(self.setup.clone(), self.tools.clone(), self.operations.clone())
+        })
+    }
+
+    /// Tool, spindle and coolant as they are when a move begins, and the work offset where one was called on the way.
+    fn state_before(&self, first: usize) -> (Vec<EventKind>, Option<String>) {
+        let (mut tool, mut spindle, mut mist, mut flood, mut wcs) = (None, None, None, None, None);
+        for event in self.events.iter().take_while(|event| event.before <= first) {
+            match &event.kind {
+                kind @ EventKind::ToolChange { .. } => {
+                    tool = Some(kind.clone());
+                    spindle = None;
+                }
+                kind @ EventKind::SpindleOn { .. } => spindle = Some(kind.clone()),
+                EventKind::SpindleOff => spindle = None,
+                EventKind::Mist { on } => mist = on.then_some(EventKind::Mist { on: true }),
+                EventKind::Flood { on } => flood = on.then_some(EventKind::Flood { on: true }),
+                EventKind::WorkOffset { wcs: name } => wcs = Some(name.clone()),
+                _ => {}
+            }
+        }
+        ([tool, spindle, mist, flood].into_iter().flatten().collect(), wcs)
+    }
+
+    /// The first move of a level of an operation: levels are the heights at which it goes level at feed, in order, from 1.
+    #[must_use]
+    pub fn level_start(&self, operation: u32, level: usize) -> Option<usize> {
+        let mut height = None;
+        let mut count = 0;
+        for (index, (start, step)) in self.segments().enumerate() {
+            let start = start.unwrap_or(step.end);
+            let level_move = step.kind == MoveKind::Feed && (step.end[2] - start[2]).abs() <= SAME_HEIGHT;
+            if step.operation != operation || !level_move {
+                continue;
+            }
+            if height.is_none_or(|z: f64| (z - step.end[2]).abs() > SAME_HEIGHT) {
+                height = Some(step.end[2]);
+                count += 1;
+                if count == level {
+                    return Some(index);
+                }
+            }
+        }
+        None
+    }
+
+    /// The same program so many mm higher: it cuts air.
+    #[must_use]
+    pub fn raised(&self, by: f64) -> Self {
+        let mut program = self.clone();
+        for step in &mut program.moves {
+            step.end[2] += by;
+            step.arc = step.arc.map(|arc| raised_arc(arc, by));
+        }
+        for cycle in &mut program.cycles {
+            for z in [&mut cycle.retract, &mut cycle.bottom, &mut cycle.leave] {
+                *z += by;
+            }
+        }
+        for event in &mut program.events {
+            if let EventKind::Probe { end: [_, _, Some(z)], .. } = &mut event.kind {
+                *z += by;
+            }
+        }
+        program.setup.clearance += by;
+        program
+    }
+
+    /// The same program with an optional stop before every operation but the first.
+    #[must_use]
+    pub fn with_optional_stops(&self) -> Self {
+        let mut program = self.clone();
+        let starts = self.moves.windows(2).enumerate().filter(|(_, pair)| pair[0].operation != pair[1].operation);
+        let starts: Vec<usize> = starts.map(|(index, _)| index + 1).collect();
+        for before in starts.into_iter().rev() {
+            let place = program.events.iter().position(|event| event.before >= before).unwrap_or(program.events.len());
+            program.events.insert(place, Event { before, kind: EventKind::Stop { optional: true } });
+        }
+        program
+    }
+}
+
+/// Whether an event sets what holds from then on.
+fn is_state(kind: &EventKind) -> bool {
+    matches!(
+        kind,
+        EventKind::ToolChange { .. }
+            | EventKind::SpindleOn { .. }
+            | EventKind::SpindleOff
+            | EventKind::Mist { .. }
+            | EventKind::Flood { .. }
+            | EventKind::WorkOffset { .. }
+    )
+}
+
+fn raised_arc(arc: Arc, by: f64) -> Arc {
+    let mut centre = arc.centre;
+    // across the plane the centre says nothing
+    if arc.plane != Plane::Xy {
+        centre[2] += by;
+    }
+    Arc { centre, ..arc }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{OperationRecord, SetupRecord, SpindleDirection};
+
+    const ON: EventKind = EventKind::SpindleOn { rpm: 500.0, direction: SpindleDirection::Clockwise };
+
+    /// Two operations of two levels each; the spindle turns in the second one.
+    fn program() -> Program {
+        let step = |kind, end: [f64; 3], operation| Move { kind, end, arc: None, feed: 100.0, operation, line: 0 };
+        let mut moves = Vec::new();
+        for operation in 0..2 {
+            for z in [-1.0, -2.0] {
+                moves.push(step(MoveKind::Rapid, [0.0, 0.0, 5.0], operation));
+                moves.push(step(MoveKind::Feed, [0.0, 0.0, z], operation));
+                moves.push(step(MoveKind::Feed, [9.0, 0.0, z], operation));
+                moves.push(step(MoveKind::Feed, [9.0, 9.0, z], operation));
+            }
+        }
+        let setup = SetupRecord { wcs: "G54".into(), clearance: 10.0, ..SetupRecord::default() };
+        let operations =
+            ["a", "b"].map(|id| OperationRecord { id: id.into(), kind: "z-level".into(), tool: 0 }).to_vec();
+        let events = vec![
+            Event { before: 0, kind: EventKind::ToolChange { tool: 0 } },
+            Event { before: 8, kind: ON },
+            Event { before: 8, kind: EventKind::Flood { on: true } },
+            Event { before: 14, kind: EventKind::Dwell { seconds: 1.0 } },
+            Event { before: 16, kind: EventKind::SpindleOff },
+        ];
+        Program { moves, events, ..Program::empty(setup, Vec::new(), operations) }
+    }
+
+    #[test]
+    fn levels_count_from_one_in_each_operation() {
+        let program = program();
+        assert_eq!([1, 2, 3].map(|level| program.level_start(0, level)), [Some(2), Some(6), None]);
+        assert_eq!(program.level_start(1, 2), Some(14));
+    }
+
+    #[test]
+    fn a_restart_has_the_state_and_comes_from_above() {
+        let whole = program();
+        let rest = whole.restarted(14).unwrap();
+        let kinds: Vec<_> = rest.events.iter().map(|e| (e.before, e.kind.clone())).collect();
+        assert_eq!(
+            kinds,
+            [
+                (0, EventKind::ToolChange { tool: 0 }),
+                (0, ON),
+                (0, EventKind::Flood { on: true }),
+                (2, EventKind::Dwell { seconds: 1.0 }),
+                (4, EventKind::SpindleOff),
+            ]
+        );
+        assert_eq!(rest.moves[0].end, [0.0, 0.0, 10.0]);
+        assert_eq!((rest.moves[1].kind, rest.moves[1].end), (MoveKind::Feed, [0.0, 0.0, -2.0]));
+        assert_eq!(rest.moves[2..], whole.moves[14..]);
+        assert_eq!(whole.restarted(0), None);
+        assert_eq!(whole.restarted(16), None);
+    }
+
+    #[test]
+    fn in_the_air_only_z_differs() {
+        let whole = program();
+        let air = whole.raised(20.0);
+        assert!(whole
+            .moves
+            .iter()
+            .zip(&air.moves)
+            .all(|(a, b)| a.end[..2] == b.end[..2] && b.end[2] - a.end[2] == 20.0));
+    }
+
+    #[test]
+    fn stops_stand_before_later_operations() {
+        let stopped = program().with_optional_stops();
+        let stop = stopped.events.iter().position(|e| e.kind == EventKind::Stop { optional: true }).unwrap();
+        assert_eq!((stop, stopped.events[stop].before), (1, 8));
+        assert_eq!(stopped.events.len(), program().events.len() + 1);
+    }
+}
