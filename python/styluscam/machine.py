@@ -48,7 +48,8 @@ class Machine:
             return cls(_engine.Machine.from_toml(text, str(Path(path).parent)))
         except MachineError as error:
             place = f"{path}: {error.where}" if error.where else str(path)
-            raise MachineError(f"{place}: {error}", code=error.code, where=place, hint=error.hint) from error
+            said = str(error).removeprefix(f"{error.where}: ")
+            raise MachineError(f"{place}: {said}", code=error.code, where=place, hint=error.hint) from error
 
     @classmethod
     def find(cls, name: str) -> Machine:
@@ -143,7 +144,7 @@ max_chars = {document["line"]["max_chars"]}
 # start = 10
 # step = 10
 
-# [templates] # what stands around the moves; `{{{{ header }}}}`, `{{{{ units_word }}}}`, `{{{{ wcs }}}}`, `{{{{ retract }}}}`, ...
+# [templates] # what stands around the moves: `{{{{ header }}}}`, `{{{{ wcs }}}}`, `{{{{ retract }}}}`, ... (docs/posts.md)
 # program_end = \"\"\"
 # {{{{ retract }}}}
 # {{{{ end }}}}

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from styluscam import _engine
+from styluscam.errors import MachineError
 from styluscam.job import Job
 from styluscam.machine import Machine
 from styluscam.program import Program
@@ -59,8 +60,21 @@ def plan(job: Job, *, progress: Progress | None = None, cancel: _engine.CancelTo
     return Plan(job, machine, scene, engine)
 
 
-def post(plan: Plan, machine: Machine | None = None, notes: list[str] | None = None) -> Posted:
-    """The text for a machine, the job's own unless another is given; ``notes`` are lines for the header."""
+def post(plan: Plan | Program, machine: Machine | None = None, notes: list[str] | None = None) -> Posted:
+    """The text of a plan, or of a program, for a machine.
+
+    ``machine`` may be left out for a plan: the job's own. ``notes`` are lines for the header.
+
+    Raises:
+        JobError, MachineError: the machine cannot be given this program; nothing is posted then.
+    """
+    if isinstance(plan, Program):
+        if machine is None:
+            raise MachineError(
+                "a program names no machine", code="machine-missing", hint="give one: post(program, machine)"
+            )
+        work = plan if notes is None else plan.with_notes(notes)
+        return Posted({"program.ngc": _engine.post(work.engine, machine.engine)})
     program = plan.engine.program
     lines = plan.summary()[1] if notes is None else notes
     text = _engine.post(program.with_notes(lines), (machine or plan.machine).engine)

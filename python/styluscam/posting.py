@@ -50,7 +50,9 @@ def edited(program: Program, machine: Machine, edits: Edits) -> Program:
         first = _first_move(program, machine, edits.start)
         restarted = engine.restarted(first)
         if restarted is None:
-            raise _no_start(edits.start, "the program cannot begin there: it is its very start, or inside a canned cycle")
+            raise _no_start(
+                edits.start, "the program cannot begin there: it is its very start, or inside a canned cycle"
+            )
         engine = restarted
         notes.append(f"RESTART at {edits.start}: what was judged is the whole program, not this part")
     if edits.optional_stops:

@@ -86,6 +86,23 @@ class Program:
         """
         return self.engine.times(machine.engine)[0]
 
+    def with_notes(self, notes: list[str]) -> Program:
+        """The same program with these lines in its header."""
+        return Program(self.engine.with_notes(notes))
+
+    @classmethod
+    def from_path(cls, sections: list[tuple[str, str | None, str, str]], tools: str, setup: str) -> Program:
+        """From FreeCAD's path commands, object by object.
+
+        A section is a label, an operation's kind (None for what is no operation), the coolant around it ("None",
+        "Flood" or "Mist"), and what ``Path.toGCode()`` gives (mm, mm/s). ``tools`` (records) and ``setup`` (a record) are
+        JSON. Codes that nobody knows are kept as they stand, as long as they move no axis.
+
+        Raises:
+            JobError: a command that cannot be read; the message names its section.
+        """
+        return cls(_engine.program_of_path(sections, tools, setup))
+
     def save(self, path: str | Path) -> None:
         """Writes the program as JSON, whole or not at all."""
         write_whole(Path(path), self.engine.to_json())

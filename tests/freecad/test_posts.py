@@ -33,14 +33,28 @@ def test_a_straight_native_operation_is_posted_and_said_not_to_be_judged(session
     linuxcnc(text)
 
 
-@pytest.mark.parametrize(("name", "what"), [("native arc", "arcs (G2)"), ("native cycle", "drilling cycles (G81)")])
-def test_what_cannot_be_posted_yet_names_its_operation(session: Any, name: str, what: str) -> None:
-    assert session[name]["post"]["refused"].startswith(f"Own lines: {what}")
+@pytest.mark.parametrize(
+    ("name", "lines"),
+    [
+        ("native arc", ["G2 X1 Y1 I1 J0 F600"]),
+        ("native cycle", ["G98 G81 X0 Y0 Z-1 R2 F300", "X5 Y0", "G80", "M10"]),
+        ("native probe", ["G38.2 Z-5 F120"]),
+    ],
+)
+def test_native_commands_are_posted_as_they_are(session: Any, name: str, lines: list[str]) -> None:
+    text = session[name]["post"]["text"].splitlines()
+    assert "not judged" in "\n".join(text)
+    assert [line for line in text if line in lines] == lines
+
+
+def test_a_fourth_axis_is_refused_and_its_operation_named(session: Any) -> None:
+    refused = session["native axis"]["post"]["refused"]
+    assert refused.startswith("Own lines: line") and "three axes" in refused
 
 
 def test_work_offsets_go_to_files_of_their_own(session: Any, linuxcnc: Any) -> None:
     seen = session["two fixtures"]
-    assert "G54 and G55 in one program" in seen["together"]["refused"]
+    assert "the work offset changes between moves" in seen["together"]["refused"]
     assert sorted(seen["apart"]) == ["G54", "G55"]
     for offset, text in seen["apart"].items():
         assert offset in text.splitlines()

@@ -10,6 +10,8 @@ from typing import Any
 
 import FreeCAD
 
+from . import machines
+
 POSTS = FilePath(__file__).parent / "posts"
 
 
@@ -71,8 +73,10 @@ def register_posts() -> None:
     if getattr(theirs, "styluscam", False):
         return
 
+    machines.write_user_posts()
+
     def search_paths() -> list[str]:
-        return [str(POSTS), *theirs()]
+        return [str(POSTS), str(machines.user_posts()), *theirs()]
 
     search_paths.styluscam = True  # type: ignore[attr-defined]
     Preferences.searchPathsPost = search_paths

@@ -10,14 +10,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from . import tools
+from . import machines, tools
 
 if TYPE_CHECKING:
     from styluscam import Part as EnginePart
 
 Document = dict[str, Any]
 
-POST_PREFIX = "styluscam_"
 DEFAULT_MACHINE = "linuxcnc"
 """The machine whose rounding planning reckons with when the job has no post of ours."""
 
@@ -32,7 +31,8 @@ class DocumentError(ValueError):
 def machine_of(job: Any) -> str:
     """The machine that the job's post is for."""
     post = str(getattr(job, "PostProcessor", "") or "")
-    return post.removeprefix(POST_PREFIX) if post.startswith(POST_PREFIX) else DEFAULT_MACHINE
+    prefix = machines.POST_PREFIX
+    return post.removeprefix(prefix) if post.startswith(prefix) else DEFAULT_MACHINE
 
 
 def sheet_raise(obj: Any) -> float:
@@ -70,8 +70,14 @@ def job_document(job: Any, operations: list[Any], part: EnginePart, machine: str
         "process": {"kind": first.Process},
         "tools": {tool_name(obj.ToolController): _tool_section(obj.ToolController) for obj in operations},
         "operations": [operation_section(obj) for obj in operations],
-        "machine": {"name": machine},
+        "machine": {**machines.section(machine), "options": machines.options(_arguments(job))},
     }
+
+
+def _arguments(job: Any) -> str:
+    """What a job says to its post, where that is ours."""
+    post = str(getattr(job, "PostProcessor", "") or "")
+    return str(getattr(job, "PostProcessorArgs", "") or "") if post.startswith(machines.POST_PREFIX) else ""
 
 
 def _part_section(obj: Any) -> Document:

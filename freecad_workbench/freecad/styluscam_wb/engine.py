@@ -27,16 +27,15 @@ def styluscam() -> ModuleType:
     return styluscam
 
 
-def program_of(document: str) -> Any:
-    """A styluscam.Program from its document's JSON."""
+def program_of_path(sections: list[tuple[str, str | None, str, str]], tools: str, setup: str) -> Any:
+    """A styluscam.Program from paths as text; tools and set-up are JSON."""
     sc = styluscam()
-    return sc.Program(sc._engine.Program.from_json(document))
+    return sc.Program.from_path(sections, tools, setup)
 
 
-def text_of(program: Any, machine: str, notes: list[str]) -> str:
-    """A styluscam.Program as a shipped machine's text; the notes go into the header."""
-    sc = styluscam()
-    text: str = sc._engine.post(program.engine.with_notes(notes), sc.Machine.shipped(machine).engine)
+def text_of(program: Any, machine: Any, notes: list[str]) -> str:
+    """A styluscam.Program as a machine's text; the notes go into the header."""
+    text: str = styluscam().post(program.with_notes(notes), machine).text
     return text
 
 

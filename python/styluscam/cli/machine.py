@@ -22,7 +22,9 @@ MACHINE_HELP = "A shipped machine, or a machine file."
 Name = Annotated[str, typer.Argument(metavar="NAME|FILE", help=MACHINE_HELP, show_default=False)]
 Other = Annotated[str, typer.Argument(metavar="NAME|FILE", help=MACHINE_HELP, show_default=False)]
 NewFile = Annotated[str, typer.Argument(metavar="NAME", help="The new machine; NAME.toml is written.")]
-From = Annotated[str, typer.Option("--from", metavar="NAME|FILE", help="The machine to begin with.", show_default=False)]
+From = Annotated[
+    str, typer.Option("--from", metavar="NAME|FILE", help="The machine to begin with.", show_default=False)
+]
 Toml = Annotated[bool, typer.Option("--toml", help="Print all of it as a machine file.")]
 
 EVIDENCE = {"read": "", "partly": "not all confirmed", "unverified": "UNVERIFIED"}
@@ -126,16 +128,27 @@ def check(name: Name, json: Json = False, debug: Debug = False) -> int:
         console.say_json({"name": machine.name, "ok": not failed, "trials": [vars(trial) for trial in trials]})
     else:
         console.table({"tried": "left", "outcome": "left", "": "left"}, [_row(trial) for trial in trials])
-        for trial in failed:
-            console.say()
-            console.say(f"{trial.name}: {trial.message}")
-            if trial.line:
-                console.say(f"  {trial.where}: {trial.line}")
-            console.say(f"  {trial.hint}")
-        console.say()
+        _tell_failures(failed)
         passed = sum(trial.outcome == "passed" for trial in trials)
-        console.say(f"{machine.name}: {passed} passed, {len(failed)} failed, {len(trials) - passed - len(failed)} without")
+        console.say(
+            f"{machine.name}: {passed} passed, {len(failed)} failed, {len(trials) - passed - len(failed)} without"
+        )
     return 1 if failed else 0
+
+
+def _tell_failures(failed: list[Trial]) -> None:
+    """Every failure with its line; those that say the same once."""
+    alike: dict[tuple[str, str], list[Trial]] = {}
+    for trial in failed:
+        alike.setdefault((trial.message, trial.line), []).append(trial)
+    for trials in alike.values():
+        first, more = trials[0], len(trials) - 1
+        console.say()
+        console.say(f"{first.name}{f' and {more} more' if more else ''}: {first.message}")
+        if first.line:
+            console.say(f"  {first.where}: {first.line}")
+        console.say(f"  {first.hint}")
+    console.say()
 
 
 def _row(trial: Trial) -> list[str]:

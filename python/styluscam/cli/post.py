@@ -67,7 +67,9 @@ def post(
     The text is not judged: `styluscam verify` does that, and `styluscam run` writes nothing that it objects to.
     """
     if out.exists() and not force:
-        raise JobError(f"{out} exists already", code="file-exists", where=str(out), hint="take another name, or --force")
+        raise JobError(
+            f"{out} exists already", code="file-exists", where=str(out), hint="take another name, or --force"
+        )
     files.require_writable([out], [program])
     target = Machine.find(machine).with_options(_options(options or []))
     source = posting.read_program(program, Machine.find(read_as) if read_as else None)

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use pyo3::prelude::*;
 use styluscam_job::JobError;
+use styluscam_motion::EventKind;
 use styluscam_post::{Outcome, PostError, Trial};
 
 use crate::{errors, program::Program};
@@ -140,6 +141,33 @@ pub fn cl_text(py: Python<'_>, program: &Program) -> PyResult<String> {
 pub fn lines_of_moves(py: Python<'_>, program: &Program, machine: &Machine) -> PyResult<Vec<u32>> {
     let posted = py.detach(|| styluscam_post::post(&program.program, &machine.machine));
     Ok(posted.map_err(of_job)?.line_of_move)
+}
+
+/// A section of FreeCAD's path commands: label, an operation's kind or None, "Flood", "Mist" or "None", what toGCode() gives.
+type PathSection = (String, Option<String>, String, String);
+
+/// A program of FreeCAD's path commands, the set-up and the tools as JSON.
+#[pyfunction]
+pub fn program_of_path(py: Python<'_>, sections: Vec<PathSection>, tools: &str, setup: &str) -> PyResult<Program> {
+    let document = |e: serde_json::Error| errors::raise("JobError", &e.to_string(), "document", "", "");
+    let tools: Vec<styluscam_motion::ToolRecord> = serde_json::from_str(tools).map_err(document)?;
+    let setup: styluscam_motion::SetupRecord = serde_json::from_str(setup).map_err(document)?;
+    let sections: Vec<_> = sections.into_iter().map(path_section).collect();
+    let program = py.detach(|| styluscam_post::read_path(&sections, &tools, setup));
+    let program = program.map_err(|e| {
+        let (message, hint) = (e.to_string(), e.error.hint());
+        errors::raise("JobError", &message, e.error.code(), &e.label, &hint)
+    })?;
+    Ok(Program { program })
+}
+
+fn path_section((label, kind, coolant, text): PathSection) -> styluscam_post::PathSection {
+    let coolant = match coolant.as_str() {
+        "Flood" => Some(EventKind::Flood { on: true }),
+        "Mist" => Some(EventKind::Mist { on: true }),
+        _ => None,
+    };
+    styluscam_post::PathSection { label, kind, text, coolant }
 }
 
 /// The program that a machine would read from a text; positions are those of the words.

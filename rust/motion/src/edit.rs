@@ -193,6 +193,7 @@ mod tests {
     }
 
     #[test]
+    #[allow(clippy::float_cmp)] // the same numbers
     fn a_restart_has_the_state_and_comes_from_above() {
         let whole = program();
         let rest = whole.restarted(14).unwrap();
@@ -215,6 +216,7 @@ mod tests {
     }
 
     #[test]
+    #[allow(clippy::float_cmp)] // the same numbers
     fn in_the_air_only_z_differs() {
         let whole = program();
         let air = whole.raised(20.0);

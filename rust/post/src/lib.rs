@@ -5,8 +5,10 @@
 
 mod cl;
 mod comment;
+mod freecad;
 mod inspect;
 pub mod machine;
+mod names;
 mod ngc;
 mod number;
 mod post_error;
@@ -18,7 +20,9 @@ mod trial;
 mod writer;
 
 pub use cl::cl_text;
+pub use freecad::{read_path, PathError, PathSection};
 pub use machine::{shipped, Machine, MachineError, OptionRule, OptionValue};
+pub use names::{FUNCTIONS, NAMES, OWN_NAMES};
 pub use ngc::{trace, Gap, Note, Trace, TraceError, TraceFault};
 pub use post_error::PostError;
 pub use read_error::{ReadError, ReadFault};

@@ -7,6 +7,7 @@ use styluscam_motion::{EventKind, MoveKind, OperationRecord, Program, ToolRecord
 
 use crate::comment::CommentFormat;
 use crate::machine::{Evidence, LengthUnit, Machine, MachineError, OptionValue, ToolChange};
+use crate::names::unknown_name;
 use crate::number::NumberFormat;
 
 /// Most steps that one template may take: a header of a thousand lines needs a fiftieth of it.
@@ -69,7 +70,13 @@ impl<'m> Templater<'m> {
 
     /// Compiles every template.
     pub(crate) fn check(&self) -> Result<(), MachineError> {
-        self.all().into_iter().try_for_each(|(name, source)| self.compile(name, source).map(|_| ()))
+        for (name, source) in self.all() {
+            let used = self.compile(name, source)?.undeclared_variables(true);
+            if let Some(error) = unknown_name(name, source, used.iter().map(String::as_str)) {
+                return Err(error);
+            }
+        }
+        Ok(())
     }
 
     fn all(&self) -> Vec<(&'static str, &'m str)> {

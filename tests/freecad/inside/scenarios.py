@@ -499,7 +499,11 @@ SCENARIOS: dict[str, Scenario] = {
     "tampered": tampered,
     "native straight": with_native("G0 Z20", "G0 X1 Y2", "G1 Z15 F10", "G1 X5"),
     "native arc": with_native("G0 X0 Y0 Z20", "G2 X1 Y1 I1 J0 F10"),
-    "native cycle": with_native("G0 X0 Y0 Z20", "G81 X0 Y0 Z-1 R2 F5"),
+    "native cycle": with_native(
+        "G0 X0 Y0 Z20", "G98 G81 X0 Y0 Z-1 R2 F5", "G81 X5 Y0 Z-1 R2 F5", "G80", "M10", "G0 Z20"
+    ),
+    "native probe": with_native("G0 X0 Y0 Z20", "G38.2 Z-5 F2", "G0 Z20"),
+    "native axis": with_native("G0 X0 Y0 Z20 A10"),
     "two fixtures": two_fixtures,
 }
 

@@ -8,7 +8,7 @@ from typing import Any
 import Path.Base.Util as PathUtil
 from Path.Post.Processor import PostProcessor
 
-from .. import documents, engine, motion, ops
+from .. import documents, engine, machines, motion, ops
 
 
 class PostError(ValueError):
@@ -30,7 +30,8 @@ def post_for(machine: str) -> type[PostProcessor]:
 
         @property
         def tooltipArgs(self) -> str:
-            return "It takes no arguments."
+            words = [*machines.ARGUMENTS, *(f"{name}=..." for name in machines.VALUES)]
+            return "Arguments: " + ", ".join(words)
 
         def export(self) -> list[tuple[str, str]]:
             """Sections of text, as FreeCAD writes them to files.
@@ -93,13 +94,16 @@ def section_text(job: Any, items: list[Any], machine: str) -> str:
                 controller, coolant = (PathUtil.opProperty(item, name) for name in ("ToolController", "CoolantMode"))
                 builder.add_operation(item, controller, _kind(item), str(coolant or "None"))
         else:
-            builder.add_fixture(item.Path.Commands)
+            builder.add_fixture(item)
     if not operations:
         raise PostError(f"{job.Label} has no active operation: there is nothing to post")
     program = builder.program(_setup(job, operations))
+    sc = engine.styluscam()
+    options = machines.options(str(job.PostProcessorArgs or ""))
+    target = sc.Machine.of_section({**machines.section(machine), "options": options}, machines.user_folder())
     if all(ops.is_ours(obj) for obj in operations):
-        return _judged_text(job, operations, program, machine)
-    return engine.text_of(program, machine, ["not judged: operations that are not StylusCAM's are in it"])
+        return _judged_text(job, operations, program, machine, target)
+    return engine.text_of(program, target, ["not judged: operations that are not StylusCAM's are in it"])
 
 
 def _kind(obj: Any) -> str:
@@ -121,20 +125,20 @@ def _setup(job: Any, operations: list[Any]) -> dict[str, Any]:
     }
 
 
-def _judged_text(job: Any, operations: list[Any], program: Any, machine: str) -> str:
+def _judged_text(job: Any, operations: list[Any], program: Any, machine: str, target: Any) -> str:
     """The text of a program that is all ours, after the engine's judge has read it against the model.
 
     The figures go into the header, so it is posted again with them; nothing but comments differs then.
     """
     sc = engine.styluscam()
     notes = [note for obj in operations for note in obj.Notes]
-    text = engine.text_of(program, machine, [*notes, _verdict("-.----", "-.----")])
+    text = engine.text_of(program, target, [*notes, _verdict("-.----", "-.----")])
     part = ops.engine_part(operations[0])
     document = documents.job_document(job, operations, part, machine, program.setup["wcs"])
     report = sc.verify(text, sc.Job.from_dict(document, part=part))
     if not report.ok:
         raise PostError(f"the posted text fails verification: {report.findings[0]['message']}")
-    final = engine.text_of(program, machine, [*notes, _verdict(f"{report.gouge_max:.4f}", f"{report.excess_max:.4f}")])
+    final = engine.text_of(program, target, [*notes, _verdict(f"{report.gouge_max:.4f}", f"{report.excess_max:.4f}")])
     if _code(final) != _code(text):
         raise PostError("the header changed the program: please report this")
     return final

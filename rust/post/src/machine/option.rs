@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::{BlockNumber, CommentForm, FeedMode, LengthUnit, Machine, MachineError};
 
 /// Options that every machine has besides its own, and what they take.
-pub const BUILT_IN_OPTIONS: [(&str, &str); 8] = [
+pub const BUILT_IN_OPTIONS: [(&str, &str); 9] = [
+    ("header", "true or false"),
     ("units", "\"mm\" or \"inch\""),
     ("smoothing_tolerance", "mm; 0 for an exact path"),
     ("decimals", "decimal places of coordinates"),
@@ -98,6 +99,12 @@ fn set(machine: &mut Machine, name: &str, value: &OptionValue) -> bool {
         }
         ("decimals", OptionValue::Number(places)) => set_decimals(machine, *places),
         ("block_numbers", OptionValue::Switch(on)) => set_block_numbers(machine, *on),
+        ("header", OptionValue::Switch(on)) => {
+            if !on {
+                machine.templates.header = Some(String::new());
+            }
+            true
+        }
         ("comments", OptionValue::Switch(on)) => {
             if !on {
                 machine.comment.form = CommentForm::None;

@@ -192,6 +192,16 @@ impl Block {
         }
     }
 
+    /// Leaves out an arc's offsets of 0 where there are others: FreeCAD says all three.
+    pub(crate) fn drop_idle_offsets(&mut self) {
+        let count = self.offsets.iter().flatten().count();
+        for slot in self.offsets.iter_mut().filter(|_| count > 2) {
+            if slot.is_some_and(|word| word.number.value() == 0.0) {
+                *slot = None;
+            }
+        }
+    }
+
     /// The first axis word, if any.
     pub(crate) fn any_axis(&self) -> Option<Word> {
         self.axes.iter().flatten().next().copied()

@@ -70,6 +70,10 @@ pub(crate) struct Interpreter<'m> {
     /// Height of the posted point above the tip, mm.
     height: f64,
     tools_given: bool,
+    /// Whether the work offset may change on the way.
+    moves_zero: bool,
+    /// Whether rapids before the first tool are left out: the way to the work is told after it again.
+    waits_for_tool: bool,
     standing: Standing,
     axes: [Axis; 3],
     unplaced_since: Option<usize>,
@@ -108,6 +112,8 @@ impl<'m> Interpreter<'m> {
             tool: None,
             height: 0.0,
             tools_given: !tools.is_empty(),
+            moves_zero: tools.is_empty(),
+            waits_for_tool: false,
             standing: Standing::new(),
             axes: [Axis::default(); 3],
             unplaced_since: Some(0),
@@ -126,6 +132,24 @@ impl<'m> Interpreter<'m> {
             self.operation_due = true;
         }
         self.event(EventKind::Comment { text: text.into() });
+    }
+
+    /// The work offset may change on the way, as in a program that no job is known of, and rapids before the first tool
+    /// are left out.
+    pub(crate) fn loosen(&mut self) {
+        self.moves_zero = true;
+        self.waits_for_tool = true;
+    }
+
+    /// What follows is an operation of its own.
+    pub(crate) fn start_operation(&mut self, id: &str, kind: &str) {
+        self.label = Some((id.into(), kind.into()));
+        self.operation_due = true;
+    }
+
+    /// Something that happens beside the text.
+    pub(crate) fn hand_on(&mut self, kind: Option<&EventKind>) {
+        kind.into_iter().for_each(|kind| self.event(kind.clone()));
     }
 
     /// Carries out a block, in the order in which controllers do; says whether it ended the program.
@@ -349,7 +373,7 @@ impl<'m> Interpreter<'m> {
         // Before the first G54 to G59 the controller is in its first work offset.
         let now = self.wcs.as_deref().or(self.machine.wcs.first().map(String::as_str));
         if !self.program.moves.is_empty() && now != Some(name.as_str()) {
-            if self.tools_given {
+            if !self.moves_zero {
                 return Err(ReadFault::WcsChanged);
             }
             self.event(EventKind::WorkOffset { wcs: name });
@@ -397,6 +421,9 @@ impl<'m> Interpreter<'m> {
             Some(Motion::Feed | Motion::Arc(_)) => MoveKind::Feed,
             _ => return Err((ReadFault::NoMotionMode, Some(first))),
         };
+        if self.waits_for_tool && self.tool.is_none() && kind == MoveKind::Rapid {
+            return Ok(());
+        }
         self.load_only_tool(first)?;
         self.allow_motion(first)?;
         let start = self.tip();

@@ -12,7 +12,7 @@ mod standing;
 
 use std::ops::Range;
 
-use styluscam_motion::{MachineMove, Program, ToolRecord};
+use styluscam_motion::{EventKind, MachineMove, Program, ToolRecord};
 
 use crate::machine::{AfterEnd, BlockDelete, Family, Machine, Turns};
 use crate::read_error::{ReadError, ReadFault};
@@ -71,7 +71,7 @@ pub fn read(text: &str, machine: &Machine, tools: &[ToolRecord]) -> Result<Readi
     if machine.family == Family::Klartext {
         return klartext::read(text, machine, tools);
     }
-    let mut reader = Reader::new(text, machine, tools).map_err(|e| whole_text(e.into()))?;
+    let mut reader = Reader::new(text.len(), machine, tools).map_err(|e| whole_text(e.into()))?;
     let mut line_number = 0_u32;
     for line in text.lines() {
         line_number = line_number.checked_add(1).ok_or_else(|| whole_text(ReadFault::TooManyLines))?;
@@ -80,6 +80,47 @@ pub fn read(text: &str, machine: &Machine, tools: &[ToolRecord]) -> Result<Readi
         }
     }
     reader.finish(line_number)
+}
+
+/// A part of a program that is put together from several.
+pub(crate) struct Section<'t> {
+    /// Id and kind of the operation that it is, if any.
+    pub operation: Option<(&'t str, &'t str)>,
+    /// Coolant that is on around it.
+    pub coolant: Option<&'t EventKind>,
+    pub text: &'t str,
+}
+
+/// Reads sections of commands one after the other, loosely: the work offset may change, codes that are not known are
+/// handed on, an arc's offset across its plane may be 0. An error comes with its section's index.
+pub(crate) fn read_sections(
+    sections: &[Section],
+    machine: &Machine,
+    tools: &[ToolRecord],
+) -> Result<Reading, (usize, ReadError)> {
+    let length = sections.iter().map(|section| section.text.len()).sum();
+    let mut reader = Reader::new(length, machine, tools).map_err(|e| (0, whole_text(e.into())))?;
+    reader.loose = true;
+    reader.interpreter.loosen();
+    for (index, section) in sections.iter().enumerate() {
+        if let Some((id, kind)) = section.operation {
+            reader.interpreter.start_operation(id, kind);
+        }
+        reader.interpreter.hand_on(section.coolant);
+        for (line, number) in section.text.lines().zip(1..) {
+            reader.read_line(line, number).map_err(|error| (index, error))?;
+        }
+        reader.interpreter.hand_on(section.coolant.and_then(switched_off).as_ref());
+    }
+    reader.finish(0).map_err(|error| (sections.len(), error))
+}
+
+fn switched_off(kind: &EventKind) -> Option<EventKind> {
+    match kind {
+        EventKind::Flood { .. } => Some(EventKind::Flood { on: false }),
+        EventKind::Mist { .. } => Some(EventKind::Mist { on: false }),
+        _ => None,
+    }
 }
 
 #[derive(PartialEq, Eq)]
@@ -113,10 +154,12 @@ struct Reader<'t> {
     /// Whether M2 or M30 has ended it.
     by_code: bool,
     optional_lines: Vec<u32>,
+    /// Whether codes that are not known are handed on.
+    loose: bool,
 }
 
 impl<'t> Reader<'t> {
-    fn new(text: &str, machine: &'t Machine, tools: &[ToolRecord]) -> Result<Self, crate::machine::MachineError> {
+    fn new(length: usize, machine: &'t Machine, tools: &[ToolRecord]) -> Result<Self, crate::machine::MachineError> {
         let radius_word = machine.arc.as_ref().and_then(|rules| rules.radius_word).unwrap_or('R');
         Ok(Self {
             machine,
@@ -125,11 +168,12 @@ impl<'t> Reader<'t> {
             radius_word: u8::try_from(radius_word).unwrap_or(b'R'),
             dwell_word: machine.dwell.as_ref().map_or('P', |d| d.word),
             line: Line::default(),
-            interpreter: Interpreter::new(machine, tools, text.len() / TYPICAL_LINE),
+            interpreter: Interpreter::new(machine, tools, length / TYPICAL_LINE),
             stage: Stage::Start,
             framed: false,
             by_code: false,
             optional_lines: Vec::new(),
+            loose: false,
         })
     }
 
@@ -236,13 +280,16 @@ impl<'t> Reader<'t> {
 
     fn run_block(&mut self, text: &str, number: u32) -> Result<bool, Flaw> {
         self.check_words()?;
-        if self.is_passed()? {
+        if self.is_passed()? || self.loose && self.is_foreign() {
             self.interpreter.pass(text, self.codes.tolerance_after(text));
             return Ok(false);
         }
         let mut block = Block::default();
         for word in &self.line.words {
             block.take(*word, &self.codes, self.radius_word).map_err(|fault| (fault, Some(*word)))?;
+        }
+        if self.loose {
+            block.drop_idle_offsets();
         }
         let arc = self.interpreter.arc_after(&block);
         let arrivals = self.machine.arc.as_ref().is_some_and(|rules| rules.turns == Turns::Arrivals);
@@ -288,6 +335,17 @@ impl<'t> Reader<'t> {
             Some(word) => Err((ReadFault::StrayWord, Some(*word))),
             None => Ok(true),
         }
+    }
+
+    /// Whether a block holds a code that is not known, and nothing that moves an axis or that is known.
+    fn is_foreign(&self) -> bool {
+        let unknown = |word: &Word| {
+            let mut block = Block::default();
+            matches!(word.letter, b'G' | b'M')
+                && matches!(block.take(*word, &self.codes, self.radius_word), Err(ReadFault::UnknownCode))
+        };
+        let quiet = |word: &Word| !b"GMXYZIJKRABCUVWTFS".contains(&word.letter) || unknown(word);
+        self.line.words.iter().any(unknown) && self.line.words.iter().all(quiet)
     }
 
     fn finish(self, lines: u32) -> Result<Reading, ReadError> {
