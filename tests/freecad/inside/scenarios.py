@@ -21,11 +21,19 @@ Scenario = Callable[[], dict[str, Any]]
 MODEL: dict[str, Any] = {}
 
 
-def example() -> Any:
-    spec = importlib.util.spec_from_file_location("first_light", EXAMPLE)
+def module_of(name: str, path: str | Path) -> Any:
+    spec = importlib.util.spec_from_file_location(name, path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+def example() -> Any:
+    return module_of("first_light", EXAMPLE)
+
+
+def native_job() -> dict[str, Any]:
+    return module_of("native", Path(__file__).with_name("native_job.py")).native_job()
 
 
 def settings(machine: str = "linuxcnc", **changes: Any) -> dict[str, Any]:
@@ -505,6 +513,7 @@ SCENARIOS: dict[str, Scenario] = {
     "native probe": with_native("G0 X0 Y0 Z20", "G38.2 Z-5 F2", "G0 Z20"),
     "native axis": with_native("G0 X0 Y0 Z20 A10"),
     "two fixtures": two_fixtures,
+    "native job": native_job,
 }
 
 

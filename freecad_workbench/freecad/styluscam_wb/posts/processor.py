@@ -102,6 +102,11 @@ def section_text(job: Any, items: list[Any], machine: str) -> str:
     options = machines.options(str(job.PostProcessorArgs or ""))
     target = sc.Machine.of_section({**machines.section(machine), "options": options}, machines.user_folder())
     if all(ops.is_ours(obj) for obj in operations):
+        if any(event["kind"] == "work-offset" for event in program.events):
+            raise PostError(
+                "several work offsets in one program cannot be judged: order the output by fixture and split it, "
+                "or choose one work offset"
+            )
         return _judged_text(job, operations, program, machine, target)
     return engine.text_of(program, target, ["not judged: operations that are not StylusCAM's are in it"])
 

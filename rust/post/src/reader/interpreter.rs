@@ -72,8 +72,9 @@ pub(crate) struct Interpreter<'m> {
     tools_given: bool,
     /// Whether the work offset may change on the way.
     moves_zero: bool,
-    /// Whether rapids before the first tool are left out: the way to the work is told after it again.
-    waits_for_tool: bool,
+    /// Whether these are FreeCAD's commands: rapids before the first tool are left out (the way to the work is told after it
+    /// again), and so are the feeds of rapids and those of 0.
+    loose: bool,
     standing: Standing,
     axes: [Axis; 3],
     unplaced_since: Option<usize>,
@@ -113,7 +114,7 @@ impl<'m> Interpreter<'m> {
             height: 0.0,
             tools_given: !tools.is_empty(),
             moves_zero: tools.is_empty(),
-            waits_for_tool: false,
+            loose: false,
             standing: Standing::new(),
             axes: [Axis::default(); 3],
             unplaced_since: Some(0),
@@ -134,11 +135,10 @@ impl<'m> Interpreter<'m> {
         self.event(EventKind::Comment { text: text.into() });
     }
 
-    /// The work offset may change on the way, as in a program that no job is known of, and rapids before the first tool
-    /// are left out.
+    /// FreeCAD's commands are read; the work offset may change on the way, as in a program that no job is known of.
     pub(crate) fn loosen(&mut self) {
         self.moves_zero = true;
-        self.waits_for_tool = true;
+        self.loose = true;
     }
 
     /// What follows is an operation of its own.
@@ -202,6 +202,11 @@ impl<'m> Interpreter<'m> {
             FeedMode::InverseTime => word.number.value(),
             _ => self.mm(word)? / self.machine.feed_scale_of(self.units),
         };
+        let motion = block.motion.map(|(motion, _)| motion).or(self.motion);
+        let rapid = motion == Some(Motion::Rapid) && block.probe.is_none();
+        if self.loose && (rapid || feed <= 0.0) {
+            return Ok(());
+        }
         if feed <= 0.0 {
             return Err((ReadFault::ZeroFeed, Some(word)));
         }
@@ -421,7 +426,7 @@ impl<'m> Interpreter<'m> {
             Some(Motion::Feed | Motion::Arc(_)) => MoveKind::Feed,
             _ => return Err((ReadFault::NoMotionMode, Some(first))),
         };
-        if self.waits_for_tool && self.tool.is_none() && kind == MoveKind::Rapid {
+        if self.loose && self.tool.is_none() && kind == MoveKind::Rapid {
             return Ok(());
         }
         self.load_only_tool(first)?;
