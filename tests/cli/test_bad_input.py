@@ -283,7 +283,7 @@ def test_wrong_command_line(cli, arguments, words):
 
 GCODE = {
     "unknown word": ("G21 G90\nF100\nG1 A5\nM2\n", ["line 3", "A5"]),
-    "unknown code": ("G21 G90\nF100\nG99\nM2\n", ["line 3", "G99"]),
+    "unknown code": ("G21 G90\nF100\nG77\nM2\n", ["line 3", "G77"]),
     "junk": ("G21\n\x01\x02\nM2\n", ["line 2"]),
     "no unit": ("G0 X1\nM2\n", ["line 1"]),
     "wrong length offset": ("G21 G90 G54\nT1 M6\nG43 H9\nM2\n", ["line 3", "9"]),

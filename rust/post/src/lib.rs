@@ -28,5 +28,5 @@ pub use post_error::PostError;
 pub use read_error::{ReadError, ReadFault};
 pub use reader::{read, Reading};
 pub use template::Facts;
-pub use trial::{check, try_out, Outcome, Trial, TrialError};
+pub use trial::{check, difference, try_out, Outcome, Trial, TrialError};
 pub use writer::{post, post_to, Posted, Poster};

@@ -13,13 +13,14 @@ const SLACK: f64 = 1e-9;
 /// An arc's centre is rounded too: its way may leave the planned one by so many last places.
 const ARC_PLACES: f64 = 3.0;
 
-/// The first thing that was posted and does not come back: its line and what it is.
-pub(crate) fn difference(
-    program: &Program,
-    posted: &Posted,
-    reading: &Reading,
-    machine: &Machine,
-) -> Option<(u32, String)> {
+/// An arc of a few last places may turn so much farther once rounded, rad.
+const TINY_SWEEP: f64 = 1.1;
+
+/// The first thing of a program that was posted and does not come back: its line, 0 where none is at fault, and what it is.
+///
+/// Places are compared within half a last place, arcs within three, events in their order; remarks are not.
+#[must_use]
+pub fn difference(program: &Program, posted: &Posted, reading: &Reading, machine: &Machine) -> Option<(u32, String)> {
     if reading.program.setup.wcs != program.setup.wcs {
         let (sent, came) = (&program.setup.wcs, &reading.program.setup.wcs);
         return Some((0, format!("work offset {sent} became {came}")));
@@ -54,57 +55,78 @@ fn cycle_difference(program: &Program, posted: &Posted, reading: &Reading, machi
     })
 }
 
-/// Events in order, each with the number of the move that it comes before.
+/// The first event that differs.
 fn event_difference(program: &Program, posted: &Posted, reading: &Reading, machine: &Machine) -> Option<(u32, String)> {
-    let (sent, came) = (states(program, machine), states(&reading.program, machine));
-    for (index, (before, kind)) in sent.iter().enumerate() {
-        let line = before.checked_sub(1).and_then(|b| posted.line_of_move.get(b)).copied().unwrap_or(0);
+    let sent_line = |index: usize| posted.line_of_move.get(index).copied();
+    let came_line = |index: usize| reading.program.moves.get(index).map(|m| m.line);
+    let (sent, came) = (states(program, machine, sent_line), states(&reading.program, machine, came_line));
+    for (index, (line, kind)) in sent.iter().enumerate() {
         match came.get(index) {
             Some((_, found)) if same_event(kind, found, machine) => {}
-            Some((_, found)) => return Some((line, format!("{kind:?} became {found:?}"))),
-            None => return Some((line, format!("{kind:?} is not there"))),
+            Some((_, found)) => return Some((*line, format!("{kind:?} became {found:?}"))),
+            None => return Some((*line, format!("{kind:?} is not there"))),
         }
     }
-    came.get(sent.len()).map(|(before, kind)| {
-        let line = reading.program.moves.get(*before).map_or(0, |m| m.line);
-        (line, format!("{kind:?} was not posted"))
-    })
+    came.get(sent.len()).map(|(line, kind)| (*line, format!("{kind:?} was not posted")))
 }
 
-/// The events that the text must say, without those that say nothing new; a cycle's own are its moves'.
-fn states(program: &Program, machine: &Machine) -> Vec<(usize, EventKind)> {
-    let mut out: Vec<(usize, EventKind)> = Vec::new();
+/// The events that the text must say, each with the line of the move before it, without those that say nothing new; a
+/// cycle's own are its moves'.
+fn states(program: &Program, machine: &Machine, line_of_move: impl Fn(usize) -> Option<u32>) -> Vec<(u32, EventKind)> {
+    let mut out: Vec<(u32, EventKind)> = Vec::new();
+    let mut spindle = EventKind::SpindleOff;
+    let turns = |kind: &EventKind| matches!(kind, EventKind::SpindleOn { .. } | EventKind::SpindleOff);
     for event in &program.events {
         let inside = |cycle: &Cycle| {
             canned(machine, cycle) && event.before > cycle.first && event.before < cycle.first + cycle.count
         };
-        let silent = match &event.kind {
-            EventKind::Comment { .. } | EventKind::Raw { .. } => true,
-            EventKind::ToolChange { .. } => machine.tool.change == ToolChange::Unsaid,
-            EventKind::Stop { .. } => machine.tool.change == ToolChange::Pause,
-            // a start may wait, and a stop of the spindle comes before a tool change by itself
-            EventKind::Dwell { .. } => machine.spindle.start_dwell > 0.0,
-            _ => false,
-        };
-        if silent || program.cycles.iter().any(inside) {
+        if is_silent(&event.kind, machine) || program.cycles.iter().any(inside) {
             continue;
-        }
-        // of several states of the spindle at one place the last one counts
-        let spindle = |kind: &EventKind| matches!(kind, EventKind::SpindleOn { .. } | EventKind::SpindleOff);
-        if spindle(&event.kind) && out.last().is_some_and(|(before, last)| *before == event.before && spindle(last)) {
-            out.pop();
         }
         // one word switches all coolant off
         let kind = match &event.kind {
             EventKind::Mist { on: false } => EventKind::Flood { on: false },
             kind => kind.clone(),
         };
-        if kind == (EventKind::Flood { on: false }) && out.last() == Some(&(event.before, kind.clone())) {
+        let line = event.before.checked_sub(1).and_then(&line_of_move).unwrap_or(0);
+        let last = out.last().filter(|(before, _)| *before == line).map(|(_, kind)| kind);
+        // of several states of the spindle at one place the last one counts; it stops before a tool change by itself
+        let change = matches!(kind, EventKind::ToolChange { .. });
+        if last.is_some_and(turns) && (change || turns(&kind)) {
+            out.pop();
+            spindle = spindle_after(&out);
+        } else if kind == (EventKind::Flood { on: false }) && last == Some(&kind) {
             continue;
         }
-        out.push((event.before, kind));
+        if turns(&kind) && kind == spindle {
+            continue;
+        }
+        out.push((line, kind));
+        spindle = spindle_after(&out);
     }
     out
+}
+
+/// What the text need not say.
+fn is_silent(kind: &EventKind, machine: &Machine) -> bool {
+    match kind {
+        EventKind::Comment { .. } | EventKind::Raw { .. } => true,
+        EventKind::ToolChange { .. } => machine.tool.change == ToolChange::Unsaid,
+        EventKind::Stop { .. } => machine.tool.change == ToolChange::Pause,
+        // a start may wait
+        EventKind::Dwell { .. } => machine.spindle.start_dwell > 0.0,
+        _ => false,
+    }
+}
+
+/// How the spindle turns after these.
+fn spindle_after(events: &[(u32, EventKind)]) -> EventKind {
+    let last = events.iter().rev().find_map(|(_, kind)| match kind {
+        EventKind::SpindleOn { .. } => Some(kind.clone()),
+        EventKind::SpindleOff | EventKind::ToolChange { .. } => Some(EventKind::SpindleOff),
+        _ => None,
+    });
+    last.unwrap_or(EventKind::SpindleOff)
 }
 
 fn same_event(sent: &EventKind, came: &EventKind, machine: &Machine) -> bool {
@@ -139,10 +161,10 @@ fn move_difference(program: &Program, posted: &Posted, reading: &Reading, machin
             }
             arrived = Some(found);
         }
-        if *line == last_line && arrived.is_none() || program.cycles.iter().any(in_cycle) {
+        let again = std::mem::replace(&mut last_line, *line) == *line;
+        if again && arrived.is_none() || program.cycles.iter().any(in_cycle) {
             continue; // rounds to no motion, or is one of a cycle's
         }
-        last_line = *line;
         let Some(found) = arrived else { return Some((*line, "the move is not there".into())) };
         if let Some(what) = end_difference(step, found, machine) {
             return Some((*line, what));
@@ -187,7 +209,7 @@ fn way_difference(
     };
     let worst = places.map(off).fold(0.0, f64::max);
     let sweep = found.way(from).map_or(0.0, |w| w.sweep().abs());
-    let too_far = sweep > way.sweep().abs() + 0.5;
+    let too_far = sweep > way.sweep().abs() + TINY_SWEEP;
     (worst > slack || too_far)
         .then(|| format!("it leaves the arc by {worst:.4} mm, over {:.0} degrees", sweep.to_degrees()))
 }

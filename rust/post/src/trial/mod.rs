@@ -3,6 +3,8 @@
 mod cases;
 mod compare;
 
+pub use compare::difference;
+
 use thiserror::Error;
 
 use crate::machine::Machine;
@@ -157,7 +159,7 @@ fn outcome(case: &Case) -> Outcome {
         Ok(reading) => reading,
         Err(error) => return Outcome::Failed(TrialError::Read { error: error.into(), text: posted.text }),
     };
-    match compare::difference(&case.program, &posted, &reading, &case.machine) {
+    match difference(&case.program, &posted, &reading, &case.machine) {
         Some((line, what)) => Outcome::Failed(TrialError::Differs { what, line, text: posted.text }),
         None => Outcome::Passed { lines: posted.text.lines().count() },
     }

@@ -178,7 +178,9 @@ impl<'a> Poster<'a> {
             if let Some(cycle) = cycle {
                 let count = cycle.count.max(1);
                 self.hole(cycle, program.moves.get(index..index + count).unwrap_or_default())?;
-                while events.next_if(|e| e.before < index + count).is_some() {}
+                // its last event may come after its last move: the spindle turns again, as it did before
+                let own = |e: &&Event| e.before < index + count || e.before == index + count && self.turns_so(&e.kind);
+                while events.next_if(own).is_some() {}
                 (0..count).for_each(|_| arrived(self.motion_line));
                 index += count;
             } else {
@@ -295,6 +297,12 @@ impl<'a> Poster<'a> {
             return self.dwell(event, words.start_dwell);
         }
         Ok(())
+    }
+
+    /// Whether an event turns the spindle as it turns.
+    #[allow(clippy::float_cmp)] // the same number, not a near one
+    fn turns_so(&self, kind: &EventKind) -> bool {
+        matches!(kind, EventKind::SpindleOn { rpm, .. } if self.rpm == Some(*rpm))
     }
 
     fn stop_spindle(&mut self) -> Result<(), PostError> {
