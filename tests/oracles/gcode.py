@@ -1,6 +1,6 @@
 """Reads posted text as LinuxCNC and GRBL would, from their manuals alone: states, moves and what would be refused.
 
-Only what 3-axis programs use: G0 to G4, G17 to G19, G20, G21, G40, G43, G49, G54 to G59.3, G61, G64, G80, G90, G91, G94,
+Only what 3-axis programs use: G0 to G4, G17 to G19, G20, G21, G40, G43, G49, G54 to G59.3, G61, G64, G80, G90, G91, G93, G94,
 M0 to M9, M30, F, S, T, H, comments. Lengths are mm, feeds mm/min, times s; positions are the point that the text moves.
 
 Sources: LinuxCNC documentation, "G Codes", "M Codes", "G Code Overview"; Grbl v1.1 Commands, gcode.c of grbl 1.1h.
@@ -20,7 +20,28 @@ RAPID_RATE = {"linuxcnc": 3000.0, "grbl": 1000.0}
 """mm/min, as the shipped machine files assume."""
 
 REFUSED_WORDS = {"linuxcnc": set(), "grbl": {"M6", "M7", "G43", "G64", "G61.1", "G90.1", "G59.1", "G59.2", "G59.3"}}
-KNOWN_G = {"0", "1", "2", "3", "4", "17", "18", "19", "20", "21", "40", "43", "49", "61", "64", "80", "90", "91", "94"}
+KNOWN_G = {
+    "0",
+    "1",
+    "2",
+    "3",
+    "4",
+    "17",
+    "18",
+    "19",
+    "20",
+    "21",
+    "40",
+    "43",
+    "49",
+    "61",
+    "64",
+    "80",
+    "90",
+    "91",
+    "93",
+    "94",
+}
 KNOWN_G |= {"54", "55", "56", "57", "58", "59", "59.1", "59.2", "59.3"}
 KNOWN_M = {"0", "1", "2", "3", "4", "5", "6", "7", "8", "9", "30"}
 MODAL = (
@@ -232,6 +253,8 @@ class _Reader:
                 state = replace(state, plane=code)
             elif code in ("G90", "G91"):
                 state = replace(state, distance=code)
+            elif code in ("G93", "G94"):
+                state = replace(state, feed_mode=code, feed=state.feed if code == state.feed_mode else 0.0)
             elif code.startswith("G5"):
                 state = replace(state, wcs=code)
             elif code in ("G61", "G64"):
@@ -279,6 +302,8 @@ class _Reader:
             self.place[index] = before + scale * values[axis]
         if self.motion != "G0" and self.state.feed <= 0.0:
             raise Refused("a feed move without a feed")
+        if self.motion != "G0" and self.state.feed_mode == "G93" and "F" not in values:
+            raise Refused("a feed move without F in inverse time")
         move = Move(
             "arc" if arc else "rapid" if self.motion == "G0" else "feed",
             (start[0], start[1], start[2]),

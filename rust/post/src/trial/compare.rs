@@ -111,6 +111,9 @@ fn states(program: &Program, machine: &Machine, line_of_move: impl Fn(usize) -> 
 fn is_silent(kind: &EventKind, machine: &Machine) -> bool {
     match kind {
         EventKind::Comment { .. } | EventKind::Raw { .. } => true,
+        EventKind::Flood { on: false } | EventKind::Mist { on: false } => {
+            machine.coolant.flood.is_none() && machine.coolant.mist.is_none()
+        }
         EventKind::ToolChange { .. } => machine.tool.change == ToolChange::Unsaid,
         EventKind::Stop { .. } => machine.tool.change == ToolChange::Pause,
         // a start may wait

@@ -307,12 +307,19 @@ impl<'a> Poster<'a> {
 
     fn stop_spindle(&mut self) -> Result<(), PostError> {
         self.rpm = None;
+        let words = &self.machine.spindle;
+        if words.clockwise.is_none() && words.counterclockwise.is_none() {
+            return Ok(()); // what cannot turn stands
+        }
         self.block_of(self.machine.spindle.off.as_deref(), "the spindle's stop")
     }
 
     /// One word switches all coolant off.
     fn switch_coolant(&mut self, on: bool, word: fn(&CoolantRules) -> Option<&str>) -> Result<(), PostError> {
         let words = &self.machine.coolant;
+        if !on && words.mist.is_none() && words.flood.is_none() {
+            return Ok(()); // there is nothing to switch off
+        }
         self.block_of(if on { word(words) } else { words.off.as_deref() }, "coolant")
     }
 
