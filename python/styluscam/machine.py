@@ -27,6 +27,8 @@ class Trial:
     line: str
     """The posted line at fault; empty where there is none."""
     hint: str
+    text: str
+    """What was posted; empty where nothing was."""
 
 
 class Machine:

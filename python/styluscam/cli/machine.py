@@ -125,7 +125,7 @@ def check(name: Name, json: Json = False, debug: Debug = False) -> int:
     trials = machine.check()
     failed = [trial for trial in trials if trial.outcome == "failed"]
     if json:
-        console.say_json({"name": machine.name, "ok": not failed, "trials": [vars(trial) for trial in trials]})
+        console.say_json({"name": machine.name, "ok": not failed, "trials": [_tried(trial) for trial in trials]})
     else:
         console.table({"tried": "left", "outcome": "left", "": "left"}, [_row(trial) for trial in trials])
         _tell_failures(failed)
@@ -149,6 +149,10 @@ def _tell_failures(failed: list[Trial]) -> None:
             console.say(f"  {first.where}: {first.line}")
         console.say(f"  {first.hint}")
     console.say()
+
+
+def _tried(trial: Trial) -> Document:
+    return {key: value for key, value in vars(trial).items() if key != "text"}
 
 
 def _row(trial: Trial) -> list[str]:

@@ -16,8 +16,8 @@ pub struct Machine {
     pub(crate) machine: styluscam_post::Machine,
 }
 
-/// Name, outcome ("passed", "without", "failed"), what is said about it, code, place, the posted line, what to do.
-type Tried = (String, &'static str, String, &'static str, String, String, String);
+/// Name, outcome ("passed", "without", "failed"), what is said about it, code, place, the posted line, what to do, the text.
+type Tried = (String, &'static str, String, &'static str, String, String, String, String);
 
 fn of_job<E: Into<JobError>>(error: E) -> PyErr {
     errors::of_job(&error.into())
@@ -89,13 +89,17 @@ impl Machine {
 }
 
 fn tried(trial: Trial) -> Tried {
+    let Trial { name, outcome, text } = trial;
     let none = String::new;
-    match trial.outcome {
-        Outcome::Passed { lines } => (trial.name, "passed", format!("{lines} lines"), "", none(), none(), none()),
-        Outcome::Without { reason } => (trial.name, "without", reason, "", none(), none(), none()),
+    match outcome {
+        Outcome::Passed => {
+            let said = format!("{} lines", text.lines().count());
+            (name, "passed", said, "", none(), none(), none(), text)
+        }
+        Outcome::Without { reason } => (name, "without", reason, "", none(), none(), none(), text),
         Outcome::Failed(error) => {
             let (message, line, hint) = (error.to_string(), error.line().to_owned(), error.hint());
-            (trial.name, "failed", message, error.code(), error.place(), line, hint)
+            (name, "failed", message, error.code(), error.place(), line, hint, text)
         }
     }
 }

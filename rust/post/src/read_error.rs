@@ -158,8 +158,8 @@ pub enum ReadFault {
     /// An arc with R and a centre, or with R and no other end than its start. Write the centre only.
     #[error("R with a centre, or for a full circle")]
     ArcForm,
-    /// A radius of zero. Write the centre's offset from the arc's start.
-    #[error("the arc has no radius")]
+    /// A radius of zero, or smaller than the machine takes. Write the centre's offset from the arc's start, or a line.
+    #[error("the arc has no radius, or one that the machine does not take")]
     ArcOfNoRadius,
     /// R is less than half the way between the ends. Correct R or the end.
     #[error("the arc's ends are farther apart than its diameter")]

@@ -7,6 +7,9 @@ use crate::machine::ArcRules;
 /// An arc of a smaller angle, rad, becomes a line: controllers differ in whether one of 1e-6 and less is a full circle.
 const LEAST: f64 = 1e-5;
 
+/// A radius of fewer last places is hardly a circle once rounded: it becomes lines.
+const LEAST_PLACES: f64 = 5.0;
+
 /// An arc of which the ends and the centre stand in last places.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RoundedArc {
@@ -48,7 +51,8 @@ impl RoundedArc {
         let posted = Arc { centre, ..self.arc }.way(start, place(self.to));
         let as_meant = (posted.sweep() - way.sweep()).abs() < 1.0 && posted.sweep().abs() > LEAST;
         let radius = posted.radius();
-        let in_range = radius > rules.min_radius && rules.max_radius.is_none_or(|most| radius <= most);
-        as_meant && in_range && radius > 0.0 && rules.radius_error.takes(posted.mismatch(), radius)
+        let in_range =
+            radius > rules.min_radius.max(LEAST_PLACES * unit) && rules.max_radius.is_none_or(|most| radius <= most);
+        as_meant && in_range && rules.radius_error.takes(posted.mismatch(), radius)
     }
 }

@@ -93,7 +93,7 @@ fn unknown_machines() {
 fn documents_that_are_none() {
     assert!(matches!(Machine::from_toml("schema = "), Err(MachineError::Document { .. })));
     assert!(matches!(Machine::from_toml(""), Err(MachineError::Document { .. })));
-    match refusal("max_chars = 255", "max_char = 255") {
+    match refusal("max_chars = 252", "max_char = 255") {
         MachineError::Document { place, similar, .. } => {
             assert!(place.starts_with("line.max_char (line "), "{place}");
             assert_eq!(similar.as_deref(), Some("max_chars"));
@@ -117,7 +117,7 @@ fn values_out_of_range() {
         ("mm = \"G21\"", "# no mm", "units"),
         ("linear = 3", "linear = 9", "number.mm.linear"),
         ("linear = 4", "linear = 99", "number.inch.linear"),
-        ("max_chars = 255", "max_chars = 5", "line.max_chars"),
+        ("max_chars = 252", "max_chars = 5", "line.max_chars"),
         ("counted = \"all\"", "forbidden = \"X\"", "line.forbidden"),
         ("form = \"paren\"", "form = \"paren\"\nmax_len = 1", "comment.max_len"),
         ("form = \"paren\"", "form = \"paren\"\ncharset = \"Z-A\"", "comment.charset"),

@@ -213,7 +213,7 @@ fn words_that_cannot_be_read() {
     assert_eq!(fault("X0.0000000000000001"), ReadFault::NumberTooLong);
     assert_eq!(fault("X1 (open"), ReadFault::UnclosedComment);
     assert_eq!(fault("X1 (a (b) c)"), ReadFault::NestedComment);
-    assert_eq!(fault(&format!("X{}1", " ".repeat(260))), ReadFault::LineTooLong { length: 262, max: 255 });
+    assert_eq!(fault(&format!("X{}1", " ".repeat(260))), ReadFault::LineTooLong { length: 262, max: 252 });
     assert_eq!(fault("A10"), ReadFault::UnknownWord);
     assert_eq!(fault("E1"), ReadFault::UnknownWord);
     for code in ["G5", "G0.5", "G1.05", "G-1", "M66", "M3.5", "M-5", "G99999999999999"] {

@@ -12,6 +12,8 @@ use crate::read_error::ReadFault;
 const TURNS: u32 = 1000;
 /// An arc of a smaller angle, rad, may be none or a full circle: GRBL makes a full circle of 5e-7 and less.
 const LEAST: f64 = 1e-6;
+/// Radii are compared with this slack, mm.
+const ROUNDED: f64 = 1e-9;
 /// A chord may be this much longer than the circle's diameter, mm: R was rounded.
 const CHORD: f64 = 0.005;
 
@@ -48,7 +50,7 @@ impl Circle {
         let arc = Arc { centre, plane: self.plane, clockwise: self.clockwise, turns: turns(block)? };
         let way = arc.way(self.start, self.end);
         let radius = way.radius();
-        if radius <= 0.0 {
+        if radius <= 0.0 || radius < rules.min_radius - ROUNDED {
             return Err((ReadFault::ArcOfNoRadius, Some(code)));
         }
         if way.sweep().abs() < LEAST {

@@ -97,6 +97,8 @@ struct Bench {
     rpm: f64,
     wcs: String,
     lathe: bool,
+    /// Whether the spindle turns clockwise.
+    turns: bool,
 }
 
 /// Height of the tried tool's reference above its tip, mm.
@@ -122,6 +124,7 @@ impl Bench {
             rpm,
             wcs: machine.wcs.first().cloned().unwrap_or_default(),
             lathe,
+            turns: machine.spindle.clockwise.is_some(),
         }
     }
 
@@ -408,7 +411,8 @@ fn holes(bench: &Bench, kind: CycleKind, peck: f64, dwell: f64) -> Draft {
     let mut draft = Draft::start(bench);
     let direction =
         if kind == CycleKind::LeftTap { SpindleDirection::Counterclockwise } else { SpindleDirection::Clockwise };
-    let spindle = kind.is_tapping().then_some((bench.rpm, direction));
+    let turns = kind.is_tapping() || kind == CycleKind::StopBore && bench.turns;
+    let spindle = turns.then_some((bench.rpm, direction));
     if let Some((rpm, direction)) = spindle {
         draft.event(EventKind::SpindleOn { rpm, direction });
     }

@@ -14,7 +14,7 @@ const SLACK: f64 = 1e-9;
 const ARC_PLACES: f64 = 3.0;
 
 /// An arc of a few last places may turn so much farther once rounded, rad.
-const TINY_SWEEP: f64 = 1.1;
+const TINY_SWEEP: f64 = 0.6;
 
 /// The first thing of a program that was posted and does not come back: its line, 0 where none is at fault, and what it is.
 ///

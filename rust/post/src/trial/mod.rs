@@ -106,22 +106,21 @@ pub struct Trial {
     pub name: String,
     /// How it went.
     pub outcome: Outcome,
+    /// What was posted; empty where nothing was.
+    pub text: String,
 }
 
 /// How a trial went.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
-    /// The program came back as it was, in so many lines.
-    Passed {
-        /// Lines of the text.
-        lines: usize,
-    },
+    /// The program came back as it was.
+    Passed,
     /// The machine says in its file that it does not have this, and refuses it.
     Without {
         /// What the refusal says.
         reason: String,
     },
-    /// It did not.
+    /// The program did not come back.
     Failed(TrialError),
 }
 
@@ -132,7 +131,11 @@ pub enum Outcome {
 /// [`PostError`] when the machine file itself is at fault.
 pub fn check(machine: &Machine) -> Result<Vec<Trial>, PostError> {
     machine.check()?;
-    Ok(cases(machine).into_iter().map(|case| Trial { name: case.name.clone(), outcome: outcome(&case) }).collect())
+    let trial = |case: Case| {
+        let (outcome, text) = tried(&case);
+        Trial { name: case.name, outcome, text }
+    };
+    Ok(cases(machine).into_iter().map(trial).collect())
 }
 
 /// The first failure of [`check`].
@@ -148,21 +151,24 @@ pub fn try_out(machine: &Machine) -> Result<(), TrialError> {
     failure.map_or(Ok(()), Err)
 }
 
-fn outcome(case: &Case) -> Outcome {
+/// How a case goes, and what was posted.
+fn tried(case: &Case) -> (Outcome, String) {
     let posted = match post(&case.program, &case.machine) {
-        Ok(_) if case.must_fail => return Outcome::Failed(TrialError::Allowed { what: "a place outside the limits" }),
+        Ok(posted) if case.must_fail => {
+            return (Outcome::Failed(TrialError::Allowed { what: "a place outside the limits" }), posted.text);
+        }
         Ok(posted) => posted,
-        Err(error) if case.must_fail || lacks(&error) => return Outcome::Without { reason: error.to_string() },
-        Err(error) => return Outcome::Failed(TrialError::Post { error: error.into() }),
+        Err(error) if case.must_fail || lacks(&error) => {
+            return (Outcome::Without { reason: error.to_string() }, String::new());
+        }
+        Err(error) => return (Outcome::Failed(TrialError::Post { error: error.into() }), String::new()),
     };
-    let reading = match read(&posted.text, &case.machine, case.tools()) {
-        Ok(reading) => reading,
-        Err(error) => return Outcome::Failed(TrialError::Read { error: error.into(), text: posted.text }),
+    let failure = match read(&posted.text, &case.machine, case.tools()) {
+        Ok(reading) => difference(&case.program, &posted, &reading, &case.machine)
+            .map(|(line, what)| TrialError::Differs { what, line, text: posted.text.clone() }),
+        Err(error) => Some(TrialError::Read { error: error.into(), text: posted.text.clone() }),
     };
-    match difference(&case.program, &posted, &reading, &case.machine) {
-        Some((line, what)) => Outcome::Failed(TrialError::Differs { what, line, text: posted.text }),
-        None => Outcome::Passed { lines: posted.text.lines().count() },
-    }
+    (failure.map_or(Outcome::Passed, Outcome::Failed), posted.text)
 }
 
 /// Whether the machine refuses what its file says that it does not have.

@@ -4,7 +4,7 @@ use styluscam_motion::{CycleKind, Plane};
 
 use super::dialect::{Dialect, Feed, Hole, Place};
 use super::lines::Lines;
-use crate::machine::{ArcCentre, CycleRules, DwellRules, FeedMode, LengthRules, Machine, Repeat, TimeUnit, Turns};
+use crate::machine::{ArcCentre, DwellRules, FeedMode, LengthRules, Machine, Repeat, TimeUnit, Turns};
 use crate::number::NumberFormat;
 use crate::post_error::PostError;
 use crate::rounded::RoundedArc;
@@ -125,6 +125,16 @@ impl<'m> Words<'m> {
         }
     }
 
+    /// P of a cycle that waits, and of one that must say that it does not.
+    fn hole_dwell(&self, lines: &mut Lines, hole: &Hole) {
+        let Some(rules) = &self.machine.cycle else { return };
+        let must = hole.kind == CycleKind::StopBore && rules.stop_bore_dwell;
+        let time = self.time(rules.dwell_unit, hole.dwell).filter(|(_, time)| must || *time > 0);
+        if let Some((format, time)) = time {
+            lines.number("P", &format, time);
+        }
+    }
+
     fn time(&self, unit: TimeUnit, seconds: f64) -> Option<(NumberFormat, i64)> {
         let (format, per_second) = match unit {
             TimeUnit::S => (NumberFormat::new(&self.machine.number, DWELL_PLACES).unsigned(), 1.0),
@@ -209,10 +219,7 @@ impl Dialect for Words<'_> {
             if hole.peck > 0 {
                 lines.number("Q", &self.linear, hole.peck);
             }
-            let unit = self.machine.cycle.as_ref().map(|rules: &CycleRules| rules.dwell_unit);
-            if let Some((format, time)) = unit.and_then(|unit| self.time(unit, hole.dwell)).filter(|(_, t)| *t > 0) {
-                lines.number("P", &format, time);
-            }
+            self.hole_dwell(lines, hole);
             lines.number("F", &self.feed_format, hole.feed);
         }
         self.said = Said { hole: Some(*hole), plane: self.said.plane, ..Said::default() };

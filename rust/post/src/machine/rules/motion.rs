@@ -166,6 +166,9 @@ pub struct CycleRules {
     pub kinds: Vec<CycleKind>,
     /// Unit of the dwell, P.
     pub dwell_unit: TimeUnit,
+    /// Whether G86 needs a P, of 0 where nothing waits.
+    #[serde(default)]
+    pub stop_bore_dwell: bool,
 }
 
 /// The codes of straight probing.

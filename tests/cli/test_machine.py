@@ -1,0 +1,172 @@
+"""``styluscam machine`` and ``styluscam post``."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import styluscam as sc
+
+NAMES = sc.Machine.names()
+
+
+def test_list_says_how_well_each_is_known(cli: Any) -> None:
+    ran = cli("machine", "list")
+    assert ran.code == 0
+    for name in NAMES:
+        assert any(line.split()[:1] == [name] for line in ran.out.splitlines()), name
+    assert "UNVERIFIED" in ran.out
+    listed = json.loads(cli("machine", "list", "--json").out)
+    assert [entry["name"] for entry in listed] == NAMES
+    assert {entry["evidence"] for entry in listed} == {"read", "partly", "unverified"}
+
+
+def test_show_names_what_was_read(cli: Any) -> None:
+    out = cli("machine", "show", "fanuc").out
+    assert "B-63844EN/02" in out and "unconfirmed" in out
+    assert json.loads(cli("machine", "show", "fanuc", "--json").out)["name"] == "fanuc"
+
+
+def test_a_new_machine_is_checked_and_compared(cli: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    ran = cli("machine", "new", "shop", "--from", "fanuc")
+    assert ran.code == 0 and "styluscam machine check shop.toml" in ran.out
+    assert cli("machine", "new", "shop", "--from", "fanuc").code == 2
+    ran = cli("machine", "check", "shop.toml")
+    assert ran.code == 0 and "0 failed" in ran.out
+    document = json.loads(cli("machine", "check", "shop.toml", "--json").out)
+    assert document["ok"] and len(document["trials"]) > 30
+    assert cli("machine", "diff", "fanuc", "fanuc").out == "no difference\n"
+    assert "+ shop" in cli("machine", "diff", "fanuc", "shop.toml").out
+
+
+WRONG = {
+    "unknown key": ('[number]\npointt = "always"\n', ["number.pointt", "line 6", 'did you mean "point"']),
+    "unknown machine": ('extends = "fanucc"\n', ['did you mean "fanuc"']),
+    "unknown name": (
+        '[templates]\nprogram_end = """\n{{ end }}\n{{ unit_word }}\n"""\n',
+        ["line 2", "column 4", "units_word"],
+    ),
+    "not TOML": ("[number\n", ["line 5"]),
+    "wrong kind": ('[line]\nmax_chars = "long"\n', ["line.max_chars", "line 6"]),
+    "itself": ('extends = "ours.toml"\n', ["without end"]),
+}
+
+
+@pytest.mark.parametrize(("text", "words"), WRONG.values(), ids=WRONG)
+def test_a_wrong_file_is_one_line_that_says_where(text: str, words: list[str], cli: Any, tmp_path: Path) -> None:
+    head = f"schema = 1\n{text}" if text.startswith("extends") else 'schema = 1\nextends = "grbl"\n'
+    body = 'name = "ours"\ndescription = "ours"\n'
+    file = tmp_path / "ours.toml"
+    file.write_text(head + body + ("" if text.startswith("extends") else text))
+    ran = cli("machine", "check", file)
+    assert ran.code == 2 and ran.out == ""
+    assert ran.err.startswith("error: ") and ran.err.count("\n") == 1, ran.err
+    assert "Traceback" not in ran.err
+    for word in words:
+        assert word in ran.err, (word, ran.err)
+
+
+def test_a_template_that_contradicts_the_reader_fails_with_its_line(cli: Any, tmp_path: Path) -> None:
+    file = tmp_path / "ours.toml"
+    text = 'schema = 1\nextends = "grbl"\nname = "ours"\ndescription = "ours"\n[templates]\nprogram_end = "M6\\nM2"\n'
+    file.write_text(text)
+    ran = cli("machine", "check", file)
+    assert ran.code == 1
+    assert "FAILED" in ran.out and ": M6" in ran.out and "ours refuses this code" in ran.out
+
+
+@pytest.fixture(scope="module")
+def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Two operations of three levels each."""
+    step = {"kind": "rapid", "feed": 0.0}
+    moves = []
+    for operation in range(2):
+        for z in (-1.0, -2.0, -3.0):
+            moves.append({**step, "end": [0.0, 0.0, 5.0], "operation": operation})
+            for end in ([0.0, 0.0, z], [20.0, 0.0, z], [20.0, 10.0, z]):
+                moves.append({"kind": "feed", "feed": 600.0, "end": end, "operation": operation})
+            moves.append({**step, "end": [20.0, 10.0, 5.0], "operation": operation})
+    tool = {"name": "a", "number": 1, "length_offset": 1, "description": "ball D6", "reference": "tip",
+            "reference_height": 0.0, "diameter": 6.0}  # fmt: skip
+    document = {
+        "schema": 1,
+        "setup": {"title": "two", "wcs": "G54", "zero": "top", "part_min": [0, 0, 0], "part_max": [0, 0, 0],
+                  "clearance": 8.0, "notes": []},
+        "tools": [tool],
+        "operations": [{"id": name, "kind": "z-level", "tool": 0} for name in ("rough", "fine")],
+        "moves": moves,
+        "events": [
+            {"before": 0, "kind": "tool-change", "tool": 0},
+            {"before": 0, "kind": "spindle-on", "rpm": 900.0, "direction": "clockwise"},
+        ],
+    }  # fmt: skip
+    path = tmp_path_factory.mktemp("program") / "two.json"
+    path.write_text(json.dumps(document))
+    return path
+
+
+def posted(cli: Any, program: Path, tmp_path: Path, *options: str) -> list[str]:
+    out = tmp_path / "out.ngc"
+    ran = cli("post", program, "--machine", "linuxcnc", "--out", out, "--force", *options)
+    assert ran.code == 0, ran.err
+    return out.read_text().splitlines()
+
+
+def test_a_restart_at_a_level_has_tool_spindle_and_a_safe_way(cli: Any, program: Path, tmp_path: Path) -> None:
+    lines = posted(cli, program, tmp_path, "--from", "fine:2")
+    code = [line for line in lines if not line.startswith("(")]
+    assert any("RESTART at fine:2" in line for line in lines)
+    start = code.index("T1 M6")
+    assert code[start : start + 8] == ["T1 M6", "G43 H1", "S900 M3", "G0 Z8", "X0 Y0", "G1 Z-2 F600", "X20", "Y10"]
+
+
+def test_a_restart_at_a_line_goes_on_with_that_line(cli: Any, program: Path, tmp_path: Path) -> None:
+    whole = posted(cli, program, tmp_path)
+    line = max(number for number, text in enumerate(whole, 1) if text == "Y10")
+    rest = posted(cli, program, tmp_path, "--from", f"L{line}")
+    assert rest[-3:] == whole[-3:] == ["Y10", "G0 Z5", "M2"]
+    assert rest[-6:-3] == ["G0 Z8", "X20 Y0", "G1 Z-3 F600"]
+    ran = cli("post", program, "--machine", "linuxcnc", "--out", tmp_path / "x.ngc", "--from", "L9999")
+    assert ran.code == 2 and not (tmp_path / "x.ngc").exists()
+
+
+def test_air_stops_options_and_cutter_locations(cli: Any, program: Path, tmp_path: Path) -> None:
+    air = posted(cli, program, tmp_path, "--air", "50")
+    assert "G1 Z49 F600" in air and any("AIR CUT" in line for line in air)
+    assert posted(cli, program, tmp_path, "--optional-stops").count("M1") == 1
+    inches = posted(cli, program, tmp_path, "--set", "units=inch", "--set", "block_numbers=true")
+    assert any(line.startswith("N10 G20") for line in inches)
+    text = "\n".join(posted(cli, program, tmp_path, "--cl"))
+    assert "LOADTL/1" in text and "GOTO/20,10,-3" in text and text.endswith("FINI")
+
+
+def test_gcode_of_one_machine_becomes_that_of_another(cli: Any, program: Path, tmp_path: Path) -> None:
+    whole = tmp_path / "whole.ngc"
+    whole.write_text("\n".join(posted(cli, program, tmp_path)) + "\n")
+    out = tmp_path / "part.h"
+    ran = cli("post", whole, "--as", "linuxcnc", "--machine", "heidenhain", "--out", out)
+    assert ran.code == 0, ran.err
+    theirs = sc.read_gcode(out.read_text(), sc.Machine.shipped("heidenhain"))
+    ours = sc.read_gcode(whole.read_text(), sc.Machine.shipped("linuxcnc"))
+    assert (theirs.moves["end"][-10:] == ours.moves["end"][-10:]).all()
+
+
+@pytest.mark.parametrize(
+    ("options", "word"),
+    [
+        (["--from", "finer"], "no operation"),
+        (["--from", "fine:9"], "no level 9"),
+        (["--set", "unit=inch"], "did you mean"),
+        (["--set", "units"], "NAME=VALUE"),
+        (["--machine", "linuxcn"], "did you mean"),
+    ],
+)
+def test_wrong_options_are_one_line(options: list[str], word: str, cli: Any, program: Path, tmp_path: Path) -> None:
+    out = tmp_path / "x.ngc"
+    ran = cli("post", program, "--machine", "linuxcnc", "--out", out, *options)
+    assert ran.code == 2 and ran.err.count("\n") == 1 and word in ran.err, ran.err
+    assert not out.exists()
