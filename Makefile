@@ -97,6 +97,10 @@ quick: dev ## Cargo and Python tests that need nothing from outside
 	cargo test --workspace --locked --quiet
 	$(PYTEST) -n 2 -q -m "not world and not freecad"
 
+.PHONY: machines
+machines: dev ## The pages of machines and their golden programs, written again
+	$(BIN)/python docs/machine_pages.py
+
 .PHONY: test-freecad
 test-freecad: wheel ## FreeCAD tests: V=1.1 K=name
 	$(PYTEST) tests/freecad $(if $(V)$(K),-k "$(V) $(K)")

@@ -108,6 +108,15 @@ class Program:
         write_whole(Path(path), self.engine.to_json())
 
     @classmethod
+    def from_json(cls, text: str) -> Program:
+        """From a program document.
+
+        Raises:
+            JobError: it is none.
+        """
+        return cls(_engine.Program.from_json(text))
+
+    @classmethod
     def load(cls, path: str | Path) -> Program:
         """Reads what :meth:`save` wrote."""
         text = read_text(path, JobError)

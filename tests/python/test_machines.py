@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -65,6 +67,12 @@ def test_files_extend_files_beside_them(tmp_path: Path) -> None:
     machine = sc.Machine.read(tmp_path / "ours.toml")
     assert (machine.document["line"]["max_chars"], machine.document["coolant"]["flood"]) == (60, "M80")
     assert machine.evidence == "unverified", "what was read for haas says nothing about this one"
+
+
+def test_pages_and_golden_programs_are_those_of_the_files() -> None:
+    pages = Path(__file__).parents[2] / "docs" / "machine_pages.py"
+    done = subprocess.run([sys.executable, pages, "--check"], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
 @pytest.mark.world

@@ -23,7 +23,8 @@ mod _engine {
     use crate::job::{Job, Judgement, Plan, Scene};
     #[pymodule_export]
     use crate::machine::{
-        cl_text, lines_of_moves, machine_schema, post, post_to, program_of_path, read_gcode, shipped_machines, Machine,
+        cl_text, lines_of_moves, machine_options, machine_schema, post, post_to, program_of_path, read_gcode,
+        shipped_machines, template_names, Machine,
     };
     #[pymodule_export]
     use crate::offset::{drop_cutter, offset_surface, push_cutter, slope_matched_offset, waterlines};

@@ -110,6 +110,22 @@ pub fn shipped_machines() -> Vec<&'static str> {
     styluscam_post::shipped()
 }
 
+/// Names with what they are: those of every template, and those of one only, its key first.
+type Vocabulary = (Vec<(&'static str, &'static str)>, Vec<(&'static str, &'static str, &'static str)>);
+
+/// What templates may use.
+#[pyfunction]
+pub fn template_names() -> Vocabulary {
+    let all = styluscam_post::NAMES.into_iter().chain(styluscam_post::FUNCTIONS);
+    (all.collect(), styluscam_post::OWN_NAMES.to_vec())
+}
+
+/// Options that every machine has, and what they take.
+#[pyfunction]
+pub fn machine_options() -> Vec<(&'static str, &'static str)> {
+    styluscam_post::BUILT_IN_OPTIONS.to_vec()
+}
+
 /// The JSON Schema of machine files.
 #[pyfunction]
 pub fn machine_schema() -> PyResult<String> {

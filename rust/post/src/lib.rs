@@ -21,7 +21,7 @@ mod writer;
 
 pub use cl::cl_text;
 pub use freecad::{read_path, PathError, PathSection};
-pub use machine::{shipped, Machine, MachineError, OptionRule, OptionValue};
+pub use machine::{shipped, Machine, MachineError, OptionRule, OptionValue, BUILT_IN_OPTIONS};
 pub use names::{FUNCTIONS, NAMES, OWN_NAMES};
 pub use ngc::{trace, Gap, Note, Trace, TraceError, TraceFault};
 pub use post_error::PostError;
