@@ -69,6 +69,23 @@ def write(program: Program, machine: Machine, path: Path) -> None:
         _engine.post_to(program.engine, machine.engine, str(beside))
 
 
+def paired(program: Program, support: Program) -> tuple[Program, Program]:
+    """Two programs that wait for one another before every operation: those of double-sided forming.
+
+    Raises:
+        JobError: they have not equally many operations.
+    """
+    pair = program.engine.paired(support.engine)
+    if pair is None:
+        raise JobError(
+            f"the programs have {len(program.operations)} and {len(support.operations)} operations",
+            code="post-pair",
+            where="--support",
+            hint="a pair has the same operations in the same order",
+        )
+    return Program(pair[0]), Program(pair[1])
+
+
 def cl_text(program: Program) -> str:
     """Cutter location text (APT), mm; arcs as points within 0.001 mm."""
     return _engine.cl_text(program.engine)

@@ -155,6 +155,34 @@ def test_gcode_of_one_machine_becomes_that_of_another(cli: Any, program: Path, t
     assert (theirs.moves["end"][-10:] == ours.moves["end"][-10:]).all()
 
 
+def test_pairs_wait_for_one_another(cli: Any, program: Path, tmp_path: Path) -> None:
+    machine = tmp_path / "dsif.toml"
+    machine.write_text(
+        'schema = 1\nextends = "linuxcnc"\nname = "dsif"\ndescription = "one side"\n'
+        '[templates]\nsync = "M101 P{{ mark }}"\n[reader]\npassed = ["M101"]\n'
+    )
+    assert cli("machine", "check", machine).code == 0
+    names = [tmp_path / "main.ngc", tmp_path / "support.ngc"]
+    options = ("--support", program, "--support-out", names[1])
+    ran = cli("post", program, "--machine", machine, "--out", names[0], *options)
+    assert ran.code == 0, ran.err
+    marks = [[line for line in name.read_text().splitlines() if line.startswith("M101")] for name in names]
+    assert marks == [["M101 P1", "M101 P2"]] * 2
+    ran = cli("post", program, "--machine", "linuxcnc", "--out", tmp_path / "x.ngc", "--support", program,
+              "--support-out", tmp_path / "y.ngc")  # fmt: skip
+    assert ran.code == 2 and "waiting for another program" in ran.err and not (tmp_path / "y.ngc").exists()
+
+
+def test_a_lathe_turns_in_x_and_z(cli: Any, tmp_path: Path) -> None:
+    machine = tmp_path / "lathe.toml"
+    machine.write_text(
+        'schema = 1\nextends = "linuxcnc"\nname = "lathe"\ndescription = "spinning"\ncycle = false\n[motion]\nlathe = "diameter"\n'
+    )
+    ran = cli("machine", "check", machine)
+    assert ran.code == 0, ran.out
+    assert "0 failed" in ran.out
+
+
 @pytest.mark.parametrize(
     ("options", "word"),
     [

@@ -43,6 +43,22 @@ Set = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="NAME=VALUE", help="An option of the machine: units=inch.", show_default=False),
 ]
+Support = Annotated[
+    Path | None,
+    typer.Option(
+        "--support",
+        metavar="PROGRAM.json",
+        help="The program that this one waits for and that waits.",
+        show_default=False,
+    ),
+]
+SupportMachine = Annotated[
+    str | None,
+    typer.Option("--support-machine", metavar="NAME|FILE", help="Its machine; the same one else.", show_default=False),
+]
+SupportOut = Annotated[
+    Path | None, typer.Option("--support-out", metavar="FILE", help="The file for its text.", show_default=False)
+]
 Cl = Annotated[bool, typer.Option("--cl", help="Write cutter locations (APT) in place of the machine's text.")]
 
 
@@ -57,6 +73,9 @@ def post(
     optional_stops: Stops = False,
     options: Set = None,
     cl: Cl = False,
+    support: Support = None,
+    support_machine: SupportMachine = None,
+    support_out: SupportOut = None,
     force: Force = False,
     json: Json = False,
     quiet: Quiet = False,
@@ -66,23 +85,33 @@ def post(
 
     The text is not judged: `styluscam verify` does that, and `styluscam run` writes nothing that it objects to.
     """
-    if out.exists() and not force:
-        raise JobError(
-            f"{out} exists already", code="file-exists", where=str(out), hint="take another name, or --force"
-        )
-    files.require_writable([out], [program])
+    if (support is None) != (support_out is None):
+        raise JobError("a pair has two files", code="usage", where="--support", hint="give --support and --support-out")
+    outputs = [path for path in (out, support_out) if path is not None]
+    for path in outputs:
+        if path.exists() and not force:
+            raise JobError(
+                f"{path} exists already", code="file-exists", where=str(path), hint="take another name, or --force"
+            )
+    files.require_writable(outputs, [path for path in (program, support) if path is not None])
     target = Machine.find(machine).with_options(_options(options or []))
     source = posting.read_program(program, Machine.find(read_as) if read_as else None)
     edits = posting.Edits(start, air, optional_stops)
     work = posting.edited(source, target, edits)
+    if support is not None and support_out is not None:
+        partner = Machine.find(support_machine) if support_machine else target
+        work, other = posting.paired(work, posting.read_program(support, None))
+        posting.write(other, partner, support_out)
     if cl:
         files.write_whole(out, posting.cl_text(work))
     else:
         posting.write(work, target, out)
     if json:
-        console.say_json({"written": [str(out)], "machine": target.name, "moves": len(work.moves)})
+        console.say_json({"written": [str(path) for path in outputs], "machine": target.name, "moves": len(work.moves)})
     elif not quiet:
-        console.say(f"written: {shown_path(out)} ({len(work.moves)} moves for {target.name}; not judged)")
+        console.say(
+            f"written: {', '.join(shown_path(path) for path in outputs)} ({len(work.moves)} moves for {target.name}; not judged)"
+        )
     return 0
 
 

@@ -128,6 +128,12 @@ impl Program {
         Self { program: self.program.with_optional_stops() }
     }
 
+    /// This program and another one that wait for one another before every operation; None where they have not equally many.
+    fn paired(&self, other: &Self) -> Option<(Self, Self)> {
+        let [program, support] = self.program.paired(&other.program)?;
+        Some((Self { program }, Self { program: support }))
+    }
+
     /// Whether both hold the same moves on the same lines.
     fn same_moves(&self, other: &Self) -> bool {
         self.program.moves == other.program.moves

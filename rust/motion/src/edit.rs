@@ -120,12 +120,36 @@ impl Program {
     /// The same program with an optional stop before every operation but the first.
     #[must_use]
     pub fn with_optional_stops(&self) -> Self {
-        let mut program = self.clone();
+        let stops = self.operation_starts().into_iter().map(|before| (before, EventKind::Stop { optional: true }));
+        self.with_events(stops.collect())
+    }
+
+    /// A pair of programs that wait for one another before every operation, the first included (double-sided forming).
+    ///
+    /// None when they have not equally many operations.
+    #[must_use]
+    pub fn paired(&self, other: &Self) -> Option<[Self; 2]> {
+        let marked = |program: &Self| {
+            let starts = std::iter::once(0).chain(program.operation_starts());
+            let marks = starts.zip(1..).map(|(before, mark)| (before, EventKind::Sync { mark }));
+            program.with_events(marks.collect())
+        };
+        let alike = self.operation_starts().len() == other.operation_starts().len();
+        alike.then(|| [marked(self), marked(other)])
+    }
+
+    /// The first moves of the operations after the first one.
+    fn operation_starts(&self) -> Vec<usize> {
         let starts = self.moves.windows(2).enumerate().filter(|(_, pair)| pair[0].operation != pair[1].operation);
-        let starts: Vec<usize> = starts.map(|(index, _)| index + 1).collect();
-        for before in starts.into_iter().rev() {
+        starts.map(|(index, _)| index + 1).collect()
+    }
+
+    /// The same program with more events, each before the others at its place.
+    fn with_events(&self, events: Vec<(usize, EventKind)>) -> Self {
+        let mut program = self.clone();
+        for (before, kind) in events.into_iter().rev() {
             let place = program.events.iter().position(|event| event.before >= before).unwrap_or(program.events.len());
-            program.events.insert(place, Event { before, kind: EventKind::Stop { optional: true } });
+            program.events.insert(place, Event { before, kind });
         }
         program
     }
@@ -225,6 +249,19 @@ mod tests {
             .iter()
             .zip(&air.moves)
             .all(|(a, b)| a.end[..2] == b.end[..2] && b.end[2] - a.end[2] == 20.0));
+    }
+
+    #[test]
+    fn pairs_wait_before_every_operation() {
+        let [one, other] = program().paired(&program().raised(3.0)).unwrap();
+        let marks = |program: &Program| -> Vec<(usize, u32)> {
+            let mark = |e: &Event| if let EventKind::Sync { mark } = e.kind { Some((e.before, mark)) } else { None };
+            program.events.iter().filter_map(mark).collect()
+        };
+        assert_eq!(marks(&one), [(0, 1), (8, 2)]);
+        assert_eq!(marks(&one), marks(&other));
+        let shorter = Program { moves: program().moves[..4].to_vec(), ..program() };
+        assert_eq!(program().paired(&shorter), None);
     }
 
     #[test]

@@ -165,6 +165,8 @@ fn check_smoothing(machine: &Machine) -> Result<(), MachineError> {
 }
 
 fn check_arc(machine: &Machine) -> Result<(), MachineError> {
+    let holes = machine.motion.lathe.is_some() && machine.cycle.is_some();
+    require(!holes, "cycle", "a machine of X and Z has no drilling cycles of a mill: write cycle = false")?;
     let Some(arc) = &machine.arc else { return Ok(()) };
     require((10.0..=360.0).contains(&arc.max_sweep_deg), "arc.max_sweep_deg", "10 to 360")?;
     require((0.0..=1e6).contains(&arc.min_radius), "arc.min_radius", "0 or more, in mm")?;

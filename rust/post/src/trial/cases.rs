@@ -37,7 +37,8 @@ pub(super) fn cases(machine: &Machine) -> Vec<Case> {
     add("rapids and lines", lines(&bench));
     add("values at the edges of rounding", edges(&bench));
     add("feeds", feeds(&bench));
-    for plane in [Plane::Xy, Plane::Zx, Plane::Yz] {
+    let planes = [Plane::Xy, Plane::Zx, Plane::Yz];
+    for plane in planes.into_iter().filter(|plane| !bench.lathe || *plane == Plane::Zx) {
         add(&format!("arcs in {}", name_of(plane)), arcs(&bench, plane));
         add(&format!("helices across {}", name_of(plane)), helices(&bench, plane));
     }
@@ -51,6 +52,7 @@ pub(super) fn cases(machine: &Machine) -> Vec<Case> {
     add("dwells", dwells(&bench));
     add("program stops", stops(&bench, false));
     add("optional stops", stops(&bench, true));
+    add("waiting for another program", waits(&bench));
     for (name, kind, peck, dwell) in HOLES {
         add(name, holes(&bench, kind, peck, dwell));
     }
@@ -402,6 +404,13 @@ fn dwells(bench: &Bench) -> Draft {
 fn stops(bench: &Bench, optional: bool) -> Draft {
     let mut draft = Draft::start(bench);
     draft.event(EventKind::Stop { optional });
+    draft.feed(bench.off([bench.fits(1.0), 0.0, 0.0]), bench.feed);
+    draft
+}
+
+fn waits(bench: &Bench) -> Draft {
+    let mut draft = Draft::start(bench);
+    draft.event(EventKind::Sync { mark: 1 });
     draft.feed(bench.off([bench.fits(1.0), 0.0, 0.0]), bench.feed);
     draft
 }

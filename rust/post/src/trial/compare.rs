@@ -110,7 +110,7 @@ fn states(program: &Program, machine: &Machine, line_of_move: impl Fn(usize) -> 
 /// What the text need not say.
 fn is_silent(kind: &EventKind, machine: &Machine) -> bool {
     match kind {
-        EventKind::Comment { .. } | EventKind::Raw { .. } => true,
+        EventKind::Comment { .. } | EventKind::Raw { .. } | EventKind::Sync { .. } => true,
         EventKind::Flood { on: false } | EventKind::Mist { on: false } => {
             machine.coolant.flood.is_none() && machine.coolant.mist.is_none()
         }
