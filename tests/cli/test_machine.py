@@ -176,7 +176,8 @@ def test_pairs_wait_for_one_another(cli: Any, program: Path, tmp_path: Path) -> 
 def test_a_lathe_turns_in_x_and_z(cli: Any, tmp_path: Path) -> None:
     machine = tmp_path / "lathe.toml"
     machine.write_text(
-        'schema = 1\nextends = "linuxcnc"\nname = "lathe"\ndescription = "spinning"\ncycle = false\n[motion]\nlathe = "diameter"\n'
+        'schema = 1\nextends = "linuxcnc"\nname = "lathe"\ndescription = "spinning"\ncycle = false\n'
+        '[motion]\nlathe = "diameter"\n'
     )
     ran = cli("machine", "check", machine)
     assert ran.code == 0, ran.out
