@@ -36,7 +36,7 @@ def read_program(path: Path, machine: Machine | None) -> Program:
             where=str(path),
             hint="for G-code say with --as which machine it is for",
         )
-    return Program(_engine.read_gcode(read_gcode_text(path), machine.engine))
+    return Program(_engine.read_to_post(read_gcode_text(path), machine.engine))
 
 
 def edited(program: Program, machine: Machine, edits: Edits) -> Program:

@@ -85,6 +85,15 @@ def post(
 
     The text is not judged: `styluscam verify` does that, and `styluscam run` writes nothing that it objects to.
     """
+    if air < 0.0:
+        raise JobError(f"--air {air:g}", code="usage", where="--air", hint="a height of 0 or more, in mm")
+    if support is not None and (start or air):
+        raise JobError(
+            "a pair starts together and at its own heights",
+            code="usage",
+            where="--support",
+            hint="leave --from and --air out",
+        )
     if (support is None) != (support_out is None):
         raise JobError("a pair has two files", code="usage", where="--support", hint="give --support and --support-out")
     outputs = [path for path in (out, support_out) if path is not None]

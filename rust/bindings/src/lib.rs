@@ -24,7 +24,7 @@ mod _engine {
     #[pymodule_export]
     use crate::machine::{
         cl_text, lines_of_moves, machine_options, machine_schema, post, post_to, program_of_path, read_gcode,
-        shipped_machines, template_names, Machine,
+        read_to_post, shipped_machines, template_names, Machine,
     };
     #[pymodule_export]
     use crate::offset::{drop_cutter, offset_surface, push_cutter, slope_matched_offset, waterlines};

@@ -192,6 +192,34 @@ fn path_section((label, kind, coolant, text): PathSection) -> styluscam_post::Pa
     styluscam_post::PathSection { label, kind, text, coolant }
 }
 
+/// The same for posting it again: a text of which something would be lost is refused.
+#[pyfunction]
+pub fn read_to_post(py: Python<'_>, text: &str, machine: &Machine) -> PyResult<Program> {
+    let reading = py.detach(|| styluscam_post::read(text, &machine.machine, &[])).map_err(of_job)?;
+    let refuse = |line: u32, what: &str| {
+        let message = format!("line {line}: {what}");
+        errors::raise(
+            "VerifyError",
+            &message,
+            "post-lost",
+            &format!("line {line}"),
+            "post it by the machine that it is for",
+        )
+    };
+    let program = reading.program;
+    let changes = |before: usize| {
+        program.events.iter().any(|e| e.before == before && matches!(e.kind, EventKind::ToolChange { .. }))
+    };
+    let count = program.moves.len();
+    if let Some(step) = reading.machine_moves.iter().find(|m| m.before > 0 && m.before < count && !changes(m.before)) {
+        return Err(refuse(step.line, "a move in the machine's own coordinates means nothing on another machine"));
+    }
+    if let Some(line) = reading.optional_lines.first() {
+        return Err(refuse(*line, "a line that runs or not by a switch of the machine cannot be posted"));
+    }
+    Ok(Program { program })
+}
+
 /// The program that a machine would read from a text; positions are those of the words.
 #[pyfunction]
 pub fn read_gcode(py: Python<'_>, text: &str, machine: &Machine) -> PyResult<Program> {

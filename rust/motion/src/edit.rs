@@ -19,13 +19,20 @@ impl Program {
         if self.cycles.iter().any(|cycle| cycle.first < first && first < cycle.first + cycle.count) {
             return None;
         }
-        let height = self.setup.clearance.max(start[2]);
+        let highest = self.moves.iter().take(first).map(|m| m.end[2]).fold(self.setup.clearance, f64::max);
         let rapid = |end| Move { kind: MoveKind::Rapid, end, arc: None, feed: 0.0, ..*step };
-        let mut moves = vec![rapid([start[0], start[1], height])];
-        if height > start[2] {
-            let feed = self.moves.iter().skip(first).map(|m| m.feed).find(|feed| *feed > 0.0).unwrap_or(0.0);
-            let down = Move { kind: MoveKind::Feed, end: start, arc: None, feed, ..*step };
-            moves.push(if feed > 0.0 { down } else { rapid(start) });
+        // behind a tool or another zero point the last place means nothing: the program goes on with a rapid of its own
+        let anew = |e: &Event| matches!(e.kind, EventKind::ToolChange { .. } | EventKind::WorkOffset { .. });
+        let anew = self.events.iter().any(|event| event.before == first && anew(event));
+        if anew && step.kind != MoveKind::Rapid {
+            return None;
+        }
+        let mut moves = Vec::new();
+        if !anew {
+            moves.push(rapid([start[0], start[1], highest]));
+        }
+        if !anew && step.kind == MoveKind::Feed && highest > start[2] {
+            moves.push(Move { kind: MoveKind::Feed, end: start, arc: None, ..*step });
         }
         let shift = moves.len();
         moves.extend_from_slice(self.moves.get(first..)?);

@@ -44,7 +44,7 @@ pub fn read_path(sections: &[PathSection], tools: &[ToolRecord], setup: SetupRec
         label: "FreeCAD's path commands".into(),
         error: Box::new(ReadError { line: 0, column: 0, word: String::new(), fault: error.into() }),
     })?;
-    let texts: Vec<String> = sections.iter().map(|section| with_remarks(&section.text)).collect();
+    let texts: Vec<String> = sections.iter().map(text_of).collect();
     let parts: Vec<Section> = sections
         .iter()
         .zip(&texts)
@@ -63,6 +63,17 @@ pub fn read_path(sections: &[PathSection], tools: &[ToolRecord], setup: SetupRec
     program.setup = SetupRecord { wcs, ..setup };
     stop_spindle(&mut program);
     Ok(program)
+}
+
+/// A section's commands; a tool controller that starts no spindle leaves it standing.
+fn text_of(section: &PathSection) -> String {
+    let mut text = with_remarks(&section.text);
+    let says =
+        |words: &[&str]| text.lines().any(|line| line.split(' ').next().is_some_and(|word| words.contains(&word)));
+    if section.kind.is_none() && says(&["M6", "M06"]) && !says(&["M3", "M03", "M4", "M04"]) {
+        text.push_str("M5\n");
+    }
+    text
 }
 
 /// Remarks take a whole command: brackets inside are part of them.

@@ -1,6 +1,6 @@
 //! Checks on a program before it is written: records, order of events, the machine's limits.
 
-use styluscam_motion::{EventKind, Move, MoveKind, Program, ToolRecord};
+use styluscam_motion::{Cycle, EventKind, Move, MoveKind, Program, ToolRecord};
 
 use crate::machine::Machine;
 use crate::post_error::PostError;
@@ -46,15 +46,30 @@ impl<'a> Inspector<'a> {
         }
         let mut free = 0;
         for (cycle, hole) in program.cycles.iter().enumerate() {
-            if hole.first < free || hole.count == 0 || hole.first + hole.count > program.moves.len() {
-                return Err(PostError::CycleOrder { cycle });
+            let end = hole
+                .first
+                .checked_add(hole.count)
+                .filter(|end| hole.first >= free && hole.count > 0 && *end <= program.moves.len());
+            let end = end.ok_or(PostError::CycleOrder { cycle })?;
+            let moves = program.moves.get(hole.first..end).unwrap_or_default();
+            if !self.makes(hole, moves) {
+                return Err(PostError::CycleMoves { cycle });
             }
             if hole.kind.is_tapping() && !self.machine.cycle.as_ref().is_some_and(|c| c.kinds.contains(&hole.kind)) {
                 return Err(PostError::Unsupported { what: "a tapping cycle, and plain moves cannot tap" });
             }
-            free = hole.first + hole.count;
+            free = end;
         }
         Ok(())
+    }
+
+    /// Whether a hole's numbers are those of its moves.
+    fn makes(&self, hole: &Cycle, moves: &[Move]) -> bool {
+        let lowest = moves.iter().map(|m| m.end[2]).fold(f64::INFINITY, f64::min);
+        let Some(last) = moves.last().map(|m| m.end) else { return false };
+        let pairs = [(lowest, hole.bottom), (last[2], hole.leave), (last[0], hole.at[0]), (last[1], hole.at[1])];
+        pairs.iter().all(|(found, said)| (found - said).abs() <= self.machine.resolution_mm())
+            && hole.retract >= hole.bottom
     }
 
     /// Looks at an event.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::machine::{most_similar, MachineError};
 
 /// Names that every template may use; those with a dot are parts of one.
-pub const NAMES: [(&str, &str); 30] = [
+pub const NAMES: [(&str, &str); 29] = [
     ("header", "what templates.header makes: the summary of the set-up, as remarks"),
     ("machine.name", "the machine's name"),
     ("machine.description", "what it is"),
@@ -31,7 +31,6 @@ pub const NAMES: [(&str, &str); 30] = [
     ("end", "the code that ends the program"),
     ("smoothing", "the block that says how closely the path is kept; empty where there is none"),
     ("path_tolerance", "how closely that is, in words"),
-    ("retract", "the lines that send Z to the machine's top"),
     ("has_length_offsets", "whether the machine takes length offsets"),
     ("length_with_z", "whether they stand in the first block that moves Z"),
     ("options", "the machine's own options: options.NAME"),
@@ -39,7 +38,13 @@ pub const NAMES: [(&str, &str); 30] = [
 ];
 
 /// Names of one template only: the template's key, the name, what it is.
-pub const OWN_NAMES: [(&str, &str, &str); 15] = [
+pub const OWN_NAMES: [(&str, &str, &str); 17] = [
+    (
+        "templates.tool_change",
+        "retract",
+        "the lines that send Z to the machine's top; elsewhere Z would not be known behind them",
+    ),
+    ("templates.program_end", "retract", "the same"),
     ("templates.tool_change", "tool.name", "the tool's name in the job"),
     ("templates.tool_change", "tool.number", "its number"),
     ("templates.tool_change", "tool.length_offset", "its length offset's number"),

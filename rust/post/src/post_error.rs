@@ -181,6 +181,12 @@ pub enum PostError {
         /// The cycle.
         cycle: usize,
     },
+    /// A cycle's numbers are not those of its moves. Whoever built the program is at fault.
+    #[error("cycle {cycle} is another hole than its moves make")]
+    CycleMoves {
+        /// The cycle.
+        cycle: usize,
+    },
     /// The program turns the tool's axis; the machine has three axes. Post it for a machine that turns the tool.
     #[error("move {index} leans the tool; this machine has three axes and cannot")]
     ToolAxis {
@@ -238,6 +244,7 @@ impl PostError {
             Self::LineTooLong { .. } => "post-line-too-long",
             Self::Character { .. } => "post-character",
             Self::CycleOrder { .. } => "post-cycle-order",
+            Self::CycleMoves { .. } => "post-cycle-moves",
             Self::ToolAxis { .. } => "post-tool-axis",
             Self::NoSuchAxis { .. } => "post-no-such-axis",
             Self::NoRevolutions { .. } => "post-no-revolutions",
@@ -265,7 +272,7 @@ impl PostError {
             Self::EventOrder { event } | Self::ToolChange { event } | Self::Dwell { event, .. } => {
                 format!("events[{event}]")
             }
-            Self::CycleOrder { cycle } => format!("cycles[{cycle}]"),
+            Self::CycleOrder { cycle } | Self::CycleMoves { cycle } => format!("cycles[{cycle}]"),
             Self::Output { .. } => "output".into(),
             Self::ToolNumber { .. } | Self::ToolNumberTwice { .. } => "tools".into(),
             Self::SpindleSpeed { .. } | Self::SpindleDirection { .. } => "spindle".into(),
@@ -281,7 +288,7 @@ impl PostError {
             Self::Machine(error) => return error.hint(),
             Self::Empty => "look at why planning found nothing to do",
             Self::Wcs { .. } => "take a work offset that the machine has",
-            Self::Number { .. } | Self::EventOrder { .. } | Self::CycleOrder { .. } | Self::NoSuchRecord { .. } => {
+            Self::Number { .. } | Self::EventOrder { .. } | Self::CycleOrder { .. } | Self::CycleMoves { .. } | Self::NoSuchRecord { .. } => {
                 "whoever built the program is at fault: report it"
             }
             Self::Feed { .. } => "give the operation a feed above zero",

@@ -171,7 +171,7 @@ fn check_arc(machine: &Machine) -> Result<(), MachineError> {
     require((10.0..=360.0).contains(&arc.max_sweep_deg), "arc.max_sweep_deg", "10 to 360")?;
     require((0.0..=1e6).contains(&arc.min_radius), "arc.min_radius", "0 or more, in mm")?;
     require(arc.max_radius.is_none_or(|r| r > arc.min_radius), "arc.max_radius", "above min_radius, in mm")?;
-    require(arc.radius_word.is_none_or(|w| w == 'R' || w == 'L'), "arc.radius_word", "R or L")?;
+    require(matches!(arc.radius_word.as_str(), "" | "R" | "L"), "arc.radius_word", "R, L, or nothing")?;
     let error = arc.radius_error;
     for (key, value) in [("absolute", error.absolute), ("relative", error.relative), ("most", error.most)] {
         require((0.0..=10.0).contains(&value), &format!("arc.radius_error.{key}"), "0 to 10")?;

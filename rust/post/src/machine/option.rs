@@ -91,6 +91,7 @@ fn set(machine: &mut Machine, name: &str, value: &OptionValue) -> bool {
                 _ => return false,
             };
             machine.units.output = unit;
+            machine.reader.default_units = machine.reader.default_units.map(|_| unit);
             true
         }
         ("smoothing_tolerance", OptionValue::Number(mm)) if machine.smoothing.on.is_some() || *mm <= 0.0 => {

@@ -22,10 +22,11 @@ pub(super) struct Series {
 }
 
 impl Series {
-    /// The one before, or a new one that begins at a height.
+    /// The one before, or a new one: it begins at a height, or where the cycles before it began.
     pub fn next(before: Option<Self>, number: u16, height: f64) -> Self {
-        let new = Self { number, initial: height, bottom: None, retract: None, peck: 0.0, dwell: 0.0 };
-        before.unwrap_or(new)
+        let initial = before.map_or(height, |series| series.initial);
+        let new = Self { number, initial, bottom: None, retract: None, peck: 0.0, dwell: 0.0 };
+        before.filter(|series| series.number == number).unwrap_or(new)
     }
 
     /// The hole at a place; `low` says that it ends at the retract plane.

@@ -14,7 +14,7 @@ use super::drilling::Series;
 use super::lexer::Word;
 use super::standing::Standing;
 use super::Reading;
-use crate::machine::{FeedMode, Lathe, LengthUnit, Machine, SpeedUnit, TimeUnit, ToolChange};
+use crate::machine::{Family, FeedMode, Lathe, LengthUnit, Machine, SpeedUnit, TimeUnit, ToolChange};
 use crate::read_error::ReadFault;
 
 const AXES: [char; 3] = ['X', 'Y', 'Z'];
@@ -76,10 +76,14 @@ pub(crate) struct Interpreter<'m> {
     /// again), and so are the feeds of rapids and those of 0.
     loose: bool,
     standing: Standing,
+    /// Whether D0 is in force.
+    without_edge: bool,
     axes: [Axis; 3],
     unplaced_since: Option<usize>,
     unplaced: Vec<Range<usize>>,
     wcs: Option<String>,
+    /// The work offset in force, where one was called on the way.
+    wcs_now: Option<String>,
     label: Option<(String, String)>,
     operation_due: bool,
     program: Program,
@@ -116,10 +120,12 @@ impl<'m> Interpreter<'m> {
             moves_zero: tools.is_empty(),
             loose: false,
             standing: Standing::new(),
+            without_edge: false,
             axes: [Axis::default(); 3],
             unplaced_since: Some(0),
             unplaced: Vec::new(),
             wcs: None,
+            wcs_now: None,
             label: None,
             operation_due: true,
             program: empty_program(tools, typical_moves),
@@ -165,6 +171,7 @@ impl<'m> Interpreter<'m> {
         let letter = self.length_word();
         self.standing.take_length(block, self.job_tool().map(|tool| tool.length_offset), letter)?;
         self.set_path(block)?;
+        self.set_edge(block)?;
         self.set_wcs(block, codes)?;
         self.incremental = block.incremental.unwrap_or(self.incremental);
         self.distance_said |= block.incremental.is_some();
@@ -205,6 +212,7 @@ impl<'m> Interpreter<'m> {
         let motion = block.motion.map(|(motion, _)| motion).or(self.motion);
         let rapid = motion == Some(Motion::Rapid) && block.probe.is_none();
         if self.loose && (rapid || feed <= 0.0) {
+            self.feed = self.feed.filter(|_| rapid); // a feed of 0 is none, not the one before
             return Ok(());
         }
         if feed <= 0.0 {
@@ -297,6 +305,17 @@ impl<'m> Interpreter<'m> {
         Ok(())
     }
 
+    /// D0 takes a tool's length away, D1 gives it back; other edges are not read (Sinumerik).
+    fn set_edge(&mut self, block: &Block) -> Result<(), Flaw> {
+        let Some(word) = block.d.filter(|_| self.machine.family == Family::Siemens) else { return Ok(()) };
+        match word.number.natural() {
+            Some(0) => self.without_edge = true,
+            Some(1) => self.without_edge = false,
+            _ => return Err((ReadFault::NotRead { what: "edges other than D0 and D1" }, Some(word))),
+        }
+        Ok(())
+    }
+
     /// For a job, every move needs its tool's length offset and the machine's path tolerance.
     fn allow_motion(&self, word: Word) -> Result<(), Flaw> {
         self.job_tool().map_or(Ok(()), |tool| self.standing.allows(self.machine, tool, word))
@@ -376,12 +395,14 @@ impl<'m> Interpreter<'m> {
     pub(crate) fn choose_wcs(&mut self, index: usize) -> Result<(), ReadFault> {
         let name = self.machine.wcs.get(index).cloned().ok_or(ReadFault::Wcs)?;
         // Before the first G54 to G59 the controller is in its first work offset.
-        let now = self.wcs.as_deref().or(self.machine.wcs.first().map(String::as_str));
+        let called = self.wcs_now.as_deref().or(self.wcs.as_deref());
+        let now = called.or(self.machine.wcs.first().map(String::as_str));
         if !self.program.moves.is_empty() && now != Some(name.as_str()) {
             if !self.moves_zero {
                 return Err(ReadFault::WcsChanged);
             }
-            self.event(EventKind::WorkOffset { wcs: name });
+            self.event(EventKind::WorkOffset { wcs: name.clone() });
+            self.wcs_now = Some(name);
             (0..3).for_each(|axis| self.forget(axis));
             return Ok(());
         }
@@ -431,6 +452,9 @@ impl<'m> Interpreter<'m> {
         }
         self.load_only_tool(first)?;
         self.allow_motion(first)?;
+        if self.without_edge {
+            return Err((ReadFault::NoLengthOffset { expected: 1 }, Some(first)));
+        }
         let start = self.tip();
         if let Some(Motion::Arc(_)) = self.motion {
             self.require_places(first)?;
@@ -467,9 +491,12 @@ impl<'m> Interpreter<'m> {
         if self.incremental {
             return Err((ReadFault::NotRead { what: "canned cycles with G91" }, Some(first)));
         }
+        if self.plane != Plane::Xy {
+            return Err((ReadFault::NotRead { what: "canned cycles outside G17" }, Some(first)));
+        }
         self.load_only_tool(first)?;
         self.allow_motion(first)?;
-        let before = self.series.take().filter(|series| series.number == number);
+        let before = self.series.take();
         let start = self.tip();
         let mut series = Series::next(before, number, start[2]);
         for (word, slot) in [(z, &mut series.bottom), (block.radius, &mut series.retract)] {
@@ -524,6 +551,7 @@ impl<'m> Interpreter<'m> {
             return Err((ReadFault::NotRead { what: "probing moves with G91" }, Some(code)));
         }
         self.load_only_tool(code)?;
+        self.series = None;
         let feed = self.feed_of(block, 1.0, code)?;
         let mut end = [None; 3];
         for (axis, word) in block.axes.iter().enumerate() {
@@ -553,6 +581,8 @@ impl<'m> Interpreter<'m> {
                 self.forget(axis);
             }
         }
+        self.drop_length(block);
+        self.series = None;
         self.event(EventKind::Comment { text: "G28, place in the work unknown".into() });
         self.machine_moves.push(MachineMove { before: self.program.moves.len(), line, places });
         Ok(())
@@ -562,6 +592,14 @@ impl<'m> Interpreter<'m> {
     pub(crate) fn length_word(&self) -> u8 {
         let word = self.machine.tool.length.as_ref().map_or('H', |length| length.word);
         u8::try_from(word).unwrap_or(b'H')
+    }
+
+    /// Controllers that name the offset with Z lose it on the way to the machine's own places (Fanuc 0i-MB, p. 204).
+    fn drop_length(&mut self, block: &Block) {
+        let with_z = self.machine.tool.length.as_ref().is_some_and(|length| length.with_z);
+        if with_z && block.axes[Z].is_some() {
+            self.standing.drop_length();
+        }
     }
 
     /// A block of the machine's own, which moves nothing; `tolerance` is what it sets the path's to, mm.
@@ -762,6 +800,7 @@ impl<'m> Interpreter<'m> {
             places[index] = Some(place);
             self.forget(index);
         }
+        self.drop_length(block);
         self.event(EventKind::Comment { text });
         self.machine_moves.push(MachineMove { before: self.program.moves.len(), line, places });
         Ok(())

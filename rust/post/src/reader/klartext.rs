@@ -102,8 +102,13 @@ impl Reader<'_> {
         if tokens.is_empty() {
             return Ok(());
         }
-        if self.ended {
+        let closes = tokens.iter().map(|t| t.text).take(2).eq(["END", "PGM"]);
+        if self.ended || self.by_code && !closes {
             return Err(whole_line(number, ReadFault::AfterEnd));
+        }
+        if !goes_on && self.cycle.take().is_some() {
+            let fault = ReadFault::MissingWord { what: "the datum's number (Q339) of cycle 247" };
+            return Err(whole_line(number, fault));
         }
         if goes_on {
             return self.read_parameter(tokens).map_err(|m| misfit_at(text, number, m));
@@ -133,6 +138,7 @@ impl Reader<'_> {
             }
             ["TOOL", "CALL", ..] => tool_call(&tokens[2..]).map(Some).map_err(misfit),
             ["CYCL", "DEF", ..] => self.cycle(&tokens[2..]).map_err(misfit),
+            ["CC"] => Err(misfit(tokens[0].misfit(ReadFault::MissingWord { what: "the centre (X and Y)" }))),
             ["CC", ..] => self.set_centre(&tokens[1..]).map(|()| None).map_err(misfit),
             ["L", ..] => self.line(&tokens[1..]).map(Some).map_err(misfit),
             ["C" | "CR" | "CP", ..] => self.circle(&tokens[1..], &tokens[0]).map(Some).map_err(misfit),
@@ -213,6 +219,9 @@ impl Reader<'_> {
         let clockwise = clockwise.ok_or(missing("the sense of the arc (DR+ or DR-)"))?;
         if head.text == "CP" {
             let angle = block.polar.ok_or(missing("the angle of the arc (IPA)"))?;
+            if angle.number.value() == 0.0 {
+                return Err(head.misfit(ReadFault::ArcOfNoAngle));
+            }
             if (angle.number.value() < 0.0) != clockwise {
                 return Err(head.misfit(ReadFault::ArcForm));
             }
@@ -244,7 +253,9 @@ impl Reader<'_> {
         match first.text {
             "9.0" | "32.0" | "32.2" => Ok(None),
             "9.1" => {
-                let last = tokens.last().unwrap_or(first);
+                let last = tokens
+                    .get(2)
+                    .ok_or_else(|| first.misfit(ReadFault::MissingWord { what: "the time of cycle 9" }))?;
                 let time = last.word("", b'P')?;
                 Ok(Some(Block { dwell: Some(time), time: Some(time), ..Block::default() }))
             }
@@ -253,17 +264,18 @@ impl Reader<'_> {
                 let p = value("T", b'P').transpose()?;
                 Ok(Some(Block { smoothing: Some(code), p, ..Block::default() }))
             }
-            "247" => {
+            "247" if self.continues => {
                 self.cycle = Some(247);
                 Ok(None)
             }
+            "247" => Err(first.misfit(ReadFault::MissingWord { what: "the datum's number (Q339) of cycle 247" })),
             _ => Err(first.misfit(ReadFault::NotRead { what: "cycles of this kind" })),
         }
     }
 
     /// A line of a cycle's parameters: `Q339=+1`.
     fn read_parameter(&mut self, tokens: &[Token]) -> Result<(), Misfit> {
-        let (Some(247), Some(first)) = (self.cycle, tokens.first()) else {
+        let (Some(247), [first]) = (self.cycle.take(), tokens) else {
             return Err(tokens[0].misfit(ReadFault::UnknownWords));
         };
         let Some(datum) = first.text.strip_prefix("Q339=") else {

@@ -53,6 +53,9 @@ pub struct Reading {
     pub ended: bool,
 }
 
+/// In place of a radius's letter, where the machine reads none.
+const NO_RADIUS: u8 = 0;
+
 /// Typical length of a line, to reserve memory.
 const TYPICAL_LINE: usize = 20;
 
@@ -160,12 +163,12 @@ struct Reader<'t> {
 
 impl<'t> Reader<'t> {
     fn new(length: usize, machine: &'t Machine, tools: &[ToolRecord]) -> Result<Self, crate::machine::MachineError> {
-        let radius_word = machine.arc.as_ref().and_then(|rules| rules.radius_word).unwrap_or('R');
+        let radius_word = machine.arc.as_ref().map_or("R", |rules| rules.radius_word.as_str());
         Ok(Self {
             machine,
             codes: Codes::new(machine)?,
             remarks: Remarks::of(machine),
-            radius_word: u8::try_from(radius_word).unwrap_or(b'R'),
+            radius_word: radius_word.bytes().next().unwrap_or(NO_RADIUS),
             dwell_word: machine.dwell.as_ref().map_or('P', |d| d.word),
             line: Line::default(),
             interpreter: Interpreter::new(machine, tools, length / TYPICAL_LINE),

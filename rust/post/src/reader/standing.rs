@@ -44,6 +44,11 @@ impl Standing {
         Ok(())
     }
 
+    /// No length offset is in force.
+    pub(crate) fn drop_length(&mut self) {
+        self.length = None;
+    }
+
     /// G61, G64; `mm` gives a word's length.
     pub(crate) fn take_path(&mut self, block: &Block, mm: impl Fn(Word) -> Result<f64, Flaw>) -> Result<(), Flaw> {
         let Some(code) = block.smoothing else { return Ok(()) };

@@ -75,6 +75,7 @@ fn event_difference(program: &Program, posted: &Posted, reading: &Reading, machi
 fn states(program: &Program, machine: &Machine, line_of_move: impl Fn(usize) -> Option<u32>) -> Vec<(u32, EventKind)> {
     let mut out: Vec<(u32, EventKind)> = Vec::new();
     let mut spindle = EventKind::SpindleOff;
+    let mut coolant = (false, false);
     let turns = |kind: &EventKind| matches!(kind, EventKind::SpindleOn { .. } | EventKind::SpindleOff);
     for event in &program.events {
         let inside = |cycle: &Cycle| {
@@ -83,20 +84,28 @@ fn states(program: &Program, machine: &Machine, line_of_move: impl Fn(usize) -> 
         if is_silent(&event.kind, machine) || program.cycles.iter().any(inside) {
             continue;
         }
-        // one word switches all coolant off
-        let kind = match &event.kind {
-            EventKind::Mist { on: false } => EventKind::Flood { on: false },
-            kind => kind.clone(),
+        // one word switches all coolant off: what is on counts
+        let kind = match event.kind {
+            EventKind::Mist { on } => coolant_state(&mut coolant, |c| c.0 = on),
+            EventKind::Flood { on } => coolant_state(&mut coolant, |c| c.1 = on),
+            ref kind => kind.clone(),
         };
         let line = event.before.checked_sub(1).and_then(&line_of_move).unwrap_or(0);
-        let last = out.last().filter(|(before, _)| *before == line).map(|(_, kind)| kind);
+        let last = out.last().filter(|(before, _)| *before == line).map(|(_, kind)| kind.clone());
         // of several states of the spindle at one place the last one counts; it stops before a tool change by itself
         let change = matches!(kind, EventKind::ToolChange { .. });
-        if last.is_some_and(turns) && (change || turns(&kind)) {
+        if last.as_ref().is_some_and(turns) && (change || turns(&kind)) {
             out.pop();
             spindle = spindle_after(&out);
-        } else if kind == (EventKind::Flood { on: false }) && last == Some(&kind) {
-            continue;
+        }
+        if let EventKind::Raw { .. } = kind {
+            if last.is_some_and(|last| matches!(last, EventKind::Raw { .. })) {
+                out.pop();
+            }
+            let before = out.iter().rev().find(|(_, kind)| matches!(kind, EventKind::Raw { .. }));
+            if before.is_some_and(|(_, before)| *before == kind) {
+                continue;
+            }
         }
         if turns(&kind) && kind == spindle {
             continue;
@@ -105,6 +114,12 @@ fn states(program: &Program, machine: &Machine, line_of_move: impl Fn(usize) -> 
         spindle = spindle_after(&out);
     }
     out
+}
+
+/// Mist and flood after a change, as one event.
+fn coolant_state(state: &mut (bool, bool), change: impl Fn(&mut (bool, bool))) -> EventKind {
+    change(state);
+    EventKind::Raw { text: format!("mist {}, flood {}", state.0, state.1) }
 }
 
 /// What the text need not say.

@@ -93,6 +93,8 @@ pub struct Poster<'a> {
     operation: Option<u32>,
     /// Speed of the spindle, rev/min, while it turns.
     rpm: Option<f64>,
+    mist: bool,
+    flood: bool,
 }
 
 impl<'a> Poster<'a> {
@@ -145,6 +147,8 @@ impl<'a> Poster<'a> {
             tool: None,
             operation: None,
             rpm: None,
+            mist: false,
+            flood: false,
         };
         let start = poster.templater.program_start(&poster.names)?;
         poster.lines.text(&start)?;
@@ -171,6 +175,9 @@ impl<'a> Poster<'a> {
         let mut cycles = program.cycles.iter().peekable();
         let mut index = 0;
         while let Some(step) = program.moves.get(index) {
+            if self.operation.is_some_and(|operation| operation != step.operation) {
+                self.end_operation()?;
+            }
             while let Some(event) = events.next_if(|e| e.before <= index) {
                 self.event(&event.kind)?;
             }
@@ -189,6 +196,7 @@ impl<'a> Poster<'a> {
                 index += 1;
             }
         }
+        self.end_operation()?;
         events.try_for_each(|event| self.event(&event.kind))
     }
 
@@ -206,7 +214,7 @@ impl<'a> Poster<'a> {
     }
 
     fn end_operation(&mut self) -> Result<(), PostError> {
-        let record: Option<&OperationRecord> = self.operation.and_then(|o| self.head.operations.get(o as usize));
+        let record: Option<&OperationRecord> = self.operation.take().and_then(|o| self.head.operations.get(o as usize));
         let Some(record) = record else { return Ok(()) };
         let text = self.templater.operation_end(&self.names, record)?;
         self.speak(&text)
@@ -237,8 +245,14 @@ impl<'a> Poster<'a> {
             EventKind::ToolChange { tool } => self.change_tool(number, *tool),
             EventKind::SpindleOn { rpm, direction } => self.start_spindle(number, *rpm, *direction),
             EventKind::SpindleOff => self.stop_spindle(),
-            EventKind::Mist { on } => self.switch_coolant(*on, |words| words.mist.as_deref()),
-            EventKind::Flood { on } => self.switch_coolant(*on, |words| words.flood.as_deref()),
+            EventKind::Mist { on } => {
+                self.mist = *on;
+                self.switch_coolant(*on, |words| words.mist.as_deref())
+            }
+            EventKind::Flood { on } => {
+                self.flood = *on;
+                self.switch_coolant(*on, |words| words.flood.as_deref())
+            }
             EventKind::Comment { text } => self.lines.comment(text),
             EventKind::Dwell { seconds } => self.dwell(number, *seconds),
             EventKind::Stop { optional } => self.stop(*optional),
@@ -314,13 +328,16 @@ impl<'a> Poster<'a> {
         self.block_of(self.machine.spindle.off.as_deref(), "the spindle's stop")
     }
 
-    /// One word switches all coolant off.
+    /// One word switches all coolant off: what is to stay on is said again.
     fn switch_coolant(&mut self, on: bool, word: fn(&CoolantRules) -> Option<&str>) -> Result<(), PostError> {
         let words = &self.machine.coolant;
         if !on && words.mist.is_none() && words.flood.is_none() {
             return Ok(()); // there is nothing to switch off
         }
-        self.block_of(if on { word(words) } else { words.off.as_deref() }, "coolant")
+        self.block_of(if on { word(words) } else { words.off.as_deref() }, "coolant")?;
+        let left = [(self.mist, &words.mist), (self.flood, &words.flood)];
+        let left = left.into_iter().filter(|(stays, _)| *stays && !on);
+        left.map(|(_, word)| word.as_deref()).try_for_each(|word| self.lines.block(word.unwrap_or_default()))
     }
 
     fn block_of(&mut self, word: Option<&str>, what: &'static str) -> Result<(), PostError> {
@@ -372,8 +389,7 @@ impl<'a> Poster<'a> {
             let at = || PostError::Number { what: "a place", place: format!("events[{event}]"), value: place };
             to[axis] = Some(count.ok_or_else(at)?);
         }
-        let count = self.feed_format.count(feed * self.per_mm).filter(|c| *c > 0);
-        let count = count.ok_or(PostError::Feed { index: self.moves, feed })?;
+        let count = self.feed_count(self.moves, feed, f64::INFINITY)?;
         self.dialect.probe(&mut self.lines, word, to, count)?;
         self.dialect.forget();
         for (axis, place) in to.into_iter().enumerate() {
@@ -570,7 +586,12 @@ impl<'a> Poster<'a> {
         let low = self.target(index, [x, y, cycle.bottom])?;
         let high = self.target(index, [x, y, cycle.retract])?;
         let leave = self.target(index, [x, y, cycle.leave])?;
-        self.position(index)?;
+        let [x_now, y_now, z_now] = self.position(index)?;
+        if leave[2] > high[2] && z_now != leave[2] {
+            // a series that returns begins at the height to which it returns
+            self.dialect.close(&mut self.lines)?;
+            self.rapid([x_now, y_now, leave[2]])?;
+        }
         let hole = Hole {
             kind: cycle.kind,
             at: [low[0], low[1]],

@@ -158,7 +158,7 @@ impl Dialect for Words<'_> {
         if self.said.hole.take().is_none() {
             return Ok(());
         }
-        self.forget();
+        self.said = Said { plane: self.said.plane, ..Said::default() };
         lines.block(CANCEL)
     }
 
@@ -202,7 +202,7 @@ impl Dialect for Words<'_> {
         if !goes_on {
             self.close(lines)?;
         }
-        if self.said.plane.is_some_and(|plane| plane != Plane::Xy) {
+        if !goes_on {
             self.plane(lines, Plane::Xy)?;
         }
         lines.begin();

@@ -136,9 +136,9 @@ pub struct ArcRules {
     pub min_radius: f64,
     /// Larger ones become lines, mm.
     pub max_radius: Option<f64>,
-    /// The letter of the radius, where people write it: `R`; none where the controller reads none.
+    /// The letter of the radius, where people write it: `R`; empty where the controller reads none.
     #[serde(default = "letter_r")]
-    pub radius_word: Option<char>,
+    pub radius_word: String,
 }
 
 fn all_planes() -> Vec<Plane> {
@@ -153,9 +153,8 @@ fn full_turn() -> f64 {
     360.0
 }
 
-#[allow(clippy::unnecessary_wraps)] // the field's type
-fn letter_r() -> Option<char> {
-    Some('R')
+fn letter_r() -> String {
+    "R".into()
 }
 
 /// Drilling cycles that the controller has; holes of other kinds are made of plain moves.
