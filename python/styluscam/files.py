@@ -93,6 +93,25 @@ def require_writable(outputs: Iterable[Path], inputs: Iterable[Path] = ()) -> No
         taken[place] = "is another output of this job"
 
 
+def require_new(path: Path, force: bool, failure: type[StylusError], otherwise: str) -> None:
+    """Asks whether a file would be replaced that nobody said to replace; ``otherwise`` is what else can be done.
+
+    Raises:
+        StylusError: of class ``failure``: it is there already.
+    """
+    if is_file(path) and not force:
+        hint = f"add --force to replace it, or {otherwise}"
+        raise failure(f"{path}: the file is there already", code="exists", where=str(path), hint=hint)
+
+
+def is_file(path: Path) -> bool:
+    """Whether there is a file of this name."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):  # no file can have such a name
+        return False
+
+
 def _place(path: Path) -> str:
     """The same for all names of a file."""
     return os.path.normcase(path.resolve())

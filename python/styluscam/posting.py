@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -63,10 +64,12 @@ def edited(program: Program, machine: Machine, edits: Edits) -> Program:
     return Program(engine.with_notes(notes))
 
 
-def write(program: Program, machine: Machine, path: Path) -> None:
-    """Posts to a file piece by piece: the text is never whole in memory, and the file appears whole or not at all."""
-    with drawn_whole(path) as beside:
-        _engine.post_to(program.engine, machine.engine, str(beside))
+def write(programs: dict[Path, tuple[Program, Machine]]) -> None:
+    """Posts to files piece by piece: no text is ever whole in memory, and the files appear whole, all or none."""
+    with contextlib.ExitStack() as stack:
+        for path, (program, machine) in programs.items():
+            beside = stack.enter_context(drawn_whole(path))
+            _engine.post_to(program.engine, machine.engine, str(beside))
 
 
 def paired(program: Program, support: Program) -> tuple[Program, Program]:

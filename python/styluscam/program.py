@@ -119,5 +119,4 @@ class Program:
     @classmethod
     def load(cls, path: str | Path) -> Program:
         """Reads what :meth:`save` wrote."""
-        text = read_text(path, JobError)
-        return cls(_engine.Program.from_json(text))
+        return cls.from_json(read_text(path, JobError))

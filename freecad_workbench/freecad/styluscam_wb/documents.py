@@ -70,14 +70,19 @@ def job_document(job: Any, operations: list[Any], part: EnginePart, machine: str
         "process": {"kind": first.Process},
         "tools": {tool_name(obj.ToolController): _tool_section(obj.ToolController) for obj in operations},
         "operations": [operation_section(obj) for obj in operations],
-        "machine": {**machines.section(machine), "options": machines.options(_arguments(job))},
+        "machine": machine_section(job, machine),
     }
 
 
-def _arguments(job: Any) -> str:
-    """What a job says to its post, where that is ours."""
+def machine_section(job: Any, machine: str) -> Document:
+    """The machine and its options: what the job says to its post, where that is ours.
+
+    Raises:
+        machines.ArgumentError: an argument that is not known.
+    """
     post = str(getattr(job, "PostProcessor", "") or "")
-    return str(getattr(job, "PostProcessorArgs", "") or "") if post.startswith(machines.POST_PREFIX) else ""
+    arguments = str(getattr(job, "PostProcessorArgs", "") or "") if post.startswith(machines.POST_PREFIX) else ""
+    return {**machines.section(machine), "options": machines.options(arguments)}
 
 
 def _part_section(obj: Any) -> Document:

@@ -94,10 +94,7 @@ def new(name: NewFile, base: From, force: Force = False, debug: Debug = False) -
         )
     path = Path(name) if name.endswith(".toml") else Path(f"{name}.toml")
     machine = Machine.find(base)
-    if path.exists() and not force:
-        raise MachineError(
-            f"{path} exists already", code="file-exists", where=str(path), hint="take another name, or --force"
-        )
+    files.require_new(path, force, MachineError, "choose another name")
     extends = base if base in Machine.names() else _beside(Path(base), path)
     files.require_writable([path])
     files.write_whole(path, starter(path.stem, machine, extends))

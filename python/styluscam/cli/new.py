@@ -41,9 +41,7 @@ def new(
     It runs as it stands.
     """
     path = out or part.with_suffix(".toml")
-    if path.exists() and not path.is_dir() and not force:
-        message = f"{path}: the file is there already"
-        raise JobError(message, code="exists", where=str(path), hint="add --force to replace it, or name another --out")
+    files.require_new(path, force, JobError, "name another --out")
     files.require_writable([path], [part])
     with progress.shown(not (json or quiet)) as report:
         arrays = read_part(part, LOOK, units, report)

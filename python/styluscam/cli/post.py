@@ -87,34 +87,31 @@ def post(
     """
     if air < 0.0:
         raise JobError(f"--air {air:g}", code="usage", where="--air", hint="a height of 0 or more, in mm")
-    if support is not None and (start or air):
+    if support is not None and (start or air or cl):
         raise JobError(
-            "a pair starts together and at its own heights",
+            "a pair starts together, at its own heights, as the machines' text",
             code="usage",
             where="--support",
-            hint="leave --from and --air out",
+            hint="leave --from, --air and --cl out",
         )
     if (support is None) != (support_out is None):
         raise JobError("a pair has two files", code="usage", where="--support", hint="give --support and --support-out")
     outputs = [path for path in (out, support_out) if path is not None]
     for path in outputs:
-        if path.exists() and not force:
-            raise JobError(
-                f"{path} exists already", code="file-exists", where=str(path), hint="take another name, or --force"
-            )
+        files.require_new(path, force, JobError, "choose another name")
     files.require_writable(outputs, [path for path in (program, support) if path is not None])
     target = Machine.find(machine).with_options(_options(options or []))
     source = posting.read_program(program, Machine.find(read_as) if read_as else None)
     edits = posting.Edits(start, air, optional_stops)
     work = posting.edited(source, target, edits)
-    if support is not None and support_out is not None:
-        partner = Machine.find(support_machine) if support_machine else target
-        work, other = posting.paired(work, posting.read_program(support, None))
-        posting.write(other, partner, support_out)
     if cl:
         files.write_whole(out, posting.cl_text(work))
+    elif support is not None and support_out is not None:
+        partner = Machine.find(support_machine) if support_machine else target
+        work, other = posting.paired(work, posting.read_program(support, None))
+        posting.write({out: (work, target), support_out: (other, partner)})
     else:
-        posting.write(work, target, out)
+        posting.write({out: (work, target)})
     if json:
         console.say_json({"written": [str(path) for path in outputs], "machine": target.name, "moves": len(work.moves)})
     elif not quiet:

@@ -99,10 +99,7 @@ def new(
 
     The ending chooses the format: this also turns a tool file into FreeCAD's, and back.
     """
-    if _is_file(str(file)) and not force:
-        message = f"{file}: the file is there already"
-        hint = "add --force to replace it, or choose another name"
-        raise ToolError(message, code="exists", where=str(file), hint=hint)
+    files.require_new(file, force, ToolError, "choose another name")
     if file.suffix.lower() not in (".json", ".fctb"):
         hint = f"call it {file.stem or 'tool'}.json"
         raise ToolError(f"{file}: a tool file ends in .json or .fctb", code="ending", where=str(file), hint=hint)
@@ -157,19 +154,12 @@ def find(name: str, own: Path | None) -> Tool:
     """A tool by file, or by its name in a library: one's own first, then the shipped ones."""
     if toolfile.place_of(name)[0]:
         return Tool.find(name)
-    if _is_file(name):
+    if files.is_file(Path(name)):
         return Tool.read(name)
     shelf = None if own is None else library.read_library(own)
     if shelf is not None and name in shelf.tools:
         return Tool.of_library(shelf, name)
     return Tool.from_dict(library.find(name, libraries=([] if shelf is None else [shelf]) + list(library.shipped())))
-
-
-def _is_file(name: str) -> bool:
-    try:
-        return Path(name).is_file()
-    except (OSError, ValueError):  # no file can have such a name
-        return False
 
 
 def _what(document: Document) -> str:

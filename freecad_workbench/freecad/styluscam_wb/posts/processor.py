@@ -99,8 +99,7 @@ def section_text(job: Any, items: list[Any], machine: str) -> str:
         raise PostError(f"{job.Label} has no active operation: there is nothing to post")
     program = builder.program(_setup(job, operations))
     sc = engine.styluscam()
-    options = machines.options(str(job.PostProcessorArgs or ""))
-    target = sc.Machine.of_section({**machines.section(machine), "options": options}, machines.user_folder())
+    target = sc.Machine.of_section(documents.machine_section(job, machine), machines.user_folder())
     if all(ops.is_ours(obj) for obj in operations):
         if any(event["kind"] == "work-offset" for event in program.events):
             raise PostError(

@@ -20,3 +20,8 @@ pub use text::{
     BlockNumber, CommentForm, CommentRules, Counted, Decimals, LengthUnit, LineEnd, LineRules, NumberRules, Numbered,
     Point, Repeat, Separator, TrailingZeros, Units, WordRules,
 };
+
+/// What switches are that are left out.
+fn yes() -> bool {
+    true
+}

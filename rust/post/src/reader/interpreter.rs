@@ -1,10 +1,13 @@
 //! The controller's state while a program is read, and the motion that its blocks make.
 
+mod elsewhere;
+mod holes;
+
 use std::ops::Range;
 
 use styluscam_motion::{
-    Arc, Cycle, CycleStart, CycleStep, Event, EventKind, MachineMove, Move, MoveKind, OperationRecord, Plane, Program,
-    SetupRecord, SpindleDirection, ToolRecord, ToolReference,
+    Arc, Event, EventKind, MachineMove, Move, MoveKind, OperationRecord, Plane, Program, SetupRecord, SpindleDirection,
+    ToolRecord, ToolReference,
 };
 
 use super::block::{Block, Motion, Spindle, Stop};
@@ -70,8 +73,6 @@ pub(crate) struct Interpreter<'m> {
     /// Height of the posted point above the tip, mm.
     height: f64,
     tools_given: bool,
-    /// Whether the work offset may change on the way.
-    moves_zero: bool,
     /// Whether these are FreeCAD's commands: rapids before the first tool are left out (the way to the work is told after it
     /// again), and so are the feeds of rapids and those of 0.
     loose: bool,
@@ -117,7 +118,6 @@ impl<'m> Interpreter<'m> {
             tool: None,
             height: 0.0,
             tools_given: !tools.is_empty(),
-            moves_zero: tools.is_empty(),
             loose: false,
             standing: Standing::new(),
             without_edge: false,
@@ -143,7 +143,6 @@ impl<'m> Interpreter<'m> {
 
     /// FreeCAD's commands are read; the work offset may change on the way, as in a program that no job is known of.
     pub(crate) fn loosen(&mut self) {
-        self.moves_zero = true;
         self.loose = true;
     }
 
@@ -398,7 +397,7 @@ impl<'m> Interpreter<'m> {
         let called = self.wcs_now.as_deref().or(self.wcs.as_deref());
         let now = called.or(self.machine.wcs.first().map(String::as_str));
         if !self.program.moves.is_empty() && now != Some(name.as_str()) {
-            if !self.moves_zero {
+            if self.tools_given && !self.loose {
                 return Err(ReadFault::WcsChanged);
             }
             self.event(EventKind::WorkOffset { wcs: name.clone() });
@@ -482,124 +481,10 @@ impl<'m> Interpreter<'m> {
         Ok(())
     }
 
-    /// One hole of a canned cycle.
-    fn drill(&mut self, block: &Block, number: u16, line: u32) -> Result<(), Flaw> {
-        let said = block.motion.map(|(_, word)| word);
-        let [x, y, z] = block.axes;
-        let Some(first) = x.or(y).or(z).or(said) else { return Ok(()) };
-        let Some(rules) = &self.machine.cycle else { return Err((self.refusal(), Some(first))) };
-        if self.incremental {
-            return Err((ReadFault::NotRead { what: "canned cycles with G91" }, Some(first)));
-        }
-        if self.plane != Plane::Xy {
-            return Err((ReadFault::NotRead { what: "canned cycles outside G17" }, Some(first)));
-        }
-        self.load_only_tool(first)?;
-        self.allow_motion(first)?;
-        let before = self.series.take();
-        let start = self.tip();
-        let mut series = Series::next(before, number, start[2]);
-        for (word, slot) in [(z, &mut series.bottom), (block.radius, &mut series.retract)] {
-            if let Some(word) = word {
-                *slot = Some(self.mm(word)? - self.height);
-            }
-        }
-        if let Some(word) = block.q {
-            series.peck = self.mm(word)?;
-        }
-        if let Some(word) = block.p {
-            let per_second = if rules.dwell_unit == TimeUnit::S { 1.0 } else { 1000.0 };
-            series.dwell = word.number.value() / per_second;
-        }
-        for (axis, word) in [x, y].into_iter().enumerate() {
-            if let Some(word) = word {
-                let place = self.mm(word)?;
-                self.axes[axis] = Axis { place, known: true, ever: true, pending: self.program.moves.len() };
-            }
-        }
-        self.require_places(first)?;
-        let feed = self.feed_of(block, 1.0, first)?;
-        let [x, y, _] = self.axes;
-        let cycle = series.hole([x.place, y.place], feed, self.low_return).map_err(|fault| (fault, Some(first)))?;
-        if !rules.kinds.contains(&cycle.kind) {
-            return Err((self.refusal(), said.or(Some(first))));
-        }
-        let spindle = self.direction.map(|direction| (self.speed, direction));
-        let steps = cycle.steps(&CycleStart { place: start, spindle });
-        let steps = steps.ok_or((ReadFault::TooManyPecks, block.q.or(Some(first))))?;
-        let from = self.program.moves.len();
-        for step in steps {
-            match step {
-                CycleStep::Move(kind, place) => {
-                    self.axes[Z].place = place[2] + self.height;
-                    let [end_x, end_y, end_z] = place;
-                    let feed = if kind == MoveKind::Feed { feed } else { 0.0 };
-                    self.push_move_to([end_x, end_y, end_z], kind, None, feed, line);
-                }
-                CycleStep::Event(kind) => self.event(kind),
-            }
-        }
-        let count = self.program.moves.len() - from;
-        self.program.cycles.push(Cycle { first: from, count, ..cycle });
-        self.series = Some(series);
-        Ok(())
-    }
-
-    /// A way until the probe touches: where it ends is not known.
-    fn probe(&mut self, block: &Block, must_touch: bool, code: Word) -> Result<(), Flaw> {
-        if self.incremental {
-            return Err((ReadFault::NotRead { what: "probing moves with G91" }, Some(code)));
-        }
-        self.load_only_tool(code)?;
-        self.series = None;
-        let feed = self.feed_of(block, 1.0, code)?;
-        let mut end = [None; 3];
-        for (axis, word) in block.axes.iter().enumerate() {
-            let Some(word) = *word else { continue };
-            end[axis] = Some(self.mm(word)? - if axis == Z { self.height } else { 0.0 });
-            self.forget(axis);
-        }
-        if end.iter().all(Option::is_none) {
-            return Err((ReadFault::MissingWord { what: "an axis word of the probing move" }, Some(code)));
-        }
-        self.motion = None;
-        self.event(EventKind::Probe { end, feed, must_touch });
-        Ok(())
-    }
-
-    /// G28 by way of where the axis stands: `G91 G28 Z0`. Over any other place it may cut through the work.
-    fn go_home(&mut self, block: &Block, code: Word, line: u32) -> Result<(), Flaw> {
-        let home = self.machine.reader.home.unwrap_or_default();
-        let straight = self.incremental && block.axes.iter().flatten().all(|word| word.number.value() == 0.0);
-        if !straight || block.any_axis().is_none() {
-            return Err((ReadFault::HomeByWay, Some(code)));
-        }
-        let mut places = [None; 3];
-        for axis in 0..3 {
-            if block.axes[axis].is_some() {
-                places[axis] = Some(home[axis]);
-                self.forget(axis);
-            }
-        }
-        self.drop_length(block);
-        self.series = None;
-        self.event(EventKind::Comment { text: "G28, place in the work unknown".into() });
-        self.machine_moves.push(MachineMove { before: self.program.moves.len(), line, places });
-        Ok(())
-    }
-
     /// The letter of a length offset's number.
     pub(crate) fn length_word(&self) -> u8 {
         let word = self.machine.tool.length.as_ref().map_or('H', |length| length.word);
         u8::try_from(word).unwrap_or(b'H')
-    }
-
-    /// Controllers that name the offset with Z lose it on the way to the machine's own places (Fanuc 0i-MB, p. 204).
-    fn drop_length(&mut self, block: &Block) {
-        let with_z = self.machine.tool.length.as_ref().is_some_and(|length| length.with_z);
-        if with_z && block.axes[Z].is_some() {
-            self.standing.drop_length();
-        }
     }
 
     /// A block of the machine's own, which moves nothing; `tolerance` is what it sets the path's to, mm.
@@ -780,30 +665,6 @@ impl<'m> Interpreter<'m> {
             self.program.operations.push(OperationRecord { id, kind, tool });
         }
         u32::try_from(self.program.operations.len().saturating_sub(1)).unwrap_or(u32::MAX)
-    }
-
-    /// A move in the machine's own coordinates ends at a place that the work's zero says nothing about.
-    fn go_to_machine_place(&mut self, block: &Block, code: Word, line: u32) -> Result<(), Flaw> {
-        let moves = matches!(self.motion, Some(Motion::Rapid | Motion::Feed));
-        if !moves || self.incremental {
-            return Err((ReadFault::MachineCoordinates, Some(code)));
-        }
-        if block.any_axis().is_none() {
-            return Err((ReadFault::MissingWord { what: "an axis word of G53" }, Some(code)));
-        }
-        let mut text = String::from("G53, place in the work unknown:");
-        let mut places = [None; 3];
-        for (index, (word, name)) in block.axes.iter().zip(AXES).enumerate() {
-            let Some(word) = *word else { continue };
-            let place = self.mm(word)?;
-            text.push_str(&format!(" {name}{place} mm"));
-            places[index] = Some(place);
-            self.forget(index);
-        }
-        self.drop_length(block);
-        self.event(EventKind::Comment { text });
-        self.machine_moves.push(MachineMove { before: self.program.moves.len(), line, places });
-        Ok(())
     }
 
     /// What was read; whether the program ended is the reader's to say.

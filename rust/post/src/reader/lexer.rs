@@ -93,9 +93,22 @@ impl Remarks {
     }
 }
 
+/// Cuts what begins with a letter; gives where it ends.
+pub(super) type CutAddress<'t> = fn(&mut Line<'t>, &'t str, usize) -> Result<usize, Misfit>;
+
 impl<'t> Line<'t> {
-    /// Cuts `text`, one line without its end mark.
+    /// Cuts `text`, one line without its end mark: words of one letter and a number.
     pub(crate) fn cut(&mut self, text: &'t str, remarks: Remarks) -> Result<(), Misfit> {
+        self.cut_by(text, remarks, Self::cut_word)
+    }
+
+    /// The same for words that are cut in another way.
+    pub(super) fn cut_by(
+        &mut self,
+        text: &'t str,
+        remarks: Remarks,
+        cut_address: CutAddress<'t>,
+    ) -> Result<(), Misfit> {
         self.words.clear();
         self.comments.clear();
         self.deleted = false;
@@ -104,7 +117,7 @@ impl<'t> Line<'t> {
         while let Some(byte) = bytes.get(at) {
             at = match byte {
                 b' ' | b'\t' | b'\r' => at + 1,
-                b'a'..=b'z' | b'A'..=b'Z' => self.cut_word(bytes, at)?,
+                b'a'..=b'z' | b'A'..=b'Z' => cut_address(self, text, at)?,
                 b'(' if remarks.paren => self.cut_comment(text, at)?,
                 b';' if remarks.semicolon => self.cut_tail(text, at),
                 b':' if remarks.colon && self.words.is_empty() => self.cut_tail(text, at),
@@ -118,7 +131,8 @@ impl<'t> Line<'t> {
         Ok(())
     }
 
-    fn cut_word(&mut self, bytes: &[u8], start: usize) -> Result<usize, Misfit> {
+    fn cut_word(&mut self, text: &'t str, start: usize) -> Result<usize, Misfit> {
+        let bytes = text.as_bytes();
         let letter = bytes.get(start).map_or(b'?', u8::to_ascii_uppercase);
         let (number, end) = cut_number(bytes, start + 1).map_err(|m| Misfit { start, ..m })?;
         self.words.push(Word { letter, number, start, end });
@@ -138,13 +152,13 @@ impl<'t> Line<'t> {
         Ok(start + length + 2)
     }
 
-    pub(super) fn cut_tail(&mut self, text: &'t str, start: usize) -> usize {
+    fn cut_tail(&mut self, text: &'t str, start: usize) -> usize {
         self.comments.push(text.get(start + 1..).unwrap_or_default().trim());
         text.len()
     }
 }
 
-pub(super) fn stranger(text: &str, start: usize) -> Misfit {
+fn stranger(text: &str, start: usize) -> Misfit {
     let character = text.get(start..).and_then(|t| t.chars().next()).unwrap_or('?');
     let fault = match character {
         '#' | '[' | '=' | '<' => ReadFault::NotRead { what: "parameters and expressions" },

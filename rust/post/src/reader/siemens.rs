@@ -1,29 +1,12 @@
 //! Sinumerik's lines cut into words: addresses of several letters become the words that mean the same elsewhere.
 
-use super::lexer::{cut_number, stranger, Line, Misfit, Number, Remarks, Word, TURN};
+use super::lexer::{cut_number, Line, Misfit, Number, Remarks, Word, TURN};
 use crate::read_error::ReadFault;
 
 impl<'t> Line<'t> {
     /// Cuts `text`, one line without its end mark (programming manual Fundamentals, "Structure of an NC program").
     pub(super) fn cut_siemens(&mut self, text: &'t str, remarks: Remarks) -> Result<(), Misfit> {
-        self.words.clear();
-        self.comments.clear();
-        self.deleted = false;
-        let bytes = text.as_bytes();
-        let mut at = 0;
-        while let Some(byte) = bytes.get(at) {
-            at = match byte {
-                b' ' | b'\t' | b'\r' => at + 1,
-                b';' if remarks.semicolon => self.cut_tail(text, at),
-                b'/' if self.words.is_empty() && !self.deleted => {
-                    self.deleted = true;
-                    at + 1
-                }
-                b'a'..=b'z' | b'A'..=b'Z' => self.cut_address(text, at)?,
-                _ => return Err(stranger(text, at)),
-            };
-        }
-        Ok(())
+        self.cut_by(text, remarks, Self::cut_address)
     }
 
     fn cut_address(&mut self, text: &'t str, start: usize) -> Result<usize, Misfit> {

@@ -126,7 +126,7 @@ pub struct ArcRules {
     #[serde(default = "all_planes")]
     pub planes: Vec<Plane>,
     /// Whether the third axis may move along.
-    #[serde(default = "yes")]
+    #[serde(default = "super::yes")]
     pub helix: bool,
     /// Largest angle of one block, degrees; larger ones are split evenly.
     #[serde(default = "full_turn")]
@@ -143,10 +143,6 @@ pub struct ArcRules {
 
 fn all_planes() -> Vec<Plane> {
     vec![Plane::Xy, Plane::Zx, Plane::Yz]
-}
-
-fn yes() -> bool {
-    true
 }
 
 fn full_turn() -> f64 {
@@ -206,7 +202,7 @@ pub enum Rapids {
 #[serde(deny_unknown_fields)]
 pub struct MotionRules {
     /// Whether a rapid that goes across and down, or up and across, becomes two blocks, the higher way.
-    #[serde(default = "yes")]
+    #[serde(default = "super::yes")]
     pub split_rapids: bool,
     /// How rapids run.
     #[serde(default)]

@@ -77,12 +77,8 @@ pub struct ReaderRules {
     #[serde(default)]
     pub comments: Vec<CommentForm>,
     /// Whether a block of axis words may leave out its G0 to G3.
-    #[serde(default = "yes")]
+    #[serde(default = "super::yes")]
     pub modal_motion: bool,
     /// Where G28 and G30 send an axis, in machine coordinates, mm; a machine without it refuses them.
     pub home: Option<[f64; 3]>,
-}
-
-fn yes() -> bool {
-    true
 }

@@ -98,7 +98,7 @@ pub struct NumberRules {
     #[serde(default)]
     pub trailing_zeros: TrailingZeros,
     /// Whether the zero before a fraction is written: `0.5` or `.5`.
-    #[serde(default = "yes")]
+    #[serde(default = "super::yes")]
     pub leading_zero: bool,
     /// Whether positive numbers carry a `+`.
     #[serde(default)]
@@ -269,8 +269,4 @@ pub struct WordRules {
     /// Whether a line takes no more than one G or M.
     #[serde(default)]
     pub one_command: bool,
-}
-
-fn yes() -> bool {
-    true
 }
