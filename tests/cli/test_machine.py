@@ -128,8 +128,8 @@ def test_a_restart_at_a_line_goes_on_with_that_line(cli: Any, program: Path, tmp
     whole = posted(cli, program, tmp_path)
     line = max(number for number, text in enumerate(whole, 1) if text == "Y10")
     rest = posted(cli, program, tmp_path, "--from", f"L{line}")
-    assert rest[-3:] == whole[-3:] == ["Y10", "G0 Z5", "M2"]
-    assert rest[-6:-3] == ["G0 Z8", "X20 Y0", "G1 Z-3 F600"]
+    assert rest[-4:] == whole[-4:] == ["Y10", "G0 Z5", "M5", "M2"]
+    assert rest[-7:-4] == ["G0 Z8", "X20 Y0", "G1 Z-3 F600"]
     ran = cli("post", program, "--machine", "linuxcnc", "--out", tmp_path / "x.ngc", "--from", "L9999")
     assert ran.code == 2 and not (tmp_path / "x.ngc").exists()
 

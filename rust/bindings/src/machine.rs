@@ -214,6 +214,12 @@ pub fn read_to_post(py: Python<'_>, text: &str, machine: &Machine) -> PyResult<P
     if let Some(step) = reading.machine_moves.iter().find(|m| m.before > 0 && m.before < count && !changes(m.before)) {
         return Err(refuse(step.line, "a move in the machine's own coordinates means nothing on another machine"));
     }
+    // after a tool change the post goes away first and then across
+    let lost = |run: &&std::ops::Range<usize>| run.start > 0 && run.start < count && !changes(run.start);
+    if let Some(run) = reading.blind.iter().chain(&reading.unplaced).find(lost) {
+        let line = program.moves.get(run.start).map_or(0, |step| step.line);
+        return Err(refuse(line, "a move while the place of an axis is not known, as after a probe"));
+    }
     if let Some(line) = reading.optional_lines.first() {
         return Err(refuse(*line, "a line that runs or not by a switch of the machine cannot be posted"));
     }

@@ -55,7 +55,7 @@ impl<'a> Inspector<'a> {
             if !self.makes(hole, moves) {
                 return Err(PostError::CycleMoves { cycle });
             }
-            if hole.kind.is_tapping() && !self.machine.cycle.as_ref().is_some_and(|c| c.kinds.contains(&hole.kind)) {
+            if hole.kind.is_tapping() && !self.machine.cycle.as_ref().is_some_and(|rules| rules.take(hole)) {
                 return Err(PostError::Unsupported { what: "a tapping cycle, and plain moves cannot tap" });
             }
             free = end;
@@ -80,16 +80,32 @@ impl<'a> Inspector<'a> {
                 Ok(())
             }
             EventKind::SpindleOn { rpm, .. } => {
-                let max = self.machine.limits.max_rpm.unwrap_or(f64::INFINITY);
-                if !(0.0..=max).contains(&rpm) || rpm.is_infinite() {
-                    return Err(PostError::SpindleSpeed { rpm, max });
+                let limits = &self.machine.limits;
+                let (min, max) = (limits.min_rpm.unwrap_or(0.0), limits.max_rpm.unwrap_or(f64::INFINITY));
+                if !(min..=max).contains(&rpm) || rpm.is_infinite() {
+                    return Err(PostError::SpindleSpeed { rpm, min, max });
                 }
                 Ok(())
             }
+            EventKind::Probe { end, feed, .. } => self.inspect_probe(end, feed),
             EventKind::Dwell { seconds } if seconds < 0.0 => Err(PostError::Dwell { event: number, seconds }),
             EventKind::Dwell { seconds } => finite("the dwell", || format!("events[{number}]"), seconds),
             _ => Ok(()),
         }
+    }
+
+    /// A probe goes where it is told at most.
+    fn inspect_probe(&self, end: [Option<f64>; 3], feed: f64) -> Result<(), PostError> {
+        if !feed.is_finite() || feed <= 0.0 {
+            return Err(PostError::Feed { index: self.moves, feed });
+        }
+        let limits = &self.machine.limits;
+        let ranges = [limits.x, limits.y, limits.z];
+        for (axis, place) in end.into_iter().enumerate() {
+            let above = if axis == 2 { self.height } else { 0.0 };
+            place.map_or(Ok(()), |place| inspect_limit(self.moves, axis, place + above, ranges[axis]))?;
+        }
+        Ok(())
     }
 
     /// Looks at a move from `start`: its operation, its feed, its way in the machine.

@@ -129,11 +129,13 @@ pub enum PostError {
         /// The event.
         event: usize,
     },
-    /// The spindle's speed is negative or above what the machine can do.
-    #[error("spindle speed {rpm} rev/min is outside 0 to {max}")]
+    /// The spindle's speed is below or above what the machine can do.
+    #[error("spindle speed {rpm} rev/min is outside {min} to {max}")]
     SpindleSpeed {
         /// The speed, rev/min.
         rpm: f64,
+        /// The machine's smallest, rev/min.
+        min: f64,
         /// The machine's largest, rev/min; infinity when its file names none.
         max: f64,
     },
@@ -301,7 +303,7 @@ impl PostError {
             Self::ToolChange { .. } => {
                 "post one program per tool; or, where all tools have the same length, take a machine file with tool.change = \"pause\""
             }
-            Self::SpindleSpeed { .. } => "take a speed that the machine has, or correct limits.max_rpm",
+            Self::SpindleSpeed { .. } => "take a speed that the machine has, or correct limits.min_rpm and limits.max_rpm",
             Self::SpindleDirection { .. } => "take the other direction, or correct [spindle] of the machine",
             Self::Unsupported { .. } => "leave it out of the job, or correct the machine file",
             Self::Dwell { .. } => "give a time of 0 s or more",

@@ -43,6 +43,15 @@ pub enum ReadFault {
     /// More than 15 digits. Shorten the number.
     #[error("the number has too many digits")]
     NumberTooLong,
+    /// A space among a number's digits: some controllers read on, others stop there. Close it up.
+    #[error("a space inside a number")]
+    SpaceInNumber,
+    /// A number without a decimal point where the controller may count it in its smallest increments. Write a point.
+    #[error("a number without a decimal point: the controller may count it in its smallest increments")]
+    NoPoint,
+    /// A time in ms with a decimal point: controllers refuse it, or take it for seconds. Write whole ms.
+    #[error("a decimal point in a time that counts in ms")]
+    PointInTime,
     /// A `(` without its `)`. Close the comment on its line.
     #[error("the comment is not closed")]
     UnclosedComment,
@@ -265,6 +274,9 @@ impl ReadFault {
             Self::Character => "read-character",
             Self::NumberExpected => "read-number-expected",
             Self::NumberTooLong => "read-number-too-long",
+            Self::SpaceInNumber => "read-space-in-number",
+            Self::NoPoint => "read-no-point",
+            Self::PointInTime => "read-point-in-time",
             Self::UnclosedComment => "read-unclosed-comment",
             Self::NestedComment => "read-nested-comment",
             Self::LineTooLong { .. } => "read-line-too-long",
@@ -325,6 +337,9 @@ impl ReadFault {
             Self::Character => "remove the character",
             Self::NumberExpected => "write a number after the letter",
             Self::NumberTooLong => "shorten the number to 15 digits",
+            Self::SpaceInNumber => "close the number up, or put a letter before the second one",
+            Self::NoPoint => "write a decimal point: 10. in place of 10",
+            Self::PointInTime => "write whole milliseconds, without a point",
             Self::UnclosedComment => "close the comment on its line",
             Self::NestedComment => "replace the inner parentheses",
             Self::LineTooLong { .. } => "break or shorten the line",

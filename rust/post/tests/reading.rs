@@ -43,7 +43,7 @@ fn a_program_by_hand() {
         N10 g21 G90 g17 g40 g49 g80 g94 g54 g64 p0.01 q0.01\n\
         t3 m6 s1000 m3 m8\n\
         G0 Z5\n\
-        g 0 x 1 0. y - 2.5\n\
+        g 0 x 10. y -2.5\n\
         G01 Z-1 F300\n\
         X20\n\
         G91 Y+.5 (half a step) G1\n\

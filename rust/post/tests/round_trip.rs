@@ -52,7 +52,7 @@ impl Grid {
 fn expected(program: &Program, machine: &Machine) -> Vec<Item> {
     let grid = Grid::of(machine);
     let mut items = Vec::new();
-    let (mut tool, mut placed, mut turns) = (0_usize, false, false);
+    let (mut tool, mut placed, mut turns, mut flood) = (0_usize, false, false, false);
     let mut at: Option<[f64; 3]> = None; // the posted point
     for index in 0..=program.moves.len() {
         for event in program.events.iter().filter(|e| e.before == index) {
@@ -65,6 +65,7 @@ fn expected(program: &Program, machine: &Machine) -> Vec<Item> {
                 }
                 EventKind::SpindleOn { .. } => turns = true,
                 EventKind::SpindleOff => turns = false,
+                EventKind::Flood { on } => flood = *on,
                 EventKind::Comment { .. } => continue,
                 _ => {}
             }
@@ -88,6 +89,9 @@ fn expected(program: &Program, machine: &Machine) -> Vec<Item> {
         at = Some(goal);
         placed = true;
     }
+    // what still runs at the end is switched off
+    items.extend(flood.then_some(Item::Event(EventKind::Flood { on: false })));
+    items.extend(turns.then_some(Item::Event(EventKind::SpindleOff)));
     without_repeats(items)
 }
 

@@ -63,6 +63,8 @@ pub(crate) struct Block {
     pub(crate) low_return: Option<bool>,
     pub(crate) probe: Option<(bool, Word)>,
     pub(crate) home: Option<Word>,
+    /// A call of the cycle that was defined: M99 (Klartext).
+    pub(crate) call: Option<Word>,
     pub(crate) turns: Option<Word>,
     /// An angle from the start about the centre, degrees, in place of an end.
     pub(crate) polar: Option<Word>,

@@ -35,8 +35,12 @@ impl Series {
         let bottom = self.bottom.ok_or(missing("the depth (Z) of the cycle"))?;
         let retract = self.retract.ok_or(missing("the retract plane (R) of the cycle"))?;
         let (kind, dwells) = kind(self.number);
-        if matches!(kind, CycleKind::Peck | CycleKind::ChipBreak) && self.peck <= 0.0 {
+        let pecks = matches!(kind, CycleKind::Peck | CycleKind::ChipBreak);
+        if pecks && self.peck <= 0.0 {
             return Err(missing("the peck (Q) of the cycle"));
+        }
+        if self.peck != 0.0 && !pecks || self.dwell != 0.0 && !dwells {
+            return Err(ReadFault::NotRead { what: "a peck or a wait in a cycle of this code" });
         }
         if bottom > retract {
             return Err(ReadFault::CycleUpwards);
@@ -53,7 +57,7 @@ impl Series {
             bottom,
             leave: if low { retract } else { retract.max(self.initial) },
             feed,
-            dwell: if dwells { self.dwell } else { 0.0 },
+            dwell: self.dwell,
             peck: self.peck,
         })
     }

@@ -11,13 +11,14 @@ use styluscam_motion::{
 };
 
 use super::block::{Block, Motion, Spindle, Stop};
+use super::called::Called;
 use super::circle::Circle;
 use super::codes::Codes;
 use super::drilling::Series;
 use super::lexer::Word;
 use super::standing::Standing;
 use super::Reading;
-use crate::machine::{Family, FeedMode, Lathe, LengthUnit, Machine, SpeedUnit, TimeUnit, ToolChange};
+use crate::machine::{Family, FeedMode, Lathe, LengthUnit, Machine, Point, SpeedUnit, TimeUnit, ToolChange};
 use crate::read_error::ReadFault;
 
 const AXES: [char; 3] = ['X', 'Y', 'Z'];
@@ -68,6 +69,8 @@ pub(crate) struct Interpreter<'m> {
     /// Whether a cycle ends at its R, not where it came from.
     low_return: bool,
     series: Option<Series>,
+    /// The cycle that is called at places.
+    called: Option<Called>,
     selected: Option<u32>,
     tool: Option<u32>,
     /// Height of the posted point above the tip, mm.
@@ -114,6 +117,7 @@ impl<'m> Interpreter<'m> {
             mist: false,
             low_return: false,
             series: None,
+            called: None,
             selected: None,
             tool: None,
             height: 0.0,
@@ -146,6 +150,16 @@ impl<'m> Interpreter<'m> {
         self.loose = true;
     }
 
+    /// A cycle is defined for the places that call it, or none.
+    pub(super) fn define(&mut self, called: Option<Called>) {
+        self.called = called;
+    }
+
+    /// The unit in force, mm.
+    pub(super) fn unit_mm(&self) -> Option<f64> {
+        self.units.map(LengthUnit::in_mm)
+    }
+
     /// What follows is an operation of its own.
     pub(crate) fn start_operation(&mut self, id: &str, kind: &str) {
         self.label = Some((id.into(), kind.into()));
@@ -162,8 +176,8 @@ impl<'m> Interpreter<'m> {
         self.set_units(block)?;
         self.set_feed_mode(block);
         self.set_feed(block)?;
-        self.set_speed(block)?;
         self.set_tool(block)?;
+        self.set_speed(block)?;
         self.set_spindle(block);
         self.set_coolant(block);
         self.dwell(block)?;
@@ -199,13 +213,33 @@ impl<'m> Interpreter<'m> {
 
     fn mm(&self, word: Word) -> Result<f64, Flaw> {
         let units = self.units.ok_or((ReadFault::NoUnits, Some(word)))?;
-        Ok(word.number.value() * units.in_mm())
+        Ok(self.real(word)? * units.in_mm())
+    }
+
+    /// A number that may have a fraction.
+    fn real(&self, word: Word) -> Result<f64, Flaw> {
+        let value = word.number.value();
+        if self.machine.number.point == Point::Always && !word.number.is_pointed() && value != 0.0 {
+            return Err((ReadFault::NoPoint, Some(word)));
+        }
+        Ok(value)
+    }
+
+    /// A time as a wait has it, s.
+    fn seconds(&self, word: Word, unit: TimeUnit) -> Result<f64, Flaw> {
+        match unit {
+            TimeUnit::S => self.real(word),
+            TimeUnit::Ms if self.machine.number.point == Point::Always && word.number.is_pointed() => {
+                Err((ReadFault::PointInTime, Some(word)))
+            }
+            TimeUnit::Ms => Ok(word.number.value() / 1000.0),
+        }
     }
 
     fn set_feed(&mut self, block: &Block) -> Result<(), Flaw> {
         let Some(word) = block.feed else { return Ok(()) };
         let feed = match self.feed_mode {
-            FeedMode::InverseTime => word.number.value(),
+            FeedMode::InverseTime => self.real(word)?,
             _ => self.mm(word)? / self.machine.feed_scale_of(self.units),
         };
         let motion = block.motion.map(|(motion, _)| motion).or(self.motion);
@@ -272,6 +306,7 @@ impl<'m> Interpreter<'m> {
         let index =
             self.tool_of_number(number).ok_or((ReadFault::UnknownTool { number }, block.tool.or(Some(word))))?;
         self.load(index);
+        self.direction = None; // the spindle stops before a change
         self.event(EventKind::ToolChange { tool: index });
         Ok(())
     }
@@ -301,6 +336,10 @@ impl<'m> Interpreter<'m> {
         let mut standing = self.standing;
         standing.take_path(block, |word| self.mm(word))?;
         self.standing = standing;
+        if let Some(code) = block.smoothing.filter(|_| self.loose) {
+            let text = format!("G{} left out, the machine's file says how the path is kept", code.number.value());
+            self.event(EventKind::Comment { text });
+        }
         Ok(())
     }
 
@@ -358,8 +397,7 @@ impl<'m> Interpreter<'m> {
         let Some(code) = block.dwell else { return Ok(()) };
         let Some(rules) = &self.machine.dwell else { return Err((self.refusal(), Some(code))) };
         let word = block.time.ok_or((ReadFault::MissingWord { what: "the time of G4" }, Some(code)))?;
-        let per_second = if rules.unit == TimeUnit::S { 1.0 } else { 1000.0 };
-        let seconds = word.number.value() / per_second;
+        let seconds = self.seconds(word, rules.unit)?;
         if seconds < 0.0 {
             return Err((ReadFault::Negative, Some(word)));
         }
@@ -425,6 +463,9 @@ impl<'m> Interpreter<'m> {
     fn go(&mut self, block: &Block, line: u32) -> Result<(), Flaw> {
         if let Some((motion, _)) = block.motion {
             self.motion = Some(motion);
+        }
+        if let Some((called, word)) = self.calls(block) {
+            return self.drill_here(block, called, word, line);
         }
         if let Some(code) = block.machine_coordinates {
             return self.go_to_machine_place(block, code, line);

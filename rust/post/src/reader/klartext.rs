@@ -6,6 +6,7 @@
 use styluscam_motion::{Plane, ToolRecord};
 
 use super::block::{Block, Motion, Spindle, Stop};
+use super::called::{number, Called, Parameters};
 use super::codes::Codes;
 use super::interpreter::{Flaw, Interpreter};
 use super::lexer::{cut_number, Misfit, Number, Word};
@@ -48,8 +49,8 @@ struct Reader<'m> {
     units: Option<LengthUnit>,
     /// X and Y of the last CC.
     centre: [Option<Word>; 2],
-    /// Number of the cycle that the lines belong to.
-    cycle: Option<u32>,
+    /// The cycle that the lines belong to, and its parameters so far.
+    cycle: Option<(u32, Parameters)>,
     /// Whether this line goes on from the last one.
     continues: bool,
     /// Whether END PGM was read.
@@ -96,7 +97,7 @@ impl Reader<'_> {
         let tokens = tokens(code);
         let goes_on = std::mem::replace(&mut self.continues, text.trim_end().ends_with('~'));
         let tokens = if goes_on { &tokens[..] } else { without_number(&tokens) };
-        if let Some(remark) = remark {
+        if let Some(remark) = remark.filter(|_| !goes_on) {
             self.interpreter.remark(remark.trim().trim_end_matches('~').trim_end());
         }
         if tokens.is_empty() {
@@ -107,8 +108,7 @@ impl Reader<'_> {
             return Err(whole_line(number, ReadFault::AfterEnd));
         }
         if !goes_on && self.cycle.take().is_some() {
-            let fault = ReadFault::MissingWord { what: "the datum's number (Q339) of cycle 247" };
-            return Err(whole_line(number, fault));
+            return Err(whole_line(number, ReadFault::MissingWord { what: "a parameter of the cycle" }));
         }
         if goes_on {
             return self.read_parameter(tokens).map_err(|m| misfit_at(text, number, m));
@@ -138,6 +138,11 @@ impl Reader<'_> {
             }
             ["TOOL", "CALL", ..] => tool_call(&tokens[2..]).map(Some).map_err(misfit),
             ["CYCL", "DEF", ..] => self.cycle(&tokens[2..]).map_err(misfit),
+            ["CYCL", "CALL"] => {
+                let word =
+                    Word { letter: b'M', number: Number::whole(99), start: tokens[0].start, end: tokens[1].end() };
+                Ok(Some(Block { call: Some(word), ..Block::default() }))
+            }
             ["CC"] => Err(misfit(tokens[0].misfit(ReadFault::MissingWord { what: "the centre (X and Y)" }))),
             ["CC", ..] => self.set_centre(&tokens[1..]).map(|()| None).map_err(misfit),
             ["L", ..] => self.line(&tokens[1..]).map(Some).map_err(misfit),
@@ -238,7 +243,7 @@ impl Reader<'_> {
         Ok(block)
     }
 
-    /// CYCL DEF: 9 waits, 32 says how far the path may be left, 247 chooses a datum.
+    /// CYCL DEF: 9 waits, 32 says how far the path may be left, 247 chooses a datum, 200, 203 and 207 drill where they are called.
     fn cycle(&mut self, tokens: &[Token]) -> Result<Option<Block>, Misfit> {
         let Some(first) = tokens.first() else { return Ok(None) };
         let value = |address: &str, letter| {
@@ -264,28 +269,43 @@ impl Reader<'_> {
                 let p = value("T", b'P').transpose()?;
                 Ok(Some(Block { smoothing: Some(code), p, ..Block::default() }))
             }
-            "247" if self.continues => {
-                self.cycle = Some(247);
+            "200" | "203" | "207" | "247" if self.continues => {
+                self.cycle = first.text.parse().ok().map(|number| (number, Parameters::default()));
                 Ok(None)
             }
-            "247" => Err(first.misfit(ReadFault::MissingWord { what: "the datum's number (Q339) of cycle 247" })),
+            "200" | "203" | "207" | "247" => {
+                Err(first.misfit(ReadFault::MissingWord { what: "a parameter of the cycle" }))
+            }
             _ => Err(first.misfit(ReadFault::NotRead { what: "cycles of this kind" })),
         }
     }
 
-    /// A line of a cycle's parameters: `Q339=+1`.
+    /// A line of a cycle's parameters: `Q339=+1`. The last one does not go on.
     fn read_parameter(&mut self, tokens: &[Token]) -> Result<(), Misfit> {
-        let (Some(247), [first]) = (self.cycle.take(), tokens) else {
+        let (Some((cycle, mut parameters)), [first]) = (self.cycle.take(), tokens) else {
             return Err(tokens[0].misfit(ReadFault::UnknownWords));
         };
-        let Some(datum) = first.text.strip_prefix("Q339=") else {
-            return Err(first.misfit(ReadFault::UnknownWord));
-        };
-        let from = first.text.len() - datum.len();
-        let (number, end) = cut_number(first.text.as_bytes(), from).map_err(|m| first.misfit(m.fault))?;
-        let index = number.natural().filter(|_| end == first.text.len()).and_then(|n| n.checked_sub(1));
-        let index = index.and_then(|i| usize::try_from(i).ok()).ok_or_else(|| first.misfit(ReadFault::Wcs))?;
-        self.interpreter.choose_wcs(index).map_err(|fault| first.misfit(fault))?;
+        let said = first.text.strip_prefix('Q').and_then(|said| said.split_once('='));
+        let (q, value) = said.ok_or_else(|| first.misfit(ReadFault::UnknownWord))?;
+        let q = q.parse().map_err(|_| first.misfit(ReadFault::UnknownWord))?;
+        let value = if value == "MAX" { None } else { Some(number(value).map_err(|fault| first.misfit(fault))?) };
+        parameters.push(q, value).map_err(|fault| first.misfit(fault))?;
+        if self.continues {
+            self.cycle = Some((cycle, parameters));
+            return Ok(());
+        }
+        self.define(cycle, &parameters).map_err(|fault| first.misfit(fault))
+    }
+
+    /// A cycle with all its parameters: 247 chooses a datum, the others wait for a call.
+    fn define(&mut self, cycle: u32, parameters: &Parameters) -> Result<(), ReadFault> {
+        if cycle == 247 {
+            let number = parameters.natural(339).ok_or(ReadFault::Wcs)?;
+            let index = number.checked_sub(1).and_then(|index| usize::try_from(index).ok()).ok_or(ReadFault::Wcs)?;
+            return self.interpreter.choose_wcs(index);
+        }
+        let unit = self.interpreter.unit_mm().ok_or(ReadFault::NoUnits)?;
+        self.interpreter.define(Some(Called::heidenhain(cycle, parameters, unit)?));
         Ok(())
     }
 }
@@ -319,6 +339,7 @@ fn take_function(block: &mut Block, token: &Token) -> Result<(), Misfit> {
         8 => once(&mut block.flood, word, token),
         9 => once(&mut block.coolant_off, word, token),
         91 => once(&mut block.machine_coordinates, word, token),
+        99 => once(&mut block.call, word, token),
         _ => Err(token.misfit(ReadFault::UnknownCode)),
     }
 }

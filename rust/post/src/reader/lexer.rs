@@ -17,12 +17,14 @@ const POWERS_OF_TEN: [f64; 16] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1
 pub(crate) struct Number {
     mantissa: i64,
     places: u8,
+    /// Whether it has a decimal point.
+    pointed: bool,
 }
 
 impl Number {
     /// A whole number.
     pub(crate) fn whole(value: i64) -> Self {
-        Self { mantissa: value, places: 0 }
+        Self { mantissa: value, places: 0, pointed: false }
     }
 
     /// The nearest f64.
@@ -30,6 +32,11 @@ impl Number {
     pub(crate) fn value(self) -> f64 {
         let divisor = POWERS_OF_TEN.get(usize::from(self.places)).copied().unwrap_or(1.0);
         self.mantissa as f64 / divisor
+    }
+
+    /// Whether it has a decimal point.
+    pub(crate) fn is_pointed(self) -> bool {
+        self.pointed
     }
 
     /// Ten times the number, when that is whole: 591 for 59.1.
@@ -72,6 +79,16 @@ pub(crate) struct Line<'t> {
     pub(crate) comments: Vec<&'t str>,
     /// Whether it began with `/`.
     pub(crate) deleted: bool,
+    /// `MCALL`, and what it calls from here on: name, what stands in the brackets. Nothing ends the calls.
+    pub(crate) call: Option<Call<'t>>,
+}
+
+/// A block that calls a cycle, and where it stands in the line.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Call<'t> {
+    pub(crate) cycle: Option<(&'t str, &'t str)>,
+    pub(crate) start: usize,
+    pub(crate) end: usize,
 }
 
 /// The forms of remarks that a machine takes.
@@ -112,6 +129,7 @@ impl<'t> Line<'t> {
         self.words.clear();
         self.comments.clear();
         self.deleted = false;
+        self.call = None;
         let bytes = text.as_bytes();
         let mut at = 0;
         while let Some(byte) = bytes.get(at) {
@@ -168,7 +186,7 @@ fn stranger(text: &str, start: usize) -> Misfit {
     Misfit { fault, start, end: start + character.len_utf8() }
 }
 
-/// A number from `start` on, and where it ends. White space inside is no part of it, as both controllers have it.
+/// A number from `start` on, and where it ends. White space may stand before it; inside, some controllers end there.
 pub(super) fn cut_number(bytes: &[u8], start: usize) -> Result<(Number, usize), Misfit> {
     let (mut at, mut end) = (start, start);
     let (mut mantissa, mut places) = (0_i64, 0_u8);
@@ -188,20 +206,23 @@ pub(super) fn cut_number(bytes: &[u8], start: usize) -> Result<(Number, usize), 
                 negative = *byte == b'-';
                 signed = true;
             }
-            b' ' | b'\t' => {
-                at += 1;
-                continue;
-            }
+            b' ' | b'\t' if !digits && !signed && !point => {}
             _ => break,
         }
         at += 1;
         end = at;
     }
+    let next = bytes.get(at..).unwrap_or_default().iter().position(|b| !b.is_ascii_whitespace());
+    if let Some(more) = next.filter(|gap| *gap > 0).and_then(|gap| bytes.get(at + gap)) {
+        if more.is_ascii_digit() || *more == b'.' {
+            return Err(Misfit { fault: ReadFault::SpaceInNumber, start, end });
+        }
+    }
     if !digits {
         let end = bytes.get(at).map_or(bytes.len(), |_| at);
         return Err(Misfit { fault: ReadFault::NumberExpected, start, end });
     }
-    Ok((Number { mantissa: if negative { -mantissa } else { mantissa }, places }, end))
+    Ok((Number { mantissa: if negative { -mantissa } else { mantissa }, places, pointed: point }, end))
 }
 
 /// A word of a machine file, `G59.1`: its letter and ten times its number.

@@ -1,6 +1,7 @@
 //! Text to motion: the reader of G-code.
 
 mod block;
+mod called;
 mod circle;
 mod codes;
 mod drilling;
@@ -18,11 +19,12 @@ use crate::machine::{AfterEnd, BlockDelete, Family, Machine, Turns};
 use crate::read_error::{ReadError, ReadFault};
 use crate::writer::counted_length;
 use block::{Block, Force};
+use called::{Arguments, Called};
 use codes::{Codes, Meaning};
 pub(crate) use interpreter::bare_tool;
 use interpreter::{Flaw, Interpreter};
 pub(crate) use lexer::code;
-use lexer::{Line, Misfit, Remarks, Word};
+use lexer::{Call, Line, Misfit, Number, Remarks, Word};
 
 /// A program read from text.
 #[derive(Clone, Debug, PartialEq)]
@@ -197,7 +199,7 @@ impl<'t> Reader<'t> {
         for comment in &self.line.comments {
             self.interpreter.remark(comment);
         }
-        let empty = self.line.words.is_empty();
+        let empty = self.line.words.is_empty() && self.line.call.is_none();
         if empty && self.line.comments.is_empty() {
             return Ok(Progress::Going);
         }
@@ -283,6 +285,10 @@ impl<'t> Reader<'t> {
 
     fn run_block(&mut self, text: &str, number: u32) -> Result<bool, Flaw> {
         self.check_words()?;
+        if let Some(call) = self.line.call {
+            let word = Word { letter: b'M', number: Number::whole(0), start: call.start, end: call.end };
+            return self.call(call).map(|()| false).map_err(|fault| (fault, Some(word)));
+        }
         if self.is_passed()? || self.loose && self.is_foreign() {
             self.interpreter.pass(text, self.codes.tolerance_after(text));
             return Ok(false);
@@ -310,6 +316,20 @@ impl<'t> Reader<'t> {
             return Err((ReadFault::NoMotionMode, Some(word)));
         }
         self.interpreter.run(&block, &self.codes, number)
+    }
+
+    /// Sinumerik's cycles are called at every place from here on, or at none.
+    fn call(&mut self, call: Call) -> Result<(), ReadFault> {
+        let Some((name, arguments)) = call.cycle else {
+            self.interpreter.define(None);
+            return Ok(());
+        };
+        let name = name.to_ascii_uppercase();
+        let number = name.strip_prefix("CYCLE").and_then(|number| number.parse().ok());
+        let number = number.ok_or(ReadFault::NotRead { what: "calls of these" })?;
+        let unit = self.interpreter.unit_mm().ok_or(ReadFault::NoUnits)?;
+        self.interpreter.define(Some(Called::sinumerik(number, &Arguments::cut(arguments)?, unit)?));
+        Ok(())
     }
 
     /// Codes that this controller refuses, and how many it takes in a line.

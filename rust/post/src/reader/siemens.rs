@@ -1,6 +1,6 @@
 //! Sinumerik's lines cut into words: addresses of several letters become the words that mean the same elsewhere.
 
-use super::lexer::{cut_number, Line, Misfit, Number, Remarks, Word, TURN};
+use super::lexer::{cut_number, Call, Line, Misfit, Number, Remarks, Word, TURN};
 use crate::read_error::ReadFault;
 
 impl<'t> Line<'t> {
@@ -16,6 +16,7 @@ impl<'t> Line<'t> {
         let after = start + length;
         let next = text.as_bytes().get(after).copied();
         match (name.as_str(), next) {
+            ("MCALL", _) => self.cut_call(text, start, after),
             ("SUPA", _) => Ok(self.word(b'G', Number::whole(53), start, after)),
             ("CYCLE", Some(b'8')) if rest.to_ascii_uppercase().starts_with("CYCLE832(") => {
                 self.cut_tolerance(text, start)
@@ -46,6 +47,27 @@ impl<'t> Line<'t> {
         }
         let (number, end) = cut_number(text.as_bytes(), from).map_err(|m| Misfit { start, ..m })?;
         Ok(self.word(letter, number, start, end))
+    }
+
+    /// `MCALL CYCLE81(10,2,0,-6)`, or `MCALL` alone.
+    fn cut_call(&mut self, text: &'t str, start: usize, after: usize) -> Result<usize, Misfit> {
+        let rest = text.get(after..).unwrap_or_default();
+        let code = rest.split(';').next().unwrap_or_default().trim_end();
+        let end = after + code.len();
+        let misfit = |fault| Misfit { fault, start, end };
+        if self.call.is_some() || self.words.iter().any(|word| word.letter != b'N') {
+            return Err(misfit(ReadFault::StrayWord));
+        }
+        let cycle = match (code.trim().split_once('('), code.trim()) {
+            (None, "") => None,
+            (Some((name, rest)), _) => {
+                let arguments = rest.strip_suffix(')').ok_or_else(|| misfit(ReadFault::UnclosedComment))?;
+                Some((name.trim(), arguments))
+            }
+            _ => return Err(misfit(ReadFault::NotRead { what: "calls of these" })),
+        };
+        self.call = Some(Call { cycle, start, end });
+        Ok(end)
     }
 
     /// `CYCLE832(0.01,1,1)` says how far the path may be left, in the program's units; without numbers, that nothing says so.

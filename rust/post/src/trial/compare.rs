@@ -1,8 +1,8 @@
 //! Whether what was read is what was posted.
 
-use styluscam_motion::{Cycle, EventKind, Move, MoveKind, Program};
+use styluscam_motion::{Cycle, CycleKind, Event, EventKind, Move, MoveKind, Program};
 
-use crate::machine::{Machine, ToolChange};
+use crate::machine::{FeedMode, Machine, ToolChange};
 use crate::reader::Reading;
 use crate::writer::Posted;
 
@@ -12,6 +12,9 @@ const FEED_SLACK: f64 = 1e-9;
 const SLACK: f64 = 1e-9;
 /// An arc's centre is rounded too: its way may leave the planned one by so many last places.
 const ARC_PLACES: f64 = 3.0;
+
+/// A way whose ends are rounded may be longer or shorter by so many last places.
+const PLACES_OF_A_WAY: f64 = 4.0;
 
 /// An arc of a few last places may turn so much farther once rounded, rad.
 const TINY_SWEEP: f64 = 0.6;
@@ -32,7 +35,7 @@ pub fn difference(program: &Program, posted: &Posted, reading: &Reading, machine
 
 /// Whether the machine has a cycle for this.
 fn canned(machine: &Machine, cycle: &Cycle) -> bool {
-    machine.cycle.as_ref().is_some_and(|rules| rules.kinds.contains(&cycle.kind))
+    machine.cycle.as_ref().is_some_and(|rules| rules.take(cycle))
 }
 
 /// Holes that the machine has cycles for must come back as cycles.
@@ -42,9 +45,11 @@ fn cycle_difference(program: &Program, posted: &Posted, reading: &Reading, machi
     for cycle in program.cycles.iter().filter(|cycle| canned(machine, cycle)) {
         let line = posted.line_of_move.get(cycle.first).copied().unwrap_or(0);
         let Some(found) = came.next() else { return Some((line, "the cycle is not there".into())) };
+        let (cycle, found) = (&in_one(cycle, machine), &in_one(found, machine));
         let lengths = |c: &Cycle| [c.at[0], c.at[1], c.retract, c.bottom, c.leave, c.peck];
         let near = lengths(cycle).iter().zip(lengths(found)).all(|(a, b)| (a - b).abs() <= unit);
-        let feeds = (cycle.feed - found.feed).abs() <= machine.feed_resolution_mm() / 2.0 + FEED_SLACK * cycle.feed;
+        let feeds = (cycle.feed - found.feed).abs()
+            <= feed_slack(machine, cycle.feed, f64::INFINITY, rpm_at(program, cycle.first));
         if !near || !feeds || cycle.kind != found.kind || (cycle.dwell - found.dwell).abs() > 5.1e-4 {
             return Some((line, format!("{cycle:?} became {found:?}")));
         }
@@ -53,6 +58,16 @@ fn cycle_difference(program: &Program, posted: &Posted, reading: &Reading, machi
         let line = reading.program.moves.get(found.first).map_or(0, |m| m.line);
         (line, format!("{found:?} was not posted"))
     })
+}
+
+/// Pecks that reach the bottom at once are none.
+fn in_one(cycle: &Cycle, machine: &Machine) -> Cycle {
+    let pecks = matches!(cycle.kind, CycleKind::Peck | CycleKind::ChipBreak);
+    let at_once = cycle.peck >= cycle.retract - cycle.bottom - 1.5 * machine.resolution_mm();
+    match pecks && at_once {
+        true => Cycle { kind: CycleKind::Drill, peck: 0.0, ..cycle.clone() },
+        false => cycle.clone(),
+    }
 }
 
 /// The first event that differs.
@@ -77,7 +92,7 @@ fn states(program: &Program, machine: &Machine, line_of_move: impl Fn(usize) -> 
     let mut spindle = EventKind::SpindleOff;
     let mut coolant = (false, false);
     let turns = |kind: &EventKind| matches!(kind, EventKind::SpindleOn { .. } | EventKind::SpindleOff);
-    for event in &program.events {
+    for event in program.events.iter().chain(&all_off(program.moves.len())) {
         let inside = |cycle: &Cycle| {
             canned(machine, cycle) && event.before > cycle.first && event.before < cycle.first + cycle.count
         };
@@ -103,7 +118,7 @@ fn states(program: &Program, machine: &Machine, line_of_move: impl Fn(usize) -> 
                 out.pop();
             }
             let before = out.iter().rev().find(|(_, kind)| matches!(kind, EventKind::Raw { .. }));
-            if before.is_some_and(|(_, before)| *before == kind) {
+            if kind == before.map_or_else(|| coolant_said((false, false)), |(_, before)| before.clone()) {
                 continue;
             }
         }
@@ -116,10 +131,20 @@ fn states(program: &Program, machine: &Machine, line_of_move: impl Fn(usize) -> 
     out
 }
 
+/// What every program ends with, whether it says so or not.
+fn all_off(moves: usize) -> [Event; 3] {
+    [EventKind::Flood { on: false }, EventKind::Mist { on: false }, EventKind::SpindleOff]
+        .map(|kind| Event { before: moves, kind })
+}
+
 /// Mist and flood after a change, as one event.
 fn coolant_state(state: &mut (bool, bool), change: impl Fn(&mut (bool, bool))) -> EventKind {
     change(state);
-    EventKind::Raw { text: format!("mist {}, flood {}", state.0, state.1) }
+    coolant_said(*state)
+}
+
+fn coolant_said((mist, flood): (bool, bool)) -> EventKind {
+    EventKind::Raw { text: format!("mist {mist}, flood {flood}") }
 }
 
 /// What the text need not say.
@@ -177,15 +202,20 @@ fn move_difference(program: &Program, posted: &Posted, reading: &Reading, machin
             if let Some(what) = way_difference(start, step, from, found, machine) {
                 return Some((found.line, what));
             }
-            arrived = Some(found);
+            arrived = Some((from, found));
         }
         let again = std::mem::replace(&mut last_line, *line) == *line;
         if again && arrived.is_none() || program.cycles.iter().any(in_cycle) {
             continue; // rounds to no motion, or is one of a cycle's
         }
         let Some(found) = arrived else { return Some((*line, "the move is not there".into())) };
+        let (from, found) = found;
         if let Some(what) = end_difference(step, found, machine) {
             return Some((*line, what));
+        }
+        let slack = feed_slack(machine, step.feed, found.length(from.unwrap_or(found.end)), rpm_at(program, index));
+        if step.kind == MoveKind::Feed && (step.feed - found.feed).abs() > slack {
+            return Some((*line, format!("its feed is {} instead of {} mm/min", found.feed, step.feed)));
         }
     }
     read.next().map(|(_, found)| (found.line, format!("a move to {:?} was not posted", found.end)))
@@ -197,11 +227,34 @@ fn end_difference(step: &Move, found: &Move, machine: &Machine) -> Option<String
     if !near || step.kind != found.kind {
         return Some(format!("it goes to {:?} instead of {:?} mm", found.end, step.end));
     }
+    None
+}
+
+/// How far the feed of a way so long, mm, may come back from the planned one, mm/min: numbers are rounded.
+fn feed_slack(machine: &Machine, feed: f64, length: f64, rpm: f64) -> f64 {
     let unit = machine.feed_resolution_mm() / 2.0;
-    let off = (step.feed - found.feed).abs() > unit + FEED_SLACK * step.feed;
-    let per_minute = machine.feed.mode == crate::machine::FeedMode::PerMinute;
-    (off && per_minute && step.kind == MoveKind::Feed)
-        .then(|| format!("its feed is {} instead of {} mm/min", found.feed, step.feed))
+    let rounded = match machine.feed.mode {
+        FeedMode::PerMinute => unit,
+        FeedMode::PerRevolution => unit * rpm + feed * machine.speed_resolution() / rpm,
+        // F times the way, and both are rounded
+        FeedMode::InverseTime => {
+            let unit = machine.feed_resolution_mm() * machine.feed_scale() / machine.units.output.in_mm() / 2.0;
+            unit * length + feed * PLACES_OF_A_WAY * machine.resolution_mm() / length
+        }
+    };
+    rounded + FEED_SLACK * feed
+}
+
+/// The spindle's speed when a move begins, rev/min; 0 while it stands.
+fn rpm_at(program: &Program, index: usize) -> f64 {
+    let count = program.events.partition_point(|event| event.before <= index);
+    let events = program.events.iter().take(count).rev();
+    let last = events.into_iter().find_map(|event| match event.kind {
+        EventKind::SpindleOn { rpm, .. } => Some(rpm),
+        EventKind::SpindleOff | EventKind::ToolChange { .. } => Some(0.0),
+        _ => None,
+    });
+    last.unwrap_or(0.0)
 }
 
 /// Whether a posted move leaves an arc that it stands for.

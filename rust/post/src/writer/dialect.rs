@@ -23,11 +23,27 @@ pub(super) struct Hole {
     /// Wait at the bottom, s.
     pub dwell: f64,
     pub feed: Feed,
-    /// Whether it ends where it came from, not at `retract`.
-    pub lift: bool,
+    /// Where it ends: `retract`, or higher.
+    pub leave: i64,
+    /// What a tap needs to know.
+    pub thread: Option<Thread>,
+}
+
+/// A thread to be tapped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Thread {
+    /// Output units in a revolution.
+    pub pitch: f64,
+    /// The spindle's speed, in last places.
+    pub speed: i64,
 }
 
 impl Hole {
+    /// Whether it ends higher than where it began to drill.
+    pub fn lifts(&self) -> bool {
+        self.leave > self.retract
+    }
+
     /// Whether nothing but the place differs.
     pub fn is_like(&self, other: &Self) -> bool {
         Self { at: other.at, ..*self } == *other

@@ -2,6 +2,7 @@
 
 use styluscam_motion::Plane;
 
+use super::cycl_def;
 use super::dialect::{Dialect, Feed, Hole, Place};
 use super::lines::Lines;
 use crate::machine::Machine;
@@ -19,11 +20,22 @@ pub(super) struct Klartext<'m> {
     feed_format: NumberFormat,
     feed: Option<Feed>,
     speed: Option<i64>,
+    /// The word with which the spindle turns.
+    turning: Option<String>,
+    hole: Option<Hole>,
 }
 
 impl<'m> Klartext<'m> {
     pub fn new(machine: &'m Machine) -> Self {
-        Self { machine, linear: machine.linear_format(), feed_format: machine.feed_format(), feed: None, speed: None }
+        Self {
+            machine,
+            linear: machine.linear_format(),
+            feed_format: machine.feed_format(),
+            feed: None,
+            speed: None,
+            turning: None,
+            hole: None,
+        }
     }
 
     fn line(&self, lines: &mut Lines, from: Place, to: Place) {
@@ -54,8 +66,12 @@ impl Dialect for Klartext<'_> {
         self.speed = None;
     }
 
-    fn close(&mut self, _lines: &mut Lines) -> Result<(), PostError> {
-        Ok(())
+    /// A cycle stays defined and does nothing by itself. After a tap the spindle may stand.
+    fn close(&mut self, lines: &mut Lines) -> Result<(), PostError> {
+        match self.hole.take().and_then(|hole| hole.thread).and(self.turning.as_deref()) {
+            Some(word) => lines.block(word),
+            None => Ok(()),
+        }
     }
 
     fn rapid(&mut self, lines: &mut Lines, from: Place, to: Place) -> Result<(), PostError> {
@@ -88,8 +104,19 @@ impl Dialect for Klartext<'_> {
         lines.end()
     }
 
-    fn hole(&mut self, _lines: &mut Lines, _hole: &Hole) -> Result<(), PostError> {
-        Err(PostError::Unsupported { what: "a canned cycle" })
+    fn hole(&mut self, lines: &mut Lines, hole: &Hole) -> Result<(), PostError> {
+        if !self.hole.is_some_and(|last| last.is_like(hole)) {
+            self.close(lines)?;
+            let per_mm = self.machine.resolution_mm().recip();
+            lines.text(&cycl_def::definition(hole, &self.linear, &self.feed_format, per_mm))?;
+        }
+        lines.begin();
+        lines.word("L");
+        (0..2).for_each(|axis| lines.number(AXES[axis], &self.linear, hole.at[axis]));
+        ["R0", "FMAX", "M99"].iter().for_each(|word| lines.word(word));
+        self.hole = Some(*hole);
+        self.feed = None;
+        lines.end()
     }
 
     /// The speed is part of a tool call; the word follows in a block of its own.
@@ -101,6 +128,7 @@ impl Dialect for Klartext<'_> {
             lines.end()?;
             self.speed = Some(speed);
         }
+        self.turning = Some(word.into());
         lines.block(word)
     }
 

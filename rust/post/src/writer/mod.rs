@@ -1,8 +1,10 @@
 //! Motion to text: who walks through a program and decides what is said next.
 
+mod cycl_def;
 mod dialect;
 mod klartext;
 mod lines;
+mod mcall;
 mod words;
 
 use std::collections::BTreeMap;
@@ -18,7 +20,7 @@ use crate::number::NumberFormat;
 use crate::post_error::PostError;
 use crate::rounded::RoundedArc;
 use crate::template::{Facts, Templater};
-use dialect::{Dialect, Hole, Place};
+use dialect::{Dialect, Hole, Place, Thread};
 pub(crate) use lines::counted_length;
 use lines::{Lines, Outlet};
 
@@ -163,6 +165,7 @@ impl<'a> Poster<'a> {
         self.inspector.finish()?;
         self.end_operation()?;
         self.dialect.close(&mut self.lines)?;
+        self.switch_off()?;
         let end = self.templater.program_end(&self.names)?;
         self.lines.text(&end)?;
         self.lines.finish()
@@ -182,6 +185,10 @@ impl<'a> Poster<'a> {
                 self.event(&event.kind)?;
             }
             let cycle = cycles.next_if(|cycle| cycle.first == index).filter(|cycle| self.has(cycle));
+            if cycle.is_some_and(|cycle| cycle.kind.is_tapping() && holds_others(program, cycle)) {
+                return Err(PostError::Unsupported { what: "something between the moves of a tapping cycle" });
+            }
+            let cycle = cycle.filter(|cycle| !holds_others(program, cycle));
             if let Some(cycle) = cycle {
                 let count = cycle.count.max(1);
                 self.hole(cycle, program.moves.get(index..index + count).unwrap_or_default())?;
@@ -299,18 +306,23 @@ impl<'a> Poster<'a> {
             SpindleDirection::Counterclockwise => words.counterclockwise.as_deref(),
         };
         let word = word.ok_or(PostError::SpindleDirection { direction })?;
-        let speed = match (words.unit, self.machine.limits.max_rpm) {
-            (SpeedUnit::Percent, Some(most)) => 100.0 * rpm / most,
-            _ => rpm,
-        };
-        let too_large = PostError::SpindleSpeed { rpm, max: f64::INFINITY };
-        let speed = NumberFormat::plain(self.machine.number.rpm).count(speed).ok_or(too_large)?;
+        let speed = self.speed_count(rpm)?;
         self.dialect.spindle(&mut self.lines, speed, word)?;
         self.rpm = Some(rpm);
         if words.start_dwell > 0.0 && rpm > 0.0 {
             return self.dwell(event, words.start_dwell);
         }
         Ok(())
+    }
+
+    /// A speed as the machine counts it, in last places.
+    fn speed_count(&self, rpm: f64) -> Result<i64, PostError> {
+        let speed = match (self.machine.spindle.unit, self.machine.limits.max_rpm) {
+            (SpeedUnit::Percent, Some(most)) => 100.0 * rpm / most,
+            _ => rpm,
+        };
+        let too_large = PostError::SpindleSpeed { rpm, min: 0.0, max: f64::INFINITY };
+        NumberFormat::plain(self.machine.number.rpm).count(speed).ok_or(too_large)
     }
 
     /// Whether an event turns the spindle as it turns.
@@ -338,6 +350,17 @@ impl<'a> Poster<'a> {
         let left = [(self.mist, &words.mist), (self.flood, &words.flood)];
         let left = left.into_iter().filter(|(stays, _)| *stays && !on);
         left.map(|(_, word)| word.as_deref()).try_for_each(|word| self.lines.block(word.unwrap_or_default()))
+    }
+
+    /// Not every program's end stops what still runs.
+    fn switch_off(&mut self) -> Result<(), PostError> {
+        if std::mem::take(&mut self.mist) | std::mem::take(&mut self.flood) {
+            self.switch_coolant(false, |_| None)?;
+        }
+        if self.rpm.is_some() {
+            self.stop_spindle()?;
+        }
+        Ok(())
     }
 
     fn block_of(&mut self, word: Option<&str>, what: &'static str) -> Result<(), PostError> {
@@ -569,7 +592,7 @@ impl<'a> Poster<'a> {
 
     /// Whether the machine has a cycle for this.
     fn has(&self, cycle: &Cycle) -> bool {
-        self.machine.cycle.as_ref().is_some_and(|rules| rules.kinds.contains(&cycle.kind))
+        self.machine.cycle.as_ref().is_some_and(|rules| rules.take(cycle))
     }
 
     /// A hole by the machine's own cycle; `moves` are those that it makes.
@@ -587,11 +610,17 @@ impl<'a> Poster<'a> {
         let high = self.target(index, [x, y, cycle.retract])?;
         let leave = self.target(index, [x, y, cycle.leave])?;
         let [x_now, y_now, z_now] = self.position(index)?;
-        if leave[2] > high[2] && z_now != leave[2] {
-            // a series that returns begins at the height to which it returns
+        // a series that returns begins at the height to which it returns; none goes across below where it begins
+        let z_first = if leave[2] > high[2] { leave[2] } else { z_now.max(high[2]) };
+        if z_now != z_first {
             self.dialect.close(&mut self.lines)?;
-            self.rapid([x_now, y_now, leave[2]])?;
+            self.rapid([x_now, y_now, z_first])?;
         }
+        let thread = match self.rpm.filter(|rpm| *rpm > 0.0) {
+            _ if !cycle.kind.is_tapping() => None,
+            Some(rpm) => Some(Thread { pitch: cycle.feed * self.per_mm / rpm, speed: self.speed_count(rpm)? }),
+            None => return Err(PostError::NoRevolutions { index }),
+        };
         let hole = Hole {
             kind: cycle.kind,
             at: [low[0], low[1]],
@@ -600,7 +629,8 @@ impl<'a> Poster<'a> {
             peck: self.count(index, "a peck", cycle.peck)?,
             dwell: cycle.dwell,
             feed: self.feed_count(index, cycle.feed, f64::INFINITY)?,
-            lift: leave[2] > high[2],
+            leave: leave[2],
+            thread,
         };
         self.motion_line = self.lines.line;
         self.dialect.hole(&mut self.lines, &hole)?;
@@ -609,6 +639,17 @@ impl<'a> Poster<'a> {
         self.moves += moves.len();
         Ok(())
     }
+}
+
+/// Whether something happens on a cycle's way that the cycle does not do itself: its code would leave that out.
+fn holds_others(program: &Program, cycle: &Cycle) -> bool {
+    let on_its_way = cycle.first + 1..cycle.first + cycle.count;
+    let own = |kind: &EventKind| {
+        matches!(kind, EventKind::Dwell { .. } | EventKind::SpindleOn { .. } | EventKind::SpindleOff)
+    };
+    let first = program.events.partition_point(|event| event.before < on_its_way.start);
+    let events = program.events.iter().skip(first).take_while(|event| on_its_way.contains(&event.before));
+    events.into_iter().any(|event| !own(&event.kind))
 }
 
 /// The tools that a program calls, in order.

@@ -4,7 +4,8 @@ use styluscam_motion::{CycleKind, Plane};
 
 use super::dialect::{Dialect, Feed, Hole, Place};
 use super::lines::Lines;
-use crate::machine::{ArcCentre, DwellRules, FeedMode, LengthRules, Machine, Repeat, TimeUnit, Turns};
+use super::mcall;
+use crate::machine::{ArcCentre, DwellRules, Family, FeedMode, LengthRules, Machine, Repeat, TimeUnit, Turns};
 use crate::number::NumberFormat;
 use crate::post_error::PostError;
 use crate::rounded::RoundedArc;
@@ -135,6 +136,29 @@ impl<'m> Words<'m> {
         }
     }
 
+    /// Whether cycles are called at places, not said with them.
+    fn calls_cycles(&self) -> bool {
+        self.machine.family == Family::Siemens
+    }
+
+    /// The feed and the call in blocks of their own, then the place by a rapid.
+    fn called_hole(&mut self, lines: &mut Lines, hole: &Hole, goes_on: bool) -> Result<(), PostError> {
+        if !goes_on {
+            if hole.thread.is_none() && self.said.feed != Some(hole.feed) {
+                lines.begin();
+                self.changed_feed(lines, hole.feed);
+                lines.end()?;
+            }
+            self.said.motion = None;
+            lines.block(&mcall::call(hole, &self.linear, &NumberFormat::plain(self.machine.number.rpm)))?;
+        }
+        self.begin_motion(lines, RAPID);
+        lines.number("X", &self.linear, hole.at[0]);
+        lines.number("Y", &self.linear, hole.at[1]);
+        self.said.hole = Some(*hole);
+        lines.end()
+    }
+
     fn time(&self, unit: TimeUnit, seconds: f64) -> Option<(NumberFormat, i64)> {
         let (format, per_second) = match unit {
             TimeUnit::S => (NumberFormat::new(&self.machine.number, DWELL_PLACES).unsigned(), 1.0),
@@ -159,7 +183,7 @@ impl Dialect for Words<'_> {
             return Ok(());
         }
         self.said = Said { plane: self.said.plane, ..Said::default() };
-        lines.block(CANCEL)
+        lines.block(if self.calls_cycles() { mcall::END } else { CANCEL })
     }
 
     fn rapid(&mut self, lines: &mut Lines, from: Place, to: Place) -> Result<(), PostError> {
@@ -201,14 +225,15 @@ impl Dialect for Words<'_> {
         let goes_on = self.said.hole.is_some_and(|last| last.is_like(hole));
         if !goes_on {
             self.close(lines)?;
-        }
-        if !goes_on {
             self.plane(lines, Plane::Xy)?;
+        }
+        if self.calls_cycles() {
+            return self.called_hole(lines, hole, goes_on);
         }
         lines.begin();
         let every = !goes_on || self.machine.words.repeat_g == Repeat::Always;
         if every {
-            lines.word(if hole.lift { "G98" } else { "G99" });
+            lines.word(if hole.lifts() { "G98" } else { "G99" });
             lines.word(code(hole));
         }
         lines.number("X", &self.linear, hole.at[0]);
@@ -244,6 +269,8 @@ impl Dialect for Words<'_> {
     fn dwell(&mut self, lines: &mut Lines, seconds: f64) -> Result<bool, PostError> {
         let Some(DwellRules { word, unit, before }) = &self.machine.dwell else { return Ok(false) };
         let Some((format, time)) = self.time(*unit, seconds) else { return Ok(false) };
+        let per_revolution = self.machine.feed.mode == FeedMode::PerRevolution;
+        let before = before.as_deref().or(self.machine.feed.per_minute.as_deref()).filter(|_| per_revolution);
         lines.begin();
         before.iter().for_each(|word| lines.word(word));
         lines.word("G4");
@@ -252,6 +279,10 @@ impl Dialect for Words<'_> {
         }
         lines.number(word.encode_utf8(&mut [0; 4]), &format, time);
         lines.end()?;
+        if before.is_some() {
+            self.said.feed = None;
+            lines.block(self.machine.feed.word().unwrap_or_default())?;
+        }
         Ok(true)
     }
 

@@ -117,7 +117,8 @@ pub struct DwellRules {
     pub word: char,
     /// Its unit.
     pub unit: TimeUnit,
-    /// What stands before `G4`: `G94` on controls that take F in revolutions otherwise.
+    /// What stands before `G4` while feeds are per revolution, since many controls count revolutions then; the code of feeds
+    /// per minute when left out.
     pub before: Option<String>,
 }
 

@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use styluscam_motion::{CycleKind, Plane};
+use styluscam_motion::{Cycle, CycleKind, Plane};
 
 use super::TimeUnit;
 
@@ -164,6 +164,18 @@ pub struct CycleRules {
     /// Whether G86 needs a P, of 0 where nothing waits.
     #[serde(default)]
     pub stop_bore_dwell: bool,
+}
+
+/// Shallower holes are made of plain moves, mm: controllers refuse a cycle of no depth.
+const LEAST_DEPTH: f64 = 0.01;
+
+impl CycleRules {
+    /// Whether the machine has a cycle for this. Only cycles that drill or bore to a depth wait there.
+    #[must_use]
+    pub fn take(&self, cycle: &Cycle) -> bool {
+        let waits = matches!(cycle.kind, CycleKind::Drill | CycleKind::Bore | CycleKind::StopBore);
+        self.kinds.contains(&cycle.kind) && (cycle.dwell == 0.0 || waits) && cycle.retract - cycle.bottom >= LEAST_DEPTH
+    }
 }
 
 /// The codes of straight probing.

@@ -1,11 +1,12 @@
 //! Canned cycles: a block's words, the hole that they make, and its moves.
 
-use styluscam_motion::{Cycle, CycleStart, CycleStep, MoveKind, Plane};
+use styluscam_motion::{Cycle, CycleKind, CycleStart, CycleStep, MoveKind, Plane};
 
 use super::{Flaw, Interpreter, Z};
-use crate::machine::{CycleRules, TimeUnit};
+use crate::machine::CycleRules;
 use crate::read_error::ReadFault;
-use crate::reader::block::Block;
+use crate::reader::block::{Block, Motion};
+use crate::reader::called::{Called, Pace};
 use crate::reader::drilling::Series;
 use crate::reader::lexer::Word;
 
@@ -44,6 +45,83 @@ impl Interpreter<'_> {
         Ok(())
     }
 
+    /// The cycle that a block calls, and the word that does so.
+    pub(super) fn calls(&self, block: &Block) -> Option<(Option<Called>, Word)> {
+        let any = block.any_axis();
+        match (self.called, block.call) {
+            (called, Some(call)) => Some((called, call)),
+            (Some(called), None) if called.modal => any.map(|word| (Some(called), word)),
+            _ => None,
+        }
+    }
+
+    /// A hole where a block's rapid ends. The way there is at the height where the tool stands.
+    pub(super) fn drill_here(
+        &mut self,
+        block: &Block,
+        called: Option<Called>,
+        word: Word,
+        line: u32,
+    ) -> Result<(), Flaw> {
+        let flaw = |fault| (fault, Some(word));
+        let called = called.ok_or(flaw(ReadFault::MissingWord { what: "the cycle to call" }))?;
+        let [x, y, z] = block.axes;
+        let elsewhere = block.machine_coordinates.or(block.home).or(block.probe.map(|(_, word)| word));
+        let across = z.is_none() && elsewhere.is_none() && !self.incremental && self.plane == Plane::Xy;
+        let rapid = self.motion == Some(Motion::Rapid) || x.or(y).is_none();
+        if !across || !rapid {
+            return Err(flaw(ReadFault::NotRead { what: "cycles called by other moves than rapids across" }));
+        }
+        let known = self.machine.cycle.as_ref().is_some_and(|rules| rules.kinds.contains(&called.kind));
+        if !known {
+            return Err(flaw(self.refusal()));
+        }
+        self.load_only_tool(word)?;
+        self.allow_motion(word)?;
+        if self.without_edge {
+            return Err(flaw(ReadFault::NoLengthOffset { expected: 1 }));
+        }
+        let mut start = self.tip();
+        self.place_axes(block)?;
+        self.require_places(word)?;
+        let cycle = self.hole_of(&called, block, word)?;
+        if start[2] < cycle.retract && x.or(y).is_some() {
+            self.push_move(MoveKind::Rapid, None, 0.0, line);
+            start = self.tip();
+        }
+        self.make(cycle, start, line).map_err(flaw)
+    }
+
+    #[allow(clippy::float_cmp)] // numbers as written
+    fn hole_of(&self, called: &Called, block: &Block, word: Word) -> Result<Cycle, Flaw> {
+        let feed = match called.pace {
+            Pace::Standing => self.feed_of(block, 1.0, word)?,
+            Pace::Feed(number) => self.mm(Word { number, ..word })? / self.machine.feed_scale_of(self.units),
+            Pace::Pitch(pitch, speed) => {
+                let turns = self.direction.is_some() && self.speed > 0.0 && speed.is_none_or(|s| s == self.speed);
+                if !turns {
+                    return Err((ReadFault::NoRevolutions, Some(word)));
+                }
+                pitch * self.speed
+            }
+        };
+        let (retract, bottom, leave) =
+            (called.retract - self.height, called.bottom - self.height, called.leave - self.height);
+        if bottom > retract || retract > leave {
+            return Err((ReadFault::CycleUpwards, Some(word)));
+        }
+        if feed <= 0.0 || called.dwell < 0.0 || called.peck < 0.0 {
+            return Err((ReadFault::Negative, Some(word)));
+        }
+        let pecks = matches!(called.kind, CycleKind::Peck | CycleKind::ChipBreak);
+        if pecks && called.peck == 0.0 {
+            return Err((ReadFault::MissingWord { what: "the peck of the cycle" }, Some(word)));
+        }
+        let [x, y, _] = self.tip();
+        let Called { kind, peck, dwell, .. } = *called;
+        Ok(Cycle { first: 0, count: 0, kind, at: [x, y], retract, bottom, leave, feed, dwell, peck })
+    }
+
     /// The series in force, or a new one, with what a block says of it.
     fn series_with(&mut self, block: &Block, number: u16, height: f64, rules: &CycleRules) -> Result<Series, Flaw> {
         let [_, _, z] = block.axes;
@@ -55,8 +133,7 @@ impl Interpreter<'_> {
             series.peck = self.mm(word)?;
         }
         if let Some(word) = block.p {
-            let per_second = if rules.dwell_unit == TimeUnit::S { 1.0 } else { 1000.0 };
-            series.dwell = word.number.value() / per_second;
+            series.dwell = self.seconds(word, rules.dwell_unit)?;
         }
         Ok(series)
     }
