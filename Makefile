@@ -129,6 +129,7 @@ bench: dev ## Measures ours and others side by side; writes docs/performance.md
 	$(BIN)/python bench/gouges.py
 	$(BIN)/python bench/report.py
 	$(BIN)/python bench/simulation.py
+	$(BIN)/python bench/posts.py
 
 .PHONY: fixtures
 fixtures: ## Rebuilds the STEP parts and their exact answers (Python 3.11 or later)
