@@ -15,14 +15,19 @@ from numpy.typing import NDArray
 import styluscam as sc
 from arcs import with_arcs
 from brute_judge import Solid
+from controllers import FAMILIES, ONE_TOOL, Family
 from convex_tool import Floats, Tool
-from gcode import Family
 from matters import Wanted
 
 Mesh: TypeAlias = tuple[Floats, NDArray[np.int64]]
 Document: TypeAlias = dict[str, Any]
 
-MACHINES = Path(__file__).resolve().parents[2] / "rust" / "post" / "machines"
+METRIC: tuple[Family, ...] = ("marlin",)
+"""Families whose shipped machine has no inches."""
+ONE_ZERO: tuple[Family, ...] = ("marlin",)
+"""Families that have one work offset."""
+ROUNDED: tuple[Family, ...] = ("fanuc", "okuma", "siemens")
+"""Families whose arcs are made in millimetres only: in inches some of the oracle's are not exact enough."""
 
 
 def stack(sides: int, profile: list[tuple[float, float]], turn: float = 0.0) -> Mesh:
@@ -133,9 +138,8 @@ class Case:
         raised = _tool(self.document["tools"]["tool"] | {"reference": "tip"}, sheet, model_face).raised
         top = float(turned[:, 2].max()) + raised
         zero = setup.get("zero", "sheet-top" if sheet else "model")
-        origin = (
-            {"sheet-top": [0.0, 0.0, top], "model": [0.0, 0.0, 0.0]}.get(zero, zero) if isinstance(zero, str) else zero
-        )
+        named = {"sheet-top": [0.0, 0.0, top], "model": [0.0, 0.0, 0.0]}
+        origin: list[float] = named[zero] if isinstance(zero, str) else zero
         return Wanted(
             Solid((turned - np.array(origin))[self.mesh[1]]),
             tools,
@@ -189,28 +193,35 @@ LIMITS = (
     "".join(f"{axis} = {list(ends)}\n" for axis, ends in zip("xyz", AXES, strict=True))
     + "max_feed = 3000.0\nmax_rpm = 6000.0\n"
 )
-"""Of the machines in inches: no sound program comes near them."""
+"""Of the machines with limits: no sound program comes near them."""
 
 
 def machines(folder: Path) -> dict[str, tuple[Document, Family]]:
-    """The shipped machines, and the same ones in inches and with limits as files."""
+    """The shipped machines, and the same ones with limits, in inches where they have inches, as files."""
     found: dict[str, tuple[Document, Family]] = {}
-    for family in ("linuxcnc", "grbl"):
-        file = folder / f"{family}_inch.toml"
-        text = (MACHINES / f"{family}.toml").read_text(encoding="utf-8")
-        text = text.replace('output = "mm"', 'output = "inch"').replace("[limits]\n", f"[limits]\n{LIMITS}")
-        file.write_text(text, encoding="utf-8")
-        found[family] = ({"name": family}, family)  # type: ignore[assignment]
-        found[f"{family} in inches"] = ({"file": str(file)}, family)  # type: ignore[assignment]
+    for family in FAMILIES:
+        file = folder / f"{family}_limits.toml"
+        unit = "" if family in METRIC else '[units]\noutput = "inch"\n\n'
+        text = f'schema = 1\nextends = "{family}"\nname = "{family}-limits"\n\n{unit}[limits]\n{LIMITS}'
+        if not file.exists():
+            file.write_text(text, encoding="utf-8")
+        found[family] = {"name": family}, family
+        found[f"{family} with limits{', in inches' if unit else ''}"] = {"file": str(file)}, family
     return found
 
 
-def made_case(number: int, folder: Path) -> Case:
-    """The case of a number: part, tool, strategy, sheet, machine and set-up drawn from it."""
+def _machine(draw: random.Random, folder: Path, family: Family | None) -> tuple[str, Document, Family]:
+    """One of all machines, or of a family's."""
+    offered = [(name, *found) for name, found in machines(folder).items() if family in (None, found[1])]
+    return draw.choice(offered)
+
+
+def made_case(number: int, folder: Path, family: Family | None = None) -> Case:
+    """The case of a number, of any family or the one asked for: part, tool, strategy, sheet, machine and set-up drawn from it."""
     draw = random.Random(number)
     kind = draw.choice(["z-level", "z-level", "zig-zag"])
     part = draw.choice(LEVELLED if kind == "z-level" else list(PARTS))
-    machine, (section, family) = draw.choice(list(machines(folder).items()))
+    machine, section, family = _machine(draw, folder, family)
     profile = draw.choice(PROFILES)
     sheet = draw.choice([None, None, *SHEETS])
     made = document(kind, profile, section, sheet=sheet)
@@ -226,11 +237,13 @@ def made_case(number: int, folder: Path) -> Case:
         made["setup"] |= draw.choice(
             [{"clearance": 5.0, "retract": 0.5}, {"wcs": "G55"}, {"clearance": 20.0, "wcs": "G56"}]
         )
+        if family in ONE_ZERO:
+            made["setup"].pop("wcs", None)
     if draw.random() < 0.5:
         made["operations"][0] |= draw.choice([{"direction": "same"}, {"feeds": {"cut": 900.0, "plunge": 150.0}}])
     if draw.random() < 0.3:
         made["tools"]["tool"] |= {"length": 30.0, "holder": {"diameter": 16.0, "length": 20.0}}
-    if family == "linuxcnc" and draw.random() < 0.25:
+    if family not in ONE_TOOL and draw.random() < 0.25:
         _add_second(made, draw)
     return Case(f"{number}: {kind} of {part} by {profile['kind']} on {machine}", PARTS[part], made, family)
 
@@ -245,15 +258,17 @@ def _milled(draw: random.Random) -> Document:
     return {"spindle": turning, "coolant": draw.choice(["flood", "flood", "off"])}
 
 
-def arc_case(number: int, folder: Path) -> Case:
-    """The case of a number on a round part: its loops are arcs, whole circles, halves or quarters."""
+def arc_case(number: int, folder: Path, family: Family | None = None) -> Case:
+    """The case of a number on a round part: its loops are arcs, whole circles, halves or quarters; lines in Klartext."""
     draw = random.Random(number)
     part, mesh = draw.choice(list(ROUND.items()))
-    machine, (section, family) = draw.choice(list(machines(folder).items()))
+    machine, section, family = _machine(draw, folder, family)
+    if family in ROUNDED:
+        machine, section = family, {"name": family}
     profile = draw.choice([PROFILES[0], PROFILES[2]])
     made = document("z-level", profile, section)
     made["setup"]["zero"] = [draw.choice([0.0, 2.0]), -3.0, 0.0]
-    pieces = draw.choice([1, 2, 4])
+    pieces = 0 if family == "heidenhain" else draw.choice([1, 2, 4])
     return Case(
         f"arcs {number}: {part} by {profile['kind']} on {machine}, {pieces} to a loop", mesh, made, family, pieces
     )

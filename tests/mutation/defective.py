@@ -14,7 +14,8 @@ import numpy as np
 
 import matters
 import styluscam as sc
-from defects import KINDS, Text
+from controllers import FAMILIES, Family
+from defects import FAMILIES_OF, KINDS, Text
 from faulty_inputs import FAULTS
 from matters import Verdict
 
@@ -29,6 +30,11 @@ NEAR = 1
 
 ARCS = ("arc turned", "arc centre", "arc centre sign", "arc straightened")
 """Kinds that need a program with arcs."""
+
+
+def _any(case: Case) -> bool:
+    return True
+
 
 SUITS: dict[str, Callable[[Case], bool]] = {
     "levels swapped": lambda case: case.wanted.forming,
@@ -62,13 +68,15 @@ class Trial:
         return f"{self.kind} #{self.seed} ({self.case.name}) at line {first}: {why} | judge: {self.said}"
 
 
-def text_defect(kind: str, seed: int, folder: Path) -> Trial | None:
-    """A sound program spoilt in one way; none where the kind finds no place (no program has an arc, say)."""
-    draw = random.Random(f"{kind} {seed}")
-    suits = SUITS.get(kind, lambda case: True)
+def text_defect(kind: str, seed: int, folder: Path, family: Family | None = None) -> Trial | None:
+    """A sound program, of a family where one is asked for, spoilt in one way; none where the kind finds no place in any."""
+    draw = random.Random(f"{kind} {seed} {family or ''}")
+    if family is None and FAMILIES_OF[kind] != FAMILIES:
+        family = draw.choice(FAMILIES_OF[kind])
+    suits = SUITS.get(kind, _any)
     for _ in range(TRIES):
         make = arc_case if kind in ARCS or draw.random() < SHARE_WITH_ARCS else made_case
-        case = make(draw.randrange(POOL), folder)
+        case = make(draw.randrange(POOL), folder, family)
         if not suits(case):
             continue
         changed = KINDS[kind](Text(case.text, case.family), draw)
@@ -124,8 +132,11 @@ def _names_line(where: str, verdict: Verdict) -> bool:
 
 
 def trials(count: int, folder: Path) -> Iterator[Trial]:
-    """`count` of each kind of text defect and one third as many of each fault of the input."""
+    """`count` of each kind of text defect, spread over the families, and one third as many of each fault of the input."""
     for kind in KINDS:
-        yield from filter(None, (text_defect(kind, seed, folder) for seed in range(count)))
+        families = FAMILIES_OF[kind]
+        for number, family in enumerate(families):
+            seeds = range(number, count, len(families))
+            yield from filter(None, (text_defect(kind, seed, folder, family) for seed in seeds))
     for name in FAULTS:
         yield from filter(None, (input_fault(name, seed, folder) for seed in range(-(-count // 3))))

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from defects import KINDS
+from controllers import Family
+from defects import FAMILIES_OF, KINDS
 from faulty_inputs import FAULTS
 
 from .defective import Trial, input_fault, text_defect, trials
@@ -17,6 +18,84 @@ LEAST_SCORE = 0.99
 MOST_LEFT_OUT = 0.10
 DRAWN = 3
 """Seeds of a kind among which one must matter."""
+
+
+OWN: dict[Family, tuple[str, ...]] = {
+    "fanuc": (
+        "point lost",
+        "rapid too deep",
+        "retract missing",
+        "machine place added",
+        "home by way of zero",
+        "absolute missing",
+        "retract and lift missing",
+        "first change missing",
+        "length offset missing",
+        "length offset of another tool",
+        "percent inside",
+        "block of a cut deleted",
+        "arc turned",
+    ),
+    "okuma": (
+        "point lost",
+        "height off",
+        "clearance lowered",
+        "foreign offset",
+        "length offset missing",
+        "length cancelled",
+        "tool change missing",
+        "mist for flood",
+        "word commented out",
+        "end early",
+        "units swapped",
+        "arc centre sign",
+    ),
+    "marlin": (
+        "motion word missing",
+        "two commands on a line",
+        "homing",
+        "newline lost",
+        "commented out",
+        "letter for digit",
+        "plunge in rapid",
+        "feed missing",
+        "incremental from here",
+        "block deleted",
+        "spindle stops",
+        "arc straightened",
+    ),
+    "siemens": (
+        "machine place lost",
+        "machine place added",
+        "tolerance switched off",
+        "path tolerance",
+        "foreign offset",
+        "parenthesis for remark",
+        "length offset missing",
+        "tool number",
+        "work plane",
+        "units change",
+        "dog leg",
+        "arc centre",
+    ),
+    "heidenhain": (
+        "machine place lost",
+        "machine place added",
+        "path tolerance without number",
+        "parenthesis for remark",
+        "radius compensation",
+        "rapid for feed",
+        "feed for rapid",
+        "incremental from here",
+        "tool number",
+        "work offset",
+        "units swapped",
+        "dwell",
+    ),
+}
+"""Kinds that are tried on a family in the fast run."""
+SPREAD = [(family, kind) for family, kinds in OWN.items() for kind in kinds]
+EVERYWHERE = [(family, kind) for kind, families in FAMILIES_OF.items() for family in families]
 
 
 def require_found(drawn: Iterator[Trial | None]) -> None:
@@ -29,6 +108,17 @@ def require_found(drawn: Iterator[Trial | None]) -> None:
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_defect_of_each_kind_is_found(kind: str, folder: Path) -> None:
     require_found(text_defect(kind, seed, folder) for seed in range(DRAWN))
+
+
+@pytest.mark.parametrize(("family", "kind"), SPREAD, ids=lambda name: name)
+def test_a_defect_of_each_kind_is_found_on(family: Family, kind: str, folder: Path) -> None:
+    require_found(text_defect(kind, seed, folder, family) for seed in range(DRAWN))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("family", "kind"), EVERYWHERE, ids=lambda name: name)
+def test_every_kind_is_found_on_every_family(family: Family, kind: str, folder: Path) -> None:
+    require_found(text_defect(kind, seed, folder, family) for seed in range(DRAWN))
 
 
 @pytest.mark.parametrize("name", FAULTS)

@@ -8,12 +8,15 @@ import pytest
 
 import matters
 import styluscam as sc
+from controllers import Family
 from gcode import read
 
 from .cases import Case, arc_case, made_case
 
 SLICE = 12
 ARCS = 4
+OF_EACH = 4
+ADDED: tuple[Family, ...] = ("fanuc", "okuma", "marlin", "siemens", "heidenhain")
 
 
 def require_sound(case: Case) -> None:
@@ -29,6 +32,17 @@ def require_sound(case: Case) -> None:
 @pytest.mark.parametrize("number", range(SLICE))
 def test_a_sound_program_passes(number: int, folder: Path) -> None:
     require_sound(made_case(number, folder))
+
+
+@pytest.mark.parametrize("number", range(OF_EACH))
+@pytest.mark.parametrize("family", ADDED)
+def test_a_sound_program_of_each_family_passes(family: Family, number: int, folder: Path) -> None:
+    require_sound(made_case(number, folder, family))
+
+
+@pytest.mark.parametrize("family", ADDED)
+def test_a_sound_program_with_arcs_of_each_family_passes(family: Family, folder: Path) -> None:
+    require_sound(arc_case(1, folder, family))
 
 
 @pytest.mark.parametrize("number", range(ARCS))

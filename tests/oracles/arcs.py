@@ -10,7 +10,8 @@ import itertools
 import math
 import re
 
-from gcode import Family, Move, read
+from controllers import Family
+from gcode import Move, read
 
 
 def with_arcs(text: str, family: Family, axis: tuple[float, float], *, inside: bool, pieces: int) -> str:

@@ -30,10 +30,16 @@ def _moved(mesh: Mesh, matrix: NDArray[np.float64]) -> Mesh:
     return mesh[0] @ matrix.T, mesh[1]
 
 
+def _only_raised(document: Document) -> bool:
+    """By the sine law a sheet's faces are one above the other, and a zero point on top of it goes along."""
+    setup = document["setup"]
+    return setup["sheet"].get("law") == "sine" and not isinstance(setup.get("zero"), list)
+
+
 @fault
 def sheet_side_flipped(mesh: Mesh, document: Document) -> tuple[Mesh, Document] | None:
     face = document["part"].get("model_face")
-    if face not in ("tool", "back"):
+    if face not in ("tool", "back") or _only_raised(document):
         return None
     document["part"]["model_face"] = "tool" if face == "back" else "back"
     return mesh, document
@@ -41,7 +47,7 @@ def sheet_side_flipped(mesh: Mesh, document: Document) -> tuple[Mesh, Document] 
 
 @fault
 def sheet_middle_for_back(mesh: Mesh, document: Document) -> tuple[Mesh, Document] | None:
-    if document["part"].get("model_face") != "back":
+    if document["part"].get("model_face") != "back" or _only_raised(document):
         return None
     document["part"]["model_face"] = "mid"
     return mesh, document

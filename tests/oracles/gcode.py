@@ -1,7 +1,11 @@
-"""Reads posted text as LinuxCNC and GRBL would, from their manuals alone: states, moves and what would be refused.
+"""Reads posted text as the controllers would, from their manuals alone: states, moves and what would be refused.
 
-Only what 3-axis programs use: G0 to G4, G17 to G19, G20, G21, G40, G43, G49, G54 to G59.3, G61, G64, G80, G90, G91, G93, G94,
-M0 to M9, M30, F, S, T, H, comments. Lengths are mm, feeds mm/min, times s; positions are the point that the text moves.
+Only what 3-axis programs use: G0 to G4, G17 to G19, G20, G21, G40, G43, G49, G53 to G59.3, G61, G64, G80, G90, G91, G93, G94,
+M0 to M9, M30, F, S, T, H, comments; G28 of Fanuc. Other families are translated to these words line by line (`dialects`).
+Lengths are mm, feeds mm/min, times s; positions are the point that the text moves.
+
+An axis sent to a place of the machine (G53, G28, SUPA, M91) is at a place that the text does not know: not a number. Only Z
+sent to the machine's zero, or above it, is known to be above everything, and is infinite: machines have their Z zero at the top.
 
 Sources: LinuxCNC documentation, "G Codes", "M Codes", "G Code Overview"; Grbl v1.1 Commands, gcode.c of grbl 1.1h.
 """
@@ -13,13 +17,12 @@ import re
 from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias
 
+from controllers import ARC_ERROR, ENDLESS, RAPID_RATE, Family, Refused
+from dialects import translator, words_of
+
 Point: TypeAlias = tuple[float, float, float]
-Family: TypeAlias = Literal["linuxcnc", "grbl"]
 
-RAPID_RATE = {"linuxcnc": 3000.0, "grbl": 1000.0}
-"""mm/min, as the shipped machine files assume."""
-
-REFUSED_WORDS = {"linuxcnc": set(), "grbl": {"M6", "M7", "G43", "G64", "G61.1", "G90.1", "G59.1", "G59.2", "G59.3"}}
+REFUSED_WORDS: dict[str, set[str]] = {"grbl": {"M6", "M7", "G43", "G64", "G61.1", "G90.1", "G59.1", "G59.2", "G59.3"}}
 KNOWN_G = {
     "0",
     "1",
@@ -34,6 +37,7 @@ KNOWN_G = {
     "40",
     "43",
     "49",
+    "53",
     "61",
     "64",
     "80",
@@ -42,7 +46,8 @@ KNOWN_G = {
     "93",
     "94",
 }
-KNOWN_G |= {"54", "55", "56", "57", "58", "59", "59.1", "59.2", "59.3"}
+OFFSETS = {"G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"}
+KNOWN_G |= {code[1:] for code in OFFSETS}
 KNOWN_M = {"0", "1", "2", "3", "4", "5", "6", "7", "8", "9", "30"}
 MODAL = (
     {"G0", "G1", "G2", "G3", "G80"},
@@ -58,10 +63,11 @@ MODAL = (
 WAIT = 60.0
 """What M0 waits at least, s."""
 LETTERS = set("FGHIJKMNPQRSTXYZ")
-WORD = re.compile(r"\s*([A-Z])\s*([+-]?(?:\d+\.?\d*|\.\d+))")
 COMMENT = re.compile(r"\([^()]*\)")
 PLANE_AXES = {"G17": (0, 1, 2), "G18": (2, 0, 1), "G19": (1, 2, 0)}
 """First and second axis of the plane, and its normal."""
+DROPS_LENGTH: tuple[Family, ...] = ("fanuc",)
+"""Families whose G53 and G28 of Z take the tool's length away."""
 
 
 @dataclass(frozen=True)
@@ -91,7 +97,7 @@ class Move:
 
     kind: Literal["rapid", "feed", "arc"]
     start: Point
-    """Not a number where an axis has not been placed yet."""
+    """Not a number where an axis has not been placed yet, or stands at a place of the machine; Z at its top is infinite."""
     end: Point
     line: int
     state: State
@@ -105,6 +111,11 @@ class Move:
         return (self.kind, self.sense, *numbers)
 
     @property
+    def placed(self) -> bool:
+        """Whether both ends are known."""
+        return all(math.isfinite(x) for x in (*self.start, *self.end))
+
+    @property
     def angle(self) -> float:
         """An arc's angle, rad, above 0; from a place back to itself it is a full turn."""
         a, b, _ = PLANE_AXES[self.state.plane]
@@ -116,8 +127,8 @@ class Move:
 
     @property
     def length(self) -> float:
-        """mm; 0 where the start is not known."""
-        if any(math.isnan(x) for x in self.start):
+        """mm; 0 where one of the ends is not known."""
+        if not self.placed:
             return 0.0
         if self.kind != "arc":
             return math.dist(self.start, self.end)
@@ -142,8 +153,8 @@ class Move:
         return place[0], place[1], place[2]
 
     def seconds(self, family: Family) -> float:
-        """Length by speed and the dwell before it: nothing of acceleration."""
-        rate = RAPID_RATE[family] if self.kind == "rapid" else self.state.feed
+        """Length by speed and the dwell before it: nothing of acceleration. Marlin's rapids run at the last F."""
+        rate = RAPID_RATE[family] if self.kind == "rapid" and family != "marlin" else self.state.feed
         return self.state.paused + (60.0 * self.length / rate if rate > 0 else 0.0)
 
 
@@ -164,40 +175,29 @@ class Program:
         return sum(move.seconds(self.family) for move in self.moves)
 
 
-class Refused(Exception):
-    """What the controller would not take."""
-
-
 def read(text: str, family: Family) -> Program:
     """Reads a text up to its end or to what the controller would refuse."""
-    reader = _Reader(family)
+    reader, translate = _Reader(family), translator(family)
     for number, line in enumerate(text.splitlines(), start=1):
         try:
-            reader.take(line, number)
+            reader.take(translate(line), number)
         except Refused as reason:
             reader.program.refused = (number, str(reason))
             break
         if reader.program.ended:
             break
     reader.program.at_end = reader.state
-    if family == "linuxcnc" and reader.program.refused is None and not reader.program.ended:
+    if family not in ENDLESS and reader.program.refused is None and not reader.program.ended:
         reader.program.refused = (len(text.splitlines()), "the program has no end")
     return reader.program
 
 
-def words_of(line: str) -> list[tuple[str, str]]:
-    """Letters and numbers of a line, as written; comments are left out."""
-    code = COMMENT.sub("", line).split(";")[0].strip().upper()
+def _code(line: str) -> str:
+    """The line without its remarks."""
+    code = COMMENT.sub("", line).split(";")[0]
     if "(" in code or ")" in code:
         raise Refused("a comment is not closed")
-    found, place = [], 0
-    while place < len(code):
-        match = WORD.match(code, place)
-        if match is None:
-            raise Refused(f"not a word: {code[place:]}")
-        found.append((match[1], match[2]))
-        place = match.end()
-    return found
+    return code
 
 
 class _Reader:
@@ -205,6 +205,7 @@ class _Reader:
         self.family = family
         self.state = State()
         self.motion = ""
+        self.known = KNOWN_G | ({"28"} if family == "fanuc" else set())
         self.begun = False
         self.framed = False
         self.place = [math.nan, math.nan, math.nan]
@@ -219,7 +220,7 @@ class _Reader:
                 return
             line = line[1:]
         self.begun = True
-        words = words_of(line)
+        words = words_of(_code(line))
         if unknown := {letter for letter, _ in words} - LETTERS:
             raise Refused(f"{min(unknown)} is no word")
         codes = [letter + _plain(value) for letter, value in words if letter in "GM"]
@@ -229,8 +230,8 @@ class _Reader:
         if len(values) != sum(letter not in "GM" for letter, _ in words):
             raise Refused("a word stands twice")
         for code in codes:
-            known = KNOWN_G if code[0] == "G" else KNOWN_M
-            if code[1:] not in known or code in REFUSED_WORDS[self.family]:
+            known = self.known if code[0] == "G" else KNOWN_M
+            if code[1:] not in known or code in REFUSED_WORDS.get(self.family, set()):
                 raise Refused(f"{code} is not known")
         self._modes(codes, values)
         self._move(codes, values, number)
@@ -255,10 +256,11 @@ class _Reader:
                 state = replace(state, distance=code)
             elif code in ("G93", "G94"):
                 state = replace(state, feed_mode=code, feed=state.feed if code == state.feed_mode else 0.0)
-            elif code.startswith("G5"):
+            elif code in OFFSETS:
                 state = replace(state, wcs=code)
             elif code in ("G61", "G64"):
-                state = replace(state, path=f"{code} P{values['P']:g}" if "P" in values else code)
+                named = [f"{letter}{values[letter]:g}" for letter in "PQ" if letter in values]
+                state = replace(state, path=" ".join([code, *named]))
             elif code in ("M3", "M4", "M5"):
                 state = replace(state, spindle=code)
             elif code in ("M8", "M9"):
@@ -287,6 +289,9 @@ class _Reader:
 
     def _move(self, codes: list[str], values: dict[str, float], number: int) -> None:
         named = [axis for axis in "XYZ" if axis in values]
+        if {"G28", "G53"} & set(codes):
+            self._go_to_machine(codes, values, number)
+            return
         arc = self.motion in ("G2", "G3")
         if not named:
             if {"I", "J", "K", "R"} & set(values) and not named and not (arc and self.family == "linuxcnc"):
@@ -314,6 +319,39 @@ class _Reader:
         self.program.moves.append(self._bent(move, values) if arc else move)
         self.state = replace(self.state, paused=0.0)
 
+    def _go_to_machine(self, codes: list[str], values: dict[str, float], number: int) -> None:
+        """G53 to a place of the machine; G28 there by way of a place of the work."""
+        named = [axis for axis in "XYZ" if axis in values]
+        home = "G28" in codes
+        if not named or (not home and (self.motion not in ("G0", "G1") or self.state.distance == "G91")):
+            raise Refused("a place of the machine without axes or motion, or incremental")
+        if home:
+            between = [values.get(axis, math.nan) * _mm(self.state) for axis in "XYZ"]
+            if self.state.distance == "G91":
+                between = [place + way for place, way in zip(self.place, between, strict=True)]
+            self._rapid_by_way([a if math.isnan(b) else b for a, b in zip(self.place, between, strict=True)], number)
+        if "Z" in named and self.family in DROPS_LENGTH:
+            self.state = replace(self.state, length_offset=0)
+        places = list(self.place)
+        for axis in named:
+            top = axis == "Z" and (home or values["Z"] >= 0.0)
+            places["XYZ".index(axis)] = math.inf if top else math.nan
+        kind: Literal["rapid", "feed"] = "rapid" if home or self.motion == "G0" else "feed"
+        if kind == "feed" and self.state.feed <= 0.0:
+            raise Refused("a feed move without a feed")
+        self._append(kind, places, number)
+
+    def _rapid_by_way(self, places: list[float], number: int) -> None:
+        if any(not math.isnan(b) and a != b for a, b in zip(self.place, places, strict=True)):
+            self._append("rapid", places, number)
+
+    def _append(self, kind: Literal["rapid", "feed"], places: list[float], number: int) -> None:
+        start = self.place
+        self.place = places
+        ends = (start[0], start[1], start[2]), (places[0], places[1], places[2])
+        self.program.moves.append(Move(kind, *ends, number, self.state))
+        self.state = replace(self.state, paused=0.0)
+
     def _bent(self, move: Move, values: dict[str, float]) -> Move:
         """The arc about the centre that I, J and K give from the start; both radii must agree as the controller asks."""
         if "R" in values:
@@ -327,12 +365,20 @@ class _Reader:
             centre[axis] = move.start[axis] + scale * values.get("IJK"[axis], 0.0)
         first = math.hypot(move.start[a] - centre[a], move.start[b] - centre[b])
         last = math.hypot(move.end[a] - centre[a], move.end[b] - centre[b])
-        allowed = 0.0283 if self.family == "linuxcnc" else 0.005
         apart = abs(first - last)
-        if not first > 0 or apart > 100 * allowed or (apart > allowed and apart > 0.001 * first):
+        if math.isnan(apart):
+            raise Refused("an arc from a place that is not known")
+        if not first > 0 or self._too_far(apart, first):
             raise Refused(f"the arc's radii differ by {apart:.4f} mm")
         sense = -1 if self.motion == "G2" else 1
         return replace(move, centre=(centre[0], centre[1], centre[2]), sense=sense)
+
+    def _too_far(self, apart: float, radius: float) -> bool:
+        """Whether an arc's radii differ by more than the controller bears; Marlin looks at nothing."""
+        allowed = ARC_ERROR.get(self.family, math.inf)
+        if self.family not in ("linuxcnc", "grbl"):
+            return apart > allowed
+        return apart > 100 * allowed or (apart > allowed and apart > 0.001 * radius)
 
 
 def _mm(state: State) -> float:

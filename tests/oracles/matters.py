@@ -2,6 +2,10 @@
 
 The sound program is the measure of what was wanted, the part and the job's limits of what is allowed. Nothing is asked
 of the judge that is tested. What changed is looked at, and of much that changed a dozen places.
+
+Z at the machine's top is above every clearance height: a rapid may go there straight up from wherever the tool is, go across
+there, and come down from there as from the clearance height. Any other place of the machine is an unknown one: no feed may go
+there or come from there, and no rapid below the clearance height.
 """
 
 from __future__ import annotations
@@ -9,14 +13,16 @@ from __future__ import annotations
 import difflib
 import itertools
 import math
+import re
 from collections import Counter
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from brute_judge import ROUGH, Solid
+from controllers import Family
 from convex_tool import Floats, Tool
-from gcode import Family, Move, Program, State, read
+from gcode import Move, Program, State, read
 
 PLACES = 12
 """Changed moves that are looked at, at most."""
@@ -27,6 +33,8 @@ TIME_SHARE = 0.02
 SURE = 2e-4
 """What rough searches may miss, mm: nearer to a limit nothing is said to matter."""
 GOUGE = 0.001
+BLOCK_NUMBER = re.compile(r"^\d+ ")
+"""Of Klartext: they count on behind a line that is new."""
 ROUNDED = 0.002
 """What the last place of an inch may take off a height, mm."""
 
@@ -91,16 +99,23 @@ def weigh(sound: str, changed: str, wanted: Wanted) -> Verdict:
     _weigh_order(before, after, wanted, verdict)
     _weigh_ends(after, wanted, verdict)
     _weigh_range(after, wanted, verdict)
-    if before.seconds and abs(after.seconds / before.seconds - 1) > TIME_SHARE:
+    comparable = _unplaced(before) == _unplaced(after)
+    if comparable and before.seconds and abs(after.seconds / before.seconds - 1) > TIME_SHARE:
         verdict.reasons.append(f"time {before.seconds:.1f} s becomes {after.seconds:.1f} s")
     verdict.whole = len(verdict.lines) > 0.5 * len(after.moves)
     return verdict
 
 
+def _unplaced(program: Program) -> int:
+    """Moves whose length, and with it their time, is not known."""
+    return sum(not move.placed for move in program.moves)
+
+
 def changed_lines(sound: str, changed: str) -> set[int]:
-    """Lines of the changed text that differ, and where lines are missing their neighbours."""
+    """Lines of the changed text that differ in more than their block number, and where lines are missing their neighbours."""
     found: set[int] = set()
-    matcher = difflib.SequenceMatcher(None, sound.splitlines(), changed.splitlines(), autojunk=False)
+    old, new = ([BLOCK_NUMBER.sub("", line) for line in text.splitlines()] for text in (sound, changed))
+    matcher = difflib.SequenceMatcher(None, old, new, autojunk=False)
     for tag, _, _, first, last in matcher.get_opcodes():
         if tag == "delete":
             found |= {first, first + 1}
@@ -159,23 +174,33 @@ def weigh_moves(new: list[Move], wanted: Wanted, verdict: Verdict) -> None:
     verdict.lines |= {move.line for move in new}
     for move in _some(new):
         tool = wanted.tools.get(move.state.tool) or next(iter(wanted.tools.values()))
-        if any(math.isnan(x) for x in move.start):
-            verdict.reasons += [f"line {move.line}: {reason}" for reason in _faults_of_first(move, wanted)]
+        if not move.placed:
+            verdict.reasons += [f"line {move.line}: {reason}" for reason in _faults_of_unplaced(move, wanted)]
             continue
         verdict.reasons += [f"line {move.line}: {reason}" for reason in _faults(move, tool, wanted)]
 
 
-def _faults_of_first(move: Move, wanted: Wanted) -> list[str]:
-    """A move from a place that the text does not know: it may only lift, or cross at a height that is known."""
+def _faults_of_unplaced(move: Move, wanted: Wanted) -> list[str]:
+    """A move from or to a place that the text does not know: it may only lift, or cross at a height that is known.
+
+    From the machine's top straight down a feed is only slow.
+    """
     if move.kind != "rapid":
-        return [f"a {move.kind} move from an unknown place"]
-    lifts = math.isnan(move.end[0]) and math.isnan(move.end[1])
-    across = not math.isnan(move.start[2]) and min(move.start[2], move.end[2]) >= wanted.clearance - ROUNDED
-    return (
-        []
-        if (lifts and move.end[2] >= wanted.clearance - ROUNDED) or across
-        else ["a rapid from an unknown place, down"]
-    )
+        straight = math.isinf(move.start[2]) and move.start[:2] == move.end[:2] and math.isfinite(move.end[2])
+        if move.kind == "feed" and straight:
+            return []
+        return [f"a {move.kind} move from or to an unknown place"]
+    low, high = sorted((move.start[2], move.end[2]))
+    still = all(a == b or (math.isnan(a) and math.isnan(b)) for a, b in zip(move.start[:2], move.end[:2], strict=True))
+    clear = wanted.clearance - ROUNDED
+    if math.isinf(move.end[2]):
+        return [] if still or move.start[2] >= clear else ["a rapid across to the machine's top, from below"]
+    if math.isinf(move.start[2]):
+        least = wanted.retract - ROUNDED if still and not math.isnan(move.end[0] + move.end[1]) else clear
+        return [] if move.end[2] >= least else ["a rapid from the machine's top, down"]
+    lifts = still and math.isnan(move.start[0]) and math.isnan(move.start[1]) and move.end[2] >= clear
+    across = not math.isnan(low + high) and low >= clear
+    return [] if lifts or across else ["a rapid from or to an unknown place, low"]
 
 
 def _faults(move: Move, tool: Tool, wanted: Wanted) -> list[str]:
@@ -205,7 +230,7 @@ def _faults(move: Move, tool: Tool, wanted: Wanted) -> list[str]:
 def _weigh_left(gone: list[Move], after: Program, wanted: Wanted, verdict: Verdict) -> None:
     """Places of the part that only missing moves touched: how far the changed program stays from them."""
     contacts = [m for m in gone if m.kind == "arc" or (m.kind == "feed" and math.dist(m.start[:2], m.end[:2]) > 1e-6)]
-    tips = _tips([m for m in after.moves if m.kind != "rapid" and not any(math.isnan(x) for x in m.start)])
+    tips = _tips([m for m in after.moves if m.kind != "rapid" and m.placed])
     for move in _some(contacts):
         tool = wanted.tools.get(move.state.tool) or next(iter(wanted.tools.values()))
         spot = wanted.solid.nearest(tool, np.array(move.at(0.5)), 2 * wanted.excess)
@@ -258,7 +283,7 @@ def _weigh_range(after: Program, wanted: Wanted, verdict: Verdict) -> None:
         return
     for move in after.moves:
         if any(
-            not (low <= x <= high) for x, (low, high) in zip(move.end, wanted.axes, strict=True) if not math.isnan(x)
+            not (low <= x <= high) for x, (low, high) in zip(move.end, wanted.axes, strict=True) if math.isfinite(x)
         ):
             verdict.reasons.append(f"line {move.line}: beyond the axes")
             verdict.lines.add(move.line)
@@ -266,7 +291,8 @@ def _weigh_range(after: Program, wanted: Wanted, verdict: Verdict) -> None:
 
 def _rises(program: Program) -> dict[object, int]:
     """Level contact moves that lie higher than one before them."""
-    lowest, found = math.inf, {}
+    lowest = math.inf
+    found: dict[object, int] = {}
     for move in program.moves:
         level = abs(move.end[2] - move.start[2]) < 1e-6 and math.dist(move.start[:2], move.end[:2]) > 1e-6
         if move.kind == "rapid" or not level:

@@ -9,6 +9,7 @@ use styluscam_post::machine::ToolChange;
 use styluscam_post::{read, Machine, Reading};
 use styluscam_verify::{
     FaceCoverage, Forming, Grid, Limits, Order, Passes, Reach, Report, Simulation, Spacing, Subject, TextFacts,
+    ToolCalls,
 };
 
 use crate::plan::operation_id;
@@ -62,9 +63,14 @@ pub fn judge(
         ended,
         ..
     } = reading;
-    let calls_tools = machine.tool.change == ToolChange::M6;
+    let tool_calls = match machine.tool.change {
+        ToolChange::M6 | ToolChange::T | ToolChange::ToolCall => ToolCalls::Load,
+        ToolChange::Pause | ToolChange::LoadBeforeStart => ToolCalls::Name,
+        ToolChange::Unsaid => ToolCalls::Unsaid,
+    };
+    let ended = ended || machine.end.is_empty(); // some controllers have no word for it
     let text =
-        TextFacts { blind, machine_moves, optional_lines, unsaid, stray_planes, stops, lines, ended, calls_tools };
+        TextFacts { blind, machine_moves, optional_lines, unsaid, stray_planes, stops, lines, ended, tool_calls };
     let orders = orders(job, scene, &records)?;
     let obstacles = fixture::obstacles(job, scene)?;
     let plain = subject(job, scene, &tools, &unplaced);

@@ -59,7 +59,7 @@ pub use passes::{Passes, Spacing};
 pub use reach::Reach;
 pub use report::{ContactRecord, Place, Report};
 pub use simulation::{simulate, Grid, Simulation, Skin};
-pub use subject::{Forming, Limits, Obstacle, Subject, TextFacts};
+pub use subject::{Forming, Limits, Obstacle, Subject, TextFacts, ToolCalls};
 
 /// A point or vector of space, mm.
 type Vector = styluscam_geometry::Vector;

@@ -86,8 +86,20 @@ pub struct TextFacts {
     pub lines: u32,
     /// Whether the text came to its end mark.
     pub ended: bool,
-    /// Whether the machine loads tools when the text calls them.
-    pub calls_tools: bool,
+    /// What calls of tools do on the machine.
+    pub tool_calls: ToolCalls,
+}
+
+/// What a text's calls of tools do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ToolCalls {
+    /// The machine loads the tool.
+    Load,
+    /// They say which tool the operator has loaded.
+    #[default]
+    Name,
+    /// There is no word for them.
+    Unsaid,
 }
 
 /// What is allowed. Comparisons allow another 1e-6 mm for arithmetic.

@@ -5,7 +5,7 @@ use styluscam_motion::{EventKind, Move, MoveKind, Program};
 use crate::findings::{Fault, Finding};
 use crate::legs::{in_this_world, Leg, LegKind};
 use crate::unplaced::{self, standing_low};
-use crate::{FindingKind, Limits, Severity, Subject, SLACK};
+use crate::{FindingKind, Limits, Severity, Subject, ToolCalls, SLACK};
 
 /// Faults of the moves' text, in the order of the moves.
 pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits: &Limits) -> Vec<Fault> {
@@ -152,8 +152,11 @@ fn missing_tool_change(program: &Program, subject: &Subject) -> Option<Fault> {
     if program.events.iter().any(|e| e.before <= index && changed(&e.kind)) {
         return None;
     }
-    let called = subject.text.is_some_and(|text| text.calls_tools);
-    let alone = !called && program.tools.len() <= 1;
+    let calls = subject.text.map(|text| text.tool_calls).unwrap_or_default();
+    if calls == ToolCalls::Unsaid && program.tools.len() <= 1 {
+        return None;
+    }
+    let alone = calls != ToolCalls::Load && program.tools.len() <= 1;
     let step = program.moves.get(index)?;
     let fault = Fault::of(FindingKind::MissingToolChange, index, step);
     Some(if alone { fault.warning() } else { fault })

@@ -7,7 +7,7 @@ use crate::legs::{last_before, Leg, LegKind};
 use crate::subject::run_of;
 use crate::{FindingKind, Limits, Subject, TextFacts, SLACK};
 
-/// The share of the Z axis, from its upper end, in which a machine place counts as its top.
+/// The share of the Z axis' length, from the machine's zero down, in which a machine place counts as its top.
 const TOP: f64 = 0.1;
 
 /// Moves across before the tool is known to be up, and down before it is known where.
@@ -61,10 +61,12 @@ fn machine_fault(
     Some(fault.measured(step.places[2].unwrap_or(f64::NAN), f64::NAN))
 }
 
-/// Whether a move in machine coordinates ends at the machine's top: where its travel is not known, at its zero or over it.
+/// Whether a move in machine coordinates ends at the machine's top: at its zero, over it, or a little under it where the
+/// axis' length is known. The range of Z is one of the work's coordinates and does not say where that zero is.
 fn goes_up(step: &MachineMove, limits: &Limits) -> bool {
-    let top = limits.reach.axes[2].map_or(0.0, |[low, high]| high - TOP * (high - low));
-    step.places[2].is_some_and(|z| z >= top - SLACK)
+    let range = limits.reach.axes[2].map(|[low, high]| high - low);
+    let length = range.or(limits.reach.travel.map(|travel| travel[2]));
+    step.places[2].is_some_and(|z| z >= -TOP * length.unwrap_or(0.0) - SLACK)
 }
 
 /// Whether the tool, whose height in the work is not known after a move, was sent to the machine's top before.

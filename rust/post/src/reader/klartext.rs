@@ -170,9 +170,14 @@ impl Reader<'_> {
     fn line(&self, tokens: &[Token]) -> Result<Block, Misfit> {
         let mut block = Block::default();
         let mut rapid = None;
-        for token in tokens {
+        if tokens.iter().map(|token| token.text).eq(["M140", "MB", "MAX"]) {
+            return Ok(away(&tokens[0]));
+        }
+        for (index, token) in tokens.iter().enumerate() {
             match token.text {
                 "FMAX" => rapid = Some(*token),
+                "F" if tokens.get(index + 1).is_some_and(|next| next.text == "MAX") => rapid = Some(*token),
+                "MAX" if rapid.is_some() => {}
                 text if text.starts_with('F') => once(&mut block.feed, token.word("F", b'F')?, token)?,
                 _ => take_common(&mut block, token)?,
             }
@@ -310,6 +315,13 @@ impl Reader<'_> {
     }
 }
 
+/// The way along the tool to the end of its axis, which is at or over the machine's zero.
+fn away(token: &Token) -> Block {
+    let word = Word { letter: b'M', number: Number::whole(0), start: token.start, end: token.end() };
+    let axes = [None, None, Some(word)];
+    Block { axes, machine_coordinates: Some(word), motion: Some((Motion::Rapid, word)), ..Block::default() }
+}
+
 /// X, Y, Z, R0 and M words of any block.
 fn take_common(block: &mut Block, token: &Token) -> Result<(), Misfit> {
     let [x, y, z] = &mut block.axes;
@@ -338,6 +350,11 @@ fn take_function(block: &mut Block, token: &Token) -> Result<(), Misfit> {
         7 => once(&mut block.mist, word, token),
         8 => once(&mut block.flood, word, token),
         9 => once(&mut block.coolant_off, word, token),
+        13 | 14 => {
+            let sense = if number == 13 { Spindle::Clockwise } else { Spindle::Counterclockwise };
+            once(&mut block.spindle, (sense, word), token)?;
+            once(&mut block.flood, word, token)
+        }
         91 => once(&mut block.machine_coordinates, word, token),
         99 => once(&mut block.call, word, token),
         _ => Err(token.misfit(ReadFault::UnknownCode)),

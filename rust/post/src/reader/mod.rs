@@ -217,8 +217,11 @@ impl<'t> Reader<'t> {
         Ok(if self.machine.reader.after_end == AfterEnd::Ignore { Progress::Done } else { Progress::Going })
     }
 
-    /// Whether a line is the program's number or name and a remark: `O0001 (CUP)`, `OCUP`.
+    /// Whether a line is the program's number or name and a remark: `O0001 (CUP)`, `OCUP`, `%_N_CUP_MPF` (Sinumerik).
     fn names_program(&self, text: &str) -> bool {
+        if self.machine.family == Family::Siemens && text.starts_with("%_N_") {
+            return true;
+        }
         let code = text.split('(').next().unwrap_or_default().trim();
         let Some(rest) = code.strip_prefix('O').filter(|rest| !rest.is_empty()) else { return false };
         let rules = &self.machine.program;

@@ -70,7 +70,8 @@ impl<'t> Line<'t> {
         Ok(end)
     }
 
-    /// `CYCLE832(0.01,1,1)` says how far the path may be left, in the program's units; without numbers, that nothing says so.
+    /// `CYCLE832(0.01,1,1)` says how far the path may be left, in the program's units; without numbers, or with a second
+    /// one of 0, that nothing says so (NC programming 12/2019 p. 1108).
     fn cut_tolerance(&mut self, text: &'t str, start: usize) -> Result<usize, Misfit> {
         let open = start + "CYCLE832(".len();
         let rest = text.get(open..).unwrap_or_default();
@@ -79,8 +80,11 @@ impl<'t> Line<'t> {
         };
         let end = open + length + 1;
         self.word(b'G', Number::whole(64), start, end);
-        let first = rest.get(..length).unwrap_or_default().split(',').next().unwrap_or_default().trim();
-        if !first.is_empty() {
+        let mut arguments = rest.get(..length).unwrap_or_default().split(',').map(str::trim);
+        let (first, mode) = (arguments.next().unwrap_or_default(), arguments.next().unwrap_or_default());
+        // the last digit of the second one is the kind of machining, 0 switches the cycle off
+        let on = mode.ends_with(|digit: char| ('1'..='9').contains(&digit));
+        if on && !first.is_empty() {
             let (number, _) = cut_number(first.as_bytes(), 0).map_err(|m| Misfit { start, end, ..m })?;
             self.word(b'P', number, start, end);
         }
