@@ -92,6 +92,14 @@ def test_a_native_job_moves_as_by_freecads_own_post(session: Any, linuxcnc: Any)
         assert any(code in line.split() for line in texts["ours"].splitlines()), code
 
 
+def test_a_machine_file_of_the_user_is_a_post(session: Any) -> None:
+    native = session["native job"]["texts"]
+    shop, fanuc = (native[name].splitlines() for name in ("shop", "fanuc"))
+    assert shop[-2:] == ["M2", "%"] and fanuc[-2:] == ["M30", "%"]
+    moves = [line for line in fanuc if line[:1] in "GXYZ"]
+    assert len(moves) > 500 and [line for line in shop if line[:1] in "GXYZ"] == moves
+
+
 def test_arguments_of_the_post(session: Any, linuxcnc: Any) -> None:
     texts = session["native job"]["texts"]
     lines = texts["arguments"].splitlines()

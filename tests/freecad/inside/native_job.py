@@ -11,12 +11,14 @@ from FreeCAD import Vector
 
 def native_job() -> dict[str, Any]:
     """The job posted by our post, by FreeCAD's, and by ours with arguments and for other machines."""
+    write_shop()
     document = FreeCAD.newDocument("native")
     job = job_of(document)
     texts = {
         "ours": text(job, "styluscam_linuxcnc", "--no-split-rapids"),
         "theirs": text(job, "linuxcnc", "--no-show-editor"),
         "arguments": text(job, "styluscam_linuxcnc", "--inches --precision=5 --no-header --no-comments --line-numbers"),
+        "shop": text(job, "styluscam_shop", ""),
         "unknown argument": text(job, "styluscam_linuxcnc", "--no-heder"),
     }
     for machine in ("grbl", "fanuc", "heidenhain", "siemens", "okuma", "marlin"):
@@ -24,6 +26,16 @@ def native_job() -> dict[str, Any]:
     counts = {op.Label: len(op.Path.Commands) for op in job.Operations.Group}
     FreeCAD.closeDocument(document.Name)
     return {"texts": texts, "commands": counts}
+
+
+def write_shop() -> None:
+    """A machine file in the user's folder, as it would be there before FreeCAD starts."""
+    from freecad.styluscam_wb import machines
+
+    machines.user_folder().mkdir(parents=True, exist_ok=True)
+    shop = 'schema = 1\nextends = "fanuc"\nname = "shop"\nend = "M2"\n\n[stop]\nalways = "M60"\n'
+    (machines.user_folder() / "shop.toml").write_text(shop, encoding="utf-8")
+    machines.write_user_posts()
 
 
 def text(job: Any, post: str, arguments: str) -> str:
