@@ -62,6 +62,18 @@ impl NumberFormat {
         whole(value * self.per_one())
     }
 
+    /// A count of last places as text.
+    pub(crate) fn text(&self, count: i64) -> String {
+        let mut out = String::new();
+        self.write(&mut out, count);
+        out
+    }
+
+    /// A value as text; 0 for one that is not finite or too large.
+    pub(crate) fn text_of(&self, value: f64) -> String {
+        self.text(self.count(value).unwrap_or_default())
+    }
+
     /// Writes a count of last places.
     pub(crate) fn write(&self, out: &mut String, count: i64) {
         if count < 0 {

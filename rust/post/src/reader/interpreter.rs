@@ -2,6 +2,10 @@
 
 mod elsewhere;
 mod holes;
+mod numbers;
+mod places;
+mod switches;
+mod tools;
 
 use std::ops::Range;
 
@@ -10,7 +14,7 @@ use styluscam_motion::{
     ToolRecord, ToolReference,
 };
 
-use super::block::{Block, Motion, Spindle, Stop};
+use super::block::{Block, Motion};
 use super::called::Called;
 use super::circle::Circle;
 use super::codes::Codes;
@@ -18,7 +22,7 @@ use super::drilling::Series;
 use super::lexer::Word;
 use super::standing::Standing;
 use super::Reading;
-use crate::machine::{Family, FeedMode, Lathe, LengthUnit, Machine, Point, SpeedUnit, TimeUnit, ToolChange};
+use crate::machine::{FeedMode, LengthUnit, Machine};
 use crate::read_error::ReadFault;
 
 const AXES: [char; 3] = ['X', 'Y', 'Z'];
@@ -155,11 +159,6 @@ impl<'m> Interpreter<'m> {
         self.called = called;
     }
 
-    /// The unit in force, mm.
-    pub(super) fn unit_mm(&self) -> Option<f64> {
-        self.units.map(LengthUnit::in_mm)
-    }
-
     /// What follows is an operation of its own.
     pub(crate) fn start_operation(&mut self, id: &str, kind: &str) {
         self.label = Some((id.into(), kind.into()));
@@ -201,137 +200,6 @@ impl<'m> Interpreter<'m> {
         self.program.events.push(Event { before: self.program.moves.len(), kind });
     }
 
-    fn set_units(&mut self, block: &Block) -> Result<(), Flaw> {
-        let Some(units) = block.units else { return Ok(()) };
-        let changes = self.units.is_some_and(|u| u != units);
-        if changes && block.feed.is_some() {
-            return Err((ReadFault::FeedWithUnits, block.feed));
-        }
-        self.units = Some(units);
-        Ok(())
-    }
-
-    fn mm(&self, word: Word) -> Result<f64, Flaw> {
-        let units = self.units.ok_or((ReadFault::NoUnits, Some(word)))?;
-        Ok(self.real(word)? * units.in_mm())
-    }
-
-    /// A number that may have a fraction.
-    fn real(&self, word: Word) -> Result<f64, Flaw> {
-        let value = word.number.value();
-        if self.machine.number.point == Point::Always && !word.number.is_pointed() && value != 0.0 {
-            return Err((ReadFault::NoPoint, Some(word)));
-        }
-        Ok(value)
-    }
-
-    /// A time as a wait has it, s.
-    fn seconds(&self, word: Word, unit: TimeUnit) -> Result<f64, Flaw> {
-        match unit {
-            TimeUnit::S => self.real(word),
-            TimeUnit::Ms if self.machine.number.point == Point::Always && word.number.is_pointed() => {
-                Err((ReadFault::PointInTime, Some(word)))
-            }
-            TimeUnit::Ms => Ok(word.number.value() / 1000.0),
-        }
-    }
-
-    fn set_feed(&mut self, block: &Block) -> Result<(), Flaw> {
-        let Some(word) = block.feed else { return Ok(()) };
-        let feed = match self.feed_mode {
-            FeedMode::InverseTime => self.real(word)?,
-            _ => self.mm(word)? / self.machine.feed_scale_of(self.units),
-        };
-        let motion = block.motion.map(|(motion, _)| motion).or(self.motion);
-        let rapid = motion == Some(Motion::Rapid) && block.probe.is_none();
-        if self.loose && (rapid || feed <= 0.0) {
-            self.feed = self.feed.filter(|_| rapid); // a feed of 0 is none, not the one before
-            return Ok(());
-        }
-        if feed <= 0.0 {
-            return Err((ReadFault::ZeroFeed, Some(word)));
-        }
-        self.feed = Some(feed);
-        Ok(())
-    }
-
-    /// A feed of one mode means nothing in another.
-    fn set_feed_mode(&mut self, block: &Block) {
-        let Some((mode, _)) = block.feed_mode else { return };
-        if mode != self.feed_mode {
-            self.feed = None;
-        }
-        self.feed_mode = mode;
-    }
-
-    /// The feed of a block whose way is so long, mm/min.
-    fn feed_of(&self, block: &Block, length: f64, word: Word) -> Result<f64, Flaw> {
-        let feed = self.feed.ok_or((ReadFault::NoFeed, Some(word)))?;
-        match self.feed_mode {
-            FeedMode::PerMinute => Ok(feed),
-            FeedMode::PerRevolution if self.direction.is_some() && self.speed > 0.0 => Ok(feed * self.speed),
-            FeedMode::PerRevolution => Err((ReadFault::NoRevolutions, Some(word))),
-            FeedMode::InverseTime if block.feed.is_some() => Ok(feed * length),
-            FeedMode::InverseTime => Err((ReadFault::NoFeed, Some(word))),
-        }
-    }
-
-    fn set_speed(&mut self, block: &Block) -> Result<(), Flaw> {
-        let Some(word) = block.speed else { return Ok(()) };
-        let rpm = match (self.machine.spindle.unit, self.machine.limits.max_rpm) {
-            (SpeedUnit::Percent, Some(most)) => word.number.value() / 100.0 * most,
-            _ => word.number.value(),
-        };
-        if rpm < 0.0 {
-            return Err((ReadFault::Negative, Some(word)));
-        }
-        self.speed = rpm;
-        if let (Some(direction), None) = (self.direction, block.spindle) {
-            self.event(EventKind::SpindleOn { rpm, direction });
-        }
-        Ok(())
-    }
-
-    // Tools
-
-    fn set_tool(&mut self, block: &Block) -> Result<(), Flaw> {
-        if let Some(word) = block.tool {
-            self.selected = Some(word.number.natural().ok_or((ReadFault::NotNatural, Some(word)))?);
-        }
-        // Without M6 the T word is all that the text says about a change.
-        let by_code = matches!(self.machine.tool.change, ToolChange::M6 | ToolChange::ToolCall | ToolChange::Unsaid);
-        let by_word = if by_code { None } else { block.tool };
-        let Some(word) = block.change.or(by_word) else { return Ok(()) };
-        let number = self.selected.ok_or((ReadFault::NoToolSelected, Some(word)))?;
-        let index =
-            self.tool_of_number(number).ok_or((ReadFault::UnknownTool { number }, block.tool.or(Some(word))))?;
-        self.load(index);
-        self.direction = None; // the spindle stops before a change
-        self.event(EventKind::ToolChange { tool: index });
-        Ok(())
-    }
-
-    /// The index of a tool; without tools from the job, a record that says nothing but the number is added.
-    fn tool_of_number(&mut self, number: u32) -> Option<u32> {
-        let known = self.program.tools.iter().position(|t| t.number == number);
-        if let Some(index) = known {
-            return u32::try_from(index).ok();
-        }
-        if self.tools_given {
-            return None;
-        }
-        self.program.tools.push(bare_tool(number));
-        u32::try_from(self.program.tools.len() - 1).ok()
-    }
-
-    /// Takes the tool for the active one. Its length differs from the last one's: Z is not known until it is commanded.
-    fn load(&mut self, index: u32) {
-        self.tool = Some(index);
-        self.height = self.program.tools.get(index as usize).map_or(0.0, |t| t.reference_height);
-        self.operation_due = true;
-        self.forget(Z);
-    }
-
     fn set_path(&mut self, block: &Block) -> Result<(), Flaw> {
         let mut standing = self.standing;
         standing.take_path(block, |word| self.mm(word))?;
@@ -343,83 +211,8 @@ impl<'m> Interpreter<'m> {
         Ok(())
     }
 
-    /// D0 takes a tool's length away, D1 gives it back; other edges are not read (Sinumerik).
-    fn set_edge(&mut self, block: &Block) -> Result<(), Flaw> {
-        let Some(word) = block.d.filter(|_| self.machine.family == Family::Siemens) else { return Ok(()) };
-        match word.number.natural() {
-            Some(0) => self.without_edge = true,
-            Some(1) => self.without_edge = false,
-            _ => return Err((ReadFault::NotRead { what: "edges other than D0 and D1" }, Some(word))),
-        }
-        Ok(())
-    }
-
-    /// For a job, every move needs its tool's length offset and the machine's path tolerance.
-    fn allow_motion(&self, word: Word) -> Result<(), Flaw> {
-        self.job_tool().map_or(Ok(()), |tool| self.standing.allows(self.machine, tool, word))
-    }
-
-    /// The loaded tool, where the job's tools are known.
-    fn job_tool(&self) -> Option<&ToolRecord> {
-        self.tool.filter(|_| self.tools_given).and_then(|i| self.program.tools.get(i as usize))
-    }
-
-    // Spindle, coolant, waiting, stops
-
-    fn set_spindle(&mut self, block: &Block) {
-        let Some((spindle, _)) = block.spindle else { return };
-        self.direction = match spindle {
-            Spindle::Clockwise => Some(SpindleDirection::Clockwise),
-            Spindle::Counterclockwise => Some(SpindleDirection::Counterclockwise),
-            Spindle::Off => None,
-        };
-        let rpm = self.speed;
-        self.event(self.direction.map_or(EventKind::SpindleOff, |direction| EventKind::SpindleOn { rpm, direction }));
-    }
-
-    fn set_coolant(&mut self, block: &Block) {
-        if block.mist.is_some() {
-            self.mist = true;
-            self.event(EventKind::Mist { on: true });
-        }
-        if block.flood.is_some() {
-            self.event(EventKind::Flood { on: true });
-        }
-        if block.coolant_off.is_some() {
-            if std::mem::take(&mut self.mist) {
-                self.event(EventKind::Mist { on: false });
-            }
-            self.event(EventKind::Flood { on: false });
-        }
-    }
-
-    fn dwell(&mut self, block: &Block) -> Result<(), Flaw> {
-        let Some(code) = block.dwell else { return Ok(()) };
-        let Some(rules) = &self.machine.dwell else { return Err((self.refusal(), Some(code))) };
-        let word = block.time.ok_or((ReadFault::MissingWord { what: "the time of G4" }, Some(code)))?;
-        let seconds = self.seconds(word, rules.unit)?;
-        if seconds < 0.0 {
-            return Err((ReadFault::Negative, Some(word)));
-        }
-        self.event(EventKind::Dwell { seconds });
-        Ok(())
-    }
-
     fn refusal(&self) -> ReadFault {
         ReadFault::Refused { machine: self.machine.name.clone() }
-    }
-
-    fn stop(&mut self, block: &Block) -> bool {
-        let Some((stop, _)) = block.stop else { return false };
-        if stop != Stop::End {
-            self.stops.push(self.program.moves.len());
-        }
-        match stop {
-            Stop::Pause => self.event(EventKind::Stop { optional: false }),
-            Stop::OptionalPause => self.event(EventKind::Stop { optional: true }),
-            Stop::End => {}
-        }
-        stop == Stop::End
     }
 
     fn set_wcs(&mut self, block: &Block, codes: &Codes) -> Result<(), Flaw> {
@@ -457,8 +250,6 @@ impl<'m> Interpreter<'m> {
         let moves = self.program.moves.len();
         self.stray_planes.extend(self.stray_plane_since.take().map(|since| since..moves).filter(|run| !run.is_empty()));
     }
-
-    // Motion
 
     fn go(&mut self, block: &Block, line: u32) -> Result<(), Flaw> {
         if let Some((motion, _)) = block.motion {
@@ -522,12 +313,6 @@ impl<'m> Interpreter<'m> {
         Ok(())
     }
 
-    /// The letter of a length offset's number.
-    pub(crate) fn length_word(&self) -> u8 {
-        let word = self.machine.tool.length.as_ref().map_or('H', |length| length.word);
-        u8::try_from(word).unwrap_or(b'H')
-    }
-
     /// A block of the machine's own, which moves nothing; `tolerance` is what it sets the path's to, mm.
     pub(crate) fn pass(&mut self, text: &str, tolerance: Option<f64>) {
         if let Some(tolerance) = tolerance {
@@ -563,107 +348,6 @@ impl<'m> Interpreter<'m> {
         circle.arc(block, rules, code, |word| self.mm(word))
     }
 
-    /// Where the tip stands, as far as it is known.
-    fn tip(&self) -> [f64; 3] {
-        let [x, y, z] = self.axes;
-        [x.place, y.place, z.place - self.height]
-    }
-
-    /// How often X is counted: twice where it is a diameter.
-    fn scale(&self, axis: usize) -> f64 {
-        if axis == 0 && self.machine.motion.lathe == Some(Lathe::Diameter) {
-            2.0
-        } else {
-            1.0
-        }
-    }
-
-    /// A job with one tool may run it without calling it; without any tool from the job, the tool is unknown.
-    fn load_only_tool(&mut self, word: Word) -> Result<(), Flaw> {
-        if self.tool.is_some() {
-            return Ok(());
-        }
-        if self.program.tools.len() > 1 {
-            return Err((ReadFault::NoToolLoaded, Some(word)));
-        }
-        if self.program.tools.is_empty() {
-            self.program.tools.push(bare_tool(0));
-        }
-        self.load(0);
-        Ok(())
-    }
-
-    fn place_axes(&mut self, block: &Block) -> Result<(), Flaw> {
-        for (index, word) in block.axes.iter().enumerate() {
-            let Some(word) = *word else { continue };
-            let value = self.mm(word)? / self.scale(index);
-            let axis = self.axes.get(index).copied().unwrap_or_default();
-            if self.incremental && !axis.known {
-                return Err((ReadFault::IncrementalFromUnknown, Some(word)));
-            }
-            self.place(index, if self.incremental { axis.place + value } else { value });
-        }
-        Ok(())
-    }
-
-    /// The end of an arc that is given by an angle about its centre.
-    fn turn_axes(&mut self, block: &Block) -> Result<(), Flaw> {
-        let (Some(angle), [Some(x), Some(y), _]) = (block.polar, block.offsets) else { return Ok(()) };
-        let centre = [self.mm(x)?, self.mm(y)?];
-        let degrees = angle.number.value();
-        let (sin, cos) = libm::sincos(degrees.rem_euclid(360.0).to_radians());
-        let [from_x, from_y] = [0, 1].map(|axis| self.axes[axis].place - centre[axis]);
-        if degrees.rem_euclid(360.0) != 0.0 {
-            self.place(0, centre[0] + cos * from_x - sin * from_y);
-            self.place(1, centre[1] + sin * from_x + cos * from_y);
-        }
-        if let Some(rise) = block.rise {
-            let rise = self.mm(rise)?;
-            self.place(Z, self.axes[Z].place + rise);
-        }
-        Ok(())
-    }
-
-    fn place(&mut self, index: usize, place: f64) {
-        let moves = self.program.moves.len();
-        let tip = place - if index == Z { self.height } else { 0.0 };
-        let Some(axis) = self.axes.get_mut(index) else { return };
-        if !axis.known {
-            let since = axis.pending.min(moves);
-            self.program.moves.iter_mut().skip(since).for_each(|m| m.end[index] = tip);
-        }
-        *axis = Axis { place, known: true, ever: true, pending: moves };
-        if index == Z {
-            self.end_blindness();
-        }
-    }
-
-    /// The place of this axis is not known from the next move on.
-    fn forget(&mut self, index: usize) {
-        let moves = self.program.moves.len();
-        let Some(axis) = self.axes.get_mut(index) else { return };
-        if axis.known {
-            axis.known = false;
-            axis.pending = moves;
-        }
-        self.unplaced_since = self.unplaced_since.or(Some(moves));
-        if index == Z {
-            self.blind_since = self.blind_since.or(Some(moves));
-        }
-    }
-
-    fn end_blindness(&mut self) {
-        let moves = self.program.moves.len();
-        self.blind.extend(self.blind_since.take().map(|since| since..moves).filter(|run| !run.is_empty()));
-    }
-
-    fn require_places(&self, word: Word) -> Result<(), Flaw> {
-        match self.axes.iter().zip(AXES).find(|(axis, _)| !axis.known) {
-            Some((_, axis)) => Err((ReadFault::FeedFromUnknown { axis }, Some(word))),
-            None => Ok(()),
-        }
-    }
-
     fn push_move(&mut self, kind: MoveKind, arc: Option<Arc>, feed: f64, line: u32) {
         self.push_move_to(self.tip(), kind, arc, feed, line);
     }
@@ -677,22 +361,6 @@ impl<'m> Interpreter<'m> {
         }
         let operation = self.operation();
         self.program.moves.push(Move { kind, end, arc, feed, operation, line });
-    }
-
-    /// Ends the run of moves that lack a place, once every axis has one.
-    fn close_unplaced(&mut self) {
-        let Some(since) = self.unplaced_since else { return };
-        if self.axes.iter().all(|a| a.known) {
-            self.note_unplaced(since);
-        }
-    }
-
-    fn note_unplaced(&mut self, since: usize) {
-        self.unplaced_since = None;
-        let moves = self.program.moves.len();
-        if since < moves {
-            self.unplaced.push(since..moves);
-        }
     }
 
     /// The index of the operation that the next move belongs to: a new one after a tool change or an operation's remark.

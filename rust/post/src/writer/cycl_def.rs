@@ -29,21 +29,13 @@ pub(super) fn definition(hole: &Hole, linear: &NumberFormat, feed: &NumberFormat
     let pecked = if hole.peck > 0 && hole.peck < depth { (depth - hole.peck) / 2 } else { depth / 2 };
     let clearance = quarter.min(pecked).max(1);
     let surface = hole.retract - clearance;
-    let text = |format: &NumberFormat, count: i64| {
-        let mut out = String::new();
-        format.write(&mut out, count);
-        out
-    };
-    let length = |count: i64| text(linear, count);
-    let real = |places: u8, value: f64| {
-        let format = NumberFormat::plain(places);
-        text(&format, format.count(value).unwrap_or_default())
-    };
+    let length = |count: i64| linear.text(count);
+    let real = |places: u8, value: f64| NumberFormat::plain(places).text_of(value);
     let clear = ("Q200", length(clearance), "SET-UP CLEARANCE");
     let depth = ("Q201", length(hole.bottom - surface), "DEPTH");
     let top = ("Q203", length(surface), "SURFACE COORDINATE");
     let second = ("Q204", length(hole.leave - surface), "2ND SET-UP CLEARANCE");
-    let plunge = ("Q206", text(feed, hole.feed), "FEED RATE FOR PLNGNG");
+    let plunge = ("Q206", feed.text(hole.feed), "FEED RATE FOR PLNGNG");
     let dwell = ("Q211", real(DWELL_PLACES, hole.dwell), "DWELL TIME AT DEPTH");
     let none = || length(0);
     let (title, parameters) = match (hole.kind, hole.thread) {

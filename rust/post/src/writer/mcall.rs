@@ -17,16 +17,8 @@ const DWELL_PLACES: u8 = 3;
 ///
 /// All heights are absolute: return plane, reference plane (the clearance is 0), depth.
 pub(super) fn call(hole: &Hole, linear: &NumberFormat, rpm: &NumberFormat) -> String {
-    let text = |format: &NumberFormat, count: i64| {
-        let mut out = String::new();
-        format.write(&mut out, count);
-        out
-    };
-    let length = |count: i64| text(linear, count);
-    let real = |places: u8, value: f64| {
-        let format = NumberFormat::plain(places);
-        text(&format, format.count(value).unwrap_or_default())
-    };
+    let length = |count: i64| linear.text(count);
+    let real = |places: u8, value: f64| NumberFormat::plain(places).text_of(value);
     let heights = format!("{},{},0,{}", length(hole.leave), length(hole.retract), length(hole.bottom));
     match (hole.kind, hole.thread) {
         (CycleKind::Peck | CycleKind::ChipBreak, _) => {
@@ -36,7 +28,7 @@ pub(super) fn call(hole: &Hole, linear: &NumberFormat, rpm: &NumberFormat) -> St
         }
         (CycleKind::Tap | CycleKind::LeftTap, Some(thread)) => {
             let (hand, turns) = if hole.kind == CycleKind::Tap { (1.0, 3) } else { (-1.0, 4) };
-            let speed = text(rpm, thread.speed);
+            let speed = rpm.text(thread.speed);
             let pitch = real(PITCH_PLACES, hand * thread.pitch);
             format!("MCALL CYCLE84({heights},,0,{turns},,{pitch},0,{speed},{speed})")
         }

@@ -1,7 +1,10 @@
 //! Motion to text: who walks through a program and decides what is said next.
 
+mod arcs;
 mod cycl_def;
 mod dialect;
+mod events;
+mod holes;
 mod klartext;
 mod lines;
 mod mcall;
@@ -10,17 +13,15 @@ mod words;
 use std::collections::BTreeMap;
 use std::io;
 
-use styluscam_motion::{
-    Arc, ArcWay, Cycle, Event, EventKind, Move, MoveKind, OperationRecord, Program, SpindleDirection, ToolRecord,
-};
+use styluscam_motion::{Event, EventKind, Move, MoveKind, OperationRecord, Program, ToolRecord};
 
 use crate::inspect::Inspector;
-use crate::machine::{CoolantRules, Family, FeedMode, Lathe, Machine, SpeedUnit, ToolChange, Turns};
+use crate::machine::{Family, FeedMode, Lathe, Machine};
 use crate::number::NumberFormat;
 use crate::post_error::PostError;
-use crate::rounded::RoundedArc;
 use crate::template::{Facts, Templater};
-use dialect::{Dialect, Hole, Place, Thread};
+use dialect::{Dialect, Place};
+use holes::holds_others;
 pub(crate) use lines::counted_length;
 use lines::{Lines, Outlet};
 
@@ -237,205 +238,6 @@ impl<'a> Poster<'a> {
         self.lines.text(text)
     }
 
-    // Events
-
-    /// What happens before the next move.
-    ///
-    /// # Errors
-    /// [`PostError`]: something that the machine does not have.
-    pub fn event(&mut self, event: &EventKind) -> Result<(), PostError> {
-        let number = self.events;
-        self.events += 1;
-        self.inspector.event(number, event)?;
-        self.dialect.close(&mut self.lines)?;
-        match event {
-            EventKind::ToolChange { tool } => self.change_tool(number, *tool),
-            EventKind::SpindleOn { rpm, direction } => self.start_spindle(number, *rpm, *direction),
-            EventKind::SpindleOff => self.stop_spindle(),
-            EventKind::Mist { on } => {
-                self.mist = *on;
-                self.switch_coolant(*on, |words| words.mist.as_deref())
-            }
-            EventKind::Flood { on } => {
-                self.flood = *on;
-                self.switch_coolant(*on, |words| words.flood.as_deref())
-            }
-            EventKind::Comment { text } => self.lines.comment(text),
-            EventKind::Dwell { seconds } => self.dwell(number, *seconds),
-            EventKind::Stop { optional } => self.stop(*optional),
-            EventKind::WorkOffset { wcs } => self.change_wcs(wcs),
-            EventKind::Probe { end, feed, must_touch } => self.probe(number, *end, *feed, *must_touch),
-            EventKind::Raw { text } => self.raw(text),
-            EventKind::Sync { mark } => self.sync(*mark),
-        }
-    }
-
-    fn change_tool(&mut self, event: usize, tool: u32) -> Result<(), PostError> {
-        let first = self.tool.is_none();
-        if !first && matches!(self.machine.tool.change, ToolChange::LoadBeforeStart | ToolChange::Unsaid) {
-            return Err(PostError::ToolChange { event });
-        }
-        if self.rpm.is_some() {
-            self.stop_spindle()?;
-        }
-        let record = self.head.tools.get(tool as usize);
-        let record =
-            record.ok_or(PostError::NoSuchRecord { place: format!("events[{event}]"), what: "tool", index: tool })?;
-        let next = self.next_tool();
-        let text = self.templater.tool_change(&self.names, record, first, next)?;
-        self.lines.mark();
-        self.speak(&text)?;
-        self.tool = Some(record);
-        self.dialect.tool_changed(record.length_offset);
-        self.position = [None; 3];
-        self.dialect.forget();
-        Ok(())
-    }
-
-    /// The number of the tool after this one, where the head of the program says so.
-    fn next_tool(&mut self) -> Option<u32> {
-        self.calls.pop_front();
-        let next = self.calls.front()?;
-        self.head.tools.get(*next as usize).map(|tool| tool.number)
-    }
-
-    fn start_spindle(&mut self, event: usize, rpm: f64, direction: SpindleDirection) -> Result<(), PostError> {
-        let words = &self.machine.spindle;
-        let word = match direction {
-            SpindleDirection::Clockwise => words.clockwise.as_deref(),
-            SpindleDirection::Counterclockwise => words.counterclockwise.as_deref(),
-        };
-        let word = word.ok_or(PostError::SpindleDirection { direction })?;
-        let speed = self.speed_count(rpm)?;
-        self.dialect.spindle(&mut self.lines, speed, word)?;
-        self.rpm = Some(rpm);
-        if words.start_dwell > 0.0 && rpm > 0.0 {
-            return self.dwell(event, words.start_dwell);
-        }
-        Ok(())
-    }
-
-    /// A speed as the machine counts it, in last places.
-    fn speed_count(&self, rpm: f64) -> Result<i64, PostError> {
-        let speed = match (self.machine.spindle.unit, self.machine.limits.max_rpm) {
-            (SpeedUnit::Percent, Some(most)) => 100.0 * rpm / most,
-            _ => rpm,
-        };
-        let too_large = PostError::SpindleSpeed { rpm, min: 0.0, max: f64::INFINITY };
-        NumberFormat::plain(self.machine.number.rpm).count(speed).ok_or(too_large)
-    }
-
-    /// Whether an event turns the spindle as it turns.
-    #[allow(clippy::float_cmp)] // the same number, not a near one
-    fn turns_so(&self, kind: &EventKind) -> bool {
-        matches!(kind, EventKind::SpindleOn { rpm, .. } if self.rpm == Some(*rpm))
-    }
-
-    fn stop_spindle(&mut self) -> Result<(), PostError> {
-        self.rpm = None;
-        let words = &self.machine.spindle;
-        if words.clockwise.is_none() && words.counterclockwise.is_none() {
-            return Ok(()); // what cannot turn stands
-        }
-        self.block_of(self.machine.spindle.off.as_deref(), "the spindle's stop")
-    }
-
-    /// One word switches all coolant off: what is to stay on is said again.
-    fn switch_coolant(&mut self, on: bool, word: fn(&CoolantRules) -> Option<&str>) -> Result<(), PostError> {
-        let words = &self.machine.coolant;
-        if !on && words.mist.is_none() && words.flood.is_none() {
-            return Ok(()); // there is nothing to switch off
-        }
-        self.block_of(if on { word(words) } else { words.off.as_deref() }, "coolant")?;
-        let left = [(self.mist, &words.mist), (self.flood, &words.flood)];
-        let left = left.into_iter().filter(|(stays, _)| *stays && !on);
-        left.map(|(_, word)| word.as_deref()).try_for_each(|word| self.lines.block(word.unwrap_or_default()))
-    }
-
-    /// Not every program's end stops what still runs.
-    fn switch_off(&mut self) -> Result<(), PostError> {
-        if std::mem::take(&mut self.mist) | std::mem::take(&mut self.flood) {
-            self.switch_coolant(false, |_| None)?;
-        }
-        if self.rpm.is_some() {
-            self.stop_spindle()?;
-        }
-        Ok(())
-    }
-
-    fn block_of(&mut self, word: Option<&str>, what: &'static str) -> Result<(), PostError> {
-        let word = word.ok_or(PostError::Unsupported { what })?;
-        self.lines.block(word)
-    }
-
-    fn dwell(&mut self, event: usize, seconds: f64) -> Result<(), PostError> {
-        if self.machine.dwell.is_none() {
-            return Err(PostError::Unsupported { what: "a dwell" });
-        }
-        if self.dialect.dwell(&mut self.lines, seconds)? {
-            return Ok(());
-        }
-        Err(PostError::Number { what: "the dwell", place: format!("events[{event}]"), value: seconds })
-    }
-
-    fn stop(&mut self, optional: bool) -> Result<(), PostError> {
-        if self.machine.templates.stop.is_some() {
-            let text = self.templater.stop(&self.names, optional)?;
-            return self.speak(&text);
-        }
-        let words = &self.machine.stop;
-        let (word, what) =
-            if optional { (&words.optional, "an optional stop") } else { (&words.always, "a program stop") };
-        self.block_of(word.as_deref(), what)
-    }
-
-    /// Where the tool stands in the new work offset is not known.
-    fn change_wcs(&mut self, wcs: &str) -> Result<(), PostError> {
-        if !self.machine.wcs.iter().any(|known| known == wcs) {
-            return Err(PostError::Wcs { wcs: wcs.into(), allowed: self.machine.wcs.join(", ") });
-        }
-        let text = self.templater.work_offset(&self.names, wcs)?;
-        self.position = [None; 3];
-        self.speak(&text)
-    }
-
-    fn probe(&mut self, event: usize, end: [Option<f64>; 3], feed: f64, must_touch: bool) -> Result<(), PostError> {
-        let rules = self.machine.probe.as_ref().ok_or(PostError::Unsupported { what: "probing" })?;
-        let word = if must_touch { Some(&rules.must_touch) } else { rules.may_touch.as_ref() };
-        let word = word.ok_or(PostError::Unsupported { what: "probing that may miss" })?;
-        let height = self.tool.ok_or(PostError::NoTool { index: self.moves })?.reference_height;
-        let mut to = [None; 3];
-        for (axis, place) in end.into_iter().enumerate() {
-            let Some(place) = place else { continue };
-            let place = place + if axis == 2 { height } else { 0.0 };
-            let count = self.linear.count(place * self.per_mm);
-            let at = || PostError::Number { what: "a place", place: format!("events[{event}]"), value: place };
-            to[axis] = Some(count.ok_or_else(at)?);
-        }
-        let count = self.feed_count(self.moves, feed, f64::INFINITY)?;
-        self.dialect.probe(&mut self.lines, word, to, count)?;
-        self.dialect.forget();
-        for (axis, place) in to.into_iter().enumerate() {
-            if place.is_some() {
-                self.position[axis] = None;
-            }
-        }
-        Ok(())
-    }
-
-    /// A line of one's own must not move an axis, and it may change modes.
-    fn raw(&mut self, text: &str) -> Result<(), PostError> {
-        self.speak(text)
-    }
-
-    fn sync(&mut self, mark: u32) -> Result<(), PostError> {
-        if self.machine.templates.sync.is_none() {
-            return Err(PostError::Unsupported { what: "waiting for another program" });
-        }
-        let text = self.templater.sync(&self.names, mark)?;
-        self.speak(&text)
-    }
-
     // Moves
 
     /// The next move.
@@ -532,124 +334,6 @@ impl<'a> Poster<'a> {
         };
         self.feed_format.count(said).filter(|c| *c > 0).ok_or(PostError::Feed { index, feed })
     }
-
-    // Arcs
-
-    /// An arc in as many blocks as the machine needs; as lines where it would not take the rounded numbers.
-    fn arc(&mut self, index: usize, step: &Move, arc: Arc) -> Result<(), PostError> {
-        self.position(index)?;
-        let way = arc.way(self.tip.unwrap_or(step.end), step.end);
-        let rules = self.machine.arc.as_ref();
-        let (pieces, turns) = match rules {
-            Some(rules) if rules.turns != Turns::None && rules.max_sweep_deg >= 360.0 => (1, arc.turns),
-            Some(rules) => ((way.sweep().abs().to_degrees() / rules.max_sweep_deg - 1e-9).ceil().max(1.0) as u32, 0),
-            None => (1, 0),
-        };
-        let arc = Arc { turns, ..arc };
-        let share = |i: u32| f64::from(i) / f64::from(pieces);
-        for piece in 0..pieces {
-            let part = way.part(share(piece), share(piece + 1));
-            let rounded = self.rounded(index, arc, &part)?;
-            match rules.filter(|rules| rounded.stands_for(&part, rules, self.machine.resolution_mm())) {
-                Some(_) => self.circle(index, step.feed, &rounded, part.length())?,
-                None => self.chords(index, step.feed, &part)?,
-            }
-        }
-        Ok(())
-    }
-
-    fn rounded(&self, index: usize, arc: Arc, way: &ArcWay) -> Result<RoundedArc, PostError> {
-        let from = self.position(index)?;
-        let to = self.target(index, way.at(1.0))?;
-        let mut arc_centre = [0; 3];
-        let height = self.tool.map_or(0.0, |tool| tool.reference_height);
-        for axis in arc.plane.axes().into_iter().take(2) {
-            let mm = arc.centre[axis] + if axis == 2 { height } else { 0.0 };
-            arc_centre[axis] = self.count(index, "the centre", mm)?;
-        }
-        Ok(RoundedArc::new(arc, from, to, arc_centre, self.x_scale))
-    }
-
-    fn circle(&mut self, index: usize, feed: f64, rounded: &RoundedArc, length: f64) -> Result<(), PostError> {
-        let feed = self.feed_count(index, feed, length)?;
-        let before = self.lines.line;
-        self.dialect.arc(&mut self.lines, rounded, feed)?;
-        self.motion_line = (self.lines.line - 1).max(before);
-        self.position = rounded.to.map(Some);
-        Ok(())
-    }
-
-    fn chords(&mut self, index: usize, feed: f64, way: &ArcWay) -> Result<(), PostError> {
-        let count = way.chords(self.machine.resolution_mm());
-        for chord in 1..=count {
-            let target = self.target(index, way.at(chord as f64 / count as f64))?;
-            self.feed(index, target, feed, way.length() / count as f64)?;
-        }
-        Ok(())
-    }
-
-    // Holes
-
-    /// Whether the machine has a cycle for this.
-    fn has(&self, cycle: &Cycle) -> bool {
-        self.machine.cycle.as_ref().is_some_and(|rules| rules.take(cycle))
-    }
-
-    /// A hole by the machine's own cycle; `moves` are those that it makes.
-    fn hole(&mut self, cycle: &Cycle, moves: &[Move]) -> Result<(), PostError> {
-        let index = self.moves;
-        if let Some(first) = moves.first() {
-            self.start_operation(first.operation)?;
-        }
-        for (number, step) in moves.iter().enumerate() {
-            self.inspector.step(index + number, self.tip, step)?;
-            self.tip = Some(step.end);
-        }
-        let [x, y] = cycle.at;
-        let low = self.target(index, [x, y, cycle.bottom])?;
-        let high = self.target(index, [x, y, cycle.retract])?;
-        let leave = self.target(index, [x, y, cycle.leave])?;
-        let [x_now, y_now, z_now] = self.position(index)?;
-        // a series that returns begins at the height to which it returns; none goes across below where it begins
-        let z_first = if leave[2] > high[2] { leave[2] } else { z_now.max(high[2]) };
-        if z_now != z_first {
-            self.dialect.close(&mut self.lines)?;
-            self.rapid([x_now, y_now, z_first])?;
-        }
-        let thread = match self.rpm.filter(|rpm| *rpm > 0.0) {
-            _ if !cycle.kind.is_tapping() => None,
-            Some(rpm) => Some(Thread { pitch: cycle.feed * self.per_mm / rpm, speed: self.speed_count(rpm)? }),
-            None => return Err(PostError::NoRevolutions { index }),
-        };
-        let hole = Hole {
-            kind: cycle.kind,
-            at: [low[0], low[1]],
-            retract: high[2],
-            bottom: low[2],
-            peck: self.count(index, "a peck", cycle.peck)?,
-            dwell: cycle.dwell,
-            feed: self.feed_count(index, cycle.feed, f64::INFINITY)?,
-            leave: leave[2],
-            thread,
-        };
-        self.motion_line = self.lines.line;
-        self.dialect.hole(&mut self.lines, &hole)?;
-        self.motion_line = self.lines.line - 1;
-        self.position = leave.map(Some);
-        self.moves += moves.len();
-        Ok(())
-    }
-}
-
-/// Whether something happens on a cycle's way that the cycle does not do itself: its code would leave that out.
-fn holds_others(program: &Program, cycle: &Cycle) -> bool {
-    let on_its_way = cycle.first + 1..cycle.first + cycle.count;
-    let own = |kind: &EventKind| {
-        matches!(kind, EventKind::Dwell { .. } | EventKind::SpindleOn { .. } | EventKind::SpindleOff)
-    };
-    let first = program.events.partition_point(|event| event.before < on_its_way.start);
-    let events = program.events.iter().skip(first).take_while(|event| on_its_way.contains(&event.before));
-    events.into_iter().any(|event| !own(&event.kind))
 }
 
 /// The tools that a program calls, in order.

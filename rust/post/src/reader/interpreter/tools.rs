@@ -1,0 +1,91 @@
+//! Tools, their lengths, and what must be in force before they move.
+
+use styluscam_motion::{EventKind, ToolRecord};
+
+use super::{bare_tool, Flaw, Interpreter, Z};
+use crate::machine::{Family, ToolChange};
+use crate::read_error::ReadFault;
+use crate::reader::block::Block;
+use crate::reader::lexer::Word;
+
+impl Interpreter<'_> {
+    pub(super) fn set_tool(&mut self, block: &Block) -> Result<(), Flaw> {
+        if let Some(word) = block.tool {
+            self.selected = Some(word.number.natural().ok_or((ReadFault::NotNatural, Some(word)))?);
+        }
+        // Without M6 the T word is all that the text says about a change.
+        let by_code = matches!(self.machine.tool.change, ToolChange::M6 | ToolChange::ToolCall | ToolChange::Unsaid);
+        let by_word = if by_code { None } else { block.tool };
+        let Some(word) = block.change.or(by_word) else { return Ok(()) };
+        let number = self.selected.ok_or((ReadFault::NoToolSelected, Some(word)))?;
+        let index =
+            self.tool_of_number(number).ok_or((ReadFault::UnknownTool { number }, block.tool.or(Some(word))))?;
+        self.load(index);
+        self.direction = None; // the spindle stops before a change
+        self.event(EventKind::ToolChange { tool: index });
+        Ok(())
+    }
+
+    /// The index of a tool; without tools from the job, a record that says nothing but the number is added.
+    pub(super) fn tool_of_number(&mut self, number: u32) -> Option<u32> {
+        let known = self.program.tools.iter().position(|t| t.number == number);
+        if let Some(index) = known {
+            return u32::try_from(index).ok();
+        }
+        if self.tools_given {
+            return None;
+        }
+        self.program.tools.push(bare_tool(number));
+        u32::try_from(self.program.tools.len() - 1).ok()
+    }
+
+    /// Takes the tool for the active one. Its length differs from the last one's: Z is not known until it is commanded.
+    pub(super) fn load(&mut self, index: u32) {
+        self.tool = Some(index);
+        self.height = self.program.tools.get(index as usize).map_or(0.0, |t| t.reference_height);
+        self.operation_due = true;
+        self.forget(Z);
+    }
+
+    /// A job with one tool may run it without calling it; without any tool from the job, the tool is unknown.
+    pub(super) fn load_only_tool(&mut self, word: Word) -> Result<(), Flaw> {
+        if self.tool.is_some() {
+            return Ok(());
+        }
+        if self.program.tools.len() > 1 {
+            return Err((ReadFault::NoToolLoaded, Some(word)));
+        }
+        if self.program.tools.is_empty() {
+            self.program.tools.push(bare_tool(0));
+        }
+        self.load(0);
+        Ok(())
+    }
+
+    /// D0 takes a tool's length away, D1 gives it back; other edges are not read (Sinumerik).
+    pub(super) fn set_edge(&mut self, block: &Block) -> Result<(), Flaw> {
+        let Some(word) = block.d.filter(|_| self.machine.family == Family::Siemens) else { return Ok(()) };
+        match word.number.natural() {
+            Some(0) => self.without_edge = true,
+            Some(1) => self.without_edge = false,
+            _ => return Err((ReadFault::NotRead { what: "edges other than D0 and D1" }, Some(word))),
+        }
+        Ok(())
+    }
+
+    /// For a job, every move needs its tool's length offset and the machine's path tolerance.
+    pub(super) fn allow_motion(&self, word: Word) -> Result<(), Flaw> {
+        self.job_tool().map_or(Ok(()), |tool| self.standing.allows(self.machine, tool, word))
+    }
+
+    /// The loaded tool, where the job's tools are known.
+    pub(super) fn job_tool(&self) -> Option<&ToolRecord> {
+        self.tool.filter(|_| self.tools_given).and_then(|i| self.program.tools.get(i as usize))
+    }
+
+    /// The letter of a length offset's number.
+    pub(crate) fn length_word(&self) -> u8 {
+        let word = self.machine.tool.length.as_ref().map_or('H', |length| length.word);
+        u8::try_from(word).unwrap_or(b'H')
+    }
+}
