@@ -55,8 +55,9 @@ class Machine:
 
     @classmethod
     def find(cls, name: str) -> Machine:
-        """A machine file, or a shipped machine by its name."""
-        return cls.read(name) if name.endswith(".toml") or Path(name).is_file() else cls.shipped(name)
+        """A shipped machine by its name, or a machine file."""
+        is_file = name.endswith(".toml") or (name not in cls.names() and Path(name).is_file())
+        return cls.read(name) if is_file else cls.shipped(name)
 
     @classmethod
     def of_section(cls, section: Document, folder: Path) -> Machine:

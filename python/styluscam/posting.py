@@ -13,6 +13,12 @@ from styluscam.files import drawn_whole, read_gcode_text
 from styluscam.machine import Machine
 from styluscam.program import Program
 
+VERDICT = "judged from this text"
+"""How the note begins that belongs to the text which was judged, and to no other."""
+ON_ANOTHER = "judged, not this text"
+"""In its place, as long."""
+NOT_JUDGED = "this text was not judged"
+
 
 @dataclass(frozen=True)
 class Edits:
@@ -26,8 +32,8 @@ class Edits:
     """Whether an optional stop stands before every operation but the first."""
 
 
-def read_program(path: Path, machine: Machine | None) -> Program:
-    """A program document (.json), or G-code as ``machine`` reads it."""
+def read_program(path: Path, machine: Machine | None, target: Machine) -> Program:
+    """A program document (.json), or G-code as ``machine`` reads it, to be posted for ``target``."""
     if path.suffix.lower() == ".json":
         return Program.load(path)
     if machine is None:
@@ -37,7 +43,7 @@ def read_program(path: Path, machine: Machine | None) -> Program:
             where=str(path),
             hint="for G-code say with --as which machine it is for",
         )
-    return Program(_engine.read_to_post(read_gcode_text(path), machine.engine))
+    return Program(_engine.read_to_post(read_gcode_text(path), machine.engine, target.engine))
 
 
 def edited(program: Program, machine: Machine, edits: Edits) -> Program:
@@ -46,7 +52,9 @@ def edited(program: Program, machine: Machine, edits: Edits) -> Program:
     Raises:
         JobError: there is no such line, operation or level, or the program cannot begin there.
     """
-    engine, notes = program.engine, list(program.setup["notes"])
+    notes = _not_judged(program.setup["notes"])
+    program = program.with_notes(notes)
+    engine = program.engine
     if edits.start:
         first = _first_move(program, machine, edits.start)
         restarted = engine.restarted(first)
@@ -62,6 +70,12 @@ def edited(program: Program, machine: Machine, edits: Edits) -> Program:
         engine = engine.raised(edits.air_mm)
         notes.append(f"AIR CUT: everything is {edits.air_mm:g} mm higher")
     return Program(engine.with_notes(notes))
+
+
+def _not_judged(notes: list[str]) -> list[str]:
+    """The notes with what is true of a new text in the place of the verdict on another: lines are counted alike."""
+    kept = [note.replace(VERDICT, ON_ANOTHER, 1) if note.startswith(VERDICT) else note for note in notes]
+    return kept if kept != notes else [*kept, NOT_JUDGED]
 
 
 def write(programs: dict[Path, tuple[Program, Machine]]) -> None:

@@ -199,3 +199,40 @@ def test_wrong_options_are_one_line(options: list[str], word: str, cli: Any, pro
     ran = cli("post", program, "--machine", "linuxcnc", "--out", out, *options)
     assert ran.code == 2 and ran.err.count("\n") == 1 and word in ran.err, ran.err
     assert not out.exists()
+
+
+def test_a_text_that_nobody_judged_says_so(cli: Any, program: Path, tmp_path: Path) -> None:
+    document = json.loads(program.read_text())
+    document["setup"]["notes"] = ["judged from this text: passed, worst gouge 0.0000 mm"]
+    judged = tmp_path / "judged.json"
+    judged.write_text(json.dumps(document))
+    assert "(judged, not this text: passed, worst gouge 0.0000 mm)" in posted(cli, judged, tmp_path, "--air", "5")
+    assert "(this text was not judged)" in posted(cli, program, tmp_path)
+
+
+def test_an_optional_stop_stands_with_spindle_and_coolant_off(cli: Any, program: Path, tmp_path: Path) -> None:
+    lines = posted(cli, program, tmp_path, "--optional-stops")
+    stop = lines.index("M1")
+    assert "M5" in lines[:stop] and not any("M3" in line for line in lines[lines.index("M5") : stop])
+
+
+def test_the_length_offset_of_a_text_is_kept_and_none_is_made_up(cli: Any, tmp_path: Path) -> None:
+    text = (
+        "%\nO0001\nG21\nG90 G94 G17 G40 G49 G80\nG54\nT1 M6\nG0 G43 Z10. H21\nX0. Y0.\nG1 Z-1. F100.\nG0 Z10.\nM30\n%\n"
+    )
+    (tmp_path / "old.nc").write_text(text)
+    out = tmp_path / "new.nc"
+    ran = cli("post", tmp_path / "old.nc", "--as", "fanuc", "-m", "haas", "-o", out)
+    assert ran.code == 0 and "G43 Z10. H21" in out.read_text(), ran.err
+    (tmp_path / "bare.ngc").write_text("G21 G90 G94 G17 G40 G49 G80 G54\nT1 M6\nG0 Z10\nX0 Y0\nG1 Z-1 F100\nM2\n")
+    ran = cli("post", tmp_path / "bare.ngc", "--as", "linuxcnc", "-m", "fanuc", "-o", tmp_path / "bare.nc")
+    assert ran.code == 2 and "length offset" in ran.err
+    ran = cli("post", tmp_path / "bare.ngc", "--as", "linuxcnc", "-m", "grbl", "-o", tmp_path / "bare.nc")
+    assert ran.code == 0, ran.err
+
+
+def test_a_text_that_names_no_tool_gets_one(cli: Any, tmp_path: Path) -> None:
+    (tmp_path / "old.gcode").write_text("; machine: x\nG21\nG90\nG0 Z10 F3000\nG0 X0 Y0\nG1 Z-1 F100\nG0 Z10 F3000\n")
+    ran = cli("post", tmp_path / "old.gcode", "--as", "marlin", "-m", "grbl", "-o", tmp_path / "new.nc")
+    assert ran.code == 0 and "T1" in (tmp_path / "new.nc").read_text().split(), ran.err
+    assert "(machine: x)" not in (tmp_path / "new.nc").read_text()

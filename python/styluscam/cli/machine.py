@@ -27,6 +27,11 @@ From = Annotated[
 ]
 Toml = Annotated[bool, typer.Option("--toml", help="Print all of it as a machine file.")]
 
+Keep = Annotated[
+    Path | None,
+    typer.Option("--keep", metavar="DIR", help="Write the posted texts into this folder.", show_default=False),
+]
+
 EVIDENCE = {"read": "", "partly": "not all confirmed", "unverified": "UNVERIFIED"}
 """How a machine's evidence is shown in a list."""
 
@@ -116,10 +121,12 @@ def _beside(base: Path, path: Path) -> str:
 
 
 @app.command("check")
-def check(name: Name, json: Json = False, debug: Debug = False) -> int:
+def check(name: Name, keep: Keep = None, json: Json = False, debug: Debug = False) -> int:
     """Post a torture program by a machine file, read it back and compare. Exit code 1 when something failed."""
     machine = Machine.find(name)
     trials = machine.check()
+    if keep is not None:
+        _keep(trials, keep)
     failed = [trial for trial in trials if trial.outcome == "failed"]
     if json:
         console.say_json({"name": machine.name, "ok": not failed, "trials": [_tried(trial) for trial in trials]})
@@ -131,6 +138,17 @@ def check(name: Name, json: Json = False, debug: Debug = False) -> int:
             f"{machine.name}: {passed} passed, {len(failed)} failed, {len(trials) - passed - len(failed)} without"
         )
     return 1 if failed else 0
+
+
+def _keep(trials: list[Trial], folder: Path) -> None:
+    """The posted texts, a file for each trial that has one."""
+    texts = {
+        folder / f"{re.sub(r'[^a-z0-9]+', '-', trial.name.lower())}.txt": trial.text for trial in trials if trial.text
+    }
+    files.require_writable(texts)
+    for path, text in texts.items():
+        files.write_whole(path, text)
+    console.say(f"written: {len(texts)} texts in {shown_path(folder)}")
 
 
 def _tell_failures(failed: list[Trial]) -> None:

@@ -101,14 +101,14 @@ def post(
         files.require_new(path, force, JobError, "choose another name")
     files.require_writable(outputs, [path for path in (program, support) if path is not None])
     target = Machine.find(machine).with_options(_options(options or []))
-    source = posting.read_program(program, Machine.find(read_as) if read_as else None)
+    source = posting.read_program(program, Machine.find(read_as) if read_as else None, target)
     edits = posting.Edits(start, air, optional_stops)
     work = posting.edited(source, target, edits)
     if cl:
         files.write_whole(out, posting.cl_text(work))
     elif support is not None and support_out is not None:
         partner = Machine.find(support_machine) if support_machine else target
-        work, other = posting.paired(work, posting.read_program(support, None))
+        work, other = posting.paired(work, posting.read_program(support, None, partner))
         posting.write({out: (work, target), support_out: (other, partner)})
     else:
         posting.write({out: (work, target)})

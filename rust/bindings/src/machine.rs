@@ -194,7 +194,7 @@ fn path_section((label, kind, coolant, text): PathSection) -> styluscam_post::Pa
 
 /// The same for posting it again: a text of which something would be lost is refused.
 #[pyfunction]
-pub fn read_to_post(py: Python<'_>, text: &str, machine: &Machine) -> PyResult<Program> {
+pub fn read_to_post(py: Python<'_>, text: &str, machine: &Machine, target: &Machine) -> PyResult<Program> {
     let reading = py.detach(|| styluscam_post::read(text, &machine.machine, &[])).map_err(of_job)?;
     let refuse = |line: u32, what: &str| {
         let message = format!("line {line}: {what}");
@@ -206,7 +206,12 @@ pub fn read_to_post(py: Python<'_>, text: &str, machine: &Machine) -> PyResult<P
             "post it by the machine that it is for",
         )
     };
-    let program = reading.program;
+    let mut program = reading.program;
+    program.forget_old_header();
+    let takes_lengths = target.machine.tool.length.is_some();
+    if let Some(line) = reading.bare_line.filter(|_| takes_lengths) {
+        return Err(refuse(line, "a move without the tool's length offset, which the other machine's text would have"));
+    }
     let changes = |before: usize| {
         program.events.iter().any(|e| e.before == before && matches!(e.kind, EventKind::ToolChange { .. }))
     };
@@ -223,6 +228,7 @@ pub fn read_to_post(py: Python<'_>, text: &str, machine: &Machine) -> PyResult<P
     if let Some(line) = reading.optional_lines.first() {
         return Err(refuse(*line, "a line that runs or not by a switch of the machine cannot be posted"));
     }
+    program.name_tools();
     Ok(Program { program })
 }
 

@@ -7,7 +7,7 @@ const SAME_HEIGHT: f64 = 1e-6;
 
 impl Program {
     /// The program from one of its moves on: tool, spindle, coolant and work offset as they are there, the way to its start
-    /// at the clearance height and then straight down at its feed.
+    /// at the clearance height and then straight down at the feed of its operation's plunges.
     ///
     /// None when there is no such move, when it is the first (nothing comes before it), or when it lies in a canned cycle
     /// that began before it.
@@ -32,7 +32,7 @@ impl Program {
             moves.push(rapid([start[0], start[1], highest]));
         }
         if !anew && step.kind == MoveKind::Feed && highest > start[2] {
-            moves.push(Move { kind: MoveKind::Feed, end: start, arc: None, ..*step });
+            moves.push(Move { kind: MoveKind::Feed, end: start, arc: None, feed: self.plunge_feed(step), ..*step });
         }
         let shift = moves.len();
         moves.extend_from_slice(self.moves.get(first..)?);
@@ -60,24 +60,20 @@ impl Program {
         })
     }
 
+    /// The lowest feed at which a move's operation goes straight down; the move's own where it never does.
+    fn plunge_feed(&self, step: &Move) -> f64 {
+        let plunges = self.segments().filter_map(|(start, plunge)| {
+            let start = start?;
+            let down =
+                plunge.end[2] < start[2] && (plunge.end[0] - start[0]).hypot(plunge.end[1] - start[1]) <= SAME_HEIGHT;
+            (down && plunge.kind == MoveKind::Feed && plunge.operation == step.operation).then_some(plunge.feed)
+        });
+        plunges.fold(step.feed, f64::min)
+    }
+
     /// Tool, spindle and coolant as they are when a move begins, and the work offset where one was called on the way.
     fn state_before(&self, first: usize) -> (Vec<EventKind>, Option<String>) {
-        let (mut tool, mut spindle, mut mist, mut flood, mut wcs) = (None, None, None, None, None);
-        for event in self.events.iter().take_while(|event| event.before <= first) {
-            match &event.kind {
-                kind @ EventKind::ToolChange { .. } => {
-                    tool = Some(kind.clone());
-                    spindle = None;
-                }
-                kind @ EventKind::SpindleOn { .. } => spindle = Some(kind.clone()),
-                EventKind::SpindleOff => spindle = None,
-                EventKind::Mist { on } => mist = on.then_some(EventKind::Mist { on: true }),
-                EventKind::Flood { on } => flood = on.then_some(EventKind::Flood { on: true }),
-                EventKind::WorkOffset { wcs: name } => wcs = Some(name.clone()),
-                _ => {}
-            }
-        }
-        ([tool, spindle, mist, flood].into_iter().flatten().collect(), wcs)
+        state_of(self.events.iter().take_while(|event| event.before <= first))
     }
 
     /// The first move of a level of an operation: levels are the heights at which it goes level at feed, in order, from 1.
@@ -124,11 +120,60 @@ impl Program {
         program
     }
 
-    /// The same program with an optional stop before every operation but the first.
+    /// The same program with an optional stop before every operation but the first: spindle and coolant are off there, and on
+    /// again behind it unless the program says otherwise at that place.
     #[must_use]
     pub fn with_optional_stops(&self) -> Self {
-        let stops = self.operation_starts().into_iter().map(|before| (before, EventKind::Stop { optional: true }));
-        self.with_events(stops.collect())
+        let mut program = self.clone();
+        for before in self.operation_starts().into_iter().rev() {
+            let first = program.events.partition_point(|event| event.before < before);
+            let behind = program.events.partition_point(|event| event.before <= before);
+            let (running, _) = state_of(program.events.iter().take(first));
+            let running: Vec<EventKind> =
+                running.into_iter().filter(|kind| !matches!(kind, EventKind::ToolChange { .. })).collect();
+            let here = program.events.get(first..behind).unwrap_or_default();
+            let said = |kind: &EventKind| here.iter().any(|event| decides(&event.kind, kind));
+            let again: Vec<EventKind> = running.iter().filter(|kind| !said(kind)).cloned().collect();
+            let stop = EventKind::Stop { optional: true };
+            let at = |kind| Event { before, kind };
+            program.events.splice(behind..behind, again.into_iter().map(at));
+            program.events.splice(first..first, running.iter().rev().map(off).chain([stop]).map(at));
+        }
+        program
+    }
+
+    /// Leaves out what the header of a text said about itself: another machine's header takes its place.
+    pub fn forget_old_header(&mut self) {
+        const OWN: [&str; 8] = [
+            "machine: ",
+            "parts of this machine",
+            "work offset ",
+            "part box: ",
+            "path tolerance of ",
+            "deepest Z of ",
+            "tool T",
+            "judged from this text",
+        ];
+        let head = |event: &Event| event.before == 0;
+        self.events.retain(|event| match &event.kind {
+            EventKind::Comment { text } if head(event) => {
+                let text = text.to_lowercase();
+                !OWN.iter().any(|own| text.starts_with(&own.to_lowercase()))
+            }
+            _ => true,
+        });
+    }
+
+    /// A tool that no word named becomes number 1, called at the start.
+    pub fn name_tools(&mut self) {
+        let taken = self.tools.iter().any(|tool| tool.number == 1);
+        if let Some(tool) = self.tools.iter_mut().find(|tool| tool.number == 0 && !taken) {
+            (tool.number, tool.length_offset, tool.name) = (1, 1, "T1".into());
+        }
+        if !self.events.iter().any(|event| matches!(event.kind, EventKind::ToolChange { .. })) && !self.tools.is_empty()
+        {
+            self.events.insert(0, Event { before: 0, kind: EventKind::ToolChange { tool: 0 } });
+        }
     }
 
     /// A pair of programs that wait for one another before every operation, the first included (double-sided forming).
@@ -159,6 +204,44 @@ impl Program {
             program.events.insert(place, Event { before, kind });
         }
         program
+    }
+}
+
+/// Tool, spindle and coolant after events, and the work offset where one was called.
+fn state_of<'e>(events: impl Iterator<Item = &'e Event>) -> (Vec<EventKind>, Option<String>) {
+    let (mut tool, mut spindle, mut mist, mut flood, mut wcs) = (None, None, None, None, None);
+    for event in events {
+        match &event.kind {
+            kind @ EventKind::ToolChange { .. } => {
+                tool = Some(kind.clone());
+                spindle = None;
+            }
+            kind @ EventKind::SpindleOn { .. } => spindle = Some(kind.clone()),
+            EventKind::SpindleOff => spindle = None,
+            EventKind::Mist { on } => mist = on.then_some(EventKind::Mist { on: true }),
+            EventKind::Flood { on } => flood = on.then_some(EventKind::Flood { on: true }),
+            EventKind::WorkOffset { wcs: name } => wcs = Some(name.clone()),
+            _ => {}
+        }
+    }
+    ([tool, spindle, mist, flood].into_iter().flatten().collect(), wcs)
+}
+
+/// What switches something off that is on.
+fn off(kind: &EventKind) -> EventKind {
+    match kind {
+        EventKind::Mist { .. } => EventKind::Mist { on: false },
+        EventKind::Flood { .. } => EventKind::Flood { on: false },
+        _ => EventKind::SpindleOff,
+    }
+}
+
+/// Whether an event says how something goes on that was on; behind a tool change the spindle stands.
+fn decides(event: &EventKind, running: &EventKind) -> bool {
+    match running {
+        EventKind::Mist { .. } => matches!(event, EventKind::Mist { .. }),
+        EventKind::Flood { .. } => matches!(event, EventKind::Flood { .. }),
+        _ => matches!(event, EventKind::SpindleOn { .. } | EventKind::SpindleOff | EventKind::ToolChange { .. }),
     }
 }
 

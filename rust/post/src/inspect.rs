@@ -55,7 +55,7 @@ impl<'a> Inspector<'a> {
             if !self.makes(hole, moves) {
                 return Err(PostError::CycleMoves { cycle });
             }
-            if hole.kind.is_tapping() && !self.machine.cycle.as_ref().is_some_and(|rules| rules.take(hole)) {
+            if hole.kind.is_tapping() && !self.machine.takes_cycle(hole) {
                 return Err(PostError::Unsupported { what: "a tapping cycle, and plain moves cannot tap" });
             }
             free = end;
@@ -82,7 +82,7 @@ impl<'a> Inspector<'a> {
             EventKind::SpindleOn { rpm, .. } => {
                 let limits = &self.machine.limits;
                 let (min, max) = (limits.min_rpm.unwrap_or(0.0), limits.max_rpm.unwrap_or(f64::INFINITY));
-                if !(min..=max).contains(&rpm) || rpm.is_infinite() {
+                if rpm != 0.0 && !(min..=max).contains(&rpm) || rpm.is_infinite() {
                     return Err(PostError::SpindleSpeed { rpm, min, max });
                 }
                 Ok(())

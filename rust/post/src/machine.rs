@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use styluscam_motion::Dynamics;
+use styluscam_motion::{Cycle, Dynamics};
 
 pub(crate) use error::most_similar;
 pub use error::MachineError;
@@ -18,6 +18,9 @@ pub use option::{OptionRule, OptionValue, BUILT_IN_OPTIONS};
 pub use rules::*;
 
 use crate::number::NumberFormat;
+
+/// Holes of fewer last places are made of plain moves: controllers refuse a cycle of no depth.
+const LEAST_DEPTH: f64 = 3.0;
 
 /// Version of the machine document; newer ones are refused.
 pub const MACHINE_SCHEMA: u32 = 1;
@@ -297,6 +300,14 @@ impl Machine {
     /// How many F there are to one output unit in a minute.
     pub(crate) fn feed_scale(&self) -> f64 {
         self.feed_scale_of(Some(self.units.output))
+    }
+
+    /// Whether a hole is posted as a cycle; cycles have no inverse time.
+    pub(crate) fn takes_cycle(&self, cycle: &Cycle) -> bool {
+        let feeds = self.feed.mode != FeedMode::InverseTime;
+        let unit = self.resolution_mm();
+        let deep = cycle.retract - cycle.bottom >= LEAST_DEPTH * unit && (cycle.peck <= 0.0 || cycle.peck >= unit);
+        feeds && deep && self.cycle.as_ref().is_some_and(|rules| rules.take(cycle))
     }
 
     /// How many F there are to one of these units in a minute.

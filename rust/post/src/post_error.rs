@@ -139,6 +139,13 @@ pub enum PostError {
         /// The machine's largest, rev/min; infinity when its file names none.
         max: f64,
     },
+    /// A tapping cycle whose moves and events are not those of its numbers, or that the machine does not have: plain moves
+    /// cannot tap. Make the hole anew.
+    #[error("move {index} begins a tapping cycle that the machine does not have, or whose moves are not its own")]
+    TapMoves {
+        /// The first move of the cycle.
+        index: usize,
+    },
     /// The machine's spindle does not turn this way. Take the other direction, or correct `[spindle]`.
     #[error("the machine's spindle does not turn {direction:?}")]
     SpindleDirection {
@@ -240,6 +247,7 @@ impl PostError {
             Self::ToolNumberTwice { .. } => "post-tool-number-twice",
             Self::ToolChange { .. } => "post-tool-change",
             Self::SpindleSpeed { .. } => "post-spindle-speed",
+            Self::TapMoves { .. } => "post-tap-moves",
             Self::SpindleDirection { .. } => "post-spindle-direction",
             Self::Unsupported { .. } => "post-unsupported",
             Self::Dwell { .. } => "post-dwell",
@@ -278,6 +286,7 @@ impl PostError {
             Self::Output { .. } => "output".into(),
             Self::ToolNumber { .. } | Self::ToolNumberTwice { .. } => "tools".into(),
             Self::SpindleSpeed { .. } | Self::SpindleDirection { .. } => "spindle".into(),
+            Self::TapMoves { index } => format!("moves[{index}]"),
             Self::Unsupported { .. } => "machine".into(),
             Self::LineTooLong { line, .. } | Self::Character { line, .. } => format!("line {line}"),
         }
@@ -303,6 +312,7 @@ impl PostError {
             Self::ToolChange { .. } => {
                 "post one program per tool; or, where all tools have the same length, take a machine file with tool.change = \"pause\""
             }
+            Self::TapMoves { .. } => "make the hole anew, without anything between the moves of its cycle",
             Self::SpindleSpeed { .. } => "take a speed that the machine has, or correct limits.min_rpm and limits.max_rpm",
             Self::SpindleDirection { .. } => "take the other direction, or correct [spindle] of the machine",
             Self::Unsupported { .. } => "leave it out of the job, or correct the machine file",

@@ -218,6 +218,9 @@ pub enum ReadFault {
     /// The text ends and the machine asks for M2 or M30 (or a closing %): it may be cut off. Write the end, or get the whole file.
     #[error("the program has no end")]
     NoEnd,
+    /// A cut behind a stop that has stopped the spindle too. Start it again.
+    #[error("the stop before has stopped the spindle, and this move is at feed")]
+    Halted,
     /// A feed per revolution while the spindle stands. Turn it on before.
     #[error("a feed per revolution while the spindle stands")]
     NoRevolutions,
@@ -318,6 +321,7 @@ impl ReadFault {
             Self::FeedFromUnknown { .. } => "read-feed-from-unknown",
             Self::MachineCoordinates => "read-machine-coordinates",
             Self::NeverPlaced { .. } => "read-never-placed",
+            Self::Halted => "read-halted",
             Self::NoRevolutions => "read-no-revolutions",
             Self::SecondCommand => "read-second-command",
             Self::HomeByWay => "read-home-by-way",
@@ -346,8 +350,10 @@ impl ReadFault {
             Self::TooManyLines => "split the program",
             Self::Percent => "remove the %, or take the machine file of the controller that the program is for",
             Self::BlockDelete => "remove the / or the block",
-            Self::UnknownWord => "take the word out: only X, Y and Z are axes here",
-            Self::UnknownCode => "take the code out, or post the program again for this machine",
+            Self::UnknownWord => {
+                "say in other words what it does: repeats, and axes other than X, Y and Z, are not read"
+            }
+            Self::UnknownCode => "say in other codes what it does, or post the program again for this machine",
             Self::NotRead { .. } => "post the program with lines, arcs and plain numbers only",
             Self::Refused { .. } => {
                 "take the code out, or take the machine file of the controller that the program is for"
@@ -384,12 +390,13 @@ impl ReadFault {
             Self::IncrementalFromUnknown => "place the axis with G90 G0 first",
             Self::FeedFromUnknown { .. } | Self::NeverPlaced { .. } => "place the axis with G0 first",
             Self::MachineCoordinates => "write G53 G0 and an axis, with G90 active",
+            Self::Halted => "write M3 or M4 behind the stop",
             Self::NoRevolutions => "turn the spindle on before, or write feeds per minute (G94)",
             Self::SecondCommand => "put each code on a line of its own",
             Self::HomeByWay => "write G91 G28 Z0, or G53 G0 Z0",
             Self::CycleUpwards => "correct Z or R of the cycle",
             Self::TooManyPecks => "correct Q of the cycle",
-            Self::UnknownWords => "take them out, or post the program again for this machine",
+            Self::UnknownWords => "say in other words what they do, or post the program again for this machine",
             Self::NoEnd => "the file may be cut off: get the whole file, or write M2 at its end",
             Self::AfterEnd => "remove what follows the end, or the end before it",
         };

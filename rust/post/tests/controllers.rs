@@ -6,7 +6,7 @@ mod support;
 
 use styluscam_motion::{Cycle, CycleKind, CycleStart, CycleStep, EventKind, Program, SpindleDirection};
 use styluscam_post::machine::{FeedMode, OptionValue};
-use styluscam_post::{difference, post, read, read_path, Machine, PathSection, PostError, ReadFault};
+use styluscam_post::{difference, post, read, read_path, try_out, Machine, PathSection, PostError, ReadFault};
 use support::{change, event, feed, program, rapid, spindle, stylus};
 
 fn machine(name: &str) -> Machine {
@@ -203,7 +203,7 @@ fn a_hole_with_something_else_on_its_way_is_made_of_moves() {
     let middle = tapped.cycles[0].first + 1;
     tapped.events.push(event(middle, EventKind::Flood { on: true }));
     tapped.events.sort_by_key(|event| event.before);
-    assert!(matches!(post(&tapped, &machine("fanuc")), Err(PostError::Unsupported { .. })));
+    assert!(matches!(post(&tapped, &machine("fanuc")), Err(PostError::TapMoves { .. })));
 }
 
 #[test]
@@ -229,4 +229,123 @@ fn the_path_mode_of_freecad_is_not_handed_on() {
     let work = read_path(&[section], &[stylus(1)], setup).unwrap();
     let heidenhain = post(&work, &machine("heidenhain")).unwrap().text;
     assert!(!heidenhain.contains("G64 P") && heidenhain.contains("; G64 left out"), "{heidenhain}");
+}
+
+#[test]
+fn a_hole_is_reached_from_the_height_where_the_tool_stands() {
+    let text = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S500\n2 M3\n3 L Z+100 R0 FMAX\n4 L X+0 Y+0 R0 FMAX\n\
+        5 CYCL DEF 200 ~\nQ200=2 ~\nQ201=-6 ~\nQ206=100 ~\nQ202=6 ~\nQ203=+0 ~\nQ204=+10\n6 L X+10 R0 FMAX M99\n\
+        7 L Z+100 R0 FMAX\n8 L X+50 R0 FMAX M99\n9 L Z+100 R0 FMAX\n10 M30\n11 END PGM A MM\n";
+    let mut work = read(text, &machine("heidenhain"), &[]).unwrap().program;
+    work.tools[0].reference_height = 0.0;
+    for name in ["fanuc", "linuxcnc", "siemens", "heidenhain", "grbl"] {
+        let controller = machine(name);
+        let posted = post(&work, &controller).unwrap();
+        let reading = read(&posted.text, &controller, &work.tools).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(difference(&work, &posted, &reading, &controller), None, "{}", posted.text);
+        let mut from = [0.0; 3];
+        for step in &reading.program.moves {
+            let across = step.kind == styluscam_motion::MoveKind::Rapid && (step.end[0] - from[0]).abs() > 1.0;
+            assert!(!across || step.end[2] > 99.0, "{name} crosses at {:?}\n{}", step.end, posted.text);
+            from = step.end;
+        }
+    }
+}
+
+#[test]
+fn what_stands_between_holes_is_said() {
+    let counter = EventKind::SpindleOn { rpm: 500.0, direction: SpindleDirection::Counterclockwise };
+    let mut work = holes(CycleKind::Drill, 0.0, 0.0, true);
+    work.events.insert(2, event(work.cycles[1].first, counter));
+    assert!(post(&work, &machine("fanuc")).unwrap().text.contains("S500 M4"));
+    let faster = EventKind::SpindleOn { rpm: 900.0, direction: SpindleDirection::Clockwise };
+    let mut work = holes(CycleKind::Drill, 0.0, 0.0, true);
+    work.events.insert(2, event(work.cycles[0].first + 1, faster));
+    let text = post(&work, &machine("fanuc")).unwrap().text;
+    assert!(text.contains("S900 M3") && text.matches("G81").count() == 1, "{text}");
+}
+
+#[test]
+fn a_cycle_that_its_moves_do_not_make_is_made_of_them() {
+    for change in [
+        (|c: &mut Cycle| c.feed = 5000.0) as fn(&mut Cycle),
+        |c| c.retract = -5.5,
+        |c| c.dwell = 4.0,
+        |c| c.kind = CycleKind::Bore,
+    ] {
+        let mut work = holes(CycleKind::Drill, 0.0, 0.0, true);
+        change(&mut work.cycles[0]);
+        let text = post(&work, &machine("fanuc")).unwrap().text;
+        assert!(text.contains("G1 Z-6. F150.") && text.matches("G81").count() == 1, "{text}");
+    }
+}
+
+#[test]
+fn a_stop_that_stops_the_spindle_too() {
+    let mut work = holes(CycleKind::Drill, 0.0, 0.0, true);
+    work.moves.push(feed(20.0, 0.0, 5.0, 100.0));
+    let last = work.moves.len() - 1;
+    work.events.insert(work.events.len() - 1, event(last, EventKind::Stop { optional: true }));
+    work.events.last_mut().unwrap().before = last + 1;
+    let posted = post(&work, &machine("heidenhain")).unwrap();
+    let lines: Vec<&str> = posted.text.lines().map(without_number).collect();
+    let stop = lines.iter().position(|line| *line == "M1").unwrap();
+    assert_eq!(lines[stop + 1], "M3");
+    assert!(matches!(fault("heidenhain", "M1\nL Z-1 R0 F100"), ReadFault::Halted));
+}
+
+#[test]
+fn a_stop_of_the_spindle_comes_behind_the_move_of_its_block() {
+    let text = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S500\n2 M3\n3 L Z+10 R0 FMAX\n4 L X+0 Y+0 R0 FMAX\n\
+        5 L X+5 R0 F100 M5\n6 M30\n7 END PGM A MM\n";
+    let work = read(text, &machine("heidenhain"), &[]).unwrap().program;
+    let off = work.events.iter().find(|e| e.kind == EventKind::SpindleOff).unwrap();
+    assert_eq!(off.before, work.moves.len());
+    let first = read("G21 G90 G94 S500 M3\nG0 Z1\nX0 Y0\nG1 X5 F100 M5\nM2\n", &machine("grbl"), &[]).unwrap().program;
+    let off = first.events.iter().find(|e| e.kind == EventKind::SpindleOff).unwrap();
+    assert_eq!(off.before, first.moves.len() - 1);
+}
+
+#[test]
+fn templates_that_move_or_stop_fail_their_trial() {
+    let tried = |toml: &str| try_out(&Machine::from_toml(&format!("schema = 1\nname = \"x\"\n{toml}")).unwrap());
+    for (base, key, text) in [
+        ("grbl", "operation_start", "G0 Z-50"),
+        ("linuxcnc", "operation_start", "G0 X999"),
+        ("linuxcnc", "operation_start", "M5"),
+        ("linuxcnc", "operation_start", "S20"),
+        ("linuxcnc", "operation_start", "M9"),
+        ("linuxcnc", "operation_start", "G18"),
+        ("fanuc", "operation_end", "G91 G28 Z0.\\nG90"),
+        ("fanuc", "operation_end", "M9\\nM5"),
+        ("grbl", "work_offset", "G0 Z-100\\n{{ wcs }}"),
+        ("fanuc", "work_offset", "{{ wcs }}\\nM5"),
+    ] {
+        let error = tried(&format!("extends = \"{base}\"\n[templates]\n{key} = \"{text}\"\n"));
+        assert!(error.is_err(), "{base} {key} {text}");
+    }
+    let wash = "extends = \"grbl\"\n[templates]\nprogram_end = \"{% if options.wash %}G0 Z-50\\n{% endif %}M2\"\n[options.wash]\ndescription = \"wash\"\nvalue = false\n";
+    assert!(tried(wash).is_err(), "an option that moves the tool");
+}
+
+#[test]
+fn work_offsets_and_their_words_go_together() {
+    let file = |toml: &str| Machine::from_toml(&format!("schema = 1\nname = \"x\"\nextends = \"siemens\"\n{toml}"));
+    assert!(file("wcs = [\"G54\"]\nwcs_words = [\"G54\", \"G55\"]").is_err());
+    let two = file("wcs = [\"G55\", \"G56\"]").unwrap();
+    let mut work = holes(CycleKind::Drill, 0.0, 0.0, true);
+    work.setup.wcs = "G55".into();
+    assert!(post(&work, &two).unwrap().text.contains("\nG55\n"));
+}
+
+#[test]
+fn a_first_line_that_names_the_program() {
+    let toml = "schema = 1\nname = \"fagor\"\nextends = \"linuxcnc\"\n[dwell]\nword = \"K\"\n[reader]\nhead = \"%\"\n\
+        [templates]\nprogram_start = \"%PART,MX,\\n{{ header }}\\n{{ units_word }} G90 {{ feed_word }} G17 G40 G49 G80\\n{{ wcs }}\\n{{ smoothing }}\"\n";
+    let fagor = Machine::from_toml(toml).unwrap();
+    try_out(&fagor).unwrap();
+    let mut work = holes(CycleKind::Drill, 0.0, 0.0, true);
+    work.events.insert(2, event(1, EventKind::Dwell { seconds: 0.5 }));
+    let text = post(&work, &fagor).unwrap().text;
+    assert!(text.starts_with("%PART,MX,\n") && text.contains("G4 K0.5"), "{text}");
 }

@@ -127,7 +127,7 @@ fn values_out_of_range() {
         ("clockwise = \"M3\"", "clockwise = \"3\"", "spindle.clockwise"),
         ("off = \"M5\"", "", "spindle.off"),
         ("off = \"M9\"", "", "coolant.off"),
-        ("word = \"P\"", "word = \"K\"", "dwell.word"),
+        ("word = \"P\"", "word = \"Q\"", "dwell.word"),
         ("max_number = 99999", "max_number = 0", "tool.max_number"),
         ("change = \"m6\"", "change = \"pause\"", "templates.tool_change"),
         ("tolerance = 0.001", "tolerance = -1.0", "smoothing.tolerance"),

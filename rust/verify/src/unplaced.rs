@@ -9,6 +9,8 @@ use crate::{FindingKind, Limits, Subject, TextFacts, SLACK};
 
 /// The share of the Z axis' length, from the machine's zero down, in which a machine place counts as its top.
 const TOP: f64 = 0.1;
+/// It is no more than this, mm.
+const NEAR_TOP: f64 = 10.0;
 
 /// Moves across before the tool is known to be up, and down before it is known where.
 pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits: &Limits) -> Vec<Fault> {
@@ -66,7 +68,7 @@ fn machine_fault(
 fn goes_up(step: &MachineMove, limits: &Limits) -> bool {
     let range = limits.reach.axes[2].map(|[low, high]| high - low);
     let length = range.or(limits.reach.travel.map(|travel| travel[2]));
-    step.places[2].is_some_and(|z| z >= -TOP * length.unwrap_or(0.0) - SLACK)
+    step.places[2].is_some_and(|z| z >= -(TOP * length.unwrap_or(0.0)).min(NEAR_TOP) - SLACK)
 }
 
 /// Whether the tool, whose height in the work is not known after a move, was sent to the machine's top before.

@@ -50,6 +50,8 @@ fn check_names(machine: &Machine) -> Result<(), MachineError> {
         let holds = words == written && words <= 2;
         require(holds, &format!("wcs[{index}]"), "write one word or two, as in G54 or G54.1 P1")?;
     }
+    let words = machine.wcs_words.len();
+    require(words == 0 || words == machine.wcs.len(), "wcs_words", "one for each of wcs, in the same order, or none")?;
     if !machine.end.is_empty() {
         check_code("end", &machine.end)?;
     }
@@ -131,7 +133,7 @@ fn check_words(machine: &Machine) -> Result<(), MachineError> {
     let floods = machine.coolant.flood.is_some();
     require(!floods || machine.coolant.off.is_some(), "coolant.off", "coolant that starts needs a word to stop")?;
     let dwell = machine.dwell.as_ref().map_or('P', |d| d.word);
-    require(matches!(dwell, 'P' | 'X' | 'S' | 'F'), "dwell.word", "P, X, S or F")?;
+    require(matches!(dwell, 'P' | 'X' | 'S' | 'F' | 'K'), "dwell.word", "P, X, S, F or K")?;
     let start = machine.spindle.start_dwell;
     require((0.0..=600.0).contains(&start), "spindle.start_dwell", "0 to 600 s")?;
     require(start <= 0.0 || machine.dwell.is_some(), "spindle.start_dwell", "a wait needs the words of [dwell]")?;

@@ -36,6 +36,9 @@ fn with_parents(
     let mut whole = with_parents(parent, &parent_text, file, depth)?;
     // what was read for the parent says nothing about this machine
     whole.insert("source".into(), Value::Table(unread(&name)));
+    if own.contains_key("wcs") && !own.contains_key("wcs_words") {
+        whole.remove("wcs_words"); // they go with the list that was there
+    }
     lay_over(&mut whole, own);
     Ok(whole)
 }

@@ -30,6 +30,16 @@ pub enum OptionValue {
     Text(String),
 }
 
+impl std::fmt::Display for OptionValue {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Switch(on) => write!(f, "{on}"),
+            Self::Number(number) => write!(f, "{number}"),
+            Self::Text(text) => f.write_str(text),
+        }
+    }
+}
+
 impl OptionValue {
     /// Its kind, in words.
     #[must_use]
@@ -94,7 +104,7 @@ fn set(machine: &mut Machine, name: &str, value: &OptionValue) -> bool {
             machine.reader.default_units = machine.reader.default_units.map(|_| unit);
             true
         }
-        ("smoothing_tolerance", OptionValue::Number(mm)) if machine.smoothing.on.is_some() || *mm <= 0.0 => {
+        ("smoothing_tolerance", OptionValue::Number(mm)) if takes_tolerance(machine, *mm) => {
             machine.smoothing.tolerance = *mm;
             true
         }
@@ -119,6 +129,16 @@ fn set(machine: &mut Machine, name: &str, value: &OptionValue) -> bool {
         ("feed_mode", OptionValue::Text(text)) => set_feed_mode(machine, text),
         ("program_number", OptionValue::Number(value)) => set_program_number(machine, *value),
         _ => false,
+    }
+}
+
+/// A tolerance needs its block, and where there is one an exact path needs one too.
+fn takes_tolerance(machine: &Machine, mm: f64) -> bool {
+    let smoothing = &machine.smoothing;
+    if mm > 0.0 {
+        smoothing.on.is_some()
+    } else {
+        smoothing.on.is_none() || smoothing.off.is_some()
     }
 }
 

@@ -218,8 +218,10 @@ impl Block {
     pub(crate) fn settle(&mut self, force: &Force) -> Result<(), (ReadFault, Word)> {
         if self.dwell.is_some() {
             let [x, ..] = &mut self.axes;
+            let [.., k] = &mut self.offsets;
             self.time = match force.dwell_word {
                 'X' => x.take(),
+                'K' => k.take(),
                 'F' => self.feed.take(),
                 'S' => self.speed.take(),
                 _ => self.p,

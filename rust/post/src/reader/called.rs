@@ -104,7 +104,8 @@ impl Called {
                 if !plain || said(8) != 0.0 || !arguments.end_at(12) {
                     return Err(OTHER);
                 }
-                Ok(Self { kind, peck: retract - depth(5, 6)?, ..base })
+                // pecks are counted from the reference plane
+                Ok(Self { kind, peck: length(1).ok_or(MISSING)? - depth(5, 6)?, ..base })
             }
             84 => {
                 let pitch = length(8).filter(|pitch| *pitch != 0.0).ok_or(MISSING)?;

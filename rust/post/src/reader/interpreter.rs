@@ -7,6 +7,7 @@ mod places;
 mod switches;
 mod tools;
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use styluscam_motion::{
@@ -69,6 +70,8 @@ pub(crate) struct Interpreter<'m> {
     /// rev/min.
     speed: f64,
     direction: Option<SpindleDirection>,
+    /// Whether a stop has stopped the spindle, which turned, and nothing has started it since.
+    halted: bool,
     mist: bool,
     /// Whether a cycle ends at its R, not where it came from.
     low_return: bool,
@@ -80,6 +83,10 @@ pub(crate) struct Interpreter<'m> {
     /// Height of the posted point above the tip, mm.
     height: f64,
     tools_given: bool,
+    /// Length offsets that the text gives its tools.
+    learned: BTreeMap<u32, u32>,
+    /// The line of the first feed move without a length offset.
+    bare_line: Option<u32>,
     /// Whether these are FreeCAD's commands: rapids before the first tool are left out (the way to the work is told after it
     /// again), and so are the feeds of rapids and those of 0.
     loose: bool,
@@ -118,6 +125,7 @@ impl<'m> Interpreter<'m> {
             feed_mode: FeedMode::PerMinute,
             speed: 0.0,
             direction: None,
+            halted: false,
             mist: false,
             low_return: false,
             series: None,
@@ -126,6 +134,8 @@ impl<'m> Interpreter<'m> {
             tool: None,
             height: 0.0,
             tools_given: !tools.is_empty(),
+            learned: BTreeMap::new(),
+            bare_line: None,
             loose: false,
             standing: Standing::new(),
             without_edge: false,
@@ -177,11 +187,13 @@ impl<'m> Interpreter<'m> {
         self.set_feed(block)?;
         self.set_tool(block)?;
         self.set_speed(block)?;
-        self.set_spindle(block);
-        self.set_coolant(block);
+        let late = !self.machine.reader.stops_first;
+        self.set_spindle(block, !late);
+        self.set_coolant(block, !late);
         self.dwell(block)?;
         let letter = self.length_word();
         self.standing.take_length(block, self.job_tool().map(|tool| tool.length_offset), letter)?;
+        self.learn_length(block)?;
         self.set_path(block)?;
         self.set_edge(block)?;
         self.set_wcs(block, codes)?;
@@ -193,6 +205,10 @@ impl<'m> Interpreter<'m> {
         self.absolute_centre = block.absolute_centre.unwrap_or(self.absolute_centre);
         self.low_return = block.low_return.unwrap_or(self.low_return);
         self.go(block, line)?;
+        if late {
+            self.stop_spindle(block);
+            self.stop_coolant(block);
+        }
         Ok(self.stop(block))
     }
 
@@ -294,6 +310,11 @@ impl<'m> Interpreter<'m> {
         self.turn_axes(block)?;
         if kind == MoveKind::Feed {
             self.require_places(first)?;
+            if self.halted {
+                return Err((ReadFault::Halted, Some(first)));
+            }
+            let bare = self.machine.tool.length.is_some() && !self.standing.has_length();
+            self.bare_line = self.bare_line.or(bare.then_some(line));
         }
         let arc = match self.motion {
             Some(Motion::Arc(clockwise)) => {
@@ -396,6 +417,7 @@ impl<'m> Interpreter<'m> {
             blind: self.blind,
             machine_moves: self.machine_moves,
             optional_lines,
+            bare_line: self.bare_line,
             unsaid: self.unsaid,
             unplaced: self.unplaced,
             stray_planes: self.stray_planes,

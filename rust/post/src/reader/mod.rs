@@ -39,6 +39,8 @@ pub struct Reading {
     pub machine_moves: Vec<MachineMove>,
     /// Lines that were passed over and that run where the operator's switch for optional blocks says so.
     pub optional_lines: Vec<u32>,
+    /// The line of the first feed move with no length offset in force, on machines that have them.
+    pub bare_line: Option<u32>,
     /// Moves at whose end the place of some axis is not known, in runs: at the start, after a tool change (Z), after G53.
     ///
     /// There the axis stands at the next place commanded, or at the last one when none follows.
@@ -219,7 +221,8 @@ impl<'t> Reader<'t> {
 
     /// Whether a line is the program's number or name and a remark: `O0001 (CUP)`, `OCUP`, `%_N_CUP_MPF` (Sinumerik).
     fn names_program(&self, text: &str) -> bool {
-        if self.machine.family == Family::Siemens && text.starts_with("%_N_") {
+        let head = &self.machine.reader.head;
+        if !head.is_empty() && text.starts_with(head.as_str()) {
             return true;
         }
         let code = text.split('(').next().unwrap_or_default().trim();

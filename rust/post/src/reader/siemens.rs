@@ -83,7 +83,7 @@ impl<'t> Line<'t> {
         let mut arguments = rest.get(..length).unwrap_or_default().split(',').map(str::trim);
         let (first, mode) = (arguments.next().unwrap_or_default(), arguments.next().unwrap_or_default());
         // the last digit of the second one is the kind of machining, 0 switches the cycle off
-        let on = mode.ends_with(|digit: char| ('1'..='9').contains(&digit));
+        let on = mode.ends_with(|digit: char| ('1'..='9').contains(&digit)) || mode.starts_with('_') && mode != "_OFF";
         if on && !first.is_empty() {
             let (number, _) = cut_number(first.as_bytes(), 0).map_err(|m| Misfit { start, end, ..m })?;
             self.word(b'P', number, start, end);

@@ -37,11 +37,16 @@ impl Standing {
                 }
                 self.length = Some(found);
             }
-            (Some((true, _)), None) => self.length = loaded,
+            (Some((true, _)), None) => self.length = loaded.or(Some(0)),
             (Some((false, _)), _) => self.length = None,
             (None, _) => {}
         }
         Ok(())
+    }
+
+    /// Whether a length offset is in force.
+    pub(crate) fn has_length(&self) -> bool {
+        self.length.is_some()
     }
 
     /// No length offset is in force.

@@ -35,6 +35,7 @@ pub(super) fn cases(machine: &Machine) -> Vec<Case> {
     let mut out: Vec<Case> = Vec::new();
     let mut add = |name: &str, draft: Draft| out.push(bench.case(name, machine.clone(), draft));
     add("rapids and lines", lines(&bench));
+    add("operations, one behind the other", operations(&bench, machine));
     add("values at the edges of rounding", edges(&bench));
     add("feeds", feeds(&bench));
     let planes = [Plane::Xy, Plane::Zx, Plane::Yz];
@@ -101,6 +102,8 @@ struct Bench {
     lathe: bool,
     /// Whether the spindle turns clockwise.
     turns: bool,
+    /// Whether it must turn wherever there is a feed.
+    always_turns: bool,
 }
 
 /// Height of the tried tool's reference above its tip, mm.
@@ -127,6 +130,7 @@ impl Bench {
             wcs: machine.wcs.first().cloned().unwrap_or_default(),
             lathe,
             turns: machine.spindle.clockwise.is_some(),
+            always_turns: machine.feed.mode == FeedMode::PerRevolution,
         }
     }
 
@@ -157,8 +161,9 @@ impl Bench {
             clearance: 1.0,
             notes: vec!["äöü (°) and so on".into()],
         };
-        let operations = vec![OperationRecord { id: "trial".into(), kind: "z-level".into(), tool: 0 }];
-        let Draft { moves, events, cycles } = draft;
+        let operation = |id: &str| OperationRecord { id: id.into(), kind: "z-level".into(), tool: 0 };
+        let Draft { moves, events, cycles, operation: last } = draft;
+        let operations = ["trial", "second"].into_iter().take(last as usize + 1).map(operation).collect();
         let program = Program { moves, events, cycles, ..Program::empty(setup, vec![tool(1)], operations) };
         Case { name: name.into(), program, machine, must_fail: false, foreign: false }
     }
@@ -189,13 +194,17 @@ struct Draft {
     moves: Vec<Move>,
     events: Vec<Event>,
     cycles: Vec<Cycle>,
+    operation: u32,
 }
 
 impl Draft {
     /// The tool is called and goes to the middle.
     fn start(bench: &Bench) -> Self {
         let change = Event { before: 0, kind: EventKind::ToolChange { tool: 0 } };
-        let mut draft = Self { moves: Vec::new(), events: vec![change], cycles: Vec::new() };
+        let mut draft = Self { moves: Vec::new(), events: vec![change], cycles: Vec::new(), operation: 0 };
+        if bench.always_turns {
+            draft.event(EventKind::SpindleOn { rpm: bench.rpm, direction: SpindleDirection::Clockwise });
+        }
         draft.rapid(bench.at([0.0; 3]));
         draft
     }
@@ -209,7 +218,7 @@ impl Draft {
     }
 
     fn push(&mut self, kind: MoveKind, end: [f64; 3], arc: Option<Arc>, feed: f64) {
-        self.moves.push(Move { kind, end, arc, feed, operation: 0, line: 0 });
+        self.moves.push(Move { kind, end, arc, feed, operation: self.operation, line: 0 });
     }
 
     fn event(&mut self, kind: EventKind) {
@@ -226,6 +235,25 @@ fn lines(bench: &Bench) -> Draft {
         draft.feed(bench.at(share), bench.feed);
     }
     draft.rapid(bench.at([0.0, 0.0, 1.0]));
+    draft
+}
+
+/// Two operations of one tool, with all that may run: what stands between them must leave it running.
+fn operations(bench: &Bench, machine: &Machine) -> Draft {
+    let mut draft = Draft::start(bench);
+    if bench.turns && !bench.always_turns {
+        draft.event(EventKind::SpindleOn { rpm: bench.rpm, direction: SpindleDirection::Clockwise });
+    }
+    if machine.coolant.flood.is_some() {
+        draft.event(EventKind::Flood { on: true });
+    }
+    for operation in 0..2 {
+        draft.operation = operation;
+        draft.rapid(bench.at([0.5, 0.5, 0.5]));
+        draft.feed(bench.at([0.5, 0.5, -0.5]), bench.feed);
+        draft.feed(bench.at([-0.5, 0.5, -0.5]), bench.feed);
+        draft.rapid(bench.at([-0.5, 0.5, 0.5]));
+    }
     draft
 }
 
@@ -485,6 +513,9 @@ fn probing(bench: &Bench) -> Draft {
 
 fn offsets_on_the_way(bench: &Bench, machine: &Machine) -> Draft {
     let mut draft = lines(bench);
+    if bench.turns && !bench.always_turns {
+        draft.event(EventKind::SpindleOn { rpm: bench.rpm, direction: SpindleDirection::Clockwise });
+    }
     if let Some(wcs) = machine.wcs.get(1) {
         draft.event(EventKind::WorkOffset { wcs: wcs.clone() });
         draft.rapid(bench.at([0.0; 3]));

@@ -35,7 +35,7 @@ pub fn difference(program: &Program, posted: &Posted, reading: &Reading, machine
 
 /// Whether the machine has a cycle for this.
 fn canned(machine: &Machine, cycle: &Cycle) -> bool {
-    machine.cycle.as_ref().is_some_and(|rules| rules.take(cycle))
+    machine.takes_cycle(cycle)
 }
 
 /// Holes that the machine has cycles for must come back as cycles.
@@ -46,7 +46,7 @@ fn cycle_difference(program: &Program, posted: &Posted, reading: &Reading, machi
         let line = posted.line_of_move.get(cycle.first).copied().unwrap_or(0);
         let Some(found) = came.next() else { return Some((line, "the cycle is not there".into())) };
         let (cycle, found) = (&in_one(cycle, machine), &in_one(found, machine));
-        let lengths = |c: &Cycle| [c.at[0], c.at[1], c.retract, c.bottom, c.leave, c.peck];
+        let lengths = |c: &Cycle| [c.at[0], c.at[1], c.retract, c.bottom, c.peck];
         let near = lengths(cycle).iter().zip(lengths(found)).all(|(a, b)| (a - b).abs() <= unit);
         let feeds = (cycle.feed - found.feed).abs()
             <= feed_slack(machine, cycle.feed, f64::INFINITY, rpm_at(program, cycle.first));
@@ -77,7 +77,11 @@ fn event_difference(program: &Program, posted: &Posted, reading: &Reading, machi
     let (sent, came) = (states(program, machine, sent_line), states(&reading.program, machine, came_line));
     for (index, (line, kind)) in sent.iter().enumerate() {
         match came.get(index) {
-            Some((_, found)) if same_event(kind, found, machine) => {}
+            Some((there, found)) if same_event(kind, found, machine) => {
+                if there != line {
+                    return Some((*there, format!("{kind:?} comes at another place, not behind line {line}")));
+                }
+            }
             Some((_, found)) => return Some((*line, format!("{kind:?} became {found:?}"))),
             None => return Some((*line, format!("{kind:?} is not there"))),
         }
@@ -194,15 +198,27 @@ fn same_event(sent: &EventKind, came: &EventKind, machine: &Machine) -> bool {
 
 fn move_difference(program: &Program, posted: &Posted, reading: &Reading, machine: &Machine) -> Option<(u32, String)> {
     let mut read = reading.program.segments().peekable();
-    let mut last_line = 0;
+    let (mut last_line, mut last_found) = (0, None);
     for (index, ((start, step), line)) in program.segments().zip(&posted.line_of_move).enumerate() {
         let in_cycle = |c: &Cycle| canned(machine, c) && (c.first..c.first + c.count).contains(&index);
         let mut arrived = None;
+        let ends_cycle = |c: &&Cycle| canned(machine, c) && c.first + c.count == index + 1;
         while let Some((from, found)) = read.next_if(|(_, m)| m.line <= *line) {
-            if let Some(what) = way_difference(start, step, from, found, machine) {
+            let across = from.is_some_and(|from| (0..2).any(|axis| (from[axis] - found.end[axis]).abs() > SLACK));
+            let height =
+                crossing(program, index, machine).map(|height| if across { height } else { f64::NEG_INFINITY });
+            let detour = || detour(start, step, found, *line, height, machine);
+            if let Some(what) = way_difference(start, step, from, found, machine).or_else(detour) {
                 return Some((found.line, what));
             }
             arrived = Some((from, found));
+        }
+        last_found = arrived.map(|(_, found)| found).or(last_found);
+        // where a cycle leaves the tool is what counts, however it got there
+        if let (Some(_), Some(found)) = (program.cycles.iter().find(ends_cycle), last_found) {
+            if let Some(what) = end_difference(&Move { kind: found.kind, ..*step }, found, machine) {
+                return Some((*line, what));
+            }
         }
         let again = std::mem::replace(&mut last_line, *line) == *line;
         if again && arrived.is_none() || program.cycles.iter().any(in_cycle) {
@@ -218,7 +234,43 @@ fn move_difference(program: &Program, posted: &Posted, reading: &Reading, machin
             return Some((*line, format!("its feed is {} instead of {} mm/min", found.feed, step.feed)));
         }
     }
-    read.next().map(|(_, found)| (found.line, format!("a move to {:?} was not posted", found.end)))
+    let stray = reading.stray_planes.iter().find_map(|run| reading.program.moves.get(run.start));
+    let more = read.next().map(|(_, found)| (found.line, format!("a move to {:?} was not posted", found.end)));
+    more.or(stray.map(|found| (found.line, "another plane than G17 is in force and no arc uses it".into())))
+}
+
+/// How high a hole's ways across are planned, mm; none where the move is no canned cycle's.
+fn crossing(program: &Program, index: usize, machine: &Machine) -> Option<f64> {
+    let cycle = program.cycles.iter().find(|c| (c.first..c.first + c.count).contains(&index))?;
+    canned(machine, cycle).then(|| {
+        let before = cycle.first.checked_sub(1).and_then(|before| program.moves.get(before));
+        before.map_or(cycle.retract, |step| step.end[2].max(cycle.retract))
+    })
+}
+
+/// Whether a move that was read goes to a place that its step has no business with: templates must not move an axis.
+fn detour(
+    start: Option<[f64; 3]>,
+    step: &Move,
+    found: &Move,
+    line: u32,
+    crossing: Option<f64>,
+    machine: &Machine,
+) -> Option<String> {
+    let slack = machine.resolution_mm() / 2.0 + SLACK;
+    if let Some(height) = crossing {
+        let low = found.end[2] < height - slack;
+        return low.then(|| format!("it goes to {:?} mm on the way to a hole", found.end));
+    }
+    if found.line == line || step.arc.is_some() {
+        return None;
+    }
+    let between = found.end.iter().zip(step.end).enumerate().all(|(axis, (place, end))| {
+        let begin = start.map_or(end, |start| start[axis]);
+        (place - end).abs() <= slack || (place - begin).abs() <= slack
+    });
+    let split = step.kind == MoveKind::Rapid && found.kind == MoveKind::Rapid && between;
+    (!split).then(|| format!("a move to {:?} was not posted", found.end))
 }
 
 fn end_difference(step: &Move, found: &Move, machine: &Machine) -> Option<String> {

@@ -7,7 +7,7 @@ pub use compare::difference;
 
 use thiserror::Error;
 
-use crate::machine::Machine;
+use crate::machine::{Machine, OptionValue};
 use crate::post_error::PostError;
 use crate::read_error::ReadError;
 use crate::reader::read;
@@ -135,7 +135,40 @@ pub fn check(machine: &Machine) -> Result<Vec<Trial>, PostError> {
         let (outcome, text) = tried(&case);
         Trial { name: case.name, outcome, text }
     };
-    Ok(cases(machine).into_iter().map(trial).collect())
+    let mut trials: Vec<Trial> = cases(machine).into_iter().map(trial).collect();
+    trials.extend(variants(machine).into_iter().map(|(name, machine)| in_all(name, &machine)));
+    Ok(trials)
+}
+
+/// The machine with each of its options set to each other thing that it can be.
+fn variants(machine: &Machine) -> Vec<(String, Machine)> {
+    let mut settings: Vec<(String, OptionValue)> = Vec::new();
+    if machine.smoothing.on.is_some() && machine.smoothing.off.is_some() {
+        settings.push(("smoothing_tolerance".into(), OptionValue::Number(0.0)));
+    }
+    for (name, rule) in &machine.options {
+        let others: Vec<OptionValue> = match &rule.value {
+            OptionValue::Switch(on) => vec![OptionValue::Switch(!on)],
+            OptionValue::Number(_) => [rule.min, rule.max].into_iter().flatten().map(OptionValue::Number).collect(),
+            OptionValue::Text(_) => Vec::new(),
+        };
+        settings.extend(others.into_iter().map(|value| (name.clone(), value)));
+    }
+    let varied = settings.into_iter().filter_map(|(name, value)| {
+        let mut other = machine.clone();
+        let shown = format!("option {name} = {value}");
+        other.set_option(&name, value).ok().map(|()| (shown, other))
+    });
+    varied.collect()
+}
+
+/// All that is tried, as one trial: the first failure, or the first text.
+fn in_all(name: String, machine: &Machine) -> Trial {
+    let mut tried = cases(machine).into_iter().map(|case| tried(&case));
+    let first = tried.next();
+    let failed = first.iter().cloned().chain(tried).find(|(outcome, _)| matches!(outcome, Outcome::Failed(_)));
+    let (outcome, text) = failed.or(first).unwrap_or((Outcome::Passed, String::new()));
+    Trial { name, outcome, text }
 }
 
 /// The first failure of [`check`].

@@ -3,7 +3,7 @@
 use styluscam_motion::{EventKind, SpindleDirection};
 
 use super::Poster;
-use crate::machine::{CoolantRules, SpeedUnit, ToolChange};
+use crate::machine::{CoolantRules, FeedMode, SpeedUnit, ToolChange};
 use crate::number::NumberFormat;
 use crate::post_error::PostError;
 
@@ -44,7 +44,7 @@ impl Poster<'_> {
         if !first && matches!(self.machine.tool.change, ToolChange::LoadBeforeStart | ToolChange::Unsaid) {
             return Err(PostError::ToolChange { event });
         }
-        if self.rpm.is_some() {
+        if self.spindle.is_some() {
             self.stop_spindle()?;
         }
         let record = self.head.tools.get(tool as usize);
@@ -77,7 +77,7 @@ impl Poster<'_> {
         let word = word.ok_or(PostError::SpindleDirection { direction })?;
         let speed = self.speed_count(rpm)?;
         self.dialect.spindle(&mut self.lines, speed, word)?;
-        self.rpm = Some(rpm);
+        self.spindle = Some((rpm, direction));
         if words.start_dwell > 0.0 && rpm > 0.0 {
             return self.dwell(event, words.start_dwell);
         }
@@ -94,14 +94,8 @@ impl Poster<'_> {
         NumberFormat::plain(self.machine.number.rpm).count(speed).ok_or(too_large)
     }
 
-    /// Whether an event turns the spindle as it turns.
-    #[allow(clippy::float_cmp)] // the same number, not a near one
-    pub(super) fn turns_so(&self, kind: &EventKind) -> bool {
-        matches!(kind, EventKind::SpindleOn { rpm, .. } if self.rpm == Some(*rpm))
-    }
-
     fn stop_spindle(&mut self) -> Result<(), PostError> {
-        self.rpm = None;
+        self.spindle = None;
         let words = &self.machine.spindle;
         if words.clockwise.is_none() && words.counterclockwise.is_none() {
             return Ok(()); // what cannot turn stands
@@ -126,7 +120,7 @@ impl Poster<'_> {
         if std::mem::take(&mut self.mist) | std::mem::take(&mut self.flood) {
             self.switch_coolant(false, |_| None)?;
         }
-        if self.rpm.is_some() {
+        if self.spindle.is_some() {
             self.stop_spindle()?;
         }
         Ok(())
@@ -155,7 +149,22 @@ impl Poster<'_> {
         let words = &self.machine.stop;
         let (word, what) =
             if optional { (&words.optional, "an optional stop") } else { (&words.always, "a program stop") };
-        self.block_of(word.as_deref(), what)
+        self.block_of(word.as_deref(), what)?;
+        if words.stops_spindle {
+            self.go_on()?;
+        }
+        Ok(())
+    }
+
+    /// Spindle and coolant again, which the stop has switched off.
+    fn go_on(&mut self) -> Result<(), PostError> {
+        if let Some((rpm, direction)) = self.spindle {
+            self.start_spindle(self.events, rpm, direction)?;
+        }
+        let words = &self.machine.coolant;
+        let running = [(self.mist, &words.mist), (self.flood, &words.flood)];
+        let again = running.into_iter().filter(|(on, _)| *on).filter_map(|(_, word)| word.as_deref());
+        again.into_iter().try_for_each(|word| self.lines.block(word))
     }
 
     /// Where the tool stands in the new work offset is not known.
@@ -180,6 +189,9 @@ impl Poster<'_> {
             let count = self.linear.count(place * self.per_mm);
             let at = || PostError::Number { what: "a place", place: format!("events[{event}]"), value: place };
             to[axis] = Some(count.ok_or_else(at)?);
+        }
+        if self.machine.feed.mode == FeedMode::InverseTime {
+            return Err(PostError::Unsupported { what: "probing with feeds in inverse time" });
         }
         let count = self.feed_count(self.moves, feed, f64::INFINITY)?;
         self.dialect.probe(&mut self.lines, word, to, count)?;

@@ -149,7 +149,9 @@ impl<'a> Lines<'a> {
 
     fn is_numbered(&self, line: &str) -> bool {
         let Some(rules) = &self.machine.block_number else { return false };
-        let frame = line.starts_with('%') || program_number(line);
+        let named =
+            self.machine.program.name.is_some() && line.strip_prefix('O').is_some_and(|name| !name.contains(' '));
+        let frame = line.starts_with('%') || program_number(line) || named;
         let remark = match self.machine.comment.form {
             CommentForm::Colon => line.starts_with(':'),
             _ => line.starts_with(['(', ';']),

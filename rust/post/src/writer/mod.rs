@@ -13,7 +13,7 @@ mod words;
 use std::collections::BTreeMap;
 use std::io;
 
-use styluscam_motion::{Event, EventKind, Move, MoveKind, OperationRecord, Program, ToolRecord};
+use styluscam_motion::{Event, EventKind, Move, MoveKind, OperationRecord, Program, SpindleDirection, ToolRecord};
 
 use crate::inspect::Inspector;
 use crate::machine::{Family, FeedMode, Lathe, Machine};
@@ -21,7 +21,6 @@ use crate::number::NumberFormat;
 use crate::post_error::PostError;
 use crate::template::{Facts, Templater};
 use dialect::{Dialect, Place};
-use holes::holds_others;
 pub(crate) use lines::counted_length;
 use lines::{Lines, Outlet};
 
@@ -94,8 +93,8 @@ pub struct Poster<'a> {
     tip: Option<[f64; 3]>,
     tool: Option<&'a ToolRecord>,
     operation: Option<u32>,
-    /// Speed of the spindle, rev/min, while it turns.
-    rpm: Option<f64>,
+    /// Speed, rev/min, and sense of the spindle, while it turns.
+    spindle: Option<(f64, SpindleDirection)>,
     mist: bool,
     flood: bool,
 }
@@ -149,7 +148,7 @@ impl<'a> Poster<'a> {
             tip: None,
             tool: None,
             operation: None,
-            rpm: None,
+            spindle: None,
             mist: false,
             flood: false,
         };
@@ -185,17 +184,15 @@ impl<'a> Poster<'a> {
             while let Some(event) = events.next_if(|e| e.before <= index) {
                 self.event(&event.kind)?;
             }
-            let cycle = cycles.next_if(|cycle| cycle.first == index).filter(|cycle| self.has(cycle));
-            if cycle.is_some_and(|cycle| cycle.kind.is_tapping() && holds_others(program, cycle)) {
-                return Err(PostError::Unsupported { what: "something between the moves of a tapping cycle" });
+            let cycle = cycles.next_if(|cycle| cycle.first == index);
+            let own = cycle.and_then(|cycle| self.own_events(program, cycle));
+            if let (Some(cycle), None) = (cycle.filter(|cycle| cycle.kind.is_tapping()), own) {
+                return Err(PostError::TapMoves { index: cycle.first });
             }
-            let cycle = cycle.filter(|cycle| !holds_others(program, cycle));
-            if let Some(cycle) = cycle {
+            if let (Some(cycle), Some(own)) = (cycle, own) {
                 let count = cycle.count.max(1);
                 self.hole(cycle, program.moves.get(index..index + count).unwrap_or_default())?;
-                // its last event may come after its last move: the spindle turns again, as it did before
-                let own = |e: &&Event| e.before < index + count || e.before == index + count && self.turns_so(&e.kind);
-                while events.next_if(own).is_some() {}
+                (0..own).for_each(|_| _ = events.next());
                 (0..count).for_each(|_| arrived(self.motion_line));
                 index += count;
             } else {
@@ -327,7 +324,8 @@ impl<'a> Poster<'a> {
         let said = match self.machine.feed.mode {
             FeedMode::PerMinute => feed * per_mm,
             FeedMode::PerRevolution => {
-                let rpm = self.rpm.filter(|rpm| *rpm > 0.0).ok_or(PostError::NoRevolutions { index })?;
+                let rpm = self.spindle.map(|(rpm, _)| rpm).filter(|rpm| *rpm > 0.0);
+                let rpm = rpm.ok_or(PostError::NoRevolutions { index })?;
                 feed * per_mm / rpm
             }
             FeedMode::InverseTime => feed / length,

@@ -269,7 +269,8 @@ impl Dialect for Words<'_> {
     fn dwell(&mut self, lines: &mut Lines, seconds: f64) -> Result<bool, PostError> {
         let Some(DwellRules { word, unit, before }) = &self.machine.dwell else { return Ok(false) };
         let Some((format, time)) = self.time(*unit, seconds) else { return Ok(false) };
-        let per_revolution = self.machine.feed.mode == FeedMode::PerRevolution;
+        // Sinumerik's G4 F is always in seconds
+        let per_revolution = self.machine.feed.mode == FeedMode::PerRevolution && !self.calls_cycles();
         let before = before.as_deref().or(self.machine.feed.per_minute.as_deref()).filter(|_| per_revolution);
         lines.begin();
         before.iter().for_each(|word| lines.word(word));

@@ -113,7 +113,7 @@ pub enum TimeUnit {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DwellRules {
-    /// The letter that carries the time: P, X, S or F.
+    /// The letter that carries the time: P, X, S, F or K.
     pub word: char,
     /// Its unit.
     pub unit: TimeUnit,
@@ -130,6 +130,9 @@ pub struct StopRules {
     pub always: Option<String>,
     /// The same where the operator's switch says so: `M1`.
     pub optional: Option<String>,
+    /// Whether they stop spindle and coolant as well: they are switched on again behind them.
+    #[serde(default)]
+    pub stops_spindle: bool,
 }
 
 /// The way to a height where nothing is in the way.

@@ -166,15 +166,12 @@ pub struct CycleRules {
     pub stop_bore_dwell: bool,
 }
 
-/// Shallower holes are made of plain moves, mm: controllers refuse a cycle of no depth.
-const LEAST_DEPTH: f64 = 0.01;
-
 impl CycleRules {
     /// Whether the machine has a cycle for this. Only cycles that drill or bore to a depth wait there.
     #[must_use]
     pub fn take(&self, cycle: &Cycle) -> bool {
         let waits = matches!(cycle.kind, CycleKind::Drill | CycleKind::Bore | CycleKind::StopBore);
-        self.kinds.contains(&cycle.kind) && (cycle.dwell == 0.0 || waits) && cycle.retract - cycle.bottom >= LEAST_DEPTH
+        self.kinds.contains(&cycle.kind) && (cycle.dwell == 0.0 || waits)
     }
 }
 

@@ -79,6 +79,12 @@ pub struct ReaderRules {
     /// Whether a block of axis words may leave out its G0 to G3.
     #[serde(default = "super::yes")]
     pub modal_motion: bool,
+    /// Whether M5 and M9 act before the move of their block; they act behind it elsewhere.
+    #[serde(default)]
+    pub stops_first: bool,
+    /// What the first line begins with where it names the program: `%` of `%PART,MX,`.
+    #[serde(default)]
+    pub head: String,
     /// Where G28 and G30 send an axis, in machine coordinates, mm; a machine without it refuses them.
     pub home: Option<[f64; 3]>,
 }

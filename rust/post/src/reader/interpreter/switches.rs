@@ -24,18 +24,29 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    pub(super) fn set_spindle(&mut self, block: &Block) {
-        let Some((spindle, _)) = block.spindle else { return };
-        self.direction = match spindle {
-            Spindle::Clockwise => Some(SpindleDirection::Clockwise),
-            Spindle::Counterclockwise => Some(SpindleDirection::Counterclockwise),
-            Spindle::Off => None,
+    /// Starts, and stops where those come first.
+    pub(super) fn set_spindle(&mut self, block: &Block, stops: bool) {
+        let direction = match block.spindle {
+            Some((Spindle::Clockwise, _)) => SpindleDirection::Clockwise,
+            Some((Spindle::Counterclockwise, _)) => SpindleDirection::Counterclockwise,
+            Some((Spindle::Off, _)) if stops => return self.stop_spindle(block),
+            _ => return,
         };
-        let rpm = self.speed;
-        self.event(self.direction.map_or(EventKind::SpindleOff, |direction| EventKind::SpindleOn { rpm, direction }));
+        self.direction = Some(direction);
+        self.halted = false;
+        self.event(EventKind::SpindleOn { rpm: self.speed, direction });
     }
 
-    pub(super) fn set_coolant(&mut self, block: &Block) {
+    pub(super) fn stop_spindle(&mut self, block: &Block) {
+        if matches!(block.spindle, Some((Spindle::Off, _))) {
+            self.direction = None;
+            self.halted = false;
+            self.event(EventKind::SpindleOff);
+        }
+    }
+
+    /// Mist and flood on, and both off where that comes first.
+    pub(super) fn set_coolant(&mut self, block: &Block, stops: bool) {
         if block.mist.is_some() {
             self.mist = true;
             self.event(EventKind::Mist { on: true });
@@ -43,6 +54,12 @@ impl Interpreter<'_> {
         if block.flood.is_some() {
             self.event(EventKind::Flood { on: true });
         }
+        if stops {
+            self.stop_coolant(block);
+        }
+    }
+
+    pub(super) fn stop_coolant(&mut self, block: &Block) {
         if block.coolant_off.is_some() {
             if std::mem::take(&mut self.mist) {
                 self.event(EventKind::Mist { on: false });
@@ -54,7 +71,10 @@ impl Interpreter<'_> {
     pub(super) fn dwell(&mut self, block: &Block) -> Result<(), Flaw> {
         let Some(code) = block.dwell else { return Ok(()) };
         let Some(rules) = &self.machine.dwell else { return Err((self.refusal(), Some(code))) };
-        let word = block.time.ok_or((ReadFault::MissingWord { what: "the time of G4" }, Some(code)))?;
+        let word = block.time.ok_or((
+            ReadFault::MissingWord { what: "the time of G4, with the letter that [dwell] names," },
+            Some(code),
+        ))?;
         let seconds = self.seconds(word, rules.unit)?;
         if seconds < 0.0 {
             return Err((ReadFault::Negative, Some(word)));
@@ -67,6 +87,7 @@ impl Interpreter<'_> {
         let Some((stop, _)) = block.stop else { return false };
         if stop != Stop::End {
             self.stops.push(self.program.moves.len());
+            self.halted = self.machine.stop.stops_spindle && self.direction.is_some();
         }
         match stop {
             Stop::Pause => self.event(EventKind::Stop { optional: false }),

@@ -22,6 +22,7 @@ impl Interpreter<'_> {
             self.tool_of_number(number).ok_or((ReadFault::UnknownTool { number }, block.tool.or(Some(word))))?;
         self.load(index);
         self.direction = None; // the spindle stops before a change
+        self.halted = false;
         self.event(EventKind::ToolChange { tool: index });
         Ok(())
     }
@@ -69,6 +70,21 @@ impl Interpreter<'_> {
             Some(0) => self.without_edge = true,
             Some(1) => self.without_edge = false,
             _ => return Err((ReadFault::NotRead { what: "edges other than D0 and D1" }, Some(word))),
+        }
+        Ok(())
+    }
+
+    /// Without the job's tools, the text's own words say which length offset a tool has; it has one.
+    pub(super) fn learn_length(&mut self, block: &Block) -> Result<(), Flaw> {
+        let Some(word) = block.length_number(self.length_word()).filter(|_| !self.tools_given) else { return Ok(()) };
+        let (Some((true, _)), Some(index)) = (block.length, self.tool) else { return Ok(()) };
+        let number = word.number.natural().ok_or((ReadFault::NotNatural, Some(word)))?;
+        let known = self.learned.insert(index, number);
+        if known.is_some_and(|known| known != number) {
+            return Err((ReadFault::NotRead { what: "two length offsets of one tool" }, Some(word)));
+        }
+        if let Some(tool) = self.program.tools.get_mut(index as usize) {
+            tool.length_offset = number;
         }
         Ok(())
     }
