@@ -87,5 +87,9 @@ def output_name(job: Job) -> str:
 
 
 def read_gcode(text: str, machine: Machine) -> Program:
-    """The program that ``machine`` would read; strict: what it would not understand raises ``VerifyError``."""
+    """The program that ``machine`` would read; strict: what it would not understand raises ``VerifyError``.
+
+    It is for looking at and measuring: ways to the machine's own places, and lines behind a ``/``, are no moves of it. To post a
+    text for another machine, where such things must not be lost, there is :func:`styluscam.posting.read_program`.
+    """
     return Program(_engine.read_gcode(text, machine.engine))

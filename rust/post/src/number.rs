@@ -5,6 +5,11 @@ use crate::machine::{NumberRules, Point, TrailingZeros};
 /// Most decimal places that a machine file may ask for.
 pub(crate) const MAX_DECIMALS: u8 = 8;
 
+/// Decimal places of a wait, s.
+pub(crate) const DWELL_PLACES: u8 = 3;
+/// Decimal places of a thread's pitch.
+pub(crate) const PITCH_PLACES: u8 = 6;
+
 /// Largest count of last places that is taken: every whole number up to here is exact in an f64.
 const LARGEST: f64 = 9.0e15;
 

@@ -46,9 +46,9 @@ impl Arguments {
         text.split(',').map(value).collect::<Result<_, _>>().map(Self)
     }
 
-    /// One of them, counted from 0.
-    fn get(&self, index: usize) -> Option<f64> {
-        self.0.get(index).copied().flatten()
+    /// So many of them, from an index on, counted from 0.
+    fn from<const N: usize>(&self, first: usize) -> [Option<f64>; N] {
+        std::array::from_fn(|index| self.0.get(first + index).copied().flatten())
     }
 
     /// Whether those from an index on say nothing.
@@ -71,50 +71,56 @@ impl Called {
     /// CYCLE81 to 84 (programming guide Cycles 11.02, Autodesk siemens-840d.cps); `unit` is that of the program, mm.
     #[allow(clippy::float_cmp)] // numbers as written
     pub fn sinumerik(cycle: u32, arguments: &Arguments, unit: f64) -> Result<Self, ReadFault> {
-        let length = |index: usize| arguments.get(index).map(|value| value * unit);
-        let said = |index: usize| arguments.get(index).unwrap_or(0.0);
-        let retract = length(1).ok_or(MISSING)? + length(2).unwrap_or(0.0).abs();
-        let depth = |absolute: usize, relative: usize| match (length(absolute), length(relative)) {
+        let [return_plane, reference_plane, clearance, absolute_depth, depth] =
+            arguments.from(0).map(|v| v.map(|v| v * unit));
+        let reference = reference_plane.ok_or(MISSING)?;
+        let height = |absolute: Option<f64>, below: Option<f64>| match (absolute, below) {
             (Some(height), None) => Ok(height),
-            (None, Some(deep)) => length(1).map(|reference| reference - deep.abs()).ok_or(MISSING),
+            (None, Some(deep)) => Ok(reference - deep.abs()),
             (None, None) => Err(MISSING),
             _ => Err(OTHER),
         };
-        let bottom = depth(3, 4)?;
         let base = Self {
             kind: CycleKind::Drill,
-            retract,
-            bottom,
-            leave: length(0).ok_or(MISSING)?,
+            retract: reference + clearance.unwrap_or(0.0).abs(),
+            bottom: height(absolute_depth, depth)?,
+            leave: return_plane.ok_or(MISSING)?,
             peck: 0.0,
             dwell: 0.0,
             pace: Pace::Standing,
             modal: true,
         };
+        let none = |value: Option<f64>| value.is_none_or(|value| value == 0.0);
         match cycle {
             81 if arguments.end_at(5) => Ok(base),
-            82 if arguments.end_at(6) => Ok(Self { dwell: said(5), ..base }),
-            83 => {
-                let plain = said(7) == 0.0 && said(9) == 0.0 && matches!(arguments.get(10), None | Some(1.0));
-                let kind = match said(11) {
+            82 if arguments.end_at(6) => {
+                let [dwell] = arguments.from(5);
+                Ok(Self { dwell: dwell.unwrap_or(0.0), ..base })
+            }
+            83 if arguments.end_at(12) => {
+                let [first, first_below, degression, dwell, start_dwell, feed_factor, variant] = arguments.from(5);
+                let plain = [degression, dwell, start_dwell].into_iter().all(none);
+                if !plain || !matches!(feed_factor, None | Some(1.0)) {
+                    return Err(OTHER);
+                }
+                let kind = match variant.unwrap_or(0.0) {
                     0.0 => CycleKind::ChipBreak,
                     1.0 => CycleKind::Peck,
                     _ => return Err(OTHER),
                 };
-                if !plain || said(8) != 0.0 || !arguments.end_at(12) {
-                    return Err(OTHER);
-                }
                 // pecks are counted from the reference plane
-                Ok(Self { kind, peck: length(1).ok_or(MISSING)? - depth(5, 6)?, ..base })
+                let first = height(first.map(|v| v * unit), first_below.map(|v| v * unit))?;
+                Ok(Self { kind, peck: reference - first, ..base })
             }
-            84 => {
-                let pitch = length(8).filter(|pitch| *pitch != 0.0).ok_or(MISSING)?;
+            84 if arguments.end_at(12) => {
+                let [dwell, turns_after, size, pitch, position, speed, speed_back] = arguments.from(5);
+                let pitch = pitch.map(|pitch| pitch * unit).filter(|pitch| *pitch != 0.0).ok_or(MISSING)?;
                 let (kind, turns) = if pitch > 0.0 { (CycleKind::Tap, 3.0) } else { (CycleKind::LeftTap, 4.0) };
-                let plain = said(5) == 0.0 && said(6) == turns && arguments.get(7).is_none() && said(9) == 0.0;
-                if !plain || said(10) != said(11) || !arguments.end_at(12) {
+                let plain = none(dwell) && size.is_none() && none(position) && turns_after == Some(turns);
+                if !plain || speed != speed_back {
                     return Err(OTHER);
                 }
-                Ok(Self { kind, pace: Pace::Pitch(pitch.abs(), arguments.get(10)), ..base })
+                Ok(Self { kind, pace: Pace::Pitch(pitch.abs(), speed), ..base })
             }
             _ => Err(OTHER),
         }

@@ -45,7 +45,8 @@ fn cycle_difference(program: &Program, posted: &Posted, reading: &Reading, machi
     for cycle in program.cycles.iter().filter(|cycle| canned(machine, cycle)) {
         let line = posted.line_of_move.get(cycle.first).copied().unwrap_or(0);
         let Some(found) = came.next() else { return Some((line, "the cycle is not there".into())) };
-        let (cycle, found) = (&in_one(cycle, machine), &in_one(found, machine));
+        let at_once = is_in_one(cycle, machine) || is_in_one(found, machine);
+        let (cycle, found) = if at_once { (&in_one(cycle), &in_one(found)) } else { (cycle, found) };
         let lengths = |c: &Cycle| [c.at[0], c.at[1], c.retract, c.bottom, c.peck];
         let near = lengths(cycle).iter().zip(lengths(found)).all(|(a, b)| (a - b).abs() <= unit);
         let feeds = (cycle.feed - found.feed).abs()
@@ -60,14 +61,16 @@ fn cycle_difference(program: &Program, posted: &Posted, reading: &Reading, machi
     })
 }
 
-/// Pecks that reach the bottom at once are none.
-fn in_one(cycle: &Cycle, machine: &Machine) -> Cycle {
+/// Whether pecks reach the bottom at once: then they are none.
+fn is_in_one(cycle: &Cycle, machine: &Machine) -> bool {
     let pecks = matches!(cycle.kind, CycleKind::Peck | CycleKind::ChipBreak);
-    let at_once = cycle.peck >= cycle.retract - cycle.bottom - 1.5 * machine.resolution_mm();
-    match pecks && at_once {
-        true => Cycle { kind: CycleKind::Drill, peck: 0.0, ..cycle.clone() },
-        false => cycle.clone(),
-    }
+    pecks && cycle.peck >= cycle.retract - cycle.bottom - 1.5 * machine.resolution_mm()
+}
+
+/// The hole without its pecks.
+fn in_one(cycle: &Cycle) -> Cycle {
+    let kind = if matches!(cycle.kind, CycleKind::Peck | CycleKind::ChipBreak) { CycleKind::Drill } else { cycle.kind };
+    Cycle { kind, peck: 0.0, ..cycle.clone() }
 }
 
 /// The first event that differs.

@@ -8,15 +8,12 @@ use std::fmt::Write as _;
 use styluscam_motion::CycleKind;
 
 use super::dialect::Hole;
-use crate::number::NumberFormat;
+use crate::number::{NumberFormat, DWELL_PLACES, PITCH_PLACES};
 
 /// How far over the last depth a peck goes on at feed, and how far a chip is broken by going up, mm.
 const CLEARANCE: f64 = 0.25;
-/// Chips broken before the drill leaves the hole: more than any hole has.
+/// Chips broken before the drill leaves the hole to clear it.
 const BREAKS: &str = "99";
-/// Decimal places of a pitch and of a wait, s.
-const PITCH_PLACES: u8 = 6;
-const DWELL_PLACES: u8 = 3;
 
 /// The lines that define a cycle, without block numbers; boring is no cycle here. `per_mm` is last places in a mm.
 ///
@@ -25,7 +22,7 @@ pub(super) fn definition(hole: &Hole, linear: &NumberFormat, feed: &NumberFormat
     #[allow(clippy::cast_possible_truncation)] // a few thousand at most
     let quarter = (CLEARANCE * per_mm).round() as i64;
     let depth = hole.retract - hole.bottom;
-    // pecks are counted from the surface: where there are two, there must be two from there on as well
+    // the control counts pecks from the surface: it must lie so high that the last one is not joined to the one before
     let pecked = if hole.peck > 0 && hole.peck < depth { (depth - hole.peck) / 2 } else { depth / 2 };
     let clearance = quarter.min(pecked).max(1);
     let surface = hole.retract - clearance;

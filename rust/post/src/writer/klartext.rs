@@ -6,13 +6,11 @@ use super::cycl_def;
 use super::dialect::{Dialect, Feed, Hole, Place};
 use super::lines::Lines;
 use crate::machine::Machine;
-use crate::number::NumberFormat;
+use crate::number::{NumberFormat, DWELL_PLACES};
 use crate::post_error::PostError;
 use crate::rounded::RoundedArc;
 
 const AXES: [&str; 3] = ["X", "Y", "Z"];
-/// Decimal places of a dwell, s.
-const DWELL_PLACES: u8 = 3;
 
 pub(super) struct Klartext<'m> {
     machine: &'m Machine,

@@ -5,13 +5,10 @@
 use styluscam_motion::CycleKind;
 
 use super::dialect::Hole;
-use crate::number::NumberFormat;
+use crate::number::{NumberFormat, DWELL_PLACES, PITCH_PLACES};
 
 /// What ends the calls.
 pub(super) const END: &str = "MCALL";
-/// Decimal places of a pitch and of a wait, s.
-const PITCH_PLACES: u8 = 6;
-const DWELL_PLACES: u8 = 3;
 
 /// The block that calls a cycle at every place from here on; boring is no cycle here.
 ///

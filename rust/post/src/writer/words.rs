@@ -6,7 +6,7 @@ use super::dialect::{Dialect, Feed, Hole, Place};
 use super::lines::Lines;
 use super::mcall;
 use crate::machine::{ArcCentre, DwellRules, Family, FeedMode, LengthRules, Machine, Repeat, TimeUnit, Turns};
-use crate::number::NumberFormat;
+use crate::number::{NumberFormat, DWELL_PLACES};
 use crate::post_error::PostError;
 use crate::rounded::RoundedArc;
 
@@ -19,8 +19,6 @@ const AXES: [&str; 3] = ["X", "Y", "Z"];
 /// The letters of a centre's offsets from its arc's start.
 const OFFSETS: [&str; 3] = ["I", "J", "K"];
 const Z: usize = 2;
-/// Decimal places of seconds.
-const DWELL_PLACES: u8 = 3;
 
 /// What was said last and holds until something else is said.
 #[derive(Default)]

@@ -140,6 +140,9 @@ impl Interpreter<'_> {
 
     /// Makes a hole's moves and events, and notes it.
     fn make(&mut self, mut cycle: Cycle, start: [f64; 3], line: u32) -> Result<(), ReadFault> {
+        if self.halted {
+            return Err(ReadFault::Halted);
+        }
         let spindle = self.direction.map(|direction| (self.speed, direction));
         let steps = cycle.steps(&CycleStart { place: start, spindle }).ok_or(ReadFault::TooManyPecks)?;
         cycle.first = self.program.moves.len();
