@@ -7,6 +7,9 @@ use crate::machine::ArcRules;
 /// An arc of a smaller angle, rad, becomes a line: controllers differ in whether one of 1e-6 and less is a full circle.
 const LEAST: f64 = 1e-5;
 
+/// What arithmetic may add to a difference of radii, mm.
+const ARITHMETIC: f64 = 1e-9;
+
 /// A radius of fewer last places is hardly a circle once rounded: it becomes lines.
 const LEAST_PLACES: f64 = 5.0;
 
@@ -53,6 +56,7 @@ impl RoundedArc {
         let radius = posted.radius();
         let in_range =
             radius > rules.min_radius.max(LEAST_PLACES * unit) && rules.max_radius.is_none_or(|most| radius <= most);
-        as_meant && in_range && rules.radius_error.takes(posted.mismatch(), radius)
+        // the controller computes anew, and rounds otherwise
+        as_meant && in_range && rules.radius_error.takes(posted.mismatch() + ARITHMETIC, radius)
     }
 }

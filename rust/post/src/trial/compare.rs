@@ -33,16 +33,11 @@ pub fn difference(program: &Program, posted: &Posted, reading: &Reading, machine
         .or_else(|| move_difference(program, posted, reading, machine))
 }
 
-/// Whether the machine has a cycle for this.
-fn canned(machine: &Machine, cycle: &Cycle) -> bool {
-    machine.takes_cycle(cycle)
-}
-
 /// Holes that the machine has cycles for must come back as cycles.
 fn cycle_difference(program: &Program, posted: &Posted, reading: &Reading, machine: &Machine) -> Option<(u32, String)> {
     let unit = machine.resolution_mm() / 2.0 + SLACK;
     let mut came = reading.program.cycles.iter();
-    for cycle in program.cycles.iter().filter(|cycle| canned(machine, cycle)) {
+    for cycle in program.cycles.iter().filter(|cycle| machine.takes_cycle(cycle)) {
         let line = posted.line_of_move.get(cycle.first).copied().unwrap_or(0);
         let Some(found) = came.next() else { return Some((line, "the cycle is not there".into())) };
         let at_once = is_in_one(cycle, machine) || is_in_one(found, machine);
@@ -101,7 +96,7 @@ fn states(program: &Program, machine: &Machine, line_of_move: impl Fn(usize) -> 
     let turns = |kind: &EventKind| matches!(kind, EventKind::SpindleOn { .. } | EventKind::SpindleOff);
     for event in program.events.iter().chain(&all_off(program.moves.len())) {
         let inside = |cycle: &Cycle| {
-            canned(machine, cycle) && event.before > cycle.first && event.before < cycle.first + cycle.count
+            machine.takes_cycle(cycle) && event.before > cycle.first && event.before < cycle.first + cycle.count
         };
         if is_silent(&event.kind, machine) || program.cycles.iter().any(inside) {
             continue;
@@ -203,15 +198,14 @@ fn move_difference(program: &Program, posted: &Posted, reading: &Reading, machin
     let mut read = reading.program.segments().peekable();
     let (mut last_line, mut last_found) = (0, None);
     for (index, ((start, step), line)) in program.segments().zip(&posted.line_of_move).enumerate() {
-        let in_cycle = |c: &Cycle| canned(machine, c) && (c.first..c.first + c.count).contains(&index);
         let mut arrived = None;
-        let ends_cycle = |c: &&Cycle| canned(machine, c) && c.first + c.count == index + 1;
+        let ends_cycle = |c: &&Cycle| machine.takes_cycle(c) && c.first + c.count == index + 1;
         while let Some((from, found)) = read.next_if(|(_, m)| m.line <= *line) {
-            let across = from.is_some_and(|from| (0..2).any(|axis| (from[axis] - found.end[axis]).abs() > SLACK));
-            let height =
-                crossing(program, index, machine).map(|height| if across { height } else { f64::NEG_INFINITY });
-            let detour = || detour(start, step, found, *line, height, machine);
-            if let Some(what) = way_difference(start, step, from, found, machine).or_else(detour) {
+            let strays = || match cycle_at(program, index, machine) {
+                Some(cycle) => low_crossing(program, cycle, from, found, machine),
+                None => detour(start, step, found, *line, machine),
+            };
+            if let Some(what) = way_difference(start, step, from, found, machine).or_else(strays) {
                 return Some((found.line, what));
             }
             arrived = Some((from, found));
@@ -224,7 +218,7 @@ fn move_difference(program: &Program, posted: &Posted, reading: &Reading, machin
             }
         }
         let again = std::mem::replace(&mut last_line, *line) == *line;
-        if again && arrived.is_none() || program.cycles.iter().any(in_cycle) {
+        if again && arrived.is_none() || cycle_at(program, index, machine).is_some() {
             continue; // rounds to no motion, or is one of a cycle's
         }
         let Some(found) = arrived else { return Some((*line, "the move is not there".into())) };
@@ -242,32 +236,33 @@ fn move_difference(program: &Program, posted: &Posted, reading: &Reading, machin
     more.or(stray.map(|found| (found.line, "another plane than G17 is in force and no arc uses it".into())))
 }
 
-/// How high a hole's ways across are planned, mm; none where the move is no canned cycle's.
-fn crossing(program: &Program, index: usize, machine: &Machine) -> Option<f64> {
+/// The canned cycle that a move belongs to.
+fn cycle_at<'p>(program: &'p Program, index: usize, machine: &Machine) -> Option<&'p Cycle> {
     let cycle = program.cycles.iter().find(|c| (c.first..c.first + c.count).contains(&index))?;
-    canned(machine, cycle).then(|| {
-        let before = cycle.first.checked_sub(1).and_then(|before| program.moves.get(before));
-        before.map_or(cycle.retract, |step| step.end[2].max(cycle.retract))
-    })
+    machine.takes_cycle(cycle).then_some(cycle)
+}
+
+/// Whether the way across to a hole is lower than planned.
+fn low_crossing(
+    program: &Program,
+    cycle: &Cycle,
+    from: Option<[f64; 3]>,
+    found: &Move,
+    machine: &Machine,
+) -> Option<String> {
+    let before = cycle.first.checked_sub(1).and_then(|before| program.moves.get(before));
+    let height = before.map_or(cycle.retract, |step| step.end[2].max(cycle.retract));
+    let across = from.is_some_and(|from| (0..2).any(|axis| (from[axis] - found.end[axis]).abs() > SLACK));
+    let low = across && found.end[2] < height - machine.resolution_mm() / 2.0 - SLACK;
+    low.then(|| format!("it goes to {:?} mm on the way to a hole", found.end))
 }
 
 /// Whether a move that was read goes to a place that its step has no business with: templates must not move an axis.
-fn detour(
-    start: Option<[f64; 3]>,
-    step: &Move,
-    found: &Move,
-    line: u32,
-    crossing: Option<f64>,
-    machine: &Machine,
-) -> Option<String> {
-    let slack = machine.resolution_mm() / 2.0 + SLACK;
-    if let Some(height) = crossing {
-        let low = found.end[2] < height - slack;
-        return low.then(|| format!("it goes to {:?} mm on the way to a hole", found.end));
-    }
+fn detour(start: Option<[f64; 3]>, step: &Move, found: &Move, line: u32, machine: &Machine) -> Option<String> {
     if found.line == line || step.arc.is_some() {
         return None;
     }
+    let slack = machine.resolution_mm() / 2.0 + SLACK;
     let between = found.end.iter().zip(step.end).enumerate().all(|(axis, (place, end))| {
         let begin = start.map_or(end, |start| start[axis]);
         (place - end).abs() <= slack || (place - begin).abs() <= slack
