@@ -6,7 +6,7 @@ import math
 import random
 import re
 
-from spoiling import Text, before, chosen, header, kind_but, kind_of, without
+from spoiling import Text, before, chosen, header, kind_but, kind_of, respelt, without
 
 
 def _to_top(text: Text) -> list[int]:
@@ -36,8 +36,7 @@ def machine_place_added(text: Text, random_: random.Random) -> str | None:
 @kind_of("fanuc")
 def home_by_way_of_zero(text: Text, random_: random.Random) -> str | None:
     """G28 Z0. without G91: by way of zero of the work."""
-    number = chosen(random_, text.numbers_of(r"^G91 G28"))
-    return None if number is None else text.replaced(number, "G91 ", "")
+    return respelt(text, random_, r"^G91 G28", "G91 ", "")
 
 
 @kind_of("fanuc")

@@ -9,7 +9,7 @@ import re
 
 from controllers import REPEATS
 from gcode import Move
-from spoiling import MOTION, NUMBER, Text, chosen, kind, kind_but, shifted, without
+from spoiling import MOTION, NUMBER, Text, chosen, kind, kind_but, respelt, shifted, without
 
 
 def _across(move: Move) -> int:
@@ -41,53 +41,45 @@ def height_off(text: Text, random_: random.Random) -> str | None:
 @kind
 def level_raised(text: Text, random_: random.Random) -> str | None:
     """The Z of a plunge, and of the level that follows, by 0.05 mm."""
-    moves = [m for m in text.moves if m.kind == "feed" and m.end[2] < m.start[2] and m.start[:2] == m.end[:2]]
-    return shifted(text, random_.choice(moves), 2, 0.05) if moves else None
+    return shifted(text, random_.choice(text.plunges), 2, 0.05) if text.plunges else None
 
 
 @kind
 def level_lowered(text: Text, random_: random.Random) -> str | None:
     """The Z of a plunge, and of the level that follows, by 0.02 mm."""
-    moves = [m for m in text.moves if m.kind == "feed" and m.end[2] < m.start[2] and m.start[:2] == m.end[:2]]
-    return shifted(text, random_.choice(moves), 2, -0.02) if moves else None
+    return shifted(text, random_.choice(text.plunges), 2, -0.02) if text.plunges else None
 
 
 @kind
 def sign_lost(text: Text, random_: random.Random) -> str | None:
-    number = chosen(random_, text.numbers_of(r"[XYZ]-(?=[\d.]*[1-9])0*[1-9\.]"))
-    return None if number is None else text.replaced(number, r"([XYZ])-", r"\1")
+    return respelt(text, random_, r"[XYZ]-(?=[\d.]*[1-9])0*[1-9\.]", r"([XYZ])-", r"\1")
 
 
 @kind
 def digit_dropped(text: Text, random_: random.Random) -> str | None:
     """The first digit of a number above 1."""
-    number = chosen(random_, text.numbers_of(r"[XYZ]-?[1-9]\d*\.\d"))
-    return None if number is None else text.replaced(number, r"([XYZ]-?)[1-9](\d*\.)", r"\g<1>0\2")
+    return respelt(text, random_, r"[XYZ]-?[1-9]\d*\.\d", r"([XYZ]-?)[1-9](\d*\.)", r"\g<1>0\2")
 
 
 @kind
 def digits_turned(text: Text, random_: random.Random) -> str | None:
     """Two neighbouring digits after the point change places."""
-    number = chosen(random_, text.numbers_of(r"[XY]-?\d+\.([02468][13579]|[13579][02468])"))
-    return None if number is None else text.replaced(number, r"([XY]-?\d+\.)(\d)(\d)", r"\1\3\2")
+    return respelt(text, random_, r"[XY]-?\d+\.([02468][13579]|[13579][02468])", r"([XY]-?\d+\.)(\d)(\d)", r"\1\3\2")
 
 
 @kind
 def point_lost(text: Text, random_: random.Random) -> str | None:
-    number = chosen(random_, text.numbers_of(r"[XYZ]-?\d+\.\d"))
-    return None if number is None else text.replaced(number, r"([XYZ]-?\d+)\.", r"\1")
+    return respelt(text, random_, r"[XYZ]-?\d+\.\d", r"([XYZ]-?\d+)\.", r"\1")
 
 
 @kind
 def axes_swapped(text: Text, random_: random.Random) -> str | None:
-    number = chosen(random_, text.numbers_of(rf"X{NUMBER} Y{NUMBER}"))
-    return None if number is None else text.replaced(number, rf"X({NUMBER}) Y({NUMBER})", r"Y\1 X\2")
+    return respelt(text, random_, rf"X{NUMBER} Y{NUMBER}", rf"X({NUMBER}) Y({NUMBER})", r"Y\1 X\2")
 
 
 @kind
 def letter_for_digit(text: Text, random_: random.Random) -> str | None:
-    number = chosen(random_, text.numbers_of(r"[XYZ]-?\d+\.\d"))
-    return None if number is None else text.replaced(number, r"([XYZ]-?\d+\.)\d", r"\1O")
+    return respelt(text, random_, r"[XYZ]-?\d+\.\d", r"([XYZ]-?\d+\.)\d", r"\1O")
 
 
 # Motions
@@ -127,8 +119,7 @@ def _said(text: Text, number: int) -> int:
 
 @kind
 def plunge_in_rapid(text: Text, random_: random.Random) -> str | None:
-    number = chosen(random_, text.numbers_of(r"\bG1 Z\S+ F"))
-    return None if number is None else text.replaced(number, r"\bG1\b", "G0")
+    return respelt(text, random_, r"\bG1 Z\S+ F", r"\bG1\b", "G0")
 
 
 @kind
@@ -335,8 +326,7 @@ def arc_centre(text: Text, random_: random.Random) -> str | None:
 
 @kind_but("heidenhain")
 def arc_centre_sign(text: Text, random_: random.Random) -> str | None:
-    number = chosen(random_, text.numbers_of(r"\b[IJ]-?[\d.]*[1-9]"))
-    return None if number is None else text.replaced(number, rf"([IJ])(-?)({NUMBER})", _minus)
+    return respelt(text, random_, r"\b[IJ]-?[\d.]*[1-9]", rf"([IJ])(-?)({NUMBER})", _minus)
 
 
 def _minus(match: re.Match[str]) -> str:

@@ -7,7 +7,7 @@ import math
 import random
 import re
 
-from spoiling import NUMBER, Text, before, chosen, header, kind, kind_but, kind_of, without
+from spoiling import NUMBER, Text, before, chosen, header, kind, kind_but, kind_of, respelt, without
 
 
 def _feeds(text: Text) -> list[int]:
@@ -126,15 +126,13 @@ def tool_change_missing(text: Text, random_: random.Random) -> str | None:
 
 @kind_of("linuxcnc", "fanuc", "okuma", "siemens")
 def length_offset(text: Text, random_: random.Random) -> str | None:
-    number = chosen(random_, text.numbers_of(text.dialect.length))
-    return None if number is None else text.replaced(number, r"([HD])(\d)", r"\1\g<2>0")
+    return respelt(text, random_, text.dialect.length, r"([HD])(\d)", r"\1\g<2>0")
 
 
 @kind_of("linuxcnc", "fanuc", "okuma", "siemens")
 def length_offset_of_another_tool(text: Text, random_: random.Random) -> str | None:
     """The next number: H2 for H1."""
-    number = chosen(random_, text.numbers_of(text.dialect.length))
-    return None if number is None else text.replaced(number, r"([HD])(\d)", lambda w: f"{w[1]}{int(w[2]) + 1}")
+    return respelt(text, random_, text.dialect.length, r"([HD])(\d)", lambda w: f"{w[1]}{int(w[2]) + 1}")
 
 
 @kind_of("linuxcnc", "fanuc", "okuma", "siemens")
@@ -184,15 +182,13 @@ def spindle_missing(text: Text, random_: random.Random) -> str | None:
 
 @kind
 def spindle_turned(text: Text, random_: random.Random) -> str | None:
-    number = chosen(random_, text.numbers_of(r"\bM[34]\b"))
     turned = {"3": "M4", "4": "M3"}
-    return None if number is None else text.replaced(number, r"\bM([34])\b", lambda word: turned[word[1]])
+    return respelt(text, random_, r"\bM[34]\b", r"\bM([34])\b", lambda word: turned[word[1]])
 
 
 @kind
 def spindle_speed(text: Text, random_: random.Random) -> str | None:
-    number = chosen(random_, text.numbers_of(r"\bS\d+"))
-    return None if number is None else text.replaced(number, r"S(\d+)", r"S\g<1>0")
+    return respelt(text, random_, r"\bS\d+", r"S(\d+)", r"S\g<1>0")
 
 
 @kind
@@ -210,8 +206,7 @@ def coolant_missing(text: Text, random_: random.Random) -> str | None:
 
 @kind
 def mist_for_flood(text: Text, random_: random.Random) -> str | None:
-    number = chosen(random_, text.numbers_of(r"\bM8\b"))
-    return None if number is None else text.replaced(number, r"\bM8\b", "M7")
+    return respelt(text, random_, r"\bM8\b", r"\bM8\b", "M7")
 
 
 @kind
@@ -301,8 +296,7 @@ def word_commented_out(text: Text, random_: random.Random) -> str | None:
 @kind_but("heidenhain")
 def decimal_comma(text: Text, random_: random.Random) -> str | None:
     """Where the control does not take one: Klartext may have it."""
-    number = chosen(random_, text.numbers_of(r"[XYZ]-?\d+\.\d"))
-    return None if number is None else text.replaced(number, r"([XYZ]-?\d+)\.", r"\1,")
+    return respelt(text, random_, r"[XYZ]-?\d+\.\d", r"([XYZ]-?\d+)\.", r"\1,")
 
 
 @kind

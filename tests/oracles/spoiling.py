@@ -146,6 +146,11 @@ class Text:
         return read(self.text, self.family).moves
 
     @property
+    def plunges(self) -> list[Move]:
+        """Feed moves straight down."""
+        return [m for m in self.moves if m.kind == "feed" and m.end[2] < m.start[2] and m.start[:2] == m.end[:2]]
+
+    @property
     def contacts(self) -> list[Move]:
         """Feed moves that go sideways."""
         return [m for m in self.moves if m.kind != "rapid" and m.placed and math.dist(m.start[:2], m.end[:2]) > 1e-6]
@@ -236,6 +241,14 @@ def _registered(function: Spoil, families: tuple[Family, ...]) -> Spoil:
     KINDS[name] = spoilt
     FAMILIES_OF[name] = families
     return function
+
+
+def respelt(
+    text: Text, random_: random.Random, found: str, pattern: str, by: str | Callable[[re.Match[str]], str]
+) -> str | None:
+    """The text with a pattern spelt otherwise, once, on one of the lines in which something is found."""
+    number = chosen(random_, text.numbers_of(found))
+    return None if number is None else text.replaced(number, pattern, by)
 
 
 def chosen(random_: random.Random, places: list[int]) -> int | None:
