@@ -144,21 +144,21 @@ impl Program {
 
     /// Leaves out what the header of a text said about itself: another machine's header takes its place.
     pub fn forget_old_header(&mut self) {
+        // in small letters: some machines have capitals only
         const OWN: [&str; 8] = [
             "machine: ",
             "parts of this machine",
             "work offset ",
             "part box: ",
             "path tolerance of ",
-            "deepest Z of ",
-            "tool T",
+            "deepest z of ",
+            "tool t",
             "judged from this text",
         ];
-        let head = |event: &Event| event.before == 0;
         self.events.retain(|event| match &event.kind {
-            EventKind::Comment { text } if head(event) => {
+            EventKind::Comment { text } if event.before == 0 => {
                 let text = text.to_lowercase();
-                !OWN.iter().any(|own| text.starts_with(&own.to_lowercase()))
+                !OWN.iter().any(|own| text.starts_with(own))
             }
             _ => true,
         });

@@ -1,6 +1,6 @@
 //! Holes by the machine's own cycles.
 
-use styluscam_motion::{Cycle, CycleStart, CycleStep, EventKind, Move, MoveKind, Program, SpindleDirection};
+use styluscam_motion::{Cycle, CycleKind, CycleStart, CycleStep, EventKind, Move, MoveKind, Program, SpindleDirection};
 
 use super::dialect::{Hole, Thread};
 use super::Poster;
@@ -85,7 +85,7 @@ impl Poster<'_> {
         let turning = self.spindle.filter(|(rpm, _)| *rpm > 0.0);
         let (rpm, direction) = turning.ok_or(PostError::NoRevolutions { index })?;
         let right = direction == SpindleDirection::Clockwise;
-        if right != (cycle.kind == styluscam_motion::CycleKind::Tap) {
+        if right != (cycle.kind == CycleKind::Tap) {
             return Err(PostError::Unsupported { what: "a tap whose hand is not the spindle's" });
         }
         Ok(Some(Thread { pitch: cycle.feed * self.per_mm / rpm, speed: self.speed_count(rpm)? }))
