@@ -25,10 +25,13 @@ def tray() -> Mesh:
     return np.array(vertices, dtype=float), np.array([*walls, *others, (8, 9, 10), (8, 10, 11)])
 
 
-def judged(setup: dict[str, Any] | None = None, sheet: dict[str, Any] | None = None, **tool: Any) -> sc.Report:
+def judged(
+    setup: dict[str, Any] | None = None, sheet: dict[str, Any] | None = None, accept: tuple[str, ...] = (), **tool: Any
+) -> sc.Report:
     """The tray's levels, planned and judged."""
     document = {
         "schema": 1,
+        "accept": list(accept),
         "part": {"file": "tray.stl", "units": "mm", "model_face": "tool"},
         "setup": {"zero": "model", "sheet": {"thickness": THICKNESS} | (sheet or {})} | (setup or {}),
         "tools": {"ball": {"profile": {"kind": "ball", "diameter": 2 * RADIUS}} | tool},
@@ -101,6 +104,16 @@ def test_walls_are_held_against_what_the_sheet_bears(limit: float, ok: bool) -> 
     assert report.ok == ok
     if not ok:
         assert "at 45.0 degrees" in found(report)["wall-angle"]["message"]
+
+
+def test_a_risk_that_the_job_takes_by_name_is_a_warning() -> None:
+    report = judged(sheet={"max_wall_angle_deg": 44.0}, accept=("wall-angle",))
+    finding = found(report)["wall-angle"]
+    assert report.ok
+    assert finding["severity"] == "warning"
+    assert "accepted by the job" in finding["message"]
+    with pytest.raises(sc.JobError, match="wall-angel"):
+        judged(accept=("wall-angel",))
 
 
 @pytest.mark.parametrize(("least", "ok"), [(0.72, False), (0.70, True)])

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use styluscam_geometry::{Base, Holder, ModelFace, ProfileDocument, SheetLaw};
 use styluscam_motion::{SpindleDirection, ToolReference};
 
-use crate::FixtureSection;
+use crate::{FixtureSection, Risk};
 
 /// A whole job: from a part's faces to a machine's program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -20,6 +20,9 @@ pub struct JobDocument {
     /// A name for people; the part's file name when left out.
     #[serde(default)]
     pub title: String,
+    /// Risks that are taken: what the judge would refuse for them becomes a warning.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub accept: Vec<Risk>,
     /// The part and what of it is wanted.
     pub part: PartSection,
     /// How the part lies on the machine.

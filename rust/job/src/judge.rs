@@ -227,6 +227,7 @@ fn limits(job: &JobDocument, scene: &Scene, machine: &Machine) -> Limits {
         feed_unit: machine.feed_resolution_mm(),
         reach: reach(machine),
         forming: job.setup.sheet.map(|sheet| forming(sheet, scene.top)),
+        accepted: job.accept.iter().map(|risk| risk.finding()).collect(),
         ..Limits::new(clearance)
     }
 }

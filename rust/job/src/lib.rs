@@ -8,6 +8,7 @@ mod fixture;
 mod judge;
 mod parse;
 mod plan;
+mod risk;
 mod scene;
 mod starter;
 mod summary;
@@ -22,6 +23,7 @@ pub use fixture::{plates, BackingSection, ClampSection, FixtureSection, Holder, 
 pub use judge::{coverage, judge, left, read_back, simulate, Judgement};
 pub use parse::{from_json, from_toml, schema, tool_from_json};
 pub use plan::{plan, OperationSummary, Plan};
+pub use risk::Risk;
 pub use scene::{Part, Scene};
 pub use starter::{starter, StarterFace, StarterPart};
 pub use summary::Summary;

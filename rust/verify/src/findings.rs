@@ -54,6 +54,18 @@ pub enum FindingKind {
     Thinning,
     /// The tool goes deeper than a step below all that is formed so far.
     Punch,
+    /// The tool bridges faces by more than it may: it is less curved than they are.
+    Bridged,
+    /// The tool reaches less of the faces than it should.
+    Unreached,
+    /// The model is thicker or thinner than the sheet.
+    SheetThickness,
+    /// The model shows another face of the sheet than the job says.
+    SheetFace,
+    /// A solid is to be formed from a sheet.
+    SolidFormed,
+    /// The model's flange does not lie where the sheet is clamped.
+    FlangeHeight,
     /// A level is formed after a lower one at the same place.
     FormingOrder,
     /// A rapid goes down below the height at which the job wants plunges to begin.
@@ -190,6 +202,14 @@ impl Finding {
             limit: None,
             unit: "mm".to_owned(),
             message,
+        }
+    }
+
+    /// Makes it a warning: the job takes this risk by name.
+    pub(crate) fn accept(&mut self) {
+        if self.severity == Severity::Error {
+            self.severity = Severity::Warning;
+            self.message += " (accepted by the job)";
         }
     }
 

@@ -35,6 +35,9 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         *counts.entry(whole.kind).or_default() += 1;
         findings.insert(0, whole);
     }
+    for accepted in findings.iter_mut().filter(|finding| limits.accepted.contains(&finding.kind)) {
+        accepted.accept();
+    }
     Ok(Report {
         ok: findings.iter().all(|f| f.severity != Severity::Error),
         findings,

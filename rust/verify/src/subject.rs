@@ -125,6 +125,8 @@ pub struct Limits {
     pub reach: Reach,
     /// What the sheet bears, where one is formed.
     pub forming: Option<Forming>,
+    /// Kinds of findings that are no errors: the job takes these risks by name.
+    pub accepted: Vec<FindingKind>,
 }
 
 impl Subject<'_> {
@@ -153,6 +155,7 @@ impl Limits {
             feed_unit: 0.0,
             reach: Reach::default(),
             forming: None,
+            accepted: Vec::new(),
         }
     }
 

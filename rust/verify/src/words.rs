@@ -72,6 +72,14 @@ fn what(fault: &Fault) -> String {
                 "the tool goes down to Z{value:.3}, and the sheet is formed to Z{limit:.3} only: it punches through"
             )
         }
+        FindingKind::Bridged => format!("the tool bridges a face by {value:.3} mm (limit {limit:.3} mm)"),
+        FindingKind::Unreached => format!("the tool reaches too little of the faces: {value:.1} mm2 of {limit:.1}"),
+        FindingKind::SheetThickness => format!("the model is {value:.3} mm thick, and the sheet {limit:.3} mm"),
+        FindingKind::SheetFace => "the model shows another face of the sheet than the job says".to_owned(),
+        FindingKind::SolidFormed => "the model is a solid, and no sheet of nearly constant thickness".to_owned(),
+        FindingKind::FlangeHeight => {
+            format!("the model's flange lies at Z{value:.3}, and the sheet is clamped at Z{limit:.3}")
+        }
         FindingKind::FormingOrder => format!("the level Z{value:.3} is formed after Z{limit:.3}, which is lower"),
         FindingKind::DeepRapid => format!("a rapid goes down to Z{value:.3}, below the retract height {limit:.3}"),
         FindingKind::StopBelow => "the program stops (M0, M1) while the tool is down".to_owned(),
@@ -178,6 +186,12 @@ fn remedy(kind: FindingKind) -> &'static str {
             "post the whole operation, with the job's heights and steps"
         }
         FindingKind::Punch => "form level by level, from the top down",
+        FindingKind::Bridged => "take a smaller tool, or accept = [\"bridged\"]",
+        FindingKind::Unreached => "take a smaller tool, or accept = [\"unreached\"]",
+        FindingKind::SheetThickness => "correct setup.sheet.thickness, or accept = [\"thickness\"]",
+        FindingKind::SheetFace => "correct part.model_face, or accept = [\"model-face\"]",
+        FindingKind::SolidFormed => "set process.kind = \"milling\", or accept = [\"solid\"]",
+        FindingKind::FlangeHeight => "let the flange lie at the sheet's top, or accept = [\"flange\"]",
         FindingKind::FormingOrder => "form from the top down",
         FindingKind::DeepRapid => "come down at a feed from there",
         FindingKind::StopBelow => "stop above the clearance height",
