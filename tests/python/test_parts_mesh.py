@@ -142,8 +142,24 @@ def test_junk_in_other_formats(ending: str, tmp_path: Path) -> None:
         read_part(file, units=None if ending == "3mf" else "mm")
 
 
+@pytest.mark.parametrize("ending", ["stl", "obj", "ply", "3mf"])
+def test_no_word_of_a_library_reaches_users(ending: str, tmp_path: Path) -> None:
+    file = tmp_path / f"part.{ending}"
+    for junk in (
+        b"\x00\x01junk" * 30,
+        b"solid x\nfacet normal 0 0\nvertex",
+        b"ply\nformat ascii 1.0\nelement",
+        b"f 1 2 x\n",
+    ):
+        file.write_bytes(junk)
+        with pytest.raises(GeometryError) as caught:
+            read_part(file, units=None if ending == "3mf" else "mm")
+        assert "Error" not in str(caught.value) and "Exception" not in str(caught.value)
+        assert caught.value.hint in str(caught.value)
+
+
 def test_missing_trimesh_names_the_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    file = export(cube(), tmp_path / "c.stl")
+    file = export(cube(), tmp_path / "c.ply")
     monkeypatch.setitem(sys.modules, "trimesh", None)
     with pytest.raises(GeometryError, match=r"styluscam\[mesh\]") as caught:
         read_part(file, units="mm")

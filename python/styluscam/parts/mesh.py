@@ -1,4 +1,4 @@
-"""STL, OBJ, PLY and 3MF files through trimesh: the mesh is the part."""
+"""STL, OBJ, PLY and 3MF files: the mesh is the part."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import numpy as np
 from ..errors import GeometryError
 from .arrays import Ints, PartArrays, area_vectors, describe_face, signed_volume
 from .progress import Progress, report
+from .stl import read_stl
 from .surfaces import Floats, unit
 from .tessellation import is_closed, weld
 
@@ -22,7 +23,7 @@ def read_mesh(file: Path, tolerance: float, units: str | None, progress: Progres
     """Read the part in a mesh file, all of it face 1. See styluscam.parts.read_part."""
     report(progress, "read", 0.0)
     scale, units = _scale(file, units)
-    points, corners, own_units = _load(file)
+    points, corners, own_units, notes = _load(file)
     if own_units is not None:
         scale, units = own_units
     if not len(corners):
@@ -36,11 +37,12 @@ def read_mesh(file: Path, tolerance: float, units: str | None, progress: Progres
     if not sizes.sum() > 0.0:
         raise _error(file, "has no area: all its triangles are degenerate", "export it again", "part-zero-area")
     closed = is_closed(triangles)
-    notes = () if closed else ("the mesh is open: not each edge is shared by two triangles",)
+    if not closed:
+        notes += ("the mesh is open: not each edge is shared by two triangles",)
     if closed and signed_volume(vertices, triangles) < 0.0:
         triangles = np.ascontiguousarray(triangles[:, ::-1])
         doubled = -doubled
-        notes = ("the mesh was wound inward: its triangles were turned over",)
+        notes += ("the mesh was wound inward: its triangles were turned over",)
     normals = np.repeat(unit(doubled)[:, None, :], 3, axis=1)
     report(progress, "arrays", 1.0)
     return PartArrays(
@@ -89,24 +91,12 @@ UNITS_OF_3MF = {
 }
 
 
-def _load(file: Path) -> tuple[Floats, Ints, tuple[float, str] | None]:
-    """Return points (N,3) in the file's units, triangles (T,3), and for 3MF its units."""
-    try:
-        import trimesh
-    except ImportError as error:
-        cure = "pip install 'styluscam[mesh]'"
-        raise _error(file, f"reading {file.suffix} files needs trimesh", cure, "part-extra-mesh") from error
-    try:
-        loaded: Any = trimesh.load_scene(str(file), process=False)
-        meshes = [g for g in loaded.dump() if isinstance(g, trimesh.Trimesh)]
-    except Exception as error:  # trimesh lets through whatever its parsers raise
-        if isinstance(error, ImportError) and file.suffix.lower() == ".3mf":
-            cure = "pip install 'styluscam[mesh]'"
-            raise _error(file, f"reading it needs {error.name}", cure, "part-extra-mesh") from error
-        # a parser that asks for a package to guess a text's encoding was given no text
-        kind = "" if isinstance(error, ImportError) else f" ({type(error).__name__})"
-        what = f"not a whole {file.suffix.lower()[1:].upper()} file{kind}"
-        raise _error(file, what, "export the part again", "part-damaged") from error
+def _load(file: Path) -> tuple[Floats, Ints, tuple[float, str] | None, tuple[str, ...]]:
+    """Return points (N,3) in the file's units, triangles (T,3), for 3MF its units, and notes on the file."""
+    if file.suffix.lower() == ".stl":
+        points, corners, notes = read_stl(file)
+        return points, corners, None, notes
+    meshes = _meshes(file)
     if not meshes:
         raise _error(file, "holds no triangles", "export the part again", "part-no-triangles")
     starts = np.cumsum([0] + [len(m.vertices) for m in meshes])
@@ -115,7 +105,27 @@ def _load(file: Path) -> tuple[Floats, Ints, tuple[float, str] | None]:
     own_units = None
     if file.suffix.lower() == ".3mf":
         own_units = UNITS_OF_3MF.get(str(meshes[0].units or "millimeter"), (1.0, "mm"))
-    return points, corners, own_units
+    return points, corners, own_units, ()
+
+
+def _meshes(file: Path) -> list[Any]:
+    """Return the file's meshes, each at its place, as trimesh reads them."""
+    kind = file.suffix.lower()[1:].upper()
+    try:
+        import trimesh
+    except ImportError as error:
+        cure = "pip install 'styluscam[mesh]'"
+        raise _error(file, f"reading {kind} files needs trimesh", cure, "part-extra-mesh") from error
+    try:
+        loaded: Any = trimesh.load_scene(str(file), process=False)
+        return [g for g in loaded.dump() if isinstance(g, trimesh.Trimesh)]
+    except Exception as error:  # trimesh lets through whatever its parsers raise
+        if isinstance(error, ImportError) and file.suffix.lower() == ".3mf":
+            cure = "pip install 'styluscam[mesh]'"
+            raise _error(file, f"reading it needs {error.name}", cure, "part-extra-mesh") from error
+        # the parsers' own words are about Python, not about the file: they stay in the cause
+        what = f"cannot be read as {kind}: it is damaged, or another format"
+        raise _error(file, what, "export the part again", "part-damaged") from error
 
 
 @dataclass(frozen=True, eq=False)
