@@ -28,7 +28,7 @@ NAME = re.compile(rb"solid\b(?:(?!facet\s+normal\s+[-+.\d])[^\r\n])*")
 FACET = re.compile(rb"\bfacet\b")
 LOOP = re.compile(rb"outer\s+loop((?:\s+vertex(?:\s+[^\s]+){3}){3})\s+endloop\b")
 WHOLE_FACET = re.compile(
-    rb"\bfacet\b[^o]*\bouter\s+loop(?:\s+vertex(?:\s+[-+.\de]+|\s+[-+]?(?:nan|inf)\w*){3}){3}\s+endloop\b"
+    rb"\bfacet\b(?:\s+normal(?:\s+\S+){3})?\s+outer\s+loop(?:\s+vertex(?:\s+[-+.\de]+|\s+[-+]?(?:nan|inf)\w*){3}){3}\s+endloop\b"
 )
 
 
