@@ -27,7 +27,7 @@ def recheck(report: Document, job: Job, scene: _engine.Scene) -> None:
     points = (np.array([c["point"] for c in contacts]) - rows[:, 3]) @ rows[:, :3]
     distances = arrays.surface_distance(points, np.array([c["face"] for c in contacts]))
     worst = int(np.argmax(np.abs(distances)))
-    limit = arrays.tolerance + ROUNDING
+    limit = max(arrays.tolerance, arrays.deviation_inward, arrays.deviation_outward) + ROUNDING
     report["brep_checked"] = len(contacts)
     report["brep_max"] = float(abs(distances[worst]))
     if report["brep_max"] > limit:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -465,6 +466,32 @@ def test_fixtures_hold_a_micrometre(name: str) -> None:
     assert max(part.deviation_inward, part.deviation_outward) <= 0.001
     assert len(part.triangles) < 200_000
     outward_everywhere(part)
+
+
+def test_what_the_kernel_throws_becomes_a_sentence(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from OCP.Standard import Standard_Failure
+
+    def fails(*_: object) -> None:
+        raise Standard_Failure("Standard_OutOfRange")
+
+    monkeypatch.setattr("styluscam.parts.step.surface_of", fails)
+    with pytest.raises(GeometryError, match="gives up on its geometry") as caught:
+        read_part(write_step(box(), tmp_path / "box.step"))
+    assert "Standard" not in str(caught.value) and caught.value.hint
+
+
+def test_edges_off_their_surface_are_read_with_a_note(tmp_path: Path) -> None:
+    file = write_step(BRepPrimAPI_MakeCylinder(5.0, 10.0).Shape(), tmp_path / "pin.step")
+    text = file.read_text()
+    loose = re.sub(r"(CYLINDRICAL_SURFACE\('',#\d+,)5\.", r"\g<1>5.0026", text)
+    assert loose != text
+    file.write_text(loose)
+    part = read_part(file)
+    assert part.edge_gap_mm == pytest.approx(0.0026, abs=1e-5)
+    assert 0.0026 < part.deviation_inward < 0.005
+    assert any("lie up to 0.0026 mm off its surface" in note for note in part.notes)
+    file.write_text(text)
+    assert read_part(file).edge_gap_mm < 1e-6
 
 
 def test_damage_is_named(tmp_path: Path) -> None:

@@ -83,7 +83,6 @@ def arrays_of(shape: Any, tolerance: float, name: str, progress: Progress | None
     tessellation = refine_until(mesh_at, surfaces, tolerance, name)
     areas = [(face.Area, tuple(face.CenterOfMass)) for face in faces]
     kinds = [assembly.kind_of(surface) for surface in surfaces]
-    assembly.check_areas(source, tessellation, areas)
     notes = () if bare.isClosed() else ("the model is not a closed solid: its material side is a guess",)
     return assembly.assemble(
         source, tolerance, "mm", notes=notes, surfaces=surfaces, kinds=kinds, areas=areas, tessellation=tessellation

@@ -50,11 +50,12 @@ class PartArrays:
     faces: tuple[FaceInfo, ...]  # faces[i].id == i + 1
     deviation_inward: float  # checked bound on how far the mesh lies inside the material
     deviation_outward: float  # checked bound on how far it stands outside
-    tolerance: float  # what was asked
+    tolerance: float  # what was asked: the deviations are within it, except where edge_gap_mm forbids
     source: str
     units: str  # of the file; the arrays are always in mm
     is_closed: bool  # each edge is shared by exactly two triangles that run it in opposite directions
     notes: tuple[str, ...] = ()  # sentences for the user, e.g. that the file holds a sheet body
+    edge_gap_mm: float = 0.0  # how far the file's own edges lie off its surfaces at most; the deviations include it
     surfaces: tuple[ExactSurface, ...] = field(default=(), repr=False)  # surfaces[i] belongs to faces[i]
 
     def __post_init__(self) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -9,10 +10,12 @@ import numpy as np
 from ..errors import GeometryError
 from .arrays import FaceInfo, PartArrays, area_vectors, describe_face, signed_volume
 from .surfaces import Cone, ExactSurface, Floats, Nurbs, Parametric
-from .tessellation import FaceMesh, Tessellation, is_closed, weld
+from .tessellation import GAP_SHARE, FaceMesh, Tessellation, is_closed, weld
 
-# A face's mesh may miss this part of its exact area before the face counts as meshed wrongly.
+# A face's mesh may miss this part of its exact area before it is looked at closer: chords are shorter than arcs.
 AREA_SHARE = 0.02
+# Triangles that overlap by less than this part of the face cover its surface all the same: nothing of it is missing.
+OVERLAP_SHARE = 0.25
 
 
 def outward(mesh: FaceMesh, surface: ExactSurface) -> FaceMesh:
@@ -34,17 +37,61 @@ def kind_of(surface: ExactSurface) -> str:
     return type(surface).__name__.lower()
 
 
-def check_areas(file: Path, tessellation: Tessellation, areas: list[tuple[float, tuple[float, float, float]]]) -> None:
-    """Refuse a mesh that leaves out, folds or covers more than the face."""
-    for number, (mesh, (exact, _)) in enumerate(zip(tessellation.meshes, areas, strict=True), 1):
+def check_areas(
+    file: Path,
+    tessellation: Tessellation,
+    areas: list[tuple[float, tuple[float, float, float]]],
+    exact_area: Callable[[int], float] | None = None,
+) -> tuple[str, ...]:
+    """Return notes on faces whose triangles overlap; refuse a mesh that leaves out a part of a face, or folds.
+
+    `areas` (mm^2, with centres) may come from a quadrature of few points; `exact_area(face index)` from a careful
+    one, asked where the first does not agree with the triangles. Along its border a mesh may leave out, or cover more,
+    as wide a strip as its deviation.
+    """
+    notes = []
+    for i, (mesh, (area, _)) in enumerate(zip(tessellation.meshes, areas, strict=True)):
         meshed = float(np.linalg.norm(area_vectors(mesh.nodes, mesh.triangles), axis=1).sum() / 2.0)
-        if exact > 1e-6 and abs(meshed - exact) > AREA_SHARE * exact + 1e-6:
-            place = f"{file}:Face{number}"
-            raise GeometryError(
-                f"{place}: its mesh covers {meshed:.6g} of {exact:.6g} mm^2: repair the face in the CAD system",
-                code="part-face-not-meshed",
-                where=place,
+        strip = border_length(mesh) * (tessellation.deviations[i].worst + tessellation.deflection) + 1e-6
+        if abs(meshed - area) <= AREA_SHARE * area + strip:
+            continue
+        exact = area if exact_area is None else exact_area(i)
+        place, figures = f"{file}:Face{i + 1}", f"{meshed:.4g} of {exact:.4g} mm^2"
+        if meshed < exact * (1.0 - AREA_SHARE) - strip:
+            why, cure = "a part of it would not be machined, and not be watched", "repair the face in the CAD system"
+            raise _wrongly_meshed(place, f"its triangles cover only {figures}: {why}", cure)
+        if meshed > exact * (1.0 + OVERLAP_SHARE) + strip:
+            cure = "repair the face in the CAD system (its outline crosses itself, or its surface folds)"
+            raise _wrongly_meshed(place, f"its triangles cover {figures}: they lie over each other", cure)
+        if meshed > exact * (1.0 + AREA_SHARE) + strip:
+            share = 100.0 * (meshed / exact - 1.0)
+            notes.append(
+                f"Face{i + 1} ({exact:.3g} mm^2): its triangles overlap, they cover {share:.1f} % more than it"
             )
+    return tuple(notes)
+
+
+def border_length(mesh: FaceMesh) -> float:
+    """Return the length of a face's border, mm."""
+    ends = np.sort(np.stack([mesh.triangles, np.roll(mesh.triangles, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
+    edges, counts = np.unique(ends, axis=0, return_counts=True)
+    border = mesh.nodes[edges[counts == 1]]
+    return float(np.linalg.norm(border[:, 1] - border[:, 0], axis=1).sum())
+
+
+def _wrongly_meshed(place: str, what: str, cure: str) -> GeometryError:
+    return GeometryError(f"{place}: {what}: {cure}", code="part-face-not-meshed", where=place, hint=cure)
+
+
+def gap_note(gaps: tuple[float, ...], tolerance: float) -> tuple[str, ...]:
+    """Return a note where the model's edges lie farther off its surfaces than the tolerance allows."""
+    at = int(np.argmax(gaps))
+    if gaps[at] <= GAP_SHARE * tolerance:
+        return ()
+    return (
+        f"the edges of Face{at + 1} lie up to {gaps[at]:.2g} mm off its surface, as the file has them: "
+        f"a part tolerance below {2.0 * gaps[at]:.2g} mm cannot be held there",
+    )
 
 
 def assemble(
@@ -57,8 +104,10 @@ def assemble(
     kinds: list[str],
     areas: list[tuple[float, tuple[float, float, float]]],
     tessellation: Tessellation,
+    exact_area: Callable[[int], float] | None = None,
 ) -> PartArrays:
-    """Make one welded mesh out of the faces' meshes."""
+    """Make one welded mesh out of the faces' meshes; see :func:`check_areas` for `exact_area`."""
+    remarks = check_areas(file, tessellation, areas, exact_area) + gap_note(tessellation.edge_gaps, tolerance)
     meshes = tessellation.meshes
     starts = np.cumsum([0] + [len(mesh.nodes) for mesh in meshes])
     corners = np.concatenate([mesh.triangles + start for mesh, start in zip(meshes, starts, strict=False)])
@@ -92,7 +141,8 @@ def assemble(
         source=str(file),
         units=units,
         is_closed=closed,
-        notes=notes,
+        notes=notes + remarks,
+        edge_gap_mm=max(0.0, *tessellation.edge_gaps),
         surfaces=tuple(surfaces),
     )
 

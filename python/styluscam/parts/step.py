@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import GeometryError
 from .arrays import PartArrays
-from .assembly import assemble, check_areas, kind_of, outward
+from .assembly import assemble, kind_of, outward
 from .progress import Progress, report
 from .surfaces import Cone, Cylinder, ExactSurface, Floats, Nurbs, Parametric, Plane, Sphere, Torus
 from .tessellation import FaceMesh, Tessellation, refine_until
@@ -31,7 +31,7 @@ ANGLE = 0.35
 def read_brep(file: Path, tolerance: float, progress: Progress | None = None) -> PartArrays:
     """Read the part in a STEP, BREP or IGES file. See styluscam.parts.read_part."""
     ocp(file)
-    with quiet_kernel():
+    with quiet_kernel(), kernel_failures(file):
         report(progress, "read", 0.0)
         shape, units = _load(file)
         faces = faces_of(shape)
@@ -43,7 +43,6 @@ def read_brep(file: Path, tolerance: float, progress: Progress | None = None) ->
         areas = [_area_and_centre(face) for face in faces]
     report(progress, "arrays", 0.9)
     kinds = [kind_of(surface) for surface in surfaces]
-    check_areas(file, tessellation, areas)
     part = assemble(
         file,
         tolerance,
@@ -53,6 +52,7 @@ def read_brep(file: Path, tolerance: float, progress: Progress | None = None) ->
         kinds=kinds,
         areas=areas,
         tessellation=tessellation,
+        exact_area=lambda i: _careful_area(faces[i]),
     )
     report(progress, "arrays", 1.0)
     return part
@@ -85,6 +85,23 @@ def quiet_kernel() -> Iterator[None]:
     finally:
         for printer in printers:
             messenger.AddPrinter(printer)
+
+
+@contextmanager
+def kernel_failures(file: Path) -> Iterator[None]:
+    """Turn what the kernel throws into a sentence: its own words are names of its classes."""
+    from OCP.Standard import Standard_Failure
+
+    try:
+        yield
+    except Standard_Failure as error:
+        cure = "open the part in a CAD system, check its geometry there and export it again"
+        raise GeometryError(
+            f"{file}: the CAD kernel gives up on its geometry: {cure}",
+            code="part-kernel",
+            where=str(file),
+            hint=cure,
+        ) from error
 
 
 # --- loading -----------------------------------------------------------------------------------------------------
@@ -385,6 +402,16 @@ def _area_and_centre(face: Kernel) -> tuple[float, tuple[float, float, float]]:
     properties = GProp_GProps()
     BRepGProp.SurfaceProperties_s(face, properties)
     return abs(properties.Mass()), _xyz(properties.CentreOfMass())
+
+
+def _careful_area(face: Kernel) -> float:
+    """Return the exact area (mm^2) by a quadrature that halves its steps until 0.01 % is sure."""
+    from OCP.BRepGProp import BRepGProp
+    from OCP.GProp import GProp_GProps
+
+    properties = GProp_GProps()
+    BRepGProp.SurfaceProperties_s(face, properties, 1e-4)
+    return abs(float(properties.Mass()))
 
 
 # --- meshing -----------------------------------------------------------------------------------------------------

@@ -27,6 +27,11 @@ INSIDE = np.array([(0.5, 0.25, 0.25), (0.25, 0.5, 0.25), (0.25, 0.25, 0.5), (1.0
 MOST_TRIANGLES = 10_000_000
 # The mesher's deflection, as a part of the tolerance, at the first attempt.
 FIRST_SHARE = 0.9
+# Edges of a good file lie off their surfaces by less than this part of the tolerance; where they lie farther off, what
+# they are off is allowed on top, this many times: the bound on a triangle's deviation is that much above its samples.
+GAP_SHARE, GAP_TIMES = 0.5, 1.25
+# Edges farther off than this (mm) are a model that needs repair: no shop's file is that loose.
+LARGEST_GAP = 0.1
 # Splitting a side quarters its deviation: 40 rounds are far more than a face that can be refined needs.
 REFINEMENTS = 40
 ROUNDS = 4
@@ -56,10 +61,15 @@ class Deviation:
 
 @dataclass(frozen=True)
 class Tessellation:
-    """Meshes of all faces that hold the tolerance, with each face's checked deviation."""
+    """Meshes of all faces that hold the tolerance, with each face's checked deviation.
+
+    `edge_gaps` says how far each face's edges lie off its surface, mm: the model's own looseness, which is allowed on
+    top of the tolerance where it is larger than half of it.
+    """
 
     meshes: tuple[FaceMesh, ...]
     deviations: tuple[Deviation, ...]
+    edge_gaps: tuple[float, ...]
     deflection: float  # with which the mesher was called at last
     rounds: int
 
@@ -77,41 +87,50 @@ def refine_until(mesh_at: MeshAt, surfaces: Sequence[ExactSurface], tolerance: f
     """
     deflection = FIRST_SHARE * tolerance
     for attempt in range(1, ROUNDS + 1):
-        refined = [refine(m, s, tolerance) for m, s in zip(mesh_at(deflection), surfaces, strict=True)]
+        meshed = mesh_at(deflection)
+        gaps = [edge_gap(m, s) for m, s in zip(meshed, surfaces, strict=True)]
+        _check_gaps(gaps, tolerance, where)
+        allowed = [tolerance + (GAP_TIMES * gap if gap > GAP_SHARE * tolerance else 0.0) for gap in gaps]
+        refined = [refine(m, s, bound) for m, s, bound in zip(meshed, surfaces, allowed, strict=True)]
         meshes, deviations = [m for m, _ in refined], [d for _, d in refined]
-        worst = max(d.worst for d in deviations)
-        if worst <= tolerance:
-            return Tessellation(tuple(meshes), tuple(deviations), deflection, attempt)
-        deflection *= min(0.5, max(0.25, 0.8 * tolerance / worst))
-    raise _missed(meshes, surfaces, deviations, tolerance, where)
-
-
-def _missed(
-    meshes: Sequence[FaceMesh],
-    surfaces: Sequence[ExactSurface],
-    deviations: Sequence[Deviation],
-    tolerance: float,
-    where: str,
-) -> GeometryError:
-    """Make the error for a part that cannot be meshed within the tolerance, naming the face and the likely cause."""
-    at = int(np.argmax([d.worst for d in deviations]))
+        worst = max(d.worst / bound for d, bound in zip(deviations, allowed, strict=True))
+        if worst <= 1.0:
+            return Tessellation(tuple(meshes), tuple(deviations), tuple(gaps), deflection, attempt)
+        deflection *= min(0.5, max(0.25, 0.8 / worst))
+    at = int(np.argmax([d.worst / bound for d, bound in zip(deviations, allowed, strict=True)]))
     place = f"{where}:Face{at + 1}"
-    offset = float(np.abs(_distance(meshes[at], surfaces[at], np.eye(3))).max())
-    if offset > 0.5 * tolerance:
-        return GeometryError(
-            f"{place}: the face's edges lie up to {offset:.2g} mm off its surface, more than the tolerance of "
-            f"{tolerance:g} mm allows: repair the part, or ask for a tolerance above {2 * offset:.2g} mm",
-            code="part-inexact-edges",
-            where=place,
-            hint=f"tolerance = {2 * offset:.2g}",
-        )
-    return GeometryError(
+    raise GeometryError(
         f"{place}: its mesh stays {deviations[at].worst:.2g} mm off the surface, the tolerance is {tolerance:g} mm: "
         "repair the face, or ask for a larger tolerance",
         code="part-tolerance-missed",
         where=place,
         hint="a larger tolerance",
     )
+
+
+def edge_gap(mesh: FaceMesh, surface: ExactSurface) -> float:
+    """Return how far the nodes on the face's edges lie off its surface at most, mm."""
+    border = _border(mesh.triangles)
+    nodes = np.unique(np.concatenate([border >> 31, border & (2**31 - 1)]))
+    if not len(nodes):
+        return 0.0
+    uv = None if mesh.uv is None else mesh.uv[nodes]
+    points = FaceMesh(mesh.nodes[nodes], np.arange(len(nodes))[:, None], uv)
+    return float(np.abs(_distance(points, surface, np.ones((1, 1)))).max())
+
+
+def _check_gaps(gaps: Sequence[float], tolerance: float, where: str) -> None:
+    """Refuse a model whose edges are nowhere near its surfaces; a tolerance that wide makes it usable all the same."""
+    at = int(np.argmax(gaps))
+    if gaps[at] > max(LARGEST_GAP, tolerance):
+        place, cure = f"{where}:Face{at + 1}", f"tolerance = {1.1 * gaps[at]:.2g}"
+        raise GeometryError(
+            f"{place}: the face's edges lie up to {gaps[at]:.2g} mm off its surface, there is a gap to its neighbours: "
+            f"repair the face in the CAD system, or ask for {cure} mm",
+            code="part-inexact-edges",
+            where=place,
+            hint=cure,
+        )
 
 
 def deviation(mesh: FaceMesh, surface: ExactSurface) -> Deviation:
