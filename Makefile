@@ -91,6 +91,7 @@ test-long: tools ## Proofs by the hundred thousand: an hour or two
 	cargo test --release --locked -p styluscam-toolpath -- --ignored --nocapture --test-threads 1
 	@$(MAKE) --no-print-directory dev
 	$(PYTEST) -m long -s
+	@$(MAKE) --no-print-directory corpus
 
 .PHONY: quick
 quick: dev ## Cargo and Python tests that need nothing from outside
@@ -138,6 +139,14 @@ fixtures: ## Rebuilds the STEP parts and their exact answers (Python 3.11 or lat
 	test -x $(STYLUSCAM_CACHE)/fixtures-venv/bin/python || $(PYTHON) -m venv $(STYLUSCAM_CACHE)/fixtures-venv
 	$(STYLUSCAM_CACHE)/fixtures-venv/bin/python -m pip install --quiet -r fixtures/requirements.txt
 	$(STYLUSCAM_CACHE)/fixtures-venv/bin/python fixtures/make.py
+
+# `make corpus ARGS="--slice 40"` runs a part of it; the parts stay in the cache.
+.PHONY: corpus
+corpus: dev ## Makes some 450 parts, runs `new` and `run` on each, and writes target/corpus.md
+	test -x $(STYLUSCAM_CACHE)/fixtures-venv/bin/python || $(PYTHON) -m venv $(STYLUSCAM_CACHE)/fixtures-venv
+	$(STYLUSCAM_CACHE)/fixtures-venv/bin/python -m pip install --quiet -r fixtures/requirements.txt
+	$(STYLUSCAM_CACHE)/fixtures-venv/bin/python fixtures/corpus.py
+	$(BIN)/python tests/corpus/run.py --out target/corpus $(ARGS)
 
 # Pinned in vendor/package.json; the bundle is in the package, so that a wheel is built without Node.
 THREE = $$(node -p 'require("./vendor/package.json").dependencies.three')

@@ -77,7 +77,7 @@ class Solid:
         def along(shares: Floats) -> Floats:
             """(E, G): the least on each edge."""
             places = start + shares[..., None] * ways
-            return _least_on(tool, np.repeat(near, shares.shape[1], axis=0), places.reshape(-1, 3), steps).reshape(
+            return least_on(tool, np.repeat(near, shares.shape[1], axis=0), places.reshape(-1, 3), steps).reshape(
                 shares.shape
             )
 
@@ -125,7 +125,7 @@ class Solid:
         at_middles = _distances(tool, middles[None] - tips[:, None])
         best = np.minimum(at_middles.min(axis=1), self._at_faces(tool, tips))
         rows, edges = np.nonzero(at_middles - halves[None] < best[:, None])
-        np.minimum.at(best, rows, _least_on(tool, self.edges[edges], tips[rows], steps))
+        np.minimum.at(best, rows, least_on(tool, self.edges[edges], tips[rows], steps))
         return best
 
     def _at_faces(self, tool: Tool, tips: Floats) -> Floats:
@@ -172,7 +172,7 @@ def _distances(tool: Tool, points: Floats) -> Floats:
     return tool.distance(points.reshape(-1, 3)).reshape(points.shape[:-1])
 
 
-def _least_on(tool: Tool, edges: Floats, tips: Floats, steps: int) -> Floats:
+def least_on(tool: Tool, edges: Floats, tips: Floats, steps: int = FINE) -> Floats:
     """Least distance on each of N edges (N, 2, 3) for the tip (N, 3) of the same row."""
     first, way = edges[:, 0] - tips, edges[:, 1] - edges[:, 0]
     return _narrowed(lambda t: _distances(tool, first[:, None] + t[..., None] * way[:, None]), len(tips), steps)[0]

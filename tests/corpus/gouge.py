@@ -1,0 +1,258 @@
+"""Does a posted text enter the part as it was made? Sampled places of the path against all triangles near them.
+
+The text is read by `gcode`, the tool is `convex_tool`'s, the triangles are the modeller's own: nothing of the engine takes
+part. A triangle is entered where the signed distance to the tool, a convex function, is below zero on it: it is least on an
+edge, or where a plane beside the triangle's touches the tool. Supporting planes of the tool bound that distance from below;
+what they leave open is measured. Lengths in mm, work coordinates.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+import gcode
+from brute_judge import least_on
+from controllers import Family
+from convex_tool import Floats, Tool
+
+SAMPLES = 2000
+NEAR = 0.05
+"""mm: a place of the path nearer than this touches."""
+PLANES = 96
+"""Supporting planes of the tool."""
+PAIRS = 400_000
+"""Pairs of a place and a triangle at a time."""
+
+
+@dataclass
+class Checked:
+    """What was found."""
+
+    samples: int = 0
+    deepest: float = 0.0
+    """mm, 0 where nothing is entered by more than is allowed."""
+    at: tuple[float, float, float] | None = None
+    line: int = 0
+    touching: float = 0.0
+    """Share of the places at feed that are near the part."""
+    refused: str = ""
+    """Why a controller would not take the text, or why nothing could be checked."""
+    path_box: list[list[float]] | None = None
+    """Of the tips at feed."""
+
+
+def checked(text: str, job: dict[str, Any], corners: Floats, allowed: float, family: Family, seed: int) -> Checked:
+    """Judges a text; `corners` (T, 3, 3) in work coordinates, `allowed` the depth that is none."""
+    program = gcode.read(text, family)
+    found = Checked()
+    if program.refused is not None:
+        found.refused = f"line {program.refused[0]}: {program.refused[1]}"
+        return found
+    moves = [move for move in program.moves if move.placed]
+    feeds = [move for move in moves if move.kind != "rapid"]
+    if not feeds:
+        found.refused = "nothing moves at feed"
+        return found
+    ends = np.array([move.end for move in feeds])
+    found.path_box = [ends.min(axis=0).tolist(), ends.max(axis=0).tolist()]
+    tools = {tool.get("number", 1): tool for tool in job["tools"].values()}
+    tips, numbers, lines, feeding = _places(moves, seed)
+    near = 0
+    for number in np.unique(numbers):
+        of_tool = numbers == number
+        tool = Tool.of(tools[int(number)]["profile"], job["setup"].get("sheet"), job["part"].get("model_face"))
+        depths = _Scene(tool, corners).distances(tips[of_tool], allowed)
+        found.samples += len(depths)
+        near += int(np.sum((depths < NEAR) & feeding[of_tool]))
+        worst = int(depths.argmin())
+        if depths[worst] < -allowed and -depths[worst] > found.deepest:
+            place = tips[of_tool][worst]
+            found.deepest, found.line = float(-depths[worst]), int(lines[of_tool][worst])
+            found.at = (float(place[0]), float(place[1]), float(place[2]))
+    found.touching = near / max(1, int(feeding.sum()))
+    return found
+
+
+def _places(moves: list[gcode.Move], seed: int) -> tuple[Floats, np.ndarray, np.ndarray, np.ndarray]:
+    """Tips (N, 3) spread over the path, the tool's number, the line, and whether it is at feed."""
+    rng = np.random.default_rng(seed)
+    lengths = np.array([move.length for move in moves])
+    ends = np.cumsum(lengths)
+    places = (np.arange(SAMPLES) + rng.uniform(0, 1, SAMPLES)) / SAMPLES * ends[-1]
+    chosen = np.minimum(np.searchsorted(ends, places), len(moves) - 1)
+    shares = np.clip(1 - (ends[chosen] - places) / np.maximum(lengths[chosen], 1e-12), 0.0, 1.0)
+    corners = rng.choice(len(moves), min(len(moves), SAMPLES // 4), replace=False)
+    chosen, shares = np.concatenate([chosen, corners]), np.concatenate([shares, np.ones(len(corners))])
+    tips = np.array([moves[i].at(float(share)) for i, share in zip(chosen, shares, strict=True)])
+    numbers = np.array([moves[i].state.tool for i in chosen])
+    lines = np.array([moves[i].line for i in chosen])
+    return tips, numbers, lines, np.array([moves[i].kind != "rapid" for i in chosen])
+
+
+def _touching(tool: Tool, slopes: Floats) -> Floats:
+    """Radius and height of the point that a plane of each slope touches (N, 2)."""
+    return np.array([tool.support(float(slope)) for slope in slopes])
+
+
+class _Scene:
+    """Triangles in cells of a grid over the plan, and a tool."""
+
+    def __init__(self, tool: Tool, corners: Floats) -> None:
+        self.tool = tool
+        self.corners = corners
+        self.low, self.high = corners.min(axis=1), corners.max(axis=1)
+        self.slopes = np.linspace(0.0, 0.5 * math.pi, PLANES)
+        touching = _touching(tool, self.slopes)
+        self.sine, self.cosine = np.sin(self.slopes), np.cos(self.slopes)
+        self.offsets = touching[:, 0] * self.sine - touching[:, 1] * self.cosine
+        self.fine = np.linspace(0.0, 0.5 * math.pi, 20 * PLANES)
+        self.touch_r, self.touch_z = _touching(tool, self.fine).T
+        self.bottom_r = np.concatenate([[0.0], np.maximum.accumulate(self.touch_r)])
+        self.bottom_z = np.concatenate([[-tool.raised], self.touch_z])
+        self.radius = tool.radius + NEAR
+        self._sort()
+
+    def _sort(self) -> None:
+        """Triangles by cell, in one array with a start for each cell."""
+        self.origin = self.low[:, :2].min(axis=0)
+        extent = float((self.high[:, :2].max(axis=0) - self.origin).max())
+        self.cell = max(2 * self.radius, extent / 128, 1e-9)
+        first = ((self.low[:, :2] - self.origin) // self.cell).astype(np.int64)
+        last = ((self.high[:, :2] - self.origin) // self.cell).astype(np.int64)
+        self.columns = int(last[:, 1].max()) + 1
+        self.rows = int(last[:, 0].max()) + 1
+        across = last - first + 1
+        counts = across.prod(axis=1)
+        which = np.repeat(np.arange(len(counts)), counts)
+        within = np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts)
+        row = first[which, 0] + within // across[which, 1]
+        column = first[which, 1] + within % across[which, 1]
+        key = row * self.columns + column
+        order = np.argsort(key, kind="stable")
+        self.held = which[order]
+        self.starts = np.searchsorted(key[order], np.arange(self.rows * self.columns + 1))
+
+    def distances(self, tips: Floats, allowed: float) -> Floats:
+        """Least signed distance at each tip (N, 3), from below; measured where it is under `-allowed`; NEAR or more is far."""
+        least = np.full(len(tips), np.inf)
+        for rows, triangles in self._pairs(tips):
+            bounds = self._bounds(tips[rows], triangles)
+            np.minimum.at(least, rows, bounds)
+            deep = bounds < -allowed
+            if deep.any():
+                measured = self._measured(tips[rows[deep]], triangles[deep])
+                bounds[deep] = measured
+                again = np.isin(rows, rows[deep])
+                least[rows[again]] = np.inf
+                np.minimum.at(least, rows[again], bounds[again])
+        return least
+
+    def _pairs(self, tips: Floats) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """Places and triangles that may be near each other, whole places at a time."""
+        cells = (
+            tips[:, None, :2] + np.array([(-1, -1), (-1, 1), (1, -1), (1, 1)]) * self.radius - self.origin
+        ) // self.cell
+        inside = np.all((cells >= 0) & (cells < (self.rows, self.columns)), axis=2)
+        keys = np.where(inside, cells[..., 0] * self.columns + cells[..., 1], -1).astype(np.int64)
+        keys = np.sort(keys, axis=1)
+        keys[:, 1:][keys[:, 1:] == keys[:, :-1]] = -1
+        counts = np.where(keys >= 0, self.starts[keys + 1] - self.starts[keys], 0)
+        total = np.cumsum(counts.sum(axis=1))
+        begin = 0
+        while begin < len(tips):
+            before = total[begin - 1] if begin else 0
+            end = max(begin + 1, int(np.searchsorted(total, before + PAIRS, side="right")))
+            yield self._near(tips, np.arange(begin, end), keys[begin:end], counts[begin:end])
+            begin = end
+
+    def _near(
+        self, tips: Floats, rows: np.ndarray, keys: np.ndarray, counts: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        flat = counts.reshape(-1)
+        starts = np.repeat(np.where(keys >= 0, self.starts[keys], 0).reshape(-1), flat)
+        within = np.arange(int(flat.sum())) - np.repeat(np.cumsum(flat) - flat, flat)
+        triangles = self.held[starts + within]
+        places = np.repeat(np.repeat(rows, keys.shape[1]), flat)
+        tip = tips[places]
+        aside = np.maximum(np.maximum(self.low[triangles, :2] - tip[:, :2], tip[:, :2] - self.high[triangles, :2]), 0.0)
+        apart = np.maximum(np.hypot(aside[:, 0], aside[:, 1]) - NEAR, 0.0)
+        bottom = np.interp(apart, self.bottom_r, self.bottom_z, right=np.inf) - 0.01 * self.tool.radius - 2 * NEAR
+        keep = self.high[triangles, 2] > tip[:, 2] + bottom
+        return places[keep], triangles[keep]
+
+    def _planes(self, points: Floats) -> Floats:
+        """A distance from below of points (..., 3) that are relative to the tip."""
+        r, z = np.hypot(points[..., 0], points[..., 1]), points[..., 2]
+        return np.asarray((r[..., None] * self.sine - z[..., None] * self.cosine - self.offsets).max(axis=-1))
+
+    def _bounds(self, tips: Floats, triangles: np.ndarray) -> Floats:
+        """Least distance of each pair, from below: on edges by narrowing a grid, and over the face."""
+        out = np.full(len(tips), np.inf)
+        for begin in range(0, len(tips), 20_000):
+            part = slice(begin, begin + 20_000)
+            corners = self.corners[triangles[part]] - tips[part, None]
+            best = self._over_face(corners)
+            for i in range(3):
+                best = np.minimum(best, self._along(corners[:, i], corners[:, (i + 1) % 3]))
+            out[part] = best
+        return out
+
+    def _along(self, start: Floats, end: Floats) -> Floats:
+        low, width = np.zeros(len(start)), np.ones(len(start))
+        best = np.full(len(start), np.inf)
+        for _ in range(9):
+            shares = low[:, None] + width[:, None] * np.linspace(0.0, 1.0, 5)
+            values = self._planes(start[:, None] + shares[..., None] * (end - start)[:, None])
+            least = values.argmin(axis=1)
+            best = np.minimum(best, values[np.arange(len(start)), least])
+            step = width / 4
+            low = np.clip(shares[np.arange(len(start)), least] - step, 0.0, 1.0)
+            width = np.minimum(2 * step, 1.0 - low)
+        return best
+
+    def _over_face(self, corners: Floats) -> Floats:
+        """The gap to the plane where its touching point lies over the triangle, else infinite."""
+        normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        area = np.linalg.norm(normal, axis=1)
+        normal = normal / np.where(area > 0, area, 1.0)[:, None] * np.where(normal[:, 2] < 0, -1.0, 1.0)[:, None]
+        flat = np.hypot(normal[:, 0], normal[:, 1])
+        slope = np.arctan2(flat, normal[:, 2])
+        r = np.where(flat > 1e-12, np.interp(slope, self.fine, self.touch_r), 0.0)
+        z = np.where(flat > 1e-12, np.interp(slope, self.fine, self.touch_z), -self.tool.raised)
+        away = -normal[:, :2] / np.where(flat > 1e-12, flat, 1.0)[:, None] * r[:, None]
+        touching = np.column_stack([away, z])
+        gap = np.einsum("ij,ij->i", touching - corners[:, 0], normal)
+        foot = touching - gap[:, None] * normal
+        inside = area > 0
+        signs = []
+        for i in range(3):
+            side = np.cross(corners[:, (i + 1) % 3] - corners[:, i], foot - corners[:, i])
+            signs.append(np.einsum("ij,ij->i", side, normal))
+        turned = np.stack(signs)
+        inside &= np.all(turned >= -1e-12, axis=0) | np.all(turned <= 1e-12, axis=0)
+        return np.where(inside, gap, np.inf)
+
+    def _measured(self, tips: Floats, triangles: np.ndarray) -> Floats:
+        """The same by the tool's own distance."""
+        corners = self.corners[triangles]
+        best = np.full(len(tips), np.inf)
+        for i in range(3):
+            best = np.minimum(best, least_on(self.tool, corners[:, [i, (i + 1) % 3]], tips))
+        for row, place in enumerate(self._over_face(corners - tips[:, None])):
+            if place < best[row]:
+                best[row] = min(best[row], self._exact_face(corners[row], tips[row]))
+        return best
+
+    def _exact_face(self, corners: Floats, tip: Floats) -> float:
+        normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+        normal *= (-1.0 if normal[2] < 0 else 1.0) / np.linalg.norm(normal)
+        flat = math.hypot(normal[0], normal[1])
+        r, z = self.tool.support(math.atan2(flat, normal[2])) if flat > 1e-12 else (0.0, -self.tool.raised)
+        away = -normal[:2] / flat * r if flat > 1e-12 else np.zeros(2)
+        touching = tip + np.array([away[0], away[1], z])
+        return float((touching - corners[0]) @ normal)

@@ -1,0 +1,223 @@
+"""One part: `new`, `run` as written, `run` of its variants; what came of each, and whether a user expects it."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import re
+import shutil
+import zlib
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+import jobs
+import numpy as np
+from gouge import Checked, checked
+from process import Ended, styluscam
+
+JUDGED = 0.001
+"""The depth from which the engine's own judge calls an entry a gouge, mm."""
+AS_WRITTEN = "as-written"
+REASONS = {
+    "unit": r"\bunits?\b",
+    "undercut": r"undercut|look(s)? down|other side|from this side|up = ",
+    "inside-out": r"inside out|inward|turned|orient",
+    "open": r"\bopen\b|hole|gap|border|not closed",
+    "steep": r"steep|wall angle|deg",
+    "nothing": r"nothing|flat",
+    "long": r"long|time|minutes|points",
+    "format": r"format|ending|\.xyz|reads",
+    "no-part": r"no (faces|part|solid|triangles)|holds no",
+    "damaged": r".",
+}
+"""What a refusal's sentence says where it is of a kind."""
+CLASSES = re.compile(r"\b[A-Z]\w*(Error|Exception)\b|Traceback|Standard_|StdFail")
+TOLD = re.compile(r"[:;,] \S+")
+
+
+@dataclass
+class Outcome:
+    """A line of the table."""
+
+    part: str
+    family: str
+    variant: str
+    outcome: str
+    """done, refused, findings, timeout, crash, gouge, misplaced."""
+    detail: str = ""
+    """The sentence, the findings' kinds, what was wrong."""
+    kinds: dict[str, int] = field(default_factory=dict)
+    new_seconds: float = 0.0
+    run_seconds: float = 0.0
+    cpu: float = 0.0
+    peak_mb: float = 0.0
+    codes: list[int] = field(default_factory=list)
+    wrong: str = ""
+    """Why a user would not have expected it; empty where it is right."""
+    gouge: float = 0.0
+    touching: float | None = None
+    samples: int = 0
+    command: str = ""
+
+    def as_dict(self) -> dict[str, Any]:
+        return asdict(self)
+
+    def line(self) -> str:
+        seconds = f"{self.new_seconds:.1f}+{self.run_seconds:.1f} s"
+        return (
+            f"{self.part:44} {self.variant:18} {self.outcome:9} {seconds:12} {self.peak_mb:5.0f} MB {self.detail[:150]}"
+        )
+
+
+def run_part(part: dict[str, Any], folder: Path, scratch: Path, options: argparse.Namespace) -> list[Outcome]:
+    """All runs of a part."""
+    home = (options.keep or scratch) / re.sub(r"[^\w.-]", "_", part["name"])
+    home.mkdir(parents=True, exist_ok=True)
+    shutil.copy(folder / part["file"], home / part["file"])
+    named = ["--units", part["units"]] if part["units"] else []
+    made = styluscam(["new", part["file"], *named, "--force", "--out", "job.toml", "--json"], home, options.limit)
+    start = Outcome(
+        part["name"], part["family"], AS_WRITTEN, "", new_seconds=made.seconds, cpu=made.cpu, peak_mb=made.peak_mb
+    )
+    start.codes = [made.code]
+    start.command = f"styluscam new {part['file']} {' '.join(named)}".strip()
+    rows = []
+    if made.code != 0 or made.timed_out:
+        _ended(start, made, part)
+        rows.append(start)
+    else:
+        wanted = options.variant or [
+            AS_WRITTEN,
+            *([] if options.base else jobs.variants_of(part["name"], every=options.all)),
+        ]
+        for variant in wanted:
+            rows.append(_run(part, variant, start, home, folder, options.limit))
+    if not options.keep:
+        shutil.rmtree(home)
+    return rows
+
+
+def _run(part: dict[str, Any], variant: str, start: Outcome, home: Path, folder: Path, limit: float) -> Outcome:
+    job, file = jobs.read(home / "job.toml"), home / "job.toml"
+    if variant != AS_WRITTEN:
+        job = jobs.varied(job, variant, part["body"], part["thickness"])
+        file = home / f"{variant}.toml"
+        job["output"] = {"file": f"{variant}.ngc"}
+        file.write_text(jobs.text(job), encoding="utf-8")
+    ended = styluscam(["run", file.name, "--json"], home, limit)
+    row = Outcome(part["name"], part["family"], variant, "", new_seconds=start.new_seconds, run_seconds=ended.seconds)
+    row.codes, row.cpu, row.peak_mb = (
+        [*start.codes, ended.code],
+        start.cpu + ended.cpu,
+        max(start.peak_mb, ended.peak_mb),
+    )
+    row.command = f"python tests/corpus/run.py --only {part['name']} --variant {variant} --keep /tmp/corpus --verbose"
+    _ended(row, ended, part)
+    if row.outcome == "done":
+        _judge(row, json.loads(ended.out), job, part, home, folder)
+    return row
+
+
+def _ended(row: Outcome, ended: Ended, part: dict[str, Any]) -> None:
+    """What an exit code and its JSON mean."""
+    if ended.timed_out:
+        row.outcome, row.detail = "timeout", f"after {ended.seconds:.0f} s"
+    elif ended.code < 0 or "Traceback" in ended.err or ended.code not in (0, 1, 2):
+        row.outcome, row.detail = "crash", f"exit {ended.code}: {ended.err.strip()[-300:] or ended.out[-300:]}"
+    elif ended.code == 2:
+        row.outcome, row.detail = "refused", _sentence(ended)
+    elif ended.code == 1:
+        report = _json(ended.out).get("report", {})
+        row.outcome, row.kinds = "findings", {k: n for k, n in report.get("counts", {}).items() if n}
+        errors = [f for f in report.get("findings", []) if f.get("severity") == "error"]
+        row.detail = "; ".join(f.get("message", f.get("kind", "")) for f in errors[:2])
+    else:
+        row.outcome = "done"
+        row.kinds = {k: n for k, n in _json(ended.out).get("report", {}).get("counts", {}).items() if n}
+    row.wrong = unexpected(row, part["expect"])
+
+
+def unexpected(row: Outcome, expect: list[str]) -> str:
+    """Why an outcome is none of those expected."""
+    wanted = " or ".join(expect)
+    if row.outcome in ("crash", "timeout", "findings", "gouge", "misplaced"):
+        return f"{row.outcome}, expected {wanted}"
+    if row.outcome == "done":
+        return "" if "done" in expect else f"done, expected {wanted}"
+    if CLASSES.search(row.detail):
+        return "the sentence names a class"
+    if len(row.detail) < 30:
+        return "the sentence says nothing to do"
+    reasons = [word.partition(":")[2] for word in expect if word.startswith("refused")]
+    if not reasons:
+        return f"refused, expected {wanted}"
+    fits = any(re.search(REASONS.get(reason, "."), row.detail, re.IGNORECASE) for reason in reasons)
+    return "" if fits else f"refused for another reason than {wanted}"
+
+
+def _sentence(ended: Ended) -> str:
+    error = _json(ended.out).get("error", {})
+    return str(error.get("message") or ended.err.strip()[-400:])
+
+
+def _json(text: str) -> dict[str, Any]:
+    try:
+        document = json.loads(text)
+    except ValueError:
+        return {}
+    return document if isinstance(document, dict) else {}
+
+
+def _judge(
+    row: Outcome, document: dict[str, Any], job: dict[str, Any], part: dict[str, Any], home: Path, folder: Path
+) -> None:
+    """The independent check of a done program: gouges, and whether it is where the part is."""
+    if part["truth"] is None:
+        return
+    corners = np.load(folder / part["truth"])
+    placed = _in_work(corners, job)
+    if placed is None:
+        row.detail = "not checked: this setup turns the part"
+        return
+    text = (home / job["output"]["file"]).read_text(encoding="utf-8")
+    allowed = JUDGED + float(job["part"].get("tolerance", 0.001)) + 1.5 * part["deviation"]
+    found = checked(text, job, placed, allowed, "linuxcnc", zlib.crc32(part["name"].encode()))
+    row.gouge, row.touching, row.samples = found.deepest, found.touching, found.samples
+    if found.refused:
+        row.outcome, row.detail = "misplaced", f"the text is not one: {found.refused}"
+    elif found.deepest > 0:
+        row.outcome = "gouge"
+        row.detail = f"{found.deepest:.4f} mm into the part at line {found.line}, tip {found.at}"
+    elif wrong := _misplaced(found, placed, document):
+        row.outcome, row.detail = "misplaced", wrong
+    row.wrong = unexpected(row, part["expect"])
+
+
+def _in_work(corners: np.ndarray, job: dict[str, Any]) -> np.ndarray | None:
+    """Triangles in the job's work coordinates; None where `up` or `rotation` turn them."""
+    setup = job.get("setup", {})
+    if setup.get("up", "+z") != "+z" or setup.get("rotation", 0.0) != 0.0:
+        return None
+    zero = setup.get("zero", "sheet-top" if "sheet" in setup else "model")
+    if isinstance(zero, list):
+        return corners - np.array(zero)
+    if zero == "model":
+        return corners
+    share = {"tool": 0.0, "mid": 0.5, "back": 1.0}[job["part"].get("model_face", "tool")]
+    top = corners[..., 2].max() + share * setup["sheet"]["thickness"]
+    return corners - np.array([0.0, 0.0, top])
+
+
+def _misplaced(found: Checked, placed: np.ndarray, document: dict[str, Any]) -> str:
+    """Where path and part do not lie together: a wrong unit, a wrong zero."""
+    points = placed.reshape(-1, 3)
+    low, high = points.min(axis=0), points.max(axis=0)
+    said = document.get("summary", {})
+    if "part_min" in said:
+        off = max(np.abs(np.array(said["part_min"]) - low).max(), np.abs(np.array(said["part_max"]) - high).max())
+        if off > 0.01 + 1e-3 * float(np.max(high - low)):
+            return f"the summary's box is off the part's by {off:.3f} mm"
+    if found.touching == 0.0:
+        return "the path touches the part nowhere"
+    return ""

@@ -1,0 +1,65 @@
+"""A command in a process of its own: with a limit of time and memory, measured."""
+
+from __future__ import annotations
+
+import os
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+MEMORY = 6 * 2**30
+"""Address space, bytes: an engine that wants more is stopped instead of the machine."""
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How a command ended."""
+
+    code: int
+    """Exit code; negative: a signal."""
+    out: str
+    err: str
+    seconds: float
+    cpu: float
+    peak_mb: float
+    timed_out: bool
+
+
+def styluscam(words: list[str], folder: Path, limit: float) -> Ended:
+    """Runs `styluscam WORDS` in a folder, at most `limit` seconds."""
+    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+        start = time.monotonic()
+        process = subprocess.Popen(
+            [sys.executable, "-m", "styluscam", *words],
+            cwd=folder,
+            stdin=subprocess.DEVNULL,
+            stdout=out,
+            stderr=err,
+            start_new_session=True,
+            env={**os.environ, "COLUMNS": "400", "NO_COLOR": "1"},
+        )
+        resource.prlimit(process.pid, resource.RLIMIT_AS, (MEMORY, MEMORY))
+        stopped = threading.Event()
+
+        def stop() -> None:
+            stopped.set()
+            process.send_signal(signal.SIGKILL)
+
+        timer = threading.Timer(limit, stop)
+        timer.start()
+        _, status, usage = os.wait4(process.pid, 0)
+        timer.cancel()
+        seconds = time.monotonic() - start
+        code = process.returncode = os.waitstatus_to_exitcode(status)
+        texts = []
+        for stream in (out, err):
+            stream.seek(0)
+            texts.append(stream.read().decode("utf-8", "replace"))
+    cpu = usage.ru_utime + usage.ru_stime
+    return Ended(code, texts[0], texts[1], seconds, cpu, usage.ru_maxrss / 1024, stopped.is_set())
