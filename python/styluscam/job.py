@@ -3,40 +3,82 @@
 from __future__ import annotations
 
 import json
+import os
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TypeAlias
 
 from styluscam import _engine, pointsfile
+from styluscam.arguments import A_FILE, FileName, document_of, file_of, refused
 from styluscam.errors import JobError, ToolError
 from styluscam.machine import Machine
-from styluscam.part import Part
+from styluscam.part import Part, PartLike
 from styluscam.parts import PartArrays
 from styluscam.tool import Tool
 from styluscam.types import Document, Progress
 
+JobLike: TypeAlias = "Job | Document | str | os.PathLike[str]"
+"""A job, its document, or a job file."""
+
+WANTED = "a Job, a dict or the name of a job file"
+
 
 class Job:
-    """A checked job. Relative paths in it resolve against ``folder``."""
+    """A checked job: ``Job("job.toml")``, ``Job({...})``. Relative paths in it resolve against ``folder``."""
 
-    def __init__(
-        self, engine: _engine.Job, folder: Path, name: str = "job", part: Part | None = None, file: Path | None = None
-    ) -> None:
-        self.engine = engine
-        self.folder = folder
-        self.name = name
-        self.file = file
-        self._part = part
-        self.document: Document = json.loads(engine.to_json())
-        self._tool_files: list[Path] = []
-        self._take_tools()
+    engine: _engine.Job
+    folder: Path
+    name: str
+    file: Path | None
+    document: Document
+    _part: Part | None
+    _tool_files: list[Path]
+
+    def __init__(self, source: JobLike) -> None:
+        """As :meth:`of`."""
+        vars(self).update(vars(Job.of(source)))
 
     @classmethod
-    def read(cls, path: str | Path) -> Job:
+    def _built(
+        cls,
+        engine: _engine.Job,
+        folder: Path,
+        name: str = "job",
+        *,
+        part: Part | None = None,
+        file: Path | None = None,
+        tool_files: Sequence[Path] = (),
+    ) -> Job:
+        job = cls.__new__(cls)
+        job.engine, job.folder, job.name, job.file = engine, folder, name, file
+        job._part = part
+        job.document = json.loads(engine.to_json())
+        job._tool_files = []
+        job._take_tools()
+        job._tool_files += tool_files
+        return job
+
+    @classmethod
+    def of(cls, source: JobLike, argument: str = "job") -> Job:
+        """From what a call takes for a job: one, its document, or a job file.
+
+        Raises:
+            JobError: it is none of these; or as :meth:`read`.
+        """
+        if isinstance(source, Job):
+            return source
+        if isinstance(source, Mapping):
+            return cls.from_dict(document_of(source, argument, WANTED, JobError))
+        return cls.read(file_of(source, argument, WANTED, JobError, "Job.from_toml(text) takes a text"))
+
+    @classmethod
+    def read(cls, path: FileName) -> Job:
         """From a TOML (or JSON) file.
 
         Raises:
             JobError: with the key, its value and what is allowed.
         """
-        path = Path(path)
+        path = file_of(path, "path", A_FILE, JobError, "Job.from_toml(text) takes a text")
         try:
             text = path.read_text(encoding="utf-8")
         except FileNotFoundError as error:
@@ -51,20 +93,41 @@ class Job:
         folder = path.resolve().parent
         if path.suffix == ".json":
             text, files = _resolved_json(text, folder)
-            job = cls(_engine.Job.from_json(text), folder, path.stem, file=path)
+            engine = _engine.Job.from_json(text)
         else:
             text, files = pointsfile.resolved_toml(text, folder)
-            job = cls(_engine.Job.from_toml(text), folder, path.stem, file=path)
-        job._tool_files += files
-        return job
+            engine = _engine.Job.from_toml(text)
+        return cls._built(engine, folder, path.stem, file=path, tool_files=files)
 
     @classmethod
-    def from_dict(cls, document: Document, folder: str | Path = ".", part: Part | None = None) -> Job:
-        """From a dict; ``part`` stands for the file that the document names, where a caller has it at hand."""
-        document, files = _resolved(document, Path(folder))
-        job = cls(_engine.Job.from_json(json.dumps(document)), Path(folder), part=part)
-        job._tool_files += files
-        return job
+    def from_toml(cls, text: str, folder: FileName = ".") -> Job:
+        """From a text as job files hold it.
+
+        Raises:
+            JobError: with the key, its value and what is allowed.
+        """
+        if not isinstance(text, str):
+            raise refused("text", text, "the text of a job file", JobError)
+        place = file_of(folder, "folder", "the name of a folder (str or Path)", JobError)
+        text, files = pointsfile.resolved_toml(text, place)
+        return cls._built(_engine.Job.from_toml(text), place, tool_files=files)
+
+    @classmethod
+    def from_dict(cls, document: Document, folder: FileName = ".", part: PartLike | None = None) -> Job:
+        """From a dict; ``part`` stands for the file that the document names, where a caller has it at hand.
+
+        Raises:
+            JobError: with the key, its value and what is allowed.
+        """
+        place = file_of(folder, "folder", "the name of a folder (str or Path)", JobError)
+        document, files = _resolved(document_of(document, "document", "a dict with a job's keys", JobError), place)
+        try:
+            text = json.dumps(document)
+        except (TypeError, ValueError, RecursionError) as error:
+            message = f"document: it holds what no job file can: {error}"
+            raise JobError(message, code="document", where="document", hint="texts, numbers, lists, dicts") from error
+        known = None if part is None else Part.of(part)
+        return cls._built(_engine.Job.from_json(text), place, part=known, tool_files=files)
 
     @staticmethod
     def check(text: str) -> None:

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 
 import numpy.typing as npt
 
 from styluscam import _engine
+from styluscam.arguments import A_FILE, FileName, file_of, refused
 from styluscam.brep import recheck
+from styluscam.errors import JobError, PlanError, VerifyError
 from styluscam.files import read_gcode_text
-from styluscam.job import Job
-from styluscam.machine import Machine
-from styluscam.planning import Plan, Posted
+from styluscam.job import Job, JobLike
+from styluscam.machine import Machine, MachineLike
+from styluscam.planning import Plan, TextLike, text_of
 from styluscam.program import Program
 from styluscam.types import Document, FloatArray, Progress
 from styluscam.types import points as rows
@@ -101,32 +102,70 @@ def judge_plan(
 
 
 def verify(
-    text: str | Posted,
-    job: Job,
-    machine: Machine | None = None,
+    text: TextLike,
+    job: JobLike,
+    machine: MachineLike | None = None,
     *,
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
 ) -> Report:
     """Judges posted text: gouge, excess, rapids, order; nothing of planning is used.
 
+    ``text`` is G-code, what was posted, or the name of a file that holds it (see :func:`styluscam.read_gcode`); the job's
+    machine reads it unless another is given.
+
     Raises:
-        VerifyError: the text is not what the machine understands.
+        VerifyError: the text is not what the machine understands, or the file cannot be read.
     """
+    work = Job.of(job)
+    reader = work.machine() if machine is None else Machine.of(machine)
+    return _verified(text_of(text), work, reader, progress, cancel)
+
+
+def verify_file(
+    path: FileName,
+    job: JobLike,
+    machine: MachineLike | None = None,
+    *,
+    progress: Progress | None = None,
+    cancel: _engine.CancelToken | None = None,
+) -> Report:
+    """As :func:`verify`, for a file alone: what ``path`` says is never taken for G-code."""
+    file = file_of(path, "path", A_FILE, VerifyError, "sc.verify(text, job) takes a text")
+    work = Job.of(job)
+    reader = work.machine() if machine is None else Machine.of(machine)
+    return _verified(read_gcode_text(file), work, reader, progress, cancel)
+
+
+def check_program(
+    plan: Plan | Program,
+    job: JobLike | None = None,
+    *,
+    progress: Progress | None = None,
+    cancel: _engine.CancelToken | None = None,
+) -> Report:
+    """The same probes on a plan, or a program for a job, that was not posted for its machine yet; never called verified.
+
+    Raises:
+        JobError: a program without a job.
+    """
+    if isinstance(plan, Program):
+        if job is None:
+            hint = "give one: check_program(program, job)"
+            raise JobError("job: a program names none", code="argument", where="job", hint=hint)
+        work = Job.of(job)
+        machine = work.machine()
+        return _verified(_engine.post(plan.engine, machine.engine), work, machine, progress, cancel)
+    if not isinstance(plan, Plan):
+        raise refused("plan", plan, "a Plan or a Program", PlanError, "sc.plan(job) makes one")
+    return judge_plan(plan, _engine.post(plan.engine.program, plan.machine.engine), progress, cancel)
+
+
+def _verified(
+    text: str, job: Job, machine: Machine, progress: Progress | None, cancel: _engine.CancelToken | None
+) -> Report:
     scene = _engine.Scene(job.engine, job.part(progress).engine)
-    words = text.text if isinstance(text, Posted) else text
-    return _judge(job, scene, machine or job.machine(), words, progress=progress, cancel=cancel)
-
-
-def verify_file(path: str | Path, job: Job, *, progress: Progress | None = None) -> Report:
-    """As :func:`verify`, for a file."""
-    text = read_gcode_text(path)
-    return verify(text, job, progress=progress)
-
-
-def check_program(plan: Plan, *, progress: Progress | None = None) -> Report:
-    """The same probes on a program that was not posted for its machine yet; never called verified."""
-    return judge_plan(plan, _engine.post(plan.engine.program, plan.machine.engine), progress)
+    return _judge(job, scene, machine, text, progress=progress, cancel=cancel)
 
 
 def _judge(

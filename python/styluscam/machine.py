@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+import os
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 from styluscam import _engine
+from styluscam.arguments import A_FILE, FileName, document_of, file_of, refused, word_of
 from styluscam.errors import MachineError
 from styluscam.files import read_text
 from styluscam.types import Document
@@ -31,23 +34,75 @@ class Trial:
     """What was posted; empty where nothing was."""
 
 
-class Machine:
-    """What a controller understands and how programs for it are written."""
+MachineLike: TypeAlias = "Machine | Document | str | os.PathLike[str]"
+"""A machine, its document, the name of a shipped one, or a machine file."""
 
-    def __init__(self, engine: _engine.Machine) -> None:
-        self.engine = engine
+WANTED = "a Machine, a dict, the name of a shipped machine or of a machine file"
+
+SECTION = {"name", "file", "options"}
+"""Keys of a job's ``[machine]``: a dict of these alone names a machine and is none itself."""
+
+
+class Machine:
+    """What a controller understands and how programs for it are written: ``Machine("grbl")``, ``Machine("mine.toml")``."""
+
+    engine: _engine.Machine
+
+    def __init__(self, source: MachineLike) -> None:
+        """As :meth:`of`."""
+        self.engine = Machine.of(source).engine
+
+    @classmethod
+    def _built(cls, engine: _engine.Machine) -> Machine:
+        machine = cls.__new__(cls)
+        machine.engine = engine
+        return machine
+
+    @classmethod
+    def of(cls, source: MachineLike, argument: str = "machine") -> Machine:
+        """From what a call takes for a machine: one, its document, a job's ``[machine]``, a shipped name or a machine file.
+
+        Raises:
+            MachineError: it is none of these, or the machine cannot be used.
+        """
+        if isinstance(source, Machine):
+            return source
+        if isinstance(source, Mapping):
+            document = document_of(source, argument, WANTED, MachineError)
+            named = {"name", "file"} & set(document) and set(document) <= SECTION
+            return cls.of_section(document, Path()) if named else cls.from_dict(document)
+        path = file_of(source, argument, WANTED, MachineError)
+        return cls.find(source) if isinstance(source, str) else cls.read(path)
 
     @classmethod
     def shipped(cls, name: str) -> Machine:
         """A shipped machine: see :meth:`names`."""
-        return cls(_engine.Machine.shipped(name))
+        return cls._built(_engine.Machine.shipped(word_of(name, "name", "the name of a shipped machine", MachineError)))
 
     @classmethod
-    def read(cls, path: str | Path) -> Machine:
+    def from_dict(cls, document: Document, folder: str | Path = ".") -> Machine:
+        """From what a machine file holds; files that it extends are looked for in ``folder``.
+
+        Raises:
+            MachineError: a key is unknown, missing or out of range.
+        """
+        document = document_of(document, "document", "a dict with what a machine file holds", MachineError)
+        try:
+            text = json.dumps(_said(document), allow_nan=False)
+        except (TypeError, ValueError, RecursionError) as error:
+            message = f"document: it holds what no machine file can: {error}"
+            raise MachineError(
+                message, code="document", where="document", hint="texts, numbers, lists, dicts"
+            ) from error
+        return cls._built(_engine.Machine.from_json(text, str(folder)))
+
+    @classmethod
+    def read(cls, path: FileName) -> Machine:
         """From a machine file (TOML). Files that it extends are looked for beside it."""
+        path = file_of(path, "path", A_FILE, MachineError)
         text = read_text(path, MachineError)
         try:
-            return cls(_engine.Machine.from_toml(text, str(Path(path).parent)))
+            return cls._built(_engine.Machine.from_toml(text, str(path.parent)))
         except MachineError as error:
             place = f"{path}: {error.where}" if error.where else str(path)
             said = str(error).removeprefix(f"{error.where}: ")
@@ -56,14 +111,22 @@ class Machine:
     @classmethod
     def find(cls, name: str) -> Machine:
         """A shipped machine by its name, or a machine file."""
+        name = word_of(name, "name", "the name of a shipped machine or of a machine file", MachineError)
         is_file = name.endswith(".toml") or (name not in cls.names() and Path(name).is_file())
         return cls.read(name) if is_file else cls.shipped(name)
 
     @classmethod
     def of_section(cls, section: Document, folder: Path) -> Machine:
         """The machine that a job's ``[machine]`` names; files are relative to ``folder``."""
-        file = section.get("file")
-        machine = cls.read(folder / file) if file else cls.shipped(str(section["name"]))
+        file, name = section.get("file"), section.get("name")
+        if (file is None) == (name is None):
+            hint = "leave one of them out"
+            raise MachineError(
+                "machine: name and file: one of them is wanted", code="argument", where="machine", hint=hint
+            )
+        machine = (
+            cls.shipped(str(name)) if file is None else cls.read(folder / file_of(file, "file", A_FILE, MachineError))
+        )
         options = section.get("options")
         return machine.with_options(options) if options else machine
 
@@ -74,7 +137,12 @@ class Machine:
 
     def with_options(self, options: Document) -> Machine:
         """The same machine with other values for its options: ``units``, ``decimals``, ``block_numbers``, ..."""
-        return Machine(self.engine.with_options(json.dumps(options)))
+        options = document_of(options, "options", "a dict of options and their values", MachineError)
+        values = {key: value for key, value in options.items() if isinstance(value, str | bool | int | float)}
+        if values != options:
+            key, value = next((key, value) for key, value in options.items() if key not in values)
+            raise refused(f"options[{key!r}]", value, "a number, a text, True or False", MachineError)
+        return Machine._built(self.engine.with_options(json.dumps(values)))
 
     def check(self) -> list[Trial]:
         """Posts a torture program, reads it back and compares; one entry for everything that was tried."""
@@ -109,6 +177,13 @@ class Machine:
     def resolution_mm(self) -> float:
         """One unit of the last posted place, mm."""
         return self.engine.resolution_mm
+
+
+def _said(value: object) -> object:
+    """A document without the keys that hold None: what is not said."""
+    if isinstance(value, Mapping):
+        return {key: _said(part) for key, part in value.items() if part is not None}
+    return [_said(part) for part in value] if isinstance(value, list | tuple) else value
 
 
 def starter(name: str, base: Machine, extends: str) -> str:

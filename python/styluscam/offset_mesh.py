@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -10,12 +10,13 @@ import numpy as np
 import numpy.typing as npt
 
 from styluscam import _engine
+from styluscam.arguments import number_of, refused
 from styluscam.errors import GeometryError
 from styluscam.files import drawn_whole
 from styluscam.meshfile import write_triangles
 from styluscam.offsets import _sheet
-from styluscam.part import Part
-from styluscam.tool import Tool
+from styluscam.part import Part, PartLike
+from styluscam.tool import Tool, ToolLike
 from styluscam.types import Document, FloatArray, IntArray, Progress
 
 FLAGS = ("contact", "bridged", "interferes", "rim", "undercut")
@@ -98,8 +99,8 @@ class OffsetSurface:
 
 
 def offset_surface(
-    part: Part,
-    tool: Tool,
+    part: PartLike,
+    tool: ToolLike,
     sheet: Document | None = None,
     *,
     tolerance: float = 0.005,
@@ -120,9 +121,10 @@ def offset_surface(
 
     Source: US 2023/0035585.
     """
-    numbers = None if faces is None else [_number(face) for face in faces]
+    numbers = None if faces is None else _numbers(faces)
+    within = number_of(tolerance, "tolerance")
     columns, (triangles, of_triangles), regions = _engine.offset_surface(
-        part.engine, tool._engine, _sheet(sheet), tolerance, numbers, progress=progress, cancel=cancel
+        Part.of(part).engine, Tool.of(tool)._engine, _sheet(sheet), within, numbers, progress=progress, cancel=cancel
     )
     points, contacts, normals, slopes, flags, depths, places, place_faces = columns
     return OffsetSurface(
@@ -141,6 +143,13 @@ def offset_surface(
             for face, flag, area, depth, (x, y, z), (px, py, pz) in regions
         ),
     )
+
+
+def _numbers(faces: Sequence[int | str]) -> list[int]:
+    """The numbers of faces; one name alone is a face too."""
+    if isinstance(faces, bytes) or not isinstance(faces, Iterable):
+        raise refused("faces", faces, "a list of face names or numbers", GeometryError)
+    return [_number(face) for face in ([faces] if isinstance(faces, str) else faces)]
 
 
 def _number(face: int | str) -> int:

@@ -9,8 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from styluscam import _engine
-from styluscam.part import Part
-from styluscam.tool import Tool
+from styluscam.arguments import document_of, number_of
+from styluscam.errors import GeometryError
+from styluscam.part import Part, PartLike
+from styluscam.tool import Tool, ToolLike
 from styluscam.types import Document, FloatArray, Progress, numbers, points, shaped
 
 REGULAR, RIM, UNDERCUT = 0, 1, 2
@@ -32,11 +34,17 @@ class Offsets(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
 
 
 def _sheet(sheet: Document | None) -> str | None:
-    return None if sheet is None else json.dumps(sheet, default=float)
+    if sheet is None:
+        return None
+    document = document_of(sheet, "sheet", 'a dict like {"thickness": 1.0, "model_face": "back"}', GeometryError)
+    try:
+        return json.dumps(document, default=float)
+    except (TypeError, ValueError, RecursionError) as error:
+        raise GeometryError(f"sheet: {error}", code="argument", where="sheet", hint="texts and numbers") from error
 
 
 def slope_matched_offset(
-    tool: Tool, points_: npt.ArrayLike, normals: npt.ArrayLike, sheet: Document | None = None
+    tool: ToolLike, points_: npt.ArrayLike, normals: npt.ArrayLike, sheet: Document | None = None
 ) -> Offsets:
     """Tips (N, 3) of the tool touching ``points_`` (N, 3) with outward ``normals`` (N, 3), exact to rounding.
 
@@ -44,7 +52,7 @@ def slope_matched_offset(
     :func:`drop_cutter`. Source: US 2023/0035585.
     """
     tips, flags = _engine.slope_matched_offset(
-        tool._engine, points(points_, 3), points(normals, 3, "normals"), _sheet(sheet)
+        Tool.of(tool)._engine, points(points_, 3), points(normals, 3, "normals"), _sheet(sheet)
     )
     result = tips.view(Offsets)
     result._by_point = flags
@@ -52,8 +60,8 @@ def slope_matched_offset(
 
 
 def drop_cutter(
-    part: Part,
-    tool: Tool,
+    part: PartLike,
+    tool: ToolLike,
     xy: npt.ArrayLike,
     sheet: Document | None = None,
     floor: float | None = None,
@@ -66,14 +74,21 @@ def drop_cutter(
     Exact for the triangles; the part's checked inward deviation is added, so that a part that was read from a
     file is never entered. Where the tool meets nothing: ``floor``, else NaN.
     """
+    level = None if floor is None else number_of(floor, "floor")
     return _engine.drop_cutter(
-        part.engine, tool._engine, points(xy, 2, "xy"), _sheet(sheet), floor, progress=progress, cancel=cancel
+        Part.of(part).engine,
+        Tool.of(tool)._engine,
+        points(xy, 2, "xy"),
+        _sheet(sheet),
+        level,
+        progress=progress,
+        cancel=cancel,
     )
 
 
 def push_cutter(
-    part: Part,
-    tool: Tool,
+    part: PartLike,
+    tool: ToolLike,
     xy: npt.ArrayLike,
     directions: npt.ArrayLike,
     z: float,
@@ -88,11 +103,11 @@ def push_cutter(
     deviation is added. Infinite where the tool meets nothing, NaN where it does not stand free at the beginning.
     """
     return _engine.push_cutter(
-        part.engine,
-        tool._engine,
+        Part.of(part).engine,
+        Tool.of(tool)._engine,
         points(xy, 2, "xy"),
         points(directions, 2, "directions"),
-        z,
+        number_of(z, "z"),
         _sheet(sheet),
         progress=progress,
         cancel=cancel,
@@ -100,8 +115,8 @@ def push_cutter(
 
 
 def waterline(
-    part: Part,
-    tool: Tool,
+    part: PartLike,
+    tool: ToolLike,
     z: float,
     sheet: Document | None = None,
     tolerance: float = 0.005,
@@ -114,13 +129,13 @@ def waterline(
     They keep 0 to ``tolerance`` mm clear of the part, and have the higher ground on their right. A level that meets a
     floor stands as clear of it as of walls: its points lie up to the tolerance above ``z``.
     """
-    (loops,) = waterlines(part, tool, [float(z)], sheet, tolerance, progress=progress, cancel=cancel)
+    (loops,) = waterlines(part, tool, [number_of(z, "z")], sheet, tolerance, progress=progress, cancel=cancel)
     return loops
 
 
 def waterlines(
-    part: Part,
-    tool: Tool,
+    part: PartLike,
+    tool: ToolLike,
     heights: npt.ArrayLike,
     sheet: Document | None = None,
     tolerance: float = 0.005,
@@ -130,6 +145,7 @@ def waterlines(
 ) -> list[list[FloatArray]]:
     """The loops of :func:`waterline` for each of the ``heights`` (N,), mm: much quicker than one call for each."""
     levels: list[float] = shaped(np.atleast_1d(numbers(heights, "heights")), (None,), "heights").tolist()
+    within = number_of(tolerance, "tolerance")
     return _engine.waterlines(
-        part.engine, tool._engine, levels, _sheet(sheet), tolerance, progress=progress, cancel=cancel
+        Part.of(part).engine, Tool.of(tool)._engine, levels, _sheet(sheet), within, progress=progress, cancel=cancel
     )

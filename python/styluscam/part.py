@@ -2,22 +2,53 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+import os
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from styluscam import _engine
+from styluscam.arguments import FileName, file_of, number_of, refused
+from styluscam.errors import GeometryError
 from styluscam.parts import PartArrays, read_part
 from styluscam.types import FloatArray, Progress, numbers, points, shaped, whole_numbers
 
+PartLike: TypeAlias = "Part | str | os.PathLike[str]"
+"""A part, or the file that it is in."""
+
+WANTED = "a Part or the name of a part file"
+
 
 class Part:
-    """A part as triangles, with the exact surfaces behind them where a reader knew those."""
+    """A part as triangles, with the exact surfaces behind them where a reader knew those: ``Part("cup.step")``."""
 
-    def __init__(self, engine: _engine.Part, arrays: PartArrays | None = None) -> None:
-        self.engine = engine
-        self.arrays = arrays
+    engine: _engine.Part
+    arrays: PartArrays | None
+
+    def __init__(self, source: PartLike | _engine.Part, tolerance: float = 0.001, units: str | None = None) -> None:
+        """A part, or as :meth:`read`."""
+        known = (
+            Part._built(source) if isinstance(source, _engine.Part) else source if isinstance(source, Part) else None
+        )
+        vars(self).update(vars(known or Part.read(file_of(source, "part", WANTED, GeometryError), tolerance, units)))
+
+    @classmethod
+    def _built(cls, engine: _engine.Part, arrays: PartArrays | None = None) -> Part:
+        part = cls.__new__(cls)
+        part.engine, part.arrays = engine, arrays
+        return part
+
+    @classmethod
+    def of(cls, source: PartLike, argument: str = "part") -> Part:
+        """From what a call takes for a part: one, or a part file whose format states its units.
+
+        Raises:
+            GeometryError: it is neither, or cannot be read.
+        """
+        if isinstance(source, Part):
+            return source
+        return cls.read(file_of(source, argument, WANTED, GeometryError))
 
     @classmethod
     def from_mesh(
@@ -40,11 +71,13 @@ class Part:
         corners = shaped(corners.reshape(-1, 3) if corners.size == 0 else corners, (None, 3), "triangles")
         known = None if normals is None else shaped(numbers(normals, "normals"), (len(corners), 3, 3), "normals")
         ids = None if face_ids is None else shaped(whole_numbers(face_ids, "face_ids"), (None,), "face_ids")
-        return cls(_engine.Part(points(vertices, 3, "vertices"), corners, ids, normals=known))
+        return cls._built(_engine.Part(points(vertices, 3, "vertices"), corners, ids, normals=known))
 
     @classmethod
     def from_arrays(cls, arrays: PartArrays) -> Part:
         """From what a reader made: triangles with their checked deviation and, where it knew surfaces, their normals."""
+        if not isinstance(arrays, PartArrays):
+            raise refused("arrays", arrays, "what a reader made (PartArrays)", GeometryError)
         is_mesh = all(face.kind == "mesh" for face in arrays.faces)
         engine = _engine.Part(
             arrays.vertices,
@@ -54,11 +87,11 @@ class Part:
             arrays.deviation_outward,
             None if is_mesh else arrays.normals,
         )
-        return cls(engine, arrays)
+        return cls._built(engine, arrays)
 
     @classmethod
     def read(
-        cls, path: str | Path, tolerance: float = 0.001, units: str | None = None, progress: Progress | None = None
+        cls, path: FileName, tolerance: float = 0.001, units: str | None = None, progress: Progress | None = None
     ) -> Part:
         """From a file: STEP, BREP, IGES, STL, OBJ, PLY, 3MF by its ending.
 
@@ -68,7 +101,10 @@ class Part:
         Raises:
             GeometryError: the file cannot be read or holds no usable part.
         """
-        return cls.from_arrays(read_part(path, tolerance=tolerance, units=units, progress=progress))
+        file = file_of(path, "path", "the name of a part file", GeometryError)
+        if units is not None and not isinstance(units, str):
+            raise refused("units", units, 'a unit like "mm"', GeometryError)
+        return cls.from_arrays(read_part(file, number_of(tolerance, "tolerance"), units, progress))
 
     @property
     def bounds(self) -> FloatArray:

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import json
+import os
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeAlias
 
 from styluscam import _engine
-from styluscam.errors import MachineError
-from styluscam.job import Job
-from styluscam.machine import Machine
+from styluscam.arguments import gcode_of, refused
+from styluscam.errors import MachineError, PlanError, StylusError
+from styluscam.job import Job, JobLike
+from styluscam.machine import Machine, MachineLike
 from styluscam.program import Program
 from styluscam.types import Document, Progress
 
@@ -43,42 +46,53 @@ class Posted:
     @property
     def text(self) -> str:
         """The only file's text."""
-        (text,) = self.files.values()
-        return text
+        texts = list(self.files.values())
+        if len(texts) != 1:
+            names = ", ".join(self.files) or "none"
+            raise StylusError(
+                f"text: of one file, and there are {len(texts)} ({names})", code="files", hint="see .files"
+            )
+        return texts[0]
 
 
-def plan(job: Job, *, progress: Progress | None = None, cancel: _engine.CancelToken | None = None) -> Plan:
-    """Plans every operation.
+def plan(job: JobLike, *, progress: Progress | None = None, cancel: _engine.CancelToken | None = None) -> Plan:
+    """Plans every operation of a job: a :class:`Job`, a dict, or the name of a job file.
 
     Raises:
         JobError, GeometryError, ToolError, PlanError, MachineError: nothing is planned then.
         Cancelled: by ``progress`` or ``cancel``.
     """
-    machine = job.machine()
-    scene = _engine.Scene(job.engine, job.part(progress).engine)
-    engine = _engine.plan(job.engine, scene, machine.engine, progress=progress, cancel=cancel)
-    return Plan(job, machine, scene, engine)
+    work = Job.of(job)
+    machine = work.machine()
+    scene = _engine.Scene(work.engine, work.part(progress).engine)
+    engine = _engine.plan(work.engine, scene, machine.engine, progress=progress, cancel=cancel)
+    return Plan(work, machine, scene, engine)
 
 
-def post(plan: Plan | Program, machine: Machine | None = None, notes: list[str] | None = None) -> Posted:
-    """The text of a plan, or of a program, for a machine.
+def post(plan: Plan | Program, machine: MachineLike | None = None, notes: list[str] | None = None) -> Posted:
+    """The text of a plan, or of a program, for a machine: by name, file, dict or object.
 
     ``machine`` may be left out for a plan: the job's own. ``notes`` are lines for the header.
 
     Raises:
         JobError, MachineError: the machine cannot be given this program; nothing is posted then.
     """
+    target = None if machine is None else Machine.of(machine)
     if isinstance(plan, Program):
-        if machine is None:
+        if target is None:
             raise MachineError(
-                "a program names no machine", code="machine-missing", hint="give one: post(program, machine)"
+                "machine: a program names none",
+                code="argument",
+                where="machine",
+                hint="give one: post(program, machine)",
             )
         work = plan if notes is None else plan.with_notes(notes)
-        return Posted({"program.ngc": _engine.post(work.engine, machine.engine)})
-    program = plan.engine.program
+        return Posted({"program.ngc": _engine.post(work.engine, target.engine)})
+    if not isinstance(plan, Plan):
+        raise refused("plan", plan, "a Plan or a Program", PlanError, "sc.plan(job) makes one")
     lines = plan.summary()[1] if notes is None else notes
-    text = _engine.post(program.with_notes(lines), (machine or plan.machine).engine)
-    return Posted({output_name(plan.job): text})
+    program = plan.programs["main"].with_notes(lines)
+    return Posted({output_name(plan.job): _engine.post(program.engine, (target or plan.machine).engine)})
 
 
 def output_name(job: Job) -> str:
@@ -86,10 +100,24 @@ def output_name(job: Job) -> str:
     return str(job.document["output"]["file"]) or f"{job.name}.ngc"
 
 
-def read_gcode(text: str, machine: Machine) -> Program:
+TextLike: TypeAlias = "str | os.PathLike[str] | Posted"
+"""G-code, its file, or what was posted."""
+
+
+def text_of(text: TextLike) -> str:
+    """The G-code that a call takes: a text, a file that holds one, or what was posted.
+
+    Raises:
+        VerifyError: as :func:`styluscam.arguments.gcode_of`.
+    """
+    return text.text if isinstance(text, Posted) else gcode_of(text)
+
+
+def read_gcode(text: TextLike, machine: MachineLike) -> Program:
     """The program that ``machine`` would read; strict: what it would not understand raises ``VerifyError``.
 
+    ``text`` is G-code, or the name of a file that holds it: a single line that is an existing file, or ends as file names do.
     It is for looking at and measuring: ways to the machine's own places, and lines behind a ``/``, are no moves of it. To post a
     text for another machine, where such things must not be lost, there is :func:`styluscam.posting.read_program`.
     """
-    return Program(_engine.read_gcode(text, machine.engine))
+    return Program(_engine.read_gcode(text_of(text), Machine.of(machine).engine))

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import json
 from functools import cached_property
-from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
 from styluscam import _engine
+from styluscam.arguments import A_FILE, FileName, file_of, refused
 from styluscam.errors import JobError
 from styluscam.files import read_text, write_whole
-from styluscam.machine import Machine
+from styluscam.machine import Machine, MachineLike
 from styluscam.types import Document, FloatArray
 
 MOVE = np.dtype(
@@ -37,6 +37,9 @@ class Program:
     """Lines and arcs of the tool's tip in work coordinates, and what happens between them."""
 
     def __init__(self, engine: _engine.Program) -> None:
+        """Programs come from :meth:`load`, :meth:`from_json`, :func:`styluscam.plan` and :func:`styluscam.read_gcode`."""
+        if not isinstance(engine, _engine.Program):
+            raise refused("program", engine, "a program of the engine", JobError, "Program.load(path) reads a file")
         self.engine = engine
         self.events: list[Document]
         self.tools: list[Document]
@@ -79,15 +82,17 @@ class Program:
         """Time at the programmed feeds, rapids at 3000 mm/min, s; acceleration is not counted."""
         return self.engine.statistics()[1]
 
-    def times(self, machine: Machine) -> FloatArray:
+    def times(self, machine: MachineLike) -> FloatArray:
         """The time at the end of every move on a machine, (N,), s, with its acceleration and its rate of blocks.
 
         What the machine file does not say is taken for unlimited. Tool changes and the way to the first place count 0.
         """
-        return self.engine.times(machine.engine)[0]
+        return self.engine.times(Machine.of(machine).engine)[0]
 
     def with_notes(self, notes: list[str]) -> Program:
         """The same program with these lines in its header."""
+        if isinstance(notes, str) or not all(isinstance(note, str) for note in notes):
+            raise refused("notes", notes, "a list of lines", JobError)
         return Program(self.engine.with_notes(notes))
 
     @classmethod
@@ -103,9 +108,9 @@ class Program:
         """
         return cls(_engine.program_of_path(sections, tools, setup))
 
-    def save(self, path: str | Path) -> None:
+    def save(self, path: FileName) -> None:
         """Writes the program as JSON, whole or not at all."""
-        write_whole(Path(path), self.engine.to_json())
+        write_whole(file_of(path, "path", A_FILE, JobError), self.engine.to_json())
 
     @classmethod
     def from_json(cls, text: str) -> Program:
@@ -114,9 +119,11 @@ class Program:
         Raises:
             JobError: it is none.
         """
+        if not isinstance(text, str):
+            raise refused("text", text, "the text of a program document", JobError)
         return cls(_engine.Program.from_json(text))
 
     @classmethod
-    def load(cls, path: str | Path) -> Program:
+    def load(cls, path: FileName) -> Program:
         """Reads what :meth:`save` wrote."""
-        return cls.from_json(read_text(path, JobError))
+        return cls.from_json(read_text(file_of(path, "path", A_FILE, JobError), JobError))

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from styluscam import _engine
-from styluscam.errors import VerifyError
+from styluscam.arguments import A_FILE, FileName, file_of
+from styluscam.errors import JobError, VerifyError
 from styluscam.files import require_writable, write_all_whole
-from styluscam.job import Job
+from styluscam.job import Job, JobLike
 from styluscam.judging import Report, judge_plan
 from styluscam.planning import Plan, Posted, output_name, plan, post
 from styluscam.report import Subject, report_page, require_extra
@@ -28,32 +29,34 @@ class RunResult:
 
 
 def run(
-    job: Job,
+    job: JobLike,
     *,
     write_despite_findings: bool = False,
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
-    report: Path | None = None,
-    also: Sequence[Path] = (),
+    report: FileName | None = None,
+    also: Sequence[FileName] = (),
 ) -> RunResult:
-    """Plans, posts, reads the text back, judges it, and writes it only if nothing was found.
+    """Plans a job (object, dict or file), posts it, reads the text back, judges it, and writes it only if nothing was found.
 
     ``report`` names the page to be written, the job's own when left out: whatever was found. ``also`` names files that
     the caller will write beside the program: asked about before the work begins.
     The judge's figures go into the header: the text is posted again with them, and must hold the very same moves.
     """
-    page = report or _report_name(job)
-    require_writable([*_names(job), *([] if page is None else [page]), *also], job.inputs())
+    work = Job.of(job)
+    page = _report_name(work) if report is None else file_of(report, "report", A_FILE, JobError)
+    others = [file_of(each, "also", A_FILE, JobError) for each in also]
+    require_writable([*_names(work), *([] if page is None else [page]), *others], work.inputs())
     if page is not None:
         require_extra()
-    planned = plan(job, progress=progress, cancel=cancel)
+    planned = plan(work, progress=progress, cancel=cancel)
     judged = judge_plan(planned, post(planned).text, progress, cancel)
     summary, notes = planned.summary(judged.judgement)
     posted = post(planned, notes=notes)
     _require_same_moves(judged, planned, posted)
-    files = _outputs(job, planned, posted, notes) if judged.ok or write_despite_findings else {}
+    files = _outputs(work, planned, posted, notes) if judged.ok or write_despite_findings else {}
     if page is not None:
-        files[page] = report_page(Subject.judged(judged, planned.machine, _names(job)[0].name), progress)
+        files[page] = report_page(Subject.judged(judged, planned.machine, _names(work)[0].name), progress)
     write_all_whole(files)
     return RunResult(planned, posted, judged, summary, tuple(files))
 

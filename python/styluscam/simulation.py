@@ -10,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from styluscam import _engine
-from styluscam.errors import GeometryError
+from styluscam.arguments import A_FILE, FileName, file_of, number_of, refused
+from styluscam.errors import GeometryError, VerifyError
 from styluscam.files import require_writable
 from styluscam.judging import Report
 from styluscam.meshfile import write_triangles, writer
@@ -115,19 +116,20 @@ class Simulation:
         Raises:
             GeometryError: a tolerance below 0.
         """
+        tolerance = number_of(tolerance, "tolerance")
         if not tolerance >= 0.0:
             message = f"tolerance = {tolerance:g}: 0 or more mm expected"
             raise GeometryError(message, code="out-of-range", where="tolerance", hint="0.005 keeps scallops visible")
         floor = None if self._face else self._scene.bounds[0][2]
         return self.engine.mesh(tolerance, floor)
 
-    def save(self, path: str | Path, tolerance: float = 0.005) -> None:
+    def save(self, path: FileName, tolerance: float = 0.005) -> None:
         """Writes :meth:`mesh` as ``.stl`` or ``.ply`` (extra ``mesh``).
 
         Raises:
             StylusError: another ending, or a place that cannot be written to.
         """
-        file = Path(path)
+        file = file_of(path, "path", A_FILE, GeometryError)
         require(file)
         write_triangles(file, *self.mesh(tolerance))
 
@@ -165,10 +167,15 @@ def simulate(
     Raises:
         GeometryError: a spacing that is no length or asks for more than forty million nodes, a face that does not exist.
     """
+    if not isinstance(report, Report):
+        raise refused("report", report, "the Report of a judged program", VerifyError, "sc.verify(text, job) makes one")
     job, scene = report.job, report.scene
     if spacing is None:
         low, high = np.array(scene.bounds)
         spacing = max(FINE, float(np.sqrt((high - low)[:2].prod() / NODES)))
+    spacing = number_of(spacing, "spacing")
+    if face is not None and not isinstance(face, str):
+        raise refused("face", face, '"tool", "mid" or "back"', GeometryError)
     engine = report.judgement.simulate(job.engine, scene, spacing, face, progress=progress, cancel=cancel)
     return Simulation(engine, scene, (face or scene.model_face) if scene.model_face else None)
 

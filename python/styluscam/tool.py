@@ -3,24 +3,33 @@
 from __future__ import annotations
 
 import json
+import os
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from styluscam import _engine, fctb, library, pointsfile, toolfile
+from styluscam import fctb, library, pointsfile, toolfile
+from styluscam._engine import Tool as EngineTool
+from styluscam.arguments import A_FILE, FileName, document_of, file_of, word_of
 from styluscam.errors import ToolError
-from styluscam.files import write_whole
+from styluscam.files import is_file, write_whole
 from styluscam.types import Document, FloatArray
+
+ToolLike: TypeAlias = "Tool | Document | str | os.PathLike[str]"
+"""A tool, its document, the name of a shipped one, or a tool file."""
+
+WANTED = "a Tool, a dict with its profile, the name of a shipped tool or of a tool file"
 
 LONG = re.compile(r"\d+\.\d{2,}")
 """A number with many digits."""
 
 
 class Tool:
-    """A checked tool; build it with :meth:`from_dict`, :meth:`read` or :meth:`library`.
+    """A checked tool: ``Tool("clothoid:small")``, ``Tool("mine.json")``, ``Tool({"profile": ...})``.
 
     Attributes:
         name: by which a library or a person calls it; may be empty.
@@ -29,12 +38,38 @@ class Tool:
         files: that it was read from.
     """
 
-    def __init__(self, engine: _engine.Tool, name: str = "", title: str = "", remarks: Sequence[str] = ()) -> None:
-        self._engine = engine
-        self.name = name
-        self.title = title
-        self.remarks = tuple(remarks)
-        self.files: tuple[Path, ...] = ()
+    _engine: EngineTool
+    name: str
+    title: str
+    remarks: tuple[str, ...]
+    files: tuple[Path, ...]
+
+    def __init__(self, source: ToolLike) -> None:
+        """As :meth:`of`."""
+        vars(self).update(vars(Tool.of(source)))
+
+    @classmethod
+    def _built(cls, engine: EngineTool, name: str, title: str, remarks: Sequence[str], files: Sequence[Path]) -> Tool:
+        tool = cls.__new__(cls)
+        tool._engine, tool.name, tool.title = engine, name, title
+        tool.remarks, tool.files = tuple(remarks), tuple(files)
+        return tool
+
+    @classmethod
+    def of(cls, source: ToolLike, argument: str = "tool") -> Tool:
+        """From what a call takes for a tool: one, its document, the name of a shipped tool, or a tool file.
+
+        ``library.json:name`` is a tool of a library in a file. Errors call it ``argument``.
+
+        Raises:
+            ToolError: it is none of these, there is no such tool or file, or one that cannot be built.
+        """
+        if isinstance(source, Tool):
+            return source
+        if isinstance(source, Mapping):
+            return cls.from_dict(document_of(source, argument, WANTED, ToolError))
+        path = file_of(source, argument, WANTED, ToolError)
+        return cls.find(source) if isinstance(source, str) else cls.read(path)
 
     @classmethod
     def from_dict(cls, document: Document, folder: str | Path = ".") -> Tool:
@@ -46,11 +81,12 @@ class Tool:
         Raises:
             ToolError: a key is unknown, missing or out of range.
         """
+        document = document_of(document, "document", "a dict with a tool's profile", ToolError)
         name = document.get("name")
         return cls._named(document, name if isinstance(name, str) and name else "tool", folder=folder)
 
     @classmethod
-    def read(cls, path: str | Path) -> Tool:
+    def read(cls, path: FileName) -> Tool:
         """From a tool file: JSON with the document that :meth:`from_dict` takes, or FreeCAD's ``.fctb``.
 
         A library that holds one tool is a tool file too.
@@ -58,7 +94,7 @@ class Tool:
         Raises:
             ToolError: the file cannot be read, or holds no tool that can be built.
         """
-        path, remarks = Path(path), list[str]()
+        path, remarks = file_of(path, "path", A_FILE, ToolError), list[str]()
         if path.suffix.lower() == ".fctb":
             document, remarks = fctb.read(path)
         else:
@@ -76,7 +112,10 @@ class Tool:
         Raises:
             ToolError: no such file or tool, or one that cannot be built.
         """
+        name = word_of(name, "name", "the name of a shipped tool or of a tool file", ToolError)
         file, tool = toolfile.place_of(name)
+        if not file and name not in library.names() and is_file(Path(folder) / name):
+            file = name
         if not file:
             return cls.library(name)
         path = Path(folder) / file
@@ -108,6 +147,9 @@ class Tool:
         Raises:
             ToolError: no such tool or size.
         """
+        name = word_of(name, "name", "the name of a shipped tool", ToolError)
+        if size is not None:
+            size = word_of(size, "size", "one of its sizes", ToolError)
         return cls._named(library.find(name, size), name)
 
     @classmethod
@@ -116,24 +158,22 @@ class Tool:
         document, files = pointsfile.resolved(document, folder)
         text = toolfile.engine_text(document, where)
         try:
-            engine = _engine.Tool(text)
+            engine = EngineTool(text)
         except ToolError as error:
             toolfile.check_tool(document, where)
             if where == "tool" or where in str(error):
                 raise
             raise ToolError(f"{where}: {error}", code=error.code, where=where, hint=error.hint) from error
         toolfile.check_text(document, ("name", "title"), where)
-        found = cls(engine, document.get("name", ""), document.get("title", ""), remarks)
-        found.files = tuple(files)
-        return found
+        return cls._built(engine, document.get("name", ""), document.get("title", ""), remarks, files)
 
-    def write(self, path: str | Path) -> None:
+    def write(self, path: FileName) -> None:
         """Writes a tool file, whole or not at all: ``.fctb`` for FreeCAD, else JSON. Numbers are kept exactly.
 
         Raises:
             StylusError: the file cannot be written.
         """
-        path = Path(path)
+        path = file_of(path, "path", A_FILE, ToolError)
         text = fctb.text_of(self) if path.suffix.lower() == ".fctb" else toolfile.text_of(self.to_file())
         write_whole(path, text)
 

@@ -50,9 +50,10 @@ def numbers(values: npt.ArrayLike, name: str) -> FloatArray:
         GeometryError: something else than real numbers, or rows of several lengths.
     """
     try:
-        if np.iscomplexobj(values):
-            raise TypeError("complex numbers")
-        return np.ascontiguousarray(values, dtype=np.float64)
+        array = np.asarray(values)
+        if array.dtype.kind not in "biufO":
+            raise TypeError(f"of {array.dtype.name}")
+        return np.ascontiguousarray(array, dtype=np.float64)
     except (TypeError, ValueError, OverflowError) as error:
         raise GeometryError(
             f"{name}: an array of numbers expected ({error})",

@@ -41,6 +41,15 @@ impl Machine {
         Ok(Self { machine })
     }
 
+    /// From what a machine file holds, as a JSON object without nulls; files that it extends are looked for in `folder`.
+    #[staticmethod]
+    fn from_json(text: &str, folder: &str) -> PyResult<Self> {
+        let file = |name: &str| std::fs::read_to_string(Path::new(folder).join(name)).ok();
+        let values = &mut serde_json::Deserializer::from_str(text);
+        let machine = styluscam_post::Machine::from_values(values, &file).map_err(of_job)?;
+        Ok(Self { machine })
+    }
+
     /// The whole of it as a machine file that extends nothing.
     fn to_toml(&self) -> PyResult<String> {
         self.machine.to_toml().map_err(of_job)

@@ -176,6 +176,24 @@ impl Machine {
         Ok(machine)
     }
 
+    /// The same for what a machine file holds in another form than TOML, such as JSON; null is no value.
+    ///
+    /// # Errors
+    /// Those of [`from_toml`](Self::from_toml), with keys for places.
+    pub fn from_values<'de, D: serde::Deserializer<'de>>(
+        values: D,
+        file: &dyn Fn(&str) -> Option<String>,
+    ) -> Result<Self, MachineError> {
+        let own = <toml::Table as Deserialize>::deserialize(values).map_err(|e| MachineError::Document {
+            place: "machine".into(),
+            message: e.to_string(),
+            similar: None,
+        })?;
+        let machine = inherit::of_table(own, "", file)?;
+        machine.check()?;
+        Ok(machine)
+    }
+
     /// The whole of it as a machine file that extends nothing.
     ///
     /// # Errors

@@ -12,7 +12,11 @@ const DEEPEST: usize = 8;
 
 /// Reads a machine; `file` gives the text of files that are named in `extends`.
 pub(super) fn machine(text: &str, file: &dyn Fn(&str) -> Option<String>) -> Result<Machine, MachineError> {
-    let own: Table = toml::from_str(text).map_err(|e| syntax_error(text, &e))?;
+    of_table(toml::from_str(text).map_err(|e| syntax_error(text, &e))?, text, file)
+}
+
+/// The machine of a table; `text` is what it was read from, empty where there is none.
+pub(super) fn of_table(own: Table, text: &str, file: &dyn Fn(&str) -> Option<String>) -> Result<Machine, MachineError> {
     let whole = with_parents(own, text, file, DEEPEST)?;
     serde_path_to_error::deserialize(Value::Table(whole)).map_err(|e| document_error(text, &e))
 }

@@ -1,0 +1,116 @@
+"""What the public calls take: texts and files told apart, and one sentence for what no argument can be.
+
+The classes themselves say how they are made of a name, a file or a dict: :meth:`styluscam.Tool.of` and its like.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TypeAlias
+
+from styluscam.errors import GeometryError, StylusError, VerifyError
+from styluscam.files import is_file, read_gcode_text
+from styluscam.types import Document
+
+FileName: TypeAlias = "str | os.PathLike[str]"
+"""A file by its name."""
+
+A_FILE = "the name of a file (str or Path)"
+"""What is wanted where only a file can be meant."""
+
+ENDING = re.compile(r"[^;(%].*\.[A-Za-z]{1,8}[0-9]?")
+"""A line that ends as file names do, and no G-code: there no word ends after a point and a letter."""
+
+SHOWN = 40
+"""Characters of a value that is shown."""
+
+
+def refused(argument: str, value: object, wanted: str, failure: type[StylusError], hint: str = "") -> StylusError:
+    """The error for an argument that is none: it names the argument, what came and what is wanted."""
+    message = f"{argument}: {_described(value)} came, {wanted} is wanted"
+    return failure(message, code="argument", where=argument, hint=hint)
+
+
+def file_of(value: object, argument: str, wanted: str, failure: type[StylusError], hint: str = "") -> Path:
+    """The file that a name or a path means.
+
+    Raises:
+        StylusError: of class ``failure``: it is neither, or a text of several lines; ``hint`` says where those go.
+    """
+    name = os.fspath(value) if isinstance(value, str | os.PathLike) else None
+    if not isinstance(name, str) or not name.strip() or _is_text(name):
+        raise refused(argument, value, wanted, failure, hint)
+    return Path(name)
+
+
+def word_of(value: object, argument: str, wanted: str, failure: type[StylusError], hint: str = "") -> str:
+    """A name, as the texts of libraries and lists hold it.
+
+    Raises:
+        StylusError: of class ``failure``: it is no text, an empty one or one of several lines.
+    """
+    if not isinstance(value, str) or not value.strip() or _is_text(value):
+        raise refused(argument, value, wanted, failure, hint)
+    return value
+
+
+def document_of(value: object, argument: str, wanted: str, failure: type[StylusError]) -> Document:
+    """A dict with texts for keys.
+
+    Raises:
+        StylusError: of class ``failure``: it is none.
+    """
+    if not isinstance(value, Mapping) or not all(isinstance(key, str) for key in value):
+        raise refused(argument, value, wanted, failure)
+    return dict(value)
+
+
+def gcode_of(value: object, argument: str = "text") -> str:
+    """A program's text, or that of the file that a path or a name means.
+
+    A ``str`` is a name where it is a single line that is an existing file, or ends as file names do (``out/cup.ngc``);
+    everything else is the text itself.
+
+    Raises:
+        VerifyError: the file cannot be read, or the value is neither.
+    """
+    if isinstance(value, str) and (_is_text(value) or not (ENDING.fullmatch(value.strip()) or is_file(Path(value)))):
+        return value
+    return read_gcode_text(file_of(value, argument, "G-code, or the name of its file,", VerifyError))
+
+
+def number_of(value: object, argument: str) -> float:
+    """A number.
+
+    Raises:
+        GeometryError: it is none.
+    """
+    if not isinstance(value, str | bytes | bytearray):
+        try:
+            return float(value)  # type: ignore[arg-type]  # refused below
+        except (TypeError, ValueError, OverflowError):
+            pass
+    raise refused(argument, value, "a number", GeometryError)
+
+
+def _is_text(value: str) -> bool:
+    return "\n" in value or "\r" in value
+
+
+def _described(value: object) -> str:
+    """A value in few words: its type, and itself where that is short."""
+    if value is None:
+        return "None"
+    kind = type(value).__name__
+    if isinstance(value, str):
+        lines = value.count("\n") + (not value.endswith("\n"))
+        if not value.strip():
+            return f"an empty {kind}"
+        shown = value if len(value) <= SHOWN else value[: SHOWN - 3] + "..."
+        return f"a text of {lines} lines ({kind})" if _is_text(value) else f"{kind} {shown!r}"
+    if isinstance(value, bool | int | float) and len(repr(value)) <= SHOWN:
+        return f"{kind} {value!r}"
+    return f"a value of type {kind}"
