@@ -74,12 +74,20 @@ def _operation(operation: Document) -> list[tuple[str, str]]:
         ("faces", f"{faces} and {more} more" if more > 0 else faces),
         ("wall angle", f"{operation['wall_angle_max_deg']:.1f} deg at most"),
     ]
+    if operation["ends"]:
+        rows.append(("ends at", _end(operation["ends"])))
     rows += [("reached", _reached(face)) for face in operation["reached"] if _lost(face)]
     for bridge in operation["bridged"]:
         rows.append(("bridged", f"Face{bridge['face']} by up to {bridge['excess']:.3f} mm at {place(bridge['at'])}"))
     for face, area in operation["undercut"]:
         rows.append(("undercut", f"Face{face}, {area:.1f} mm2 are not reached"))
     return rows
+
+
+def _end(end: Document) -> str:
+    which = "the part's foot" if end["at_foot"] else "z_bottom"
+    lowest = f"the lowest {end['untouched']:.3f} mm of the walls are touched only by a deeper z_bottom"
+    return f"Z{end['z']:.3f}, {which}: {lowest}"
 
 
 LOST = {"bridged": "bridged", "interferes": "beside something in the way", "rim": "steeper than the tool"}

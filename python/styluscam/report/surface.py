@@ -57,7 +57,7 @@ class Surface:
     def looks_up(self) -> Mask:
         """The triangles (T,) that do not look down, as the engine's ``looking_up`` has it."""
         doubled = self._doubled()
-        return np.asarray(doubled[:, 2] > -1e-9 * np.linalg.norm(doubled, axis=1))
+        return np.asarray(doubled[:, 2] >= -1e-4 * np.linalg.norm(doubled, axis=1))
 
     def _ends(self) -> IntArray:
         """The points at both ends of each side, (T, 3, 2), the lower number first."""

@@ -4,12 +4,10 @@ use std::collections::BTreeMap;
 
 use styluscam_geometry::Mesh;
 
-use crate::{JobDocument, JobError, OperationSection, Scene, Selection};
+use crate::{JobDocument, JobError, OperationKind, OperationSection, Process, Scene, Selection};
 
 /// Normals whose Z is above this look up; a wall of 89.9 degrees still does.
 const UP: f64 = 1e-3;
-/// Normals whose Z is below this look down.
-const DOWN: f64 = -1e-6;
 
 /// A face of the model as its triangles show it in work coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -20,6 +18,8 @@ pub struct FaceView {
     pub up: f64,
     /// Area that looks down, mm^2.
     pub down: f64,
+    /// Area of upright walls, which do neither, mm^2.
+    pub upright: f64,
     /// Largest slope, rad.
     pub steepest: f64,
 }
@@ -32,7 +32,8 @@ pub fn views(mesh: &Mesh) -> BTreeMap<u32, FaceView> {
         let view = views.entry(*face).or_default();
         view.area += area;
         view.up += if normal.z > UP { area } else { 0.0 };
-        view.down += if normal.z < DOWN { area } else { 0.0 };
+        view.down += if mesh.looks_down(t) { area } else { 0.0 };
+        view.upright += if normal.z <= UP && !mesh.looks_down(t) { area } else { 0.0 };
         view.steepest = view.steepest.max(libm::atan2(normal.x.hypot(normal.y), normal.z));
     }
     views
@@ -52,7 +53,21 @@ pub fn of_operation(
         Some(selection) => (selection, format!("operations[{index}].faces")),
         None => (&job.part.faces, "part.faces".to_owned()),
     };
-    chosen(selection, &scene.views, job.part.allow_undercuts, &place)
+    let all = match (section.kind, job.process.kind) {
+        (OperationKind::ZLevel, Process::Milling) => Look::UpOrAside,
+        // an upright wall of a sheet is where it was cut off, and rows pass walls at one height only
+        (OperationKind::ZLevel, Process::Spif) | (OperationKind::ZigZag, _) => Look::Up,
+    };
+    chosen(selection, &scene.views, all, job.part.allow_undercuts, &place)
+}
+
+/// How faces look that "all" means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Look {
+    /// Those that look up.
+    Up,
+    /// Upright walls too.
+    UpOrAside,
 }
 
 /// The faces that a selection means, in order of their numbers.
@@ -62,12 +77,14 @@ pub fn of_operation(
 pub fn chosen(
     selection: &Selection,
     views: &BTreeMap<u32, FaceView>,
+    all: Look,
     allow_undercuts: bool,
     place: &str,
 ) -> Result<Vec<u32>, JobError> {
     match selection {
         Selection::All => {
-            let up: Vec<u32> = views.iter().filter(|(_, v)| v.up > 0.0).map(|(n, _)| *n).collect();
+            let looks = |view: &FaceView| view.up > 0.0 || all == Look::UpOrAside && view.upright > 0.0;
+            let up: Vec<u32> = views.iter().filter(|(_, view)| looks(view)).map(|(n, _)| *n).collect();
             if up.is_empty() {
                 return Err(JobError::document(
                     "nothing-up",

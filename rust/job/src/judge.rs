@@ -12,6 +12,7 @@ use styluscam_verify::{
     ToolCalls,
 };
 
+use crate::heights::TipHeights;
 use crate::plan::operation_id;
 use crate::{
     faces, fixture, scene, Coolant, JobDocument, JobError, OperationKind, OperationSection, Process, Scene,
@@ -186,7 +187,8 @@ fn passes(
         (OperationKind::ZigZag, _, Some(stepover)) => Spacing::Rows(stepover, section.angle_deg.to_radians()),
         _ => return Ok(None),
     };
-    let heights = [section.z_bottom.unwrap_or(f64::NEG_INFINITY), section.z_top.unwrap_or(f64::INFINITY)];
+    let heights = TipHeights::of(job, scene, section);
+    let heights = [heights.bottom, heights.top.unwrap_or(f64::INFINITY)];
     let wanted = scene.looking_up(&faces::of_operation(job, scene, section, index)?);
     Ok(Some(Passes { spacing, smallest_feature: section.smallest_feature, heights, wanted }))
 }

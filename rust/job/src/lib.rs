@@ -5,6 +5,7 @@ mod document;
 mod error;
 mod faces;
 mod fixture;
+mod heights;
 mod judge;
 mod parse;
 mod plan;

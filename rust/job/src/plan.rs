@@ -12,6 +12,7 @@ use styluscam_toolpath::{
     Heights, Links, Pass, PlanError, Rates, Surface,
 };
 
+use crate::heights::TipHeights;
 use crate::judge::GOUGE;
 use crate::{
     faces, scene, Coolant, Direction, JobDocument, JobError, OperationKind, OperationSection, Scene, Spindle, Step,
@@ -57,12 +58,25 @@ pub struct OperationSummary {
     pub wall_angle_max_deg: f64,
     /// Smallest disc that a loop must hold to be sure of being found, mm; levels only.
     pub smallest_feature: f64,
+    /// Where it ends though the tool could touch the faces farther down.
+    pub ends: Option<End>,
     /// What becomes of the planned faces, in the order of their numbers.
     pub reached: Vec<ReachedFace>,
     /// Faces with places that the tool cannot touch, worst first.
     pub bridged: Vec<BridgedFace>,
     /// Faces with area that looks down, mm^2: not reached.
     pub undercut: Vec<(u32, f64)>,
+}
+
+/// Where an operation ends though the tool could touch its faces farther down; mm.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct End {
+    /// Lowest tip.
+    pub z: f64,
+    /// Whether that is the part's foot, and nothing that the job says.
+    pub at_foot: bool,
+    /// Most of the faces' lowest parts that is touched only from lower down.
+    pub untouched: f64,
 }
 
 /// How much of a face the tool reaches, and what keeps it from the rest; areas, mm^2, from samples.
@@ -208,8 +222,9 @@ pub fn operation(
     let budget = Budget::of(section, scene, machine).map_err(JobError::planning(&place))?;
     watch.begin("preparing", 1);
     let envelope = Envelope::new(&scene.mesh, &scene.index, tool, scene.sheet.as_ref(), budget.margin);
-    let surface = Surface::new(&envelope, &selected).between_heights(heights(section));
-    let task = Task { job, scene, machine, section, index, budget: &budget };
+    let heights = TipHeights::of(job, scene, section);
+    let surface = Surface::new(&envelope, &selected).between_heights(bounds(section, heights));
+    let task = Task { job, scene, machine, section, index, heights, budget: &budget };
     let (passes, smallest_feature) = task.passes(&surface, watch).map_err(JobError::planning(&place))?;
     let offset = offset_of(scene, tool, &envelope, &faces, section.tolerance, watch)?;
     let summary = OperationSummary {
@@ -219,12 +234,27 @@ pub fn operation(
         passes: passes.len(),
         wall_angle_max_deg: steepest(scene, &selected).to_degrees(),
         smallest_feature,
+        ends: ends(scene, tool, &passes, (section, heights), &selected),
         reached: reached(scene, &offset),
         bridged: bridged(scene, tool, &envelope, &offset, section.tolerance, watch)?,
         undercut: undercut(scene, &faces),
         faces,
     };
     Ok((link(&surface, passes, &task.links()), summary))
+}
+
+/// The end that the heights are to an operation, if the tool would go on below.
+fn ends(
+    scene: &Scene,
+    tool: &Tool,
+    passes: &[Pass],
+    (section, heights): (&OperationSection, TipHeights),
+    selected: &[bool],
+) -> Option<End> {
+    let lowest = passes.iter().flat_map(|pass| &pass.points).map(|point| point.tip.z).fold(f64::INFINITY, f64::min);
+    let stopped = lowest - heights.bottom <= section.step.map_or(0.0, |Step::Height(step)| step);
+    let untouched = heights.untouched(scene, tool, selected, section.tolerance).filter(|_| stopped)?;
+    Some(End { z: lowest, at_foot: section.z_bottom.is_none(), untouched })
 }
 
 /// Faces of which a part looks down, with its area.
@@ -234,13 +264,12 @@ fn undercut(scene: &Scene, faces: &[u32]) -> Vec<(u32, f64)> {
 }
 
 /// Heights between which the tip stays on the surface: levels choose their own.
-fn heights(section: &OperationSection) -> [f64; 2] {
-    let (bottom, top) = match section.kind {
-        OperationKind::ZLevel => (None, None),
-        OperationKind::ZigZag => (section.z_bottom, section.z_top),
-    };
-    // what lies at the top is formed within the tolerance above it
-    [bottom.unwrap_or(f64::NEG_INFINITY), top.map_or(f64::INFINITY, |z| z + section.tolerance)]
+fn bounds(section: &OperationSection, heights: TipHeights) -> [f64; 2] {
+    match section.kind {
+        OperationKind::ZLevel => [f64::NEG_INFINITY, f64::INFINITY],
+        // what lies at the top is formed within the tolerance above it
+        OperationKind::ZigZag => [heights.bottom, heights.top.map_or(f64::INFINITY, |z| z + section.tolerance)],
+    }
 }
 
 fn steepest(scene: &Scene, selected: &[bool]) -> f64 {
@@ -332,6 +361,7 @@ struct Task<'a> {
     machine: &'a Machine,
     section: &'a OperationSection,
     index: usize,
+    heights: TipHeights,
     budget: &'a Budget,
 }
 
@@ -361,8 +391,8 @@ impl Task<'_> {
         let resolution = self.machine.resolution_mm();
         let (lowest, highest) = selected_range(surface, &grid, resolution, watch)?.ok_or_else(nothing)?;
         // the flat top lies margin below what the envelope shows
-        let top = self.section.z_top.unwrap_or_else(|| self.round(highest - self.budget.margin));
-        let bottom = self.section.z_bottom.unwrap_or(f64::NEG_INFINITY);
+        let top = self.heights.top.unwrap_or_else(|| self.round(highest - self.budget.margin));
+        let bottom = self.heights.bottom;
         let range = LevelRange { top, bottom, reachable: lowest, step, resolution };
         let heights = levels(&range, &Floors::of(surface.envelope()))?;
         let passes = z_levels(surface, &grid, &heights, self.budget.deviation, watch)?;

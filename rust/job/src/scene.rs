@@ -1,6 +1,6 @@
 //! The part as it lies on the machine: turned, moved to the program's zero, indexed.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use styluscam_geometry::{Bvh, Frame, Mesh, Sheet, Tool, ToolDocument, Vector};
 use styluscam_motion::{SetupRecord, ToolRecord, ToolReference};
@@ -47,9 +47,14 @@ pub struct Scene {
 impl Scene {
     /// Which triangles belong to some faces and do not look down.
     pub(crate) fn looking_up(&self, faces: &[u32]) -> Vec<bool> {
-        let looks_up = |triangle: usize| self.mesh.normal(triangle).z > -1e-9;
+        let faces: HashSet<u32> = faces.iter().copied().collect();
         let of_faces = self.mesh.faces().iter().map(|face| faces.contains(face));
-        of_faces.enumerate().map(|(triangle, is_of_face)| is_of_face && looks_up(triangle)).collect()
+        of_faces.enumerate().map(|(triangle, is_of_face)| is_of_face && !self.mesh.looks_down(triangle)).collect()
+    }
+
+    /// Height of the part's lowest point, mm.
+    pub(crate) fn foot(&self) -> f64 {
+        self.mesh.bounds().0.z
     }
 
     /// Places the part.

@@ -106,6 +106,13 @@ impl Summary {
                 operation.passes,
                 operation.wall_angle_max_deg
             ));
+            notes.extend(operation.ends.map(|end| {
+                let which = if end.at_foot { "the part's foot" } else { "z_bottom" };
+                format!(
+                    "ends at Z{:.3}, {which}: {:.3} of the walls are touched only from lower down",
+                    end.z, end.untouched
+                )
+            }));
             notes.extend(operation.bridged.iter().map(|bridge| {
                 let [x, y, z] = bridge.at;
                 format!("bridged: Face{} by up to {:.3} at X{x:.2} Y{y:.2} Z{z:.2}", bridge.face, bridge.excess)

@@ -31,9 +31,6 @@ pub struct Surface<'a> {
 }
 
 impl<'a> Surface<'a> {
-    /// Walls have a normal that rises or falls by less than this.
-    pub(crate) const WALL: f64 = 1e-9;
-
     /// `selected` says of each triangle whether its face was asked for.
     #[must_use]
     pub fn new(envelope: &'a Envelope<'a>, selected: &'a [bool]) -> Self {
@@ -80,14 +77,6 @@ impl<'a> Surface<'a> {
             selected: (self.heights[0]..=self.heights[1]).contains(&contact.tip)
                 && self.selected.is_none_or(|selected| self.envelope.belongs(contact, selected, SPREAD)),
         }
-    }
-
-    /// The foot of the selected walls, mm: where they end below; over the plan they are seen at their top only.
-    #[must_use]
-    pub(crate) fn foot_of_walls(&self) -> Option<f64> {
-        let mesh = self.envelope.mesh();
-        let walls = self.triangles().filter(|t| mesh.normal(*t).z.abs() < Self::WALL);
-        walls.flat_map(|t| mesh.corners(t)).map(|p| p.z).min_by(f64::total_cmp)
     }
 
     /// The selected triangles.

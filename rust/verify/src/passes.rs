@@ -38,6 +38,9 @@ const ROOM: f64 = 0.005;
 /// A face goes on where the tool, moved along the plane that it touches, is as near to it as this, mm.
 const TOUCH: f64 = 0.03;
 
+/// Planes that slope by less, a sine, are level: a tenth of a millimetre over a metre.
+const LEVEL: f64 = 1e-4;
+
 /// Points at which it is asked where the tool can touch.
 const TOUCHING: usize = 2000;
 /// Passes may be this many steps apart: a short last step is joined to the one before it.
@@ -161,10 +164,13 @@ impl Look<'_> {
 
     /// Heights, or places across the rows, at which the tool can touch.
     fn touching(&self) -> Vec<f64> {
-        let spots = probes::spread(self.subject.mesh, self.wanted, TOUCHING).into_par_iter();
+        let spacing = self.passes.spacing;
+        let asked = self.wanted.iter().copied().filter(|triangle| spacing.touches(self.subject.mesh.normal(*triangle)));
+        let asked: Vec<usize> = asked.collect();
+        let spots = probes::spread(self.subject.mesh, &asked, TOUCHING).into_par_iter();
         let touching =
             spots.filter_map(|probe| self.spot(&probe)).filter(|spot| self.clearance(spot.position) >= -ROOM);
-        touching.map(|spot| self.passes.spacing.value(spot.tip.into())).collect()
+        touching.map(|spot| spacing.value(spot.tip.into())).collect()
     }
 
     /// Places where more is left than the distance between passes explains.
@@ -303,6 +309,14 @@ impl Spacing {
                 let (sin, cos) = libm::sincos(angle);
                 -sin * tip.x + cos * tip.y
             }
+        }
+    }
+
+    /// Whether passes are to touch a plane of this normal: levels have no line on a level one, which wants rows.
+    fn touches(self, up: Vector) -> bool {
+        match self {
+            Self::Levels(_) => up.xy().norm() > LEVEL,
+            Self::Rows(..) => true,
         }
     }
 

@@ -19,7 +19,7 @@ pub struct Floors {
 }
 
 impl Floors {
-    /// Of all horizontal triangles, selected or not.
+    /// Of all horizontal triangles that look up, selected or not.
     #[must_use]
     pub fn of(envelope: &Envelope<'_>) -> Self {
         let (mesh, margin) = (envelope.mesh(), envelope.margin());
@@ -28,7 +28,7 @@ impl Floors {
         let floor = |t: usize| {
             let heights = mesh.corners(t).map(|corner| corner.z);
             let [low, high] = [f64::min, f64::max].map(|of| heights.into_iter().fold(heights[0], of));
-            let is_level = mesh.normal(t).z.abs() >= 1.0 - LEVEL && high - low <= beside;
+            let is_level = mesh.normal(t).z >= 1.0 - LEVEL && high - low <= beside;
             is_level.then(|| envelope.tip_on(high))
         };
         Self::under((0..mesh.triangles().len()).filter_map(floor).collect(), margin + beside)

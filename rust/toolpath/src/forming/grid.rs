@@ -40,6 +40,11 @@ impl Grid {
         self.lattice.cell * std::f64::consts::SQRT_2
     }
 
+    /// Distance between nodes, mm.
+    pub(super) fn spacing(&self) -> f64 {
+        self.lattice.cell
+    }
+
     pub(super) fn lattice(&self) -> &Lattice {
         &self.lattice
     }

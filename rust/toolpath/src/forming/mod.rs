@@ -11,6 +11,7 @@ mod sides;
 mod square;
 mod stances;
 mod trace;
+mod walls;
 mod z_level;
 mod zig_zag;
 

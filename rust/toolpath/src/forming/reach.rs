@@ -6,7 +6,7 @@
 use styluscam_geometry::Vector;
 use styluscam_motion::{Cancelled, Watch};
 
-use super::{stances::stances, Grid};
+use super::{stances::stances, walls, Grid};
 use crate::Surface;
 
 /// Halvings of an edge between a corner that is touched and one that is not: a thousandth of a millimetre on 1 m.
@@ -14,8 +14,6 @@ const HALVINGS: usize = 20;
 
 /// Lowest and highest tip with which the tool touches what was selected, mm, `fine` mm or less from the extremes; none
 /// where it touches nothing of it.
-///
-/// Vertical walls touch from their foot up.
 ///
 /// # Errors
 /// `Cancelled` when `watch` says so.
@@ -25,8 +23,9 @@ pub fn selected_range(
     fine: f64,
     watch: &Watch,
 ) -> Result<Option<(f64, f64)>, Cancelled> {
-    let Some((lowest, highest)) = grid.selected_range(surface) else { return Ok(None) };
-    let lowest = surface.foot_of_walls().map_or(lowest, |foot| foot.min(lowest));
+    let seen = [grid.selected_range(surface), walls::range(surface, grid.spacing(), watch)?];
+    let both = |a: (f64, f64), b: (f64, f64)| (a.0.min(b.0), a.1.max(b.1));
+    let Some((lowest, highest)) = seen.into_iter().flatten().reduce(both) else { return Ok(None) };
     let facets = stances(surface);
     let search = Search { surface, facets: &facets, fine };
     let lowest = search.farthest(lowest, Way::Down, watch)?;

@@ -5,6 +5,9 @@ use styluscam_geometry::Vector;
 
 use crate::Surface;
 
+/// Walls whose normal rises by less have no one height at which the tool touches them.
+const WALL: f64 = 1e-9;
+
 /// Tips of the tool that touches the corners of the selected facets, facet by facet; walls have none.
 ///
 /// Something else may keep the tool from standing there.
@@ -14,7 +17,7 @@ pub(super) fn stances(surface: &Surface<'_>) -> Vec<[Vector; 3]> {
     let stances = triangles.into_par_iter().filter_map(|triangle| {
         let normal = mesh.normal(triangle);
         // at the origin the tool touches a plane of this normal there
-        let touching = (normal.z > Surface::WALL).then(|| envelope.touching_point(Vector::zeros(), normal))?;
+        let touching = (normal.z > WALL).then(|| envelope.touching_point(Vector::zeros(), normal))?;
         Some(mesh.corners(triangle).map(|corner| corner - touching))
     });
     stances.collect()

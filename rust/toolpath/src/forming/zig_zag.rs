@@ -8,6 +8,9 @@ use crate::{fitting, Pass, PathPoint, PlanError, Surface};
 
 /// Distance between samples where a selected facet could be touched between two places at which none is, mm.
 const FINE: f64 = 0.1;
+/// How far beside the middle the pattern lies, as a share of the stepover: no part is drawn so that the tool runs along its
+/// walls there, where the margin decides between the floor and the wall's top.
+const ASIDE: f64 = 0.0382;
 /// Rows at most.
 const LIMIT: usize = 100_000;
 
@@ -66,7 +69,7 @@ struct Lines {
 }
 
 impl Lines {
-    /// Rows over the surface's domain, the pattern centred on it.
+    /// Rows over the surface's domain, the pattern centred on it but for [`ASIDE`].
     fn over(surface: &Surface<'_>, rows: &Rows) -> Option<Self> {
         let (low, high) = surface.domain()?;
         let (sin, cos) = libm::sincos(rows.angle);
@@ -81,7 +84,7 @@ impl Lines {
         };
         let [left, right] = range(across);
         let count = ((right - left) / rows.stepover).floor() as usize + 1;
-        let first = 0.5 * (left + right - (count - 1) as f64 * rows.stepover);
+        let first = 0.5 * (left + right - (count - 1) as f64 * rows.stepover) + ASIDE * rows.stepover;
         let Rows { stepover, spacing, narrow, .. } = *rows;
         Some(Self { along, across, range: range(along), first, count, stepover, spacing, narrow })
     }

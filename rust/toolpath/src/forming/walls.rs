@@ -1,0 +1,85 @@
+//! Between which heights the tool touches upright walls: over the plan they are seen at their top only.
+
+use styluscam_geometry::Vector;
+use styluscam_motion::{Cancelled, Watch};
+
+use crate::Surface;
+
+/// Places looked at along one triangle at most.
+const PLACES: usize = 64;
+/// The tool stands this far off the wall, mm: where it touched the wall itself, it would meet the wall's top.
+const OFF: f64 = 1e-6;
+/// Or, far from the origin, so many times what rounding makes of a place.
+const ROUNDINGS: f64 = 4.0;
+
+/// A place of a wall where the tool may stand beside it.
+struct Beside {
+    /// The tool's place in plan.
+    place: [f64; 2],
+    /// Lowest and highest tip with which its side touches the wall there, mm.
+    tips: [f64; 2],
+}
+
+/// Lowest and highest tip with which the tool touches selected upright walls, mm; none where it touches none.
+///
+/// Beside each wall, places `spacing` mm apart are asked how low the tool comes there.
+///
+/// # Errors
+/// `Cancelled` when `watch` says so.
+pub(super) fn range(surface: &Surface<'_>, spacing: f64, watch: &Watch) -> Result<Option<(f64, f64)>, Cancelled> {
+    let mesh = surface.envelope().mesh();
+    let walls = surface.triangles().filter(|triangle| mesh.is_upright(*triangle));
+    let beside: Vec<Beside> = walls.flat_map(|triangle| places(surface, triangle, spacing)).collect();
+    let asked: Vec<[f64; 2]> = beside.iter().map(|beside| beside.place).collect();
+    watch.begin("walls", asked.len());
+    let contacts = surface.envelope().contacts(&asked, watch)?;
+    let touched = beside.iter().zip(&contacts).filter_map(|(beside, contact)| {
+        let [lowest, highest] = beside.tips;
+        let lowest = contact.as_ref().map_or(lowest, |contact| lowest.max(contact.tip));
+        (lowest <= highest).then_some((lowest, highest))
+    });
+    Ok(touched.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))))
+}
+
+/// Places beside an upright triangle, at the middles of equal shares of its length in plan.
+fn places(surface: &Surface<'_>, triangle: usize, spacing: f64) -> Vec<Beside> {
+    let (envelope, mesh) = (surface.envelope(), surface.envelope().mesh());
+    let normal = mesh.normal(triangle);
+    let outward = Vector::new(normal.x, normal.y, 0.0).normalize();
+    let along = Vector::new(-outward.y, outward.x, 0.0);
+    let corners = mesh.corners(triangle).map(|corner| [corner.dot(&along), corner.z]);
+    let [first, last] = [f64::min, f64::max].map(|of| corners.iter().map(|c| c[0]).reduce(of).unwrap_or(0.0));
+    let touching = envelope.touching_point(Vector::zeros(), outward);
+    let off = OFF.max(ROUNDINGS * envelope.rounding());
+    let count = (((last - first) / spacing).ceil() as usize).clamp(1, PLACES);
+    let beside = (0..count).filter_map(|i| {
+        let at = first + (last - first) * (i as f64 + 0.5) / count as f64;
+        let [foot, top] = heights(&corners, at)?;
+        let wall = mesh.corners(triangle)[0] + along * (at - corners[0][0]);
+        let stand = wall - touching + outward * off;
+        Some(Beside { place: [stand.x, stand.y], tips: [foot - touching.z, top - touching.z] })
+    });
+    beside.collect()
+}
+
+/// Lower and upper height of a triangle (along, height) at a place along it.
+fn heights(corners: &[[f64; 2]; 3], at: f64) -> Option<[f64; 2]> {
+    let crossings = (0..3).filter_map(|i| {
+        let ([a, za], [b, zb]) = (corners[i], corners[(i + 1) % 3]);
+        ((a < at) != (b < at)).then(|| za + (zb - za) * (at - a) / (b - a))
+    });
+    let (low, high) = crossings.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)));
+    (low <= high).then_some([low, high])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_triangle_is_cut_between_its_corners() {
+        let corners = [[0.0, 0.0], [4.0, 0.0], [0.0, 8.0]];
+        assert_eq!(heights(&corners, 1.0), Some([0.0, 6.0]));
+        assert_eq!(heights(&corners, 5.0), None);
+    }
+}
