@@ -228,7 +228,7 @@ def offset_surface(
     cancel: CancelToken | None = None,
 ) -> tuple[
     tuple[_F, _F, _F, _F, npt.NDArray[np.uint8], _F, _F, _I],
-    tuple[_I, _I],
+    tuple[_I, _I, float],
     list[tuple[int, str, float, float, list[float], list[float]]],
 ]: ...
 def waterlines(

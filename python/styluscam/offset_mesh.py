@@ -74,6 +74,9 @@ class OffsetSurface:
     """Their faces, (V,)."""
     faces: IntArray
     """Face of each triangle, (T,)."""
+    fine: float
+    """No side of a triangle where something stops the tool is longer, mm: a quarter of the tool's radius, or as fine as two
+    million points allow."""
     _regions: tuple[OffsetRegion, ...] = field(repr=False)
 
     def regions(self) -> list[OffsetRegion]:
@@ -123,7 +126,7 @@ def offset_surface(
     """
     numbers = None if faces is None else _numbers(faces)
     within = number_of(tolerance, "tolerance")
-    columns, (triangles, of_triangles), regions = _engine.offset_surface(
+    columns, (triangles, of_triangles, fine), regions = _engine.offset_surface(
         Part.of(part).engine, Tool.of(tool)._engine, _sheet(sheet), within, numbers, progress=progress, cancel=cancel
     )
     points, contacts, normals, slopes, flags, depths, places, place_faces = columns
@@ -138,6 +141,7 @@ def offset_surface(
         places=places,
         place_faces=place_faces,
         faces=of_triangles,
+        fine=fine,
         _regions=tuple(
             OffsetRegion(face, flag, area, depth, (x, y, z), (px, py, pz))
             for face, flag, area, depth, (x, y, z), (px, py, pz) in regions

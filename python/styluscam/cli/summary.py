@@ -77,6 +77,8 @@ def _operation(operation: Document) -> list[tuple[str, str]]:
     if operation["ends"]:
         rows.append(("ends at", _end(operation["ends"])))
     rows += [("reached", _reached(face)) for face in operation["reached"] if _lost(face)]
+    if (coarse := operation["reached_coarsely"]) is not None:
+        rows.append(("reached", f"areas are estimated from triangles of {coarse:.3g} mm"))
     for bridge in operation["bridged"]:
         rows.append(("bridged", f"Face{bridge['face']} by up to {bridge['excess']:.3f} mm at {place(bridge['at'])}"))
     for face, area in operation["undercut"]:

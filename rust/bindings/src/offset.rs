@@ -192,10 +192,13 @@ type Columns<'py> = (
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray1<i64>>,
 );
-/// Triangles (T, 3) and their faces (T,).
-type Connection<'py> = (Bound<'py, PyArray2<i64>>, Bound<'py, PyArray1<i64>>);
+/// Triangles (T, 3), their faces (T,), and how long sides are at most where something stops the tool.
+type Connection<'py> = (Bound<'py, PyArray2<i64>>, Bound<'py, PyArray1<i64>>, f64);
 /// Face, flag's name, area, depth, contact, place.
 type RegionRow = (u32, &'static str, f64, f64, [f64; 3], [f64; 3]);
+
+/// Points that refining an offset surface may add at most: some hundred megabytes.
+const OFFSET_POINTS: usize = 1 << 21;
 
 /// The slope-matched offset of the part's `faces` (all if None) as columns, its triangles and its regions.
 #[pyfunction]
@@ -220,7 +223,8 @@ pub fn offset_surface<'py>(
     let triangles = triangles_of(&part.mesh, faces.as_deref())?;
     let made = watched(py, progress, cancel, |watch| {
         let envelope = Envelope::new(&part.mesh, whole.index(watch)?, &tool.tool, sheet.as_ref(), 0.0);
-        let surface = OffsetSurface::new(&envelope, &tool.tool, sheet.as_ref(), &triangles, tolerance, watch)?;
+        let surface =
+            OffsetSurface::new(&envelope, &tool.tool, sheet.as_ref(), &triangles, tolerance, OFFSET_POINTS, watch)?;
         let regions = surface.regions(&part.mesh);
         Ok((surface, regions))
     })?;
@@ -229,6 +233,7 @@ pub fn offset_surface<'py>(
     let connection = (
         arrays::matrix(py, surface.triangles.iter().map(|corners| corners.map(i64::from)))?,
         PyArray1::from_vec(py, surface.numbers.iter().map(|t| face_of(*t)).collect()),
+        surface.fine,
     );
     let columns = columns(py, &surface.points, face_of)?;
     Ok((columns, connection, regions.iter().map(region_row).collect()))

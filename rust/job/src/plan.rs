@@ -20,6 +20,8 @@ use crate::{
 
 /// Triangles of a face whose offset is judged, at most: areas are right to a percent or two of the face's.
 const OFFSET_SAMPLES: usize = 2000;
+/// Points that refining it may add, where something stops the tool.
+const OFFSET_POINTS: usize = 1 << 16;
 /// Points of a face, of those that something keeps from the tool, from which its worst place is looked for.
 const BRIDGE_SAMPLES: usize = 64;
 /// What is left for fitting must be at least this, mm, or paths would have millions of points.
@@ -62,6 +64,9 @@ pub struct OperationSummary {
     pub ends: Option<End>,
     /// What becomes of the planned faces, in the order of their numbers.
     pub reached: Vec<ReachedFace>,
+    /// How large the triangles are from which that is known where something stops the tool, mm, if larger than meant:
+    /// there is more of it than is worth the time.
+    pub reached_coarsely: Option<f64>,
     /// Faces with places that the tool cannot touch, worst first.
     pub bridged: Vec<BridgedFace>,
     /// Faces with area that looks down, mm^2: not reached.
@@ -236,11 +241,12 @@ pub fn operation(
         smallest_feature,
         ends: ends(scene, tool, &passes, (section, heights), &selected),
         reached: reached(scene, &offset),
+        reached_coarsely: offset.is_coarse.then_some(offset.fine),
         bridged: bridged(scene, tool, &envelope, &offset, section.tolerance, watch)?,
         undercut: undercut(scene, &faces),
         faces,
     };
-    Ok((link(&surface, passes, &task.links()), summary))
+    Ok((link(&surface, &passes, &task.links(), watch)?, summary))
 }
 
 /// The end that the heights are to an operation, if the tool would go on below.
@@ -302,7 +308,7 @@ fn offset_of(
         }
     }
     let sampled: Vec<u32> = by_face.values().flat_map(|all| spread(all, OFFSET_SAMPLES)).collect();
-    Ok(OffsetSurface::new(envelope, tool, scene.sheet.as_ref(), &sampled, tolerance, watch)?)
+    Ok(OffsetSurface::new(envelope, tool, scene.sheet.as_ref(), &sampled, tolerance, OFFSET_POINTS, watch)?)
 }
 
 /// Up to `most` of some things, spread evenly over them.

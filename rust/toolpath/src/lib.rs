@@ -5,6 +5,7 @@ mod fitting;
 pub mod forming;
 mod lattice;
 mod linking;
+mod nearest;
 pub mod offset;
 mod surface;
 

@@ -3,10 +3,11 @@
 //! Between neighbouring passes the tool rides on the envelope; where that would leave the selected faces or is long,
 //! it goes up, across at clearance height, and down again at plunge feed.
 
+use rayon::prelude::*;
 use styluscam_geometry::Vector;
-use styluscam_motion::{Move, MoveKind};
+use styluscam_motion::{Cancelled, Move, MoveKind, Watch};
 
-use crate::{fitting, Pass, PathPoint, Surface};
+use crate::{fitting, nearest, Pass, PathPoint, Surface};
 
 /// Heights of the ways between passes, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,76 +47,47 @@ pub struct Links {
 }
 
 /// The moves along all passes. Within a group the nearest pass comes next; a loop begins where it is nearest.
-#[must_use]
-pub fn link(surface: &Surface<'_>, passes: Vec<Pass>, links: &Links) -> Vec<Move> {
-    let mut route = Route { links, surface, moves: Vec::new(), last: None };
-    let mut groups: Vec<Vec<Pass>> = Vec::new();
-    for pass in passes {
-        match groups.last_mut() {
-            Some(group) if group[0].group == pass.group => group.push(pass),
-            _ => groups.push(vec![pass]),
+///
+/// # Errors
+/// `Cancelled`.
+pub fn link(surface: &Surface<'_>, passes: &[Pass], links: &Links, watch: &Watch) -> Result<Vec<Move>, Cancelled> {
+    // ordered, then ridden to
+    watch.begin("linking", 2 * passes.len());
+    let passes = nearest::ordered(passes, links.alternate, watch)?;
+    let mut route = Route { links, surface, moves: Vec::new() };
+    let ways: Result<Vec<Option<Vec<PathPoint>>>, Cancelled> = (0..passes.len())
+        .into_par_iter()
+        .map(|number| {
+            watch.advance(1)?;
+            let before = number.checked_sub(1).and_then(|before| passes.get(before)?.points.last());
+            let first = passes[number].points.first();
+            Ok(before.zip(first).and_then(|(from, to)| route.ridden(from, to)))
+        })
+        .collect();
+    let mut last = None;
+    for (pass, way) in passes.iter().zip(ways?) {
+        let Some((first, rest)) = pass.points.split_first() else { continue };
+        match way {
+            Some(way) => route.cut(&way),
+            None => {
+                route.leave(last);
+                route.arrive(first);
+            }
         }
+        route.cut(rest);
+        last = pass.points.last();
     }
-    for (number, mut group) in groups.into_iter().enumerate() {
-        let turned = links.alternate && number % 2 == 1;
-        while !group.is_empty() {
-            let nearest = route.nearest(&group, turned);
-            route.follow(&directed(group.remove(nearest), turned, route.last.as_ref()));
-        }
-    }
-    route.leave();
-    route.moves
-}
-
-/// A pass in its direction; a loop begins at its point nearest to `from`.
-fn directed(mut pass: Pass, turned: bool, from: Option<&PathPoint>) -> Pass {
-    if turned {
-        pass.points.reverse();
-    }
-    if let (true, Some(from)) = (pass.closed, from) {
-        pass.points.pop();
-        let nearest = index_of_least(&pass.points, |p| (p.tip - from.tip).norm_squared());
-        pass.points.rotate_left(nearest);
-        pass.points.extend(pass.points.first().copied());
-    }
-    pass
-}
-
-fn index_of_least<T>(items: &[T], mut measure: impl FnMut(&T) -> f64) -> usize {
-    let least = items.iter().enumerate().map(|(i, item)| (measure(item), i));
-    least.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |(_, i)| i)
+    route.leave(last);
+    Ok(route.moves)
 }
 
 struct Route<'a> {
     links: &'a Links,
     surface: &'a Surface<'a>,
     moves: Vec<Move>,
-    last: Option<PathPoint>,
 }
 
 impl Route<'_> {
-    fn nearest(&self, group: &[Pass], turned: bool) -> usize {
-        let Some(last) = self.last else { return 0 };
-        index_of_least(group, |pass| {
-            let entry = if turned { pass.points.last() } else { pass.points.first() };
-            let entries = if pass.closed { &pass.points[..] } else { entry.map_or(&[][..], std::slice::from_ref) };
-            entries.iter().map(|p| (p.tip - last.tip).norm_squared()).fold(f64::INFINITY, f64::min)
-        })
-    }
-
-    fn follow(&mut self, pass: &Pass) {
-        let Some(first) = pass.points.first() else { return };
-        match self.last.and_then(|last| self.ridden(&last, first)) {
-            Some(way) => self.cut(&way),
-            None => {
-                self.leave();
-                self.arrive(first);
-            }
-        }
-        self.cut(&pass.points[1..]);
-        self.last = pass.points.last().copied();
-    }
-
     /// The way over the envelope from one point to another, without its first point; none when it should be flown.
     fn ridden(&self, from: &PathPoint, to: &PathPoint) -> Option<Vec<PathPoint>> {
         if (to.tip - from.tip).xy().norm() > self.links.ride {
@@ -133,8 +105,8 @@ impl Route<'_> {
     }
 
     /// Straight up to clearance, if the tool is down.
-    fn leave(&mut self) {
-        if let Some(last) = self.last.take() {
+    fn leave(&mut self, last: Option<&PathPoint>) {
+        if let Some(last) = last {
             self.go(MoveKind::Rapid, at_height(last.tip, self.links.heights.clearance), 0.0);
         }
     }

@@ -25,8 +25,6 @@ const FREE: f64 = 1e-3;
 /// Sides of triangles at which something stops the tool are halved down to this share of the tool's radius: what is
 /// stopped is as narrow as the tool, planes have triangles of any size.
 const FINE: f64 = 0.25;
-/// Points that halving may add at most, or nearly.
-const MOST_ADDED: usize = 1 << 21;
 /// Points judged between two looks at the watch.
 const CHUNK: usize = 1024;
 
@@ -101,13 +99,17 @@ pub struct OffsetSurface {
     pub triangles: Vec<[u32; 3]>,
     /// The mesh's number of each triangle, or of the one that it is a part of.
     pub numbers: Vec<u32>,
+    /// No side of a triangle at which something stops the tool, or flags change, is longer, mm.
+    pub fine: f64,
+    /// Whether that is longer than meant: the budget of points ended first, and areas are so much the coarser.
+    pub is_coarse: bool,
 }
 
 impl OffsetSurface {
     /// The offset of some `triangles` of the envelope's mesh, every position judged against the whole mesh.
     ///
     /// Triangles with a corner from which something keeps the tool, or with corners of several flags, are split until they
-    /// are small beside the tool.
+    /// are small beside the tool, as far as a budget of `most` points more goes: the longest first.
     ///
     /// Positions are exact for the normals that the mesh knows at its corners, else for its facets'. A position is free
     /// if the tool, lifted off by `tolerance` (mm) along the normal, enters nothing: then it enters nothing deeper than
@@ -122,18 +124,26 @@ impl OffsetSurface {
         sheet: Option<&Sheet>,
         triangles: &[u32],
         tolerance: f64,
+        most: usize,
         watch: &Watch,
     ) -> Result<Self, Cancelled> {
         let patches = Patches::of(envelope);
         let judge = Judge { envelope, tool, sheet, patches: &patches, tolerance };
         let (corners, connection) = welded(envelope.mesh(), &patches, triangles);
         let points = judge.points(&corners, watch)?;
-        let mut surface = Self { points, triangles: connection, numbers: triangles.to_vec() };
-        let (fine, most) = (FINE * envelope.cutter().max_radius(), surface.points.len() + MOST_ADDED);
-        while surface.points.len() < most {
-            let splits = Splits::of(&surface, fine);
+        let fine = FINE * envelope.cutter().max_radius();
+        let numbers = triangles.to_vec();
+        let mut surface = Self { points, triangles: connection, numbers, fine, is_coarse: false };
+        let most = surface.points.len() + most;
+        loop {
+            let splits = Splits::of(&surface, surface.fine);
             if splits.middles.is_empty() {
                 break;
+            }
+            if surface.points.len() + splits.middles.len() > most {
+                (surface.fine, surface.is_coarse) = (2.0 * surface.fine, true);
+                watch.advance(0)?;
+                continue;
             }
             surface.points.extend(judge.points(&splits.middles, watch)?);
             splits.apply(&mut surface);
@@ -330,6 +340,7 @@ mod tests {
     use styluscam_geometry::{ProfileDocument, ToolDocument};
 
     const TOLERANCE: f64 = 0.001;
+    const MOST: usize = 1 << 20;
 
     fn ball(diameter: f64) -> Tool {
         tool(ProfileDocument::Ball { diameter, radius: None, tip_flat: 0.0 })
@@ -343,7 +354,7 @@ mod tests {
         let index = Index::new(mesh);
         let all: Vec<u32> = (0..mesh.triangles().len() as u32).collect();
         let envelope = Envelope::new(mesh, &index, tool, None, 0.0);
-        OffsetSurface::new(&envelope, tool, None, &all, TOLERANCE, &Watch::default()).unwrap()
+        OffsetSurface::new(&envelope, tool, None, &all, TOLERANCE, MOST, &Watch::default()).unwrap()
     }
 
     /// A section (x, z) from left to right drawn out along Y from 0 to 60, a face to each piece of it where asked for.
@@ -565,7 +576,7 @@ mod tests {
         let (index, tool, watch) = (Index::new(&mesh), ball(6.0), Watch::default());
         watch.cancel();
         let envelope = Envelope::new(&mesh, &index, &tool, None, 0.0);
-        assert_eq!(OffsetSurface::new(&envelope, &tool, None, &[0], TOLERANCE, &watch), Err(Cancelled));
+        assert_eq!(OffsetSurface::new(&envelope, &tool, None, &[0], TOLERANCE, MOST, &watch), Err(Cancelled));
     }
 
     proptest! {
@@ -590,7 +601,7 @@ mod tests {
             let index = Index::new(&mesh);
             let all: Vec<u32> = (0..mesh.triangles().len() as u32).collect();
             let envelope = Envelope::new(&mesh, &index, &tool, None, margin);
-            let found = OffsetSurface::new(&envelope, &tool, None, &all, TOLERANCE, &Watch::default()).unwrap();
+            let found = OffsetSurface::new(&envelope, &tool, None, &all, TOLERANCE, MOST, &Watch::default()).unwrap();
             let body = tool.cutter_with(None, margin);
             let depth = |p: Vector, point: &OffsetPoint| {
                 let tip = point.tip + point.normal * margin - Vector::z() * margin;

@@ -1,36 +1,76 @@
 //! Triangles of an offset surface split where flags change.
+//!
+//! Sides are halved by Rivara's longest-side propagation (1984): with any side of a triangle its longest side is halved
+//! too, and the triangle is cut through that one first.
+//!
+//! Why rounds of it come to an end, whatever the flags say. A round takes sides away, all longer than `fine`: with a side that is
+//! to be halved go the longest sides of the triangles beside it, which are no shorter. In their place it puts halves;
+//! in each triangle beside them the median to its longest side c, at most sqrt(3)/2 c long (its square is
+//! (2 a^2 + 2 b^2 - c^2) / 4 with a, b <= c); and cuts from the middle of c to the middles of other sides, which are half as
+//! long as the third. So each new side can be written to the account of one that goes and is longer by 2 / sqrt(3) at least; a side
+//! has as many entries as its halves and the triangles beside it give, a finite number that halving does not raise; and
+//! what is no longer than `fine` never goes. Accounts opened from the first sides are trees of finite width and of a depth of
+//! log(longest / fine) / log(2 / sqrt(3)) at most: finite. Each round closes one account or more.
+//!
+//! Without the propagation a neighbour is cut through a short side while its longest stays whole, and flattens for ever.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+
+use rayon::prelude::*;
 
 use super::offset_surface::{Corner, OffsetSurface};
+
+/// A side by its ends, the lower first.
+type Side = (u32, u32);
 
 /// Sides to be halved in one round.
 pub struct Splits {
     /// Their middles: points that the surface does not have yet.
     pub middles: Vec<Corner>,
-    /// The number that each side's middle will have among the surface's points; sides by their ends, the lower first.
-    numbers: HashMap<(u32, u32), u32>,
-    fine: f64,
+    /// The number that each side's middle will have among the surface's points.
+    numbers: HashMap<Side, u32>,
+}
+
+/// A triangle with a side that may be halved.
+struct Large {
+    /// Among the surface's.
+    triangle: usize,
+    sides: [Side; 3],
+    lengths: [f64; 3],
+}
+
+impl Large {
+    fn of(surface: &OffsetSurface, triangle: usize, fine: f64) -> Option<Self> {
+        let sides = sides(surface.triangles[triangle]);
+        let lengths = sides.map(|side| length(surface, side));
+        lengths.iter().any(|length| *length > fine).then_some(Self { triangle, sides, lengths })
+    }
+
+    /// The sides longer than `fine`.
+    fn long(&self, fine: f64) -> impl Iterator<Item = Side> + '_ {
+        self.sides.iter().zip(&self.lengths).filter(move |(_, length)| **length > fine).map(|(side, _)| *side)
+    }
+
+    fn longest(&self) -> Side {
+        let [a, b, c] = self.lengths;
+        self.sides[if a >= b && a >= c { 0 } else { 1 + usize::from(c > b) }]
+    }
 }
 
 impl Splits {
-    /// The sides longer than `fine` (mm) of triangles whose corners differ in flag, or have a flag that says stopped.
+    /// The sides longer than `fine` (mm) of triangles whose corners differ in flag, or have a flag that says stopped; and
+    /// with each the longest side of every triangle that has it.
     pub fn of(surface: &OffsetSurface, fine: f64) -> Self {
-        let mut splits = Self { middles: Vec::new(), numbers: HashMap::new(), fine };
-        for (corners, triangle) in surface.triangles.iter().zip(&surface.numbers) {
-            let flags = corners.map(|i| surface.points[i as usize].flag);
-            if !flags[0].is_stopped() && flags.iter().all(|flag| *flag == flags[0]) {
-                continue;
-            }
-            for side in sides(*corners).into_iter().filter(|side| length(surface, *side) > fine) {
+        let large: Vec<Large> =
+            (0..surface.triangles.len()).into_par_iter().filter_map(|t| Large::of(surface, t, fine)).collect();
+        let halved = propagated(surface, &large, fine);
+        let mut splits = Self { middles: Vec::with_capacity(halved.len()), numbers: HashMap::new() };
+        for large in large.iter().filter(|_| !halved.is_empty()) {
+            let triangle = surface.numbers[large.triangle];
+            for side in large.sides.into_iter().filter(|side| halved.contains(side)) {
                 let next = (surface.points.len() + splits.middles.len()) as u32;
                 splits.numbers.entry(side).or_insert_with(|| {
-                    let [a, b] = [side.0, side.1].map(|i| &surface.points[i as usize]);
-                    splits.middles.push(Corner {
-                        point: (a.contact + b.contact) * 0.5,
-                        normal: (a.normal + b.normal).try_normalize(0.0).unwrap_or(a.normal),
-                        triangle: *triangle,
-                    });
+                    splits.middles.push(middle(surface, side, triangle));
                     next
                 });
             }
@@ -51,10 +91,9 @@ impl Splits {
     /// Cuts a triangle from the middle of the longest side to be halved to the corner beyond it, and the two parts again.
     fn part(&self, surface: &OffsetSurface, corners: [u32; 3], parts: &mut Vec<[u32; 3]>) {
         let sides = sides(corners);
-        // the map is asked for long sides only: it has no others
-        let long = (0..3).map(|k| (k, length(surface, sides[k]))).filter(|(_, length)| *length > self.fine);
-        let halved = long.filter_map(|(k, length)| Some((k, length, *self.numbers.get(&sides[k])?)));
-        let Some((k, _, middle)) = halved.max_by(|a, b| a.1.total_cmp(&b.1)) else {
+        let halved = (0..3).filter_map(|k| Some((k, *self.numbers.get(&sides[k])?)));
+        let longest = halved.max_by(|a, b| length(surface, sides[a.0]).total_cmp(&length(surface, sides[b.0])));
+        let Some((k, middle)) = longest else {
             parts.push(corners);
             return;
         };
@@ -64,11 +103,50 @@ impl Splits {
     }
 }
 
-/// The sides by their ends, the lower first; side k runs from corner k to the next.
-fn sides([a, b, c]: [u32; 3]) -> [(u32, u32); 3] {
+/// The sides to be halved: those that flags ask for, and the longest sides of all triangles beside them, and so on.
+fn propagated(surface: &OffsetSurface, large: &[Large], fine: f64) -> HashSet<Side> {
+    let flag = |corner: u32| surface.points[corner as usize].flag;
+    let differs = |large: &&Large| {
+        let [a, b, c] = surface.triangles[large.triangle].map(flag);
+        a.is_stopped() || a != b || a != c
+    };
+    let mut halved: HashSet<Side> = large.iter().filter(differs).flat_map(|large| large.long(fine)).collect();
+    if halved.is_empty() {
+        return halved;
+    }
+    let mut beside: Vec<(Side, u32)> = large
+        .par_iter()
+        .enumerate()
+        .flat_map_iter(|(number, large)| large.long(fine).map(move |side| (side, number as u32)))
+        .collect();
+    beside.par_sort_unstable();
+    let mut open: Vec<Side> = halved.iter().copied().collect();
+    while let Some(side) = open.pop() {
+        let first = beside.partition_point(|(other, _)| *other < side);
+        for (_, number) in beside[first..].iter().take_while(|(other, _)| *other == side) {
+            let longest = large[*number as usize].longest();
+            if halved.insert(longest) {
+                open.push(longest);
+            }
+        }
+    }
+    halved
+}
+
+fn middle(surface: &OffsetSurface, side: Side, triangle: u32) -> Corner {
+    let [a, b] = [side.0, side.1].map(|i| &surface.points[i as usize]);
+    Corner {
+        point: (a.contact + b.contact) * 0.5,
+        normal: (a.normal + b.normal).try_normalize(0.0).unwrap_or(a.normal),
+        triangle,
+    }
+}
+
+/// Side k runs from corner k to the next.
+fn sides([a, b, c]: [u32; 3]) -> [Side; 3] {
     [(a, b), (b, c), (c, a)].map(|(p, q)| (p.min(q), p.max(q)))
 }
 
-fn length(surface: &OffsetSurface, side: (u32, u32)) -> f64 {
+fn length(surface: &OffsetSurface, side: Side) -> f64 {
     (surface.points[side.0 as usize].contact - surface.points[side.1 as usize].contact).norm()
 }

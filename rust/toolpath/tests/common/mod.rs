@@ -3,6 +3,7 @@
 
 pub mod body;
 pub mod dice;
+pub mod plates;
 pub mod polygon;
 pub mod surfaces;
 pub mod tools;

@@ -1,0 +1,208 @@
+//! The order of passes: the nearest of a group that are left comes next.
+
+use rstar::{PointDistance, RTree, RTreeObject, AABB};
+use styluscam_geometry::Vector;
+use styluscam_motion::{Cancelled, Watch};
+
+use crate::{Pass, PathPoint};
+
+/// Groups of more passes are searched in a tree: for fewer it does not pay.
+const FEW: usize = 16;
+/// Points of a pass that stand in the tree as one, at most.
+const STRETCH: usize = 16;
+
+/// All passes in the order and direction in which they are followed, groups (levels or rows) one after the other.
+///
+/// Every other group is turned round if they `alternate`. Within a group the nearest pass comes next, the first of
+/// equals; a loop begins where it is nearest. In n log n of the points, or nearly.
+///
+/// # Errors
+/// `Cancelled`.
+pub fn ordered(passes: &[Pass], alternate: bool, watch: &Watch) -> Result<Vec<Pass>, Cancelled> {
+    let mut ordered: Vec<Pass> = Vec::with_capacity(passes.len());
+    for (number, group) in passes.chunk_by(|a, b| a.group == b.group).enumerate() {
+        let turned = alternate && number % 2 == 1;
+        let mut left = Left::of(group, turned);
+        for _ in group {
+            watch.advance(1)?;
+            let last = ordered.last().and_then(|pass| pass.points.last()).map(|point| point.tip);
+            ordered.extend(left.take(last).map(|pass| directed(pass, turned, last)));
+        }
+    }
+    Ok(ordered)
+}
+
+/// A pass in its direction; a loop begins at its point nearest to `from`.
+fn directed(pass: &Pass, turned: bool, from: Option<Vector>) -> Pass {
+    let mut pass = pass.clone();
+    if turned {
+        pass.points.reverse();
+    }
+    if let (true, Some(from)) = (pass.closed, from) {
+        pass.points.pop();
+        let distances = pass.points.iter().map(|point| square(point, from)).enumerate();
+        let nearest = distances.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(i, _)| i);
+        pass.points.rotate_left(nearest);
+        pass.points.extend(pass.points.first().copied());
+    }
+    pass
+}
+
+fn square(point: &PathPoint, from: Vector) -> f64 {
+    (point.tip - from).norm_squared()
+}
+
+/// The passes of a group that are not yet taken.
+struct Left<'a> {
+    group: &'a [Pass],
+    turned: bool,
+    is_taken: Vec<bool>,
+    /// Of large groups: stretches of all that are left.
+    tree: Option<RTree<Stretch<'a>>>,
+}
+
+impl<'a> Left<'a> {
+    fn of(group: &'a [Pass], turned: bool) -> Self {
+        let stretches = || group.iter().enumerate().flat_map(|(number, pass)| stretches(number, entries(pass, turned)));
+        let tree = (group.len() > FEW).then(|| RTree::bulk_load(stretches().collect()));
+        Self { group, turned, is_taken: vec![false; group.len()], tree }
+    }
+
+    /// Takes the pass nearest to `from`, or the first.
+    fn take(&mut self, from: Option<Vector>) -> Option<&'a Pass> {
+        let number = match (from, &self.tree) {
+            (None, _) => self.numbers().next(),
+            (Some(from), Some(tree)) => {
+                tree.nearest_neighbors(&from.into()).into_iter().map(|stretch| stretch.pass).min()
+            }
+            (Some(from), None) => {
+                let distance = |number: &usize| least(entries(&self.group[*number], self.turned), from);
+                self.numbers().min_by(|a, b| distance(a).total_cmp(&distance(b)))
+            }
+        }?;
+        self.is_taken[number] = true;
+        let pass = &self.group[number];
+        if let Some(tree) = &mut self.tree {
+            for stretch in stretches(number, entries(pass, self.turned)) {
+                tree.remove(&stretch);
+            }
+        }
+        Some(pass)
+    }
+
+    fn numbers(&self) -> impl Iterator<Item = usize> + use<'_, 'a> {
+        (0..self.group.len()).filter(|number| !self.is_taken[*number])
+    }
+}
+
+/// The points at which a pass may begin.
+fn entries(pass: &Pass, turned: bool) -> &[PathPoint] {
+    let entry = if turned { pass.points.last() } else { pass.points.first() };
+    if pass.closed {
+        &pass.points
+    } else {
+        entry.map_or(&[][..], std::slice::from_ref)
+    }
+}
+
+fn least(points: &[PathPoint], from: Vector) -> f64 {
+    points.iter().map(|point| square(point, from)).fold(f64::INFINITY, f64::min)
+}
+
+fn stretches(pass: usize, points: &[PathPoint]) -> impl Iterator<Item = Stretch<'_>> {
+    points.chunks(STRETCH).map(move |points| Stretch { pass, points })
+}
+
+/// Some neighbouring points of a pass.
+#[derive(PartialEq)]
+struct Stretch<'a> {
+    pass: usize,
+    points: &'a [PathPoint],
+}
+
+impl RTreeObject for Stretch<'_> {
+    type Envelope = AABB<[f64; 3]>;
+
+    fn envelope(&self) -> Self::Envelope {
+        let corner = |of: fn(f64, f64) -> f64| {
+            self.points.iter().map(|point| point.tip).reduce(|a, b| a.zip_map(&b, of)).unwrap_or_default()
+        };
+        AABB::from_corners(corner(f64::min).into(), corner(f64::max).into())
+    }
+}
+
+impl PointDistance for Stretch<'_> {
+    fn distance_2(&self, from: &[f64; 3]) -> f64 {
+        least(self.points, Vector::from(*from))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn pass(points: &[[f64; 3]], closed: bool, group: usize) -> Pass {
+        let point = |p: &[f64; 3]| PathPoint { tip: Vector::from(*p), normal: Vector::z(), selected: true };
+        let mut points: Vec<PathPoint> = points.iter().map(point).collect();
+        if closed {
+            points.extend(points.first().copied());
+        }
+        Pass { points, closed, group }
+    }
+
+    /// Always the nearest of all, by looking at all.
+    fn ordered_slowly(passes: &[Pass], alternate: bool) -> Vec<Pass> {
+        let mut ordered: Vec<Pass> = Vec::new();
+        for (number, group) in passes.chunk_by(|a, b| a.group == b.group).enumerate() {
+            let (turned, mut left): (bool, Vec<&Pass>) = (alternate && number % 2 == 1, group.iter().collect());
+            while !left.is_empty() {
+                let last = ordered.last().and_then(|pass| pass.points.last()).map(|point| point.tip);
+                let distance = |pass: &Pass| last.map_or(0.0, |from| least(entries(pass, turned), from));
+                let nearest = (0..left.len()).min_by(|a, b| distance(left[*a]).total_cmp(&distance(left[*b]))).unwrap();
+                ordered.push(directed(left.remove(nearest), turned, last));
+            }
+        }
+        ordered
+    }
+
+    fn any_passes() -> impl Strategy<Value = Vec<Pass>> {
+        // whole numbers: many are equally near
+        let place = (0..30_i32, 0..30_i32).prop_map(|(x, y)| [f64::from(x), f64::from(y), 0.0]);
+        let pass_of = (prop::collection::vec(place, 2..40), any::<bool>(), 0..3_usize);
+        prop::collection::vec(pass_of, 1..80).prop_map(|mut passes| {
+            passes.sort_by_key(|(_, _, group)| *group);
+            passes.iter().map(|(points, closed, group)| pass(points, *closed, *group)).collect()
+        })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(100))]
+        #[test]
+        fn the_nearest_comes_next_and_the_first_of_equals(passes in any_passes(), alternate in any::<bool>()) {
+            let ordered = ordered(&passes, alternate, &Watch::default()).unwrap();
+            prop_assert_eq!(ordered, ordered_slowly(&passes, alternate));
+        }
+    }
+
+    #[test]
+    fn thousands_of_loops_are_ordered_at_once() {
+        let corner = |i: usize, k: usize| {
+            let (sin, cos) = (k as f64).sin_cos();
+            [3.0 * (i % 80) as f64 + cos, 3.0 * (i / 80) as f64 + sin, 0.0]
+        };
+        let loops: Vec<Pass> =
+            (0..6400).map(|i| pass(&std::array::from_fn::<_, 60, _>(|k| corner(i, k)), true, 0)).collect();
+        let began = std::time::Instant::now();
+        assert_eq!(ordered(&loops, false, &Watch::default()).unwrap().len(), loops.len());
+        // 0.1 s on a machine that is not busy; looking at all of them took 40
+        assert!(began.elapsed().as_secs_f64() < 5.0, "{:?}", began.elapsed());
+    }
+
+    #[test]
+    fn it_can_be_cancelled() {
+        let watch = Watch::default();
+        watch.cancel();
+        assert_eq!(ordered(&[pass(&[[0.0; 3]; 2], false, 0)], false, &watch), Err(Cancelled));
+    }
+}
