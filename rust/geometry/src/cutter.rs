@@ -5,7 +5,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::piecewise::Piecewise;
+use crate::piecewise::{Piecewise, ROUNDING};
 use crate::profile::{Profile, Straight};
 
 /// Cells of the table over the radius; one tangent each. At 1024 a bound costs one look-up and is
@@ -98,7 +98,7 @@ impl Cutter {
         cutter.cells_per_mm = RADIUS_CELLS as f64 / cutter.max_radius;
         cutter.lines = (0..RADIUS_CELLS).map(|i| cutter.tangent_at(i as f64 / cutter.cells_per_mm)).collect();
         cutter.rises = (0..=RISE_CELLS).map(|i| cutter.rise_node(i)).collect();
-        let size = cutter.max_radius + cutter.max_height;
+        let size = cutter.size();
         cutter.heights = Some(Piecewise::of(cutter.max_radius, size, |radius| cutter.height_at_radius(radius)));
         let at_share = |share: f64| cutter.point_at(libm::atan2(share, 1.0 - share));
         cutter.points = Some([
@@ -106,6 +106,11 @@ impl Cutter {
             Piecewise::of(1.0, size, |share| at_share(share).1),
         ]);
         cutter
+    }
+
+    /// What rounding is a share of.
+    fn size(&self) -> f64 {
+        self.max_radius + self.max_height
     }
 
     fn rise_node(&self, i: usize) -> f64 {
@@ -236,7 +241,8 @@ impl Cutter {
             let next = (radius - (value - height) / rise).clamp(low.radius, high.radius);
             let step = (next - radius).abs();
             radius = next;
-            if step <= f64::EPSILON * radius {
+            // nearer than the table knows heights a step is chance
+            if step <= f64::EPSILON * radius || (value - height).abs() <= ROUNDING * self.size() {
                 return Some((radius, rise));
             }
         }

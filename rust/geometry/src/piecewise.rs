@@ -8,7 +8,7 @@ const CELLS: usize = 256;
 /// Coefficients of a polynomial: one line of a processor's cache.
 const TERMS: usize = 8;
 /// How far a polynomial may be from the function, as a share of the function's size.
-const ROUNDING: f64 = 2e-15;
+pub const ROUNDING: f64 = 2e-15;
 
 /// Where in a cell a polynomial is compared with the function, in u: between its nodes.
 const CHECKED: [f64; 4] = [-1.0, -0.38, 0.19, 1.0];

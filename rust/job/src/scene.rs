@@ -74,10 +74,12 @@ impl Scene {
         };
         let frame = turned.shifted(-zero);
         let mesh = part.mesh.placed(&frame);
+        let (index, (bvh, views)) =
+            rayon::join(|| Index::new(&mesh), || rayon::join(|| Bvh::new(&mesh), || faces::views(&mesh)));
         Ok(Self {
-            index: Index::new(&mesh),
-            bvh: Bvh::new(&mesh),
-            views: faces::views(&mesh),
+            index,
+            bvh,
+            views,
             mesh,
             frame,
             sheet,

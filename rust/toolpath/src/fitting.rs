@@ -3,8 +3,9 @@
 //! The exact path lies on an envelope that keeps half of what is left for fitting as its margin, so
 //! that a chord may stray by that much to either side and still neither gouges nor leaves too much.
 //!
-//! Witnesses, exact points, are put in until the path between neighbours strays little; then those are left out over
-//! which a longer chord passes closely. What a final chord strays is at most the sum of both.
+//! Witnesses, exact points, are put in until the path between neighbours is proven to stray little, or as far as that cannot
+//! be seen, looks so from close by; then those are left out over which a longer chord passes closely. What a final
+//! chord strays is at most the sum of both.
 
 use crate::PathPoint;
 use styluscam_geometry::Vector;
@@ -12,29 +13,53 @@ use styluscam_geometry::Vector;
 /// Share of the deviation within which the path stays at the middle between two witnesses. Where it has a kink beside
 /// the middle, it strays twice as much.
 const BETWEEN_WITNESSES: f64 = 0.2;
+/// Share of the deviation within which the path is proven to stay between two witnesses.
+pub const PROVEN: f64 = 2.0 * BETWEEN_WITNESSES;
 /// The rest: how far a witness may lie beside a chord.
-const AT_WITNESSES: f64 = 1.0 - 2.0 * BETWEEN_WITNESSES;
+const AT_WITNESSES: f64 = 1.0 - PROVEN;
+/// A smooth path strays half as much as its tangents lead beside the ends of a chord; where that is more than could be proven,
+/// no proof is tried.
+const HOPELESS: f64 = 2.2;
+/// Least share of a distance in any direction that counts as straying.
+const ASIDE: f64 = 0.25;
 /// What a path that crosses its chord aslant at the middle strays on both sides, as a share of what it would reach at
 /// the chord's end: 0.19 where it is a cubic, up to 0.5 where it bends at once.
 const ASLANT: f64 = 0.35;
 /// Chords are not divided below this length in plan, mm: a kink is cut by less than a controller resolves.
 const SHORTEST: f64 = 1e-4;
+/// What is seen to rise between two points no farther apart is passed over, mm: there they may touch a wall by rounding.
+const HIDDEN: f64 = 0.01;
 /// The border of the selected faces is found to this, mm.
 pub const BORDER: f64 = 1e-3;
-/// Points that one chord may pass over: bounds the work on long straight runs.
-const PASSED: usize = 512;
+
+/// The exact path that chords are fitted to.
+pub trait Course {
+    /// The exact point over the middle of two others, or none where there is none.
+    fn between(&mut self, a: &PathPoint, b: &PathPoint) -> Option<PathPoint>;
+
+    /// Whether all of the path between two of its points is known to stray by no more than `most` mm from the chord.
+    fn keeps_to(&self, _a: &PathPoint, _b: &PathPoint, _most: f64) -> bool {
+        false
+    }
+
+    /// Whether the path between two of its points is seen to rise over the chord by more than `most` mm, or not seen not to.
+    fn may_rise(&self, _a: &PathPoint, _b: &PathPoint, _most: f64) -> bool {
+        false
+    }
+}
+
+/// A path of which single points are known.
+impl<F: FnMut(&PathPoint, &PathPoint) -> Option<PathPoint>> Course for F {
+    fn between(&mut self, a: &PathPoint, b: &PathPoint) -> Option<PathPoint> {
+        self(a, b)
+    }
+}
 
 /// Adds exact points between those given, dense enough for [`thinned`] to keep chords within `deviation` mm of the path,
-/// and in plan no farther apart than `longest` mm: what is narrower may pass unseen.
+/// and in plan no farther apart than `longest` mm where nothing is proven: there what is narrower may pass unseen.
 ///
-/// `between` gives the exact point over the middle of two others, or none where there is none: there the path has
-/// no middle to keep to, and ends; what follows is another run. The middles are kept: they are witnesses.
-pub fn densified(
-    points: &[PathPoint],
-    deviation: f64,
-    longest: f64,
-    mut between: impl FnMut(&PathPoint, &PathPoint) -> Option<PathPoint>,
-) -> Vec<Vec<PathPoint>> {
+/// Where the course has no middle to keep to, a run ends; what follows is another. The middles are kept: they are witnesses.
+pub fn densified(points: &[PathPoint], deviation: f64, longest: f64, course: &mut impl Course) -> Vec<Vec<PathPoint>> {
     let Some(first) = points.first() else { return Vec::new() };
     let mut runs = Vec::new();
     let mut run = vec![*first];
@@ -44,12 +69,21 @@ pub fn densified(
         while let Some(b) = pending.pop() {
             let a = run[run.len() - 1];
             let length = (b.tip - a.tip).xy().norm();
-            if length <= SHORTEST {
+            let is_known = || may_keep_to(&a, &b, PROVEN * deviation) && course.keeps_to(&a, &b, PROVEN * deviation);
+            if length <= SHORTEST || is_known() {
                 run.push(b);
                 continue;
             }
-            match between(&a, &b).filter(|m| divides(m, &a, &b)) {
+            match course.between(&a, &b).filter(|m| divides(m, &a, &b)) {
                 Some(m) if 0.5 * length > longest || stray_around(&a, &m, &b) > BETWEEN_WITNESSES * deviation => {
+                    pending.extend([b, m]);
+                }
+                // what hides between two places is looked for in ever smaller pieces
+                Some(m)
+                    if length > HIDDEN
+                        && (course.may_rise(&a, &m, PROVEN * deviation)
+                            || course.may_rise(&m, &b, PROVEN * deviation)) =>
+                {
                     pending.extend([b, m]);
                 }
                 Some(m) => run.extend([m, b]),
@@ -68,19 +102,45 @@ fn divides(m: &PathPoint, a: &PathPoint, b: &PathPoint) -> bool {
     (m.tip - a.tip).xy().norm() < whole && (b.tip - m.tip).xy().norm() < whole
 }
 
+/// Whether a proof that the path between two points keeps to within `most` mm of the chord is worth trying.
+pub fn may_keep_to(a: &PathPoint, b: &PathPoint, most: f64) -> bool {
+    bend(a, b) <= HOPELESS * most
+}
+
+/// What a distance of `most` mm along the normals of two points, as [`stray`] measures it, is in height.
+pub fn in_height(a: &PathPoint, b: &PathPoint, most: f64) -> f64 {
+    most / a.normal.z.max(b.normal.z).max(ASIDE)
+}
+
 /// Leaves out witnesses as long as the path between stays within `deviation` mm of the chord. Ends are kept.
+///
+/// How many a chord may pass is looked for in doubled, then in halved steps; what it passes is looked at whole each time.
 pub fn thinned(points: &[PathPoint], deviation: f64) -> Vec<PathPoint> {
     let Some(first) = points.first() else { return Vec::new() };
     let mut out = vec![*first];
     let mut from = 0;
     while from + 1 < points.len() {
-        let mut to = from + 1;
-        while to + 1 < points.len() && to - from < PASSED {
-            let passed = &points[from + 1..=to];
-            if passed.iter().any(|p| stray(p, points[from].tip, points[to + 1].tip) > AT_WITNESSES * deviation) {
-                break;
+        let passes = |to: usize| {
+            let mut passed = points[from + 1..to].iter();
+            passed.all(|p| stray(p, points[from].tip, points[to].tip) <= AT_WITNESSES * deviation)
+        };
+        let (mut to, mut beyond) = (from + 1, points.len());
+        let mut step = 1;
+        while to + step < beyond {
+            if passes(to + step) {
+                to += step;
+                step *= 2;
+            } else {
+                beyond = to + step;
             }
-            to += 1;
+        }
+        while beyond - to > 1 {
+            let middle = usize::midpoint(to, beyond);
+            if passes(middle) {
+                to = middle;
+            } else {
+                beyond = middle;
+            }
         }
         out.push(points[to]);
         from = to;
@@ -155,7 +215,7 @@ fn stray(exact: &PathPoint, a: Vector, b: Vector) -> f64 {
     let run = chord.xy().norm_squared();
     let share = if run > 0.0 { ((exact.tip - a).xy().dot(&chord.xy()) / run).clamp(0.0, 1.0) } else { 0.0 };
     let aside = exact.tip - a - chord * share;
-    aside.dot(&exact.normal).abs().max(aside.norm() / 4.0)
+    aside.dot(&exact.normal).abs().max(ASIDE * aside.norm())
 }
 
 /// How far a path with the exact middle `m` strays from a chord, at the middle or beside it.
@@ -176,7 +236,7 @@ mod tests {
     use super::*;
 
     fn point(x: f64, z: f64, selected: bool) -> PathPoint {
-        PathPoint { tip: Vector::new(x, 0.0, z), normal: Vector::z(), selected }
+        PathPoint { tip: Vector::new(x, 0.0, z), normal: Vector::z(), selected, triangle: 0 }
     }
 
     fn parabola(a: &PathPoint, b: &PathPoint) -> Option<PathPoint> {
@@ -187,7 +247,7 @@ mod tests {
     #[test]
     fn chords_stay_within_the_deviation_and_are_few() {
         let ends = [point(-3.0, 0.9, true), point(3.0, 0.9, true)];
-        let dense = densified(&ends, 1e-3, f64::INFINITY, parabola);
+        let dense = densified(&ends, 1e-3, f64::INFINITY, &mut { parabola });
         assert_eq!(dense.len(), 1);
         let thin = thinned(&dense[0], 1e-3);
         for pair in thin.windows(2) {
@@ -201,18 +261,18 @@ mod tests {
     #[test]
     fn a_middle_that_lies_elsewhere_ends_the_run() {
         let ends = [point(0.0, 0.0, true), point(1.0, 0.0, false)];
-        let astray = |_: &PathPoint, _: &PathPoint| Some(point(5.0, 7.0, true));
-        assert!(densified(&ends, 1e-3, f64::INFINITY, astray).is_empty());
+        let mut astray = |_: &PathPoint, _: &PathPoint| Some(point(5.0, 7.0, true));
+        assert!(densified(&ends, 1e-3, f64::INFINITY, &mut astray).is_empty());
         assert_eq!(selected_runs(&ends, false, astray).len(), 1);
     }
 
     #[test]
     fn a_chord_without_a_middle_parts_the_run() {
         let points: Vec<PathPoint> = (0..5).map(|i| point(f64::from(i), 0.0, true)).collect();
-        let torn = |a: &PathPoint, b: &PathPoint| {
+        let mut torn = |a: &PathPoint, b: &PathPoint| {
             parabola(a, b).filter(|m| (m.tip.x - 1.5).abs() > 0.1).map(|m| point(m.tip.x, 0.0, true))
         };
-        let runs = densified(&points, 1e-3, f64::INFINITY, torn);
+        let runs = densified(&points, 1e-3, f64::INFINITY, &mut torn);
         let ends: Vec<[f64; 2]> = runs.iter().map(|run| [run[0].tip.x, run[run.len() - 1].tip.x]).collect();
         assert_eq!(ends, [[0.0, 1.0], [2.0, 4.0]]);
     }
@@ -228,11 +288,11 @@ mod tests {
 
     #[test]
     fn a_step_is_not_cut() {
-        let step = |a: &PathPoint, b: &PathPoint| {
+        let mut step = |a: &PathPoint, b: &PathPoint| {
             let x = 0.5 * (a.tip.x + b.tip.x);
             Some(point(x, if x < 0.3 { 0.0 } else { 20.0 }, true))
         };
-        let dense = densified(&[point(0.0, 0.0, true), point(1.0, 20.0, true)], 1e-3, f64::INFINITY, step);
+        let dense = densified(&[point(0.0, 0.0, true), point(1.0, 20.0, true)], 1e-3, f64::INFINITY, &mut step);
         assert_eq!(dense.len(), 1);
         for pair in thinned(&dense[0], 1e-3).windows(2) {
             let climbs = pair[1].tip.z - pair[0].tip.z > 1e-3;

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use styluscam_geometry::Vector;
 use styluscam_motion::{Cancelled, Move, MoveKind, Watch};
 
-use crate::{fitting, nearest, Pass, PathPoint, Surface};
+use crate::{fitting, fitting::Course, nearest, Pass, PathPoint, Surface};
 
 /// Heights of the ways between passes, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,6 +81,30 @@ pub fn link(surface: &Surface<'_>, passes: &[Pass], links: &Links, watch: &Watch
     Ok(route.moves)
 }
 
+/// A way over selected faces.
+struct Way<'a> {
+    surface: &'a Surface<'a>,
+    hint: Option<u32>,
+    /// Whether it has led over nothing else so far.
+    is_sound: bool,
+}
+
+impl Course for Way<'_> {
+    fn between(&mut self, a: &PathPoint, b: &PathPoint) -> Option<PathPoint> {
+        let middle = self.surface.between(a, b, &mut self.hint);
+        self.is_sound &= middle.is_some_and(|m| m.selected);
+        middle.filter(|_| self.is_sound)
+    }
+
+    fn keeps_to(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
+        self.surface.keeps_to_selected(a, b, most)
+    }
+
+    fn may_rise(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
+        self.surface.may_rise(a, b, most)
+    }
+}
+
 struct Route<'a> {
     links: &'a Links,
     surface: &'a Surface<'a>,
@@ -93,14 +117,9 @@ impl Route<'_> {
         if (to.tip - from.tip).xy().norm() > self.links.ride {
             return None;
         }
-        let mut hint = None;
-        let mut sound = true;
-        let runs = fitting::densified(&[*from, *to], self.links.deviation, self.links.narrow, |a, b| {
-            let middle = self.surface.between(a, b, &mut hint);
-            sound &= middle.is_some_and(|m| m.selected);
-            middle
-        });
-        let way = runs.first().filter(|_| sound)?;
+        let mut way = Way { surface: self.surface, hint: None, is_sound: true };
+        let runs = fitting::densified(&[*from, *to], self.links.deviation, self.links.narrow, &mut way);
+        let way = runs.first().filter(|_| way.is_sound)?;
         Some(fitting::thinned(way, self.links.deviation)[1..].to_vec())
     }
 

@@ -143,7 +143,8 @@ mod tests {
     use proptest::prelude::*;
 
     fn pass(points: &[[f64; 3]], closed: bool, group: usize) -> Pass {
-        let point = |p: &[f64; 3]| PathPoint { tip: Vector::from(*p), normal: Vector::z(), selected: true };
+        let point =
+            |p: &[f64; 3]| PathPoint { tip: Vector::from(*p), normal: Vector::z(), selected: true, triangle: 0 };
         let mut points: Vec<PathPoint> = points.iter().map(point).collect();
         if closed {
             points.extend(points.first().copied());

@@ -2,6 +2,7 @@
 
 use styluscam_geometry::Vector;
 
+use crate::fitting;
 use crate::offset::{Contact, Envelope};
 
 /// A contact on an unselected face's border still counts while its normal is this close to a selected facet's, rad:
@@ -20,6 +21,8 @@ pub struct PathPoint {
     pub normal: Vector,
     /// Whether the contact lies on a selected face.
     pub selected: bool,
+    /// The triangle touched, one of equals.
+    pub triangle: u32,
 }
 
 /// Envelope and selection, asked point by point.
@@ -68,6 +71,36 @@ impl<'a> Surface<'a> {
         self.at(middle.x, middle.y, hint)
     }
 
+    /// Whether all exact positions between two stay within `most` mm of the straight line, as fitting measures:
+    /// proven, for whatever lies there. False where that cannot be seen.
+    #[must_use]
+    pub(crate) fn keeps_to(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
+        let height = fitting::in_height(a, b, most);
+        self.envelope.dip([a.tip, b.tip], [a.triangle, b.triangle]) <= height
+            && self.envelope.keeps_under([a.tip, b.tip], height, |_| height)
+    }
+
+    /// Whether exact positions between two may lie over the straight line by more than `most` mm: false only where it is
+    /// proven that none does.
+    #[must_use]
+    pub(crate) fn may_rise(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
+        let height = fitting::in_height(a, b, most);
+        !self.envelope.keeps_under([a.tip, b.tip], height, |_| height)
+    }
+
+    /// As [`keeps_to`](Self::keeps_to), and that nothing is touched between two selected positions but what is selected.
+    #[must_use]
+    pub(crate) fn keeps_to_selected(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
+        let Some(selected) = self.selected else { return self.keeps_to(a, b, most) };
+        let height = fitting::in_height(a, b, most);
+        // nothing lies lower than that under the line, so what else does is not touched
+        let limit = |triangle: u32| if selected[triangle as usize] { height } else { -height };
+        a.selected
+            && b.selected
+            && self.envelope.dip([a.tip, b.tip], [a.triangle, b.triangle]) < height
+            && self.envelope.keeps_under([a.tip, b.tip], -height, limit)
+    }
+
     /// A contact over (x, y) as a path point.
     #[must_use]
     pub fn path_point(&self, x: f64, y: f64, contact: &Contact) -> PathPoint {
@@ -76,6 +109,7 @@ impl<'a> Surface<'a> {
             normal: contact.normal,
             selected: (self.heights[0]..=self.heights[1]).contains(&contact.tip)
                 && self.selected.is_none_or(|selected| self.envelope.belongs(contact, selected, SPREAD)),
+            triangle: contact.triangle,
         }
     }
 

@@ -59,6 +59,14 @@ impl Meridian for Arc {
         slope.clamp(within[0], within[1])
     }
 
+    fn slope_at_height(&self, height: f64, within: [f64; 2]) -> f64 {
+        // 1 - cos, told from that of the start: nothing cancels near the tip
+        let half = libm::sin(0.5 * self.start);
+        let versine = (2.0 * half * half + height / self.radius).max(0.0);
+        let sin = (versine * (2.0 - versine)).max(0.0).sqrt();
+        libm::atan2(sin, 1.0 - versine).clamp(within[0], within[1])
+    }
+
     fn slope_nearest(&self, (r, z): (f64, f64), within: [f64; 2], _guess: f64) -> f64 {
         // the direction from the centre, told from that to the start
         let (sin, cos) = libm::sincos(self.start);
@@ -73,5 +81,27 @@ impl Meridian for Arc {
         let product = radius * (2.0 * first + radius);
         let rest = (up * up - product).max(0.0).sqrt();
         product / (up + rest)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::f64::consts::FRAC_PI_2;
+
+    proptest! {
+        #[test]
+        fn height_gives_back_the_slope(
+            radius in 1e-3..1e3_f64,
+            start in prop_oneof![Just(0.0), 0.0..1.5_f64],
+            share in 0.0..1.0_f64,
+        ) {
+            let arc = Arc::new(radius, start);
+            let slope = start + share * (FRAC_PI_2 - start);
+            let (_, height) = arc.point_at(slope);
+            let found = arc.slope_at_height(height, [start, FRAC_PI_2]);
+            prop_assert!((arc.point_at(found).1 - height).abs() <= 1e-15 * radius, "{slope} {found}");
+        }
     }
 }

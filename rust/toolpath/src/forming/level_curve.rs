@@ -44,8 +44,8 @@ impl<'a> LevelCurve<'a> {
     }
 
     /// Whether the tip must stay above the level at a place.
-    pub fn is_above(&mut self, place: Place) -> bool {
-        self.contact(place).is_some_and(|contact| self.keeps_off(&contact))
+    pub fn is_above(&mut self, [x, y]: Place) -> bool {
+        self.surface.envelope().tip_near(x, y, &mut self.hint).is_some_and(|tip| is_over(tip, self.z))
     }
 
     fn contact(&mut self, [x, y]: Place) -> Option<Contact> {
@@ -106,6 +106,12 @@ impl<'a> LevelCurve<'a> {
     /// Where the triangle of a contact lets the tool go on the line.
     fn release(&self, contact: &Contact, line: &Line) -> Option<(f64, Contact)> {
         self.surface.envelope().release(contact.triangle, line, self.z + OVER)
+    }
+
+    /// Whether the envelope between two points of the level is known to stray by no more than `most` mm from it: the chord
+    /// is as good as the level there.
+    pub fn keeps_to(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
+        self.surface.keeps_to(a, b, most)
     }
 
     fn point(&self, line: &Line, way: f64, contact: &Contact) -> Option<PathPoint> {

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use styluscam_motion::Watch;
 
 use super::stances::stances;
-use crate::{fitting, Pass, PathPoint, PlanError, Surface};
+use crate::{fitting, fitting::Course, Pass, PathPoint, PlanError, Surface};
 
 /// Distance between samples where a selected facet could be touched between two places at which none is, mm.
 const FINE: f64 = 0.1;
@@ -46,12 +46,37 @@ pub fn zig_zag(surface: &Surface<'_>, rows: &Rows, deviation: f64, watch: &Watch
     let passes: Result<Vec<Vec<Pass>>, PlanError> = (0..lines.count)
         .into_par_iter()
         .map(|row| {
-            let passes = lines.slice(surface, row, &facets[row], deviation);
+            let passes = lines.slice(surface, row, &facets[row], deviation, watch);
             watch.advance(1)?;
             Ok(passes)
         })
         .collect();
     Ok(passes?.into_iter().flatten().collect())
+}
+
+/// The envelope over a row.
+struct RowCourse<'a> {
+    surface: &'a Surface<'a>,
+    hint: Option<u32>,
+    watch: &'a Watch,
+}
+
+impl Course for RowCourse<'_> {
+    fn between(&mut self, a: &PathPoint, b: &PathPoint) -> Option<PathPoint> {
+        // a cancelled row ends at once, whatever is left of it
+        if self.watch.is_cancelled() {
+            return None;
+        }
+        self.surface.between(a, b, &mut self.hint)
+    }
+
+    fn keeps_to(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
+        self.surface.keeps_to(a, b, most)
+    }
+
+    fn may_rise(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
+        self.surface.may_rise(a, b, most)
+    }
 }
 
 /// Parallel lines in plan: along + across = place.
@@ -89,14 +114,25 @@ impl Lines {
         Some(Self { along, across, range: range(along), first, count, stepover, spacing, narrow })
     }
 
-    fn slice(&self, surface: &Surface<'_>, row: usize, facets: &[[f64; 2]], deviation: f64) -> Vec<Pass> {
-        let mut hint = None;
-        let met = self.met(surface, row, facets, &mut hint);
-        let mut between = |a: &PathPoint, b: &PathPoint| surface.between(a, b, &mut hint);
+    /// The passes of a row; when `watch` is cancelled, some of them.
+    fn slice(
+        &self,
+        surface: &Surface<'_>,
+        row: usize,
+        facets: &[[f64; 2]],
+        deviation: f64,
+        watch: &Watch,
+    ) -> Vec<Pass> {
+        let mut course = RowCourse { surface, hint: None, watch };
+        let plain = |a: &PathPoint, b: &PathPoint| {
+            let most = fitting::PROVEN * deviation;
+            !watch.is_cancelled() && fitting::may_keep_to(a, b, most) && surface.keeps_to_selected(a, b, most)
+        };
+        let met = self.met(surface, row, facets, plain, &mut course.hint);
         let mut passes = Vec::new();
         for exact in met {
-            for run in fitting::selected_runs(&exact, false, &mut between) {
-                let runs = fitting::densified(&run, deviation, self.narrow, &mut between);
+            for run in fitting::selected_runs(&exact, false, |a, b| course.between(a, b)) {
+                let runs = fitting::densified(&run, deviation, self.narrow, &mut course);
                 let pass = |run| Pass { points: fitting::thinned(run, deviation), closed: false, group: row };
                 passes.extend(runs.iter().map(|run| pass(run)));
             }
@@ -111,6 +147,7 @@ impl Lines {
         surface: &Surface<'_>,
         row: usize,
         facets: &[[f64; 2]],
+        plain: impl Fn(&PathPoint, &PathPoint) -> bool,
         hint: &mut Option<u32>,
     ) -> Vec<Vec<PathPoint>> {
         let offset = self.offset(row);
@@ -121,7 +158,7 @@ impl Lines {
         let mut runs = Vec::new();
         let mut run = Vec::new();
         let mut before: Option<f64> = None;
-        for (s, point) in self.sampled(facets, &mut at) {
+        for (s, point) in self.sampled(facets, plain, &mut at) {
             match (point, before) {
                 (Some(point), Some(before)) if run.is_empty() => {
                     run.extend(outermost(s, before, &mut at));
@@ -140,10 +177,13 @@ impl Lines {
         runs
     }
 
-    /// Places along a row and what the tool meets there.
+    /// Places along a row and what the tool meets there: the farther apart, the longer nothing changes.
+    ///
+    /// `plain` says of two points whether all between them is selected and on a straight line with them.
     fn sampled(
         &self,
         facets: &[[f64; 2]],
+        plain: impl Fn(&PathPoint, &PathPoint) -> bool,
         at: &mut impl FnMut(f64) -> Option<PathPoint>,
     ) -> Vec<(f64, Option<PathPoint>)> {
         let [first, last] = self.range;
@@ -155,19 +195,29 @@ impl Lines {
             facing[from..=to].fill(true);
         }
         let selected = |point: Option<PathPoint>| point.is_some_and(|p| p.selected);
+        let is_plain = |a: Option<PathPoint>, b: Option<PathPoint>| a.zip(b).is_some_and(|(a, b)| plain(&a, &b));
         let mut before = at(first);
-        let mut sampled = Vec::with_capacity(samples + 1);
-        sampled.push((first, before));
-        for (i, facing) in facing.into_iter().enumerate() {
+        let mut sampled = vec![(first, before)];
+        let (mut i, mut step) = (0, 1);
+        while i < samples {
+            step = step.min(samples - i);
             let start = first + i as f64 * gap;
-            let point = at(start + gap);
-            if facing && !selected(before) && !selected(point) {
+            let end = start + step as f64 * gap;
+            let point = at(end);
+            let goes_on = is_plain(before, point);
+            if step > 1 && !goes_on {
+                step /= 2;
+                continue;
+            }
+            if facing[i] && !selected(before) && !selected(point) {
                 let fine = (gap / FINE).ceil() as usize;
                 let between = (1..fine).map(|j| start + gap * j as f64 / fine as f64);
                 sampled.extend(between.map(|s| (s, at(s))));
             }
-            sampled.push((start + gap, point));
+            sampled.push((end, point));
             before = point;
+            i += step;
+            step = if goes_on { 2 * step } else { 1 };
         }
         sampled
     }

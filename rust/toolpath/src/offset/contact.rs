@@ -17,6 +17,11 @@ const ACROSS: f64 = 1e-6;
 /// must not let a contact fall between two facets. The height is wrong by less than this.
 const OVERHANG: f64 = 1e-13;
 
+/// Cuts of a chord, for one triangle, before its tips count as too high.
+const CUTS: usize = 6;
+/// Parts are cut off a chord of at least this share of it.
+const LEAST_CUT: f64 = 0.1;
+
 /// The part of a triangle that is touched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Feature {
@@ -71,6 +76,31 @@ pub struct Facet {
     bend: f64,
 }
 
+/// A straight line of the cutter's tips.
+#[derive(Clone, Copy, Debug)]
+pub struct Chord {
+    pub from: [f64; 2],
+    /// From its beginning to its end, in plan,
+    pub along: [f64; 2],
+    /// and in height.
+    pub rise: f64,
+    /// Height of its beginning.
+    pub tip: f64,
+}
+
+impl Chord {
+    /// Place and height at a share of its length.
+    pub fn at(&self, share: f64) -> ([f64; 2], f64) {
+        ([0, 1].map(|i| self.from[i] + share * self.along[i]), self.tip + share * self.rise)
+    }
+
+    /// The part of it between two shares of its length.
+    pub fn part(&self, from: f64, to: f64) -> Self {
+        let (begin, tip) = self.at(from);
+        Self { from: begin, along: self.along.map(|way| (to - from) * way), rise: (to - from) * self.rise, tip }
+    }
+}
+
 /// The triangles of an index, made ready for one cutter.
 pub struct Contacts<'a> {
     index: &'a Index,
@@ -109,6 +139,31 @@ fn gap_to_segment(place: [f64; 2], a: Vector, b: Vector) -> [f64; 2] {
     let square = along[0] * along[0] + along[1] * along[1];
     let share = if square > 0.0 { (-(along[0] * from[0] + along[1] * from[1]) / square).clamp(0.0, 1.0) } else { 0.0 };
     [from[0] + share * along[0], from[1] + share * along[1]]
+}
+
+/// Distance in plan between a triangle and a segment.
+fn apart_in_plan(corners: &[Vector; 3], [from, to]: [[f64; 2]; 2]) -> f64 {
+    let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+    let plan = corners.map(|p| [p.x, p.y]);
+    let turns = [0, 1, 2].map(|i| side(plan[i], plan[(i + 1) % 3], from));
+    if turns.iter().all(|turn| *turn >= 0.0) || turns.iter().all(|turn| *turn <= 0.0) {
+        return 0.0;
+    }
+    let [a, b] = [from, to].map(|p| Vector::new(p[0], p[1], 0.0));
+    let mut least = f64::INFINITY;
+    for i in 0..3 {
+        let (p, q) = (plan[i], plan[(i + 1) % 3]);
+        if side(p, q, from) * side(p, q, to) < 0.0 && side(from, to, p) * side(from, to, q) < 0.0 {
+            return 0.0;
+        }
+        let ways = [
+            gap_to_segment(p, a, b),
+            gap_to_segment(from, corners[i], corners[(i + 1) % 3]),
+            gap_to_segment(to, corners[i], corners[(i + 1) % 3]),
+        ];
+        least = ways.iter().fold(least, |least, way| least.min(libm::hypot(way[0], way[1])));
+    }
+    least
 }
 
 /// A triangle seen from a place and a height, mm.
@@ -343,6 +398,77 @@ impl<'a> Contacts<'a> {
             alone.tip
         });
         tips.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether the tips that a triangle alone asks for stay within `most` mm over a chord of tips.
+    ///
+    /// Along the chord they are concave, so they stay below their tangents over its ends, and over any place between them:
+    /// over the one where those meet, the highest that they allow. What is too high there is, or looks so after a few cuts.
+    pub fn stays_under(&self, triangle: u32, chord: &Chord, most: f64) -> bool {
+        let over_plane = |share: f64| {
+            let (at, tip) = chord.at(share);
+            self.greatest_of_plane(triangle, at, [0.0; 2]) - tip
+        };
+        if [0.0, 1.0].map(over_plane).iter().all(|over| *over <= most) {
+            return true; // never for a wall
+        }
+        let ends = [0.0, 1.0].map(|share| self.over_chord(triangle, chord, share));
+        self.stays_under_between(triangle, chord, most, [(0.0, ends[0]), (1.0, ends[1])], CUTS)
+    }
+
+    fn stays_under_between(
+        &self,
+        triangle: u32,
+        chord: &Chord,
+        most: f64,
+        ends: [(f64, Option<[f64; 2]>); 2],
+        cuts: usize,
+    ) -> bool {
+        let [(from, first), (to, last)] = ends;
+        if [first, last].into_iter().flatten().any(|[over, _]| over > most) {
+            return false;
+        }
+        let next = match (first, last) {
+            (Some([first, rise]), Some([last, fall])) => {
+                // where the tangents meet; where they do not fall towards each other, they are one line but for rounding
+                let bend = rise - fall;
+                let way = if bend > 0.0 { (last - first - fall * (to - from)) / bend } else { 0.0 };
+                let way = way.clamp(0.0, to - from);
+                if first + rise * way <= most {
+                    return true;
+                }
+                (from + way).clamp(from + LEAST_CUT * (to - from), to - LEAST_CUT * (to - from))
+            }
+            _ if self.is_out_of_reach(triangle, chord, [from, to], most) => return true,
+            _ => 0.5 * (from + to),
+        };
+        if cuts == 0 {
+            return false;
+        }
+        let middle = (next, self.over_chord(triangle, chord, next));
+        self.stays_under_between(triangle, chord, most, [ends[0], middle], cuts - 1)
+            && self.stays_under_between(triangle, chord, most, [middle, ends[1]], cuts - 1)
+    }
+
+    /// How far the tip that a triangle alone asks for lies over a chord, at a share of its length, and how that rises by the
+    /// share; none where the cutter does not reach it.
+    fn over_chord(&self, triangle: u32, chord: &Chord, share: f64) -> Option<[f64; 2]> {
+        let ([x, y], tip) = chord.at(share);
+        let (found, [gx, gy]) = self.tangent(triangle, [x, y])?;
+        let rise = gx * chord.along[0] + gy * chord.along[1] - chord.rise;
+        (!rise.is_nan()).then_some([found - tip, rise])
+    }
+
+    /// Whether a triangle is nowhere on a part of a chord near and high enough to reach over it, by its distance in plan.
+    fn is_out_of_reach(&self, triangle: u32, chord: &Chord, [from, to]: [f64; 2], most: f64) -> bool {
+        let corners = self.index.triangles().at(triangle);
+        let [(a, low), (b, high)] = [from, to].map(|share| chord.at(share));
+        let apart = apart_in_plan(&corners, [a, b]);
+        if apart > self.cutter.max_radius() + self.overhang {
+            return true;
+        }
+        let top = corners.iter().fold(f64::NEG_INFINITY, |most, p| most.max(p.z));
+        top - self.cutter.height_bound(apart.min(self.cutter.max_radius())) <= low.min(high) + most
     }
 
     /// The tip that a triangle alone asks for over a place, and its gradient there: towards the contact.

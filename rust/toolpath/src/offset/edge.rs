@@ -42,6 +42,9 @@ pub fn touch(
     if let Some(ball) = cutter.as_ball() {
         return line.touch_ball(ball);
     }
+    if line.steep == 0.0 {
+        return line.touch_level(cutter, best);
+    }
     let near =
         (line.along[0] * (guess[0] - x) + line.along[1] * (guess[1] - y)).clamp(line.first, line.first + line.run);
     if line.bound(cutter, near) < best {
@@ -125,6 +128,15 @@ impl Line {
         let along = self.steep * (circle / (1.0 + self.steep * self.steep)).sqrt();
         let below = (circle - along * along).max(0.0).sqrt();
         self.contact(along, (self.q * self.q + along * along) / (ball + below))
+    }
+
+    /// A level edge is touched where it is nearest to the axis.
+    #[inline]
+    fn touch_level(&self, cutter: &Cutter, best: f64) -> Option<EdgeContact> {
+        if self.foot - cutter.height_bound(self.q) < best {
+            return None;
+        }
+        self.contact(0.0, cutter.quick_height_at_radius(self.q))
     }
 
     /// The contact where polynomials do not serve.

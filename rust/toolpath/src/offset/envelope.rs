@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use styluscam_geometry::{Cutter, Mesh, Sheet, Tool, Vector};
 use styluscam_motion::{Cancelled, Watch};
 
-use super::contact::{self, Best, Contacts, Facet, Feature};
+use super::contact::{self, Best, Chord, Contacts, Facet, Feature};
 use super::features::{Neighbours, NO_NEIGHBOUR};
 use super::index::{Index, Lines, Matched};
 use super::push::{self, Line, Release};
@@ -125,10 +125,24 @@ impl<'a> Envelope<'a> {
     /// left holding this one's. Another hint changes the tip by rounding at most.
     #[must_use]
     pub fn contact_near(&self, x: f64, y: f64, hint: &mut Option<u32>) -> Option<Contact> {
-        let found = Searcher::default().one(&self.ground(), [x, y], hint.map(|number| self.index.place(number)));
-        let contact = self.contact_of(&found, [x, y])?;
-        *hint = Some(contact.triangle);
-        Some(contact)
+        let found = self.found_near(x, y, hint)?;
+        Some(self.contact_of(&found, [x, y]))
+    }
+
+    /// The tip of [`contact_near`](Self::contact_near) alone, which is quicker.
+    #[must_use]
+    pub fn tip_near(&self, x: f64, y: f64, hint: &mut Option<u32>) -> Option<f64> {
+        self.found_near(x, y, hint).map(|found| found.tip + self.above)
+    }
+
+    fn found_near(&self, x: f64, y: f64, hint: &mut Option<u32>) -> Option<Best> {
+        let near = hint.map(|number| self.index.place(number));
+        let found = Searcher::with(|searcher| searcher.one(&self.ground(), [x, y], near));
+        if !found.is_something() {
+            return None;
+        }
+        *hint = Some(self.index.number(found.triangle));
+        Some(found)
     }
 
     /// Where the tool, its tip at height `z` and standing free at the line's beginning, first touches on its way along
@@ -191,7 +205,7 @@ impl<'a> Envelope<'a> {
     /// # Errors
     /// `Cancelled` when `watch` says so.
     pub fn contacts(&self, places: &[[f64; 2]], watch: &Watch) -> Result<Vec<Option<Contact>>, Cancelled> {
-        self.map_places(places, watch, |found, place| self.contact_of(&found, place))
+        self.map_places(places, watch, |found, place| found.is_something().then(|| self.contact_of(&found, place)))
     }
 
     /// What no tip exceeds over each cell of a lattice where it may be higher than the cell's `limit`, in parallel, row by
@@ -234,11 +248,48 @@ impl<'a> Envelope<'a> {
         ground.contacts.least(self.index.place(contact.triangle), tile.middle, tile.half) + self.above
     }
 
+    /// Whether the tip may stay within some height of the straight line between two tips all the way: no triangle asks
+    /// for more than `most` (mm) says of it over the line, which is never less than `least`.
+    #[must_use]
+    pub fn keeps_under(&self, line: [Vector; 2], least: f64, most: impl Fn(u32) -> f64) -> bool {
+        let most = |triangle| most(self.index.number(triangle));
+        Searcher::with(|searcher| searcher.keeps_under(&self.ground(), &self.chord(line), least, &most))
+    }
+
+    /// How far the tip may fall below the straight line between two tips at most, mm, because of the triangles that are
+    /// touched at its ends; infinite where they do not tell.
+    ///
+    /// The tips that a triangle asks for are concave: nowhere lower than the line between two of them.
+    #[must_use]
+    pub fn dip(&self, line: [Vector; 2], touched: [u32; 2]) -> f64 {
+        if touched[0] == touched[1] {
+            return 0.0;
+        }
+        let ground = self.ground();
+        let below = |triangle: u32, at: Vector| {
+            let mut alone = Best::NOTHING;
+            ground.contacts.touch_whole(self.index.place(triangle), [at.x, at.y], &mut alone);
+            (at.z - self.above - alone.tip).max(0.0)
+        };
+        let (first, last) = (below(touched[0], line[1]), below(touched[1], line[0]));
+        // two lines, each from an end of this one to so much below the other: the higher is lowest where they meet
+        if first.min(last) > 0.0 && first.max(last) < f64::INFINITY {
+            first * last / (first + last)
+        } else {
+            first.min(last)
+        }
+    }
+
+    fn chord(&self, [from, to]: [Vector; 2]) -> Chord {
+        let along = (to - from).xy().into();
+        Chord { from: [from.x, from.y], along, rise: to.z - from.z, tip: from.z - self.above }
+    }
+
     /// Whether the tip must stay over height `z` everywhere in a box of the plan (lower and upper corner), or need not
     /// anywhere.
     #[must_use]
     pub fn verdict(&self, corners: &[[f64; 2]; 2], z: f64) -> Verdict {
-        Searcher::default().verdict(&self.ground(), corners, z - self.above)
+        Searcher::with(|searcher| searcher.verdict(&self.ground(), corners, z - self.above))
     }
 
     fn map_places<T: Copy + Send + Sync>(
@@ -327,20 +378,17 @@ impl<'a> Envelope<'a> {
         Vector::new(tip.x - r * outward[0], tip.y - r * outward[1], tip.z - self.above + z)
     }
 
-    fn contact_of(&self, best: &Best, [x, y]: [f64; 2]) -> Option<Contact> {
-        if !best.is_something() {
-            return None;
-        }
+    fn contact_of(&self, best: &Best, [x, y]: [f64; 2]) -> Contact {
         let slope = self.ground().contacts.slope(best, [x, y]);
         let [cx, cy] = best.at;
         let height = best.tip + self.cutter.point_at(slope).1;
-        Some(Contact {
+        Contact {
             tip: best.tip + self.above,
             point: Vector::new(cx, cy, height),
             normal: normal(slope, [x - cx, y - cy]),
             triangle: self.index.number(best.triangle),
             feature: best.feature,
-        })
+        }
     }
 
     /// Whether the contact belongs to triangles that `selected` accepts, all of those that meet there.

@@ -37,6 +37,17 @@ pub struct Probe {
     pub reach: f32,
 }
 
+/// A straight line through a probe, or near it.
+#[derive(Clone, Copy, Debug)]
+pub struct HalfLine {
+    /// From its middle to its end, in plan, mm,
+    pub half: [f32; 2],
+    /// and in height.
+    pub rise: f32,
+    /// How far its middle may lie beside the probe, mm.
+    pub aside: [f32; 2],
+}
+
 /// Tip heights that no triangle of eight boxes exceeds: `value` over the probe, and by how much more beside it.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
@@ -96,6 +107,16 @@ impl Lanes {
             bounds.value + more(0) + more(1)
         };
         (in_box, most(&in_box).fast_min(most(&free)))
+    }
+
+    /// How far the tips lie over a straight line at most that is as high as the probe near it.
+    #[inline]
+    pub fn bounds_over(&self, matched: &Matched, probe: &Probe, lines: &Lines, line: &HalfLine) -> f32x8 {
+        let [[dx, dy], [ax, ay]] = [line.half, line.aside].map(|way| way.map(f32x8::splat));
+        let most = self.both_bounds(matched, probe, lines).map(|Bounds { value, along: [gx, gy] }| {
+            value + (gx * dx + gy * dy - f32x8::splat(line.rise)).abs() + gx.abs() * ax + gy.abs() * ay
+        });
+        most[0].fast_min(most[1])
     }
 
     /// The bound by the tangent in the box and that by the whole plane.

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use styluscam_geometry::{Mesh, Vector};
 use styluscam_motion::{Cancelled, Watch};
 
-pub use lanes::{Bounds, Lanes, Matched, Probe};
+pub use lanes::{Bounds, HalfLine, Lanes, Matched, Probe};
 pub use lines::Lines;
 use pieces::{Part, Piece};
 

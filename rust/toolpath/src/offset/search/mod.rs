@@ -10,10 +10,12 @@ mod tangents;
 mod trials;
 mod view;
 
+use std::cell::RefCell;
+
 use wide::f32x8;
 
-use super::contact::Best;
-use super::index::WIDTH;
+use super::contact::{Best, Chord};
+use super::index::{HalfLine, WIDTH};
 use crate::lattice::{Cells, Lattice, Node};
 use candidates::Candidates;
 use ground::{quarters, Tile};
@@ -30,6 +32,13 @@ const CROWDED: usize = 128;
 const WORTH_QUARTERING: f64 = 0.8;
 /// A survey of more branches than this says nothing.
 const MOST_BRANCHES: usize = 128;
+
+/// Chords are looked along in parts of at most so many times the cutter's radius.
+const PART: f64 = 4.0;
+/// Bounds over their ends are so many times as far from those over the middle as in a tile: their rounding.
+const MARGINS: f32 = 4.0;
+/// Rounding of a height in single precision, as a share of it.
+const SHARE: f32 = 1e-6;
 
 /// What is known of a piece of the plan and a height.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,7 +63,20 @@ pub struct Searcher {
     last: Option<u32>,
 }
 
+thread_local! {
+    /// Memory of this thread's searches.
+    static MEMORY: RefCell<Searcher> = RefCell::default();
+}
+
 impl Searcher {
+    /// A search with memory that is there already, and that knows of none before: the answer is the same on any thread.
+    pub fn with<T>(search: impl FnOnce(&mut Self) -> T) -> T {
+        MEMORY.with_borrow_mut(|searcher| {
+            searcher.last = None;
+            search(searcher)
+        })
+    }
+
     /// The highest contact over one place. `hint`: a triangle near it.
     pub fn one(&mut self, ground: &Ground<'_>, place: [f64; 2], hint: Option<u32>) -> Best {
         self.last = hint.or(self.last);
@@ -211,6 +233,52 @@ impl Searcher {
         } else {
             Verdict::Open
         }
+    }
+
+    /// Whether the tip may stay within some height of a chord all the way: no triangle asks for more than `most` says of it
+    /// over the chord, which is never less than `least`.
+    pub fn keeps_under(&mut self, ground: &Ground<'_>, chord: &Chord, least: f64, most: &impl Fn(u32) -> f64) -> bool {
+        let length = libm::hypot(chord.along[0], chord.along[1]);
+        let parts = (length / (PART * ground.cutter.max_radius())).ceil().max(1.0);
+        (0..parts as usize).all(|i| {
+            let part = chord.part(i as f64 / parts, (i + 1) as f64 / parts);
+            self.part_keeps_under(ground, &part, least, most)
+        })
+    }
+
+    fn part_keeps_under(&mut self, ground: &Ground<'_>, chord: &Chord, least: f64, most: &impl Fn(u32) -> f64) -> bool {
+        let tile = ground.tile(&[chord.from, chord.at(1.0).0], &[0, 1]);
+        let middle = chord.at(0.5).1;
+        let view = View::of(ground, &tile, &Best { tip: middle, ..Best::NOTHING });
+        let line = HalfLine {
+            half: chord.along.map(|way| 0.5 * way as f32),
+            rise: 0.5 * chord.rise as f32,
+            aside: [0, 1].map(|i| (tile.half[i] - 0.5 * chord.along[i].abs()) as f32),
+        };
+        let lowest = (middle - view.zero + least) as f32;
+        let enough = f32x8::splat(lowest - SHARE * (lowest.abs() + line.rise.abs()) - MARGINS * view.margin);
+        self.stack.clear();
+        self.stack.extend(Survey::whole(ground).branches);
+        let mut last = None;
+        while let Some(branch) = self.stack.pop() {
+            let values = view.opened_over(ground, branch, &line);
+            let mut open = !values.simd_lt(enough).to_bitmask() & 0xff;
+            while open != 0 {
+                let lane = open.trailing_zeros();
+                open &= open - 1;
+                let node = branch.node * WIDTH as u32 + lane;
+                if branch.level > 0 {
+                    self.stack.push(Branch { level: branch.level - 1, node, ..branch });
+                    continue;
+                }
+                let triangle = ground.index.of_piece(node);
+                if last != Some(triangle) && !ground.contacts.stays_under(triangle, chord, most(triangle)) {
+                    return false;
+                }
+                last = Some(triangle);
+            }
+        }
+        true
     }
 
     /// The leaves of the walk just made through a tile, as a survey of it.

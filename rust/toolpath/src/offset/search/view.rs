@@ -3,7 +3,7 @@
 use wide::f32x8;
 
 use super::super::contact::Best;
-use super::super::index::{Bounds, Probe};
+use super::super::index::{Bounds, HalfLine, Probe};
 use super::ground::{Floor, Ground, Tile};
 
 /// A node still to be opened.
@@ -52,6 +52,14 @@ impl View {
             + f32x8::splat(self.margin);
         let open = !(bounds.value + more).simd_lt(f32x8::splat(floor.level)).to_bitmask() & 0xff;
         (bounds, open, more)
+    }
+
+    /// How far the tips on a node's children lie over a straight line through the tile at most.
+    #[inline]
+    pub fn opened_over(&self, ground: &Ground<'_>, branch: Branch, line: &HalfLine) -> f32x8 {
+        let (level, node) = (branch.level as usize, branch.node as usize);
+        let (lanes, matched) = (&ground.index.levels()[level][node], &ground.matched[level][node]);
+        lanes.bounds_over(matched, &self.probe, ground.lines, line)
     }
 
     /// The bounds of a node's children, and what they do not exceed in the tile.
