@@ -43,6 +43,13 @@ FIXTURES = Path(__file__).parents[2] / "fixtures"
 AS_IS = STEPControl_StepModelType.STEPControl_AsIs
 
 
+@pytest.fixture(autouse=True)
+def read_anew(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is asked here is what reading does, not what was kept of an earlier reading."""
+    monkeypatch.setattr("styluscam.parts.cache.keep", lambda *_: None)
+    monkeypatch.setattr("styluscam.parts.cache.kept", lambda *_: None)
+
+
 def write_step(shape: Any, file: Path, unit: str = "MM") -> Path:
     with quiet_kernel():
         writer = STEPControl_Writer()
@@ -500,6 +507,29 @@ def test_damage_is_named(tmp_path: Path) -> None:
         read_part(truncated(tmp_path))
     with pytest.raises(GeometryError, match="does not begin with ISO"):
         read_part(written("t.step", b"hello\n" * 50)(tmp_path))
+
+
+def test_a_cut_brep_file_is_refused(tmp_path: Path) -> None:
+    """The kernel reads on behind its end for ever, wherever it is cut."""
+    from OCP.BRepTools import BRepTools
+
+    BRepTools.Write_s(BRepPrimAPI_MakeCylinder(5.0, 10.0).Shape(), str(tmp_path / "pin.brep"))
+    whole = (tmp_path / "pin.brep").read_bytes()
+    for share in (0.2, 0.5, 0.8, 0.95):
+        with pytest.raises(GeometryError, match="cut short") as caught:
+            read_part(written("cut.brep", whole[: int(share * len(whole))])(tmp_path))
+        assert caught.value.code == "part-damaged"
+    assert read_part(tmp_path / "pin.brep").is_closed
+
+
+def test_a_foreign_byte_is_named_by_its_line(tmp_path: Path) -> None:
+    """The kernel may end the whole process on it; in names it is what many systems write."""
+    text = write_step(box(), tmp_path / "box.step").read_bytes()
+    at = text.index(b"CARTESIAN_POINT")
+    with pytest.raises(GeometryError, match=f"line {text.count(bytes([10]), 0, at) + 1} holds a byte"):
+        read_part(written("bad.step", text[:at] + b"\xa6" + text[at + 1 :])(tmp_path))
+    named = text.replace(b"'Open CASCADE", "'Gehäuse".encode("latin-1"), 1)
+    assert named != text and read_part(written("named.step", named)(tmp_path)).is_closed
 
 
 @pytest.mark.parametrize("make", [huge, tiny])

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..errors import GeometryError
 from .arrays import FaceInfo, PartArrays
-from .progress import Progress
+from .progress import Progress, report
 
 __all__ = ["BREP_ENDINGS", "MESH_ENDINGS", "UNITS", "FaceInfo", "PartArrays", "read_part"]
 
@@ -65,9 +65,7 @@ def read_part(
                 where=str(file),
                 hint="remove units",
             )
-        from .step import read_brep
-
-        part = read_brep(file, tolerance, progress)
+        part = _read_brep(file, tolerance, progress)
     elif ending in MESH_ENDINGS:
         from .mesh import read_mesh
 
@@ -81,6 +79,22 @@ def read_part(
             hint=known,
         )
     _check_size(part)
+    return part
+
+
+def _read_brep(file: Path, tolerance: float, progress: Progress | None) -> PartArrays:
+    """Read a part with exact surfaces, or take it as it was read before."""
+    from . import cache
+
+    report(progress, "read", 0.0)
+    name = cache.key(file, tolerance)
+    part = cache.kept(name, str(file))
+    if part is None:
+        from .step import read_brep
+
+        part = read_brep(file, tolerance, progress)
+        cache.keep(name, part)
+    report(progress, "arrays", 1.0)
     return part
 
 

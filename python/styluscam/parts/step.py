@@ -144,10 +144,22 @@ def _check_step_text(file: Path) -> None:
         raise _damaged(file, "STEP", "it does not begin with ISO-10303-21")
     if re.search(rb"END-ISO-10303-21\s*;", text[-4096:]) is None:
         raise _damaged(file, "STEP", "it is cut short: END-ISO-10303-21 is missing")
+    if (foreign := _foreign_byte(text)) is not None:  # the kernel may end the whole process on it
+        line = text.count(b"\n", 0, foreign) + 1
+        raise _damaged(file, "STEP", f"line {line} holds a byte that no STEP file has outside a name")
     strange = re.search(rb"[(,]\s*[-+]?(?:nan|inf)\b", text, re.IGNORECASE)
     if strange is not None:  # the kernel would mesh it forever
         line = text.count(b"\n", 0, strange.end()) + 1
         raise _damaged(file, "STEP", f"line {line} holds a coordinate that is not a number")
+
+
+def _foreign_byte(text: bytes) -> int | None:
+    """Return the place of the first byte outside quotes and comments that is not ASCII; None where there is none."""
+    if text.isascii():
+        return None
+    names = re.compile(rb"'[^']*'|/\*.*?\*/", re.DOTALL)
+    found = re.search(rb"[^\x00-\x7f]", names.sub(lambda name: b" " * len(name[0]), text))
+    return None if found is None else found.start()
 
 
 def _load_iges(file: Path) -> tuple[Kernel, str]:
@@ -178,13 +190,40 @@ def _load_native(file: Path) -> tuple[Kernel, str]:
     from OCP.BRepTools import BRepTools
     from OCP.TopoDS import TopoDS_Shape
 
-    with file.open("rb") as stream:
-        if b"CASCADE Topology" not in stream.read(4096):
-            raise _damaged(file, "BREP", "it does not begin with 'CASCADE Topology'")
+    _check_native_text(file)
     shape = TopoDS_Shape()
     if not BRepTools.Read_s(shape, str(file), BRep_Builder()) or shape.IsNull():
         raise _damaged(file, "BREP")
     return shape, "mm"
+
+
+# The sections of a BREP file, each with its count.
+NATIVE = (
+    "Locations",
+    "Curve2ds",
+    "Curves",
+    "Polygon3D",
+    "PolygonOnTriangulations",
+    "Surfaces",
+    "Triangulations",
+    "TShapes",
+)
+
+
+def _check_native_text(file: Path) -> None:
+    """Refuse what is not a whole BREP file: the kernel reads on behind its end for ever."""
+    text = file.read_bytes()
+    if b"CASCADE Topology" not in text[:4096]:
+        raise _damaged(file, "BREP", "it does not begin with 'CASCADE Topology'")
+    at, count = 0, 0
+    for section in NATIVE:
+        header = re.compile(rb"^%s (\d+)\s*$" % section.encode(), re.MULTILINE).search(text, at)
+        if header is None:
+            raise _damaged(file, "BREP", f"its section {section} is missing: it is cut short")
+        at, count = header.end(), int(header[1])
+    shapes = len(re.findall(rb"\*\s*$", text[at:], re.MULTILINE))
+    if shapes != count or re.search(rb"[-+]\d+ \d+\s*$", text[-64:]) is None:
+        raise _damaged(file, "BREP", f"it holds {shapes} of {count} shapes: it is cut short")
 
 
 def _damaged(file: Path, kind: str, why: str = "the kernel cannot parse it") -> GeometryError:
