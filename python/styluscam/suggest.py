@@ -1,9 +1,10 @@
-"""Which tools of a library suit a part: ranked by the scallops that they leave and by what they cannot reach.
+"""Which tools of a library suit a part: ranked by what they bridge, then by the scallops that they leave.
 
-Every tool follows the same passes, the job's: so the paths are equally long, and what differs is the surface that they
-leave. Scallops and what stays in corners are measured with one measure, the root mean square of what is left over the
-area, as a rough surface is: a deep place counts more than many shallow ones. It only ranks; the choice, and what the
-material and the machine stand, are the user's.
+What a tool bridges by more than the job's tolerance is a defect, and comes before any scallop; what every tool leaves in
+sharp corners is none. Every tool follows the same passes, the job's: so the paths are equally long, and what differs is
+the surface that they leave. Scallops and what stays in corners are measured with one measure, the root mean square of
+what is left over the area, as a rough surface is: a deep place counts more than many shallow ones. It only ranks; the
+choice, and what the material and the machine stand, are the user's.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import copy
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -58,6 +60,11 @@ class Candidate:
     """Share of the area steeper than the profile's end."""
     gap_mm: float
     """Most that stays in a corner, as the profile has it."""
+    fillet_gap_mm: float
+    """The same where only fillets count: what stays in a sharp corner is no tool's fault."""
+    tolerance_mm: float
+    """The job's: what is bridged by more is a defect."""
+    has_sharp_corners: bool
     scallop_square: float
     """Mean square over the area, mm^2."""
     gap_square: float
@@ -86,9 +93,15 @@ class Candidate:
         return max((float(bridge["excess"]) for bridge in self.bridged), default=0.0)
 
     @property
-    def rank(self) -> tuple[bool, bool, float, str]:
+    def bridges(self) -> bool:
+        """Whether it leaves more than the tolerance where a rounder tool would not."""
+        found = self.fillet_gap_mm if self.bridged is None or self.has_sharp_corners else self.bridged_mm
+        return found > self.tolerance_mm
+
+    @property
+    def rank(self) -> tuple[bool, bool, bool, float, str]:
         """Sorts candidates, best first."""
-        return bool(self.failure), self.over_rim > MARGIN, self.left_mm, self.tool.name
+        return bool(self.failure), self.over_rim > MARGIN, self.bridges, self.left_mm, self.tool.name
 
     def to_dict(self) -> Document:
         """For scripts; lengths in mm, shares from 0 to 1."""
@@ -104,6 +117,7 @@ class Candidate:
             "unreached_share": self.unreached,
             "over_rim_share": self.over_rim,
             "bridged_estimate_mm": self.gap_mm,
+            "bridges": self.bridges,
             "bridged": None if self.bridged is None else list(self.bridged),
             "failure": self.failure,
             "reasons": list(self.reasons),
@@ -229,6 +243,8 @@ class _Asked:
     """Radius (mm) of the ball by which the sheet rounds every tool."""
     thickness: float
     """Of the sheet, mm; 0 without one."""
+    tolerance: float
+    """Of the path, mm."""
 
 
 def _asked_by(job: Job, progress: Progress | None) -> list[_Asked]:
@@ -242,7 +258,8 @@ def _asked_by(job: Job, progress: Progress | None) -> list[_Asked]:
         walls, passes = walls_of(job, index, progress), _Passes(document["operations"][index])
         classes = walls.classes(passes.rows_deg)
         if len(classes.areas):
-            found.append(_Asked(name, walls, passes, classes, ball, thickness))
+            tolerance = float(document["operations"][index]["tolerance"])
+            found.append(_Asked(name, walls, passes, classes, ball, thickness, tolerance))
     if not found:
         hint = "levels make no sense there: try a zig-zag"
         raise JobError("the selected faces have no walls", code="no-walls", where="part.faces", hint=hint)
@@ -269,7 +286,7 @@ def _judged(tool: Tool, asked: list[_Asked]) -> Candidate:
     missed = [_unreached(tool, each.walls, each.ball) for each in asked]
     whole = sum(each.walls.area for each in asked)
     corners = [_corner(tool, each, area) for each, (area, _) in zip(asked, missed, strict=True)]
-    gap, where = max(((gap, where) for gap, _, where in corners), key=lambda found: found[0])
+    gap, where = max(((each.gap, each.where) for each in corners), key=lambda found: found[0])
     candidate = Candidate(
         tool,
         scallop_mm=float(heights @ shares),
@@ -278,8 +295,11 @@ def _judged(tool: Tool, asked: list[_Asked]) -> Candidate:
         unreached=sum(area for area, _ in missed) / whole,
         over_rim=over,
         gap_mm=gap,
+        fillet_gap_mm=max(each.in_fillets for each in corners),
+        tolerance_mm=min(each.tolerance for each in asked),
+        has_sharp_corners=any(each.walls.crease_mm > 0.0 for each in asked),
         scallop_square=float(heights**2 @ shares),
-        gap_square=sum(square for _, square, _ in corners) / whole,
+        gap_square=sum(each.square for each in corners) / whole,
         reasons=(),
     )
     hollow = next((slope for _, slope in missed if slope is not None), None)
@@ -308,14 +328,24 @@ def _unreached(tool: Tool, walls: Walls, ball: float) -> tuple[float, float | No
     return float(missed.sum()), float(np.average(walls.slopes[~free], weights=missed))
 
 
-def _corner(tool: Tool, asked: _Asked, missed: float) -> tuple[float, float, str]:
-    """The largest gap (mm) in a corner, the sum of gap^2 over all corners' areas (mm^4), and where the largest is.
+class _Corner(NamedTuple):
+    """What stays in an operation's corners."""
 
-    Fillets count where the tool is too flat for some of the area (``missed``, mm^2).
-    """
+    gap: float
+    """The largest, mm."""
+    in_fillets: float
+    """The largest in a fillet, mm."""
+    square: float
+    """Sum of gap^2 over the corners' areas, mm^4."""
+    where: str
+    """The corner of the largest."""
+
+
+def _corner(tool: Tool, asked: _Asked, missed: float) -> _Corner:
+    """What stays in corners: fillets count where the tool is too flat for some of the area (``missed``, mm^2)."""
     corners = asked.walls.corners
     if not len(corners.radii):
-        return 0.0, 0.0, ""
+        return _Corner(0.0, 0.0, 0.0, "")
     gaps, widths = reach.gaps(tool, corners, asked.ball)
     gaps = np.where((corners.radii == 0.0) | (missed > LEAST_SHARE * asked.walls.area), gaps, 0.0)
     areas = corners.lengths * widths
@@ -324,7 +354,9 @@ def _corner(tool: Tool, asked: _Asked, missed: float) -> tuple[float, float, str
     low, high = np.sort(np.degrees(np.arccos(np.clip(corners.sides[worst, :, 2], 0.0, 1.0))))
     radius = float(corners.radii[worst])
     kind = f"fillet of {radius:.3g} mm" if radius else "sharp corner"
-    return float(gaps[worst]), float(gaps**2 @ areas), f"the {kind} between {low:.3g} and {high:.3g} deg"
+    in_fillets = float(gaps[corners.radii > 0.0].max(initial=0.0))
+    where = f"the {kind} between {low:.3g} and {high:.3g} deg"
+    return _Corner(float(gaps[worst]), in_fillets, float(gaps**2 @ areas), where)
 
 
 def _reasons(candidate: Candidate, hollow: float | None, corner: str, asked: list[_Asked]) -> tuple[str, ...]:

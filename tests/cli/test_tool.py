@@ -317,6 +317,20 @@ def test_suggest_ranks_by_what_stays_in_a_crease(cli: Any, tmp_path: Path) -> No
     assert [tool["bridged_estimate_mm"] for tool in estimated] == pytest.approx(excesses, rel=0.2)
 
 
+@pytest.mark.parametrize("planned", ["0", "2"])
+def test_suggest_ranks_a_tool_that_bridges_behind_one_that_does_not(cli: Any, tmp_path: Path, planned: str) -> None:
+    """Levels 4 mm apart: D20 leaves lower scallops than D12, but 0.2 mm in the R8 fillet."""
+    balls = [{"name": f"d{d}", "profile": {"kind": "ball", "diameter": d}} for d in (20.0, 12.0)]
+    shelf = tmp_path / "balls.json"
+    shelf.write_text(json.dumps({"schema": 1, "name": "balls", "tools": balls}))
+    job = tmp_path / "job.toml"
+    job.write_text(changed(FINE_CUP, ("height = 0.4", "height = 4.0")))
+    best, other = cli("tool", "suggest", job, "--library", shelf, "--plan", planned, "--json").json["tools"]
+    assert (best["name"], other["name"]) == ("d12.0", "d20.0")
+    assert not best["bridges"] and other["bridges"]
+    assert other["left_rms_mm"] < best["left_rms_mm"]
+
+
 def test_suggest_takes_each_operation_s_faces(cli: Any, mine: Path, tmp_path: Path) -> None:
     job = tmp_path / "job.toml"
     floor = '[[operations]]\nid = "floor"\nkind = "zig-zag"\ntool = "stylus"\nstepover = 0.2\nfaces = ["Face1"]\n\n[machine]'

@@ -45,7 +45,7 @@ def suggest(
     quiet: Quiet = False,
     debug: Debug = False,
 ) -> int:
-    """Rank a library's tools for a job: by the scallops they leave and by what they cannot reach.
+    """Rank a library's tools for a job: by what they bridge, then by the scallops they leave.
 
     All follow the job's passes, so that the paths are equally long, and do all of its operations. It only ranks: the
     choice is yours.
