@@ -6,7 +6,7 @@ import json
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from styluscam import _engine, pointsfile
 from styluscam.arguments import A_FILE, FileName, document_of, file_of, refused
@@ -216,9 +216,16 @@ def job_schema() -> Document:
     return schema
 
 
-def starter_job(arrays: PartArrays, file: str, units: str | None = None) -> str:
-    """A commented job (TOML) for a part that has none: it runs as it stands."""
-    low, high = arrays.box
-    size = tuple(float(b - a) for a, b in zip(low, high, strict=True))
+class Starter(NamedTuple):
+    """A job for a part that has none, and why it is so."""
+
+    text: str
+    """TOML, commented."""
+    reasons: list[str]
+    """Sentences: what the part is taken for, and what follows from it."""
+
+
+def starter_job(arrays: PartArrays, file: str, units: str | None = None) -> Starter:
+    """A commented job for a part: formed where it is a sheet that can be, else milled; it runs as it stands."""
     faces = [(f.name, f.kind, f.area_mm2, (f.slope_min_deg, f.slope_max_deg)) for f in arrays.faces]
-    return _engine.starter(file, size, faces, units)
+    return Starter(*_engine.starter(Part.from_arrays(arrays).engine, file, faces, units, arrays.edge_gap_mm))

@@ -13,12 +13,19 @@ from styluscam import files
 from styluscam.cli import console, progress
 from styluscam.cli.options import Debug, Force, Json, PartFile, Quiet, Units
 from styluscam.cli.summary import shown_path
-from styluscam.errors import JobError
+from styluscam.errors import GeometryError, JobError
 from styluscam.job import Job, starter_job
-from styluscam.parts import read_part
+from styluscam.parts import PartArrays, read_part
+from styluscam.types import Progress
 
 LOOK = 0.05
 """Tolerance at which the part is looked at, mm: the job sets its own."""
+
+FINE, FINEST = 1e-3, 1e-3
+"""The same as a share of a small part's size, and its least, mm."""
+
+LIKELY_INCH = 12.0
+"""A part whose numbers are no larger than this was likely drawn in inch."""
 
 Out = Annotated[
     Path | None,
@@ -38,22 +45,42 @@ def new(
 ) -> int:
     """Write a commented job file for a part.
 
-    It runs as it stands.
+    It forms what a sheet can be formed to and mills the rest, with a tool that fits the part, and says why. It runs as
+    it stands.
     """
     path = out or part.with_suffix(".toml")
     files.require_new(path, force, JobError, "name another --out")
     files.require_writable([path], [part])
     with progress.shown(not (json or quiet)) as report:
-        arrays = read_part(part, LOOK, units, report)
-    text = starter_job(arrays, _relative(part, path.parent), units)
-    Job.check(text)
-    files.write_whole(path, text)
+        arrays = _looked_at(part, units, report)
+    made = starter_job(arrays, _relative(part, path.parent), units)
+    Job.check(made.text)
+    files.write_whole(path, made.text)
     if json:
-        console.say_json({"written": [str(path)]})
+        console.say_json({"written": [str(path)], "reasons": made.reasons})
     elif not quiet:
+        console.fields([("because", reason) for reason in made.reasons])
         console.say(f"written: {shown_path(path)}")
         console.say(f"next:    styluscam run {shlex.quote(shown_path(path))}")
     return 0
+
+
+def _looked_at(part: Path, units: str | None, report: Progress | None) -> PartArrays:
+    """The part; where its file has no units, the error says what size it would have."""
+    try:
+        arrays = read_part(part, LOOK, units, report)
+        low, high = arrays.box
+        fine = FINE * max(b - a for a, b in zip(low, high, strict=True))
+        return arrays if fine >= LOOK else read_part(part, max(fine, FINEST), units, report)
+    except GeometryError as error:
+        if error.code != "part-units-missing":
+            raise
+        low, high = read_part(part, LOOK, "mm", report).box
+        size = [b - a for a, b in zip(low, high, strict=True)]
+        mm, inch = (" x ".join(f"{factor * length:.4g}" for length in size) for factor in (1.0, 25.4))
+        likely = "in" if max(size) <= LIKELY_INCH else "mm"
+        hint = f"as mm the part is {mm} mm, as inch {inch} mm: likely --units {likely}"
+        raise GeometryError(f"{error}; {hint}", code=error.code, where=error.where, hint=hint) from error
 
 
 def _relative(part: Path, folder: Path) -> str:

@@ -265,11 +265,23 @@ pub fn job_schema() -> PyResult<String> {
     json(&styluscam_job::schema())
 }
 
-/// A commented job for a part that has none yet.
+/// A face for a starter job: name, kind, area (mm^2), smallest and largest slope (degrees).
+type ListedFace = (String, String, f64, [f64; 2]);
+
+/// A commented job for a part that has none yet, and the sentences that say why it is so.
 #[pyfunction]
-#[pyo3(signature = (file, size, faces, units=None))]
-pub fn starter(file: &str, size: [f64; 3], faces: Vec<(String, String, f64, [f64; 2])>, units: Option<&str>) -> String {
+#[pyo3(signature = (part, file, faces, units=None, edge_gap=0.0))]
+pub fn starter(
+    py: Python<'_>,
+    part: &Part,
+    file: &str,
+    faces: Vec<ListedFace>,
+    units: Option<&str>,
+    edge_gap: f64,
+) -> (String, Vec<String>) {
     let faces: Vec<StarterFace> =
         faces.into_iter().map(|(name, kind, area, slope_deg)| StarterFace { name, kind, area, slope_deg }).collect();
-    styluscam_job::starter(&StarterPart { file, units, size, faces: &faces })
+    let mesh = &part.part.mesh;
+    let made = py.detach(|| styluscam_job::starter(&StarterPart { file, units, mesh, faces: &faces, edge_gap }));
+    (made.text, made.reasons)
 }

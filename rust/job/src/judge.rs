@@ -15,7 +15,7 @@ use styluscam_verify::{
 use crate::heights::TipHeights;
 use crate::plan::operation_id;
 use crate::{
-    faces, fixture, scene, Coolant, JobDocument, JobError, OperationKind, OperationSection, Process, Scene,
+    faces, fixture, model, scene, Coolant, JobDocument, JobError, OperationKind, OperationSection, Process, Scene,
     SheetSection, Spindle, Step,
 };
 
@@ -76,7 +76,8 @@ pub fn judge(
     let obstacles = fixture::obstacles(job, scene)?;
     let plain = subject(job, scene, &tools, &unplaced);
     let subject = Subject { text: Some(&text), orders: &orders, obstacles: &obstacles, ..plain };
-    let limits = Limits { excess_by_operation: excess(job, &program), ..limits(job, scene, machine) };
+    let found = model::mismatches(job, scene);
+    let limits = Limits { excess_by_operation: excess(job, &program), found, ..limits(job, scene, machine) };
     let report = styluscam_verify::judge(&program, &subject, &limits, watch)?;
     Ok(Judgement { report, program, unplaced, limits })
 }

@@ -1,5 +1,6 @@
 //! The job document: one schema, filled in alike by CLI, Python and FreeCAD; plans and judges, touches no files.
 
+mod body;
 mod check;
 mod document;
 mod error;
@@ -7,6 +8,7 @@ mod faces;
 mod fixture;
 mod heights;
 mod judge;
+mod model;
 mod parse;
 mod plan;
 mod risk;
@@ -14,6 +16,7 @@ mod scene;
 mod starter;
 mod summary;
 
+pub use body::{Body, Border, FaceLook, Heights, Hollows, Shell, Side, Thickness, Unformable, SIDES};
 pub use document::{
     Coolant, Direction, Feeds, JobDocument, MachineSection, OperationKind, OperationSection, OutputSection,
     PartSection, Process, ProcessSection, Selection, SetupSection, SheetSection, Spindle, Step, ToolSection, Units,
@@ -26,7 +29,7 @@ pub use parse::{from_json, from_toml, schema, tool_from_json};
 pub use plan::{plan, OperationSummary, Plan};
 pub use risk::Risk;
 pub use scene::{Part, Scene};
-pub use starter::{starter, StarterFace, StarterPart};
+pub use starter::{starter, Starter, StarterFace, StarterPart};
 pub use summary::Summary;
 
 /// Version of the job document; older ones migrate, newer ones are refused.

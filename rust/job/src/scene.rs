@@ -64,7 +64,7 @@ impl Scene {
     pub fn new(job: &JobDocument, part: &Part) -> Result<Self, JobError> {
         let sheet = sheet(job)?;
         let raise = sheet.map_or(0.0, |s| s.along_normal() + s.along_vertical());
-        let turned = Frame::turning_up(up(job.setup.up), job.setup.rotation.to_radians());
+        let turned = Frame::turning_up(job.setup.up.vector(), job.setup.rotation.to_radians());
         let (low, high) = part.mesh.placed(&turned).bounds();
         let chosen = job.setup.zero.unwrap_or(if sheet.is_some() { Zero::SheetTop } else { Zero::Model });
         let zero = match chosen {
@@ -120,14 +120,31 @@ fn sheet(job: &JobDocument) -> Result<Option<Sheet>, JobError> {
     sheet.checked().map(Some).map_err(JobError::geometry("setup.sheet"))
 }
 
-fn up(axis: UpAxis) -> Vector {
-    match axis {
-        UpAxis::PlusX => Vector::x(),
-        UpAxis::MinusX => -Vector::x(),
-        UpAxis::PlusY => Vector::y(),
-        UpAxis::MinusY => -Vector::y(),
-        UpAxis::PlusZ => Vector::z(),
-        UpAxis::MinusZ => -Vector::z(),
+impl UpAxis {
+    /// As the job writes it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::PlusX => "+x",
+            Self::MinusX => "-x",
+            Self::PlusY => "+y",
+            Self::MinusY => "-y",
+            Self::PlusZ => "+z",
+            Self::MinusZ => "-z",
+        }
+    }
+
+    /// Its unit vector in the model's frame.
+    #[must_use]
+    pub fn vector(self) -> Vector {
+        match self {
+            Self::PlusX => Vector::x(),
+            Self::MinusX => -Vector::x(),
+            Self::PlusY => Vector::y(),
+            Self::MinusY => -Vector::y(),
+            Self::PlusZ => Vector::z(),
+            Self::MinusZ => -Vector::z(),
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use crate::findings::{merge, Merged};
 use crate::legs::placed;
 use crate::measure::measure;
 use crate::orders::{self, Orders};
-use crate::{diagnosis, passes, reach, sequence, travel, Limits, Report, Severity, Subject};
+use crate::{diagnosis, passes, reach, sequence, travel, Finding, Limits, Report, Severity, Subject};
 
 /// Judges a program read back from posted text against the part.
 ///
@@ -31,6 +31,8 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let wholes = reach::findings(program, subject, &limits.reach).into_iter().chain(orders::missing(program, subject));
     let wholes = wholes.chain(orders.unnamed(subject)).chain(orders.out_of_order(program, subject));
     let wholes = wholes.chain(travel::optional_lines(subject)).chain(travel::unsaid(program, subject));
+    let found = limits.found.iter().map(|(kind, words)| Finding::of_all(*kind, Severity::Error, words.clone()));
+    let wholes = wholes.chain(found);
     for whole in wholes.chain(travel::no_feed_moves(program)).chain(offset).chain(nothing) {
         *counts.entry(whole.kind).or_default() += 1;
         findings.insert(0, whole);

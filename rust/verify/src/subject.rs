@@ -127,6 +127,8 @@ pub struct Limits {
     pub forming: Option<Forming>,
     /// Kinds of findings that are no errors: the job takes these risks by name.
     pub accepted: Vec<FindingKind>,
+    /// What was found wrong with the job before its program was looked at, each with its sentence.
+    pub found: Vec<(FindingKind, String)>,
 }
 
 impl Subject<'_> {
@@ -156,6 +158,7 @@ impl Limits {
             reach: Reach::default(),
             forming: None,
             accepted: Vec::new(),
+            found: Vec::new(),
         }
     }
 

@@ -1,0 +1,65 @@
+//! Whether a sheet that is clamped at its border can be pushed down to a shape.
+
+use super::Body;
+
+/// Steeper walls no material of ours bears in one pass, degrees.
+pub const FORMED_DEG: f64 = 70.0;
+/// Share of the area that may be steeper: the sheet's own rim.
+const RIM: f64 = 0.03;
+/// Share of the plan that may stand above the border: embossed places.
+const EMBOSSED: f64 = 0.02;
+/// A sheet that is not deeper than this many thicknesses is flat.
+const FLAT: f64 = 2.0;
+/// A surface without thickness that is not deeper than this is flat, mm.
+const FLAT_SURFACE: f64 = 0.2;
+/// Two heights are one within this share of the depth: a border is not exactly level.
+const SAME: f64 = 0.03;
+
+/// Why a shape is not formed from above.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Unformable {
+    /// Nothing of it is seen from above.
+    Unseen,
+    /// It is flat.
+    Flat,
+    /// Its border lies this far below its highest place, mm.
+    LowBorder(f64),
+    /// This share of its area is steeper than [`FORMED_DEG`].
+    Steep(f64),
+}
+
+impl std::fmt::Display for Unformable {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Unseen => write!(f, "nothing of it is seen from above"),
+            Self::Flat => write!(f, "it is flat, and there is nothing to form"),
+            Self::LowBorder(below) => write!(
+                f,
+                "its border, where a sheet is clamped, lies {below:.1} mm below its highest place, and the tool only \
+                 pushes down"
+            ),
+            Self::Steep(share) => {
+                write!(f, "{:.0} % of it are walls of {FORMED_DEG} degrees and more, which tear a sheet", 100.0 * share)
+            }
+        }
+    }
+}
+
+/// The depth below the border, mm, for a sheet of a `thickness` (none: a surface).
+pub fn depth(body: &Body<'_>, thickness: Option<f64>) -> Result<f64, Unformable> {
+    let heights = body.heights();
+    let depth = heights.top - heights.bottom;
+    let border = heights.border.ok_or(Unformable::Unseen)?;
+    if depth < thickness.map_or(FLAT_SURFACE, |t| FLAT * t) {
+        return Err(Unformable::Flat);
+    }
+    let below = heights.top - border.middle;
+    if below > thickness.unwrap_or(0.0) + SAME * depth && border.above > EMBOSSED {
+        return Err(Unformable::LowBorder(below));
+    }
+    let steep = body.steeper(FORMED_DEG);
+    if steep > RIM {
+        return Err(Unformable::Steep(steep));
+    }
+    Ok(depth)
+}

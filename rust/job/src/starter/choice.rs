@@ -1,0 +1,206 @@
+//! What a part is made into, and why: formed or milled, from which side, with which operations and which tool.
+
+use styluscam_geometry::{Bvh, Frame, Mesh};
+
+use super::{operations, sizes, StarterPart};
+use crate::body::{Body, FaceLook, Hollows, Shell, Side, Thickness};
+use crate::UpAxis;
+
+/// Of the area hidden from above: more is worth turning the part over, where another side hides less than half of it.
+const HIDDEN: f64 = 0.1;
+/// Share of an open surface that must look up for the tool to come from there.
+const FACES_TOOL: f64 = 0.5;
+
+/// A choice, with its reasons as sentences.
+#[derive(Clone, Debug)]
+pub struct Choice {
+    /// Sentences, most important first.
+    pub reasons: Vec<String>,
+    /// Side of the model from which the tool comes.
+    pub up: UpAxis,
+    /// Thickness of the sheet, mm; none: milling.
+    pub sheet: Option<f64>,
+    /// Kind and diameter of the tool, mm.
+    pub tool: sizes::Cutter,
+    /// In order.
+    pub operations: Vec<operations::Work>,
+    /// Whether faces are named that partly look down.
+    pub allow_undercuts: bool,
+    /// Lowest and highest corner of the part as it lies, mm.
+    pub bounds: [[f64; 3]; 2],
+}
+
+/// A part turned so that the tool comes from above.
+struct Turned {
+    mesh: Mesh,
+    bvh: Bvh,
+}
+
+impl Turned {
+    fn new(mesh: &Mesh, up: UpAxis) -> Self {
+        let mesh = mesh.placed(&Frame::turning_up(up.vector(), 0.0));
+        Self { bvh: Bvh::new(&mesh), mesh }
+    }
+
+    fn body(&self) -> Body<'_> {
+        Body::new(&self.mesh, &self.bvh)
+    }
+}
+
+/// How a sheet is formed from one side.
+struct Formed {
+    turned: Turned,
+    up: UpAxis,
+    words: String,
+}
+
+/// Looks at the part and chooses.
+pub fn choose(part: &StarterPart<'_>) -> Choice {
+    let lying = Turned::new(part.mesh, UpAxis::PlusZ);
+    let body = lying.body();
+    let shell = body.shell();
+    let thickness = if shell == Shell::Closed { body.thickness() } else { None };
+    let sides = body.sides();
+    match (shell, thickness) {
+        (Shell::Open, _) => open(lying, &sides),
+        (Shell::Closed, Some(thickness)) if thickness.is_sheet() => sheet(lying, &thickness, &sides),
+        (Shell::Closed, Some(thickness)) => mill(lying, &sides, vec![solid(&thickness)]),
+        (Shell::Closed, None) => mill(lying, &sides, vec!["the part is a closed solid: it is milled".to_owned()]),
+        (Shell::InsideOut, _) => mill(
+            lying,
+            &sides,
+            vec!["the part's triangles are wound inward: export it with its normals outward".into()],
+        ),
+        (Shell::Mixed, _) => {
+            let words = "some of the part's triangles are wound inward: repair the mesh before you trust this job";
+            mill(lying, &sides, vec![words.to_owned()])
+        }
+    }
+}
+
+fn solid(thickness: &Thickness) -> String {
+    let Thickness { thin, thick, .. } = *thickness;
+    format!("the part is a solid ({thin:.1} to {thick:.1} mm thick), not a sheet of one thickness: it is milled")
+}
+
+fn open(lying: Turned, sides: &[Side; 6]) -> Choice {
+    let what = "the part is an open surface without thickness";
+    let ups = [UpAxis::PlusZ, UpAxis::MinusZ];
+    let looks = |up: &UpAxis| sides.iter().any(|side| side.up == *up && side.up_share >= FACES_TOOL);
+    let facing: Vec<UpAxis> = ups.into_iter().filter(looks).collect();
+    match formed(&lying, None, &facing) {
+        Ok(found) => {
+            let reasons = vec![
+                format!("{what}, and {}: it is formed", found.words),
+                "the surface is taken for the sheet's face that the tool touches; the thickness is a guess: write your \
+                 sheet's"
+                    .to_owned(),
+            ];
+            form(found, None, reasons)
+        }
+        Err(why) => mill(lying, sides, vec![format!("{what}, but {why}: it is milled")]),
+    }
+}
+
+fn sheet(lying: Turned, thickness: &Thickness, sides: &[Side; 6]) -> Choice {
+    let t = sizes::measured(thickness.median);
+    let what = format!("the part is a sheet {t} mm thick on {:.0} % of its area", 100.0 * thickness.alike);
+    match formed(&lying, Some(t), &[UpAxis::PlusZ, UpAxis::MinusZ]) {
+        Ok(found) => {
+            let reasons = vec![
+                format!("{what}, and {}: it is formed", found.words),
+                "the tool touches the model's upper face, so model_face is \"tool\"".to_owned(),
+            ];
+            form(found, Some(t), reasons)
+        }
+        Err(why) => mill(lying, sides, vec![format!("{what}, but {why}: it is milled")]),
+    }
+}
+
+/// The first side from which a sheet can be formed, or why not even the first can.
+fn formed(lying: &Turned, thickness: Option<f64>, ups: &[UpAxis]) -> Result<Formed, String> {
+    let mut first = None;
+    for up in ups {
+        let turned = Turned::new(&lying.mesh, *up);
+        match turned.body().formed_depth(thickness) {
+            Ok(depth) => {
+                let words = format!("it goes down {depth:.1} mm from its border");
+                return Ok(Formed { turned, up: *up, words });
+            }
+            Err(why) => first = first.or(Some(why.to_string())),
+        }
+    }
+    Err(first.unwrap_or_else(|| "most of it looks neither up nor down".to_owned()))
+}
+
+fn form(found: Formed, thickness: Option<f64>, mut reasons: Vec<String>) -> Choice {
+    let Formed { turned, up, .. } = found;
+    if up != UpAxis::PlusZ {
+        reasons.push("it opens downward: setup.up = \"-z\" turns it over, so that its border is on top".to_owned());
+    }
+    let looks = turned.body().hollows();
+    let (tool, words) = sizes::stylus(&turned.mesh, &looks, thickness);
+    reasons.push(words);
+    let thickness = thickness.unwrap_or_else(|| sizes::measured(f64::min(1.0, 0.2 * tool.diameter)));
+    Choice {
+        reasons,
+        up,
+        sheet: Some(thickness),
+        operations: vec![operations::forming(&turned.mesh, &looks, &tool)],
+        tool,
+        allow_undercuts: false,
+        bounds: bounds(&turned.mesh),
+    }
+}
+
+fn mill(lying: Turned, sides: &[Side; 6], mut reasons: Vec<String>) -> Choice {
+    let (up, words) = best_side(sides);
+    reasons.extend(words);
+    let turned = if up == UpAxis::PlusZ { lying } else { Turned::new(&lying.mesh, up) };
+    let looks = turned.body().hollows();
+    let milled = operations::milling(&turned.mesh, &looks);
+    reasons.extend(milled.reasons);
+    let named = |face: &FaceLook| face.looks_down && milled.works.iter().any(|work| work.names(face.face));
+    Choice {
+        reasons,
+        up,
+        sheet: None,
+        tool: milled.tool,
+        allow_undercuts: looks.faces.iter().any(named),
+        operations: milled.works,
+        bounds: bounds(&turned.mesh),
+    }
+}
+
+/// +Z, unless much is hidden from there and another side hides less than half of that.
+fn best_side(sides: &[Side; 6]) -> (UpAxis, Option<String>) {
+    let [above, ..] = sides;
+    let Some(best) = sides.iter().min_by(|a, b| a.hidden.total_cmp(&b.hidden)) else { return (above.up, None) };
+    let percent = 100.0 * above.hidden;
+    if above.hidden <= HIDDEN {
+        return (above.up, None);
+    }
+    if best.hidden > 0.5 * above.hidden {
+        let other = format!(
+            "{percent:.0} % of the surface cannot be reached from above (undercuts), nor much more of it from any other \
+             side: a second setup needs another job, with setup.up"
+        );
+        return (above.up, Some(other));
+    }
+    let words = format!(
+        "{percent:.0} % of the surface cannot be reached from +z, {:.0} % from {}: setup.up turns the part so",
+        100.0 * best.hidden,
+        best.up.name()
+    );
+    (best.up, Some(words))
+}
+
+fn bounds(mesh: &Mesh) -> [[f64; 3]; 2] {
+    let (low, high) = mesh.bounds();
+    [low.into(), high.into()]
+}
+
+/// The faces of which a tool from above sees enough to work on.
+pub fn worth(looks: &Hollows) -> impl Iterator<Item = &FaceLook> {
+    looks.faces.iter().filter(|face| face.seen > 0.2 && face.flat + face.gentle + face.steep > 0.05)
+}

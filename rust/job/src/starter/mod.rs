@@ -1,0 +1,325 @@
+//! A commented job for a part that has none yet: it runs as it stands, says why it is so, and shows what can be changed.
+
+mod choice;
+mod operations;
+mod sizes;
+
+use std::path::Path;
+
+use styluscam_geometry::Mesh;
+
+use crate::OperationKind;
+use choice::{choose, Choice};
+use operations::Work;
+use sizes::{round, Shape};
+
+/// From this slope on a face does not look up: it is not listed, degrees.
+const WALL: f64 = 90.1;
+/// Faces that the comment lists at most.
+const LISTED: usize = 60;
+/// Width of the comment at the top, in characters.
+const WIDTH: usize = 110;
+/// Cutting speed that a small machine and aluminium stand, mm/min, and the spindle's speeds, rev/min.
+const CUTTING_SPEED: f64 = 150_000.0;
+const SPEEDS: [f64; 2] = [3_000.0, 12_000.0];
+/// Feed per revolution of two teeth, as a share of the diameter, and the feeds that follow at most, mm/min.
+const FEED: f64 = 0.01;
+const FEEDS: [f64; 2] = [100.0, 1500.0];
+/// The path's tolerance, and what the file's own edges may take of it, mm.
+const PATH_TOLERANCE: f64 = 0.005;
+const PART_TOLERANCE: f64 = 0.001;
+/// A part that lies farther from its origin than this many times its size gets a zero point of its own.
+const FAR: f64 = 1.0;
+
+/// What a starter job is written for.
+pub struct StarterPart<'a> {
+    /// The part's file, as the job should name it.
+    pub file: &'a str,
+    /// Its unit, where the file does not state one.
+    pub units: Option<&'a str>,
+    /// Its triangles, in the file's frame, mm.
+    pub mesh: &'a Mesh,
+    /// Its faces.
+    pub faces: &'a [StarterFace],
+    /// How far the file's own edges lie off its surfaces at most, mm.
+    pub edge_gap: f64,
+}
+
+/// A face as the job's comment lists it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StarterFace {
+    /// `Face1` and so on.
+    pub name: String,
+    /// plane, cone, ...
+    pub kind: String,
+    /// Area, mm^2.
+    pub area: f64,
+    /// Smallest and largest slope, degrees.
+    pub slope_deg: [f64; 2],
+}
+
+/// A job, and why it is so.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Starter {
+    /// The job in TOML.
+    pub text: String,
+    /// Sentences: what the part is taken for, and what follows from it.
+    pub reasons: Vec<String>,
+}
+
+/// A job for a part: formed where it is a sheet or an open surface that a sheet can take, else milled; levels for its
+/// walls, rows for its floors; a tool that fits its concave places.
+#[must_use]
+pub fn starter(part: &StarterPart<'_>) -> Starter {
+    let mut choice = choose(part);
+    let tolerances = tolerances(part, &mut choice);
+    let text = text(part, &choice, tolerances);
+    Starter { text, reasons: choice.reasons }
+}
+
+/// Of the triangles and of the path, mm: a file whose edges lie off its surfaces is read no finer than that.
+fn tolerances(part: &StarterPart<'_>, choice: &mut Choice) -> [f64; 2] {
+    let size = (0..3).map(|axis| choice.bounds[1][axis] - choice.bounds[0][axis]).fold(0.0, f64::max);
+    // triangles of a large part at a micrometre are millions
+    let own = round(PART_TOLERANCE * f64::max(1.0, size / 500.0));
+    if part.edge_gap <= own {
+        return [own, round(PATH_TOLERANCE * own / PART_TOLERANCE)];
+    }
+    let needed = round(1.1 * part.edge_gap);
+    choice.reasons.push(format!(
+        "edges of the file lie up to {:.4} mm off their surfaces: tolerance = {needed} is the finest that it allows",
+        part.edge_gap
+    ));
+    [needed, round(PATH_TOLERANCE + 2.0 * needed)]
+}
+
+fn text(part: &StarterPart<'_>, choice: &Choice, [part_tolerance, path_tolerance]: [f64; 2]) -> String {
+    let stem = stem_of(part.file);
+    let units = part.units.map_or(String::new(), |u| format!("units = {}\n", quoted(u)));
+    let undercuts = if choice.allow_undercuts {
+        "allow_undercuts = true      # some of the named faces look down in places: those are left\n"
+    } else {
+        ""
+    };
+    let operations: String =
+        choice.operations.iter().map(|work| operation(work, choice, path_tolerance)).collect::<Vec<_>>().join("\n");
+    format!(
+        r#"# A StylusCAM job. Lengths are mm, angles degrees, feeds mm/min.
+# Run it:  styluscam run {stem}.toml
+#
+# Why it is so:
+{reasons}schema = 1
+title = {title}
+
+[part]
+file = {file}
+{units}faces = "all"              # the faces that look up, or names: ["Face3", "Face4"]
+{faces}{undercuts}{model_face}tolerance = {part_tolerance}           # largest deviation of triangles from surfaces, checked
+
+{setup}
+{process}
+[tools.{tool}]
+number = 1
+reference = "tip"           # the point that the program moves
+profile = {{ kind = "{shape}", diameter = {diameter} }}   # or library = "{library}"; see `styluscam tool list`
+
+{operations}
+[machine]
+name = "linuxcnc"           # or "grbl"; see `styluscam machine list`
+
+[output]
+file = {gcode}
+program = {program}
+"#,
+        reasons = choice.reasons.iter().map(|reason| wrapped(reason)).collect::<String>(),
+        title = quoted(&stem),
+        file = quoted(part.file),
+        faces = listed(part.faces),
+        model_face = model_face(choice),
+        setup = setup(choice),
+        process = process(choice),
+        tool = tool_name(choice),
+        shape = shape(choice),
+        diameter = number(choice.tool.diameter),
+        library = if choice.sheet.is_some() { "clothoid:medium" } else { "ball-d6" },
+        gcode = quoted(&format!("{stem}.ngc")),
+        program = quoted(&format!("{stem}.program.json")),
+        part_tolerance = number(part_tolerance),
+    )
+}
+
+fn model_face(choice: &Choice) -> &'static str {
+    if choice.sheet.is_some() {
+        "model_face = \"tool\"         # the model shows the sheet's face that the tool touches (\"back\", \"mid\")\n"
+    } else {
+        ""
+    }
+}
+
+fn setup(choice: &Choice) -> String {
+    let [low, high] = choice.bounds;
+    let size = [0, 1, 2].map(|axis| high[axis] - low[axis]);
+    let is_far = (0..2).any(|axis| low[axis] > FAR * size[axis] || high[axis] < -FAR * size[axis])
+        || (choice.sheet.is_none() && (low[2] > size[2].max(100.0) || high[2] < -size[2].max(100.0)));
+    let corner = [low[0], low[1], high[2]].map(|x| number((x * 1000.0).round() / 1000.0 + 0.0)).join(", ");
+    let zero = match (is_far, choice.sheet) {
+        (true, _) => format!("zero = [{corner}]  # the part's left front corner, its top: its own origin lies far off"),
+        (false, Some(_)) => {
+            "zero = \"sheet-top\"          # Z0 on the sheet, X0 Y0 at the model's origin; or \"model\", \
+                             or [x, y, z]"
+                .to_owned()
+        }
+        (false, None) => "zero = \"model\"              # the model's origin, or [x, y, z] of the model".to_owned(),
+    };
+    let over = if choice.sheet.is_some() { "sheet" } else { "part" };
+    let setup = format!(
+        "[setup]\nup = \"{}\"                   # axis of the model that points to the spindle\n{zero}\nwcs = \
+         \"G54\"\nclearance = 10.0            # rapids cross this far above the {over}\nretract = 2.0               # \
+         and come down to here\n",
+        choice.up.name()
+    );
+    let Some(thickness) = choice.sheet else { return setup };
+    let room = 2.0 * choice.tool.diameter;
+    let opening = format!("[{:.1}, {:.1}]", size[0] + room, size[1] + room);
+    format!(
+        r#"{setup}
+[setup.sheet]
+thickness = {}
+law = "constant"            # or "sine"
+# max_wall_angle_deg = 65.0   # steeper walls are refused; min_thickness = 0.4: thinner ones by the sine law
+
+# [setup.fixture]           # what holds the sheet is kept clear: an opening is [width, height] or a diameter
+# clamp = {{ opening = {opening}, height = 8.0 }}
+# backing = {{ opening = {opening} }}
+# margin = 1.0
+"#,
+        number(thickness)
+    )
+}
+
+fn process(choice: &Choice) -> &'static str {
+    if choice.sheet.is_some() {
+        "[process]\nkind = \"spif\"               # single-point incremental forming\n"
+    } else {
+        "[process]\nkind = \"milling\"\n"
+    }
+}
+
+fn tool_name(choice: &Choice) -> &'static str {
+    if choice.sheet.is_some() {
+        "stylus"
+    } else {
+        "cutter"
+    }
+}
+
+fn shape(choice: &Choice) -> &'static str {
+    match choice.tool.shape {
+        Shape::Ball => "ball",
+        Shape::Flat => "flat",
+    }
+}
+
+fn operation(work: &Work, choice: &Choice, tolerance: f64) -> String {
+    let diameter = choice.tool.diameter;
+    let faces = work.faces.as_ref().map_or(String::new(), |faces| format!("faces = {}\n", names(faces)));
+    let pitch = number(work.pitch);
+    let distance = match work.kind {
+        OperationKind::ZLevel => format!("step = {{ height = {pitch} }}    # distance between levels\n"),
+        OperationKind::ZigZag => format!(
+            "stepover = {pitch}              # distance between rows\nangle_deg = {}             # their direction\n",
+            number(work.angle_deg)
+        ),
+    };
+    let (feeds, spindle) = if choice.sheet.is_some() {
+        ([1500.0, 300.0], String::new())
+    } else {
+        let rpm = (CUTTING_SPEED / (std::f64::consts::PI * diameter)).clamp(SPEEDS[0], SPEEDS[1]);
+        let rpm = (rpm / 100.0).round() * 100.0;
+        let cut = ((FEED * diameter * rpm).clamp(FEEDS[0], FEEDS[1]) / 10.0).round() * 10.0;
+        let words = "# for aluminium: ask your tool's maker";
+        (
+            [cut, (0.03 * cut).round() * 10.0],
+            format!("spindle = {{ mode = \"fixed\", rpm = {} }}   {words}\n", number(rpm)),
+        )
+    };
+    let [cut, plunge] = feeds.map(number);
+    format!(
+        r#"[[operations]]
+id = "{}"
+kind = "{}"            # "z-level" for walls, "zig-zag" for floors
+{faces}tool = "{}"
+{distance}direction = "alternate"     # or "same"
+tolerance = {}           # the posted path lies at most this far above the exact one
+smallest_feature = {}     # no loop is missed that holds a disc of this diameter
+feeds = {{ cut = {cut}, plunge = {plunge} }}
+{spindle}"#,
+        work.id,
+        work.kind.name(),
+        tool_name(choice),
+        number(tolerance),
+        number(smallest_feature(choice)),
+    )
+}
+
+/// A tenth of the tool, but no more nodes over the part's plan than anybody waits for.
+fn smallest_feature(choice: &Choice) -> f64 {
+    let [low, high] = choice.bounds;
+    let plan = (high[0] - low[0]) * (high[1] - low[1]);
+    let nodes = 1e6;
+    round(f64::clamp(0.1 * choice.tool.diameter, 0.05, 1.0).max((2.0 * plan / nodes).sqrt()).min(100.0))
+}
+
+/// A TOML list of names, broken into lines.
+fn names(faces: &[u32]) -> String {
+    let names: Vec<String> = faces.iter().map(|face| format!("\"Face{face}\"")).collect();
+    if names.len() <= 8 {
+        return format!("[{}]", names.join(", "));
+    }
+    let lines: Vec<String> = names.chunks(10).map(|line| format!("    {},\n", line.join(", "))).collect();
+    format!("[\n{}]", lines.concat())
+}
+
+/// A sentence as a comment's lines.
+fn wrapped(reason: &str) -> String {
+    let mut lines = vec![String::from("# -")];
+    for word in reason.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= WIDTH => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(format!("#   {word}")),
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+fn listed(faces: &[StarterFace]) -> String {
+    let up: Vec<&StarterFace> = faces.iter().filter(|face| face.slope_deg[0] < WALL).collect();
+    let mut lines: String = up.iter().take(LISTED).map(|face| described(face)).collect();
+    if up.len() > LISTED {
+        lines.push_str(&format!("#   and {} more: see `styluscam part show`\n", up.len() - LISTED));
+    }
+    lines
+}
+
+fn described(face: &StarterFace) -> String {
+    let [low, high] = face.slope_deg;
+    format!("#   {}: {}, {:.0} mm2, slope {low:.0} to {high:.0} deg\n", face.name, face.kind, face.area)
+}
+
+/// The file's name without its ending; what ends a line or a comment would break the job's text.
+fn stem_of(file: &str) -> String {
+    let stem = Path::new(file).file_stem().unwrap_or_default().to_string_lossy();
+    stem.chars().map(|c| if c.is_control() { '_' } else { c }).collect()
+}
+
+/// A TOML string.
+fn quoted(text: &str) -> String {
+    toml::Value::String(text.to_owned()).to_string()
+}
+
+fn number(value: f64) -> String {
+    format!("{value:?}")
+}

@@ -1,0 +1,83 @@
+//! Tools and distances between passes: from what the part has, in the sizes that a shop has.
+
+use styluscam_geometry::Mesh;
+
+use super::choice::worth;
+use crate::body::{FaceLook, Hollows};
+
+/// Diameters of cutters and styluses, mm.
+const DIAMETERS: [f64; 14] = [20.0, 16.0, 12.0, 10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.5, 1.0, 0.8, 0.5];
+/// Largest diameter against the part's smaller side: there must be something to travel over.
+const WIDEST: f64 = 0.15;
+/// Smallest diameter against the part's larger side: below it the path is longer than anybody waits for.
+const THINNEST: f64 = 0.02;
+/// Share of the area that may be narrower than the tool: the places that a shop leaves for a second tool.
+const LEFT: f64 = 0.02;
+/// The tool may be this much wider than what bounds it: what triangles know of a radius.
+const SLACK: f64 = 1.01;
+
+/// The tool's profile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// For slopes, and whatever has fillets at its floors.
+    Ball,
+    /// For floors and upright walls.
+    Flat,
+}
+
+/// A tool.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cutter {
+    pub shape: Shape,
+    /// mm.
+    pub diameter: f64,
+}
+
+/// The largest stylus that fits the concave places of what is formed, and the sentence that says so.
+pub fn stylus(mesh: &Mesh, looks: &Hollows, thickness: Option<f64>) -> (Cutter, String) {
+    let bound = Hollows::bound(worth(looks), LEFT);
+    // sharper ones tear the sheet
+    let least = 2.0 * thickness.unwrap_or(0.0);
+    let (diameter, words) = fitting(mesh, bound, least);
+    (Cutter { shape: Shape::Ball, diameter }, words)
+}
+
+/// The largest cutter that fits some faces, and the sentence that says so.
+pub fn cutter<'f>(mesh: &Mesh, faces: impl IntoIterator<Item = &'f FaceLook>, shape: Shape) -> (Cutter, String) {
+    let (diameter, words) = fitting(mesh, Hollows::bound(faces, LEFT), 0.0);
+    (Cutter { shape, diameter }, words)
+}
+
+fn fitting(mesh: &Mesh, bound: Option<f64>, least: f64) -> (f64, String) {
+    let (low, high) = mesh.bounds();
+    let size = high - low;
+    let at_most = |limit: f64| DIAMETERS.into_iter().find(|d| *d <= limit).unwrap_or(0.5);
+    let widest = at_most(WIDEST * size.x.min(size.y)).max(at_most(THINNEST * size.x.max(size.y)));
+    let thinnest = f64::max(THINNEST * size.x.max(size.y), least);
+    let Some(radius) = bound.filter(|radius| 2.0 * SLACK * radius < widest) else {
+        return (widest, format!("the tool, {widest} mm wide, follows from the part's size: nothing narrow bounds it"));
+    };
+    let fits = at_most(2.0 * SLACK * radius);
+    let wide = DIAMETERS.into_iter().rev().find(|d| *d >= thinnest).unwrap_or(widest).min(widest);
+    if fits >= wide {
+        let words = format!("the tool, {fits} mm wide, fits the smallest concave places: radius {radius:.2} mm");
+        return (fits, words);
+    }
+    let words = format!(
+        "the part has concave places of radius {radius:.2} mm and smaller; the tool, {wide} mm wide, is the smallest \
+         that makes sense for its size and leaves something there"
+    );
+    (wide, words)
+}
+
+/// A length as a person measures it: to 0.01 mm.
+pub fn measured(length: f64) -> f64 {
+    ((length * 100.0).round() / 100.0).max(0.01)
+}
+
+/// Up to two significant places.
+pub fn round(value: f64) -> f64 {
+    let unit = 10_f64.powf(value.log10().floor() - 1.0);
+    let rounded = (value / unit - 1e-9).ceil() * unit;
+    (rounded * 1e9).round() / 1e9
+}
