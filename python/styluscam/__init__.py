@@ -70,3 +70,8 @@ __all__ = [
     "waterline",
     "waterlines",
 ]
+
+
+def __dir__() -> list[str]:
+    """The public names only; modules are imported by theirs."""
+    return sorted(__all__)

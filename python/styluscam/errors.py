@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 
 class StylusError(Exception):
     """Base of all; the message is one line: what, where, what to do."""
@@ -12,6 +14,15 @@ class StylusError(Exception):
         self.code = code
         self.where = where
         self.hint = hint
+
+    def __reduce__(self) -> tuple[Callable[..., StylusError], tuple[object, ...]]:
+        """For pickle and copy, which know nothing of keywords: errors come out of worker processes too."""
+        return _again, (type(self), str(self), self.code, self.where, self.hint)
+
+
+def _again(kind: type[StylusError], message: str, code: str, where: str, hint: str) -> StylusError:
+    """An error as it was."""
+    return kind(message, code=code, where=where, hint=hint)
 
 
 class JobError(StylusError):

@@ -16,6 +16,7 @@ from styluscam.part import Part, PartLike
 from styluscam.parts import PartArrays
 from styluscam.tool import Tool
 from styluscam.types import Document, Progress
+from styluscam.words import counted, shortened
 
 JobLike: TypeAlias = "Job | Document | str | os.PathLike[str]"
 """A job, its document, or a job file."""
@@ -32,6 +33,8 @@ class Job:
     file: Path | None
     document: Document
     _part: Part | None
+    _handed: Part | None
+    """The part that stands for the file, where a caller gave one."""
     _tool_files: list[Path]
 
     def __init__(self, source: JobLike) -> None:
@@ -51,12 +54,40 @@ class Job:
     ) -> Job:
         job = cls.__new__(cls)
         job.engine, job.folder, job.name, job.file = engine, folder, name, file
-        job._part = part
+        job._part = job._handed = part
         job.document = json.loads(engine.to_json())
         job._tool_files = []
         job._take_tools()
         job._tool_files += tool_files
         return job
+
+    def __repr__(self) -> str:
+        """Its title, part, operations and machine."""
+        kinds = ", ".join(dict.fromkeys(str(one["kind"]) for one in self.operations))
+        part = shortened(Path(self.document["part"]["file"]).name, 30)
+        machine = self.document["machine"].get("name") or Path(self.document["machine"]["file"]).name
+        what = f"{part}, {counted(len(self.operations), 'operation')} ({shortened(kinds, 30)})"
+        return f"<Job {shortened(self.title, 30)!r}: {what}, for {shortened(machine, 20)}>"
+
+    def __eq__(self, other: object) -> bool:
+        """Whether the documents say the same, of the same files or parts."""
+        if not isinstance(other, Job):
+            return NotImplemented
+        if self.engine.to_json() != other.engine.to_json() or (self._handed is None) != (other._handed is None):
+            return False
+        return self._handed == other._handed and self.folder.resolve() == other.folder.resolve()
+
+    def __hash__(self) -> int:
+        """As equality says."""
+        return hash(self.engine.to_json())
+
+    def __getstate__(self) -> Document:
+        """For pickle and copy; a part that was read travels along."""
+        return {**vars(self), "engine": self.engine.to_json()}
+
+    def __setstate__(self, state: Document) -> None:
+        """From :meth:`__getstate__`."""
+        vars(self).update(state, engine=_engine.Job.from_json(state["engine"]))
 
     @classmethod
     def of(cls, source: JobLike, argument: str = "job") -> Job:
@@ -138,6 +169,17 @@ class Job:
         """The document with all its defaults."""
         return self.document
 
+    @property
+    def title(self) -> str:
+        """The job's name, or its part's file."""
+        return str(self.document["title"] or Path(self.document["part"]["file"]).name)
+
+    @property
+    def operations(self) -> list[Document]:
+        """The operations in order, with all their defaults; each has the id by which programs and reports call it."""
+        sections = enumerate(self.document["operations"], start=1)
+        return [{**section, "id": section["id"] or f"{section['kind']}-{number}"} for number, section in sections]
+
     def _take_tools(self) -> None:
         """Puts tools of libraries and files in the place of their names, and notes the files."""
         named = {name: tool["library"] for name, tool in self.document["tools"].items() if "library" in tool}
@@ -164,6 +206,10 @@ class Job:
             section = self.document["part"]
             self._part = Part.read(self.folder / section["file"], section["tolerance"], section.get("units"), progress)
         return self._part
+
+    def scene(self, progress: Progress | None = None) -> _engine.Scene:
+        """The part as it lies on the machine."""
+        return _engine.Scene(self.engine, self.part(progress).engine)
 
     def tools(self) -> dict[str, Tool]:
         """The job's tools by name: profile, base, shank and holder."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import cached_property
 
 import numpy.typing as npt
 
@@ -17,17 +18,60 @@ from styluscam.planning import Plan, TextLike, text_of
 from styluscam.program import Program
 from styluscam.types import Document, FloatArray, Progress
 from styluscam.types import points as rows
+from styluscam.words import counted
 
 
 class Report:
     """What the judge found in a text."""
 
-    def __init__(self, document: Document, judgement: _engine.Judgement, job: Job, scene: _engine.Scene) -> None:
+    def __init__(
+        self,
+        document: Document,
+        judgement: _engine.Judgement,
+        job: Job,
+        scene: _engine.Scene,
+        *,
+        machine: Machine,
+        text: str,
+    ) -> None:
         self._document = document
         self.judgement = judgement
         self.program = Program(judgement.program)
         self.job, self.scene = job, scene
+        self.machine = machine
+        self.text = text
         self._coverage: list[Document] | None = None
+
+    def __repr__(self) -> str:
+        """The verdict and the worst figures."""
+        found = counted(len(self.findings), "finding") if self.findings else "nothing found"
+        figures = f"worst gouge {self.gouge_max:.4f} mm, worst excess {self.excess_max:.4f} mm"
+        return f"<Report: {'ok' if self.ok else 'FAILED'}, {found}, {figures}>"
+
+    def __eq__(self, other: object) -> bool:
+        """Whether the same was found in the same text for the same job."""
+        if not isinstance(other, Report):
+            return NotImplemented
+        mine, theirs = (self.text, self.machine, self._document), (other.text, other.machine, other._document)
+        return mine == theirs and self.job == other.job
+
+    def __hash__(self) -> int:
+        """As equality says."""
+        return hash(self.text)
+
+    def __getstate__(self) -> Document:
+        """For pickle and copy."""
+        return {key: value for key, value in vars(self).items() if key not in ("judgement", "scene")}
+
+    @cached_property
+    def scene(self) -> _engine.Scene:
+        """The part as it lies on the machine."""
+        return self.job.scene()
+
+    @cached_property
+    def judgement(self) -> _engine.Judgement:
+        """The engine's judgement; a copy that went through pickle judges again where it is asked for."""
+        return _engine.judge(self.job.engine, self.scene, self.machine.engine, self.text)
 
     @property
     def ok(self) -> bool:
@@ -164,8 +208,7 @@ def check_program(
 def _verified(
     text: str, job: Job, machine: Machine, progress: Progress | None, cancel: _engine.CancelToken | None
 ) -> Report:
-    scene = _engine.Scene(job.engine, job.part(progress).engine)
-    return _judge(job, scene, machine, text, progress=progress, cancel=cancel)
+    return _judge(job, job.scene(progress), machine, text, progress=progress, cancel=cancel)
 
 
 def _judge(
@@ -180,4 +223,4 @@ def _judge(
     judgement = _engine.judge(job.engine, scene, machine.engine, text, progress=progress, cancel=cancel)
     document: Document = json.loads(judgement.report())
     recheck(document, job, scene)
-    return Report(document, judgement, job, scene)
+    return Report(document, judgement, job, scene, machine=machine, text=text)

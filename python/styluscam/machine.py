@@ -15,6 +15,7 @@ from styluscam.arguments import A_FILE, FileName, document_of, file_of, refused,
 from styluscam.errors import MachineError
 from styluscam.files import read_text
 from styluscam.types import Document
+from styluscam.words import shortened
 
 
 @dataclass(frozen=True)
@@ -57,6 +58,26 @@ class Machine:
         machine = cls.__new__(cls)
         machine.engine = engine
         return machine
+
+    def __repr__(self) -> str:
+        """Its name and what it is."""
+        return f"<Machine {self.name!r}: {shortened(self.description)}>"
+
+    def __eq__(self, other: object) -> bool:
+        """Whether everything that their files say, options included, is the same."""
+        return self.document == other.document if isinstance(other, Machine) else NotImplemented
+
+    def __hash__(self) -> int:
+        """As equality says."""
+        return hash(self.engine.to_json())
+
+    def __getstate__(self) -> Document:
+        """For pickle and copy."""
+        return {"engine": self.engine.to_toml()}
+
+    def __setstate__(self, state: Document) -> None:
+        """From :meth:`__getstate__`."""
+        self.engine = _engine.Machine.from_toml(state["engine"])
 
     @classmethod
     def of(cls, source: MachineLike, argument: str = "machine") -> Machine:

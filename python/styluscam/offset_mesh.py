@@ -43,7 +43,7 @@ class OffsetRegion:
     """The point of the part that it would enter."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class OffsetSurface:
     """Slope-matched positions of the tool over a part's triangles, each judged against the whole part. Lengths mm.
 
@@ -78,6 +78,20 @@ class OffsetSurface:
     """No side of a triangle where something stops the tool is longer, mm: a quarter of the tool's radius, or as fine as two
     million points allow."""
     _regions: tuple[OffsetRegion, ...] = field(repr=False)
+
+    def __repr__(self) -> str:
+        """How many points and triangles, and the area of each flag."""
+        areas = {flag: sum(one.area for one in self._regions if one.flag == flag) for flag in FLAGS}
+        shown = ", ".join(f"{flag} {area:.1f} mm2" for flag, area in areas.items() if area > 0.0)
+        return f"<OffsetSurface: {len(self.points)} points, {len(self.triangles)} triangles; {shown}>"
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all positions, and what becomes of them, are the same."""
+        if not isinstance(other, OffsetSurface):
+            return NotImplemented
+        return all(np.array_equal(mine, vars(other)[name]) for name, mine in vars(self).items())
+
+    __hash__ = None  # type: ignore[assignment]  # arrays can be written to
 
     def regions(self) -> list[OffsetRegion]:
         """What there is of each flag on each face, in the order of faces and flags."""

@@ -32,6 +32,25 @@ class Offsets(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
         """Flag by point (N,)."""
         return super().flags if self._by_point is None else self._by_point
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """For pickle and copy: the flags travel along."""
+        return _again, (np.asarray(self).copy(), self._by_point)
+
+    def __deepcopy__(self, memo: object) -> Offsets:
+        """The tips and their flags."""
+        return _again(np.asarray(self).copy(), self._by_point)
+
+    def __copy__(self) -> Offsets:
+        """The tips and their flags."""
+        return _again(np.asarray(self).copy(), self._by_point)
+
+
+def _again(tips: FloatArray, flags: npt.NDArray[np.uint8] | None) -> Offsets:
+    """Offsets as they were."""
+    result = tips.view(Offsets)
+    result._by_point = flags
+    return result
+
 
 def _sheet(sheet: Document | None) -> str | None:
     if sheet is None:
@@ -54,9 +73,7 @@ def slope_matched_offset(
     tips, flags = _engine.slope_matched_offset(
         Tool.of(tool)._engine, points(points_, 3), points(normals, 3, "normals"), _sheet(sheet)
     )
-    result = tips.view(Offsets)
-    result._by_point = flags
-    return result
+    return _again(tips, flags)
 
 
 def drop_cutter(

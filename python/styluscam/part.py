@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+from itertools import starmap
+from pathlib import Path
 from typing import TypeAlias
 
 import numpy as np
@@ -12,7 +14,8 @@ from styluscam import _engine
 from styluscam.arguments import FileName, file_of, number_of, refused
 from styluscam.errors import GeometryError
 from styluscam.parts import PartArrays, read_part
-from styluscam.types import FloatArray, Progress, numbers, points, shaped, whole_numbers
+from styluscam.types import Document, FloatArray, Progress, numbers, points, shaped, whole_numbers
+from styluscam.words import counted, shortened, size
 
 PartLike: TypeAlias = "Part | str | os.PathLike[str]"
 """A part, or the file that it is in."""
@@ -38,6 +41,45 @@ class Part:
         part = cls.__new__(cls)
         part.engine, part.arrays = engine, arrays
         return part
+
+    def __repr__(self) -> str:
+        """Where it comes from, faces, triangles and size."""
+        name, faces = "", ""
+        if self.arrays is not None:
+            name = f" {shortened(Path(self.arrays.source).name)}"
+            faces = f"{counted(len(self.arrays.faces), 'face')}, "
+        return f"<Part{name}: {faces}{counted(self.triangle_count, 'triangle')}, {size(*self.engine.bounds)}>"
+
+    def __eq__(self, other: object) -> bool:
+        """Whether the triangles, their faces and normals and what is known of their deviation are the same."""
+        if not isinstance(other, Part):
+            return NotImplemented
+        if self.engine is other.engine:
+            return True
+        mine, theirs = self.engine, other.engine
+        if (mine.deviation, mine.bounds, mine.triangle_count) != (
+            theirs.deviation,
+            theirs.bounds,
+            theirs.triangle_count,
+        ):
+            return False
+        return all(starmap(np.array_equal, zip(mine.arrays(), theirs.arrays(), strict=True)))
+
+    def __hash__(self) -> int:
+        """As equality says, by size and count of the triangles."""
+        low, high = self.engine.bounds
+        return hash((self.triangle_count, *low, *high))
+
+    def __getstate__(self) -> Document:
+        """For pickle and copy: the triangles, and what a reader knew of them."""
+        return {"arrays": self.arrays, "mesh": self.engine.arrays(), "deviation": self.engine.deviation}
+
+    def __setstate__(self, state: Document) -> None:
+        """From :meth:`__getstate__`."""
+        vertices, triangles, faces, normals = state["mesh"]
+        inward, outward = state["deviation"]
+        self.engine = _engine.Part(vertices, triangles, faces, inward, outward, normals)
+        self.arrays = state["arrays"]
 
     @classmethod
     def of(cls, source: PartLike, argument: str = "part") -> Part:

@@ -15,16 +15,51 @@ from styluscam.job import Job, JobLike
 from styluscam.machine import Machine, MachineLike
 from styluscam.program import Program
 from styluscam.types import Document, Progress
+from styluscam.words import counted, shortened
+
+NEWLINE = "\n"
 
 
-@dataclass(frozen=True)
 class Plan:
-    """What planning made of a job."""
+    """What planning made of a job.
 
-    job: Job
-    machine: Machine
-    scene: _engine.Scene
-    engine: _engine.Plan
+    A copy of it that went through pickle holds the programs and the summary; it plans again only where the engine's own
+    plan is asked for, as for a summary with a judgement.
+    """
+
+    def __init__(self, job: Job, machine: Machine, scene: _engine.Scene, engine: _engine.Plan) -> None:
+        self.job = job
+        self.machine = machine
+        self.scene = scene
+        self.engine = engine
+
+    def __repr__(self) -> str:
+        """Of which job, and how long its program is."""
+        return f"<Plan of {shortened(self.job.title, 30)!r}: {self.programs['main'].extent}, for {self.machine.name}>"
+
+    def __eq__(self, other: object) -> bool:
+        """Whether job, machine and programs are the same."""
+        if not isinstance(other, Plan):
+            return NotImplemented
+        return (self.job, self.machine, self.programs) == (other.job, other.machine, other.programs)
+
+    def __hash__(self) -> int:
+        """As equality says."""
+        return hash(self.programs["main"])
+
+    def __getstate__(self) -> Document:
+        """For pickle and copy."""
+        return {"job": self.job, "machine": self.machine, "programs": self.programs, "_summary": self._summary}
+
+    @cached_property
+    def scene(self) -> _engine.Scene:
+        """The part as it lies on the machine."""
+        return self.job.scene()
+
+    @cached_property
+    def engine(self) -> _engine.Plan:
+        """The engine's plan."""
+        return _engine.plan(self.job.engine, self.scene, self.machine.engine)
 
     @cached_property
     def programs(self) -> dict[str, Program]:
@@ -33,15 +68,31 @@ class Plan:
 
     def summary(self, judgement: _engine.Judgement | None = None) -> tuple[Document, list[str]]:
         """The job in numbers, and the lines that a program's header says of it."""
-        document, notes = self.engine.summary(self.scene, self.machine.engine, judgement)
-        return json.loads(document), notes
+        document, notes = self._summary if judgement is None else self._summed(judgement)
+        return json.loads(document), list(notes)
+
+    @cached_property
+    def _summary(self) -> tuple[str, list[str]]:
+        return self._summed(None)
+
+    def _summed(self, judgement: _engine.Judgement | None) -> tuple[str, list[str]]:
+        return self.engine.summary(self.scene, self.machine.engine, judgement)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Posted:
     """Posted text by file name."""
 
     files: dict[str, str]
+
+    def __repr__(self) -> str:
+        """The files with their lines."""
+        sizes = [f"{shortened(name, 40)}, {counted(text.count(NEWLINE), 'line')}" for name, text in self.files.items()]
+        return f"<Posted: {shortened('; '.join(sizes) or 'nothing', 120)}>"
+
+    def __hash__(self) -> int:
+        """As equality says."""
+        return hash(tuple(self.files.items()))
 
     @property
     def text(self) -> str:
@@ -64,7 +115,7 @@ def plan(job: JobLike, *, progress: Progress | None = None, cancel: _engine.Canc
     """
     work = Job.of(job)
     machine = work.machine()
-    scene = _engine.Scene(work.engine, work.part(progress).engine)
+    scene = work.scene(progress)
     engine = _engine.plan(work.engine, scene, machine.engine, progress=progress, cancel=cancel)
     return Plan(work, machine, scene, engine)
 

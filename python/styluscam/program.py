@@ -14,6 +14,7 @@ from styluscam.errors import JobError
 from styluscam.files import read_text, write_whole
 from styluscam.machine import Machine, MachineLike
 from styluscam.types import Document, FloatArray
+from styluscam.words import clock, counted
 
 MOVE = np.dtype(
     [
@@ -46,6 +47,32 @@ class Program:
         self.operations: list[Document]
         self.setup: Document
         self.events, self.tools, self.operations, self.setup = json.loads(engine.records())
+
+    def __repr__(self) -> str:
+        """How many moves it has, how long it is and how long it takes."""
+        return f"<Program: {self.extent}>"
+
+    @property
+    def extent(self) -> str:
+        """Operations, moves, length and time in words."""
+        operations, moves = counted(len(self.operations), "operation"), counted(self.engine.move_count, "move")
+        return f"{operations}, {moves}, {self.length:.0f} mm at feed, {clock(self.duration)}"
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all moves, events and records are the same."""
+        return self.engine.to_json() == other.engine.to_json() if isinstance(other, Program) else NotImplemented
+
+    def __hash__(self) -> int:
+        """As equality says, by count and length of the moves."""
+        return hash((self.engine.move_count, *self.engine.statistics()))
+
+    def __getstate__(self) -> Document:
+        """For pickle and copy."""
+        return {"engine": self.engine.to_json()}
+
+    def __setstate__(self, state: Document) -> None:
+        """From :meth:`__getstate__`."""
+        Program.__init__(self, _engine.Program.from_json(state["engine"]))
 
     @cached_property
     def moves(self) -> npt.NDArray[np.void]:

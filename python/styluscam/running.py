@@ -15,9 +15,10 @@ from styluscam.judging import Report, judge_plan
 from styluscam.planning import Plan, Posted, output_name, plan, post
 from styluscam.report import Subject, report_page, require_extra
 from styluscam.types import Document, Progress
+from styluscam.words import shortened
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RunResult:
     """What a run made: the program is written unless the judge objected, a report in any case."""
 
@@ -26,6 +27,18 @@ class RunResult:
     report: Report
     summary: Document
     written: tuple[Path, ...]
+
+    def __repr__(self) -> str:
+        """The verdict, and what was written."""
+        names = ", ".join(path.name for path in self.written)
+        written = f"written: {shortened(names, 50)}" if names else "nothing written"
+        return (
+            f"<RunResult of {shortened(self.plan.job.title, 30)!r}: {'ok' if self.report.ok else 'FAILED'}, {written}>"
+        )
+
+    def __hash__(self) -> int:
+        """As equality says."""
+        return hash((self.posted, self.written))
 
 
 def run(

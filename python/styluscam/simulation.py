@@ -24,7 +24,7 @@ UNTOUCHED = 1e-9
 """A node that was lowered by less (mm) was not cut."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Comparison:
     """The simulated surface against the part, node by node. Lengths mm."""
 
@@ -72,6 +72,18 @@ class Comparison:
             "touched": float(self.touched.mean()),
         }
 
+    def __repr__(self) -> str:
+        """The figures."""
+        return f"<Comparison: gouged {self.gouge_max:.4f} mm, left {self.left_max:.4f} mm at most>"
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all nodes are the same."""
+        if not isinstance(other, Comparison):
+            return NotImplemented
+        return all(np.array_equal(mine, vars(other)[name]) for name, mine in vars(self).items())
+
+    __hash__ = None  # type: ignore[assignment]  # arrays can be written to
+
     def _place(self, index: int) -> tuple[float, float, float]:
         x, y, z = self.points.reshape(-1, 3)[index]
         return float(x), float(y), float(z)
@@ -80,11 +92,40 @@ class Comparison:
 class Simulation:
     """The stock, or the sheet, after every move of a program; :func:`simulate` makes it. Work coordinates, mm."""
 
-    def __init__(self, engine: _engine.Simulation, scene: _engine.Scene, face: str | None) -> None:
+    def __init__(self, engine: _engine.Simulation, report: Report, face: str | None) -> None:
         self.engine = engine
         self.heights: FloatArray = engine.heights
         """Height of the surface at every node, exact there: (rows along Y, columns along X)."""
-        self._scene, self._face = scene, face
+        self._report, self._face = report, face
+
+    @property
+    def _scene(self) -> _engine.Scene:
+        return self._report.scene
+
+    def __repr__(self) -> str:
+        """How many nodes, how far apart, and between which heights."""
+        rows, columns = self.heights.shape
+        apart = max(self.engine.step)
+        heights = f"Z {self.heights.min():.3f} to {self.heights.max():.3f}"
+        return f"<Simulation: {columns} x {rows} nodes, {apart:.4g} mm apart, {heights}>"
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all nodes are the same."""
+        if not isinstance(other, Simulation):
+            return NotImplemented
+        mine, theirs = ((one.engine.origin, one.engine.step, one.engine.top, one._face) for one in (self, other))
+        return mine == theirs and np.array_equal(self.heights, other.heights)
+
+    __hash__ = None  # type: ignore[assignment]  # arrays can be written to
+
+    def __getstate__(self) -> Document:
+        """For pickle and copy."""
+        engine = (self.engine.origin, self.engine.step, self.engine.heights, self.engine.top)
+        return {**vars(self), "engine": engine}
+
+    def __setstate__(self, state: Document) -> None:
+        """From :meth:`__getstate__`."""
+        vars(self).update(state, engine=_engine.Simulation(*state["engine"]))
 
     @property
     def x(self) -> FloatArray:
@@ -177,7 +218,7 @@ def simulate(
     if face is not None and not isinstance(face, str):
         raise refused("face", face, '"tool", "mid" or "back"', GeometryError)
     engine = report.judgement.simulate(job.engine, scene, spacing, face, progress=progress, cancel=cancel)
-    return Simulation(engine, scene, (face or scene.model_face) if scene.model_face else None)
+    return Simulation(engine, report, (face or scene.model_face) if scene.model_face else None)
 
 
 def require(file: Path, inputs: Iterable[Path] = ()) -> None:

@@ -55,6 +55,27 @@ class Tool:
         tool.remarks, tool.files = tuple(remarks), tuple(files)
         return tool
 
+    def __repr__(self) -> str:
+        """Its name and what it is."""
+        name = f" {self.name!r}" if self.name else ""
+        return f"<Tool{name}: {self.description}>"
+
+    def __eq__(self, other: object) -> bool:
+        """Whether it is the same body; names and titles do not count."""
+        return self._engine.to_json() == other._engine.to_json() if isinstance(other, Tool) else NotImplemented
+
+    def __hash__(self) -> int:
+        """As equality says."""
+        return hash(self._engine.to_json())
+
+    def __getstate__(self) -> Document:
+        """For pickle and copy."""
+        return {**vars(self), "_engine": self._engine.to_json()}
+
+    def __setstate__(self, state: Document) -> None:
+        """From :meth:`__getstate__`."""
+        vars(self).update(state, _engine=EngineTool(state["_engine"]))
+
     @classmethod
     def of(cls, source: ToolLike, argument: str = "tool") -> Tool:
         """From what a call takes for a tool: one, its document, the name of a shipped tool, or a tool file.

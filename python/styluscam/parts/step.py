@@ -413,24 +413,50 @@ def nurbs_of(surface: Kernel) -> Nurbs:
     )
 
 
-def _by_kernel(face: Kernel) -> tuple[Kernel, tuple[float, float, float, float]]:
-    """Return an evaluator that asks the kernel point by point (some 3 us each), and the face's parameter range."""
-    from OCP.BRep import BRep_Tool
-    from OCP.BRepTools import BRepTools
-    from OCP.gp import gp_Pnt, gp_Vec
+class _KernelSurface:
+    """An evaluator that asks the kernel point by point (some 3 us each)."""
 
-    surface = BRep_Tool.Surface_s(face)
+    def __init__(self, face: Kernel) -> None:
+        from OCP.BRep import BRep_Tool
 
-    def evaluate(uv: Floats) -> tuple[Floats, Floats, Floats]:
+        self._face = face
+        self._surface = BRep_Tool.Surface_s(face)
+
+    def __call__(self, uv: Floats) -> tuple[Floats, Floats, Floats]:
+        from OCP.gp import gp_Pnt, gp_Vec
+
         out = np.empty((len(uv), 3, 3))
         point, along_u, along_v = gp_Pnt(), gp_Vec(), gp_Vec()
         for i, (u, v) in enumerate(uv.tolist()):
-            surface.D1(u, v, point, along_u, along_v)
+            self._surface.D1(u, v, point, along_u, along_v)
             out[i] = _xyz(point), _xyz(along_u), _xyz(along_v)
         return out[:, 0], out[:, 1], out[:, 2]
 
+    def __reduce__(self) -> tuple[Kernel, tuple[bytes]]:
+        """For workers: the kernel's own binary form, exact."""
+        from OCP.BinTools import BinTools
+
+        stream = io.BytesIO()
+        BinTools.Write_s(self._face, stream)
+        return _kernel_surface, (stream.getvalue(),)
+
+
+def _kernel_surface(face: bytes) -> _KernelSurface:
+    """Return the evaluator that was written."""
+    from OCP.BinTools import BinTools
+    from OCP.TopoDS import TopoDS, TopoDS_Shape
+
+    shape = TopoDS_Shape()
+    BinTools.Read_s(shape, io.BytesIO(face))
+    return _KernelSurface(TopoDS.Face_s(shape))
+
+
+def _by_kernel(face: Kernel) -> tuple[_KernelSurface, tuple[float, float, float, float]]:
+    """Return an evaluator that asks the kernel, and the face's parameter range."""
+    from OCP.BRepTools import BRepTools
+
     u0, u1, v0, v1 = BRepTools.UVBounds_s(face)
-    return evaluate, (u0, u1, v0, v1)
+    return _KernelSurface(face), (u0, u1, v0, v1)
 
 
 def _area_and_centre(face: Kernel) -> tuple[float, tuple[float, float, float]]:

@@ -2,13 +2,21 @@
 
 use std::sync::{Mutex, OnceLock};
 
-use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 use styluscam_geometry::{Mesh, Vector};
 use styluscam_motion::{Cancelled, Watch};
 use styluscam_toolpath::offset::Index;
 
 use crate::{arrays, errors};
+
+/// Vertices, triangles, faces and normals.
+type MeshArrays<'py> = (
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<i64>>,
+    Bound<'py, PyArray1<i64>>,
+    Option<Bound<'py, PyArray3<f64>>>,
+);
 
 /// A part; see `styluscam.Part`.
 #[pyclass(frozen, module = "styluscam._engine")]
@@ -72,6 +80,31 @@ impl Part {
     fn bounds(&self) -> ([f64; 3], [f64; 3]) {
         let (low, high) = self.part.mesh.bounds();
         (low.into(), high.into())
+    }
+
+    /// How far the triangles lie inside and outside the material at most, mm.
+    #[getter]
+    fn deviation(&self) -> (f64, f64) {
+        (self.part.inward, self.part.outward)
+    }
+
+    /// Vertices (V, 3) mm, triangles (T, 3), face by triangle (T,), and the model's normals at their corners (T, 3, 3), or None:
+    /// what builds the same part.
+    fn arrays<'py>(&self, py: Python<'py>) -> PyResult<MeshArrays<'py>> {
+        let mesh = &self.part.mesh;
+        let count = mesh.triangles().len();
+        let normals = if mesh.has_corner_normals() {
+            let flat = (0..count).flat_map(|t| mesh.corner_normals(t)).flat_map(|n| [n.x, n.y, n.z]).collect();
+            Some(PyArray1::from_vec(py, flat).reshape([count, 3, 3])?)
+        } else {
+            None
+        };
+        Ok((
+            arrays::matrix(py, mesh.vertices().iter().map(|v| [v.x, v.y, v.z]))?,
+            arrays::matrix(py, mesh.triangles().iter().map(|t| t.map(i64::from)))?,
+            PyArray1::from_vec(py, mesh.faces().iter().map(|face| i64::from(*face)).collect()),
+            normals,
+        ))
     }
 
     #[getter]

@@ -73,6 +73,11 @@ impl Program {
         ))
     }
 
+    #[getter]
+    fn move_count(&self) -> usize {
+        self.program.moves.len()
+    }
+
     /// Places along the program (M, 3) and the move that each belongs to (M,); no chord is farther than `sag` mm from its arc.
     fn polyline<'py>(&self, py: Python<'py>, sag: f64) -> PyResult<Polyline<'py>> {
         if sag.is_nan() || sag <= 0.0 {

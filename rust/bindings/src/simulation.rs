@@ -1,6 +1,6 @@
 //! The material after a program.
 
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use styluscam_geometry::ModelFace;
 
@@ -20,6 +20,16 @@ pub struct Simulation {
 
 #[pymethods]
 impl Simulation {
+    /// From what the getters give: the first node, the way from one to the next, heights (rows, columns) and that before.
+    #[new]
+    #[allow(clippy::needless_pass_by_value)] // PyO3 hands arrays by value
+    fn new(origin: [f64; 2], step: [f64; 2], heights: PyReadonlyArray2<'_, f64>, top: f64) -> Self {
+        let view = heights.as_array();
+        let (rows, columns) = view.dim();
+        let grid = styluscam_verify::Grid { origin, step, nodes: [columns, rows] };
+        Self { simulation: styluscam_verify::Simulation { grid, heights: view.iter().copied().collect(), top } }
+    }
+
     /// The first node in plan.
     #[getter]
     fn origin(&self) -> [f64; 2] {

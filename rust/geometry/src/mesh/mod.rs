@@ -69,7 +69,8 @@ impl Mesh {
             if area.norm() > 0.0 {
                 mesh.triangles.push(corners);
                 mesh.faces.push(faces.get(i).copied().unwrap_or(1));
-                let given = normals.get(i).map(|given| given.map(|n| n.try_normalize(0.0).unwrap_or(area.normalize())));
+                let unit = |n: Vector| if is_unit(n) { Some(n) } else { n.try_normalize(0.0) };
+                let given = normals.get(i).map(|given| given.map(|n| unit(n).unwrap_or(area.normalize())));
                 mesh.normals.extend(given);
             } else {
                 mesh.dropped += 1;
@@ -181,6 +182,11 @@ impl Mesh {
             ..self.clone()
         }
     }
+}
+
+/// Whether a vector was made of length 1 before: so it stays, to the last bit, in a part that is taken apart and put together.
+fn is_unit(vector: Vector) -> bool {
+    (vector.norm_squared() - 1.0).abs() <= 8.0 * f64::EPSILON
 }
 
 fn check_vertices(vertices: &[Vector]) -> Result<(), GeometryError> {
