@@ -41,9 +41,10 @@ def file_of(value: object, argument: str, wanted: str, failure: type[StylusError
         StylusError: of class ``failure``: it is neither, or a text of several lines; ``hint`` says where those go.
     """
     name = os.fspath(value) if isinstance(value, str | os.PathLike) else None
-    if not isinstance(name, str) or not name.strip() or _is_text(name):
+    is_name = isinstance(name, str) and bool(name.strip()) and not (isinstance(value, str) and _is_text(value))
+    if not is_name:
         raise refused(argument, value, wanted, failure, hint)
-    return Path(name)
+    return Path(str(name))
 
 
 def word_of(value: object, argument: str, wanted: str, failure: type[StylusError], hint: str = "") -> str:
@@ -108,7 +109,7 @@ def _described(value: object) -> str:
     if isinstance(value, str):
         lines = value.count("\n") + (not value.endswith("\n"))
         if not value.strip():
-            return f"an empty {kind}"
+            return f"an empty text ({kind})"
         shown = value if len(value) <= SHOWN else value[: SHOWN - 3] + "..."
         return f"a text of {lines} lines ({kind})" if _is_text(value) else f"{kind} {shown!r}"
     if isinstance(value, bool | int | float) and len(repr(value)) <= SHOWN:

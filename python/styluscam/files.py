@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import stat
 import tempfile
 import unicodedata
 from collections.abc import Iterable, Iterator
@@ -16,10 +17,18 @@ from styluscam.errors import StylusError, VerifyError
 def read_text(path: str | Path, failure: type[StylusError]) -> str:
     """The text of a file; what keeps it from being read raises ``failure``."""
     try:
+        require_end(Path(path))
         return Path(path).read_text(encoding="utf-8")
     except (OSError, ValueError) as error:
-        why = "it is not text in UTF-8" if isinstance(error, UnicodeDecodeError) else _reason(error)
+        why = "it is not text in UTF-8" if isinstance(error, UnicodeDecodeError) else reason(error)
         raise failure(f"{path}: cannot be read: {why}", code="unreadable", where=str(path)) from error
+
+
+def require_end(path: Path) -> None:
+    """Refuses devices: /dev/zero has no end. Pipes are read."""
+    mode = path.stat().st_mode
+    if stat.S_ISCHR(mode) or stat.S_ISBLK(mode):
+        raise OSError(errno.EINVAL, "it is a device, not a file", str(path))
 
 
 def read_gcode_text(path: str | Path) -> str:
@@ -155,11 +164,11 @@ def _look(path: Path) -> None:
 
 def _unwritable(path: Path, error: OSError | ValueError) -> StylusError:
     name = str(path).replace("\0", "?")
-    message = f"{name}: cannot be written: {_reason(error)}"
+    message = f"{name}: cannot be written: {reason(error)}"
     return StylusError(message, code="unwritable", where=name, hint="choose another place")
 
 
-def _reason(error: OSError | ValueError) -> str:
+def reason(error: OSError | ValueError) -> str:
     """What the system says, without the number and the name around it."""
     return str(getattr(error, "strerror", None) or error)
 

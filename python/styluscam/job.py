@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
@@ -11,9 +12,10 @@ from typing import NamedTuple, TypeAlias
 from styluscam import _engine, pointsfile
 from styluscam.arguments import A_FILE, FileName, document_of, file_of, refused
 from styluscam.errors import JobError, ToolError
+from styluscam.files import reason, require_end
 from styluscam.machine import Machine
 from styluscam.part import Part, PartLike
-from styluscam.parts import PartArrays
+from styluscam.parts import BREP_ENDINGS, MESH_ENDINGS, PartArrays
 from styluscam.tool import Tool
 from styluscam.types import Document, Progress
 from styluscam.words import counted, shortened
@@ -110,18 +112,19 @@ class Job:
             JobError: with the key, its value and what is allowed.
         """
         path = file_of(path, "path", A_FILE, JobError, "Job.from_toml(text) takes a text")
+        _require_no_other(path)
         try:
+            require_end(path)
             text = path.read_text(encoding="utf-8")
         except FileNotFoundError as error:
             message = f"{path}: no such file"
             raise JobError(message, code="no-such-file", where=str(path), hint="check the path") from error
-        except OSError as error:
-            message = f"{path}: cannot be read: {error.strerror or error}"
-            raise JobError(message, code="unreadable", where=str(path), hint="name a job file") from error
-        except UnicodeDecodeError as error:
-            message = f"{path}: not a job: it is not text in UTF-8"
-            raise JobError(message, code="unreadable", where=str(path), hint="name a job file") from error
-        folder = path.resolve().parent
+        except (OSError, ValueError) as error:
+            text_only = isinstance(error, UnicodeDecodeError)
+            why = "not a job: it is not text in UTF-8" if text_only else f"cannot be read: {reason(error)}"
+            raise JobError(f"{path}: {why}", code="unreadable", where=str(path), hint="name a job file") from error
+        # a job that comes through a pipe speaks of files from here
+        folder = Path.cwd() if path.is_fifo() else path.resolve().parent
         if path.suffix == ".json":
             text, files = _resolved_json(text, folder)
             engine = _engine.Job.from_json(text)
@@ -220,6 +223,22 @@ class Job:
     def machine(self) -> Machine:
         """The machine that the job names."""
         return Machine.of_section(self.document["machine"], self.folder)
+
+
+PROGRAMS = (".ngc", ".nc", ".gcode", ".tap", ".cnc", ".mpf", ".h")
+"""Endings of G-code that people take for a job's."""
+
+
+def _require_no_other(path: Path) -> None:
+    """Says what a file is that is taken for a job, where its ending tells."""
+    ending, name = path.suffix.lower(), shlex.quote(str(path))
+    if ending in BREP_ENDINGS + MESH_ENDINGS:
+        message, hint = "this is a part, not a job", f"styluscam new {name} writes a job for it"
+    elif ending in PROGRAMS:
+        message, hint = "this is G-code, not a job", f"styluscam verify {name} --job JOB.toml judges it"
+    else:
+        return
+    raise JobError(f"{path}: {message}", code="not-a-job", where=str(path), hint=hint)
 
 
 def _tool(library: str, folder: Path, place: str) -> Tool:

@@ -20,6 +20,7 @@ from styluscam.program import RAPID, Program
 from styluscam.raster import Raster, View, rasterise
 from styluscam.tool import Tool
 from styluscam.types import FloatArray, IntArray
+from styluscam.words import clock
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -525,13 +526,8 @@ def _rulers(axes: Axes, view: View, box: FloatArray) -> None:
 def _titles(figure: Figure, program: Program, title: str) -> None:
     tools = ", ".join(dict.fromkeys(str(tool["description"]) for tool in program.tools))
     strategies = ", ".join(dict.fromkeys(str(operation["kind"]) for operation in program.operations))
-    seconds = round(program.duration)
-    time = (
-        f"{seconds // 60} min {seconds % 60:02} s"
-        if seconds < 3600
-        else f"{seconds // 3600} h {seconds // 60 % 60:02} min"
-    )
-    facts = [strategies, tools, f"{program.length / 1000.0:.3g} m in {time} at the ordered feeds"]
+    way = f"{program.length / 1000.0:.3g} m in {clock(program.duration)} at the ordered feeds"
+    facts = [strategies, tools, way]
     title = title or str(program.setup.get("title", ""))
     _heading(figure, 0.955, title, 18.0, color=INK, weight="bold")
     _heading(figure, 0.912, ", ".join(fact for fact in facts if fact), 12.5, color=SOFT)

@@ -2,20 +2,30 @@
 
 from __future__ import annotations
 
+import re
+import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from styluscam import _engine
 from styluscam.arguments import A_FILE, FileName, file_of
-from styluscam.errors import JobError, VerifyError
-from styluscam.files import require_writable, write_all_whole
+from styluscam.errors import JobError, StylusError, VerifyError
+from styluscam.files import is_file, require_writable, write_all_whole
 from styluscam.job import Job, JobLike
 from styluscam.judging import Report, judge_plan
 from styluscam.planning import Plan, Posted, output_name, plan, post
+from styluscam.posting import VERDICT
+from styluscam.program import Program
 from styluscam.report import Subject, report_page, require_extra
 from styluscam.types import Document, Progress
 from styluscam.words import shortened
+
+HEADER = 2**18
+"""Bytes of a program in which its header ends."""
+
+BLOCK_NUMBER = re.compile(r"^\s*N?\d+\s")
+"""What stands before a remark where blocks are numbered."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -47,19 +57,23 @@ def run(
     write_despite_findings: bool = False,
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
+    force: bool = False,
     report: FileName | None = None,
     also: Sequence[FileName] = (),
 ) -> RunResult:
     """Plans a job (object, dict or file), posts it, reads the text back, judges it, and writes it only if nothing was found.
 
-    ``report`` names the page to be written, the job's own when left out: whatever was found. ``also`` names files that
-    the caller will write beside the program: asked about before the work begins.
+    A program that another job wrote, or no job at all, is not replaced without ``force``; one of this job is. ``report``
+    names the page to be written, the job's own when left out: whatever was found. ``also`` names files that the caller
+    will write beside the program: asked about before the work begins.
     The judge's figures go into the header: the text is posted again with them, and must hold the very same moves.
     """
     work = Job.of(job)
     page = _report_name(work) if report is None else file_of(report, "report", A_FILE, JobError)
     others = [file_of(each, "also", A_FILE, JobError) for each in also]
     require_writable([*_names(work), *([] if page is None else [page]), *others], work.inputs())
+    if not force:
+        _require_own(work)
     if page is not None:
         require_extra()
     planned = plan(work, progress=progress, cancel=cancel)
@@ -72,6 +86,49 @@ def run(
         files[page] = report_page(Subject.judged(judged, planned.machine, _names(work)[0].name), progress)
     write_all_whole(files)
     return RunResult(planned, posted, judged, summary, tuple(files))
+
+
+def _require_own(job: Job) -> None:
+    """Asks whether what the job would replace was written by it: its title, and the judge's remark in the program.
+
+    Raises:
+        JobError: a file of another job, or of none, is in the way.
+    """
+    gcode, program = _names(job)
+    title = str(job.document["title"] or job.document["part"]["file"])  # as programs have it
+    described = not is_file(program) or _title(program) == title
+    posted = not is_file(gcode) or _is_judged(gcode, title, is_file(program) and described)
+    for path, own in ((gcode, posted), (program, described)):
+        if not own:
+            message = f"{path}: the file is there already, and this job ({job.title}) did not write it"
+            hint = "add --force (in Python force=True) to replace it, or name another output.file"
+            raise JobError(message, code="exists", where=str(path), hint=hint)
+
+
+def _title(program: Path) -> str | None:
+    """The title of the job that wrote a program document; None of another file."""
+    try:
+        return str(Program.load(program).setup["title"])
+    except (StylusError, KeyError):
+        return None
+
+
+def _is_judged(gcode: Path, title: str, described: bool) -> bool:
+    """Whether a text holds the judge's remark, and belongs to a job of this title: by its header, or as ``described``."""
+    try:
+        with gcode.open("rb") as stream:
+            head = stream.read(HEADER).decode("utf-8", errors="replace")
+    except OSError:
+        return False
+    said = _letters("".join(BLOCK_NUMBER.sub("", line) for line in head.splitlines()))
+    own = _letters(title)
+    return _letters(VERDICT) in said and (described or (own != "" and own in said))
+
+
+def _letters(text: str) -> str:
+    """The letters of a text: what every controller's comments keep of it."""
+    plain = unicodedata.normalize("NFKD", text).casefold()
+    return "".join(letter for letter in plain if letter.isascii() and letter.isalnum())
 
 
 def _require_same_moves(report: Report, planned: Plan, posted: Posted) -> None:

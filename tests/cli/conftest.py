@@ -119,9 +119,10 @@ def read_once() -> Iterator[None]:
 
     known: dict[tuple[str, float], sc.Part] = {}
 
-    def read(path: Path, tolerance: float = 0.001, units: str | None = None, progress: Any = None) -> sc.Part:
+    def read(file: str | Path, tolerance: float = 0.001, units: str | None = None, progress: Any = None) -> sc.Part:
+        path = Path(file).resolve()
         if path.parent != FIXTURES:
-            return sc.Part.from_arrays(read_part(path, tolerance, units, progress))
+            return sc.Part.from_arrays(read_part(file, tolerance, units, progress))
         if (path.name, tolerance) not in known:
             known[path.name, tolerance] = sc.Part.from_arrays(read_part(path, tolerance, units, progress))
         return known[path.name, tolerance]

@@ -209,7 +209,7 @@ def test_a_wrong_type_is_named_with_what_is_wanted(call, value):
     assert said in str(error) and " is wanted" in str(error), str(error)
 
 
-@pytest.mark.parametrize("value", ["a", [], [[1.0]], object(), b"1"], ids=repr)
+@pytest.mark.parametrize("value", ["a", [], [[1.0]], object(), b"1"], ids=lambda value: type(value).__name__)
 def test_a_wrong_number_is_named(value):
     roof = sc.Part.from_mesh(*ROOF)
     for argument, call in {

@@ -55,8 +55,8 @@ def _values(stepover: float = 2.0) -> dict[str, Any]:
         "posted": posted,
         "report": report,
         "run": sc.RunResult(plan, posted, report, plan.summary(report.judgement)[0], ()),
-        "simulation": sc.simulate(report, 0.5),
-        "comparison": sc.simulate(report, 0.5).compare(),
+        "simulation": sc.simulate(report, 0.25 * stepover),
+        "comparison": sc.simulate(report, 0.25 * stepover).compare(),
         "offset": sc.offset_surface(sc.Part.from_mesh(*CUBE), {"profile": BALL}, tolerance=0.01),
         "offsets": sc.slope_matched_offset({"profile": BALL}, [[0, 0, 0]], [[0, 0.6, 0.8]]),
     }
@@ -77,7 +77,7 @@ def test_a_value_says_in_a_line_what_it_is(made, name):
 
 def test_what_values_say(made):
     said = {name: repr(value) for name, value in made.items()}
-    assert said["tool"] == "<Tool 'clothoid:small': clothoid D8>"
+    assert said["tool"] == "<Tool 'clothoid:small': clothoid D6>"
     assert said["part"] == "<Part: 12 triangles, 10 x 8 x 5 mm>"
     assert said["job"] == '<Job "A cube\'s top": made.stl, 1 operation (zig-zag), for linuxcnc>'
     assert said["machine"].startswith("<Machine 'linuxcnc': LinuxCNC")
@@ -176,7 +176,7 @@ def test_a_part_from_a_file_keeps_its_surfaces(part_of):
     part = part_of("cone_cup")
     again = pickle.loads(pickle.dumps(part))
     assert again == part and again.arrays.faces == part.arrays.faces
-    assert repr(part).startswith("<Part cone_cup.step: 6 faces, ")
+    assert repr(part).startswith("<Part cone_cup.step: 10 faces, ")
     points, faces = part.arrays.vertices[:50] + 0.1, np.full(50, 2)
     assert np.array_equal(again.arrays.surface_distance(points, faces), part.arrays.surface_distance(points, faces))
 

@@ -29,11 +29,13 @@ from styluscam.cli import (
     view,
 )
 from styluscam.cli.failures import failure_of
+from styluscam.errors import StylusError
 
 app = typer.Typer(
     name="styluscam",
     help="Toolpaths for tools of any convex shape: from CAD faces to verified G-code.",
-    epilog="Exit codes: 0 done, 1 verification found something, 2 the input is wrong, 3 cancelled, 4 a fault of ours.",
+    epilog="Exit codes: 0 done, 1 verification found something, 2 the input is wrong, 3 cancelled (130 by Ctrl-C), "
+    "4 a fault of ours.",
     add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
@@ -104,7 +106,10 @@ def _failed(error: BaseException, arguments: Sequence[str]) -> int:
     if "--debug" in arguments:
         console.complain("".join(traceback.format_exception(error)))
     if "--json" in arguments:
-        console.say_json(failure.to_dict())
+        try:
+            console.say_json(failure.to_dict())
+        except StylusError:  # stdout itself is what failed
+            console.complain(failure.line)
     else:
         console.complain(failure.line)
     return failure.exit_code

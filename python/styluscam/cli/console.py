@@ -14,6 +14,8 @@ import sys
 from collections.abc import Iterator
 from typing import TextIO
 
+from styluscam.errors import StylusError
+
 WIDTH = 110
 """Columns of tables where stdout is no terminal."""
 
@@ -23,8 +25,9 @@ _stdout: list[TextIO] = []
 @contextlib.contextmanager
 def shielded() -> Iterator[None]:
     """Sends to nowhere what anyone but :func:`stdout` writes to the process's stdout."""
-    sys.stdout.flush()
     try:
+        if sys.stdout is not None:
+            sys.stdout.flush()
         kept = os.dup(1)
     except OSError:  # started without a stdout
         yield
@@ -39,7 +42,7 @@ def shielded() -> Iterator[None]:
     finally:
         _stdout.remove(stream)
         _flush_c()
-        with contextlib.suppress(BrokenPipeError):
+        with contextlib.suppress(OSError):  # what could not be written was said where it was
             stream.close()
         os.dup2(kept, 1)
         os.close(kept)
@@ -52,16 +55,34 @@ def _flush_c() -> None:
         ctypes.CDLL(None).fflush(None)
 
 
-def stdout() -> TextIO:
-    """The stream for results."""
+def stdout() -> TextIO | None:
+    """The stream for results; None where the process was started without one."""
     return _stdout[-1] if _stdout else sys.stdout
 
 
+@contextlib.contextmanager
+def _writing() -> Iterator[None]:
+    """A reader that has gone away is no fault: the command's work goes on. A full disk is the user's to know of.
+
+    Raises:
+        StylusError: the result cannot be written.
+    """
+    try:
+        yield
+    except BrokenPipeError:
+        pass
+    except OSError as error:
+        message = f"stdout: cannot be written: {error.strerror or error}"
+        raise StylusError(message, code="unwritable", where="stdout", hint="send it to another place") from error
+
+
 def say(text: str = "") -> None:
-    """A line of the result. A reader that has gone away is no fault: the command's work goes on."""
-    with contextlib.suppress(BrokenPipeError):
-        stdout().write(text + "\n")
-        stdout().flush()
+    """A line of the result."""
+    stream = stdout()
+    if stream is not None:
+        with _writing():
+            stream.write(text + "\n")
+            stream.flush()
 
 
 def say_json(document: object) -> None:
@@ -71,9 +92,10 @@ def say_json(document: object) -> None:
 
 def complain(text: str) -> None:
     """A line on stderr."""
-    with contextlib.suppress(BrokenPipeError):
-        sys.stderr.write(text + "\n")
-        sys.stderr.flush()
+    if sys.stderr is not None:
+        with contextlib.suppress(OSError):  # nobody is left to tell
+            sys.stderr.write(text + "\n")
+            sys.stderr.flush()
 
 
 def table(columns: dict[str, str], rows: list[list[str]]) -> None:
@@ -88,9 +110,11 @@ def table(columns: dict[str, str], rows: list[list[str]]) -> None:
     for row in rows:
         drawn.add_row(*row)
     stream = stdout()
+    if stream is None:
+        return
     width = None if stream.isatty() else WIDTH
     console = Console(file=stream, width=width, markup=False, highlight=False, legacy_windows=False)
-    with contextlib.suppress(BrokenPipeError):
+    with _writing():
         console.print(drawn)
         stream.flush()
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -79,6 +80,9 @@ def failure_of(error: BaseException) -> Failure:
         return _known(error)
     if isinstance(error, USAGE_ERROR):
         return _usage(error)
+    if isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT):
+        message = f"cannot be written: {error.strerror}"
+        return Failure(INPUT, "StylusError", "unwritable", "", message, "send it to another place")
     if isinstance(error, MemoryError):
         message = "not enough memory for this part at this tolerance"
         return Failure(INPUT, "GeometryError", "memory", "part.tolerance", message, "give a larger tolerance")
@@ -93,7 +97,7 @@ def _known(error: StylusError) -> Failure:
 
 def _top_key(where: str) -> str:
     """The first key of a place in a document; ``line`` of ``line 3``."""
-    return where.replace("[", ".").replace(" ", ".").partition(".")[0]
+    return where.replace("[", ".").replace(" ", ".").partition(".")[0] if where.strip(".") else where
 
 
 def _usage(error: Exception) -> Failure:

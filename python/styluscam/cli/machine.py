@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shlex
 from pathlib import Path
 from typing import Annotated
 
@@ -10,7 +11,7 @@ import typer
 
 from styluscam import files
 from styluscam.cli import console
-from styluscam.cli.options import Debug, Force, Json
+from styluscam.cli.options import Debug, Force, Json, Quiet
 from styluscam.cli.summary import shown_path
 from styluscam.errors import MachineError
 from styluscam.machine import Machine, Trial, differences, starter
@@ -32,8 +33,8 @@ Keep = Annotated[
     typer.Option("--keep", metavar="DIR", help="Write the posted texts into this folder.", show_default=False),
 ]
 
-EVIDENCE = {"read": "", "partly": "not all confirmed", "unverified": "UNVERIFIED"}
-"""How a machine's evidence is shown in a list."""
+EVIDENCE = {"read": "all read at the source", "partly": "not all confirmed", "unverified": "UNVERIFIED"}
+"""How a machine's evidence is shown in a list: where it was read, `show` says."""
 
 
 @app.callback(invoke_without_command=True)
@@ -88,7 +89,15 @@ def _show(machine: Machine) -> None:
 
 
 @app.command("new")
-def new(name: NewFile, base: From, force: Force = False, debug: Debug = False) -> int:
+def new(
+    name: NewFile,
+    base: From,
+    *,
+    force: Force = False,
+    json: Json = False,
+    quiet: Quiet = False,
+    debug: Debug = False,
+) -> int:
     """Write a machine file that begins as another machine."""
     if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_-]*(\.toml)?", Path(name).name):
         raise MachineError(
@@ -103,8 +112,11 @@ def new(name: NewFile, base: From, force: Force = False, debug: Debug = False) -
     extends = base if base in Machine.names() else _beside(Path(base), path)
     files.require_writable([path])
     files.write_whole(path, starter(path.stem, machine, extends))
-    console.say(f"written: {shown_path(path)}")
-    console.say(f"next: fill in its limits, then styluscam machine check {shown_path(path)}")
+    if json:
+        console.say_json({"written": [str(path)]})
+    elif not quiet:
+        console.say(f"written: {shown_path(path)}")
+        console.say(f"next:    fill in its limits, then styluscam machine check {shlex.quote(shown_path(path))}")
     return 0
 
 
@@ -125,12 +137,15 @@ def check(name: Name, keep: Keep = None, json: Json = False, debug: Debug = Fals
     """Post a torture program by a machine file, read it back and compare. Exit code 1 when something failed."""
     machine = Machine.find(name)
     trials = machine.check()
-    if keep is not None:
-        _keep(trials, keep)
+    written = [] if keep is None else _keep(trials, keep)
     failed = [trial for trial in trials if trial.outcome == "failed"]
     if json:
-        console.say_json({"name": machine.name, "ok": not failed, "trials": [_tried(trial) for trial in trials]})
+        names = [str(path) for path in written]
+        document = {"name": machine.name, "ok": not failed, "trials": [_tried(trial) for trial in trials]}
+        console.say_json({**document, "written": names})
     else:
+        if keep is not None:
+            console.say(f"written: {len(written)} texts in {shown_path(keep)}")
         console.table({"tried": "left", "outcome": "left", "": "left"}, [_row(trial) for trial in trials])
         _tell_failures(failed)
         passed = sum(trial.outcome == "passed" for trial in trials)
@@ -140,15 +155,15 @@ def check(name: Name, keep: Keep = None, json: Json = False, debug: Debug = Fals
     return 1 if failed else 0
 
 
-def _keep(trials: list[Trial], folder: Path) -> None:
-    """The posted texts, a file for each trial that has one."""
+def _keep(trials: list[Trial], folder: Path) -> list[Path]:
+    """Writes the posted texts, a file for each trial that has one; the files."""
     texts = {
         folder / f"{re.sub(r'[^a-z0-9]+', '-', trial.name.lower())}.txt": trial.text for trial in trials if trial.text
     }
     files.require_writable(texts)
     for path, text in texts.items():
         files.write_whole(path, text)
-    console.say(f"written: {len(texts)} texts in {shown_path(folder)}")
+    return list(texts)
 
 
 def _tell_failures(failed: list[Trial]) -> None:

@@ -15,7 +15,7 @@ from styluscam.cli.options import Debug, Force, Json, PartFile, Quiet, Units
 from styluscam.cli.summary import shown_path
 from styluscam.errors import GeometryError, JobError
 from styluscam.job import Job, starter_job
-from styluscam.parts import PartArrays, read_part
+from styluscam.parts import PartArrays, read_part, require_part
 from styluscam.types import Progress
 
 LOOK = 0.05
@@ -48,6 +48,7 @@ def new(
     It forms what a sheet can be formed to and mills the rest, with a tool that fits the part, and says why. It runs as
     it stands.
     """
+    require_part(part)
     path = out or part.with_suffix(".toml")
     files.require_new(path, force, JobError, "name another --out")
     files.require_writable([path], [part])

@@ -61,6 +61,9 @@ SupportOut = Annotated[
 ]
 Cl = Annotated[bool, typer.Option("--cl", help="Write cutter locations (APT) in place of the machine's text.")]
 
+HIGHEST = 1000.0
+"""mm: above the work there is no more air."""
+
 
 def post(
     program: Source,
@@ -85,8 +88,8 @@ def post(
 
     The text is not judged: `styluscam verify` does that, and `styluscam run` writes nothing that it objects to.
     """
-    if air < 0.0:
-        raise JobError(f"--air {air:g}", code="usage", where="--air", hint="a height of 0 or more, in mm")
+    if not 0.0 <= air <= HIGHEST:
+        raise JobError(f"--air {air:g}", code="usage", where="--air", hint=f"a height of 0 to {HIGHEST:g} mm")
     if support is not None and (start or air or cl):
         raise JobError(
             "a pair starts together, at its own heights, as the machines' text",

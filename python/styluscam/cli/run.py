@@ -10,7 +10,7 @@ import typer
 from styluscam import running
 from styluscam.cli import console, findings, progress, summary
 from styluscam.cli.failures import FOUND, naming
-from styluscam.cli.options import Debug, JobFile, Json, Picture, Quiet, ReportFile
+from styluscam.cli.options import Debug, Force, JobFile, Json, Picture, Quiet, ReportFile
 from styluscam.job import Job
 from styluscam.types import Document
 
@@ -25,19 +25,26 @@ def run(
     write_despite_findings: Despite = False,
     report: ReportFile = None,
     picture: Picture = None,
+    force: Force = False,
     json: Json = False,
     quiet: Quiet = False,
     debug: Debug = False,
 ) -> int:
     """Plan, post, verify, and write a job's program.
 
-    The posted text is read back and judged; it is written only if nothing was found.
+    The posted text is read back and judged; it is written only if nothing was found. A program that this job wrote before
+    is replaced, another file only with --force.
     """
     with naming(job), progress.shown(not (json or quiet)) as shown:
         work = Job.read(job)
         also = [] if picture is None else [picture]
         result = running.run(
-            work, write_despite_findings=write_despite_findings, progress=shown, report=report, also=also
+            work,
+            write_despite_findings=write_despite_findings,
+            force=force,
+            progress=shown,
+            report=report,
+            also=also,
         )
         written = list(result.written)
         if picture is not None:

@@ -72,10 +72,10 @@ def view(
     if job is not None and part is not None:
         raise JobError("--job and --part: a job has its part", code="usage", where="--part", hint="give one of them")
     page = out or file.with_suffix(".html")
+    reader = Machine.find(machine) if machine is not None else None
     with naming(job or file), naming(file, VerifyError), progress.shown(not (json or quiet)) as shown:
         pages.require(page, picture, inputs=[path for path in (file, job, part) if path is not None])
         text = read_gcode_text(file)
-        reader = Machine.find(machine) if machine is not None else None
         if job is not None:
             subject = viewing.viewed_for_job(text, file.name, Job.read(job), reader)
         else:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 import os
+import shlex
 from pathlib import Path
 
 from ..errors import GeometryError
 from .arrays import FaceInfo, PartArrays
 from .progress import Progress, report
 
-__all__ = ["BREP_ENDINGS", "MESH_ENDINGS", "UNITS", "FaceInfo", "PartArrays", "read_part"]
+__all__ = ["BREP_ENDINGS", "MESH_ENDINGS", "UNITS", "FaceInfo", "PartArrays", "read_part", "require_part"]
 
 BREP_ENDINGS = (".step", ".stp", ".brep", ".brp", ".iges", ".igs")
 MESH_ENDINGS = (".stl", ".obj", ".ply", ".3mf")
@@ -55,6 +56,7 @@ def read_part(
         raise GeometryError(
             f"{shown}: the file's name is not UTF-8: {cure}", code="part-name", where=shown, hint=cure
         ) from error
+    require_part(file)
     _check_readable(file)
     ending = file.suffix.lower()
     if ending in BREP_ENDINGS:
@@ -96,6 +98,18 @@ def _read_brep(file: Path, tolerance: float, progress: Progress | None) -> PartA
         cache.keep(name, part)
     report(progress, "arrays", 1.0)
     return part
+
+
+def require_part(file: Path) -> None:
+    """Refuse a job file in a part's place: what to do with it is another command.
+
+    Raises GeometryError.
+    """
+    if file.suffix.lower() == ".toml":
+        cure = f"styluscam run {shlex.quote(str(file))}"
+        raise GeometryError(
+            f"{file}: this is a job, not a part: {cure}", code="part-is-job", where=str(file), hint=cure
+        )
 
 
 def _check_readable(file: Path) -> None:

@@ -19,9 +19,11 @@ pub struct ToolDocument {
     pub base: Option<Base>,
     /// Diameter of the shank, mm; the base's when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm"))]
     pub shank_diameter: Option<f64>,
     /// Length from tip to holder, mm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm"))]
     pub length: Option<f64>,
     /// The holder above it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -35,16 +37,19 @@ pub enum Base {
     /// A cylinder of the base's diameter.
     Cylindrical {
         /// Its height, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         height: f64,
     },
     /// A cone to the shank's diameter.
     Chamfer {
         /// Its height, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         height: f64,
     },
     /// A smooth transition to the shank's diameter, with one tangent at both ends.
     Tangent {
         /// Its height, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         height: f64,
     },
 }
@@ -79,8 +84,10 @@ impl Base {
 #[serde(deny_unknown_fields)]
 pub struct Holder {
     /// Its diameter, mm.
+    #[schemars(extend("x-unit" = "mm"))]
     pub diameter: f64,
     /// Its length, mm.
+    #[schemars(extend("x-unit" = "mm"))]
     pub length: f64,
 }
 

@@ -1,7 +1,9 @@
 //! What serde cannot know: ranges, and keys that belong together.
 
 use crate::fixture::{FixtureSection, Opening};
-use crate::{JobDocument, JobError, MachineSection, OperationKind, OperationSection, Process, Selection, Step, Zero};
+use crate::{
+    JobDocument, JobError, LengthUnit, MachineSection, OperationKind, OperationSection, Process, Selection, Step, Zero,
+};
 
 /// A key, the range of its value (the lower end excluded where `open`), and the range in words.
 struct Range {
@@ -53,11 +55,28 @@ const TABLES: &[(&str, &str)] = &[
     ("backing", "a table like { opening = 160.0 }"),
 ];
 
-/// What is allowed at a path of the document, in words, where that is known.
-pub fn allowed(place: &str) -> Option<&'static str> {
+/// What is allowed at a path of the document, in words and in its unit, where that is known.
+pub fn allowed(place: &str, unit: LengthUnit) -> Option<String> {
     let key = place.rsplit('.').next().unwrap_or(place);
-    let table = TABLES.iter().find(|(name, _)| *name == key).map(|(_, words)| *words);
-    range_of(place).map(|range| range.words).or(table)
+    let table = TABLES.iter().find(|(name, _)| *name == key).map(|(_, words)| (*words).to_owned());
+    range_of(place).map(|range| range.in_words(unit)).or(table)
+}
+
+impl Range {
+    /// The range in a document's unit.
+    fn in_words(&self, unit: LengthUnit) -> String {
+        let (bounds, dimension) = self.words.rsplit_once(' ').unwrap_or((self.words, ""));
+        let Some(per) = dimension.strip_prefix("mm").filter(|_| !unit.is_mm()) else { return self.words.to_owned() };
+        let [low, high] = [self.low, self.high].map(|mm| unit.shown(mm));
+        let above = bounds.starts_with("above");
+        let bounds = if above { format!("above {low} and up to {high}") } else { format!("{low} to {high}") };
+        format!("{bounds} {}{per}", unit.name())
+    }
+
+    fn holds(&self, value: f64) -> bool {
+        let low = if self.open { value > self.low } else { value >= self.low };
+        low && value <= self.high
+    }
 }
 
 fn range_of(place: &str) -> Option<&'static Range> {
@@ -113,22 +132,26 @@ fn some_face(place: &str, selection: &Selection) -> Result<(), JobError> {
 }
 
 fn number(place: &str, value: f64) -> Result<(), JobError> {
+    in_range(place, value, value, LengthUnit::Mm)
+}
+
+/// Whether a value (in mm where it is a length) is in its key's range; `written` is what the document says, in its unit.
+pub fn in_range(place: &str, value: f64, written: f64, unit: LengthUnit) -> Result<(), JobError> {
     let Some(range) = range_of(place) else { return Ok(()) };
-    let low = if range.open { value > range.low } else { value >= range.low };
-    if low && value <= range.high {
+    if range.holds(value) {
         return Ok(());
     }
     let key = place.rsplit('.').next().unwrap_or(place);
     Err(JobError::document(
         "out-of-range",
         place,
-        format!("{key} = {}: allowed is {}", shown(value), range.words),
+        format!("{key} = {}: allowed is {}", shown(written), range.in_words(unit)),
         "correct the value",
     ))
 }
 
 /// A number as people write it, without hundreds of zeros.
-fn shown(value: f64) -> String {
+pub fn shown(value: f64) -> String {
     if value == 0.0 || (1e-5..1e9).contains(&value.abs()) {
         format!("{value}")
     } else {
@@ -142,7 +165,8 @@ fn setup(job: &JobDocument) -> Result<(), JobError> {
     number("setup.clearance", setup.clearance)?;
     number("setup.retract", setup.retract)?;
     if setup.retract > setup.clearance {
-        let message = format!("retract = {} is above clearance = {}", setup.retract, setup.clearance);
+        let [retract, clearance] = [setup.retract, setup.clearance].map(|mm| job.units.shown(mm));
+        let message = format!("retract = {retract} is above clearance = {clearance}");
         return Err(JobError::document("conflict", "setup.retract", message, "lower retract or raise clearance"));
     }
     if let Some(Zero::Point(point)) = setup.zero {
@@ -150,8 +174,8 @@ fn setup(job: &JobDocument) -> Result<(), JobError> {
             return Err(JobError::document(
                 "out-of-range",
                 "setup.zero",
-                "zero is not a point of this world",
-                "give mm",
+                format!("zero is not a point of this world: up to {} {}", job.units.shown(1e5), job.units.name()),
+                format!("give {}", job.units.name()),
             ));
         }
     }
@@ -181,7 +205,7 @@ fn setup(job: &JobDocument) -> Result<(), JobError> {
             }
             number("setup.sheet.max_wall_angle_deg", sheet.max_wall_angle_deg.unwrap_or(90.0))?;
             if let Some(fixture) = &setup.fixture {
-                self::fixture(fixture, setup.clearance)?;
+                self::fixture(fixture, setup.clearance, job.units)?;
             }
             if job.part.model_face.is_none() {
                 return Err(JobError::document(
@@ -198,7 +222,7 @@ fn setup(job: &JobDocument) -> Result<(), JobError> {
 }
 
 /// Openings and heights, and that rapids pass over the clamp.
-fn fixture(fixture: &FixtureSection, clearance: f64) -> Result<(), JobError> {
+fn fixture(fixture: &FixtureSection, clearance: f64, unit: LengthUnit) -> Result<(), JobError> {
     number("setup.fixture.margin", fixture.margin)?;
     fixture.center.iter().flatten().try_for_each(|x| number("setup.fixture.center", *x))?;
     let openings = [
@@ -213,9 +237,10 @@ fn fixture(fixture: &FixtureSection, clearance: f64) -> Result<(), JobError> {
     if clamp.height + fixture.margin <= clearance {
         return Ok(());
     }
+    let [height, least, clearance] = [clamp.height, clamp.height + fixture.margin, clearance].map(|mm| unit.shown(mm));
     let message =
-        format!("clearance = {clearance}: rapids would cross the clamp, {} mm high, too near to it", clamp.height);
-    let hint = format!("raise clearance to {} or more", shown(clamp.height + fixture.margin));
+        format!("clearance = {clearance}: rapids would cross the clamp, {height} {} high, too near to it", unit.name());
+    let hint = format!("raise clearance to {least} or more");
     Err(JobError::document("conflict", "setup.clearance", message, hint))
 }
 
@@ -292,7 +317,7 @@ fn operation(job: &JobDocument, place: &str, operation: &OperationSection) -> Re
     if let Some(stepover) = operation.stepover {
         number(&at("stepover"), stepover)?;
     }
-    heights(place, operation)?;
+    heights(place, operation, job.units)?;
     match operation.kind {
         OperationKind::ZLevel if operation.step.is_none() => {
             Err(JobError::document("missing", at("step"), "z-level needs a step", "add step = { height = 0.5 }"))
@@ -304,7 +329,7 @@ fn operation(job: &JobDocument, place: &str, operation: &OperationSection) -> Re
     }
 }
 
-fn heights(place: &str, operation: &OperationSection) -> Result<(), JobError> {
+fn heights(place: &str, operation: &OperationSection, unit: LengthUnit) -> Result<(), JobError> {
     for (key, value) in [("z_top", operation.z_top), ("z_bottom", operation.z_bottom)] {
         number(&format!("{place}.{key}"), value.unwrap_or(0.0))?;
     }
@@ -312,7 +337,7 @@ fn heights(place: &str, operation: &OperationSection) -> Result<(), JobError> {
         (Some(top), Some(bottom)) if bottom >= top => Err(JobError::document(
             "conflict",
             format!("{place}.z_bottom"),
-            format!("z_bottom = {bottom} is not below z_top = {top}"),
+            format!("z_bottom = {} is not below z_top = {}", unit.shown(bottom), unit.shown(top)),
             "lower z_bottom or raise z_top",
         )),
         _ => Ok(()),

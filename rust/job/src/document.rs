@@ -1,5 +1,6 @@
 //! The job document as people write it. Lengths in mm, angles in degrees, feeds in mm/min.
 //!
+//! Every number's unit stands in its schema as `x-unit`: by these a document in inches becomes one in mm (`units`).
 //! Defaults and descriptions stand here and nowhere else; ranges stand in `check`.
 
 use std::collections::BTreeMap;
@@ -23,6 +24,10 @@ pub struct JobDocument {
     /// Risks that are taken: what the judge would refuse for them becomes a warning.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub accept: Vec<Risk>,
+    /// The unit of every length in this document: "mm" or "inch", and feeds in it per minute. What is left out is as in mm; a
+    /// part's file, tool files and machine files have units of their own.
+    #[serde(default, skip_serializing_if = "LengthUnit::is_mm")]
+    pub units: LengthUnit,
     /// The part and what of it is wanted.
     pub part: PartSection,
     /// How the part lies on the machine.
@@ -42,6 +47,18 @@ pub struct JobDocument {
     pub output: OutputSection,
 }
 
+/// The unit of a document's lengths.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum LengthUnit {
+    /// Millimetres, feeds in mm/min.
+    #[default]
+    Mm,
+    /// Inches, feeds in inch/min.
+    #[serde(alias = "in")]
+    Inch,
+}
+
 /// The part and what of it is wanted.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -59,6 +76,7 @@ pub struct PartSection {
     pub model_face: Option<ModelFace>,
     /// Largest deviation of the triangles from the model's surfaces, mm; checked by sampling.
     #[serde(default = "part_tolerance")]
+    #[schemars(extend("x-unit" = "mm"))]
     pub tolerance: f64,
     /// Plan what can be reached of named faces that partly look down.
     #[serde(default)]
@@ -132,15 +150,19 @@ pub struct SetupSection {
     /// Axis of the model that points to the spindle.
     pub up: UpAxis,
     /// Turn about the machine's Z after that, degrees.
+    #[schemars(extend("x-unit" = "deg"))]
     pub rotation: f64,
     /// Where the program's zero is; "sheet-top" with a sheet, else "model", when left out.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm"))]
     pub zero: Option<Zero>,
     /// Work offset.
     pub wcs: String,
     /// Height above the part's (or the sheet's) highest point at which rapids cross it, mm.
+    #[schemars(extend("x-unit" = "mm"))]
     pub clearance: f64,
     /// Height above that point down to which rapids go before a plunge, mm.
+    #[schemars(extend("x-unit" = "mm"))]
     pub retract: f64,
     /// The blank.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -238,15 +260,18 @@ impl From<Zero> for ZeroText {
 #[serde(deny_unknown_fields)]
 pub struct SheetSection {
     /// Thickness, mm.
+    #[schemars(extend("x-unit" = "mm"))]
     pub thickness: f64,
     /// How the thickness behaves as the sheet is formed.
     #[serde(default)]
     pub law: SheetLaw,
     /// Thinnest that the sheet may become, by the sine law, mm; not judged when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm"))]
     pub min_thickness: Option<f64>,
     /// Steepest wall that may be formed, degrees; not judged when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "deg"))]
     pub max_wall_angle_deg: Option<f64>,
 }
 
@@ -294,9 +319,11 @@ pub struct ToolSection {
     pub base: Option<Base>,
     /// Diameter of the shank, mm; the base's when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm"))]
     pub shank_diameter: Option<f64>,
     /// Length from tip to holder, mm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm"))]
     pub length: Option<f64>,
     /// The holder above it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -319,27 +346,33 @@ pub struct OperationSection {
     pub faces: Option<Selection>,
     /// Height from which levels are counted, mm in work coordinates; the selected faces' top when left out. Rows (zig-zag) end there.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm"))]
     pub z_top: Option<f64>,
     /// Lowest level, mm in work coordinates; as deep as the tool reaches when left out. Rows (zig-zag) end there.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm"))]
     pub z_bottom: Option<f64>,
     /// Distance between levels (z-level).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub step: Option<Step>,
     /// Distance between rows in plan, mm (zig-zag).
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm"))]
     pub stepover: Option<f64>,
     /// Direction of rows from +X, degrees (zig-zag).
     #[serde(default)]
+    #[schemars(extend("x-unit" = "deg"))]
     pub angle_deg: f64,
     /// Whether every other level or row is run the other way.
     #[serde(default)]
     pub direction: Direction,
     /// How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
     #[serde(default = "path_tolerance")]
+    #[schemars(extend("x-unit" = "mm"))]
     pub tolerance: f64,
     /// No loop is missed whose inside or surroundings hold a disc of this diameter, mm.
     #[serde(default = "smallest_feature")]
+    #[schemars(extend("x-unit" = "mm"))]
     pub smallest_feature: f64,
     /// Feeds.
     #[serde(default)]
@@ -378,6 +411,7 @@ impl OperationKind {
 #[serde(rename_all = "kebab-case")]
 pub enum Step {
     /// This distance, mm.
+    #[schemars(extend("x-unit" = "mm"))]
     Height(f64),
 }
 
@@ -397,8 +431,10 @@ pub enum Direction {
 #[serde(deny_unknown_fields, default)]
 pub struct Feeds {
     /// Along the path.
+    #[schemars(extend("x-unit" = "mm/min"))]
     pub cut: f64,
     /// Straight down onto it.
+    #[schemars(extend("x-unit" = "mm/min"))]
     pub plunge: f64,
 }
 
@@ -418,6 +454,7 @@ pub enum Spindle {
     /// It turns.
     Fixed {
         /// Speed, rev/min.
+        #[schemars(extend("x-unit" = "rev/min"))]
         rpm: f64,
         /// Sense, seen from above.
         #[serde(default = "clockwise")]

@@ -20,9 +20,11 @@ const DEEP: f64 = 1000.0;
 pub struct FixtureSection {
     /// Middle of the openings in plan, work coordinates, mm; the middle of the part's box when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm"))]
     pub center: Option<[f64; 2]>,
     /// What is kept clear of clamp and backing, mm.
     #[serde(default = "margin")]
+    #[schemars(extend("x-unit" = "mm"))]
     pub margin: f64,
     /// The frame on the sheet.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -37,8 +39,10 @@ pub struct FixtureSection {
 #[serde(deny_unknown_fields)]
 pub struct ClampSection {
     /// Where the sheet is free.
+    #[schemars(extend("x-unit" = "mm"))]
     pub opening: Opening,
     /// Height above the sheet, mm.
+    #[schemars(extend("x-unit" = "mm"))]
     pub height: f64,
 }
 
@@ -47,6 +51,7 @@ pub struct ClampSection {
 #[serde(deny_unknown_fields)]
 pub struct BackingSection {
     /// Where the sheet may go down.
+    #[schemars(extend("x-unit" = "mm"))]
     pub opening: Opening,
 }
 

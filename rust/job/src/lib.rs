@@ -15,10 +15,11 @@ mod risk;
 mod scene;
 mod starter;
 mod summary;
+mod units;
 
 pub use body::{Body, Border, FaceLook, Heights, Hollows, Shell, Side, Thickness, Unformable, SIDES};
 pub use document::{
-    Coolant, Direction, Feeds, JobDocument, MachineSection, OperationKind, OperationSection, OutputSection,
+    Coolant, Direction, Feeds, JobDocument, LengthUnit, MachineSection, OperationKind, OperationSection, OutputSection,
     PartSection, Process, ProcessSection, Selection, SetupSection, SheetSection, Spindle, Step, ToolSection, Units,
     UpAxis, Zero,
 };

@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use styluscam_geometry::ToolDocument;
 
-use crate::{check, JobDocument, JobError, JOB_SCHEMA};
+use crate::{check, units, JobDocument, JobError, LengthUnit, JOB_SCHEMA};
 
 /// The key under which a TOML date is passed on.
 const DATE: &str = "$__toml_private_datetime";
@@ -25,7 +25,13 @@ pub fn from_toml(text: &str) -> Result<JobDocument, JobError> {
     let plain = serde_json::to_value(&value)
         .map_err(|error| JobError::document("toml", "", error.to_string(), "correct the TOML"))?;
     tables_only("", &plain)?;
-    checked(deserialize(value, &plain)?)
+    match units::stated(&plain) {
+        LengthUnit::Mm => checked(deserialize(value, &plain)?),
+        LengthUnit::Inch => {
+            finite("", &value)?; // JSON has no other numbers
+            of_plain(plain)
+        }
+    }
 }
 
 /// Reads a tool's document written as JSON; the tool's shape is not checked.
@@ -48,7 +54,30 @@ pub fn from_json(text: &str) -> Result<JobDocument, JobError> {
         JobError::document("json", format!("line {}", error.line()), error.to_string(), "correct the JSON there")
     })?;
     tables_only("", &value)?;
+    of_plain(value)
+}
+
+/// A document in whatever unit it states.
+fn of_plain(mut value: Value) -> Result<JobDocument, JobError> {
+    let unit = units::stated(&value);
+    units::to_mm(&mut value, &schema(), unit)?;
     checked(deserialize(value.clone(), &value)?)
+}
+
+/// Refuses TOML's nan and inf.
+fn finite(place: &str, value: &toml::Value) -> Result<(), JobError> {
+    match value {
+        toml::Value::Float(number) if !number.is_finite() => {
+            Err(JobError::document("type", place, format!("{number} is not a number"), "correct the value"))
+        }
+        toml::Value::Array(items) => {
+            items.iter().enumerate().try_for_each(|(i, item)| finite(&format!("{place}[{i}]"), item))
+        }
+        toml::Value::Table(entries) => entries.iter().try_for_each(|(key, item)| {
+            finite(&if place.is_empty() { key.clone() } else { format!("{place}.{key}") }, item)
+        }),
+        _ => Ok(()),
+    }
 }
 
 /// Refuses arrays where tables stand, whose values serde would take in order, and TOML's dates.
@@ -89,7 +118,7 @@ fn checked(document: JobDocument) -> Result<JobDocument, JobError> {
         ));
     }
     check::document(&document)?;
-    Ok(document)
+    Ok(JobDocument { units: LengthUnit::Mm, ..document })
 }
 
 /// `plain`: the value once more, for the search of what is wrong with it.
@@ -103,7 +132,7 @@ where
         let message = error.into_inner().to_string();
         let message = message.lines().next().unwrap_or(&message);
         let key = blamed::<T>(plain, &place, message);
-        explained(&key.unwrap_or(place), message)
+        explained(&key.unwrap_or(place), message, units::stated(plain))
     })
 }
 
@@ -122,7 +151,7 @@ fn blamed<T: DeserializeOwned>(plain: &Value, place: &str, message: &str) -> Opt
 }
 
 /// Turns serde's message into one with the key, what is allowed, and the nearest known word.
-fn explained(place: &str, message: &str) -> JobError {
+fn explained(place: &str, message: &str, unit: LengthUnit) -> JobError {
     let place = if place == "." { "" } else { place };
     if let Some((word, known)) = unknown_word(message) {
         let what = if message.starts_with("unknown variant") { "value" } else { "key" };
@@ -138,7 +167,7 @@ fn explained(place: &str, message: &str) -> JobError {
         return JobError::document("missing", place, format!("{key} is missing"), format!("add {key}"));
     }
     let words = || words_at(place).map(|words| words.join(", "));
-    let allowed = check::allowed(place).map(str::to_owned).or_else(words);
+    let allowed = check::allowed(place, unit).or_else(words);
     let allowed = allowed.map_or(String::new(), |words| format!("; allowed: {words}"));
     // serde's own terms for a word among given ones
     let message = match message {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use styluscam_geometry::{Tool, Vector};
 use styluscam_motion::{Event, EventKind, Move, OperationRecord, Program, ToolRecord, Watch};
-use styluscam_post::Machine;
+use styluscam_post::{Machine, OptionValue};
 use styluscam_toolpath::{
     forming::{levels, selected_range, z_levels, zig_zag, Floors, Grid, LevelRange, Rows},
     link,
@@ -24,6 +24,8 @@ const OFFSET_SAMPLES: usize = 2000;
 const OFFSET_POINTS: usize = 1 << 16;
 /// Points of a face, of those that something keeps from the tool, from which its worst place is looked for.
 const BRIDGE_SAMPLES: usize = 64;
+/// Decimal places of coordinates that are tried where a machine's own are too few.
+const MOST_DECIMALS: u32 = 6;
 /// What is left for fitting must be at least this, mm, or paths would have millions of points.
 const LEAST_DEVIATION: f64 = 2e-4;
 /// Share of what is left that a chord may stray to either side. The planned surface lies in the middle; the rest is a
@@ -184,6 +186,19 @@ fn events_at_end(program: &Program, last: Option<&OperationSection>) -> Vec<Even
     kinds.into_iter().map(|kind| Event { before, kind }).collect()
 }
 
+/// What a machine's last decimal place takes: half a unit in each of three axes, mm.
+fn rounding(machine: &Machine) -> f64 {
+    0.5 * machine.resolution_mm() * 3.0_f64.sqrt()
+}
+
+/// The fewest decimal places with which a machine is good `enough`, if it can post so many.
+fn fewest_decimals(machine: &Machine, enough: impl Fn(&Machine) -> bool) -> Option<u32> {
+    (1..=MOST_DECIMALS).find(|places| {
+        let mut finer = machine.clone();
+        finer.set_option("decimals", OptionValue::Number(f64::from(*places))).is_ok() && enough(&finer)
+    })
+}
+
 /// How the tolerance is spent: what tessellation and rounding leave goes to fitting, to either side.
 struct Budget {
     /// Chords stray by at most this to either side of the planned surface, mm.
@@ -194,17 +209,24 @@ struct Budget {
 
 impl Budget {
     fn of(section: &OperationSection, scene: &Scene, machine: &Machine) -> Result<Self, PlanError> {
+        let tolerance = section.tolerance;
         let tessellation = scene.inward + scene.outward;
-        // half a unit in each of three axes
-        let rounding = 0.5 * machine.resolution_mm() * 3.0_f64.sqrt();
+        let rounding = rounding(machine);
+        Self::left(tolerance, tessellation, rounding, scene.inward).ok_or_else(|| {
+            let enough = |machine: &Machine| {
+                Self::left(tolerance, tessellation, self::rounding(machine), scene.inward).is_some()
+            };
+            PlanError::Budget { tolerance, tessellation, rounding, decimals: fewest_decimals(machine, enough) }
+        })
+    }
+
+    /// What tessellation and rounding leave, if that is enough to fit a path with.
+    fn left(tolerance: f64, tessellation: f64, rounding: f64, inward: f64) -> Option<Self> {
         // rounding may also go inwards: beyond what a gouge is allowed, that takes room too
         let inwards = (rounding - 0.9 * GOUGE).max(0.0);
-        let left = section.tolerance - tessellation - rounding - inwards;
+        let left = tolerance - tessellation - rounding - inwards;
         let deviation = EACH_SIDE * left;
-        if deviation < LEAST_DEVIATION {
-            return Err(PlanError::Budget { tolerance: section.tolerance, tessellation, rounding });
-        }
-        Ok(Self { deviation, margin: scene.inward + inwards + 0.5 * left })
+        (deviation >= LEAST_DEVIATION).then_some(Self { deviation, margin: inward + inwards + 0.5 * left })
     }
 }
 

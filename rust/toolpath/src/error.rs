@@ -22,8 +22,9 @@ pub enum PlanError {
     },
     /// What the part's tessellation and the machine's rounding leave of the tolerance is not enough to fit a path.
     #[error(
-        "tolerance = {tolerance}: the triangles' deviation, inward and outward together ({tessellation:.4}), and the \
-         machine's rounding ({rounding:.4}) leave nothing to fit the path with; raise tolerance or lower part.tolerance"
+        "tolerance = {tolerance} mm: the triangles' deviation, inward and outward together ({tessellation:.4} mm), and the \
+         machine's rounding ({rounding:.4} mm) leave nothing to fit the path with; {}raise tolerance or lower part.tolerance",
+        .decimals.map_or(String::new(), |d| format!("add options = {{ decimals = {d} }} to [machine], or "))
     )]
     Budget {
         /// The tolerance asked for, mm.
@@ -32,6 +33,8 @@ pub enum PlanError {
         tessellation: f64,
         /// What rounding takes, mm.
         rounding: f64,
+        /// Decimal places of coordinates with which it would be enough; None where the machine has none that help.
+        decimals: Option<u32>,
     },
     /// The path would have more points than a program can hold: the step is too small for the part.
     #[error("{what} = {value} makes {count} passes, more than {limit}: raise it")]

@@ -23,159 +23,206 @@ pub enum ProfileDocument {
     /// A half circle, the ball-end tool; or with `radius` the part of a larger circle that the diameter cuts off.
     Ball {
         /// Diameter of the base, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         diameter: f64,
         /// Radius of the circle, mm; half the diameter when left out.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(extend("x-unit" = "mm"))]
         radius: Option<f64>,
         /// Radius of the flat at the tip, mm.
         #[serde(default)]
+        #[schemars(extend("x-unit" = "mm"))]
         tip_flat: f64,
     },
     /// Curvature grows linearly with arc length from the tip: R L = A.
     Clothoid {
         /// Diameter of the base, mm; leave it out when `scale` is given.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(extend("x-unit" = "mm"))]
         diameter: Option<f64>,
         /// The constant A, mm^2; needs `end_slope_deg`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(extend("x-unit" = "mm^2"))]
         scale: Option<f64>,
         /// Slope at which the curve ends, degrees; 90 unless given.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(extend("x-unit" = "deg"))]
         end_slope_deg: Option<f64>,
         /// Radius of the flat at the tip, mm.
         #[serde(default)]
+        #[schemars(extend("x-unit" = "mm"))]
         tip_flat: f64,
     },
     /// z = r^2 / 2 R0.
     Parabola {
         /// Radius of curvature at the tip (R0), mm.
+        #[schemars(extend("x-unit" = "mm"))]
         apex_radius: f64,
         /// Diameter of the base, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         diameter: f64,
         /// Radius of the flat at the tip, mm.
         #[serde(default)]
+        #[schemars(extend("x-unit" = "mm"))]
         tip_flat: f64,
     },
     /// Half an ellipse.
     Ellipse {
         /// Semi-axis across the tool's axis, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         radial: f64,
         /// Semi-axis along the tool's axis, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         axial: f64,
         /// Diameter of the base, mm, if the ellipse ends before its equator.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(extend("x-unit" = "mm"))]
         diameter: Option<f64>,
         /// Radius of the flat at the tip, mm.
         #[serde(default)]
+        #[schemars(extend("x-unit" = "mm"))]
         tip_flat: f64,
     },
     /// r = a (t + sin t), z = a (1 - cos t).
     Cycloid {
         /// Diameter of the base, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         diameter: f64,
         /// Radius of the flat at the tip, mm.
         #[serde(default)]
+        #[schemars(extend("x-unit" = "mm"))]
         tip_flat: f64,
     },
     /// z = c r^p.
     Power {
         /// The coefficient c, mm^(1 - p).
+        #[schemars(extend("x-unit" = "mm^(1-p)"))]
         coefficient: f64,
         /// The exponent p, above 1.
+        #[schemars(extend("x-unit" = "1"))]
         exponent: f64,
         /// Diameter of the base, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         diameter: f64,
         /// Radius of the flat at the tip, mm.
         #[serde(default)]
+        #[schemars(extend("x-unit" = "mm"))]
         tip_flat: f64,
     },
     /// A rectangle with rounded corners, as the forming stylus: flat, arc, vertical side.
     RoundedRectangle {
         /// Diameter of the base, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         diameter: f64,
         /// Radius of the corners, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         corner_radius: f64,
         /// Radius of a flat that is added at the tip, mm.
         #[serde(default)]
+        #[schemars(extend("x-unit" = "mm"))]
         tip_flat: f64,
     },
     /// A flat with a rounded corner, as the milling cutter.
     BullNose {
         /// Diameter of the cutter, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         diameter: f64,
         /// Radius of the corners, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         corner_radius: f64,
         /// Radius of a flat that is added at the tip, mm.
         #[serde(default)]
+        #[schemars(extend("x-unit" = "mm"))]
         tip_flat: f64,
     },
     /// A ball that runs tangentially into an arc of a larger circle.
     Barrel {
         /// Diameter at the widest place, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         diameter: f64,
         /// Radius of the generating arc, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         radius: f64,
         /// Radius of the ball at the tip, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         tip_radius: f64,
         /// Radius of the flat at the tip, mm.
         #[serde(default)]
+        #[schemars(extend("x-unit" = "mm"))]
         tip_flat: f64,
     },
     /// A cone, its tip rounded by a ball unless `tip_radius` is 0.
     Cone {
         /// Radius of the ball at the tip, mm.
         #[serde(default)]
+        #[schemars(extend("x-unit" = "mm"))]
         tip_radius: f64,
         /// Angle between axis and side, degrees.
+        #[schemars(extend("x-unit" = "deg"))]
         half_angle_deg: f64,
         /// Diameter of the base, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         diameter: f64,
         /// Radius of the flat at the tip, mm.
         #[serde(default)]
+        #[schemars(extend("x-unit" = "mm"))]
         tip_flat: f64,
     },
     /// A ball with a conical side.
     TaperedBall {
         /// Radius of the ball at the tip, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         tip_radius: f64,
         /// Angle between axis and side, degrees.
+        #[schemars(extend("x-unit" = "deg"))]
         half_angle_deg: f64,
         /// Diameter of the base, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         diameter: f64,
         /// Radius of the flat at the tip, mm.
         #[serde(default)]
+        #[schemars(extend("x-unit" = "mm"))]
         tip_flat: f64,
     },
     /// A V-shaped engraver with a flat tip.
     V {
         /// Diameter of the tip, mm.
         #[serde(default)]
+        #[schemars(extend("x-unit" = "mm"))]
         tip_diameter: f64,
         /// Included angle, degrees.
+        #[schemars(extend("x-unit" = "deg"))]
         angle_deg: f64,
         /// Diameter of the base, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         diameter: f64,
         /// Radius of a flat that is added at the tip, mm.
         #[serde(default)]
+        #[schemars(extend("x-unit" = "mm"))]
         tip_flat: f64,
     },
     /// A flat end with a sharp corner.
     Flat {
         /// Diameter of the cutter, mm.
+        #[schemars(extend("x-unit" = "mm"))]
         diameter: f64,
         /// Part of the end, which is flat as a whole: at most half the diameter, and without effect.
         #[serde(default)]
+        #[schemars(extend("x-unit" = "mm"))]
         tip_flat: f64,
     },
     /// A convex curve through measured points.
     Points {
         /// (r, z) from the tip outwards, mm; moved so that the first is the tip.
+        #[schemars(extend("x-unit" = "mm"))]
         points: Vec<[f64; 2]>,
         /// How far the points may be from the profile, inside or outside, mm.
         #[serde(default = "fit_tolerance")]
+        #[schemars(extend("x-unit" = "mm"))]
         fit_tolerance: f64,
         /// Radius of a flat that is added at the tip, mm.
         #[serde(default)]
+        #[schemars(extend("x-unit" = "mm"))]
         tip_flat: f64,
     },
     /// A curve by formula: explicit, parametric or implicit.

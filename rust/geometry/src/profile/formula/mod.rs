@@ -51,27 +51,35 @@ const STRAIGHT: f64 = 1e-13;
 pub struct FormulaDocument {
     /// Height: of r when it stands alone, of t beside `r`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "formula"))]
     pub z: Option<String>,
     /// Radius as a function of t.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "formula"))]
     pub r: Option<String>,
     /// Range of t; either end may be the tip.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "formula"))]
     pub t: Option<[f64; 2]>,
     /// A function of r and z that is zero on the curve.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "formula"))]
     pub implicit: Option<String>,
     /// A point [r, z] of the curve that `implicit` describes, or near it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "formula"))]
     pub start: Option<[f64; 2]>,
     /// Numbers by name, for use in the formulas.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[schemars(extend("x-unit" = "formula"))]
     pub parameters: BTreeMap<String, f64>,
     /// Diameter of the base, mm, where the curve ends; `z` alone needs it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm"))]
     pub diameter: Option<f64>,
     /// Flat at the tip: its radius, mm.
     #[serde(default)]
+    #[schemars(extend("x-unit" = "mm"))]
     pub tip_flat: f64,
 }
 

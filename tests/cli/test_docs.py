@@ -1,0 +1,113 @@
+"""Every block of code in the pages that users begin with does what it says: none is there for looks."""
+
+from __future__ import annotations
+
+import json
+import re
+import shlex
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import styluscam as sc
+
+from .conftest import CHECKOUT, FIXTURES, run_cli
+
+PAGES = ("README.md", "docs/guide.md", "docs/posts.md", "docs/profiles.md")
+BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+
+
+JOB = """
+schema = 1
+part = { file = "part.stl", units = "mm" }
+process = { kind = "milling" }
+machine = { name = "linuxcnc" }
+output = { file = "out/cone_cup.ngc" }
+setup = { zero = "model" }
+
+[tools.stylus]
+profile = { kind = "clothoid", diameter = 10.0 }
+
+[[operations]]
+kind = "zig-zag"
+tool = "stylus"
+stepover = 2.0
+tolerance = 0.02
+"""
+"""A job that is done in no time."""
+
+
+def blocks(page: str) -> Iterator[tuple[str, int, str, str]]:
+    """Page, line, language and text of every block in it."""
+    text = (CHECKOUT / page).read_text(encoding="utf-8")
+    for found in BLOCK.finditer(text):
+        yield page, text[: found.start()].count("\n") + 1, found[1], found[2]
+
+
+@pytest.fixture
+def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with what the pages speak of: the checkout's parts and job, a job, a mesh, measured points."""
+    trimesh = pytest.importorskip("trimesh")
+    (tmp_path / "fixtures").mkdir()
+    shutil.copy(FIXTURES / "cone_cup.step", tmp_path / "fixtures")
+    shutil.copytree(CHECKOUT / "examples", tmp_path / "examples")
+    (tmp_path / "job.toml").write_text(JOB)
+    trimesh.creation.cone(radius=12.0, height=9.0, sections=32).export(tmp_path / "part.stl")
+    (tmp_path / "scan.csv").write_text("radius, height\n0, 0\n1, 0.05\n2, 0.21\n3, 0.5\n4, 1\n5, 2\n")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def as_console(text: str, line: int, page: str) -> None:
+    """Commands of ours, as a shell would read them; a job that `new` wrote keeps its program, as the page says."""
+    for number, command in enumerate(text.splitlines(), start=line + 1):
+        words = shlex.split(command, comments=True)
+        if words[:1] != ["styluscam"]:
+            continue
+        for file in re.findall(r"--out (\S+\.toml)", command):
+            Path(file).unlink(missing_ok=True)
+        ran = run_cli(*words[1:])
+        assert ran.code == 0, f"{page}:{number}: {command}: {ran.err}{ran.out}"
+        if "program = " in command:
+            Path("program.json").write_bytes(next(Path().glob("*.program.json")).read_bytes())
+
+
+def as_toml(text: str) -> None:
+    """A machine file's end, or tools of a job."""
+    if "[templates]" in text:
+        Path("shop.toml").write_text(Path("shop.toml").read_text() + text)
+        assert sc.Machine.read("shop.toml").check()
+        return
+    profiles = re.findall(r"^profile = .*$", text, re.MULTILINE)
+    assert profiles
+    for profile in profiles:
+        tools = sc.Job.from_toml(JOB.replace('profile = { kind = "clothoid", diameter = 10.0 }', profile)).tools()
+        assert tools["stylus"].diameter > 0.0
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_every_block_of_a_page_runs(page: str, desk: Path) -> None:
+    names: dict[str, Any] = {}
+    if page.endswith("guide.md"):  # the page begins where a job was run
+        assert run_cli("run", "job.toml", "--quiet").code == 0
+    ran = 0
+    for _, line, language, text in blocks(page):
+        if language == "python":
+            exec(compile("\n" * line + text, page, "exec"), names)
+        elif language == "toml":
+            as_toml(text)
+        elif language == "json":
+            assert sc.Tool.from_dict(json.loads(text)).diameter > 0.0
+        elif language == "" and "styluscam " in text:
+            as_console(text, line, page)
+        elif language == "":
+            assert text.startswith("make "), f"{page}:{line}: a block of what?"
+            targets = (CHECKOUT / "Makefile").read_text()
+            assert all(f"\n{target}:" in targets for target in re.findall(r"^make (\w+)", text, re.MULTILINE))
+        else:
+            pytest.fail(f"{page}:{line}: nobody runs blocks of {language}")
+        ran += 1
+    assert ran >= 3
