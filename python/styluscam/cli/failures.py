@@ -80,13 +80,20 @@ def failure_of(error: BaseException) -> Failure:
         return _known(error)
     if isinstance(error, USAGE_ERROR):
         return _usage(error)
+    return _of_the_machine(error) or Failure(
+        FAULT, type(error).__name__, "internal", "", f"a fault of StylusCAM: {error!r}", REPORT
+    )
+
+
+def _of_the_machine(error: BaseException) -> Failure | None:
+    """What a full disk behind stdout, or too little memory, is called; None for other errors."""
     if isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT):
         message = f"cannot be written: {error.strerror}"
         return Failure(INPUT, "StylusError", "unwritable", "", message, "send it to another place")
     if isinstance(error, MemoryError):
         message = "not enough memory for this part at this tolerance"
         return Failure(INPUT, "GeometryError", "memory", "part.tolerance", message, "give a larger tolerance")
-    return Failure(FAULT, type(error).__name__, "internal", "", f"a fault of StylusCAM: {error!r}", REPORT)
+    return None
 
 
 def _known(error: StylusError) -> Failure:
