@@ -96,7 +96,7 @@ ROUND = {
 
 @pytest.mark.parametrize("part", ROUND)
 def test_levels_begin_and_end_where_the_tool_first_and_last_touches(part: str) -> None:
-    levels = job(ROUND[part], kind="z-level", step={"height": 1.2}, tolerance=0.02)
+    levels = job(ROUND[part], kind="z-level", step={"height": 1.2}, tolerance=0.02, z_bottom=-20.0)
     report = sc.verify(sc.post(sc.plan(levels)).text, levels)
     assert report.ok
     assert "missing-level" not in {finding["kind"] for finding in report.findings}

@@ -31,7 +31,7 @@ def job_of(operation: dict[str, Any]) -> sc.Job:
 
 OPERATIONS = {
     "missing-row": {"kind": "zig-zag", "stepover": STEPOVER},
-    "missing-level": {"kind": "z-level", "step": {"height": 1.0}},
+    "missing-level": {"kind": "z-level", "step": {"height": 1.0}, "z_bottom": -1.0},
 }
 
 
