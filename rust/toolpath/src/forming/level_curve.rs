@@ -108,12 +108,6 @@ impl<'a> LevelCurve<'a> {
         self.surface.envelope().release(contact.triangle, line, self.z + OVER)
     }
 
-    /// Whether the envelope between two points of the level is known to stray by no more than `most` mm from it: the chord
-    /// is as good as the level there.
-    pub fn keeps_to(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
-        self.surface.keeps_to(a, b, most)
-    }
-
     fn point(&self, line: &Line, way: f64, contact: &Contact) -> Option<PathPoint> {
         let [x, y] = line.at(way);
         let point = self.surface.path_point(x, y, contact);

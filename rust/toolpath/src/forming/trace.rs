@@ -11,10 +11,10 @@ use styluscam_motion::{Cancelled, Watch};
 
 use super::bounds::Bounds;
 use super::grid::Grid;
-use super::level_curve::{LevelCurve, Place};
+use super::level_curve::LevelCurve;
 use super::sides::{Crossing, Sides, LOOKED_AT};
 use super::square::{Edge, Square, PARTS};
-use crate::{fitting, fitting::Course, lattice::Node, PathPoint};
+use crate::{fitting, lattice::Node, PathPoint};
 
 /// How far outside its square a segment may go, as a share of the square.
 const OUTSIDE: f64 = 0.1;
@@ -39,24 +39,6 @@ pub struct Trace<'a, 'c> {
     open: Vec<Square>,
     segments: BTreeMap<Square, Vec<Segment>>,
     crossings: HashMap<Edge, Option<PathPoint>>,
-}
-
-/// A level in one square, and a little beside it.
-struct InSquare<'a, 'c> {
-    curve: &'c mut LevelCurve<'a>,
-    /// Lower and upper corner.
-    within: [Place; 2],
-}
-
-impl Course for InSquare<'_, '_> {
-    fn between(&mut self, a: &PathPoint, b: &PathPoint) -> Option<PathPoint> {
-        let [low, high] = self.within;
-        self.curve.between(a, b).filter(|m| (0..2).all(|i| (low[i]..=high[i]).contains(&m.tip[i])))
-    }
-
-    fn keeps_to(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
-        self.curve.keeps_to(a, b, most)
-    }
 }
 
 impl<'a, 'c> Trace<'a, 'c> {
@@ -140,9 +122,9 @@ impl<'a, 'c> Trace<'a, 'c> {
         let points = if a.selected || b.selected {
             let [low, _, high, _] = square.corners().map(|node| self.sides.place(node));
             let slack = OUTSIDE * (high[0] - low[0]);
-            let within = [low.map(|low| low - slack), high.map(|high| high + slack)];
-            let mut course = InSquare { curve: self.curve, within };
-            let runs = fitting::densified(&chord, self.deviation, f64::INFINITY, &mut course);
+            let is_inside = |m: &PathPoint| (0..2).all(|i| m.tip[i] >= low[i] - slack && m.tip[i] <= high[i] + slack);
+            let mut between = |a: &PathPoint, b: &PathPoint| self.curve.between(a, b).filter(is_inside);
+            let runs = fitting::densified(&chord, self.deviation, f64::INFINITY, &mut between);
             runs.into_iter().find(|run| run[0] == a && run[run.len() - 1] == b)
         } else {
             Some(chord.to_vec())

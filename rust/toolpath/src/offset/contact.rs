@@ -412,6 +412,12 @@ impl<'a> Contacts<'a> {
         if [0.0, 1.0].map(over_plane).iter().all(|over| *over <= most) {
             return true; // never for a wall
         }
+        // most are far below: one tangent tells
+        if let Some([over, rise]) = self.over_chord(triangle, chord, 0.5) {
+            if over > most || over + 0.5 * rise.abs() <= most {
+                return over <= most;
+            }
+        }
         let ends = [0.0, 1.0].map(|share| self.over_chord(triangle, chord, share));
         self.stays_under_between(triangle, chord, most, [(0.0, ends[0]), (1.0, ends[1])], CUTS)
     }
