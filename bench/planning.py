@@ -187,7 +187,8 @@ def main() -> None:
         rows.append([name, *measured(read, document)])
         print(" | ".join(rows[-1]), flush=True)
     if not wanted:
-        text = "Seconds from a read part to a program.\n\n" + table(["case", "s", "of both threads", "moves", "slowest phases, s"], rows)
+        heads = ["case", "s", "of both threads", "moves", "slowest phases, s"]
+        text = "Seconds from a read part to a program.\n\n" + table(heads, rows)
         write("planning", f"{text}\n\n{machine()}")
 
 

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from styluscam import files, planning
+from styluscam import estimate, files, planning
 from styluscam.cli import console, progress, summary
 from styluscam.cli.failures import naming
 from styluscam.cli.options import Debug, JobFile, Json, Picture, Quiet
@@ -36,6 +36,8 @@ def plan(
     with naming(job), progress.shown(not (json or quiet)) as report:
         work = Job.read(job)
         files.require_writable(outputs, work.inputs())
+        for sentence in [] if quiet else estimate.too_long(work, report):
+            console.complain(sentence)
         planned = planning.plan(work, progress=report)
         figures, notes = planned.summary()
         if program is not None:

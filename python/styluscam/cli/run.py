@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from styluscam import running
+from styluscam import estimate, running
 from styluscam.cli import console, findings, progress, summary
 from styluscam.cli.failures import FOUND, naming
 from styluscam.cli.options import Debug, Force, JobFile, Json, Picture, Quiet, ReportFile
@@ -37,6 +37,8 @@ def run(
     """
     with naming(job), progress.shown(not (json or quiet)) as shown:
         work = Job.read(job)
+        for sentence in [] if quiet else estimate.too_long(work, shown):
+            console.complain(sentence)
         also = [] if picture is None else [picture]
         result = running.run(
             work,
