@@ -29,6 +29,7 @@ __all__ = [
     "lines_of_moves",
     "machine_options",
     "machine_schema",
+    "materials",
     "offset_surface",
     "plan",
     "post",
@@ -279,6 +280,7 @@ def judge(
     cancel: CancelToken | None = None,
 ) -> Judgement: ...
 def job_schema() -> str: ...
+def materials() -> str: ...
 def starter(
     part: Part,
     file: str,

@@ -44,6 +44,8 @@ def varied(job: dict[str, Any], variant: str, body: str, thickness: float | None
         sheet["thickness"] = thickness or sheet["thickness"]
         setup.setdefault("zero", "sheet-top")
         job["process"] = {**job.get("process", {}), "kind": "spif"}
+        if kind == "zig-zag":
+            job["accept"] = ["punch"]  # rows alone form no sheet
     else:
         setup.pop("sheet", None)
         part.pop("model_face", None)

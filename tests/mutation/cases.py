@@ -184,7 +184,8 @@ def document(
     if sheet is not None:
         made["process"] = {"kind": "spif"}
         made["part"]["model_face"] = sheet[1]
-        made["setup"]["sheet"] = copy.deepcopy(sheet[0])
+        made["setup"]["sheet"] = copy.deepcopy(sheet[0]) | {"max_wall_angle_deg": 75.0}
+        made["accept"] = ["punch"] if kind == "zig-zag" else []  # rows alone form no sheet
     return made
 
 

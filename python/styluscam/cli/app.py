@@ -17,6 +17,7 @@ from styluscam.cli import (
     console,
     doctor,
     machine,
+    material,
     new,
     part,
     plan,
@@ -52,6 +53,7 @@ app.command("schema")(schema.schema)
 app.command("doctor")(doctor.doctor)
 app.add_typer(part.app, name="part")
 app.add_typer(machine.app, name="machine")
+app.add_typer(material.app, name="material")
 tool.app.command("suggest")(suggest.suggest)
 app.add_typer(tool.app, name="tool")
 

@@ -265,6 +265,12 @@ pub fn job_schema() -> PyResult<String> {
     json(&styluscam_job::schema())
 }
 
+/// The materials of sheets that are known, as JSON: names, wall angles in degrees by thickness in mm, sources.
+#[pyfunction]
+pub fn materials() -> PyResult<String> {
+    json(&styluscam_job::materials())
+}
+
 /// A face for a starter job: name, kind, area (mm^2), smallest and largest slope (degrees).
 type ListedFace = (String, String, f64, [f64; 2]);
 

@@ -18,7 +18,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _engine {
     #[pymodule_export]
-    use crate::job::{job_schema, judge, plan, read_back, starter, trace_gcode};
+    use crate::job::{job_schema, judge, materials, plan, read_back, starter, trace_gcode};
     #[pymodule_export]
     use crate::job::{Job, Judgement, Plan, Scene};
     #[pymodule_export]

@@ -2,7 +2,8 @@
 
 use crate::fixture::{FixtureSection, Opening};
 use crate::{
-    JobDocument, JobError, LengthUnit, MachineSection, OperationKind, OperationSection, Process, Selection, Step, Zero,
+    JobDocument, JobError, LengthUnit, MachineSection, OperationKind, OperationSection, Process, ProcessSection,
+    Selection, Step, Zero,
 };
 
 /// A key, the range of its value (the lower end excluded where `open`), and the range in words.
@@ -27,6 +28,8 @@ const RANGES: &[Range] = &[
     above_zero("sheet.thickness", 50.0, "above 0 and up to 50 mm"),
     above_zero("sheet.min_thickness", 50.0, "above 0 and up to 50 mm"),
     Range { key: "max_wall_angle_deg", low: 1.0, open: false, high: 90.0, words: "1 to 90 degrees" },
+    Range { key: "max_bridged", low: 0.0, open: false, high: 1000.0, words: "0 to 1000 mm" },
+    Range { key: "max_unreached", low: 0.0, open: false, high: 1.0, words: "0 to 1" },
     Range { key: "fixture.margin", low: 0.0, open: false, high: 100.0, words: "0 to 100 mm" },
     above_zero("clamp.height", 500.0, "above 0 and up to 500 mm"),
     above_zero("opening", 1e4, "above 0 and up to 10000 mm"),
@@ -88,6 +91,7 @@ pub fn document(job: &JobDocument) -> Result<(), JobError> {
     number("part.tolerance", job.part.tolerance)?;
     some_face("part.faces", &job.part.faces)?;
     setup(job)?;
+    process(&job.process)?;
     machine(&job.machine)?;
     tools(job)?;
     if job.operations.is_empty() {
@@ -219,6 +223,12 @@ fn setup(job: &JobDocument) -> Result<(), JobError> {
         }
         (_, None) => without_sheet(job),
     }
+}
+
+fn process(process: &ProcessSection) -> Result<(), JobError> {
+    process.material.as_deref().map_or(Ok(()), crate::materials::check)?;
+    number("process.max_bridged", process.max_bridged.unwrap_or(0.0))?;
+    number("process.max_unreached", process.max_unreached)
 }
 
 /// Openings and heights, and that rapids pass over the clamp.

@@ -276,12 +276,28 @@ pub struct SheetSection {
 }
 
 /// What is done to the part.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
 pub struct ProcessSection {
     /// Forming a sheet, or milling.
-    #[serde(default)]
     pub kind: Process,
+    /// What the sheet is made of, by the name of a shipped material: says how steep a wall it bears.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+    /// Most that may be left on the faces where the tool cannot get, mm; 1 mm of a sheet, and not judged in milling, when left
+    /// out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm"))]
+    pub max_bridged: Option<f64>,
+    /// Share of the faces, 0 to 1, that the tool may be unable to get to.
+    #[schemars(extend("x-unit" = "1"))]
+    pub max_unreached: f64,
+}
+
+impl Default for ProcessSection {
+    fn default() -> Self {
+        Self { kind: Process::default(), material: None, max_bridged: None, max_unreached: 0.1 }
+    }
 }
 
 /// Processes.

@@ -15,12 +15,19 @@ use styluscam_verify::{
 use crate::heights::TipHeights;
 use crate::plan::operation_id;
 use crate::{
-    faces, fixture, model, scene, Coolant, JobDocument, JobError, OperationKind, OperationSection, Process, Scene,
-    SheetSection, Spindle, Step,
+    faces, fixture, materials, model, scene, Coolant, JobDocument, JobError, OperationKind, OperationSection, Process,
+    Scene, SheetSection, Spindle, Step,
 };
 
 /// Deepest gouge allowed, mm: the posted path may lie this far inside the exact envelope, and not more.
 pub(crate) const GOUGE: f64 = 0.001;
+
+/// Most that may be left on a sheet's faces where the tool cannot get, mm, where the job does not say: single-point forming
+/// itself is good to half a millimetre or a whole one.
+const BRIDGED: f64 = 1.0;
+/// Where more than this share of its radius is left, a milling tool has no room: in corners of three square walls it leaves
+/// 0.73 of it.
+const NO_ROOM: f64 = 0.75;
 
 /// The judge's report and the program that was read.
 #[derive(Clone, Debug, Serialize)]
@@ -77,7 +84,7 @@ pub fn judge(
     let plain = subject(job, scene, &tools, &unplaced);
     let subject = Subject { text: Some(&text), orders: &orders, obstacles: &obstacles, ..plain };
     let found = model::mismatches(job, scene);
-    let limits = Limits { excess_by_operation: excess(job, &program), found, ..limits(job, scene, machine) };
+    let limits = Limits { excess_by_operation: excess(job, &program), found, ..limits(job, scene, &tools, machine) };
     let report = styluscam_verify::judge(&program, &subject, &limits, watch)?;
     Ok(Judgement { report, program, unplaced, limits })
 }
@@ -220,28 +227,37 @@ fn tools_in_order(job: &JobDocument) -> Result<(Vec<Tool>, Vec<ToolRecord>), Job
 }
 
 /// Text is rounded: what stands at the clearance height may be half a unit of the machine below it.
-fn limits(job: &JobDocument, scene: &Scene, machine: &Machine) -> Limits {
+fn limits(job: &JobDocument, scene: &Scene, tools: &[Tool], machine: &Machine) -> Limits {
     let clearance = scene.clearance(job) - 0.5 * machine.resolution_mm();
     let excess = job.operations.iter().map(|operation| operation.tolerance);
+    let sheet_bridged = job.setup.sheet.map_or(f64::INFINITY, |_| BRIDGED);
+    let bridged = job.process.max_bridged.unwrap_or(sheet_bridged);
+    let narrowest = tools.iter().map(|tool| 0.5 * tool.diameter()).fold(f64::INFINITY, f64::min);
     Limits {
         gouge: GOUGE,
         excess: excess.reduce(f64::max),
         retract: scene.top + job.setup.retract - 0.5 * machine.resolution_mm(),
         feed_unit: machine.feed_resolution_mm(),
         reach: reach(machine),
-        forming: job.setup.sheet.map(|sheet| forming(sheet, scene.top)),
+        forming: job.setup.sheet.map(|sheet| forming(job, &sheet, scene.top)),
+        bridged,
+        unreached: job.process.max_unreached,
+        unreached_from: if bridged.is_finite() { bridged } else { NO_ROOM * narrowest },
         accepted: job.accept.iter().map(|risk| risk.finding()).collect(),
         ..Limits::new(clearance)
     }
 }
 
 /// What the sheet bears.
-fn forming(sheet: SheetSection, top: f64) -> Forming {
+fn forming(job: &JobDocument, sheet: &SheetSection, top: f64) -> Forming {
+    let wall = materials::wall_angle(job, sheet);
     Forming {
         thickness: sheet.thickness,
         top,
         min_thickness: sheet.min_thickness.unwrap_or(0.0),
-        max_wall_angle: sheet.max_wall_angle_deg.map_or(f64::INFINITY, f64::to_radians),
+        max_wall_angle: wall.most_deg.to_radians(),
+        sure_wall_angle: wall.sure_deg.to_radians(),
+        bears: wall.bears,
     }
 }
 

@@ -8,6 +8,7 @@ mod faces;
 mod fixture;
 mod heights;
 mod judge;
+mod materials;
 mod model;
 mod parse;
 mod plan;
@@ -26,6 +27,7 @@ pub use document::{
 pub use error::JobError;
 pub use fixture::{plates, BackingSection, ClampSection, FixtureSection, Holder, Opening, Plate};
 pub use judge::{coverage, judge, left, read_back, simulate, Judgement};
+pub use materials::{materials, Angle, Material};
 pub use parse::{from_json, from_toml, schema, tool_from_json};
 pub use plan::{plan, OperationSummary, Plan};
 pub use risk::Risk;

@@ -170,7 +170,7 @@ impl PointDistance for Sweep {
 
 impl Sweeps {
     /// Those of `legs` that are meant to touch.
-    fn of_all(legs: &[Leg], subject: &Subject) -> Self {
+    pub fn of_all(legs: &[Leg], subject: &Subject) -> Self {
         let contacts: Vec<&Leg> = legs.iter().filter(|leg| leg.kind == LegKind::Contact).collect();
         Self::of(&contacts, subject)
     }

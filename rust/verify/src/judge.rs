@@ -6,7 +6,10 @@ use crate::findings::{merge, Merged};
 use crate::legs::placed;
 use crate::measure::measure;
 use crate::orders::{self, Orders};
-use crate::{diagnosis, passes, reach, sequence, travel, Finding, Limits, Report, Severity, Subject};
+use crate::{
+    diagnosis, passes, reach, sequence, travel, unreached, walls, Finding, FindingKind, Limits, Report, Severity,
+    Subject,
+};
 
 /// Judges a program read back from posted text against the part.
 ///
@@ -23,8 +26,14 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let orders = Orders::new(program, subject);
     faults.extend(orders.faults(program, &legs, limits));
     faults.extend(sequence::faults(program, &legs, &orders, subject, limits));
-    faults.extend(sequence::punches(program, &legs, &orders, limits));
+    faults.extend(sequence::punches(program, &legs, &orders, subject, limits));
     faults.extend(passes::faults(&legs, &orders, subject, limits, watch)?);
+    let beyond_reach = unreached::findings(&legs, subject, limits, watch)?;
+    let steep = walls::finding(subject, limits);
+    if steep.is_some() {
+        // said once for the part: every contact on those walls would say it again
+        faults.retain(|fault| fault.kind != FindingKind::WallAngle);
+    }
     let Merged { mut findings, mut counts, lengths } = merge(&faults, program);
     let nothing = tally.nothing_touches().then(|| diagnosis::no_contact(program, &legs, &tally, subject));
     let offset = travel::work_offset(program, subject.wcs);
@@ -32,7 +41,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let wholes = wholes.chain(orders.unnamed(subject)).chain(orders.out_of_order(program, subject));
     let wholes = wholes.chain(travel::optional_lines(subject)).chain(travel::unsaid(program, subject));
     let found = limits.found.iter().map(|(kind, words)| Finding::of_all(*kind, Severity::Error, words.clone()));
-    let wholes = wholes.chain(found);
+    let wholes = wholes.chain(found).chain(steep).chain(beyond_reach);
     for whole in wholes.chain(travel::no_feed_moves(program)).chain(offset).chain(nothing) {
         *counts.entry(whole.kind).or_default() += 1;
         findings.insert(0, whole);

@@ -75,7 +75,7 @@ impl Leg {
     /// The pieces of an arc, or of a move that should touch and is long, one after the other; ends are kept to the bit.
     pub fn pieces(&self) -> impl Iterator<Item = Self> + '_ {
         let share = |i: u32| f64::from(i) / f64::from(self.pieces);
-        let at = move |i: u32| self.bend.map_or_else(|| self.between(share(i)), |bend| bend.at(share(i)));
+        let at = move |i: u32| self.at(share(i));
         (0..self.pieces).map(move |i| Self {
             start: if i == 0 { self.start } else { Some(at(i)) },
             end: if i + 1 == self.pieces { self.end } else { at(i + 1) },
@@ -94,9 +94,10 @@ impl Leg {
         turns.max(lengths).ceil().clamp(1.0, f64::from(u32::MAX)) as u32
     }
 
-    fn between(&self, share: f64) -> [f64; 3] {
+    /// The tip at a share of its way.
+    pub fn at(&self, share: f64) -> [f64; 3] {
         let (start, end) = (Vector::from(self.start.unwrap_or(self.end)), Vector::from(self.end));
-        (start + share * (end - start)).into()
+        self.bend.map_or_else(|| (start + share * (end - start)).into(), |bend| bend.at(share))
     }
 
     /// Whether the tip moves sideways.

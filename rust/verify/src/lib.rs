@@ -25,6 +25,7 @@
 //! The triangles stand for the part; their checked deviation from it is counted against the program
 //! on both sides (see [`Subject`]).
 
+mod blank;
 mod body;
 mod bounds;
 mod clearance;
@@ -49,6 +50,8 @@ mod sweep;
 mod tally;
 mod travel;
 mod unplaced;
+mod unreached;
+mod walls;
 mod words;
 
 pub use coverage::{coverage, left, FaceCoverage};
@@ -59,7 +62,7 @@ pub use passes::{Passes, Spacing};
 pub use reach::Reach;
 pub use report::{ContactRecord, Place, Report};
 pub use simulation::{simulate, Grid, Simulation, Skin};
-pub use subject::{Forming, Limits, Obstacle, Subject, TextFacts, ToolCalls};
+pub use subject::{Bears, Forming, Limits, Obstacle, Subject, TextFacts, ToolCalls};
 
 /// A point or vector of space, mm.
 type Vector = styluscam_geometry::Vector;

@@ -33,7 +33,7 @@ const SAME_PASS: f64 = 0.25;
 /// What may be left besides, mm: triangles' corners.
 pub(crate) const ROUGH: f64 = 0.01;
 /// Where a tool that touches a triangle is in others by less than this, it can get there, mm.
-const ROOM: f64 = 0.005;
+pub(crate) const ROOM: f64 = 0.005;
 
 /// A face goes on where the tool, moved along the plane that it touches, is as near to it as this, mm.
 const TOUCH: f64 = 0.03;

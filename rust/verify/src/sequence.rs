@@ -1,9 +1,12 @@
-//! The order in which a sheet is formed: no level after a lower one at the same place, or the sheet is stretched twice.
+//! The order in which a sheet is formed: nothing deeper at once than a step, or it is pierced, and no level after a lower one
+//! at the same place, or it is stretched twice.
 
 use std::collections::HashMap;
 
+use styluscam_geometry::{Cutter, Tool};
 use styluscam_motion::Program;
 
+use crate::blank::Blank;
 use crate::contact_lines::SAME_LEVEL;
 use crate::findings::Fault;
 use crate::legs::{Leg, LegKind};
@@ -14,40 +17,96 @@ use crate::{FindingKind, Limits, Subject};
 /// A level counts as lower from this share of the step on.
 const LOWER: f64 = 0.25;
 
-/// Moves that go deeper than a step below all that is formed before them: there the sheet stands as it was.
+/// Cosine of the slope up to which flat sheet may wrap the tool in one go: by the sine law it then keeps three quarters of its
+/// thickness, and 41 degrees are a wall angle that every sheet bears.
+const WRAPPED: f64 = 0.75;
+
+/// Places of a move that are looked at, at most.
+const MOST_PLACES: f64 = 10_000.0;
+
+/// Moves that go deeper than they may below the sheet as it stands around them.
 ///
-/// Where an operation begins, the sheet is taken to stand at its highest level. A fall at the path's own feed is a part of
-/// a pass over a wall, and worth a warning.
-pub(crate) fn punches(program: &Program, legs: &[Leg], orders: &Orders, limits: &Limits) -> Vec<Fault> {
-    let Some(forming) = limits.forming else { return Vec::new() };
-    let levels = |leg: &Leg| {
-        let order = orders.of(leg).filter(|order| order.forms)?;
-        match order.passes.as_ref()?.spacing {
-            Spacing::Levels(step) => Some((order, step)),
-            Spacing::Rows(..) => None,
-        }
+/// Levels may go a step deeper than what hangs there. Rows form nothing that is deeper than a dent: they finish what the
+/// operations before them have formed. A fall at the path's own feed is a part of a pass over a wall, and worth a warning.
+pub(crate) fn punches(
+    program: &Program,
+    legs: &[Leg],
+    orders: &Orders,
+    subject: &Subject,
+    limits: &Limits,
+) -> Vec<Fault> {
+    let Some(forming) = limits.forming.filter(|_| subject.orders.iter().any(|order| order.forms)) else {
+        return Vec::new();
     };
-    let mut highest: HashMap<u32, f64> = HashMap::new();
-    for leg in legs.iter().filter(|leg| leg.kind == LegKind::Contact && !leg.falls()) {
-        let known = highest.entry(leg.operation).or_insert(f64::NEG_INFINITY);
-        *known = known.max(leg.end[2]);
-    }
-    let mut formed = forming.top;
+    let tools: Vec<Cutter> = subject.tools.iter().map(Tool::cutter).collect();
+    let narrowest = tools.iter().map(Cutter::max_radius).fold(f64::INFINITY, f64::min);
+    let mut blank = Blank::new(subject.mesh, forming.top, narrowest);
+    let mut rows = Vec::new();
+    let mut operation = None;
     let mut faults = Vec::new();
-    for leg in legs {
-        let (Some((order, step)), Some(begins)) = (levels(leg), highest.get(&leg.operation)) else { continue };
-        formed = formed.min(*begins);
-        let lowest = leg.lowest();
-        if lowest < formed - WIDE * step - ROUGH {
-            let fault = leg.fault(FindingKind::Punch).measured(lowest, formed);
+    for leg in legs.iter().filter(|leg| !matches!(leg.kind, LegKind::Rapid | LegKind::Retract | LegKind::Still)) {
+        let Some(order) = orders.of(leg).filter(|order| order.forms) else { continue };
+        let (Some(spacing), Some(tool)) = (order.passes.as_ref().map(|passes| passes.spacing), tools.get(order.tool))
+        else {
+            continue;
+        };
+        if operation.replace(leg.operation) != Some(leg.operation) {
+            rows.drain(..).for_each(|(tip, tool)| blank.press(tip, tool));
+        }
+        let dent = dent(tool, forming.thickness) + ROUGH;
+        let places = places(leg, blank.cell());
+        let deepest = places
+            .iter()
+            .filter_map(|tip| punch(&mut blank, *tip, spacing, dent))
+            .max_by(|a, b| a.depth().total_cmp(&b.depth()));
+        if let Some(Punch { tip, stands }) = deepest {
+            let fault = Fault { position: tip, ..leg.fault(FindingKind::Punch) }.measured(tip[2], stands);
             let falls = leg.kind == LegKind::Plunge && at_cut(program, leg, order.cut, limits);
             faults.push(if falls { fault.warning() } else { fault });
         }
-        if leg.kind != LegKind::Rapid {
-            formed = formed.min(lowest);
+        match spacing {
+            Spacing::Levels(_) => places.into_iter().for_each(|tip| blank.press(tip, tool)),
+            Spacing::Rows(..) => rows.extend(places.into_iter().map(|tip| (tip, tool))),
         }
     }
     faults
+}
+
+/// A tip below the sheet, which stands at a height there.
+struct Punch {
+    tip: [f64; 3],
+    stands: f64,
+}
+
+impl Punch {
+    fn depth(&self) -> f64 {
+        self.stands - self.tip[2]
+    }
+}
+
+/// Whether a tip is deeper below the sheet than it may go.
+fn punch(blank: &mut Blank, tip: [f64; 3], spacing: Spacing, dent: f64) -> Option<Punch> {
+    let [x, y, z] = tip;
+    let pressed = blank.pressed_at([x, y]);
+    let allowed = match spacing {
+        Spacing::Levels(step) if pressed < blank.top() => WIDE * step + ROUGH,
+        Spacing::Levels(step) => dent.max(WIDE * step + ROUGH),
+        Spacing::Rows(..) => dent,
+    };
+    let is_below = |stands: f64| z < stands - allowed;
+    let stands = is_below(pressed).then(|| blank.hangs_at([x, y]))?;
+    is_below(stands).then_some(Punch { tip, stands })
+}
+
+/// How deep a tool may be pressed into sheet that is not formed there, mm: until it is wrapped up to a slope.
+fn dent(tool: &Cutter, thickness: f64) -> f64 {
+    tool.point_at(libm::acos(WRAPPED)).1 + thickness * (1.0 - WRAPPED)
+}
+
+/// Places of the tip on its way that are no farther apart than `pitch`, mm, without the first; on absurdly long moves some.
+fn places(leg: &Leg, pitch: f64) -> Vec<[f64; 3]> {
+    let count = (leg.length() / pitch).ceil().clamp(1.0, MOST_PLACES) as u32;
+    (1..=count).map(|i| leg.at(f64::from(i) / f64::from(count))).collect()
 }
 
 /// Faults in the order of the moves.

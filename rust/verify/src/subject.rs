@@ -65,6 +65,21 @@ pub struct Forming {
     pub min_thickness: f64,
     /// Steepest wall, rad.
     pub max_wall_angle: f64,
+    /// Walls up to this angle it bears whatever it is made of, rad; infinite where the steepest is known.
+    pub sure_wall_angle: f64,
+    /// Whence that is known.
+    pub bears: Bears,
+}
+
+/// Whence it is known how steep a wall a sheet bears.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bears {
+    /// The job says so.
+    Said,
+    /// It is the material's, of this name.
+    Material(&'static str),
+    /// The job names no material: it is the most and the least of those that are known.
+    Unknown,
 }
 
 /// What a text says besides its moves.
@@ -125,6 +140,12 @@ pub struct Limits {
     pub reach: Reach,
     /// What the sheet bears, where one is formed.
     pub forming: Option<Forming>,
+    /// Most that may be left on the faces where the tool cannot get, mm.
+    pub bridged: f64,
+    /// Share of the faces on which more than `unreached_from` may be left where the tool cannot get.
+    pub unreached: f64,
+    /// What is left of a face that is not reached, mm, at least.
+    pub unreached_from: f64,
     /// Kinds of findings that are no errors: the job takes these risks by name.
     pub accepted: Vec<FindingKind>,
     /// What was found wrong with the job before its program was looked at, each with its sentence.
@@ -157,6 +178,9 @@ impl Limits {
             feed_unit: 0.0,
             reach: Reach::default(),
             forming: None,
+            bridged: f64::INFINITY,
+            unreached: 1.0,
+            unreached_from: f64::INFINITY,
             accepted: Vec::new(),
             found: Vec::new(),
         }

@@ -6,7 +6,7 @@ use crate::measure::{highest, normal_of, Measured, Sample, Strike};
 use crate::{ContactRecord, FindingKind, Forming, Limits, Place, Subject, SLACK};
 
 /// What triangles may add to a wall's angle, rad.
-const ANGLE: f64 = 1e-3;
+pub(crate) const ANGLE: f64 = 1e-3;
 /// Contacts that are kept at most.
 const KEPT: usize = 4000;
 

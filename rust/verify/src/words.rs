@@ -68,9 +68,7 @@ fn what(fault: &Fault) -> String {
             format!("the sheet becomes {value:.3} mm thin by the sine law, and must keep {limit:.3}")
         }
         FindingKind::Punch => {
-            format!(
-                "the tool goes down to Z{value:.3}, and the sheet is formed to Z{limit:.3} only: it punches through"
-            )
+            format!("the tool goes down to Z{value:.3}, and the sheet stands at Z{limit:.3} there: it punches through")
         }
         FindingKind::Bridged => format!("the tool bridges a face by {value:.3} mm (limit {limit:.3} mm)"),
         FindingKind::Unreached => format!("the tool reaches too little of the faces: {value:.1} mm2 of {limit:.1}"),
@@ -185,7 +183,9 @@ fn remedy(kind: FindingKind) -> &'static str {
         FindingKind::MissingPass | FindingKind::MissingLevel | FindingKind::MissingRow => {
             "post the whole operation, with the job's heights and steps"
         }
-        FindingKind::Punch => "form level by level, from the top down",
+        FindingKind::Punch => {
+            "form level by level from the top down (z-level), and finish with rows after that; or accept = [\"punch\"]"
+        }
         FindingKind::Bridged => "take a smaller tool, or accept = [\"bridged\"]",
         FindingKind::Unreached => "take a smaller tool, or accept = [\"unreached\"]",
         FindingKind::SheetThickness => "correct setup.sheet.thickness, or accept = [\"thickness\"]",

@@ -1,0 +1,167 @@
+//! Places of the faces that the tools cannot get to: how much the program leaves there, and on how much of the area.
+//!
+//! A place is looked at with the tool where it touches the place's own triangle. Where that tool is in the part elsewhere, it
+//! is pushed out of it, and pulled to the place again, by turns; what lies between tool and place at best is bridged. Where it
+//! cannot be pushed out, since the place lies between walls that are nearer than the tool is wide, what the program's moves
+//! leave there counts. What lies between passes is no bridge: there the tool can touch.
+
+use rayon::prelude::*;
+use styluscam_motion::{Cancelled, Watch};
+
+use crate::body::Body;
+use crate::clearance::Prober;
+use crate::coverage::Sweeps;
+use crate::findings::Finding;
+use crate::legs::Leg;
+use crate::passes::{Passes, ROOM};
+use crate::probes::{self, Probe};
+use crate::{FindingKind, Limits, Severity, Subject};
+
+/// Points that are looked at.
+const POINTS: usize = 2000;
+/// Points in a piece of work. Fixed, so that the result does not depend on the number of threads.
+const CHUNK: usize = 64;
+/// How often a tool is pushed out of the part, or pulled to the place.
+const PUSHES: usize = 48;
+
+/// The findings of what cannot be reached.
+///
+/// # Errors
+/// `Cancelled` when the watch says so.
+pub(crate) fn findings(
+    legs: &[Leg],
+    subject: &Subject,
+    limits: &Limits,
+    watch: &Watch,
+) -> Result<Vec<Finding>, Cancelled> {
+    let most = limits.bridged.min(limits.unreached_from);
+    if most.is_infinite() {
+        return Ok(Vec::new());
+    }
+    let tasks: Vec<Task> =
+        subject.orders.iter().filter_map(|order| Task::new(order.passes.as_ref()?, order.tool, subject)).collect();
+    let is_wanted = |triangle: &usize| tasks.iter().any(|task| task.passes.wanted.get(*triangle) == Some(&true));
+    let wanted: Vec<usize> = (0..subject.mesh.triangles().len()).filter(is_wanted).collect();
+    let probes = probes::spread(subject.mesh, &wanted, POINTS);
+    watch.begin("reach", probes.len().div_ceil(CHUNK));
+    let gaps: Result<Vec<Vec<Option<f64>>>, Cancelled> = probes
+        .par_chunks(CHUNK)
+        .map(|chunk| {
+            watch.advance(1)?;
+            Ok(chunk.iter().map(|probe| gap(&tasks, probe, subject, most)).collect())
+        })
+        .collect();
+    let asked: Vec<(&Probe, f64)> =
+        probes.iter().zip(gaps?.concat()).filter_map(|(probe, gap)| Some((probe, gap?))).collect();
+    let mut places: Vec<Place> =
+        asked.iter().filter(|(_, gap)| *gap > most).map(|(probe, gap)| Place { probe, left: *gap }).collect();
+    if !places.is_empty() {
+        let sweeps = Sweeps::of_all(legs, subject);
+        let mut last = None;
+        for place in &mut places {
+            place.left = place.left.min(sweeps.left(place.probe.point, &mut last));
+        }
+    }
+    let area: f64 = wanted.iter().map(|triangle| subject.mesh.area(*triangle)).sum();
+    Ok(told(&places, asked.len(), area / probes.len().max(1) as f64, subject, limits))
+}
+
+/// A place that no tool can touch.
+struct Place<'a> {
+    probe: &'a Probe,
+    /// What is left there, mm; infinite where the program does nothing.
+    left: f64,
+}
+
+/// What an operation's tool is to touch.
+struct Task<'a> {
+    passes: &'a Passes,
+    body: Body,
+}
+
+impl<'a> Task<'a> {
+    fn new(passes: &'a Passes, tool: usize, subject: &Subject) -> Option<Self> {
+        Some(Self { passes, body: Body::new(subject.tools.get(tool)?, subject.sheet.as_ref()) })
+    }
+
+    /// What lies between a point and the tool, where it is as near as it can get or leaves no more than `enough`, mm; none
+    /// where that is not asked for.
+    fn gap(&self, probe: &Probe, subject: &Subject, enough: f64) -> Option<f64> {
+        if self.passes.wanted.get(probe.triangle) != Some(&true) {
+            return None;
+        }
+        let up = subject.mesh.normal(probe.triangle);
+        let mut position = probe.point - self.body.farthest(up).0;
+        let [lowest, highest] = self.passes.heights;
+        if !(lowest..=highest).contains(&self.body.tip(position)[2]) {
+            return None;
+        }
+        let prober = Prober { body: &self.body, mesh: subject.mesh, bvh: subject.bvh };
+        let mut least = f64::INFINITY;
+        for _ in 0..PUSHES {
+            match prober.at(position, None) {
+                Some(touch) if touch.value < -ROOM => position += touch.value * touch.away,
+                _ => {
+                    let gap = self.body.distance(probe.point - position);
+                    least = least.min(gap.value.max(0.0));
+                    if least <= enough {
+                        break;
+                    }
+                    position += gap.value * gap.away;
+                }
+            }
+        }
+        Some(least)
+    }
+}
+
+/// What the tool that gets nearest leaves at a point, or one that leaves `enough`, mm; none where no operation asks for it.
+fn gap(tasks: &[Task], probe: &Probe, subject: &Subject, enough: f64) -> Option<f64> {
+    tasks.iter().filter_map(|task| task.gap(probe, subject, enough)).min_by(f64::total_cmp)
+}
+
+fn told(places: &[Place], asked: usize, area_each: f64, subject: &Subject, limits: &Limits) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    let Some(worst) = places.iter().max_by(|a, b| a.left.total_cmp(&b.left)) else { return findings };
+    let face = |place: &Place| subject.mesh.faces().get(place.probe.triangle).copied().unwrap_or(0);
+    let left = |left: f64| if left.is_finite() { format!("{left:.3} mm") } else { "everything".to_owned() };
+    let [x, y, z]: [f64; 3] = worst.probe.point.into();
+    if worst.left > limits.bridged {
+        let message = format!(
+            "X{x:.3} Y{y:.3} Z{z:.3}: the tool does not get into Face{}: {} are left there, and {:.3} mm may be left \
+             (process.max_bridged); take a smaller tool or a larger radius there, leave the face out, or \
+             accept = [\"bridged\"]",
+            face(worst),
+            left(worst.left),
+            limits.bridged
+        );
+        findings.push(Finding {
+            position: Some(worst.probe.point.into()),
+            value_mm: Some(worst.left).filter(|left| left.is_finite()),
+            value: Some(worst.left).filter(|left| left.is_finite()),
+            limit: Some(limits.bridged),
+            ..Finding::of_all(FindingKind::Bridged, Severity::Error, message)
+        });
+    }
+    let unreached = places.iter().filter(|place| place.left > limits.unreached_from).count();
+    let share = unreached as f64 / asked.max(1) as f64;
+    if share > limits.unreached {
+        let [unreached, whole] = [unreached, asked].map(|points| points as f64 * area_each);
+        let message = format!(
+            "the tool does not get to {unreached:.1} of {whole:.1} mm2, {:.0} % of the faces: more than {:.3} mm are left there, \
+             and that may be {:.0} % (process.max_unreached); take a smaller tool, leave those faces out, or \
+             accept = [\"unreached\"]",
+            100.0 * share,
+            limits.unreached_from,
+            100.0 * limits.unreached
+        );
+        findings.push(Finding {
+            position: Some(worst.probe.point.into()),
+            value: Some(share),
+            limit: Some(limits.unreached),
+            unit: String::new(),
+            ..Finding::of_all(FindingKind::Unreached, Severity::Error, message)
+        });
+    }
+    findings
+}
