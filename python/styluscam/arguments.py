@@ -5,11 +5,14 @@ The classes themselves say how they are made of a name, a file or a dict: :meth:
 
 from __future__ import annotations
 
+import json
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TypeAlias
+
+import numpy as np
 
 from styluscam.errors import GeometryError, StylusError, VerifyError
 from styluscam.files import is_file, read_gcode_text
@@ -67,6 +70,42 @@ def document_of(value: object, argument: str, wanted: str, failure: type[StylusE
     if not isinstance(value, Mapping) or not all(isinstance(key, str) for key in value):
         raise refused(argument, value, wanted, failure)
     return dict(value)
+
+
+def json_of(document: Document, argument: str, failure: type[StylusError]) -> str:
+    """A document as JSON; what numpy and pathlib make of numbers and names is taken for these.
+
+    Raises:
+        StylusError: of class ``failure``: it holds what no file can, with the key.
+    """
+    try:
+        return json.dumps(document, default=_plain, allow_nan=False)
+    except (TypeError, ValueError, RecursionError) as error:
+        place, value = next(_unfit(document, ""), ("", document))
+        raise refused(place or argument, value, "a text, a finite number, a list or a dict", failure) from error
+
+
+def _plain(value: object) -> object:
+    if isinstance(value, np.generic | np.ndarray):
+        return value.tolist()
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    raise TypeError(type(value).__name__)
+
+
+def _unfit(value: object, place: str) -> Iterator[tuple[str, object]]:
+    """Where a document holds what JSON cannot, and that."""
+    if isinstance(value, Mapping):
+        for key, part in value.items():
+            yield from _unfit(part, f"{place}.{key}" if place else str(key))
+    elif isinstance(value, list | tuple):
+        for number, part in enumerate(value):
+            yield from _unfit(part, f"{place}[{number}]")
+    else:
+        try:
+            json.dumps(value, default=_plain, allow_nan=False)
+        except (TypeError, ValueError):
+            yield place, value
 
 
 def gcode_of(value: object, argument: str = "text") -> str:

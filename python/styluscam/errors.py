@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
+
+LONG = re.compile(r"(?<== )-?(?:\d{17,}(?:\.\d+)?|0\.0{6,}\d+)")
+"""A value with more digits than a number has."""
 
 
 class StylusError(Exception):
@@ -10,7 +14,7 @@ class StylusError(Exception):
 
     def __init__(self, message: str, *, code: str, where: str = "", hint: str = "") -> None:
         """`code` is stable; `where` is a path in the job document or file:line; `hint` says what to do."""
-        super().__init__(message)
+        super().__init__(LONG.sub(lambda found: f"{float(found[0]):g}", message))
         self.code = code
         self.where = where
         self.hint = hint

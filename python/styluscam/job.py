@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
 from styluscam import _engine, pointsfile
-from styluscam.arguments import A_FILE, FileName, document_of, file_of, refused
+from styluscam.arguments import A_FILE, FileName, document_of, file_of, json_of, refused
 from styluscam.errors import JobError, ToolError
 from styluscam.files import reason, require_end
 from styluscam.machine import Machine
@@ -155,11 +155,7 @@ class Job:
         """
         place = file_of(folder, "folder", "the name of a folder (str or Path)", JobError)
         document, files = _resolved(document_of(document, "document", "a dict with a job's keys", JobError), place)
-        try:
-            text = json.dumps(document)
-        except (TypeError, ValueError, RecursionError) as error:
-            message = f"document: it holds what no job file can: {error}"
-            raise JobError(message, code="document", where="document", hint="texts, numbers, lists, dicts") from error
+        text = json_of(document, "document", JobError)
         known = None if part is None else Part.of(part)
         return cls._built(_engine.Job.from_json(text), place, part=known, tool_files=files)
 

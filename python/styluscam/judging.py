@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 from functools import cached_property
 
+import numpy as np
 import numpy.typing as npt
 
 from styluscam import _engine
 from styluscam.arguments import A_FILE, FileName, file_of, refused
 from styluscam.brep import recheck
-from styluscam.errors import JobError, PlanError, VerifyError
+from styluscam.errors import GeometryError, JobError, PlanError, VerifyError
 from styluscam.files import read_gcode_text
 from styluscam.job import Job, JobLike
 from styluscam.machine import Machine, MachineLike
@@ -126,6 +127,10 @@ class Report:
             Cancelled: by ``progress`` or ``cancel``.
         """
         places = rows(points, 3)
+        odd = np.flatnonzero(~np.isfinite(places).all(axis=1))
+        if len(odd):
+            message = f"points[{odd[0]}]: finite numbers expected"
+            raise GeometryError(message, code="not-finite", where="points", hint="lengths are in mm")
         return self.judgement.left(self.job.engine, self.scene, places, progress=progress, cancel=cancel)
 
     @property

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from styluscam import _engine
-from styluscam.arguments import A_FILE, FileName, document_of, file_of, refused, word_of
+from styluscam.arguments import A_FILE, FileName, document_of, file_of, json_of, refused, word_of
 from styluscam.errors import MachineError
 from styluscam.files import read_text
 from styluscam.types import Document
@@ -108,13 +108,8 @@ class Machine:
             MachineError: a key is unknown, missing or out of range.
         """
         document = document_of(document, "document", "a dict with what a machine file holds", MachineError)
-        try:
-            text = json.dumps(_said(document), allow_nan=False)
-        except (TypeError, ValueError, RecursionError) as error:
-            message = f"document: it holds what no machine file can: {error}"
-            raise MachineError(
-                message, code="document", where="document", hint="texts, numbers, lists, dicts"
-            ) from error
+        said = {key: _said(value) for key, value in document.items() if value is not None}
+        text = json_of(said, "document", MachineError)
         return cls._built(_engine.Machine.from_json(text, str(folder)))
 
     @classmethod

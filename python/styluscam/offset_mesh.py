@@ -139,9 +139,12 @@ def offset_surface(
     Source: US 2023/0035585.
     """
     numbers = None if faces is None else _numbers(faces)
-    within = number_of(tolerance, "tolerance")
+    within, cutter = number_of(tolerance, "tolerance"), Tool.of(tool)
+    if not within <= cutter.diameter:
+        message = f"tolerance = {within:g}: at most the tool's diameter, {cutter.diameter:g} mm"
+        raise GeometryError(message, code="out-of-range", where="tolerance", hint="0.005 mm is usual")
     columns, (triangles, of_triangles, fine), regions = _engine.offset_surface(
-        Part.of(part).engine, Tool.of(tool)._engine, _sheet(sheet), within, numbers, progress=progress, cancel=cancel
+        Part.of(part).engine, cutter._engine, _sheet(sheet), within, numbers, progress=progress, cancel=cancel
     )
     points, contacts, normals, slopes, flags, depths, places, place_faces = columns
     return OffsetSurface(
@@ -173,6 +176,6 @@ def _numbers(faces: Sequence[int | str]) -> list[int]:
 def _number(face: int | str) -> int:
     """The number of a face given by number or name."""
     digits = str(face).removeprefix("Face")
-    if not digits.isdecimal():
+    if not digits.isdecimal() or int(digits) >= 2**32:
         raise GeometryError(f"the part has no face {face!r}", code="no-such-face", where="faces")
     return int(digits)

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from styluscam import _engine
-from styluscam.arguments import document_of, number_of
+from styluscam.arguments import document_of, json_of, number_of
 from styluscam.errors import GeometryError
 from styluscam.part import Part, PartLike
 from styluscam.tool import Tool, ToolLike
 from styluscam.types import Document, FloatArray, Progress, numbers, points, shaped
+
+SHEET = ("thickness", "law", "model_face")
+NEEDED = ("thickness", "model_face")
+"""Keys of a sheet, and those that it has to have."""
 
 REGULAR, RIM, UNDERCUT = 0, 1, 2
 """Flags of :class:`Offsets`."""
@@ -56,10 +59,10 @@ def _sheet(sheet: Document | None) -> str | None:
     if sheet is None:
         return None
     document = document_of(sheet, "sheet", 'a dict like {"thickness": 1.0, "model_face": "back"}', GeometryError)
-    try:
-        return json.dumps(document, default=float)
-    except (TypeError, ValueError, RecursionError) as error:
-        raise GeometryError(f"sheet: {error}", code="argument", where="sheet", hint="texts and numbers") from error
+    for key in [key for key in document if key not in SHEET] + [key for key in NEEDED if key not in document]:
+        what = f"{key} is missing" if key in NEEDED else f"unknown key {key!r}"
+        raise GeometryError(f"sheet: {what}", code="argument", where="sheet", hint=f"its keys are {', '.join(SHEET)}")
+    return json_of(document, "sheet", GeometryError)
 
 
 def slope_matched_offset(

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TypeAlias
 
 from styluscam import _engine
-from styluscam.arguments import gcode_of, refused
+from styluscam.arguments import document_of, gcode_of, refused
 from styluscam.errors import MachineError, PlanError, StylusError
 from styluscam.job import Job, JobLike
 from styluscam.machine import Machine, MachineLike
@@ -84,6 +84,13 @@ class Posted:
     """Posted text by file name."""
 
     files: dict[str, str]
+
+    def __post_init__(self) -> None:
+        """Refuses what are no texts by their names."""
+        texts = document_of(self.files, "files", "a dict of texts by their names", StylusError)
+        for name, text in texts.items():
+            if not isinstance(text, str):
+                raise refused(f"files[{name!r}]", text, "a text", StylusError)
 
     def __repr__(self) -> str:
         """The files with their lines."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import unicodedata
 from collections.abc import Sequence
@@ -70,7 +71,8 @@ def run(
     """
     work = Job.of(job)
     page = _report_name(work) if report is None else file_of(report, "report", A_FILE, JobError)
-    others = [file_of(each, "also", A_FILE, JobError) for each in also]
+    named = [also] if isinstance(also, str | os.PathLike) else also
+    others = [file_of(each, "also", A_FILE, JobError) for each in named]
     require_writable([*_names(work), *([] if page is None else [page]), *others], work.inputs())
     if not force:
         _require_own(work)

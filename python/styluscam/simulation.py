@@ -59,6 +59,7 @@ class Comparison:
 
     def share_within(self, tolerance: float) -> float:
         """Share of the nodes that the program cut that lie within ``tolerance`` (mm) of the part; 1 where it cut none."""
+        tolerance = number_of(tolerance, "tolerance")
         cut = self.distances[self.touched]
         return float((np.abs(cut) <= tolerance).mean()) if len(cut) else 1.0
 

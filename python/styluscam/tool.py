@@ -17,7 +17,7 @@ from styluscam._engine import Tool as EngineTool
 from styluscam.arguments import A_FILE, FileName, document_of, file_of, word_of
 from styluscam.errors import ToolError
 from styluscam.files import is_file, write_whole
-from styluscam.types import Document, FloatArray
+from styluscam.types import Document, FloatArray, numbers
 
 ToolLike: TypeAlias = "Tool | Document | str | os.PathLike[str]"
 """A tool, its document, the name of a shipped one, or a tool file."""
@@ -252,5 +252,6 @@ class Tool:
 
 
 def _by_entry(function: Callable[[FloatArray], FloatArray], values: npt.ArrayLike) -> FloatArray:
-    array = np.asarray(values, dtype=np.float64)
-    return function(np.ascontiguousarray(array.ravel())).reshape(array.shape)
+    array = numbers(values, "values")
+    found = function(np.ascontiguousarray(array.ravel())).reshape(np.shape(values))
+    return np.asarray(np.where(np.isnan(array.reshape(found.shape)), np.nan, found))

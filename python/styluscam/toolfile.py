@@ -9,11 +9,12 @@ import difflib
 import json
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from functools import lru_cache
 from pathlib import Path
 
 from styluscam import _engine
+from styluscam.arguments import json_of
 from styluscam.errors import ToolError
 from styluscam.files import read_text
 from styluscam.types import Document
@@ -67,25 +68,9 @@ def engine_text(document: Document, where: str) -> str:
         ToolError: it holds what JSON cannot: a number that is not finite, an object of Python; the key is named.
     """
     try:
-        return json.dumps(bare(document), allow_nan=False)
-    except (TypeError, ValueError, RecursionError) as error:
-        place, value = next(_unfit(bare(document), ""), ("", "it is nested too deeply"))
-        message = f"{where}: {place} = {value}: a number, a text, a list or a dict is expected"
-        raise ToolError(message, code="document", where=place or where) from error
-
-
-def _unfit(value: object, place: str) -> Iterator[tuple[str, object]]:
-    """Where a document holds what JSON cannot, and that."""
-    if isinstance(value, dict):
-        for key, part in value.items():
-            yield from _unfit(part, f"{place}.{key}" if place else str(key))
-    elif isinstance(value, list | tuple):
-        for number, part in enumerate(value):
-            yield from _unfit(part, f"{place}[{number}]")
-    elif isinstance(value, float) and not math.isfinite(value):
-        yield place, value
-    elif value is not None and not isinstance(value, str | int | float):
-        yield place, f"{type(value).__name__} object"
+        return json_of(bare(document), "tool", ToolError)
+    except ToolError as error:
+        raise ToolError(f"{where}: {error}", code="document", where=error.where, hint=error.hint) from error
 
 
 def _once(pairs: list[tuple[str, object]]) -> Document:

@@ -8,6 +8,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyBool;
 use styluscam_motion::Watch;
 
+use crate::errors;
+
 /// Progress is reported, and Ctrl-C and cancellation are looked at, this often.
 const INTERVAL: Duration = Duration::from_millis(50);
 
@@ -44,6 +46,11 @@ pub fn watched<T: Send>(
     cancel: Option<&CancelToken>,
     work: impl FnOnce(&Watch) -> T + Send,
 ) -> PyResult<T> {
+    if let Some(given) = progress.filter(|given| !given.is_callable()) {
+        let message =
+            format!("progress: a value of type {} came, a function of phase and fraction is wanted", given.get_type());
+        return Err(errors::raise("StylusError", &message, "argument", "progress", ""));
+    }
     let watch = Watch::default();
     let watch = &watch;
     let (done, result) = mpsc::channel();
