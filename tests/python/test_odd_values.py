@@ -105,8 +105,8 @@ DOCUMENTS: dict[str, tuple[type[sc.StylusError], str, Callable[[sc.Job], Any]]] 
     ),
     "an unknown key of a sheet": (
         sc.GeometryError,
-        "unknown key 'thicknes'",
-        lambda _: sc.slope_matched_offset(BALL, [[0, 0, 0]], [[0, 0, 1]], {"thicknes": 1}),
+        "unknown key 'widness'",
+        lambda _: sc.slope_matched_offset(BALL, [[0, 0, 0]], [[0, 0, 1]], {"widness": 1}),
     ),
     "an empty sheet": (
         sc.GeometryError,
