@@ -23,8 +23,12 @@ from convex_tool import Floats, Tool
 SAMPLES = 2000
 NEAR = 0.05
 """mm: a place of the path nearer than this touches."""
-PLANES = 96
+PLANES = 64
 """Supporting planes of the tool."""
+MEASURED = 64
+"""Pairs that are measured at a time, the deepest first."""
+HALVED = 12
+"""Times that an edge over the tool is halved."""
 PAIRS = 400_000
 """Pairs of a place and a triangle at a time."""
 
@@ -66,7 +70,7 @@ def checked(text: str, job: dict[str, Any], corners: Floats, allowed: float, fam
     for number in np.unique(numbers):
         of_tool = numbers == number
         tool = Tool.of(tools[int(number)]["profile"], job["setup"].get("sheet"), job["part"].get("model_face"))
-        depths = _Scene(tool, corners).distances(tips[of_tool], allowed)
+        depths = Scene(tool, corners).distances(tips[of_tool], allowed)
         found.samples += len(depths)
         near += int(np.sum((depths < NEAR) & feeding[of_tool]))
         worst = int(depths.argmin())
@@ -99,7 +103,7 @@ def _touching(tool: Tool, slopes: Floats) -> Floats:
     return np.array([tool.support(float(slope)) for slope in slopes])
 
 
-class _Scene:
+class Scene:
     """Triangles in cells of a grid over the plan, and a tool."""
 
     def __init__(self, tool: Tool, corners: Floats) -> None:
@@ -110,7 +114,7 @@ class _Scene:
         touching = _touching(tool, self.slopes)
         self.sine, self.cosine = np.sin(self.slopes), np.cos(self.slopes)
         self.offsets = touching[:, 0] * self.sine - touching[:, 1] * self.cosine
-        self.fine = np.linspace(0.0, 0.5 * math.pi, 20 * PLANES)
+        self.fine = np.linspace(0.0, 0.5 * math.pi, 30 * PLANES)
         self.touch_r, self.touch_z = _touching(tool, self.fine).T
         self.bottom_r = np.concatenate([[0.0], np.maximum.accumulate(self.touch_r)])
         self.bottom_z = np.concatenate([[-tool.raised], self.touch_z])
@@ -138,18 +142,25 @@ class _Scene:
         self.starts = np.searchsorted(key[order], np.arange(self.rows * self.columns + 1))
 
     def distances(self, tips: Floats, allowed: float) -> Floats:
-        """Least signed distance at each tip (N, 3), from below; measured where it is under `-allowed`; NEAR or more is far."""
+        """Least signed distance at each tip (N, 3), from below; the worst are measured until one is under `-allowed`, or none."""
         least = np.full(len(tips), np.inf)
+        deep_rows, deep_triangles, deep_bounds = [], [], []
         for rows, triangles in self._pairs(tips):
             bounds = self._bounds(tips[rows], triangles)
-            np.minimum.at(least, rows, bounds)
             deep = bounds < -allowed
-            if deep.any():
-                measured = self._measured(tips[rows[deep]], triangles[deep])
-                bounds[deep] = measured
-                again = np.isin(rows, rows[deep])
-                least[rows[again]] = np.inf
-                np.minimum.at(least, rows[again], bounds[again])
+            np.minimum.at(least, rows[~deep], bounds[~deep])
+            deep_rows.append(rows[deep])
+            deep_triangles.append(triangles[deep])
+            deep_bounds.append(bounds[deep])
+        rows, triangles = np.concatenate(deep_rows), np.concatenate(deep_triangles)
+        np.minimum.at(least, rows, -allowed)  # near at least; how deep is measured
+        order = np.argsort(np.concatenate(deep_bounds), kind="stable")
+        for begin in range(0, len(order), MEASURED):
+            chosen = order[begin : begin + MEASURED]
+            measured = self._measured(tips[rows[chosen]], triangles[chosen])
+            np.minimum.at(least, rows[chosen], measured)
+            if measured.min() < -allowed:
+                break
         return least
 
     def _pairs(self, tips: Floats) -> Iterator[tuple[np.ndarray, np.ndarray]]:
@@ -194,8 +205,12 @@ class _Scene:
         """Least distance of each pair, from below: on edges by narrowing a grid, and over the face."""
         out = np.full(len(tips), np.inf)
         for begin in range(0, len(tips), 20_000):
-            part = slice(begin, begin + 20_000)
+            part = np.arange(begin, min(begin + 20_000, len(tips)))
             corners = self.corners[triangles[part]] - tips[part, None]
+            middle = corners.mean(axis=1)
+            reach = np.linalg.norm(corners - middle[:, None], axis=2).max(axis=1)
+            near = self._planes(middle) - reach < NEAR
+            corners, part = corners[near], part[near]
             best = self._over_face(corners)
             for i in range(3):
                 best = np.minimum(best, self._along(corners[:, i], corners[:, (i + 1) % 3]))
@@ -203,23 +218,43 @@ class _Scene:
         return out
 
     def _along(self, start: Floats, end: Floats) -> Floats:
-        low, width = np.zeros(len(start)), np.ones(len(start))
+        low, width = self._over_disc(start, end)
         best = np.full(len(start), np.inf)
-        for _ in range(9):
+        rows = np.arange(len(start))
+        for _ in range(HALVED):
             shares = low[:, None] + width[:, None] * np.linspace(0.0, 1.0, 5)
             values = self._planes(start[:, None] + shares[..., None] * (end - start)[:, None])
             least = values.argmin(axis=1)
-            best = np.minimum(best, values[np.arange(len(start)), least])
+            best = np.minimum(best, values[rows, least])
             step = width / 4
-            low = np.clip(shares[np.arange(len(start)), least] - step, 0.0, 1.0)
-            width = np.minimum(2 * step, 1.0 - low)
+            after = np.minimum(shares[rows, least] + step, low + width)
+            low = np.maximum(shares[rows, least] - step, low)
+            width = after - low
         return best
 
+    def _over_disc(self, start: Floats, end: Floats) -> tuple[Floats, Floats]:
+        """First share and width of the piece of each edge over the tool's disc; the nearest point where none is."""
+        way = (end - start)[:, :2]
+        square = np.maximum(np.einsum("ij,ij->i", way, way), 1e-30)
+        middle = -np.einsum("ij,ij->i", start[:, :2], way) / square
+        off = np.einsum("ij,ij->i", start[:, :2], start[:, :2]) - middle**2 * square
+        half = np.sqrt(np.maximum(self.radius**2 - off, 0.0) / square)
+        low, high = np.clip(middle - half, 0.0, 1.0), np.clip(middle + half, 0.0, 1.0)
+        return low, high - low
+
     def _over_face(self, corners: Floats) -> Floats:
-        """The gap to the plane where its touching point lies over the triangle, else infinite."""
+        """The distance where the touching point of the triangle's plane lies over it, else infinite."""
+        foot, held = self._feet(corners)
+        return np.where(held, self._planes(foot), np.inf)
+
+    def _feet(self, corners: Floats) -> tuple[Floats, np.ndarray]:
+        """Where each triangle's plane is nearest to the tool's touching point, and whether that is on the triangle."""
         normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         area = np.linalg.norm(normal, axis=1)
-        normal = normal / np.where(area > 0, area, 1.0)[:, None] * np.where(normal[:, 2] < 0, -1.0, 1.0)[:, None]
+        normal = normal / np.where(area > 0, area, 1.0)[:, None]
+        upright = np.abs(normal[:, 2]) < 1e-9
+        towards_axis = np.einsum("ij,ij->i", normal, corners[:, 0]) > 0
+        normal *= np.where(np.where(upright, towards_axis, normal[:, 2] < 0), -1.0, 1.0)[:, None]
         flat = np.hypot(normal[:, 0], normal[:, 1])
         slope = np.arctan2(flat, normal[:, 2])
         r = np.where(flat > 1e-12, np.interp(slope, self.fine, self.touch_r), 0.0)
@@ -228,14 +263,13 @@ class _Scene:
         touching = np.column_stack([away, z])
         gap = np.einsum("ij,ij->i", touching - corners[:, 0], normal)
         foot = touching - gap[:, None] * normal
-        inside = area > 0
         signs = []
         for i in range(3):
             side = np.cross(corners[:, (i + 1) % 3] - corners[:, i], foot - corners[:, i])
             signs.append(np.einsum("ij,ij->i", side, normal))
         turned = np.stack(signs)
-        inside &= np.all(turned >= -1e-12, axis=0) | np.all(turned <= 1e-12, axis=0)
-        return np.where(inside, gap, np.inf)
+        held = (area > 0) & (np.all(turned >= -1e-12, axis=0) | np.all(turned <= 1e-12, axis=0))
+        return foot, held
 
     def _measured(self, tips: Floats, triangles: np.ndarray) -> Floats:
         """The same by the tool's own distance."""
@@ -243,16 +277,5 @@ class _Scene:
         best = np.full(len(tips), np.inf)
         for i in range(3):
             best = np.minimum(best, least_on(self.tool, corners[:, [i, (i + 1) % 3]], tips))
-        for row, place in enumerate(self._over_face(corners - tips[:, None])):
-            if place < best[row]:
-                best[row] = min(best[row], self._exact_face(corners[row], tips[row]))
-        return best
-
-    def _exact_face(self, corners: Floats, tip: Floats) -> float:
-        normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
-        normal *= (-1.0 if normal[2] < 0 else 1.0) / np.linalg.norm(normal)
-        flat = math.hypot(normal[0], normal[1])
-        r, z = self.tool.support(math.atan2(flat, normal[2])) if flat > 1e-12 else (0.0, -self.tool.raised)
-        away = -normal[:2] / flat * r if flat > 1e-12 else np.zeros(2)
-        touching = tip + np.array([away[0], away[1], z])
-        return float((touching - corners[0]) @ normal)
+        foot, held = self._feet(corners - tips[:, None])
+        return np.where(held, np.minimum(best, self.tool.distance(foot)), best)

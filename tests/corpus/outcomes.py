@@ -14,7 +14,7 @@ from typing import Any
 import jobs
 import numpy as np
 from gouge import Checked, checked
-from process import Ended, styluscam
+from process import Ended, Limit, styluscam
 
 JUDGED = 0.001
 """The depth from which the engine's own judge calls an entry a gouge, mm."""
@@ -75,8 +75,9 @@ def run_part(part: dict[str, Any], folder: Path, scratch: Path, options: argpars
     home = (options.keep or scratch) / re.sub(r"[^\w.-]", "_", part["name"])
     home.mkdir(parents=True, exist_ok=True)
     shutil.copy(folder / part["file"], home / part["file"])
+    limit = Limit(options.limit, options.patience)
     named = ["--units", part["units"]] if part["units"] else []
-    made = styluscam(["new", part["file"], *named, "--force", "--out", "job.toml", "--json"], home, options.limit)
+    made = styluscam(["new", part["file"], *named, "--force", "--out", "job.toml", "--json"], home, limit)
     start = Outcome(
         part["name"], part["family"], AS_WRITTEN, "", new_seconds=made.seconds, cpu=made.cpu, peak_mb=made.peak_mb
     )
@@ -92,13 +93,13 @@ def run_part(part: dict[str, Any], folder: Path, scratch: Path, options: argpars
             *([] if options.base else jobs.variants_of(part["name"], every=options.all)),
         ]
         for variant in wanted:
-            rows.append(_run(part, variant, start, home, folder, options.limit))
+            rows.append(_run(part, variant, start, home, folder, limit))
     if not options.keep:
         shutil.rmtree(home)
     return rows
 
 
-def _run(part: dict[str, Any], variant: str, start: Outcome, home: Path, folder: Path, limit: float) -> Outcome:
+def _run(part: dict[str, Any], variant: str, start: Outcome, home: Path, folder: Path, limit: Limit) -> Outcome:
     job, file = jobs.read(home / "job.toml"), home / "job.toml"
     if variant != AS_WRITTEN:
         job = jobs.varied(job, variant, part["body"], part["thickness"])
@@ -115,6 +116,8 @@ def _run(part: dict[str, Any], variant: str, start: Outcome, home: Path, folder:
     row.command = f"python tests/corpus/run.py --only {part['name']} --variant {variant} --keep /tmp/corpus --verbose"
     _ended(row, ended, part)
     if row.outcome == "done":
+        if variant == AS_WRITTEN:
+            row.wrong = _misjudged(job, part)
         _judge(row, json.loads(ended.out), job, part, home, folder)
     return row
 
@@ -122,7 +125,7 @@ def _run(part: dict[str, Any], variant: str, start: Outcome, home: Path, folder:
 def _ended(row: Outcome, ended: Ended, part: dict[str, Any]) -> None:
     """What an exit code and its JSON mean."""
     if ended.timed_out:
-        row.outcome, row.detail = "timeout", f"after {ended.seconds:.0f} s"
+        row.outcome, row.detail = "timeout", f"after {ended.seconds:.0f} s, {ended.cpu:.0f} s of them computed"
     elif ended.code < 0 or "Traceback" in ended.err or ended.code not in (0, 1, 2):
         row.outcome, row.detail = "crash", f"exit {ended.code}: {ended.err.strip()[-300:] or ended.out[-300:]}"
     elif ended.code == 2:
@@ -191,7 +194,20 @@ def _judge(
         row.detail = f"{found.deepest:.4f} mm into the part at line {found.line}, tip {found.at}"
     elif wrong := _misplaced(found, placed, document):
         row.outcome, row.detail = "misplaced", wrong
-    row.wrong = unexpected(row, part["expect"])
+    row.wrong = row.wrong or unexpected(row, part["expect"])
+
+
+def _misjudged(job: dict[str, Any], part: dict[str, Any]) -> str:
+    """Where `new` takes a sheet for a block, a block for a sheet, or a sheet for another one."""
+    kind = job.get("process", {}).get("kind", "spif")
+    if part["body"] == "solid" and kind != "milling":
+        return f"a solid body is planned as {kind}"
+    if part["body"] == "sheet" and "done" in part["expect"] and kind == "milling" and part["family"] != "flat-sheet":
+        return "a sheet part is milled"
+    said = job.get("setup", {}).get("sheet", {}).get("thickness")
+    if part["body"] == "sheet" and said is not None and abs(said - part["thickness"]) > 0.05 * part["thickness"]:
+        return f"the sheet is {part['thickness']:.3f} mm thick, the job says {said:g}"
+    return ""
 
 
 def _in_work(corners: np.ndarray, job: dict[str, Any]) -> np.ndarray | None:

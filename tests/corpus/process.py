@@ -31,8 +31,20 @@ class Ended:
     timed_out: bool
 
 
-def styluscam(words: list[str], folder: Path, limit: float) -> Ended:
-    """Runs `styluscam WORDS` in a folder, at most `limit` seconds."""
+@dataclass(frozen=True)
+class Limit:
+    """Seconds that a command may take; on a machine that others use, `patience` times as many, and as many of its processors."""
+
+    seconds: float
+    patience: float = 1.0
+
+
+PROCESSORS = 1.5
+"""How many of them a command keeps busy, about."""
+
+
+def styluscam(words: list[str], folder: Path, limit: Limit) -> Ended:
+    """Runs `styluscam WORDS` in a folder."""
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         start = time.monotonic()
         process = subprocess.Popen(
@@ -45,13 +57,15 @@ def styluscam(words: list[str], folder: Path, limit: float) -> Ended:
             env={**os.environ, "COLUMNS": "400", "NO_COLOR": "1"},
         )
         resource.prlimit(process.pid, resource.RLIMIT_AS, (MEMORY, MEMORY))
+        most = round(PROCESSORS * limit.seconds)
+        resource.prlimit(process.pid, resource.RLIMIT_CPU, (most, most))
         stopped = threading.Event()
 
         def stop() -> None:
             stopped.set()
             process.send_signal(signal.SIGKILL)
 
-        timer = threading.Timer(limit, stop)
+        timer = threading.Timer(limit.seconds * limit.patience, stop)
         timer.start()
         _, status, usage = os.wait4(process.pid, 0)
         timer.cancel()
@@ -62,4 +76,5 @@ def styluscam(words: list[str], folder: Path, limit: float) -> Ended:
             stream.seek(0)
             texts.append(stream.read().decode("utf-8", "replace"))
     cpu = usage.ru_utime + usage.ru_stime
-    return Ended(code, texts[0], texts[1], seconds, cpu, usage.ru_maxrss / 1024, stopped.is_set())
+    late = stopped.is_set() or (code in (-signal.SIGKILL, -signal.SIGXCPU) and cpu > 0.95 * most)
+    return Ended(code, texts[0], texts[1], seconds, cpu, usage.ru_maxrss / 1024, late)

@@ -1,6 +1,6 @@
 """Runs every part of the corpus as a user would, and writes what came of it.
 
-    python tests/corpus/run.py [--slice N] [--jobs 2] [--only NAME] [--all] [--base] [--limit 60] [--out TABLE]
+    python tests/corpus/run.py [--slice N] [--jobs 2] [--only NAME] [--all] [--base] [--limit 60] [--patience 1] [--out TABLE]
 
 `styluscam new PART`, then `styluscam run` on the job that it wrote, then the same job with other strategies and tools: two a
 part that its name chooses, or all eight. Each command is a process with a limit. Done programs are judged by `gouge` against
@@ -75,6 +75,7 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--only", action="append", default=[], help="parts whose name has this")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--limit", type=float, default=60.0, help="seconds for each command")
+    parser.add_argument("--patience", type=float, default=1.0, help="so many times longer where others use the machine")
     parser.add_argument("--all", action="store_true", help="all eight variants of a part")
     parser.add_argument("--base", action="store_true", help="no variants: what `new` wrote alone")
     parser.add_argument("--variant", action="append", default=[], help="these variants alone: z-level.ball, as-written")
