@@ -65,9 +65,9 @@ class Outcome:
 
     def line(self) -> str:
         seconds = f"{self.new_seconds:.1f}+{self.run_seconds:.1f} s"
-        return (
-            f"{self.part:44} {self.variant:18} {self.outcome:9} {seconds:12} {self.peak_mb:5.0f} MB {self.detail[:150]}"
-        )
+        why = f"{self.wrong}. " if self.wrong else ""
+        start = f"{self.part:44} {self.variant:18} {self.outcome:9} {seconds:12} {self.peak_mb:5.0f} MB"
+        return f"{start} {why}{self.detail[:150]}"
 
 
 def run_part(part: dict[str, Any], folder: Path, scratch: Path, options: argparse.Namespace) -> list[Outcome]:
@@ -178,7 +178,7 @@ def _judge(
     """The independent check of a done program: gouges, and whether it is where the part is."""
     if part["truth"] is None:
         return
-    corners = np.load(folder / part["truth"])
+    corners = _corners(folder / part["truth"])
     placed = _in_work(corners, job)
     if placed is None:
         row.detail = "not checked: this setup turns the part"
@@ -223,6 +223,12 @@ def _in_work(corners: np.ndarray, job: dict[str, Any]) -> np.ndarray | None:
     share = {"tool": 0.0, "mid": 0.5, "back": 1.0}[job["part"].get("model_face", "tool")]
     top = corners[..., 2].max() + share * setup["sheet"]["thickness"]
     return corners - np.array([0.0, 0.0, top])
+
+
+def _corners(path: Path) -> np.ndarray:
+    """The triangles as they were made (T, 3, 3), mm; committed ones are vertices in millionths and indices."""
+    held = np.load(path)
+    return held if path.suffix == ".npy" else 1e-6 * held["steps"][held["triangles"]]
 
 
 def _misplaced(found: Checked, placed: np.ndarray, document: dict[str, Any]) -> str:
