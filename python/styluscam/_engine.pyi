@@ -30,6 +30,7 @@ __all__ = [
     "machine_options",
     "machine_schema",
     "materials",
+    "mended",
     "offset_surface",
     "plan",
     "post",
@@ -203,6 +204,7 @@ class Simulation:
     def mesh(self, tolerance: float, floor: float | None = None) -> tuple[_F, npt.NDArray[np.int64]]: ...
     def distances(self, scene: Scene, progress: _Progress | None = None, cancel: CancelToken | None = None) -> _F: ...
 
+def mended(points: _F, triangles: _I) -> tuple[_F, _I, _I, str]: ...
 def slope_matched_offset(
     tool: Tool, points: _F, normals: _F, sheet: str | None = None
 ) -> tuple[_F, npt.NDArray[np.uint8]]: ...

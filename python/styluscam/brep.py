@@ -20,7 +20,7 @@ def recheck(report: Document, job: Job, scene: _engine.Scene) -> None:
     """
     arrays = job.part().arrays
     contacts = report["contacts"]
-    if arrays is None or all(face.kind == "mesh" for face in arrays.faces) or not contacts:
+    if arrays is None or arrays.is_mesh or not contacts:
         report["brep_checked"] = 0
         return
     rows = np.array(scene.frame)

@@ -120,14 +120,13 @@ class Part:
         """From what a reader made: triangles with their checked deviation and, where it knew surfaces, their normals."""
         if not isinstance(arrays, PartArrays):
             raise refused("arrays", arrays, "what a reader made (PartArrays)", GeometryError)
-        is_mesh = all(face.kind == "mesh" for face in arrays.faces)
         engine = _engine.Part(
             arrays.vertices,
             arrays.triangles,
             arrays.face_ids,
             arrays.deviation_inward,
             arrays.deviation_outward,
-            None if is_mesh else arrays.normals,
+            None if arrays.is_mesh else arrays.normals,
         )
         return cls._built(engine, arrays)
 

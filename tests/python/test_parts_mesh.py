@@ -11,7 +11,7 @@ import pytest
 
 from styluscam.errors import GeometryError
 from styluscam.parts import read_part
-from styluscam.parts.mesh import Facets
+from styluscam.parts.facets import Facets
 
 trimesh = pytest.importorskip("trimesh", reason="needs the mesh extra")
 
@@ -31,8 +31,9 @@ def test_cube(ending: str, kind: str, tmp_path: Path) -> None:
     assert part.is_closed and not part.notes
     assert (len(part.vertices), len(part.triangles)) == (8, 12)
     assert part.box == (pytest.approx((-5, -5, -5)), pytest.approx((5, 5, 5)))
-    assert part.faces[0].area_mm2 == pytest.approx(600.0)
-    assert part.faces[0].kind == "mesh" and set(part.face_ids) == {1}
+    assert [face.area_mm2 for face in part.faces] == [pytest.approx(100.0)] * 6 and part.is_mesh
+    assert {face.kind for face in part.faces} == {"plane"} and set(part.face_ids) == {1, 2, 3, 4, 5, 6}
+    assert (part.faces[0].slope_max_deg, part.faces[5].slope_min_deg) == (pytest.approx(0.0), pytest.approx(180.0))
     assert (part.deviation_inward, part.deviation_outward) == (0.0, 0.0)
     corners = part.vertices[part.triangles]
     facets = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

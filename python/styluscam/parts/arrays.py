@@ -13,14 +13,14 @@ from .surfaces import ExactSurface, Floats
 Ints: TypeAlias = NDArray[np.int64]
 Vector: TypeAlias = tuple[float, float, float]
 
-KINDS = ("plane", "cylinder", "cone", "sphere", "torus", "spline", "other", "mesh")
+KINDS = ("plane", "cylinder", "cone", "sphere", "torus", "spline", "freeform", "other")
 
 
 @dataclass(frozen=True)
 class FaceInfo:
     """One face of the part, as a person picks it. Lengths mm, slopes in degrees against +Z of the file's frame."""
 
-    id: int  # 1-based, in OpenCASCADE's TopExp order, as FreeCAD shows it
+    id: int  # 1-based: OpenCASCADE's TopExp order, as FreeCAD shows it; of a mesh, from the top down
     kind: str  # one of KINDS
     area_mm2: float
     centre: Vector  # of the area: it need not lie on the face
@@ -56,6 +56,7 @@ class PartArrays:
     is_closed: bool  # each edge is shared by exactly two triangles that run it in opposite directions
     notes: tuple[str, ...] = ()  # sentences for the user, e.g. that the file holds a sheet body
     edge_gap_mm: float = 0.0  # how far the file's own edges lie off its surfaces at most; the deviations include it
+    is_mesh: bool = False  # the triangles are the part: there are no exact surfaces behind them
     surfaces: tuple[ExactSurface, ...] = field(default=(), repr=False)  # surfaces[i] belongs to faces[i]
 
     def __post_init__(self) -> None:

@@ -1,26 +1,26 @@
-"""STL, OBJ, PLY and 3MF files: the mesh is the part."""
+"""STL, OBJ, PLY and 3MF files: the mesh is the part, its faces lie between its creases."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import json
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from styluscam import _engine
+
 from ..errors import GeometryError
-from .arrays import Ints, PartArrays, area_vectors, describe_face, signed_volume
+from .arrays import FaceInfo, Ints, PartArrays, area_vectors, describe_face
+from .facets import Facets
 from .progress import Progress, report
 from .stl import read_stl
 from .surfaces import Floats, unit
-from .tessellation import is_closed, weld
-
-# Corners of single-precision files that mean one point agree to the last bit: this only takes up rounding in scaling.
-WELD = 1e-9
 
 
 def read_mesh(file: Path, tolerance: float, units: str | None, progress: Progress | None = None) -> PartArrays:
-    """Read the part in a mesh file, all of it face 1. See styluscam.parts.read_part."""
+    """Read the part in a mesh file. See styluscam.parts.read_part."""
     report(progress, "read", 0.0)
     scale, units = _scale(file, units)
     points, corners, own_units, notes = _load(file)
@@ -30,36 +30,91 @@ def read_mesh(file: Path, tolerance: float, units: str | None, progress: Progres
         raise _error(file, "holds no triangles", "export the part again", "part-no-triangles")
     if not np.isfinite(points).all():
         raise _error(file, "has coordinates that are not numbers (NaN or infinite)", "export it again", "part-nan")
-    report(progress, "arrays", 0.6)
-    vertices, triangles, _ = weld(points * scale, corners, WELD)
-    doubled = area_vectors(vertices, triangles)
-    sizes = np.sqrt(np.einsum("ij,ij->i", doubled, doubled))
-    if not sizes.sum() > 0.0:
-        raise _error(file, "has no area: all its triangles are degenerate", "export it again", "part-zero-area")
-    closed = is_closed(triangles)
-    if not closed:
-        notes += ("the mesh is open: not each edge is shared by two triangles",)
-    if closed and signed_volume(vertices, triangles) < 0.0:
-        triangles = np.ascontiguousarray(triangles[:, ::-1])
-        doubled = -doubled
-        notes += ("the mesh was wound inward: its triangles were turned over",)
-    normals = np.repeat(unit(doubled)[:, None, :], 3, axis=1)
-    report(progress, "arrays", 1.0)
-    return PartArrays(
+    report(progress, "faces", 0.5)
+    vertices, triangles, face_ids, mending, kinds = _mended(file, points * scale, corners)
+    report(progress, "arrays", 0.9)
+    normals = np.repeat(unit(area_vectors(vertices, triangles))[:, None, :], 3, axis=1)
+    part = PartArrays(
         vertices=vertices,
         triangles=triangles,
         normals=normals,
-        face_ids=np.ones(len(triangles), dtype=np.int64),
-        faces=(describe_face(1, "mesh", vertices[triangles], normals),),
-        deviation_inward=0.0,
-        deviation_outward=0.0,
+        face_ids=face_ids,
+        faces=_described(vertices[triangles], normals, face_ids, kinds),
+        deviation_inward=mending["moved"],
+        deviation_outward=mending["moved"],
         tolerance=tolerance,
         source=str(file),
         units=units,
-        is_closed=closed,
-        notes=notes,
-        surfaces=(Facets(vertices, triangles),),
+        is_closed=mending["closed"],
+        notes=notes + _said(mending, len(triangles)),
+        surfaces=(Facets(vertices, triangles),) * len(kinds),
+        is_mesh=True,
     )
+    report(progress, "arrays", 1.0)
+    return part
+
+
+def _mended(file: Path, points: Floats, corners: Ints) -> tuple[Floats, Ints, Ints, dict[str, Any], list[str]]:
+    """Return vertices, triangles wound outward, the face of each, what was done to them, and each face's kind."""
+    try:
+        vertices, triangles, face_ids, text = _engine.mended(points, np.ascontiguousarray(corners))
+    except GeometryError as error:
+        if error.code == "empty-mesh":
+            what = "has no area: all its triangles are degenerate"
+            raise _error(file, what, "export it again", "part-zero-area") from error
+        raise _error(file, f"damaged: {error}", "export the part again", "part-damaged") from error
+    done = json.loads(text)
+    mending: dict[str, Any] = done["mending"]
+    if mending["unclear"] is not None:
+        place = " ".join(f"{axis}{value:.3f}" for axis, value in zip("XYZ", mending["unclear"], strict=True))
+        what = f"its triangles are wound inconsistently, some are inside out, and which side is out is not clear at {place}"
+        cure = "make its normals consistent, all outward, in the program that made it"
+        raise _error(file, what, cure, "part-inconsistent")
+    return vertices, triangles, face_ids, mending, done["shapes"]
+
+
+def _described(corners: Floats, normals: Floats, face_ids: Ints, kinds: list[str]) -> tuple[FaceInfo, ...]:
+    """Describe all faces, from the triangles' corners and corner normals, each (T,3,3)."""
+    order = np.argsort(face_ids, kind="stable")
+    ends = np.searchsorted(face_ids[order], np.arange(1, len(kinds) + 2))
+    own = [order[start:end] for start, end in pairwise(ends)]
+    faces = zip(kinds, own, strict=True)
+    return tuple(describe_face(i, kind, corners[at], normals[at]) for i, (kind, at) in enumerate(faces, 1))
+
+
+def _said(mending: dict[str, Any], triangles: int) -> tuple[str, ...]:
+    """Return sentences on what was done to the file's triangles."""
+    notes = []
+    if mending["joined"]:
+        notes.append(
+            f"{mending['joined']} corners that do not quite meet were joined: they lay up to {mending['moved']:.2g} mm "
+            f"apart (joined within {mending['join_distance']:.2g} mm)"
+        )
+    if mending["degenerate"]:
+        notes.append(f"{mending['degenerate']} triangles without area were left out")
+    if mending["duplicate"]:
+        notes.append(f"{mending['duplicate']} triangles that the file has more than once were left out")
+    if mending["back_to_back"]:
+        notes.append(
+            f"{mending['back_to_back']} triangles that lie back to back between bodies that touch were left out: "
+            "the bodies are one"
+        )
+    if mending["double_sided"]:
+        notes.append(
+            f"the file has both sides of a surface: {mending['double_sided']} triangles of the second side were left "
+            "out; where the surface encloses nothing, its material side is a guess (below)"
+        )
+    if mending["turned"]:
+        notes.append(f"{mending['turned']} triangles that were wound against their neighbours were turned over")
+    if mending["inside_out"] == triangles:
+        notes.append("the mesh was wound inward (inside out): its triangles were turned over")
+    elif mending["inside_out"]:
+        notes.append(
+            f"{mending['inside_out']} triangles belong to bodies that were wound inward (inside out): they were turned over"
+        )
+    if not mending["closed"]:
+        notes.append("the mesh is open: not each edge is shared by two triangles")
+    return tuple(notes)
 
 
 def _error(file: Path, what: str, cure: str, code: str) -> GeometryError:
@@ -126,64 +181,3 @@ def _meshes(file: Path) -> list[Any]:
         # the parsers' own words are about Python, not about the file: they stay in the cause
         what = f"cannot be read as {kind}: it is damaged, or another format"
         raise _error(file, what, "export the part again", "part-damaged") from error
-
-
-@dataclass(frozen=True, eq=False)
-class Facets:
-    """A triangle mesh as an exact surface: distance to its nearest triangle, signed by that triangle's side."""
-
-    vertices: Floats
-    triangles: Ints
-
-    def distance(self, points: Floats) -> Floats:
-        """See ExactSurface."""
-        return self._nearest(points)[0]
-
-    def normal(self, points: Floats) -> Floats:
-        """See ExactSurface: that of the nearest triangle."""
-        return unit(area_vectors(self.vertices, self.triangles[self._nearest(points)[1]]))
-
-    def _nearest(self, points: Floats) -> tuple[Floats, Ints]:
-        """Return signed distance and nearest triangle: bounding spheres leave few candidates for each point."""
-        corners = self.vertices[self.triangles]
-        centres = (corners.min(axis=1) + corners.max(axis=1)) / 2.0
-        radii = np.linalg.norm(corners - centres[:, None], axis=2).max(axis=1)
-        distances, nearest = np.empty(len(points)), np.empty(len(points), dtype=np.int64)
-        rows = max(1, 2_000_000 // len(corners))
-        for start in range(0, len(points), rows):
-            part = points[start : start + rows]
-            apart = np.sqrt(((part[:, None] - centres) ** 2).sum(axis=2))
-            which, candidate = np.nonzero(apart - radii <= (apart + radii).min(axis=1)[:, None])
-            away = part[which] - _closest(part[which], corners[candidate])
-            doubled = area_vectors(self.vertices, self.triangles[candidate])
-            height = np.einsum("ij,ij->i", away, unit(doubled))
-            # Among triangles that share the nearest point, the one seen most from above gives the right side.
-            order = np.lexsort((-np.abs(height), np.round(np.linalg.norm(away, axis=1), 9), which))
-            first = order[np.searchsorted(which[order], np.arange(len(part)))]
-            size = np.linalg.norm(away[first], axis=1)
-            distances[start : start + rows] = np.copysign(size, height[first])
-            nearest[start : start + rows] = candidate[first]
-        return distances, nearest
-
-
-def _closest(points: Floats, corners: Floats) -> Floats:
-    """Return the point of each triangle (N,3,3) nearest to the point beside it (N,3)."""
-    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-    ab, ac = b - a, c - a
-    normal = np.cross(ab, ac)
-    squared = np.maximum(np.einsum("ij,ij->i", normal, normal), 1e-300)
-    away = points - a
-    v = np.einsum("ij,ij->i", np.cross(away, ac), normal) / squared
-    w = np.einsum("ij,ij->i", np.cross(ab, away), normal) / squared
-    best = a + v[:, None] * ab + w[:, None] * ac
-    outside = (v < 0.0) | (w < 0.0) | (v + w > 1.0)
-    gap = np.where(outside, np.inf, 0.0)
-    for start, end in ((a, b), (b, c), (c, a)):
-        side = end - start
-        length = np.maximum(np.einsum("ij,ij->i", side, side), 1e-300)
-        share = np.clip(np.einsum("ij,ij->i", points - start, side) / length, 0.0, 1.0)
-        on_side = start + share[:, None] * side
-        reach = np.linalg.norm(points - on_side, axis=1)
-        better = outside & (reach < gap)
-        best, gap = np.where(better[:, None], on_side, best), np.where(better, reach, gap)
-    return np.asarray(best)

@@ -44,7 +44,7 @@ class Surface:
     def of(cls, arrays: PartArrays, frame: FloatArray) -> Surface:
         """A part, moved by the rows (3, 4) of ``frame``."""
         turn = frame[:, :3]
-        smooth = any(face.kind != "mesh" for face in arrays.faces)
+        smooth = not arrays.is_mesh
         points = arrays.vertices @ turn.T + frame[:, 3]
         return cls(points, arrays.triangles, arrays.normals @ turn.T, arrays.face_ids, smooth)
 

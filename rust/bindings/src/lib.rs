@@ -29,7 +29,7 @@ mod _engine {
     #[pymodule_export]
     use crate::offset::{drop_cutter, offset_surface, push_cutter, slope_matched_offset, waterlines};
     #[pymodule_export]
-    use crate::part::Part;
+    use crate::part::{mended, Part};
     #[pymodule_export]
     use crate::program::Program;
     #[pymodule_export]

@@ -4,7 +4,7 @@ use std::sync::{Mutex, OnceLock};
 
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
-use styluscam_geometry::{Mesh, Vector};
+use styluscam_geometry::{Mesh, Soup, Vector};
 use styluscam_motion::{Cancelled, Watch};
 use styluscam_toolpath::offset::Index;
 
@@ -117,6 +117,36 @@ impl Part {
     fn dropped(&self) -> usize {
         self.part.mesh.dropped()
     }
+}
+
+/// What [`mended`] returns.
+type Mended<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<i64>>, Bound<'py, PyArray1<i64>>, String);
+
+/// Triangles of a file made a part: `points` (N, 3) mm and `triangles` (T, 3) of their numbers; returns vertices,
+/// triangles, the face of each from 1, and as JSON what was done and the shape of each face.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn mended<'py>(
+    py: Python<'py>,
+    points: PyReadonlyArray2<'py, f64>,
+    triangles: PyReadonlyArray2<'py, i64>,
+) -> PyResult<Mended<'py>> {
+    let points = arrays::vectors(&points, "points")?;
+    let corners = arrays::rows::<i64, 3>(&triangles, "triangles")?;
+    let (soup, faces, shapes) = py
+        .detach(|| {
+            let soup = Soup::new(&points, &corners)?;
+            let (faces, shapes) = soup.faces();
+            Ok((soup, faces, shapes))
+        })
+        .map_err(|e| errors::of_geometry(&e))?;
+    let done = serde_json::json!({ "mending": soup.mending, "shapes": shapes }).to_string();
+    Ok((
+        arrays::matrix(py, soup.vertices.iter().map(|p| (*p).into()))?,
+        arrays::matrix(py, soup.triangles.iter().map(|t| t.map(i64::from)))?,
+        PyArray1::from_vec(py, faces.into_iter().map(i64::from).collect()),
+        done,
+    ))
 }
 
 fn face_numbers(ids: &PyReadonlyArray1<'_, i64>) -> PyResult<Vec<u32>> {

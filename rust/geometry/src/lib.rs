@@ -14,7 +14,7 @@ mod tool;
 pub use cutter::{Cutter, Height, SupportingLine};
 pub use error::GeometryError;
 pub use frame::Frame;
-pub use mesh::{Bvh, Mesh, Node};
+pub use mesh::{Bvh, Mending, Mesh, Node, Shape, Soup};
 pub use profile::{FormulaDocument, Profile, ProfileDocument, ProfileReport, Straight};
 pub use sheet::{ModelFace, Sheet, SheetLaw};
 pub use tool::{Base, Holder, Tool, ToolDocument};

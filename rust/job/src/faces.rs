@@ -22,6 +22,8 @@ pub struct FaceView {
     pub upright: f64,
     /// Largest slope, rad.
     pub steepest: f64,
+    /// Whether the part is nothing but triangles: its faces were found, not made by its designer.
+    pub is_found: bool,
 }
 
 /// All faces by number.
@@ -31,6 +33,7 @@ pub fn views(mesh: &Mesh) -> BTreeMap<u32, FaceView> {
         let (normal, area) = (mesh.normal(t), mesh.area(t));
         let view = views.entry(*face).or_default();
         view.area += area;
+        view.is_found = !mesh.has_corner_normals();
         view.up += if normal.z > UP { area } else { 0.0 };
         view.down += if mesh.looks_down(t) { area } else { 0.0 };
         view.upright += if normal.z <= UP && !mesh.looks_down(t) { area } else { 0.0 };
@@ -83,7 +86,9 @@ pub fn chosen(
 ) -> Result<Vec<u32>, JobError> {
     match selection {
         Selection::All => {
-            let looks = |view: &FaceView| view.up > 0.0 || all == Look::UpOrAside && view.upright > 0.0;
+            // a mesh is meant whole: that its walls are faces of their own changes no job
+            let aside = |view: &FaceView| view.upright > 0.0 && (all == Look::UpOrAside || view.is_found);
+            let looks = |view: &FaceView| view.up > 0.0 || aside(view);
             let up: Vec<u32> = views.iter().filter(|(_, view)| looks(view)).map(|(n, _)| *n).collect();
             if up.is_empty() {
                 return Err(JobError::document(

@@ -1,8 +1,10 @@
 //! The part as triangles, checked once, with the index that searches it.
 
 mod bvh;
+mod soup;
 
 pub use bvh::{Bvh, Node};
+pub use soup::{Mending, Shape, Soup};
 
 use crate::{Frame, GeometryError, Vector};
 

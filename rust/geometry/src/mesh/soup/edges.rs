@@ -1,0 +1,66 @@
+//! Which triangles meet at an edge.
+
+use rayon::prelude::*;
+
+/// No half-edge.
+pub const NONE: u32 = u32::MAX;
+
+/// The sides of triangles: side k of triangle t, from corner k to corner k + 1, is half-edge 3 t + k.
+pub struct Edges {
+    /// For each half-edge the other one of its edge, where there are exactly two; else [`NONE`].
+    pub twins: Vec<u32>,
+    /// The half-edges of each edge that has another number of them.
+    pub odd: Vec<Vec<u32>>,
+}
+
+impl Edges {
+    pub fn of(triangles: &[[u32; 3]]) -> Self {
+        let sides = |(t, corners): (usize, &[u32; 3])| {
+            let corners = *corners;
+            (0..3).map(move |k| {
+                let (a, b) = (corners[k], corners[(k + 1) % 3]);
+                ((u64::from(a.min(b)) << 32) | u64::from(a.max(b)), (3 * t + k) as u32)
+            })
+        };
+        let mut half: Vec<(u64, u32)> = triangles.par_iter().enumerate().flat_map_iter(sides).collect();
+        half.par_sort_unstable();
+        let mut edges = Self { twins: vec![NONE; half.len()], odd: Vec::new() };
+        for edge in half.chunk_by(|a, b| a.0 == b.0) {
+            if let [(_, one), (_, other)] = edge {
+                edges.twins[*one as usize] = *other;
+                edges.twins[*other as usize] = *one;
+            } else {
+                edges.odd.push(edge.iter().map(|(_, half)| *half).collect());
+            }
+        }
+        edges
+    }
+
+    /// The triangle beyond a side, where exactly one other is there.
+    pub fn beyond(&self, half: u32) -> Option<u32> {
+        Some(self.twins[half as usize]).filter(|twin| *twin != NONE).map(|twin| twin / 3)
+    }
+}
+
+/// First and last vertex of a half-edge.
+pub fn ends(triangles: &[[u32; 3]], half: u32) -> (u32, u32) {
+    let (corners, k) = (triangles[half as usize / 3], half as usize % 3);
+    (corners[k], corners[(k + 1) % 3])
+}
+
+/// Whether each edge is run as often in one direction as in the other.
+pub fn is_closed(triangles: &[[u32; 3]], edges: &Edges) -> bool {
+    let agrees =
+        |(half, twin): (usize, &u32)| *twin == NONE || ends(triangles, half as u32).0 == ends(triangles, *twin).1;
+    !triangles.is_empty()
+        && edges.twins.iter().enumerate().all(agrees)
+        && edges
+            .odd
+            .iter()
+            .all(|edge| 2 * edge.iter().filter(|half| is_forward(triangles, **half)).count() == edge.len())
+}
+
+fn is_forward(triangles: &[[u32; 3]], half: u32) -> bool {
+    let (a, b) = ends(triangles, half);
+    a < b
+}
