@@ -9,6 +9,7 @@ import pytest
 
 from styluscam.errors import GeometryError
 from styluscam.parts.assembly import check_areas
+from styluscam.parts.progress import AttemptSteps
 from styluscam.parts.surfaces import Cylinder, Parametric, Plane, Sphere
 from styluscam.parts.tessellation import (
     Deviation,
@@ -114,6 +115,27 @@ def test_mesher_that_misses_its_bound_is_asked_again() -> None:
     assert 2 <= len(asked) == found.rounds <= 3
     assert asked == sorted(asked, reverse=True)
     assert 0.002 < found.deviations[0].inward <= 0.01
+
+
+def test_the_check_is_seen_to_move() -> None:
+    shares: list[float] = []
+    refine_until(
+        lambda d: [ring(d), sphere_mesh()],
+        [Cylinder((0, 0, 0), (0, 0, 1), 10.0), Sphere((0, 0, 0), 10.0)],
+        0.01,
+        "",
+        shares.append,
+    )
+    assert shares == sorted(shares) and len(shares) > 5 and 0.5 < shares[-1] <= 1.0
+    said: list[tuple[str, float]] = []
+    steps = AttemptSteps(lambda phase, fraction: said.append((phase, fraction)))
+    for _ in range(3):
+        steps.begin()
+        for share in np.linspace(0.0, 1.0, 2000):
+            steps.checked(share)
+    fractions = [fraction for _, fraction in said]
+    assert fractions == sorted(fractions) and fractions[0] == pytest.approx(0.3) and 0.88 < fractions[-1] < 0.9
+    assert len(said) < 130 and {phase for phase, _ in said} == {"mesh", "check"}
 
 
 def test_mesher_that_never_holds_is_an_error() -> None:

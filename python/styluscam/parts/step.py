@@ -14,7 +14,7 @@ import numpy as np
 from ..errors import GeometryError
 from .arrays import PartArrays
 from .assembly import assemble, kind_of, outward
-from .progress import Progress, report
+from .progress import AttemptSteps, Progress, report
 from .surfaces import Cone, Cylinder, ExactSurface, Floats, Nurbs, Parametric, Plane, Sphere, Torus
 from .tessellation import FaceMesh, Tessellation, refine_until
 
@@ -492,18 +492,18 @@ def _tessellate(
     progress: Progress | None,
 ) -> Tessellation:
     """Mesh each face, checked; give the freeform surfaces their seeds on the way."""
+    steps = AttemptSteps(progress)
 
     def mesh_at(deflection: float) -> list[FaceMesh]:
-        report(progress, "mesh", 0.3)
+        steps.begin()
         _mesh(shape, faces, deflection)
         meshes = [outward(m, s) for m, s in zip(_face_meshes(file, faces), surfaces, strict=True)]
         for i, (mesh, surface) in enumerate(zip(meshes, surfaces, strict=True)):
             if isinstance(surface, Parametric) and mesh.uv is not None:
                 surfaces[i] = _with_seeds(surface, mesh)
-        report(progress, "check", 0.6)
         return meshes
 
-    return refine_until(mesh_at, surfaces, tolerance, str(file))
+    return refine_until(mesh_at, surfaces, tolerance, str(file), steps.checked)
 
 
 def _mesh(shape: Kernel, faces: list[Kernel], deflection: float) -> None:

@@ -222,8 +222,9 @@ class Parametric:
     seed_uv: Floats
     sign: float = 1.0
 
-    # Newton stops when a step moves the foot point by less than this (mm): its square is far below any tolerance.
-    STEP = 1e-6
+    # Newton stops when a step moves the foot point by less than this (mm): the distance is then off by its square over
+    # twice the radius of curvature, 2e-8 mm where that is 0.01 mm.
+    STEP = 2e-5
     ROUNDS = 40
     # A chord between two points of a border may leave the parameter domain by this part of it.
     OVERSHOOT = 0.01
@@ -338,6 +339,7 @@ class Nurbs:
     poles: Floats
     weights: Floats
     _homogeneous: Floats = field(init=False, repr=False)
+    _polynomials: dict[tuple[int, int], Floats] = field(init=False, repr=False, default_factory=dict)
 
     def __post_init__(self) -> None:
         weighted = np.concatenate([self.poles * self.weights[..., None], self.weights[..., None]], axis=2)
@@ -369,8 +371,8 @@ class Nurbs:
 
     def _evaluate(self, uv: Floats, span_u: int, span_v: int) -> tuple[Floats, Floats, Floats]:
         """Evaluate points of one polynomial patch: its poles meet the basis functions in matrix products."""
-        basis_u, slope_u = _basis(self.knots_u, self.degree_u, span_u, uv[:, 0])
-        basis_v, slope_v = _basis(self.knots_v, self.degree_v, span_v, uv[:, 1])
+        basis_u, slope_u = self._basis(0, span_u, uv[:, 0])
+        basis_v, slope_v = self._basis(1, span_v, uv[:, 1])
         poles = self._homogeneous[span_u - self.degree_u : span_u + 1, span_v - self.degree_v : span_v + 1]
         flat = poles.transpose(1, 0, 2).reshape(self.degree_v + 1, -1)
         rows = (basis_v.T @ flat).reshape(len(uv), self.degree_u + 1, 4)
@@ -385,6 +387,45 @@ class Nurbs:
             (along_u[:, :3] - along_u[:, 3:] * position) / weight,
             (along_v[:, :3] - along_v[:, 3:] * position) / weight,
         )
+
+    def _basis(self, direction: int, span: int, at: Floats) -> tuple[Floats, Floats]:
+        """Return a span's basis functions and their derivatives, each (degree+1, N), at parameters (N,)."""
+        knots, degree = ((self.knots_u, self.degree_u), (self.knots_v, self.degree_v))[direction]
+        if degree > HIGHEST:
+            return _basis(knots, degree, span, at)
+        matrix = self._polynomials.get((direction, span))
+        if matrix is None:
+            matrix = self._polynomials[direction, span] = _basis_polynomials(knots, degree, span)
+        start, width = knots[span], knots[span + 1] - knots[span]
+        share = (at - start) / width
+        powers = np.empty((degree + 1, len(at)))
+        powers[0] = 1.0
+        for k in range(1, degree + 1):
+            np.multiply(powers[k - 1], share, out=powers[k])
+        derivatives = matrix[:, 1:] * (np.arange(1, degree + 1) / width)
+        return matrix @ powers, derivatives @ powers[:-1]
+
+
+# Basis functions of a higher degree are not written as polynomials: cancellation would cost digits.
+HIGHEST = 7
+
+
+def _basis_polynomials(knots: Floats, degree: int, span: int) -> Floats:
+    """Return a span's basis functions as polynomials of the share of the span, (degree+1, degree+1), constants first."""
+    start, width = knots[span], knots[span + 1] - knots[span]
+    basis = np.ones((1, 1))
+    for k in range(1, degree + 1):
+        raised = np.zeros((k + 1, k + 1))
+        for i in range(k):
+            left, right = knots[span + 1 + i - k], knots[span + 1 + i]
+            share = basis[i] / (right - left)
+            # (right - at) and (at - left), where at = start + width * share of the span
+            raised[i, :k] += (right - start) * share
+            raised[i, 1:] -= width * share
+            raised[i + 1, :k] += (start - left) * share
+            raised[i + 1, 1:] += width * share
+        basis = raised
+    return basis
 
 
 def _spans(knots: Floats, degree: int, at: Floats) -> NDArray[np.int64]:

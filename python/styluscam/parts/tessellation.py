@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,6 +23,10 @@ SHORTFALL = 0.93
 # surface that swings from one side of an edge to the other crosses it there.
 ON_SIDES = np.array([np.roll((1.0 - share, share, 0.0), side) for side in range(3) for share in (0.25, 0.5, 0.75)])
 INSIDE = np.array([(0.5, 0.25, 0.25), (0.25, 0.5, 0.25), (0.25, 0.25, 0.5), (1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0)])
+# A node's weight, and those of the samples along one side.
+ONE, ALONG = np.ones((1, 1)), np.array([(0.75, 0.25), (0.5, 0.5), (0.25, 0.75)])
+# What a distance to a freeform surface may be off (mm), see Parametric.STEP: a bound never says less than the samples.
+FOOT = 2e-8
 # More triangles than this on one face are a mistake of units or tolerance.
 MOST_TRIANGLES = 10_000_000
 # The mesher's deflection, as a part of the tolerance, at the first attempt.
@@ -77,12 +81,19 @@ class Tessellation:
 MeshAt = Callable[[float], Sequence[FaceMesh]]
 
 
-def refine_until(mesh_at: MeshAt, surfaces: Sequence[ExactSurface], tolerance: float, where: str = "") -> Tessellation:
+def refine_until(
+    mesh_at: MeshAt,
+    surfaces: Sequence[ExactSurface],
+    tolerance: float,
+    where: str = "",
+    checked: Callable[[float], None] = lambda _: None,
+) -> Tessellation:
     """Make meshes whose checked deviation is <= `tolerance` (mm), inward and outward each.
 
     `mesh_at(deflection)` meshes the whole shape so that neighbouring faces share their border nodes, with borders
     within `deflection`; the insides may be coarser, they are refined here. Borders are never touched here (the mesh
     stays conforming): where they do not hold, the whole shape is meshed again with a smaller deflection.
+    `checked` is told which share of an attempt's triangles is done; it may raise.
     Raises GeometryError when the tolerance does not hold after ROUNDS attempts.
     """
     deflection = FIRST_SHARE * tolerance
@@ -91,7 +102,10 @@ def refine_until(mesh_at: MeshAt, surfaces: Sequence[ExactSurface], tolerance: f
         gaps = [edge_gap(m, s) for m, s in zip(meshed, surfaces, strict=True)]
         _check_gaps(gaps, tolerance, where)
         allowed = [tolerance + (GAP_TIMES * gap if gap > GAP_SHARE * tolerance else 0.0) for gap in gaps]
-        refined = [refine(m, s, bound) for m, s, bound in zip(meshed, surfaces, allowed, strict=True)]
+        refined = []
+        work = np.cumsum([0] + [len(m.triangles) for m in meshed]) / max(1, sum(len(m.triangles) for m in meshed))
+        for i, (m, s, bound) in enumerate(zip(meshed, surfaces, allowed, strict=True)):
+            refined.append(refine(m, s, bound, _within(checked, float(work[i]), float(work[i + 1]))))
         meshes, deviations = [m for m, _ in refined], [d for _, d in refined]
         worst = max(d.worst / bound for d, bound in zip(deviations, allowed, strict=True))
         if worst <= 1.0:
@@ -108,6 +122,11 @@ def refine_until(mesh_at: MeshAt, surfaces: Sequence[ExactSurface], tolerance: f
     )
 
 
+def _within(checked: Callable[[float], None], start: float, end: float) -> Callable[[float], None]:
+    """Return what tells a part's share as that of the whole."""
+    return lambda share: checked(start + share * (end - start))
+
+
 def edge_gap(mesh: FaceMesh, surface: ExactSurface) -> float:
     """Return how far the nodes on the face's edges lie off its surface at most, mm."""
     border = _border(mesh.triangles)
@@ -116,7 +135,7 @@ def edge_gap(mesh: FaceMesh, surface: ExactSurface) -> float:
         return 0.0
     uv = None if mesh.uv is None else mesh.uv[nodes]
     points = FaceMesh(mesh.nodes[nodes], np.arange(len(nodes))[:, None], uv)
-    return float(np.abs(_distance(points, surface, np.ones((1, 1)))).max())
+    return float(np.abs(_distance(points, surface, ONE)).max())
 
 
 def _check_gaps(gaps: Sequence[float], tolerance: float, where: str) -> None:
@@ -149,29 +168,61 @@ def _bounds(mesh: FaceMesh, surface: ExactSurface, hopeless: float = np.inf) -> 
     Side k runs from corner k to corner k + 1. A triangle with a side that is more than `hopeless` off is not sampled
     further: its bounds are then only known to exceed that.
     """
+    if isinstance(surface, Parametric) and mesh.uv is not None:
+        return _freeform_bounds(mesh, surface, hopeless)
     out = np.empty((len(mesh.triangles), 5))
     for start in range(0, len(mesh.triangles), 2048):
         part = slice(start, start + 2048)
         triangles = mesh.triangles[part]
         sides = _distance(FaceMesh(mesh.nodes, triangles, mesh.uv), surface, ON_SIDES)
-        bounds = np.stack([-sides.min(axis=1), sides.max(axis=1)], axis=1)
-        full = np.abs(sides).max(axis=1) <= hopeless
-        bounds[full] = _full_bounds(FaceMesh(mesh.nodes, triangles[full], mesh.uv), surface, sides[full])
-        off = np.abs(sides).reshape(-1, 3, 3).max(axis=2)
-        out[part] = np.concatenate([np.maximum(bounds, 0.0), off], axis=1)
+        corners = _distance(FaceMesh(mesh.nodes, triangles, mesh.uv), surface, np.eye(3))
+        out[part] = _triangle_bounds(FaceMesh(mesh.nodes, triangles, mesh.uv), surface, sides, corners, hopeless)
     return out
 
 
-def _full_bounds(mesh: FaceMesh, surface: ExactSurface, sides: Floats) -> Floats:
+def _freeform_bounds(mesh: FaceMesh, surface: Parametric, hopeless: float) -> Floats:
+    """As :func:`_bounds`, on a surface that is slow to evaluate: what triangles share is sampled once."""
+    ends, of_triangle = _edges(mesh.triangles)
+    used, corner = np.unique(mesh.triangles, return_inverse=True)
+    corner = corner.reshape(-1, 3)
+    at_node = np.concatenate([_distance(part, surface, ONE) for part in _parts(mesh, used[:, None])])[:, 0]
+    on_edge = np.concatenate([_distance(part, surface, ALONG) for part in _parts(mesh, ends)])
+    out = np.empty((len(mesh.triangles), 5))
+    for start in range(0, len(mesh.triangles), 2048):
+        part = slice(start, start + 2048)
+        sides = on_edge[of_triangle[part]].reshape(-1, 9)
+        corners = at_node[corner[part]]
+        triangles = FaceMesh(mesh.nodes, mesh.triangles[part], mesh.uv)
+        out[part] = _triangle_bounds(triangles, surface, sides, corners, hopeless)
+    return out
+
+
+def _parts(mesh: FaceMesh, corners: Ints) -> Iterator[FaceMesh]:
+    """Yield the mesh with some of the corners (N,k) at a time."""
+    for start in range(0, len(corners), 8192):
+        yield FaceMesh(mesh.nodes, corners[start : start + 8192], mesh.uv)
+
+
+def _triangle_bounds(mesh: FaceMesh, surface: ExactSurface, sides: Floats, corners: Floats, hopeless: float) -> Floats:
+    """Return the rows of :func:`_bounds` for triangles whose samples on sides (t,9) and corners (t,3) are known."""
+    bounds = np.stack([-sides.min(axis=1), sides.max(axis=1)], axis=1)
+    full = np.abs(sides).max(axis=1) <= hopeless
+    inside = FaceMesh(mesh.nodes, mesh.triangles[full], mesh.uv)
+    bounds[full] = _full_bounds(inside, surface, sides[full], corners[full])
+    off = np.abs(sides).reshape(-1, 3, 3).max(axis=2)
+    return np.concatenate([np.maximum(bounds, 0.0), off], axis=1)
+
+
+def _full_bounds(mesh: FaceMesh, surface: ExactSurface, sides: Floats, corners: Floats) -> Floats:
     """Return bounds inward and outward (t,2) from the whole grid of samples, those on the sides (t,9) being known."""
-    corners = _distance(mesh, surface, np.eye(3))
     if isinstance(surface, Plane):  # the distance is linear: the corners are the extremes
         return np.stack([-corners.min(axis=1), corners.max(axis=1)], axis=1)
     distances = np.concatenate([corners, sides, _distance(mesh, surface, INSIDE)], axis=1)
     # Corners off the surface (by the file's own edge tolerance) add a linear part, that the samples see fully.
     slack = np.abs(corners).max(axis=1) / ORDER**2
     extremes = np.stack([-distances.min(axis=1), distances.max(axis=1)], axis=1)
-    return np.asarray((extremes + slack[:, None]) / SHORTFALL)
+    rounding = FOOT if isinstance(surface, Parametric) else 0.0
+    return np.asarray((extremes + slack[:, None] + rounding) / SHORTFALL)
 
 
 def _distance(mesh: FaceMesh, surface: ExactSurface, weights: Floats) -> Floats:
@@ -183,7 +234,9 @@ def _distance(mesh: FaceMesh, surface: ExactSurface, weights: Floats) -> Floats:
     return surface.distance(points).reshape(-1, len(weights))
 
 
-def refine(mesh: FaceMesh, surface: ExactSurface, tolerance: float) -> tuple[FaceMesh, Deviation]:
+def refine(
+    mesh: FaceMesh, surface: ExactSurface, tolerance: float, checked: Callable[[float], None] = lambda _: None
+) -> tuple[FaceMesh, Deviation]:
     """Split triangles until each is within `tolerance` (mm) of the surface; return also the deviation left.
 
     New nodes lie on the surface. Sides on the face's border stay: a neighbour shares them. Where they alone are the
@@ -197,7 +250,8 @@ def refine(mesh: FaceMesh, surface: ExactSurface, tolerance: float) -> tuple[Fac
         return mesh, deviation(mesh, surface)
     node_off = np.zeros(len(nodes))
     node_off[triangles] = np.abs(_distance(mesh, surface, np.eye(3)))
-    for _ in range(REFINEMENTS):
+    for attempt in range(REFINEMENTS):
+        checked(1.0 - 0.5 ** (attempt + 1))  # each round has fewer triangles to look at than the one before
         failing = bounds[:, :2].max(axis=1) > tolerance
         if isinstance(surface, Plane) or not failing.any():
             break
