@@ -32,7 +32,17 @@ def recheck(report: Document, job: Job, scene: _engine.Scene) -> None:
     report["brep_max"] = float(abs(distances[worst]))
     if report["brep_max"] > limit:
         report["ok"] = False
-        report["findings"].append(_finding(contacts[worst], report["brep_max"], limit))
+        _put_first(report, _finding(contacts[worst], report["brep_max"], limit))
+
+
+def _put_first(report: Document, finding: Document) -> None:
+    """It leads the findings, and the groups: where triangles and model disagree, nothing else can be trusted."""
+    groups = [{**group, "findings": [index + 1 for index in group["findings"]]} for group in report["groups"]]
+    keys = (key for key in finding if key != "value_mm")
+    alone = {"count": 1, "regions": 1, "box": [finding["position"]] * 2, "findings": [0]}
+    report["groups"] = [{**{key: finding[key] for key in keys}, **alone}, *groups]
+    report["findings"] = [finding, *report["findings"]]
+    report["counts"] = {finding["kind"]: 1, **report["counts"]}
 
 
 def _finding(contact: Document, value: float, limit: float) -> Document:

@@ -86,6 +86,14 @@ class Report:
         return findings
 
     @property
+    @property
+    def groups(self) -> list[Document]:
+        """The findings told together, errors first: one for each kind, and for each region of the part where these are
+        clearly separate. Each with kind, severity, count, the worst one's line, position, value, limit and unit, first and
+        last line, a message, and the indices of those that ``findings`` lists."""
+        groups: list[Document] = self._document["groups"]
+        return groups
+
     def gouge_max(self) -> float:
         """Deepest entry into the part, mm."""
         return float(self._document["gouge_max"])

@@ -198,3 +198,29 @@ def test_another_work_offset_is_found(sound, cli):
     code, report = judged(cli, sound, changed(sound.gcode.read_text(), ("\nG54\n", "\nG55\n")))
     assert code == 1 and [f["kind"] for f in report["findings"]] == ["work-offset"]
     assert "G55" in report["findings"][0]["message"]
+
+
+def test_a_bad_program_is_told_on_one_screen_errors_first(sound, cli):
+    """Every third place moved into the part or off it, other feeds: hundreds of moves with something wrong."""
+    text = sound.gcode.read_text()
+    for number, word in feed_lines(text, "X")[::3]:
+        text = shifted(text, number, word, MOVED if number % 2 else -MOVED)
+    text = re.sub(r"F\d+", "F77", text)
+    code, document = judged(cli, sound, text)
+    assert code == 1 and sum(document["counts"].values()) > 500
+    groups, findings = document["groups"], document["findings"]
+    for told in (groups, findings):
+        severities = [one["severity"] for one in told]
+        assert severities == sorted(severities), severities  # "error" before "warning"
+    assert sorted(index for group in groups for index in group["findings"]) == list(range(len(findings)))
+    for group in groups:
+        own = [findings[index] for index in group["findings"]]
+        assert {(one["kind"], one["severity"]) for one in own} == {(group["kind"], group["severity"])}
+        assert len(own) == min(group["count"], 20)
+        assert any(one["value"] == group["value"] and one["line"] == group["line"] for one in own)
+    counted = {kind: sum(group["count"] for group in groups if group["kind"] == kind) for kind in document["counts"]}
+    assert counted == document["counts"]
+    ran = cli("verify", sound.folder / "spoilt.ngc", "--job", sound.job)
+    lines = ran.out.splitlines()
+    assert "must not run" in lines[0] and lines[1].startswith("error: ")
+    assert sum(1 + len(line) // 120 for line in lines) <= 40, ran.out

@@ -278,8 +278,8 @@ def test_the_page_says_the_verdict(pages: tuple[str, str], subjects: tuple[Subje
     for page, subject in zip((sound, faulty), subjects, strict=True):
         assert "A <b>bold</b> block & more" in page.text and subject.file in page.text
         assert subject.report is not None
-        rows = [attributes for _, attributes in page.tags if "data-finding" in attributes]
-        assert len(rows) == len(subject.report.findings)
+        rows = [attributes["data-finding"] for _, attributes in page.tags if "data-finding" in attributes]
+        assert {int(str(row)) for row in rows} == set(range(len(subject.report.findings)))
         for finding in subject.report.findings:
             assert finding["message"] in page.text
         for words in (
@@ -294,6 +294,28 @@ def test_the_page_says_the_verdict(pages: tuple[str, str], subjects: tuple[Subje
             assert words in page.text, words
         for numbers in subject.report.coverage():
             assert f"{100.0 * numbers['covered']:.1f}" in page.text
+
+
+def test_a_kind_is_one_row_and_the_rest_is_folded_away(job: sc.Job, texts: tuple[str, str]) -> None:
+    scratches = "".join(f"G0 Z10\nG0 X15 Y{y}\nG1 Z-{depth} F300\nG1 X16 F1500\n" for y, depth in SCRATCHES)
+    report = sc.verify(texts[0].replace("M2\n", f"{scratches}G0 Z10\nM2\n"), job)
+    (gouge,) = (group for group in report.groups if group["kind"] == "gouge")
+    assert gouge["count"] == len(SCRATCHES) == report.to_dict()["counts"]["gouge"]
+    assert gouge["value"] == pytest.approx(0.5, abs=0.01) and gouge["position"][1] == 10.5
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(heatmaps, "LIMIT", 20_000)
+        page = report_page(Subject.judged(report, job.machine(), "faulty.ngc"))
+    table = page[page.index('<section class="findings">') : page.index("What is left on each face")]
+    folded = "".join(re.findall(r"<details>.*?</details>", table, re.DOTALL))
+    assert folded.count("data-finding") == 20 and f"the worst 20 of {len(SCRATCHES)}" in folded
+    open_rows = re.findall(r'data-finding="(\d+)"', re.sub(r"<details>.*?</details>", "", table, flags=re.DOTALL))
+    assert len(open_rows) == len(report.groups)
+    assert gouge["message"] in Page(page).text
+    assert report.findings[int(open_rows[0])]["severity"] == "error"
+
+
+SCRATCHES = [(2.0 + 0.5 * i, 0.5 if i == 17 else 0.1) for i in range(30)]
+"""Where plunges go into the block's top, and how deep."""
 
 
 def test_findings_know_their_moment(pages: tuple[str, str], subjects: tuple[Subject, Subject]) -> None:

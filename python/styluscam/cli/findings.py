@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 from styluscam.judging import Report
-from styluscam.report.findings import unlisted
+from styluscam.report.findings import spoken
 from styluscam.types import Document
+
+SHOWN = 6
+"""Groups that are told in whole sentences: with them and the summary a screen is full."""
 
 
 def lines(report: Report) -> list[str]:
-    """One line per finding, and one where more were counted than are listed."""
-    said = [f"{finding['severity']}: {finding['message']}" for finding in report.findings]
-    more = unlisted(report)
-    return said + ([f"and {more} more of these kinds"] if more else [])
+    """One line for each group of findings, errors first; those that would fill more than a screen by their names only."""
+    told, named = report.groups[:SHOWN], report.groups[SHOWN:]
+    said = [f"{group['severity']}: {group['message']}" for group in told]
+    if not named:
+        return said
+    rest = ", ".join(f"{spoken(group['kind'])} ({group['severity']}, {group['count']})" for group in named)
+    return [*said, f"and of other kinds or places: {rest}; --report or --json tells of them all"]
 
 
 def document(report: Report) -> Document:

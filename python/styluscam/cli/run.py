@@ -80,11 +80,14 @@ def _tell(result: running.RunResult, written: list[Path], quiet: bool, has_progr
         rows += [("written", summary.shown_path(path)) for path in written]
         console.say(summary.title(result.plan.job.document))
         console.fields(rows)
-    if result.report.ok:
+    if result.report.ok and not result.report.findings:
         if not quiet:
             console.say("verified: the written text was read back and judged, nothing was found")
         return
     for line in findings.lines(result.report):
         console.complain(line)
+    if result.report.ok:
+        console.complain("verified: the written text was read back and judged; it may run, with these warnings")
+        return
     if not has_program:
         console.complain("no program was written (--write-despite-findings writes it all the same)")

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from styluscam.report import tables
 from styluscam.report.figures import Plot, Series, feed_over_time, height_over_time
-from styluscam.report.findings import spoken, verdict_of
+from styluscam.report.findings import grouped, measured, spoken, verdict_of
 from styluscam.report.subject import Subject
 from styluscam.report.templates import PAGE, template
 
@@ -28,7 +28,9 @@ def comparison_page(subjects: Sequence[Subject]) -> str:
             faces=[tables.faces(subject) for subject in subjects],
             pictures=["data:image/png;base64," + base64.b64encode(one.png()).decode("ascii") for one in subjects],
             plots=_plots(subjects),
+            groups=[grouped(subject.report) for subject in subjects],
             spoken=spoken,
+            measured=measured,
             versions=tables.versions(subjects[0]),
             style=(PAGE / "style.css").read_text(encoding="utf-8"),
         )

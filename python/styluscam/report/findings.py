@@ -31,25 +31,31 @@ def verdict_of(report: Report | None, traced: bool = False) -> Verdict:
         explained = f"The program is shown {shown}. Nothing was held against a part."
         return Verdict("unjudged", "Not judged", explained)
     document = report.to_dict()
-    errors = [finding for finding in report.findings if finding["severity"] == "error"]
     exact = f", {document['brep_checked']} contacts against the exact model" if document["brep_checked"] else ""
     judged = (
         "The text was read back as the machine reads it; every move was held against the whole part, "
         f"{document['samples']} places measured{exact}."
     )
-    kinds = dict.fromkeys(str(finding["kind"]) for finding in [*errors, *report.findings])
+    kinds = dict.fromkeys(str(group["kind"]) for group in report.groups)
     found = f"Found: {', '.join(f'{spoken(kind)} ({_extent(document, kind)})' for kind in kinds)}. {judged}"
-    if errors or not report.ok:
+    if not report.ok:
         return Verdict("faulty", "Must not run", found)
     if report.findings:
         return Verdict("warned", "May run, with warnings", found)
     return Verdict("sound", "Nothing was found", judged)
 
 
-def unlisted(report: Report) -> int:
-    """Findings that were counted and are not in the list, of which it holds the worst."""
-    counts: dict[str, int] = report.to_dict()["counts"]
-    return sum(counts.values()) - sum(1 for finding in report.findings if finding["kind"] in counts)
+def grouped(report: Report | None) -> list[Document]:
+    """The groups of findings, each with ``worst``: the index of its worst finding."""
+    if report is None:
+        return []
+    return [{**group, "worst": _worst(group, report.findings)} for group in report.groups]
+
+
+def _worst(group: Document, findings: Sequence[Document]) -> int:
+    listed: list[int] = group["findings"]
+    same = ("line", "position", "value")
+    return next((index for index in listed if all(findings[index][key] == group[key] for key in same)), listed[0])
 
 
 def _extent(document: Document, kind: str) -> str:

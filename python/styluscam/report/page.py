@@ -12,7 +12,7 @@ from styluscam.outline import silhouette
 from styluscam.program import SAG
 from styluscam.report import figures, tables
 from styluscam.report.columns import packed
-from styluscam.report.findings import measured, spoken, unlisted, verdict_of
+from styluscam.report.findings import grouped, measured, spoken, verdict_of
 from styluscam.report.heatmaps import HeatMap, Shown, shown_judged, shown_plain
 from styluscam.report.subject import Subject
 from styluscam.report.templates import PAGE, template
@@ -52,7 +52,7 @@ def report_page(subject: Subject, progress: Progress | None = None) -> str:
             verdict=verdict,
             figures=tables.in_words(tables.figures(subject)),
             findings=subject.findings,
-            unlisted=unlisted(subject.report) if subject.report is not None else 0,
+            groups=grouped(subject.report),
             spoken=spoken,
             measured=measured,
             faces=tables.faces(subject),

@@ -34,7 +34,8 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         // said once for the part: every contact on those walls would say it again
         faults.retain(|fault| fault.kind != FindingKind::WallAngle);
     }
-    let Merged { mut findings, mut counts, lengths } = merge(&faults, program);
+    let (low, high) = subject.mesh.bounds();
+    let Merged { mut told, mut counts, lengths } = merge(&faults, program, (high - low).norm());
     let nothing = tally.nothing_touches().then(|| diagnosis::no_contact(program, &legs, &tally, subject));
     let offset = travel::work_offset(program, subject.wcs);
     let wholes = reach::findings(program, subject, &limits.reach).into_iter().chain(orders::missing(program, subject));
@@ -42,16 +43,17 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let wholes = wholes.chain(travel::optional_lines(subject)).chain(travel::unsaid(program, subject));
     let found = limits.found.iter().map(|(kind, words)| Finding::of_all(*kind, Severity::Error, words.clone()));
     let wholes = wholes.chain(found).chain(steep).chain(beyond_reach);
-    for whole in wholes.chain(travel::no_feed_moves(program)).chain(offset).chain(nothing) {
+    let wholes: Vec<Finding> = wholes.chain(travel::no_feed_moves(program)).chain(offset).chain(nothing).collect();
+    for whole in &wholes {
         *counts.entry(whole.kind).or_default() += 1;
-        findings.insert(0, whole);
     }
-    for accepted in findings.iter_mut().filter(|finding| limits.accepted.contains(&finding.kind)) {
-        accepted.accept();
-    }
+    told.add(wholes);
+    told.accept(&limits.accepted);
+    let (findings, groups) = told.in_order();
     Ok(Report {
         ok: findings.iter().all(|f| f.severity != Severity::Error),
         findings,
+        groups,
         counts,
         lengths,
         gouge_max: tally.gouge.value,

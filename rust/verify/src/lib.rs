@@ -34,6 +34,7 @@ mod convex;
 mod coverage;
 mod diagnosis;
 mod findings;
+mod groups;
 mod holding;
 mod judge;
 mod legs;
@@ -56,6 +57,7 @@ mod words;
 
 pub use coverage::{coverage, left, FaceCoverage};
 pub use findings::{Finding, FindingKind, Severity};
+pub use groups::Group;
 pub use judge::judge;
 pub use orders::Order;
 pub use passes::{Passes, Spacing};

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Finding, FindingKind};
+use crate::{Finding, FindingKind, Group};
 
 /// A place of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -38,8 +38,10 @@ pub struct ContactRecord {
 pub struct Report {
     /// No finding is an error.
     pub ok: bool,
-    /// What is wrong, kind by kind in the order of the lines, at most 20 of each kind.
+    /// What is wrong, errors first, kind by kind, region by region in the order of the lines, at most 20 of each group.
     pub findings: Vec<Finding>,
+    /// All that is wrong, listed or not, by kind and region: errors first.
+    pub groups: Vec<Group>,
     /// How many findings of each kind there are in all.
     pub counts: BTreeMap<FindingKind, usize>,
     /// Length of all moves that show each kind, mm.

@@ -3,13 +3,46 @@
 use crate::findings::Fault;
 use crate::FindingKind;
 
+/// Over how much of a program something lasts.
+pub(crate) struct Extent {
+    /// The first and the last line, 0 when the program was not read from text.
+    pub lines: [u32; 2],
+    pub moves: usize,
+    /// Length of the moves, mm.
+    pub length: f64,
+}
+
 /// The whole sentence of a fault at its worst place.
-pub(crate) fn message(fault: &Fault, lines: [u32; 2], moves: usize, length: f64) -> String {
-    let what = what(fault);
+pub(crate) fn message(fault: &Fault, extent: &Extent) -> String {
     let place = place(fault.line, fault.index, fault.position);
-    let extent = extent(lines, moves, length);
-    let remedy = remedy(fault.kind);
-    format!("{place}: {what}{extent}; {remedy}")
+    format!("{place}: {}{}; {}", what(fault), lasting(extent), remedy(fault.kind))
+}
+
+/// The same for the worst of `count` places, in `regions` of the part or in one that is named.
+pub(crate) fn of_many(
+    worst: &Fault,
+    extent: &Extent,
+    count: usize,
+    regions: usize,
+    region: Option<[[f64; 3]; 2]>,
+) -> String {
+    let place = place(worst.line, worst.index, worst.position);
+    let [first, last] = extent.lines;
+    let lines = if first > 0 { format!(" on lines {first} to {last}") } else { String::new() };
+    let over = match region {
+        Some(corners) => format!(" in {}", within(corners)),
+        None if regions > 1 => format!(" in {regions} regions"),
+        None => String::new(),
+    };
+    let (what, moves, remedy) = (what(worst), extent.moves, remedy(worst.kind));
+    let length = extent.length;
+    format!("{place}: {what}, the worst of {count} places{over}{lines} ({moves} moves, {length:.1} mm); {remedy}")
+}
+
+/// A box by its corners.
+fn within([low, high]: [[f64; 3]; 2]) -> String {
+    let sides = ["X", "Y", "Z"].iter().zip(low.iter().zip(high));
+    sides.map(|(axis, (low, high))| format!("{axis}{low:.1} to {high:.1}")).collect::<Vec<_>>().join(", ")
 }
 
 /// Line (or move) and coordinates.
@@ -22,11 +55,12 @@ fn place(line: u32, index: usize, [x, y, z]: [f64; 3]) -> String {
     }
 }
 
-fn extent([first_line, last_line]: [u32; 2], moves: usize, length: f64) -> String {
+fn lasting(extent: &Extent) -> String {
+    let Extent { lines: [first, last], moves, length } = extent;
     match moves {
         0 | 1 => String::new(),
-        _ if first_line > 0 => {
-            format!(" (it begins at line {first_line} and lasts to line {last_line}: {moves} moves, {length:.1} mm)")
+        _ if *first > 0 => {
+            format!(" (it begins at line {first} and lasts to line {last}: {moves} moves, {length:.1} mm)")
         }
         _ => format!(" ({moves} moves in a row, {length:.1} mm)"),
     }

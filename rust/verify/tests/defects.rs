@@ -323,3 +323,32 @@ fn nothing_is_too_strange_to_be_judged() {
         }
     }
 }
+
+#[test]
+fn the_same_fault_in_two_regions_is_told_twice_and_not_a_hundred_times() {
+    let (part, tool) = (part(true), ball(8.0));
+    let mut program = levels(&tool, true, None).path().program(&tool);
+    // every third place beyond X20 or X-20 on the topmost level
+    for step in program.moves.iter_mut().step_by(3) {
+        let [x, _, z] = &mut step.end;
+        if *z < CLEARANCE && x.abs() > 20.0 {
+            *z -= if *x > 0.0 { 0.2 } else { 0.05 };
+        }
+    }
+    let report = judged(&part, &tool, None, &program);
+    let groups: Vec<_> = report.groups.iter().filter(|group| group.kind == FindingKind::Gouge).collect();
+    assert_eq!(groups.len(), 2, "{groups:?}");
+    assert_eq!(groups.iter().map(|group| group.count).sum::<usize>(), report.counts[&FindingKind::Gouge]);
+    for group in groups {
+        let [low, high] = group.extent.unwrap();
+        assert!(low[0] > 20.0 || high[0] < -20.0, "{group:?}");
+        let listed: Vec<&Finding> = group.findings.iter().map(|index| &report.findings[*index]).collect();
+        assert_eq!(listed.len(), group.count.min(20));
+        let deepest = listed.iter().filter_map(|finding| finding.value).fold(0.0, f64::max);
+        assert_eq!(group.value, Some(deepest));
+        assert!((deepest - if low[0] > 0.0 { 0.14 } else { 0.034 }).abs() < 0.01, "{deepest}");
+        let worst = listed.iter().find(|finding| finding.value == group.value).unwrap();
+        assert_eq!((group.line, group.position), (worst.line, worst.position));
+        assert!(group.message.contains(&format!("the worst of {} places in X", group.count)), "{}", group.message);
+    }
+}
