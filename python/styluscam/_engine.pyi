@@ -178,6 +178,15 @@ class Judgement:
     def left(
         self, job: Job, scene: Scene, points: _F, progress: _Progress | None = None, cancel: CancelToken | None = None
     ) -> _F: ...
+    def needs(
+        self,
+        job: Job,
+        scene: Scene,
+        points: _F,
+        normals: _F,
+        progress: _Progress | None = None,
+        cancel: CancelToken | None = None,
+    ) -> npt.NDArray[np.uint8]: ...
     def simulate(
         self,
         job: Job,

@@ -17,7 +17,7 @@ from styluscam.job import Job, JobLike
 from styluscam.machine import Machine, MachineLike
 from styluscam.planning import Plan, TextLike, text_of
 from styluscam.program import Program
-from styluscam.types import Document, FloatArray, Progress
+from styluscam.types import Document, FloatArray, Progress, shaped
 from styluscam.types import points as rows
 from styluscam.words import counted
 
@@ -86,7 +86,6 @@ class Report:
         return findings
 
     @property
-    @property
     def groups(self) -> list[Document]:
         """The findings told together, errors first: one for each kind, and for each region of the part where these are
         clearly separate. Each with kind, severity, count, the worst one's line, position, value, limit and unit, first and
@@ -94,6 +93,7 @@ class Report:
         groups: list[Document] = self._document["groups"]
         return groups
 
+    @property
     def gouge_max(self) -> float:
         """Deepest entry into the part, mm."""
         return float(self._document["gouge_max"])
@@ -108,11 +108,14 @@ class Report:
     ) -> list[Document]:
         """What the program leaves on each face that the job is for.
 
-        Keys: face, area (mm2), covered (share of it), scallop, mean, left (mm), at (where most is left), points (looked at).
+        Keys: face, area (mm2), flat and carried (shares of it that need no forming), covered (share of the rest), scallop,
+        mean, left (mm), at (where most is left), points (looked at).
 
         What is left at a point is its distance from all that tool and sheet sweep on moves that are meant to touch. A
         place is covered where that is at most a hundredth of the smallest used tool's diameter; the scallop is the most
-        among these. Whole faces count, whatever heights the operations stop at.
+        among these. Of a sheet, what stays flat by itself needs no forming: where the blank lies before (flat), and level
+        floors inside closed passes as deep as they, which go down with them (carried). Whole faces count, whatever
+        heights the operations stop at.
         """
         if self._coverage is None:
             found = self.judgement.coverage(self.job.engine, self.scene, progress=progress, cancel=cancel)
@@ -140,6 +143,27 @@ class Report:
             message = f"points[{odd[0]}]: finite numbers expected"
             raise GeometryError(message, code="not-finite", where="points", hint="lengths are in mm")
         return self.judgement.left(self.job.engine, self.scene, places, progress=progress, cancel=cancel)
+
+    def needs(
+        self,
+        points: npt.ArrayLike,
+        normals: npt.ArrayLike,
+        *,
+        progress: Progress | None = None,
+        cancel: _engine.CancelToken | None = None,
+    ) -> npt.NDArray[np.uint8]:
+        """What points (N, 3) of the part in work coordinates, with their unit normals (N, 3), ask for, (N,): as in
+        :meth:`coverage`.
+
+        0: forming. 1: nothing, the blank lies there. 2: nothing, they go down flat with the passes around them.
+
+        Raises:
+            GeometryError: no arrays of points, or not as many of both.
+            Cancelled: by ``progress`` or ``cancel``.
+        """
+        places = rows(points, 3)
+        ups = shaped(rows(normals, 3, "normals"), places.shape, "normals")
+        return self.judgement.needs(self.job.engine, self.scene, places, ups, progress=progress, cancel=cancel)
 
     @property
     def scallop(self) -> float:

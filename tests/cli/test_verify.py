@@ -38,6 +38,7 @@ def test_sound_program_passes(sound, cli):
     for face in document["coverage"]:
         assert f"Face{face['face']}: {100 * face['covered']:.1f} % of" in ran.out
         assert 0.0 <= face["mean"] <= face["scallop"] <= face["left"]
+    assert "% of the " in ran.out and "that the tool must touch" in ran.out
     assert cli("verify", sound.gcode, "--job", sound.job, "--quiet").out == ""
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from styluscam import judging, simulation
+from styluscam import coverage, judging, simulation
 from styluscam.cli import console, findings, pages, progress, summary
 from styluscam.cli.failures import FOUND, naming
 from styluscam.cli.options import Debug, ForJob, GcodeFile, Json, Picture, Quiet, ReportFile, SimulationFile
@@ -12,7 +12,6 @@ from styluscam.errors import VerifyError
 from styluscam.job import Job
 from styluscam.report import Subject
 from styluscam.report.findings import verdict_of
-from styluscam.types import Document
 from styluscam.words import place
 
 
@@ -61,15 +60,9 @@ def _tell(report: judging.Report, file: Path) -> None:
             ("worst gouge", f"{report.gouge_max:.4f} mm{_at(document['gouge_at'])}"),
             ("worst excess", f"{report.excess_max:.4f} mm{_at(document['excess_at'])}"),
             ("probed", f"{document['samples']} places, {document['brep_checked']} held against the exact model"),
-            *(("coverage", _coverage(face)) for face in report.coverage()),
+            *(("coverage", line) for line in coverage.lines(report.coverage())),
         ]
     )
-
-
-def _coverage(face: Document) -> str:
-    most = "nothing touches it" if face["left"] is None else f"most left {face['left']:.3f} mm at {place(face['at'])}"
-    scallop = f"scallop {face['scallop']:.4f} mm (mean {face['mean']:.4f}), " if face["covered"] > 0.0 else ""
-    return f"Face{face['face']}: {100 * face['covered']:.1f} % of {face['area']:.1f} mm2, {scallop}{most}"
 
 
 def _at(where: dict[str, object] | None) -> str:

@@ -16,6 +16,9 @@ LIMIT = 300_000
 PER_PASS = 4.0
 """Sides of triangles for each mean distance between passes."""
 
+FLAT, CARRIED = 1, 2
+"""What ``Report.needs`` says of places that need no forming."""
+
 COVERED = 0.01
 """A place counts as covered when no more than this share of the diameter of the smallest tool used is left: as the judge
 has it."""
@@ -29,8 +32,8 @@ LEAST_SCALLOP = 1e-3
 LEAST_GOUGE = 0.01
 """mm: where the scale of gouges ends at least."""
 
-NOTHING = -1.0
-"""The value where a map has nothing to say; all others are 0 or more."""
+NOTHING, UNFORMED = -1.0, -2.0
+"""The values where a map has nothing to say, and where a sheet needs no forming; all others are 0 or more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,13 +44,15 @@ class HeatMap:
     title: str
     unit: str
     values: FloatArray
-    """(V,), 0 or more; :data:`NOTHING` where there is nothing to say."""
+    """(V,), 0 or more; :data:`NOTHING` where there is nothing to say, :data:`UNFORMED` where nothing is to be done."""
     low: float
     high: float
     limit: float | None = None
     """Above it a value has a colour of its own."""
     over: str = ""
     """What that colour means."""
+    unformed: str = ""
+    """What the colour of :data:`UNFORMED` means."""
     note: str = ""
 
 
@@ -92,7 +97,9 @@ def shown_judged(surface: Surface, report: Report, progress: Progress | None = N
     used = {int(operation["tool"]) for operation in report.program.operations}
     diameters = (float(tool["diameter"]) for number, tool in enumerate(report.program.tools) if number in used)
     enough = COVERED * min(diameters, default=0.0)
-    covered = asked & (left[vertices.at] <= enough)
+    needs = report.needs(surface.points[vertices.at], vertices.normals, progress=progress)
+    covered = asked & (needs != FLAT) & (left[vertices.at] <= enough)
+    stays = asked & ((needs == FLAT) | (needs == CARRIED) & ~covered)
     share = np.repeat(surface.areas[wanted] / 3.0, 3)
     weights: FloatArray = np.asarray(
         np.bincount(vertices.triangles[wanted].reshape(-1), share, len(vertices.at)), dtype=np.float64
@@ -100,7 +107,7 @@ def shown_judged(surface: Surface, report: Report, progress: Progress | None = N
     grid = f"{len(surface.points)} points, at most {surface.longest_side(wanted):.2g} mm apart where the job is"
     of_points = np.maximum(left, 0.0)[vertices.at]
     maps = [
-        _left_over(np.where(asked, of_points, NOTHING), covered, enough, grid),
+        _left_over(np.where(stays, UNFORMED, np.where(asked, of_points, NOTHING)), covered, enough, grid),
         _gouge(np.maximum(-left, 0.0)[vertices.at], grid),
         _wall_angle(vertices),
     ]
@@ -116,7 +123,8 @@ def _left_over(values: FloatArray, covered: Mask, enough: float, grid: str) -> H
     values = np.where(np.isfinite(values), values, 2.0 * max(enough, high))
     note = f"Distance from what tool and sheet sweep on moves that are meant to touch; {grid}."
     over = f"not covered: more than {enough:.3g} mm"
-    return HeatMap("left", "left over", "mm", values, 0.0, high, enough, over, note)
+    unformed = "needs no forming: stays flat by itself" if (values == UNFORMED).any() else ""
+    return HeatMap("left", "left over", "mm", values, 0.0, high, enough, over, unformed, note)
 
 
 def _gouge(values: FloatArray, grid: str) -> HeatMap:

@@ -137,7 +137,7 @@ def _part(shown: Shown) -> Document:
 
 
 def _map(one: HeatMap) -> Document:
-    keys = ("key", "title", "unit", "low", "high", "limit", "over", "note")
+    keys = ("key", "title", "unit", "low", "high", "limit", "over", "unformed", "note")
     cut = bool((one.values > one.high).any())
     return {**{key: getattr(one, key) for key in keys}, "cut": cut, "values": packed(one.values, VALUE_STEPS[one.unit])}
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from styluscam import __version__
+from styluscam.coverage import LEAST_AREA, Totals, to_form, unformed
 from styluscam.report.subject import RAPIDS, Subject
 from styluscam.report.vendored import THREE_VERSION
 from styluscam.types import Document
@@ -26,7 +27,7 @@ def figures(subject: Subject) -> Document:
     at_feed = subject.kinds != RAPIDS
     report = subject.report
     faces = report.coverage() if report is not None else []
-    area = sum(float(face["area"]) for face in faces)
+    done = Totals.of(faces)
     return {
         "time_s": float(subject.times[-1]) if len(subject.times) else 0.0,
         "length_mm": program.length,
@@ -37,7 +38,8 @@ def figures(subject: Subject) -> Document:
         "gouge_mm": report.gouge_max if report is not None else None,
         "excess_mm": report.excess_max if report is not None else None,
         "scallop_mm": max((float(face["scallop"]) for face in faces), default=0.0) if report is not None else None,
-        "covered": sum(float(face["covered"]) * float(face["area"]) for face in faces) / area if area else None,
+        "covered": done.share,
+        "unformed_mm2": sum(area for area, _ in unformed(done)) or None,
     }
 
 
@@ -52,6 +54,7 @@ SHOWN: dict[str, tuple[str, Callable[[Any], str]]] = {
     "excess_mm": ("worst excess", lambda value: f"{value:.4f} mm"),
     "scallop_mm": ("scallop", lambda value: f"{value:.4f} mm"),
     "covered": ("covered", lambda value: f"{100.0 * value:.1f} %"),
+    "unformed_mm2": ("needs no forming", lambda value: f"{value:.1f} mm²"),
 }
 """How people get to see :func:`figures`."""
 
@@ -62,22 +65,25 @@ def in_words(numbers: Document) -> Rows:
 
 
 def faces(subject: Subject) -> list[tuple[str, ...]]:
-    """What is left on each face: name, area, covered, scallop, mean, most, where."""
+    """What is left on each face: name, area, what needs no forming, covered, scallop, mean, most, where."""
     if subject.report is None:
         return []
     return [_face(face) for face in subject.report.coverage()]
 
 
 def _face(face: Document) -> tuple[str, ...]:
-    covered = face["covered"] > 0.0
+    touched = to_form(face) >= LEAST_AREA
+    covered = touched and face["covered"] > 0.0
+    left = "nothing touches it" if face["left"] is None else f"{face['left']:.4f}"
     return (
         f"Face{face['face']}",
         f"{face['area']:.1f}",
-        f"{100.0 * face['covered']:.1f}",
+        f"{100.0 * (face['flat'] + face['carried']):.1f}",
+        f"{100.0 * face['covered']:.1f}" if touched else "",
         f"{face['scallop']:.4f}" if covered else "",
         f"{face['mean']:.4f}" if covered else "",
-        "nothing touches it" if face["left"] is None else f"{face['left']:.4f}",
-        "" if face["at"] is None else place(face["at"]),
+        left if touched else "stays flat",
+        "" if face["at"] is None or not touched else place(face["at"]),
     )
 
 

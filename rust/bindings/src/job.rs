@@ -5,6 +5,7 @@ use std::cell::RefCell;
 use numpy::{PyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use styluscam_job::{JobDocument, JobError, StarterFace, StarterPart, Summary};
+use styluscam_verify::Need;
 
 use crate::{
     arrays, errors,
@@ -214,6 +215,32 @@ impl Judgement {
         let points = arrays::vectors(&points, "points")?;
         let work = |watch: &_| styluscam_job::left(&job.document, &scene.scene, &self.judgement, &points, watch);
         Ok(PyArray1::from_vec(py, watched(py, progress, cancel, work)?.map_err(of_job)?))
+    }
+
+    /// What points (N, 3) of the part in work coordinates ask for, with their unit normals (N, 3), (N,): 0 forming; 1
+    /// nothing, the blank lies there; 2 nothing, they go down flat with the passes around them.
+    #[pyo3(signature = (job, scene, points, normals, progress=None, cancel=None))]
+    #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)] // PyO3 hands arrays by value; Python's keywords
+    fn needs<'py>(
+        &self,
+        py: Python<'py>,
+        job: &Job,
+        scene: &Scene,
+        points: PyReadonlyArray2<'py, f64>,
+        normals: PyReadonlyArray2<'py, f64>,
+        progress: Option<&Bound<'_, PyAny>>,
+        cancel: Option<&CancelToken>,
+    ) -> PyResult<Bound<'py, PyArray1<u8>>> {
+        let (points, normals) = (arrays::vectors(&points, "points")?, arrays::vectors(&normals, "normals")?);
+        let pairs: Vec<_> = points.into_iter().zip(normals).collect();
+        let work = |watch: &_| styluscam_job::needs(&job.document, &scene.scene, &self.judgement, &pairs, watch);
+        let number = |need| match need {
+            Need::Forming => 0,
+            Need::Flat => 1,
+            Need::Carried => 2,
+        };
+        let needs = watched(py, progress, cancel, work)?.map_err(of_job)?;
+        Ok(PyArray1::from_vec(py, needs.into_iter().map(number).collect()))
     }
 
     /// The material after the program; `face` of the sheet is "tool", "mid" or "back".

@@ -8,7 +8,7 @@ use styluscam_motion::{Program, ToolRecord, Watch};
 use styluscam_post::machine::ToolChange;
 use styluscam_post::{read, Machine, Reading};
 use styluscam_verify::{
-    FaceCoverage, Forming, Grid, Limits, Order, Passes, Reach, Report, Simulation, Spacing, Subject, TextFacts,
+    FaceCoverage, Forming, Grid, Limits, Need, Order, Passes, Reach, Report, Simulation, Spacing, Subject, TextFacts,
     ToolCalls,
 };
 
@@ -123,6 +123,22 @@ pub fn left(
     let (tools, _) = tools_in_order(job)?;
     let subject = subject(job, scene, &tools, &judgement.unplaced);
     Ok(styluscam_verify::left(&judgement.program, &subject, &judgement.limits, points, watch)?)
+}
+
+/// What each of some points of the part, with its unit normal, asks for: forming, or nothing for it stays flat.
+///
+/// # Errors
+/// Tools that do not build, `Cancelled`.
+pub fn needs(
+    job: &JobDocument,
+    scene: &Scene,
+    judgement: &Judgement,
+    points: &[(Vector, Vector)],
+    watch: &Watch,
+) -> Result<Vec<Need>, JobError> {
+    let (tools, _) = tools_in_order(job)?;
+    let subject = subject(job, scene, &tools, &judgement.unplaced);
+    Ok(styluscam_verify::needs(&judgement.program, &subject, &judgement.limits, points, watch)?)
 }
 
 /// What a judged program makes of the stock: the part's box, or the sheet's blank, of which `face` is followed.

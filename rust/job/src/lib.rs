@@ -26,7 +26,7 @@ pub use document::{
 };
 pub use error::JobError;
 pub use fixture::{plates, BackingSection, ClampSection, FixtureSection, Holder, Opening, Plate};
-pub use judge::{coverage, judge, left, read_back, simulate, Judgement};
+pub use judge::{coverage, judge, left, needs, read_back, simulate, Judgement};
 pub use materials::{materials, Angle, Material};
 pub use parse::{from_json, from_toml, schema, tool_from_json};
 pub use plan::{plan, OperationSummary, Plan};

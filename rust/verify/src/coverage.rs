@@ -16,9 +16,10 @@ use styluscam_motion::{Cancelled, Program, Watch};
 use crate::body::Body;
 use crate::bounds::box_bound;
 use crate::convex::{lower, EQUAL};
+use crate::flats::{Flats, Need};
 use crate::legs::{placed, Leg, LegKind};
 use crate::measure::strokes_of;
-use crate::probes;
+use crate::probes::{self, Probe};
 use crate::sweep::Stroke;
 use crate::{Limits, Subject, Vector};
 
@@ -43,13 +44,18 @@ pub struct FaceCoverage {
     pub face: u32,
     /// Its area, mm^2, without what looks down.
     pub area: f64,
-    /// Share of it that is covered: where at most a hundredth of the diameter of the smallest tool used is left.
+    /// Share of it that needs no forming since the blank lies there before.
+    pub flat: f64,
+    /// Share of it that needs no forming since it goes down flat with the passes around it.
+    pub carried: f64,
+    /// Share of the rest that is covered: where at most a hundredth of the diameter of the smallest tool used is left; 1 where
+    /// there is no rest.
     pub covered: f64,
     /// Most that is left where it is covered, mm: the scallop.
     pub scallop: f64,
     /// What is left on average where it is covered, mm.
     pub mean: f64,
-    /// Most that is left anywhere on the face, mm; none where nothing at all was swept.
+    /// Most that is left anywhere on the rest of the face, mm; none where nothing at all was swept, or is to be.
     pub left: Option<f64>,
     /// Where that is, work coordinates, mm.
     pub at: Option<[f64; 3]>,
@@ -68,7 +74,9 @@ pub fn coverage(
     wanted: &[bool],
     watch: &Watch,
 ) -> Result<Vec<FaceCoverage>, Cancelled> {
-    let sweeps = Sweeps::of_all(&placed(program, subject, limits), subject);
+    let legs = placed(program, subject, limits);
+    let sweeps = Sweeps::of_all(&legs, subject);
+    let flats = Flats::of(&legs, subject, limits, sweeps.enough);
     let faces = faces(subject, wanted);
     let area: f64 = faces.iter().map(|face| face.area).sum();
     let between_passes = area / sweeps.length.max(f64::MIN_POSITIVE);
@@ -78,9 +86,34 @@ pub fn coverage(
     let looked_at = |face: &Face| {
         let probes = probes::spread(subject.mesh, &face.triangles, of_face(face));
         let points: Vec<Vector> = probes.iter().map(|probe| probe.point).collect();
-        Ok(face.coverage(&points, &sweeps.left_at(&points, watch)?, sweeps.enough))
+        let left = sweeps.left_at(&points, watch)?;
+        let need = |probe: &Probe| flats.need(probe.point, subject.mesh.normal(probe.triangle));
+        let needs: Vec<Need> = probes.par_iter().map(need).collect();
+        Ok(face.coverage(&points, &left, &needs, sweeps.enough))
     };
     faces.iter().map(looked_at).collect()
+}
+
+/// What each of some points, with its unit normal, asks for.
+///
+/// # Errors
+/// `Cancelled` when the watch says so.
+pub fn needs(
+    program: &Program,
+    subject: &Subject,
+    limits: &Limits,
+    points: &[(Vector, Vector)],
+    watch: &Watch,
+) -> Result<Vec<Need>, Cancelled> {
+    watch.begin("what stays flat", points.len());
+    let legs = placed(program, subject, limits);
+    let flats = Flats::of(&legs, subject, limits, Sweeps::of_all(&legs, subject).enough);
+    let of_chunk = |chunk: &[(Vector, Vector)]| {
+        watch.advance(chunk.len())?;
+        Ok(chunk.iter().map(|(point, up)| flats.need(*point, *up)).collect())
+    };
+    let needs: Result<Vec<Vec<Need>>, Cancelled> = points.par_chunks(CHUNK).map(of_chunk).collect();
+    Ok(needs?.concat())
 }
 
 /// What a program leaves at each of some points, mm: negative where they lie in what is swept, infinite where nothing is.
@@ -118,14 +151,22 @@ fn faces(subject: &Subject, wanted: &[bool]) -> Vec<Face> {
 }
 
 impl Face {
-    /// Sums up what is left at points that stand for equal areas.
-    fn coverage(&self, points: &[Vector], left: &[f64], enough: f64) -> FaceCoverage {
-        let covered: Vec<f64> = left.iter().filter(|left| **left <= enough).map(|left| left.max(0.0)).collect();
-        let most = (0..left.len()).filter(|i| left[*i].is_finite()).max_by(|i, j| left[*i].total_cmp(&left[*j]));
+    /// Sums up what is left at points that stand for equal areas. A floor that was touched is covered, not carried.
+    fn coverage(&self, points: &[Vector], left: &[f64], needs: &[Need], enough: f64) -> FaceCoverage {
+        let is_covered = |i: usize| left[i] <= enough;
+        let stays = |i: usize| needs[i] == Need::Flat || needs[i] == Need::Carried && !is_covered(i);
+        let formed: Vec<usize> = (0..left.len()).filter(|i| !stays(*i)).collect();
+        let covered: Vec<f64> = formed.iter().filter(|i| is_covered(**i)).map(|i| left[*i].max(0.0)).collect();
+        let finite = formed.iter().copied().filter(|i| left[*i].is_finite());
+        let most = finite.max_by(|i, j| left[*i].total_cmp(&left[*j]));
+        let share = |count: usize| count as f64 / left.len().max(1) as f64;
+        let flat = needs.iter().filter(|need| **need == Need::Flat).count();
         FaceCoverage {
             face: self.number,
             area: self.area,
-            covered: covered.len() as f64 / left.len().max(1) as f64,
+            flat: share(flat),
+            carried: share(left.len() - flat - formed.len()),
+            covered: if formed.is_empty() { 1.0 } else { covered.len() as f64 / formed.len() as f64 },
             scallop: covered.iter().copied().fold(0.0, f64::max),
             mean: covered.iter().sum::<f64>() / covered.len().max(1) as f64,
             left: most.map(|i| left[i].max(0.0)),

@@ -34,6 +34,7 @@ mod convex;
 mod coverage;
 mod diagnosis;
 mod findings;
+mod flats;
 mod groups;
 mod holding;
 mod judge;
@@ -55,8 +56,9 @@ mod unreached;
 mod walls;
 mod words;
 
-pub use coverage::{coverage, left, FaceCoverage};
+pub use coverage::{coverage, left, needs, FaceCoverage};
 pub use findings::{Finding, FindingKind, Severity};
+pub use flats::Need;
 pub use groups::Group;
 pub use judge::judge;
 pub use orders::Order;

@@ -3,6 +3,7 @@
 const PLAIN = [0xb9, 0xc2, 0xcc];
 const NOTHING = [0xd3, 0xd8, 0xde];
 const OVER = [0xcc, 0x4c, 0x9c];
+const UNFORMED = [0xe8, 0xe2, 0xcf];
 const KINDS = [
   { name: "rapid", rgb: [0x7f, 0x8a, 0x96] },
   { name: "down, up", rgb: [0xe0, 0x7b, 0x00] },
@@ -35,8 +36,9 @@ function legendCard(key, title) {
   return card;
 }
 
-/** `cut`: there are values above the scale's high end; `over`: what the colour beyond all of it means. */
-function scaleLegend(key, { title, unit, low, high, colours, cut, over }) {
+/** `cut`: there are values above the scale's high end; `over`: what the colour beyond all of it means; `unformed`: what that
+    of places that need no forming does. */
+function scaleLegend(key, { title, unit, low, high, colours, cut, over, unformed }) {
   const card = legendCard(key, `${title}, ${unit}`);
   const bar = element("div", "bar");
   bar.style.background = `linear-gradient(to right, ${colours.map(css).join(",")})`;
@@ -45,6 +47,7 @@ function scaleLegend(key, { title, unit, low, high, colours, cut, over }) {
   for (const mark of marks) ends.append(element("span", "", mark));
   card.append(bar, ends);
   if (over) card.append(swatch(OVER, over));
+  if (unformed) card.append(swatch(UNFORMED, unformed));
   return card;
 }
 

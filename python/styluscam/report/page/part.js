@@ -82,6 +82,7 @@ function colourOf(map) {
   const table = Array.from({ length: 1025 }, (_, i) => shade(given.colours.map, i / 1024));
   const span = map.high - map.low || 1;
   return (value) => {
+    if (value < -1.5) return UNFORMED;
     if (value < 0) return NOTHING;
     if (map.limit !== null && value > map.limit) return OVER;
     return table[Math.round(1024 * Math.min(1, Math.max(0, (value - map.low) / span)))];

@@ -1,0 +1,145 @@
+//! What of a sheet needs no forming: places where the model is the flat blank, and level floors that go down flat with the
+//! walls around them.
+//!
+//! Single-point forming works where the tool rolls over the sheet; what lies inside the tool's path keeps its shape and is
+//! carried down with the path's depth. The literature calls it the undeformed minor base, and the bulge that it may take, the
+//! pillow effect, an error of shape that passes over the floor do not mend (F. Micari, G. Ambrogio, L. Filice, "Shape and
+//! dimensional accuracy in single point incremental forming: state of the art and future trends", J. Mater. Process. Technol.
+//! 191, 2007). So a floor is as deep as the level passes that go round it, and needs no contact of its own.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::body::{length, Body};
+use crate::legs::{Leg, LegKind};
+use crate::{Limits, Subject, Vector, SLACK};
+
+/// Level is what rises less than this, rad: 0.001 mm over a millimetre.
+const LEVEL: f64 = 1e-3;
+/// Bins of a pass's sides by height in plan: a side is looked up, not searched.
+const BINS: usize = 256;
+
+/// What a place of a sheet asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Need {
+    /// The tool must touch it.
+    Forming,
+    /// Nothing: the blank lies there before.
+    Flat,
+    /// Nothing: it is a level floor inside a pass as deep as it, and goes down with it.
+    Carried,
+}
+
+/// The blank and the closed level passes of a program.
+pub(crate) struct Flats {
+    /// Height of the model's surface on the blank, mm; none where no sheet is formed.
+    blank: Option<f64>,
+    /// How far off the blank a place still lies on it, mm.
+    tolerance: f64,
+    passes: Vec<Ring>,
+}
+
+impl Flats {
+    /// Those of a program; a floor may be `enough` mm off the passes around it.
+    pub fn of(legs: &[Leg], subject: &Subject, limits: &Limits, enough: f64) -> Self {
+        let under = subject.sheet.map_or(0.0, |sheet| sheet.along_normal() + sheet.along_vertical());
+        let blank = limits.forming.filter(|_| subject.sheet.is_some()).map(|forming| forming.top - under);
+        let tolerance = limits.excess.unwrap_or(0.0) + subject.deviation_outward + SLACK;
+        let bodies: Vec<Body> = subject.tools.iter().map(|tool| Body::new(tool, subject.sheet.as_ref())).collect();
+        let passes = if blank.is_some() { rings(legs, &bodies, enough) } else { Vec::new() };
+        Self { blank, tolerance, passes }
+    }
+
+    /// What a point of the part, with its unit normal, asks for.
+    pub fn need(&self, point: Vector, up: Vector) -> Need {
+        let Some(blank) = self.blank.filter(|_| up.z > 0.0 && up.xy().norm() <= LEVEL) else { return Need::Forming };
+        if (point.z - blank).abs() <= self.tolerance {
+            Need::Flat
+        } else if self.passes.iter().any(|ring| ring.holds(point)) {
+            Need::Carried
+        } else {
+            Need::Forming
+        }
+    }
+}
+
+/// A closed pass at one height.
+struct Ring {
+    /// Heights of the floor that it takes along, mm.
+    heights: [f64; 2],
+    /// Of the pass in plan.
+    low: [f64; 2],
+    high: [f64; 2],
+    /// Its sides by where they lie in Y.
+    bins: Vec<Vec<[[f64; 2]; 2]>>,
+}
+
+/// The closed passes among moves that are meant to touch; of arcs their pieces' chords count.
+fn rings(legs: &[Leg], bodies: &[Body], enough: f64) -> Vec<Ring> {
+    let level = |leg: &&Leg| leg.kind == LegKind::Contact && leg.excess.is_some() && !leg.falls();
+    let level: Vec<&Leg> = legs.iter().filter(level).collect();
+    let joined = |a: &&Leg, b: &&Leg| b.start == Some(a.end) && b.tool == a.tool;
+    level.chunk_by(joined).flat_map(|chain| loops(chain, bodies, enough)).collect()
+}
+
+/// The loops that a chain of moves at one height goes through: each ends where it began; the last one may also end beside
+/// that, nearer than its tool is wide.
+fn loops(chain: &[&Leg], bodies: &[Body], enough: f64) -> Vec<Ring> {
+    let Some((first, body)) = chain.first().and_then(|leg| Some((leg, bodies.get(leg.tool?)?))) else {
+        return Vec::new();
+    };
+    let height = body.position(first.end).z;
+    let heights = [height - enough, height + enough];
+    let plan = |place: [f64; 3]| [place[0], place[1]];
+    let apart = |a: &[f64; 2], b: &[f64; 2]| length(b[0] - a[0], b[1] - a[1]);
+    let mut rings = Vec::new();
+    let mut places: Vec<[f64; 2]> = first.start.map(plan).into_iter().collect();
+    for place in chain.iter().flat_map(|leg| leg.pieces()).map(|piece| plan(piece.end)) {
+        places.push(place);
+        if places.len() > 3 && apart(&places[0], &place) <= SLACK {
+            rings.push(Ring::new(&places, heights));
+            places = vec![place];
+        }
+    }
+    if places.len() > 2 && apart(&places[0], &places[places.len() - 1]) <= body.radius() {
+        rings.push(Ring::new(&places, heights));
+    }
+    rings
+}
+
+impl Ring {
+    fn new(places: &[[f64; 2]], heights: [f64; 2]) -> Self {
+        let corner = |pick: fn(f64, f64) -> f64, none: f64| {
+            [0, 1].map(|axis| places.iter().map(|place| place[axis]).fold(none, pick))
+        };
+        let (low, high) = (corner(f64::min, f64::INFINITY), corner(f64::max, f64::NEG_INFINITY));
+        let mut ring = Self { heights, low, high, bins: vec![Vec::new(); BINS] };
+        for (i, from) in places.iter().enumerate() {
+            let to = places[(i + 1) % places.len()];
+            let [a, b] = [ring.bin(from[1].min(to[1])), ring.bin(from[1].max(to[1]))];
+            ring.bins[a..=b].iter_mut().for_each(|bin| bin.push([*from, to]));
+        }
+        ring
+    }
+
+    fn bin(&self, y: f64) -> usize {
+        let share = (y - self.low[1]) / (self.high[1] - self.low[1]).max(f64::MIN_POSITIVE);
+        ((share * BINS as f64) as usize).min(BINS - 1)
+    }
+
+    /// Whether a point lies at its height and inside it: it goes round the point, in whichever sense.
+    fn holds(&self, point: Vector) -> bool {
+        let inside = |axis: usize| (self.low[axis]..=self.high[axis]).contains(&point[axis]);
+        if !(self.heights[0]..=self.heights[1]).contains(&point.z) || !inside(0) || !inside(1) {
+            return false;
+        }
+        // Sunday's winding number: sides that cross the way to the right upwards less those that cross it downwards
+        let turns = self.bins[self.bin(point.y)].iter().map(|[a, b]| {
+            let side = (b[0] - a[0]) * (point.y - a[1]) - (point.x - a[0]) * (b[1] - a[1]);
+            let (up, down) = (a[1] <= point.y && b[1] > point.y, a[1] > point.y && b[1] <= point.y);
+            i32::from(up && side > 0.0) - i32::from(down && side < 0.0)
+        });
+        turns.sum::<i32>() != 0
+    }
+}
