@@ -9,34 +9,56 @@ use crate::body::{length, Body, Plane};
 use crate::sweep::Stroke;
 use crate::Vector;
 
-/// A bound for a node; the cheap ones first, until one is above `limit`. `hint` is a plane worth trying.
-pub(crate) fn node_bound(body: &Body, node: &Node, stroke: Stroke, limit: f64, hint: Option<&Plane>) -> f64 {
-    let apart = apart(body, node, stroke);
-    if apart > limit {
-        return apart;
+/// A bound from one plane for what lies on one side of it, wherever the body stands.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gap {
+    away: Vector,
+    /// How far along `away` what is bounded begins, less the body's support, mm.
+    reach: f64,
+}
+
+impl Gap {
+    /// For what begins at the nearest of some points.
+    pub fn of_points(plane: &Plane, [a, b, c]: &[Vector; 3]) -> Self {
+        let away = plane.away;
+        Self { away, reach: away.dot(a).min(away.dot(b)).min(away.dot(c)) - plane.support }
     }
-    let gap = |plane: &Plane| {
-        let position = stroke.farther(plane);
-        patch_gap(node, plane, position).max(box_gap(node.low, node.high, plane, position))
-    };
-    let hinted = hint.map_or(f64::NEG_INFINITY, gap);
-    if hinted > limit {
-        return hinted;
+
+    /// For whatever a node holds.
+    pub fn of_node(plane: &Plane, node: &Node) -> Self {
+        let (origin, away) = (Vector::zeros(), plane.away);
+        let reach = patch_gap(node, plane, origin).max(box_gap(node.low, node.high, plane, origin));
+        Self { away, reach }
     }
-    let sloped = sloped_bound(body, node, stroke).max(hinted);
-    if sloped > limit {
-        return sloped;
+
+    /// The same by the plane that lies over all the node's points.
+    pub fn over_node(body: &Body, node: &Node) -> Self {
+        let [gx, gy] = node.gradient;
+        let [mx, my] = node.middle();
+        let steep = length(gx, gy);
+        let scale = 1.0 / (1.0 + steep * steep).sqrt();
+        let over = node.lift - gx * mx - gy * my;
+        Self { away: Vector::new(gx, gy, -1.0) * scale, reach: -(over + body.support_bound(steep, 1.0)) * scale }
     }
-    let position = stroke.at(stroke.share_near(0.5 * (node.low + node.high)));
-    let patch = gap(&patch_plane(body, node, position)).max(sloped);
-    if patch > limit {
-        return patch;
+
+    /// How far off the body is at a place, at least, mm.
+    pub fn at(&self, position: Vector) -> f64 {
+        self.reach - self.away.dot(&position)
     }
-    patch.max(gap(&box_plane(body, node.low, node.high, position)))
+
+    /// The same on a whole stroke.
+    pub fn along(&self, stroke: Stroke) -> f64 {
+        self.at(stroke.from).min(self.at(stroke.to))
+    }
+}
+
+/// Planes that may keep a node off the body at a place; the second is dearer.
+pub(crate) fn planes_at(body: &Body, node: &Node, position: Vector) -> [Plane; 2] {
+    [patch_plane(body, node, position), box_plane(body, node.low, node.high, position)]
 }
 
 /// The bound by the boxes alone: the body on its way is in its cylinder, or in the sphere that it ends in and above that.
-fn apart(body: &Body, node: &Node, Stroke { from, to }: Stroke) -> f64 {
+pub(crate) fn apart(body: &Body, node: &Node, Stroke { from, to }: Stroke) -> f64 {
     let beside = |low: f64, high: f64, a: f64, b: f64| (low - a.max(b)).max(a.min(b) - high).max(0.0);
     let x = beside(node.low.x, node.high.x, from.x, to.x);
     let y = beside(node.low.y, node.high.y, from.y, to.y);
@@ -47,16 +69,6 @@ fn apart(body: &Body, node: &Node, Stroke { from, to }: Stroke) -> f64 {
 /// A bound for whatever a box holds, by one plane; the body stands at the origin.
 pub(crate) fn box_bound(body: &Body, low: Vector, high: Vector) -> f64 {
     box_gap(low, high, &box_plane(body, low, high, Vector::zeros()), Vector::zeros())
-}
-
-/// The bound by the plane that lies over all the node's points.
-fn sloped_bound(body: &Body, node: &Node, stroke: Stroke) -> f64 {
-    let [gx, gy] = node.gradient;
-    let [mx, my] = node.middle();
-    let steep = length(gx, gy);
-    let over = |p: Vector| p.z - node.lift - gx * (p.x - mx) - gy * (p.y - my);
-    let lowest = over(stroke.from).min(over(stroke.to));
-    (lowest - body.support_bound(steep, 1.0)) / (1.0 + steep * steep).sqrt()
 }
 
 /// A plane that keeps the middle of the node's upper plane off the body.

@@ -3,7 +3,7 @@
 use styluscam_geometry::{Bvh, Mesh};
 
 use crate::body::{length, Body, Plane};
-use crate::convex::{lower, EQUAL};
+use crate::convex::lower;
 use crate::Vector;
 
 /// Rounding that a distance may carry, mm.
@@ -29,12 +29,6 @@ impl Touch {
     pub fn plane(&self) -> Plane {
         Plane { away: self.away, support: self.support }
     }
-
-    /// Whether the contact's own plane leaves a triangle as far off as the contact is.
-    pub fn keeps_off(&self, corners: &[Vector; 3], position: Vector) -> bool {
-        let gap = |p: &Vector| self.away.dot(&(p - position)) - self.support;
-        corners.iter().all(|p| gap(p) >= self.value - EQUAL)
-    }
 }
 
 /// The part, as one body meets it.
@@ -48,7 +42,8 @@ pub(crate) struct Prober<'a> {
 impl Prober<'_> {
     /// The contact with one triangle, when its clearance is below `best`.
     pub fn touch(&self, triangle: u32, position: Vector, best: f64) -> Option<Touch> {
-        let corners = self.mesh.corners(triangle as usize).map(|p| p - position);
+        let [a, b, c] = self.mesh.corners(triangle as usize);
+        let corners = [a - position, b - position, c - position];
         let facet = Facet::new(corners);
         if facet.over - self.body.support_bound(facet.steep, facet.up.z.max(0.0)) >= best {
             return None;

@@ -258,6 +258,26 @@ impl Sweeps {
         Ok(left?.concat())
     }
 
+    /// The same if it is more than `enough`, mm; where it is not, one move is mostly all that is looked at: the last one, or
+    /// the one nearest to a position at which a body touches the point.
+    pub fn left_beyond(
+        &self,
+        point: Vector,
+        enough: f64,
+        position: Vector,
+        last: &mut Option<(usize, Sweep)>,
+    ) -> Option<f64> {
+        let near = self.tools.iter().enumerate();
+        let near = near.filter_map(|(tool, (_, tree))| Some((tool, *tree.nearest_neighbor(position.into())?)));
+        for (tool, sweep) in (*last).into_iter().chain(near) {
+            if distance(&self.tools[tool].0, point, &sweep.stroke, f64::INFINITY) <= enough {
+                *last = Some((tool, sweep));
+                return None;
+            }
+        }
+        Some(self.left(point, last)).filter(|left| *left > enough)
+    }
+
     /// Distance from a point to what is swept, mm; `last` holds the move that was nearest to a point near by.
     pub fn left(&self, point: Vector, last: &mut Option<(usize, Sweep)>) -> f64 {
         let best = Cell::new(f64::INFINITY);

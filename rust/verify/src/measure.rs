@@ -9,7 +9,7 @@ use crate::body::Body;
 use crate::clearance::{Prober, Touch};
 use crate::holding::{colliders, Collider};
 use crate::legs::{Leg, LegKind};
-use crate::sweep::{Passed, Question, Seen, Stroke};
+use crate::sweep::{Guess, Passed, Question, Seen, Stroke};
 use crate::tally::{Rule, Tally};
 use crate::{FindingKind, Limits, Subject, Vector, SLACK};
 
@@ -78,6 +78,7 @@ pub(crate) fn measure(legs: &[Leg], subject: &Subject, limits: &Limits, watch: &
         let mut tally = Tally::default();
         for leg in *chunk {
             for piece in leg.pieces() {
+                watch.advance(0)?; // a long move has many
                 rule.add(&mut tally, &piece, &walk.along(&piece), ordinal);
                 ordinal += usize::from(leg.excess.is_some());
             }
@@ -149,7 +150,7 @@ impl<'a> Walk<'a> {
     }
 
     fn sample(&self, tip: [f64; 3], prober: &Prober) -> Option<Sample> {
-        prober.at(prober.body.position(tip), self.warm()).map(|touch| Sample { tip, touch })
+        prober.at(prober.body.position(tip), self.guess(prober)).map(|touch| Sample { tip, touch })
     }
 
     /// A move that should touch: three samples, and a proof that nothing between them is deeper.
@@ -162,7 +163,7 @@ impl<'a> Walk<'a> {
         let seen = if stroke.length() > JOINT * prober.body.radius() {
             self.one_by_one(asked, prober)
         } else {
-            prober.survey(asked, self.warm())
+            prober.survey(asked, self.guess(prober))
         };
         let sample = |position: Option<Vector>, touch: Option<Touch>| {
             Some(Sample { tip: prober.body.tip(position?), touch: touch? })
@@ -178,11 +179,13 @@ impl<'a> Walk<'a> {
 
     /// On a long move one search for all would look at too much.
     fn one_by_one(&self, asked: Question, prober: &Prober) -> Seen {
-        let middle = asked.places[0].and_then(|place| prober.at(place, self.warm()));
-        let end = asked.places[1].and_then(|place| prober.at(place, middle.map(|t| t.triangle).or(self.warm())));
+        let guess = |touch: Option<Touch>, place: Option<Vector>| Some(Guess::like(&touch?, place?));
+        let [first, second] = asked.places;
+        let middle = first.and_then(|place| prober.at(place, self.guess(prober)));
+        let end = second.and_then(|place| prober.at(place, guess(middle, first).or(self.guess(prober))));
         let sampled = [middle, end].iter().flatten().fold(f64::INFINITY, |a, t| a.min(t.value));
         let below = asked.below.min(sampled - SLACK);
-        let passed = prober.survey(Question { places: [None; 2], below, ..asked }, end.map(|t| t.triangle));
+        let passed = prober.survey(Question { places: [None; 2], below, ..asked }, guess(end, second));
         Seen { places: [middle, end], deepest: passed.deepest }
     }
 
@@ -200,8 +203,9 @@ impl<'a> Walk<'a> {
         self.gouge_level().min(start.map_or(f64::INFINITY, |s| s.touch.value - SLACK))
     }
 
-    fn warm(&self) -> Option<u32> {
-        self.last.map(|(_, sample)| sample.touch.triangle)
+    /// The last contact.
+    fn guess(&self, prober: &Prober) -> Option<Guess> {
+        self.last.map(|(_, sample)| Guess::like(&sample.touch, prober.body.position(sample.tip)))
     }
 
     /// A move that need not touch: only what goes too deep is looked for.

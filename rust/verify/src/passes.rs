@@ -185,10 +185,9 @@ impl Look<'_> {
         let probes = contact_lines::spread(mesh, self.wanted, self.body, spacing, self.contacts, POINTS);
         let faults = of_all(&probes, watch, |probe, last| {
             let spot = self.spot(probe)?;
-            let left = sweeps.left(spot.point, last);
             let allowed = ON_PASS + self.tolerated();
-            let missing =
-                left > allowed && self.clearance(spot.position) >= -ROOM && !self.passes_beside(&spot, sweeps);
+            let left = sweeps.left_beyond(spot.point, allowed, spot.position, last)?;
+            let missing = self.clearance(spot.position) >= -ROOM && !self.passes_beside(&spot, sweeps);
             missing.then(|| self.missing_pass(&spot, last.as_ref(), left, allowed)).flatten()
         })?;
         Ok(self.of_long_gaps(faults))
@@ -232,10 +231,10 @@ impl Look<'_> {
     fn left_at(&self, probe: &Probe, sweeps: &Sweeps, last: &mut Option<(usize, Sweep)>) -> Option<Fault> {
         let spot = self.spot(probe)?;
         let step = self.passes.spacing.along(spot.up).filter(|step| 0.5 * step.norm() < self.body.radius())?;
-        let left = sweeps.left(spot.point, last);
         let places = |share: f64| [spot.position + share * step, spot.position - share * step];
         let amidst = CURVED_AMIDST * self.leaves(spot.point, places(0.5));
-        if left <= amidst || self.clearance(spot.position) < -ROOM {
+        let left = sweeps.left_beyond(spot.point, amidst, spot.position, last)?;
+        if self.clearance(spot.position) < -ROOM {
             return None;
         }
         // in the midst of a face a pass is half a step away at most, at its ends a whole one; where it does not go on at

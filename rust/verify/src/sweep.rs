@@ -9,7 +9,7 @@ use std::cell::Cell;
 use styluscam_geometry::Node;
 
 use crate::body::Plane;
-use crate::bounds::node_bound;
+use crate::bounds::{apart, planes_at, Gap};
 use crate::clearance::{Facet, Prober, Touch};
 use crate::convex::{lower, Tangent, EQUAL};
 use crate::{Vector, SLACK};
@@ -40,15 +40,6 @@ impl Stroke {
 
     pub fn length(&self) -> f64 {
         (self.to - self.from).norm()
-    }
-
-    /// The end that reaches farther along a plane's direction.
-    pub fn farther(&self, plane: &Plane) -> Vector {
-        if plane.away.dot(&(self.to - self.from)) > 0.0 {
-            self.to
-        } else {
-            self.from
-        }
     }
 
     /// A share of the stroke at which the body is about nearest to a point.
@@ -82,36 +73,50 @@ pub(crate) struct Seen {
     pub deepest: Option<Passed>,
 }
 
-impl Prober<'_> {
-    /// The contact of the body at one place; none where the part is empty. `warm` as in [`Self::survey`].
-    pub fn at(&self, position: Vector, warm: Option<u32>) -> Option<Touch> {
-        let places = [Some(position), None];
-        let question = Question { stroke: Stroke::still(position), places, below: f64::NEG_INFINITY };
-        self.survey(question, warm).places[0]
+/// A contact that may be near the one asked for: it only saves time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Guess {
+    triangle: Option<u32>,
+    /// From the body's tip to the contact.
+    offset: Vector,
+}
+
+impl Guess {
+    /// The contact that the body had at another position.
+    pub fn like(touch: &Touch, position: Vector) -> Self {
+        Self { triangle: Some(touch.triangle), offset: touch.point - position }
     }
 
-    /// Answers a question; `warm` is a triangle that may be near and only saves time.
-    pub fn survey(&self, question: Question, warm: Option<u32>) -> Seen {
+    /// Under the tip, where nothing better is known.
+    const UNDER: Self = Self { triangle: None, offset: Vector::new(0.0, 0.0, 0.0) };
+}
+
+impl Prober<'_> {
+    /// The contact of the body at one place; none where the part is empty.
+    pub fn at(&self, position: Vector, guess: Option<Guess>) -> Option<Touch> {
+        let places = [Some(position), None];
+        let question = Question { stroke: Stroke::still(position), places, below: f64::NEG_INFINITY };
+        self.survey(question, guess).places[0]
+    }
+
+    /// Answers a question.
+    pub fn survey(&self, question: Question, guess: Option<Guess>) -> Seen {
         let survey = Survey {
             prober: self,
             question,
             seen: Cell::new(Seen::default()),
-            limit: Cell::new(f64::INFINITY),
-            below: Cell::new(question.below),
-            hint: Cell::new(None),
+            limits: Cell::new([f64::INFINITY, f64::INFINITY, question.below]),
+            hints: Cell::new([None; 3]),
         };
-        survey.update(Seen::default());
-        if let Some(triangle) = warm {
-            survey.visit(triangle);
-        }
+        survey.begin(guess.unwrap_or(Guess::UNDER));
         let visit = |triangle, _| {
             survey.visit(triangle);
-            -survey.limit.get()
+            f64::NEG_INFINITY
         };
-        self.bvh.maximise(-survey.limit.get(), |node| -survey.bound(node), visit);
+        self.bvh.maximise(f64::NEG_INFINITY, |node| -survey.bound(node), visit);
         let seen = survey.seen.get();
         // a place may have turned out deeper after the deepest contact between the places was found
-        Seen { deepest: seen.deepest.filter(|p| p.touch.value <= survey.below.get()), ..seen }
+        Seen { deepest: seen.deepest.filter(|p| p.touch.value <= survey.below()), ..seen }
     }
 }
 
@@ -120,101 +125,200 @@ struct Survey<'a> {
     prober: &'a Prober<'a>,
     question: Question,
     seen: Cell<Seen>,
-    /// Distance from which on a triangle can no longer matter.
-    limit: Cell<f64>,
-    /// Depth from which on a triangle matters between the places.
-    below: Cell<f64>,
-    /// A plane that keeps much of the part off.
-    hint: Cell<Option<Plane>>,
+    /// Distance below which a triangle still matters, for each place and for what lies between them, mm.
+    limits: Cell<[f64; 3]>,
+    /// The contacts found so far: their planes keep most of the part off.
+    hints: Cell<[Option<Hint>; 3]>,
+}
+
+/// A contact.
+#[derive(Clone, Copy)]
+struct Hint {
+    plane: Plane,
+    point: Vector,
+    triangle: u32,
+}
+
+/// The index of what lies between the places, after these.
+const BETWEEN: usize = 2;
+
+/// For what a triangle, or a node, may still matter: the places, and what lies between them.
+#[derive(Clone, Copy)]
+struct Open {
+    of: [bool; 3],
+    /// The least bound that did not settle it, mm.
+    nearest: f64,
+}
+
+impl Open {
+    fn any(&self) -> bool {
+        self.of[0] || self.of[1] || self.of[BETWEEN]
+    }
 }
 
 impl Survey<'_> {
-    fn bound(&self, node: &Node) -> f64 {
-        let enough = self.limit.get() - EQUAL;
-        let hint = self.hint.get();
-        let bound = node_bound(self.prober.body, node, self.question.stroke, enough, hint.as_ref());
-        if bound > enough {
-            f64::INFINITY
-        } else {
-            bound
+    /// Looks where the contacts may be: what is found there keeps most of the part off.
+    fn begin(&self, guess: Guess) {
+        let mut guess = guess;
+        for (i, place) in self.question.places.iter().enumerate() {
+            let Some(position) = *place else { continue };
+            for triangle in guess.triangle.iter().chain(self.prober.bvh.near(position + guess.offset)) {
+                self.visit(*triangle);
+            }
+            if let Some(touch) = self.seen.get().places[i] {
+                guess = Guess::like(&touch, position);
+            }
         }
+    }
+
+    /// The least bound, by which of two nodes is looked at first; infinite where a node does not matter.
+    fn bound(&self, node: &Node) -> f64 {
+        let body = self.prober.body;
+        let mut open = self.all();
+        let apart = apart(body, node, self.question.stroke);
+        self.settle(&mut open, |_| apart, apart);
+        if !open.any() {
+            return f64::INFINITY;
+        }
+        let hints = self.hints.get();
+        if hints.iter().flatten().any(|hint| node.holds(hint.point)) {
+            // no plane keeps off a box that holds a contact
+            return open.nearest;
+        }
+        let settled = |open: &mut Open, gap: Gap| {
+            self.settle(open, |position| gap.at(position), gap.along(self.question.stroke));
+            !open.any()
+        };
+        for hint in hints.iter().flatten() {
+            if settled(&mut open, Gap::of_node(&hint.plane, node)) {
+                return f64::INFINITY;
+            }
+        }
+        if settled(&mut open, Gap::over_node(body, node)) {
+            return f64::INFINITY;
+        }
+        let middle = 0.5 * (node.low + node.high);
+        for target in 0..3 {
+            let Some(position) = self.target(&open, target, middle) else { continue };
+            for plane in planes_at(body, node, position) {
+                if settled(&mut open, Gap::of_node(&plane, node)) {
+                    return f64::INFINITY;
+                }
+            }
+        }
+        open.nearest
+    }
+
+    /// What is asked at all.
+    fn all(&self) -> Open {
+        let [first, second] = self.question.places;
+        Open { of: [first.is_some(), second.is_some(), self.below() > f64::NEG_INFINITY], nearest: f64::INFINITY }
+    }
+
+    /// Depth from which on a triangle matters between the places, mm.
+    fn below(&self) -> f64 {
+        self.limits.get()[BETWEEN]
+    }
+
+    /// Where to look for a plane that settles one of the places, or what lies between them, if that is open.
+    fn target(&self, open: &Open, target: usize, middle: Vector) -> Option<Vector> {
+        let stroke = &self.question.stroke;
+        let between = || Some(stroke.at(stroke.share_near(middle)));
+        self.question.places.get(target).copied().unwrap_or_else(between).filter(|_| open.of[target])
+    }
+
+    /// Closes what bounds settle: one for each place, one for all between.
+    #[inline]
+    fn settle(&self, open: &mut Open, at: impl Fn(Vector) -> f64, along: f64) {
+        let limits = self.limits.get();
+        let mut nearest = f64::INFINITY;
+        for i in 0..BETWEEN {
+            if let Some(position) = self.question.places[i].filter(|_| open.of[i]) {
+                let bound = at(position);
+                open.of[i] = bound < limits[i];
+                nearest = if open.of[i] { nearest.min(bound) } else { nearest };
+            }
+        }
+        open.of[BETWEEN] &= along < limits[BETWEEN];
+        open.nearest = if open.of[BETWEEN] { nearest.min(along) } else { nearest };
     }
 
     fn visit(&self, triangle: u32) {
         let corners = self.prober.mesh.corners(triangle as usize);
-        let kept = self.kept_off(&corners);
-        if kept >= self.limit.get() - EQUAL {
+        let mut open = self.all();
+        let hints = self.hints.get();
+        for (of, hint) in open.of.iter_mut().zip(&hints) {
+            // what was found there is all that it has
+            *of &= hint.is_none_or(|hint| hint.triangle != triangle);
+        }
+        self.keep_off(&mut open, &corners, &hints);
+        if !open.any() {
             return;
         }
         let mut seen = self.seen.get();
         let mut better = false;
-        for (place, found) in self.question.places.iter().zip(&mut seen.places) {
-            let Some(position) = *place else { continue };
-            let best = found.map_or(f64::INFINITY, |t| t.value);
-            if found.is_some_and(|t| t.keeps_off(&corners, position)) {
-                continue;
-            }
+        for i in 0..2 {
+            let Some(position) = self.question.places[i].filter(|_| open.of[i]) else { continue };
+            let best = seen.places[i].map_or(f64::INFINITY, |touch| touch.value);
             if let Some(touch) = self.prober.touch(triangle, position, best) {
-                *found = Some(touch);
+                seen.places[i] = Some(touch);
                 better = true;
             }
         }
         if better {
             self.update(seen);
         }
-        let below = self.below.get();
-        if kept < below && self.facet_bound(&corners) < below {
+        if open.of[BETWEEN] && self.facet_bound(&corners) < self.below() {
             self.pass(triangle, &corners);
         }
     }
 
-    /// Takes what was seen and draws the limits from it.
+    /// Takes what was seen and draws limits and planes from it.
     fn update(&self, seen: Seen) {
+        let [first, second] = seen.places;
+        let value = |touch: Option<Touch>| touch.map_or(f64::INFINITY, |touch| touch.value);
         let deepest = seen.deepest.map_or(self.question.below, |p| p.touch.value);
-        let (mut below, mut limit) = (deepest, deepest);
-        for (place, found) in self.question.places.iter().zip(&seen.places) {
-            let value = found.map_or(f64::INFINITY, |t| t.value);
-            if place.is_some() {
-                below = below.min(value - SLACK);
-                limit = limit.max(value);
-            }
-        }
-        self.below.set(below);
-        self.limit.set(limit);
-        let hint = seen.places[0].or(seen.places[1]).or(seen.deepest.map(|p| p.touch));
-        self.hint.set(hint.map(|t| t.plane()));
+        let below = deepest.min(value(first) - SLACK).min(value(second) - SLACK);
+        self.limits.set([value(first) - EQUAL, value(second) - EQUAL, below]);
+        let hint = |touch: Option<Touch>| {
+            touch.map(|touch| Hint { plane: touch.plane(), point: touch.point, triangle: touch.triangle })
+        };
+        self.hints.set([hint(first), hint(second), hint(seen.deepest.map(|p| p.touch))]);
         self.seen.set(seen);
     }
 
-    /// How far planes keep a triangle off over the whole stroke, mm: the hint, and if that is too little, one found for the
-    /// triangle's middle, and one half way to the corner that this leaves nearest.
-    fn kept_off(&self, corners: &[Vector; 3]) -> f64 {
-        let (stroke, enough) = (self.question.stroke, self.limit.get() - EQUAL);
-        let gap = |plane: &Plane| {
-            let position = stroke.farther(plane);
-            let gaps = corners.map(|p| plane.away.dot(&(p - position)) - plane.support);
-            gaps[0].min(gaps[1]).min(gaps[2])
+    /// Closes what planes settle for a triangle: those of the contacts, then for each place one found for the triangle's
+    /// middle, and one half way to the corner that this leaves nearest.
+    fn keep_off(&self, open: &mut Open, corners: &[Vector; 3], hints: &[Option<Hint>; 3]) {
+        let settle = |open: &mut Open, plane: &Plane| {
+            let gap = Gap::of_points(plane, corners);
+            self.settle(open, |position| gap.at(position), gap.along(self.question.stroke));
+            !open.any()
         };
-        let hinted = self.hint.get().as_ref().map_or(f64::NEG_INFINITY, gap);
-        if hinted >= enough {
-            return hinted;
+        for hint in hints.iter().flatten() {
+            if settle(open, &hint.plane) {
+                return;
+            }
         }
         let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
-        let position = stroke.at(stroke.share_near(middle));
-        let plane = self.prober.body.separating(middle - position);
-        let kept = gap(&plane).max(hinted);
-        if kept >= enough {
-            return kept;
+        for target in 0..3 {
+            let Some(position) = self.target(open, target, middle) else { continue };
+            let plane = self.prober.body.separating(middle - position);
+            if settle(open, &plane) {
+                return;
+            }
+            let reach = |p: &Vector| plane.away.dot(p);
+            let nearest = corners.iter().fold(corners[0], |a, b| if reach(b) < reach(&a) { *b } else { a });
+            if settle(open, &self.prober.body.separating(0.5 * (middle + nearest) - position)) {
+                return;
+            }
         }
-        let reach = |p: &Vector| plane.away.dot(p);
-        let nearest = corners.iter().fold(corners[0], |a, b| if reach(b) < reach(&a) { *b } else { a });
-        kept.max(gap(&self.prober.body.separating(0.5 * (middle + nearest) - position)))
     }
 
     /// A bound, from below, of the distance between the swept body and a triangle's plane.
     fn facet_bound(&self, corners: &[Vector; 3]) -> f64 {
         let Stroke { from, to } = self.question.stroke;
-        let facet = Facet::new(corners.map(|p| p - from));
+        let facet = Facet::new([corners[0] - from, corners[1] - from, corners[2] - from]);
         let rise = facet.up.dot(&(to - from));
         facet.over + rise.min(0.0) - self.prober.body.support_bound(facet.steep, facet.up.z.max(0.0))
     }
@@ -224,7 +328,7 @@ impl Survey<'_> {
         let stroke = self.question.stroke;
         let along = stroke.to - stroke.from;
         let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
-        let best = self.below.get();
+        let best = self.below();
         let mut deepest: Option<Passed> = None;
         lower(stroke.share_near(middle), along.norm(), best, |share| {
             let position = stroke.at(share);
@@ -303,7 +407,7 @@ mod tests {
             let stroke = Stroke { from, to: from + way };
             let places = [Some(stroke.at(0.5)), Some(stroke.to)];
             with(&body, &mesh, |p| {
-                let seen = p.survey(Question { stroke, places, below: 5.0 }, Some(3));
+                let seen = p.survey(Question { stroke, places, below: 5.0 }, Some(Guess { triangle: Some(3), offset: Vector::zeros() }));
                 for (place, touch) in places.iter().zip(&seen.places) {
                     let (found, expected) = (touch.unwrap().value, of_all(p, place.unwrap()));
                     prop_assert!((found - expected).abs() < 1e-9, "{found} {expected}");

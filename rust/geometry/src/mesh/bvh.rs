@@ -33,9 +33,26 @@ pub struct Node {
 
 impl Node {
     /// Middle of the box in plan.
+    #[inline]
     #[must_use]
     pub fn middle(&self) -> [f64; 2] {
         [0.5 * (self.low.x + self.high.x), 0.5 * (self.low.y + self.high.y)]
+    }
+
+    /// Whether a point lies in the box.
+    #[inline]
+    #[must_use]
+    pub fn holds(&self, point: Vector) -> bool {
+        let (low, high) = (self.low, self.high);
+        (low.x..=high.x).contains(&point.x)
+            && (low.y..=high.y).contains(&point.y)
+            && (low.z..=high.z).contains(&point.z)
+    }
+
+    /// Square of a point's distance from the box, mm^2.
+    #[inline]
+    fn distance_squared(&self, point: Vector) -> f64 {
+        (self.low - point).sup(&(point - self.high)).sup(&Vector::zeros()).norm_squared()
     }
 }
 
@@ -61,6 +78,23 @@ impl Bvh {
         let mut items: Vec<Item> = (0..mesh.triangles().len()).into_par_iter().map(|i| Item::of(mesh, i)).collect();
         let nodes = build(mesh, &mut items, 0);
         Self { nodes, order: items.iter().map(|i| i.triangle).collect() }
+    }
+
+    /// The triangles of a leaf near a point, found by going down to the nearer box: often the nearest ones, and if not, a place
+    /// to begin at.
+    #[must_use]
+    pub fn near(&self, point: Vector) -> &[u32] {
+        let mut index = 0;
+        loop {
+            let node = &self.nodes[index];
+            if node.count > 0 {
+                let start = node.start as usize;
+                return &self.order[start..start + node.count as usize];
+            }
+            let (first, second) = (index + 1, node.start as usize);
+            let further = self.nodes[second].distance_squared(point) < self.nodes[first].distance_squared(point);
+            index = if further { second } else { first };
+        }
     }
 
     /// Searches for the triangle of largest value, starting from `best`.

@@ -126,9 +126,11 @@ impl Mesh {
     }
 
     /// The corners of a triangle.
+    #[inline]
     #[must_use]
     pub fn corners(&self, triangle: usize) -> [Vector; 3] {
-        self.triangles[triangle].map(|i| self.vertices[i as usize])
+        let [a, b, c] = self.triangles[triangle];
+        [self.vertices[a as usize], self.vertices[b as usize], self.vertices[c as usize]]
     }
 
     /// Unit normal of a triangle, out of the material.
