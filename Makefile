@@ -128,6 +128,7 @@ bench: dev ## Measures ours and others side by side; writes docs/performance.md
 	$(BIN)/python bench/drop_cutter.py
 	$(BIN)/python bench/growth.py
 	$(BIN)/python bench/planning.py
+	$(BIN)/python bench/judging.py
 	$(BIN)/python bench/gouges.py
 	$(BIN)/python bench/report.py
 	$(BIN)/python bench/simulation.py

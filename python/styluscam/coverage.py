@@ -73,7 +73,10 @@ def _of_all(totals: Totals) -> str:
 
 def unformed(totals: Totals) -> list[tuple[float, str]]:
     """Areas that need no forming, mm^2, and why."""
-    reasons = [(totals.flat, "the blank lies there"), (totals.carried, "flat, they go down with the passes around them")]
+    reasons = [
+        (totals.flat, "the blank lies there"),
+        (totals.carried, "flat, they go down with the passes around them"),
+    ]
     return [(area, why) for area, why in reasons if area >= LEAST_AREA]
 
 

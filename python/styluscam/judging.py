@@ -87,9 +87,11 @@ class Report:
 
     @property
     def groups(self) -> list[Document]:
-        """The findings told together, errors first: one for each kind, and for each region of the part where these are
-        clearly separate. Each with kind, severity, count, the worst one's line, position, value, limit and unit, first and
-        last line, a message, and the indices of those that ``findings`` lists."""
+        """The findings told together by kind, and by region of the part where these are clearly separate; errors first.
+
+        Each with kind, severity, count, the worst one's line, position, value, limit and unit, first and last line, a
+        message, and the indices of those that ``findings`` lists.
+        """
         groups: list[Document] = self._document["groups"]
         return groups
 
@@ -152,10 +154,9 @@ class Report:
         progress: Progress | None = None,
         cancel: _engine.CancelToken | None = None,
     ) -> npt.NDArray[np.uint8]:
-        """What points (N, 3) of the part in work coordinates, with their unit normals (N, 3), ask for, (N,): as in
-        :meth:`coverage`.
+        """What points (N, 3) of the part in work coordinates ask for, with their unit normals (N, 3): as :meth:`coverage` has it.
 
-        0: forming. 1: nothing, the blank lies there. 2: nothing, they go down flat with the passes around them.
+        (N,) of 0: forming. 1: nothing, the blank lies there. 2: nothing, they go down flat with the passes around them.
 
         Raises:
             GeometryError: no arrays of points, or not as many of both.
