@@ -345,7 +345,8 @@ fn the_same_fault_in_two_regions_is_told_twice_and_not_a_hundred_times() {
         let listed: Vec<&Finding> = group.findings.iter().map(|index| &report.findings[*index]).collect();
         assert_eq!(listed.len(), group.count.min(20));
         let deepest = listed.iter().filter_map(|finding| finding.value).fold(0.0, f64::max);
-        assert_eq!(group.value, Some(deepest));
+        // of places that differ by arithmetic the first one is named
+        assert!((group.value.unwrap() - deepest).abs() < 1e-6);
         assert!((deepest - if low[0] > 0.0 { 0.14 } else { 0.034 }).abs() < 0.01, "{deepest}");
         let worst = listed.iter().find(|finding| finding.value == group.value).unwrap();
         assert_eq!((group.line, group.position), (worst.line, worst.position));
