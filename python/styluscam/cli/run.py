@@ -80,9 +80,10 @@ def _tell(result: running.RunResult, written: list[Path], quiet: bool, has_progr
         rows += [("written", summary.shown_path(path)) for path in written]
         console.say(summary.title(result.plan.job.document))
         console.fields(rows)
-    if result.report.ok and not result.report.findings:
-        if not quiet:
-            console.say("verified: the written text was read back and judged, nothing was found")
+    if result.report.ok and quiet:
+        return
+    if not result.report.findings:
+        console.say("verified: the written text was read back and judged, nothing was found")
         return
     for line in findings.lines(result.report):
         console.complain(line)
