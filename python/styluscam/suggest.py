@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from styluscam import planning, reach
+from styluscam import _engine, planning, reach
 from styluscam.errors import Cancelled, JobError, PlanError, ToolError
 from styluscam.job import Job
 from styluscam.scallop import scallop_of_spacing
@@ -39,6 +39,9 @@ LEAST_SHARE = 0.1 * MARGIN
 
 LEAST_GAP = 5e-4
 """mm: less is no gap to speak of."""
+
+SNUG = 1.01
+"""What a tool may be wider than the narrow places: as the triangles know them."""
 
 FLAT_RAD = 1e-3
 """A floor's slope: tools are asked here instead of at 0, where a flat is a whole interval of radii."""
@@ -245,6 +248,8 @@ class _Asked:
     """Of the sheet, mm; 0 without one."""
     tolerance: float
     """Of the path, mm."""
+    fits: float
+    """Radius (mm) up to which a tool fits nearly all of the part's fillets and gaps; infinite where nothing bounds it."""
 
 
 def _asked_by(job: Job, progress: Progress | None) -> list[_Asked]:
@@ -254,12 +259,14 @@ def _asked_by(job: Job, progress: Progress | None) -> list[_Asked]:
     thickness = float(sheet.get("thickness", 0.0))
     share = {"tool": 0.0, "mid": 0.5, "back": 1.0}.get(document["part"].get("model_face"), 0.0)
     ball = share * thickness if sheet.get("law", "constant") == "constant" else 0.0
+    bound = _engine.Scene(job.engine, job.part(progress).engine).fitting_radius
+    fits = math.inf if bound is None else bound
     for index, name in enumerate(_names(document)):
         walls, passes = walls_of(job, index, progress), _Passes(document["operations"][index])
         classes = walls.classes(passes.rows_deg)
         if len(classes.areas):
             tolerance = float(document["operations"][index]["tolerance"])
-            found.append(_Asked(name, walls, passes, classes, ball, thickness, tolerance))
+            found.append(_Asked(name, walls, passes, classes, ball, thickness, tolerance, fits))
     if not found:
         hint = "levels make no sense there: try a zig-zag"
         raise JobError("the selected faces have no walls", code="no-walls", where="part.faces", hint=hint)
@@ -372,6 +379,8 @@ def _reasons(candidate: Candidate, hollow: float | None, corner: str, asked: lis
         said.append(f"ends at {math.degrees(tool.max_slope):.3g} deg: its rim forms {100.0 * over:.2g} % of the walls")
     if hollow is not None and unreached > LEAST_SHARE:
         said.append(f"too flat for {100.0 * unreached:.2g} % of the area, near {math.degrees(hollow):.2g} deg")
+    if tool.diameter > 2.0 * SNUG * most.fits:
+        said.append(f"wider than the part's narrow places: up to {2.0 * most.fits:.3g} mm fits nearly all")
     if candidate.gap_mm > LEAST_GAP:
         said.append(f"its profile leaves {candidate.gap_mm:.3f} mm in {corner}")
     if radius < 2.0 * most.thickness:
@@ -436,6 +445,7 @@ def _facts(asked: list[_Asked]) -> Document:
         ],
         "floor_share": sum(each.walls.floor_share * each.walls.area for each in asked) / area,
         "smallest_concave_radius_mm": min(hollows, default=None),
+        "fitting_radius_mm": asked[0].fits if math.isfinite(asked[0].fits) else None,
         "sharp_concave_edges_mm": max(each.walls.crease_mm for each in asked),
     }
 

@@ -290,6 +290,9 @@ def test_suggest_ranks_by_scallop_and_reach(cli: Any, mine: Path, tmp_path: Path
     assert sum(wall["share"] for wall in walls) == pytest.approx(1.0)
     assert max(walls, key=lambda wall: wall["share"])["angle_deg"] == pytest.approx(45.0, abs=0.1)
     assert document["part"]["smallest_concave_radius_mm"] == pytest.approx(8.0, rel=0.02)
+    # what `new` chooses a tool by
+    assert document["part"]["fitting_radius_mm"] == pytest.approx(8.0, rel=0.02)
+    assert any("up to 16 mm fits" in reason for reason in tools["clothoid"]["reasons"])
     table = cli("tool", "suggest", job, "--library", mine, "--plan", "0")
     assert table.code == 0 and table.out.index("ball:l") < table.out.index("ball:s")
     assert not list(tmp_path.glob("*.ngc"))

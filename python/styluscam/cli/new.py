@@ -60,7 +60,7 @@ def new(
     if json:
         console.say_json({"written": [str(path)], "reasons": made.reasons})
     elif not quiet:
-        console.fields([("because", reason) for reason in made.reasons])
+        console.fields([("" if number else "because", reason) for number, reason in enumerate(made.reasons)])
         console.say(f"written: {shown_path(path)}")
         console.say(f"next:    styluscam run {shlex.quote(shown_path(path))}")
     return 0

@@ -113,7 +113,7 @@ def _shelf(job: Job) -> library.Library:
 def _part(facts: Document) -> list[tuple[str, str]]:
     most = sorted(facts["walls"], key=lambda wall: -wall["share"])[:3]
     walls = ", ".join(f"{100.0 * wall['share']:.0f} % near {wall['angle_deg']:.0f} deg" for wall in most)
-    hollow = facts["smallest_concave_radius_mm"]
+    hollow, fits = facts["smallest_concave_radius_mm"], facts["fitting_radius_mm"]
     operations = [
         (operation["id"], f"{operation['passes']}, on {_faces(operation['faces'])}")
         for operation in facts["operations"]
@@ -122,6 +122,7 @@ def _part(facts: Document) -> list[tuple[str, str]]:
         *operations,
         ("wall angles", walls),
         ("most concave", "nowhere" if hollow is None else f"radius {hollow:.3g} mm"),
+        ("narrow places", "none" if fits is None else f"a tool of up to {2.0 * fits:.3g} mm fits nearly all"),
     ]
 
 

@@ -85,6 +85,12 @@ impl Scene {
         plates.into_iter().map(|plate| (plate.holder.name(), plate.opening, plate.heights)).collect()
     }
 
+    /// Radius (mm) up to which a tool from above fits nearly all concave places; None where nothing bounds it.
+    #[getter]
+    fn fitting_radius(&self, py: Python<'_>) -> Option<f64> {
+        py.detach(|| styluscam_job::fitting_radius(&self.scene.mesh, &self.scene.bvh))
+    }
+
     /// The sheet's face that the part is, where there is a sheet.
     #[getter]
     fn model_face(&self) -> Option<&'static str> {

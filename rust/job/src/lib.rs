@@ -32,7 +32,7 @@ pub use parse::{from_json, from_toml, schema, tool_from_json};
 pub use plan::{plan, OperationSummary, Plan};
 pub use risk::Risk;
 pub use scene::{Part, Scene};
-pub use starter::{starter, Starter, StarterFace, StarterPart};
+pub use starter::{fitting_radius, starter, Starter, StarterFace, StarterPart};
 pub use summary::Summary;
 
 /// Version of the job document; older ones migrate, newer ones are refused.

@@ -197,11 +197,11 @@ fn concave(mesh: &Mesh) -> (Vec<f64>, f64) {
             continue;
         }
         let widths = [a, b].map(|t| 2.0 * mesh.area(t) / length);
-        let narrow = widths[0].min(widths[1]);
-        for (triangle, width) in [a, b].into_iter().zip(widths) {
-            if width <= BESIDE * narrow {
-                radii[triangle] = radii[triangle].min(narrow / turn);
-            }
+        // an arc's facets turn by half of both their widths over its radius; a plane beside it gives none of the turn
+        let reach = BESIDE * widths[0].min(widths[1]);
+        let on_arc: f64 = widths.iter().filter(|width| **width <= reach).sum();
+        for (triangle, _) in [a, b].into_iter().zip(widths).filter(|(_, width)| *width <= reach) {
+            radii[triangle] = radii[triangle].min(0.5 * on_arc / turn);
         }
     }
     (radii, sharp)

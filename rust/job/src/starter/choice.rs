@@ -6,8 +6,10 @@ use super::{operations, sizes, StarterPart};
 use crate::body::{Body, FaceLook, Hollows, Shell, Side, Thickness};
 use crate::UpAxis;
 
-/// Of the area hidden from above: more is worth turning the part over, where another side hides less than half of it.
+/// Share of the area hidden from above that is worth a word.
 const HIDDEN: f64 = 0.1;
+/// Share that is worth standing the part on its side, where that hides less than half of it; turning it over is less work.
+const ON_SIDE: f64 = 0.25;
 /// Share of an open surface that must look up for the tool to come from there.
 const FACES_TOOL: f64 = 0.5;
 
@@ -175,24 +177,32 @@ fn mill(lying: Turned, sides: &[Side; 6], mut reasons: Vec<String>) -> Choice {
 /// +Z, unless much is hidden from there and another side hides less than half of that.
 fn best_side(sides: &[Side; 6]) -> (UpAxis, Option<String>) {
     let [above, ..] = sides;
-    let Some(best) = sides.iter().min_by(|a, b| a.hidden.total_cmp(&b.hidden)) else { return (above.up, None) };
-    let percent = 100.0 * above.hidden;
+    let cost = |side: &Side| side.hidden + if is_upright(side.up) { 0.0 } else { 0.5 * HIDDEN };
+    let best = sides.iter().min_by(|a, b| cost(a).total_cmp(&cost(b))).unwrap_or(above);
+    let [percent, other] = [above, best].map(|side| format!("{:.0} %", 100.0 * side.hidden));
     if above.hidden <= HIDDEN {
         return (above.up, None);
     }
+    let hidden =
+        format!("{percent} of the surface cannot be reached from above (it looks down, or lies under the rest)");
     if best.hidden > 0.5 * above.hidden {
-        let other = format!(
-            "{percent:.0} % of the surface cannot be reached from above (undercuts), nor much more of it from any other \
-             side: a second setup needs another job, with setup.up"
+        return (
+            above.up,
+            Some(format!("{hidden}, nor from any other side: that takes a second setup, with setup.up")),
         );
-        return (above.up, Some(other));
     }
-    let words = format!(
-        "{percent:.0} % of the surface cannot be reached from +z, {:.0} % from {}: setup.up turns the part so",
-        100.0 * best.hidden,
-        best.up.name()
-    );
+    let name = best.up.name();
+    if !is_upright(best.up) && above.hidden <= ON_SIDE {
+        let words = format!("{hidden}; from {name} it would be {other}: setup.up = \"{name}\" mills that side");
+        return (above.up, Some(words));
+    }
+    let words =
+        format!("{percent} of the surface cannot be reached from +z, {other} from {name}: setup.up turns the part so");
     (best.up, Some(words))
+}
+
+fn is_upright(up: UpAxis) -> bool {
+    matches!(up, UpAxis::PlusZ | UpAxis::MinusZ)
 }
 
 fn bounds(mesh: &Mesh) -> [[f64; 3]; 2] {

@@ -11,6 +11,7 @@ use styluscam_geometry::Mesh;
 use crate::OperationKind;
 use choice::{choose, Choice};
 use operations::Work;
+pub use sizes::fitting_radius;
 use sizes::{round, Shape};
 
 /// From this slope on a face does not look up: it is not listed, degrees.
@@ -28,6 +29,8 @@ const FEEDS: [f64; 2] = [100.0, 1500.0];
 /// The path's tolerance, and what the file's own edges may take of it, mm.
 const PATH_TOLERANCE: f64 = 0.005;
 const PART_TOLERANCE: f64 = 0.001;
+/// Nodes of the grid over the part's plan in which levels look for loops, about.
+const NODES: f64 = 4e5;
 /// A part that lies farther from its origin than this many times its size gets a zero point of its own.
 const FAR: f64 = 1.0;
 
@@ -266,8 +269,7 @@ feeds = {{ cut = {cut}, plunge = {plunge} }}
 fn smallest_feature(choice: &Choice) -> f64 {
     let [low, high] = choice.bounds;
     let plan = (high[0] - low[0]) * (high[1] - low[1]);
-    let nodes = 1e6;
-    round(f64::clamp(0.1 * choice.tool.diameter, 0.05, 1.0).max((2.0 * plan / nodes).sqrt()).min(100.0))
+    round(f64::clamp(0.1 * choice.tool.diameter, 0.05, 1.0).max((2.0 * plan / NODES).sqrt()).min(100.0))
 }
 
 /// A TOML list of names, broken into lines.

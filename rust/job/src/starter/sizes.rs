@@ -1,14 +1,16 @@
 //! Tools and distances between passes: from what the part has, in the sizes that a shop has.
 
-use styluscam_geometry::Mesh;
+use styluscam_geometry::{Bvh, Mesh};
 
 use super::choice::worth;
-use crate::body::{FaceLook, Hollows};
+use crate::body::{Body, FaceLook, Hollows};
 
 /// Diameters of cutters and styluses, mm.
 const DIAMETERS: [f64; 14] = [20.0, 16.0, 12.0, 10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.5, 1.0, 0.8, 0.5];
-/// Largest diameter against the part's smaller side: there must be something to travel over.
-const WIDEST: f64 = 0.15;
+/// Largest diameter against the part's smaller side: a stylus travels within it, a cutter around it.
+const WIDEST: [f64; 2] = [0.15, 0.25];
+/// Cutters that nothing bounds are no smaller than this, mm.
+const STURDY: f64 = 2.0;
 /// Smallest diameter against the part's larger side: below it the path is longer than anybody waits for.
 const THINNEST: f64 = 0.02;
 /// Share of the area that may be narrower than the tool: the places that a shop leaves for a second tool.
@@ -33,26 +35,41 @@ pub struct Cutter {
     pub diameter: f64,
 }
 
+/// The radius up to which a tool from above fits the concave places of a part, all but a fiftieth of its area, mm; none where
+/// nothing bounds it.
+#[must_use]
+pub fn fitting_radius(mesh: &Mesh, bvh: &Bvh) -> Option<f64> {
+    Hollows::bound(worth(&Body::new(mesh, bvh).hollows()), LEFT)
+}
+
 /// The largest stylus that fits the concave places of what is formed, and the sentence that says so.
 pub fn stylus(mesh: &Mesh, looks: &Hollows, thickness: Option<f64>) -> (Cutter, String) {
     let bound = Hollows::bound(worth(looks), LEFT);
     // sharper ones tear the sheet
     let least = 2.0 * thickness.unwrap_or(0.0);
-    let (diameter, words) = fitting(mesh, bound, least);
+    let [widest, _] = WIDEST.map(|share| share * smaller_side(mesh));
+    let (diameter, words) = fitting(mesh, bound, widest, least);
     (Cutter { shape: Shape::Ball, diameter }, words)
 }
 
 /// The largest cutter that fits some faces, and the sentence that says so.
 pub fn cutter<'f>(mesh: &Mesh, faces: impl IntoIterator<Item = &'f FaceLook>, shape: Shape) -> (Cutter, String) {
-    let (diameter, words) = fitting(mesh, Hollows::bound(faces, LEFT), 0.0);
+    let [_, widest] = WIDEST.map(|share| share * smaller_side(mesh));
+    let (diameter, words) = fitting(mesh, Hollows::bound(faces, LEFT), widest.max(STURDY), 0.0);
     (Cutter { shape, diameter }, words)
 }
 
-fn fitting(mesh: &Mesh, bound: Option<f64>, least: f64) -> (f64, String) {
+/// Of the part's box in plan, mm.
+fn smaller_side(mesh: &Mesh) -> f64 {
+    let (low, high) = mesh.bounds();
+    (high.x - low.x).min(high.y - low.y)
+}
+
+fn fitting(mesh: &Mesh, bound: Option<f64>, widest: f64, least: f64) -> (f64, String) {
     let (low, high) = mesh.bounds();
     let size = high - low;
     let at_most = |limit: f64| DIAMETERS.into_iter().find(|d| *d <= limit).unwrap_or(0.5);
-    let widest = at_most(WIDEST * size.x.min(size.y)).max(at_most(THINNEST * size.x.max(size.y)));
+    let widest = at_most(widest).max(at_most(THINNEST * size.x.max(size.y)));
     let thinnest = f64::max(THINNEST * size.x.max(size.y), least);
     let Some(radius) = bound.filter(|radius| 2.0 * SLACK * radius < widest) else {
         return (widest, format!("the tool, {widest} mm wide, follows from the part's size: nothing narrow bounds it"));
