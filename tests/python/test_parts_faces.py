@@ -62,18 +62,18 @@ def flat_added() -> np.ndarray:
 MENDED = {
     "twice": (
         np.concatenate([boxes((0, 0, 0))] * 2),
-        "12 triangles that the file has more than once were left out",
+        "12 triangles left out that the file has more than once",
         1000,
     ),
     "inside out": (boxes((0, 0, 0))[:, ::-1], r"wound inward \(inside out\)", 1000),
     "one body inside out": (
         np.concatenate([boxes((0, 0, 0)), boxes((20, 0, 0))[:, ::-1]]),
-        r"12 triangles belong to bodies that were wound inward \(inside out\)",
+        r"12 triangles turned over, of bodies that were wound inward \(inside out\)",
         2000,
     ),
-    "some turned": (some_turned(), "3 triangles that were wound against their neighbours", 2000),
-    "shaken": (shaken(), "28 corners that do not quite meet were joined", 1000),
-    "flat": (flat_added(), "3 triangles without area were left out", 1000),
+    "some turned": (some_turned(), "3 triangles turned over that wound against their neighbours", 2000),
+    "shaken": (shaken(), "28 corners that did not quite meet others joined them", 1000),
+    "flat": (flat_added(), "3 triangles without area left out", 1000),
 }
 
 

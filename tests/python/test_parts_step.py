@@ -507,6 +507,9 @@ def test_damage_is_named(tmp_path: Path) -> None:
         read_part(truncated(tmp_path))
     with pytest.raises(GeometryError, match="does not begin with ISO"):
         read_part(written("t.step", b"hello\n" * 50)(tmp_path))
+    with pytest.raises(GeometryError, match="it is an STL file") as caught:
+        read_part(written("t.step", b"solid x\nfacet normal 0 0 1\n" * 50)(tmp_path))
+    assert "ending .stl" in caught.value.hint
 
 
 def test_a_cut_brep_file_is_refused(tmp_path: Path) -> None:

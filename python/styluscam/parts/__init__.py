@@ -88,7 +88,6 @@ def _read_brep(file: Path, tolerance: float, progress: Progress | None) -> PartA
     """Read a part with exact surfaces, or take it as it was read before."""
     from . import cache
 
-    report(progress, "read", 0.0)
     name = cache.key(file, tolerance)
     part = cache.kept(name, str(file))
     if part is None:
@@ -96,7 +95,8 @@ def _read_brep(file: Path, tolerance: float, progress: Progress | None) -> PartA
 
         part = read_brep(file, tolerance, progress)
         cache.keep(name, part)
-    report(progress, "arrays", 1.0)
+    else:
+        report(progress, "arrays", 1.0)
     return part
 
 

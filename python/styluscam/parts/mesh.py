@@ -85,36 +85,35 @@ def _described(corners: Floats, normals: Floats, face_ids: Ints, kinds: list[str
 def _said(mending: dict[str, Any], triangles: int) -> tuple[str, ...]:
     """Return sentences on what was done to the file's triangles."""
     notes = []
-    if mending["joined"]:
+    if count := mending["joined"]:
         notes.append(
-            f"{mending['joined']} corners that do not quite meet were joined: they lay up to {mending['moved']:.2g} mm "
-            f"apart (joined within {mending['join_distance']:.2g} mm)"
+            f"{_many(count, 'corner')} that did not quite meet others joined them, {mending['moved']:.2g} mm away at most "
+            f"(corners within {mending['join_distance']:.2g} mm are joined)"
         )
-    if mending["degenerate"]:
-        notes.append(f"{mending['degenerate']} triangles without area were left out")
-    if mending["duplicate"]:
-        notes.append(f"{mending['duplicate']} triangles that the file has more than once were left out")
-    if mending["back_to_back"]:
+    if count := mending["degenerate"]:
+        notes.append(f"{_many(count, 'triangle')} without area left out")
+    if count := mending["duplicate"]:
+        notes.append(f"{_many(count, 'triangle')} left out that the file has more than once")
+    if count := mending["back_to_back"]:
+        notes.append(f"{_many(count, 'triangle')} left out back to back between bodies that touch: the bodies are one")
+    if count := mending["double_sided"]:
         notes.append(
-            f"{mending['back_to_back']} triangles that lie back to back between bodies that touch were left out: "
-            "the bodies are one"
+            f"the file has both sides of a surface: {_many(count, 'triangle')} of the second side left out; where the "
+            "surface encloses nothing, its material side is a guess (below)"
         )
-    if mending["double_sided"]:
-        notes.append(
-            f"the file has both sides of a surface: {mending['double_sided']} triangles of the second side were left "
-            "out; where the surface encloses nothing, its material side is a guess (below)"
-        )
-    if mending["turned"]:
-        notes.append(f"{mending['turned']} triangles that were wound against their neighbours were turned over")
-    if mending["inside_out"] == triangles:
+    if count := mending["turned"]:
+        notes.append(f"{_many(count, 'triangle')} turned over that wound against their neighbours")
+    if (count := mending["inside_out"]) == triangles:
         notes.append("the mesh was wound inward (inside out): its triangles were turned over")
-    elif mending["inside_out"]:
-        notes.append(
-            f"{mending['inside_out']} triangles belong to bodies that were wound inward (inside out): they were turned over"
-        )
+    elif count:
+        notes.append(f"{_many(count, 'triangle')} turned over, of bodies that were wound inward (inside out)")
     if not mending["closed"]:
         notes.append("the mesh is open: not each edge is shared by two triangles")
     return tuple(notes)
+
+
+def _many(count: int, what: str) -> str:
+    return f"{count} {what}" if count == 1 else f"{count} {what}s"
 
 
 def _error(file: Path, what: str, cure: str, code: str) -> GeometryError:

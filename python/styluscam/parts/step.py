@@ -140,6 +140,8 @@ def _load_step(file: Path) -> tuple[Kernel, str]:
 def _check_step_text(file: Path) -> None:
     """Refuse what is not a whole STEP file, before the kernel reads half of it without a word."""
     text = file.read_bytes()
+    if re.match(rb"\s*solid\b", text, re.IGNORECASE) and b"facet" in text[:4096]:
+        raise _damaged(file, "STEP", "it is an STL file", "give it the ending .stl, and say its units")
     if b"ISO-10303-21" not in text[:4096]:
         raise _damaged(file, "STEP", "it does not begin with ISO-10303-21")
     if re.search(rb"END-ISO-10303-21\s*;", text[-4096:]) is None:
@@ -226,9 +228,11 @@ def _check_native_text(file: Path) -> None:
         raise _damaged(file, "BREP", f"it holds {shapes} of {count} shapes: it is cut short")
 
 
-def _damaged(file: Path, kind: str, why: str = "the kernel cannot parse it") -> GeometryError:
+def _damaged(
+    file: Path, kind: str, why: str = "the kernel cannot parse it", cure: str = "export the part again"
+) -> GeometryError:
     return GeometryError(
-        f"{file}: not a whole {kind} file ({why}): export the part again", code="part-damaged", where=str(file)
+        f"{file}: not a whole {kind} file ({why}): {cure}", code="part-damaged", where=str(file), hint=cure
     )
 
 

@@ -39,6 +39,8 @@ def read_stl(file: Path) -> tuple[Floats, Ints, tuple[str, ...]]:
         GeometryError: neither kind of STL, or cut short.
     """
     data = file.read_bytes()
+    if data.lstrip()[:12] == b"ISO-10303-21":
+        raise _damaged(file, "it is a STEP file", "give it the ending .step")
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         data = data.decode("utf-16", errors="replace").encode("latin-1", errors="replace")
     size = len(data) - HEADER
