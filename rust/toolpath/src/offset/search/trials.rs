@@ -5,6 +5,10 @@ use super::super::index::WIDTH;
 use super::ground::Ground;
 use super::tangents::Eight;
 
+/// Triangles of a place that are picked one by one, the highest bound first; if that is not the end of them, the rest
+/// are sorted: where thousands meet, as in the tip of a cone, to look through all of them for each is too long.
+const PICKED: usize = 16;
+
 /// Triangles to be tried at the places of a tile, place by place.
 #[derive(Default)]
 pub struct Trials {
@@ -67,7 +71,7 @@ impl Trials {
         let end = self.places.get(number + 1).map_or(self.triangles.len(), |next| next.first);
         let Place { at, mut found, first } = self.places[number];
         let (values, triangles) = (&mut self.values[first..end], &self.triangles[first..end]);
-        loop {
+        for _ in 0..PICKED {
             let mut enough = ground.enough(found.tip, zero);
             let mut next = None;
             for (i, value) in values.iter().enumerate() {
@@ -79,5 +83,15 @@ impl Trials {
             values[i] = f32::NAN; // reaches nothing any more
             ground.contacts.touch(triangles[i], at, &mut found);
         }
+        let enough = ground.enough(found.tip, zero);
+        let mut rest: Vec<usize> = (0..values.len()).filter(|i| values[*i] >= enough).collect();
+        rest.sort_unstable_by(|a, b| values[*b].total_cmp(&values[*a]).then(a.cmp(b)));
+        for i in rest {
+            if values[i] < ground.enough(found.tip, zero) {
+                break;
+            }
+            ground.contacts.touch(triangles[i], at, &mut found);
+        }
+        found
     }
 }
