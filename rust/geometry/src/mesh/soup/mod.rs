@@ -62,24 +62,35 @@ impl Soup {
         if let Some(index) = points.iter().position(|point| !point.iter().all(|x| x.is_finite())) {
             return Err(GeometryError::NotFinite { what: "vertex", index });
         }
-        let mut mending = Mending::default();
         let (vertices, index) = weld::exact(points);
-        let mut triangles = numbered(triangles, &index)?;
+        let triangles = numbered(triangles, &index)?;
+        let joined = Self::mended(&vertices, triangles.clone(), true);
+        // corners joined to the wrong ones make neighbours of triangles that are none: better a seam than that
+        let is_wrong = joined.mending.joined > 0 && joined.mending.unclear.is_some();
+        let soup = if is_wrong { Self::mended(&vertices, triangles, false) } else { joined };
+        if soup.triangles.is_empty() {
+            return Err(GeometryError::EmptyMesh);
+        }
+        Ok(soup)
+    }
+
+    /// With corners joined that do not quite meet, or without.
+    fn mended(vertices: &[Vector], mut triangles: Vec<[u32; 3]>, joins: bool) -> Self {
+        let mut mending = Mending::default();
         drop_collapsed(&mut triangles, &mut mending);
         copies::drop_alike(&mut triangles, &mut mending);
-        weld::near(&vertices, &mut triangles, &mut mending);
+        if joins {
+            weld::near(vertices, &mut triangles, &mut mending);
+        }
         if mending.joined > 0 {
             drop_collapsed(&mut triangles, &mut mending);
             copies::drop_alike(&mut triangles, &mut mending);
         }
-        copies::drop_opposite(&vertices, &mut triangles, &mut mending);
-        weld::cut_at_flat(&vertices, &mut triangles, &mut mending);
-        winding::turn_outward(&vertices, &mut triangles, &mut mending);
-        let (vertices, triangles) = weld::used(&vertices, triangles);
-        if triangles.is_empty() {
-            return Err(GeometryError::EmptyMesh);
-        }
-        Ok(Self { vertices, triangles, mending })
+        copies::drop_opposite(vertices, &mut triangles, &mut mending);
+        weld::cut_at_flat(vertices, &mut triangles, &mut mending);
+        winding::turn_outward(vertices, &mut triangles, &mut mending);
+        let (vertices, triangles) = weld::used(vertices, triangles);
+        Self { vertices, triangles, mending }
     }
 
     /// The face of each triangle, from 1, and the shape of each face.

@@ -178,6 +178,25 @@ fn corners_that_almost_meet_are_joined() {
 }
 
 #[test]
+fn slivers_as_wide_as_what_is_joined_do_no_harm() {
+    // a tenth of the triangles cut in two by a point beside a corner, about as far from it as corners are joined
+    for size in 0..12 {
+        let big = 55.0 + f64::from(size);
+        let made = turned(40, &[(0.5 * big, 0.0), (0.4 * big, 20.0), (0.3 * big, 25.0), (0.1 * big, 28.0)]);
+        let mut cut = made.clone();
+        for t in (0..made.0.len()).filter(|t| noise(*t as f64, 7.0) > 0.8) {
+            let [a, b, c] = made.0[t];
+            let beside = a + (b - a) * (0.001 / (b - a).norm());
+            cut.0[t] = [beside, b, c];
+            cut.0.push([a, beside, c]);
+        }
+        let soup = cut.mended();
+        assert_eq!((soup.mending.unclear, soup.mending.inside_out), (None, 0), "{big}");
+        assert!((volume(&soup) / volume(&made.mended()) - 1.0).abs() < 1e-3, "{big}");
+    }
+}
+
+#[test]
 fn a_gap_that_is_meant_stays() {
     let mut slit = cube();
     slit.0.truncate(10);
