@@ -230,7 +230,9 @@ def test_job_is_binary_junk(tmp_path, cli):
 
 
 def test_job_is_a_step_file(cli):
-    is_one_helpful_line(cli("run", FIXTURES / "cone_cup.step"), ["cone_cup.step", "line 1"])
+    is_one_helpful_line(
+        cli("run", FIXTURES / "cone_cup.step"), ["cone_cup.step", "this is a part, not a job", "styluscam new"]
+    )
 
 
 def test_job_is_empty(tmp_path, cli):
