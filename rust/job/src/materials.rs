@@ -114,6 +114,7 @@ impl Material {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp)] // sums and halves of whole numbers are exact
 mod tests {
     use super::*;
 

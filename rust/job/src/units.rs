@@ -319,10 +319,10 @@ mod tests {
             }
             match schema {
                 Value::Object(entries) => {
-                    entries.iter().for_each(|(key, part)| look(part, unit, &format!("{place}/{key}"), missing))
+                    entries.iter().for_each(|(key, part)| look(part, unit, &format!("{place}/{key}"), missing));
                 }
                 Value::Array(items) => {
-                    items.iter().enumerate().for_each(|(i, part)| look(part, unit, &format!("{place}/{i}"), missing))
+                    items.iter().enumerate().for_each(|(i, part)| look(part, unit, &format!("{place}/{i}"), missing));
                 }
                 _ => {}
             }

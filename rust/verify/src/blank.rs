@@ -199,6 +199,7 @@ impl PartialEq for Cell {
 impl Eq for Cell {}
 
 #[cfg(test)]
+#[allow(clippy::float_cmp)] // sums and halves of whole numbers are exact
 mod tests {
     use super::*;
     use crate::body::tests::tool;

@@ -342,7 +342,7 @@ fn group(runs: Vec<Run>, told: &mut Told) {
     }
     let count = by_region.len();
     for runs in by_region.into_values() {
-        let whole = runs.iter().cloned().reduce(Run::and);
+        let whole = runs.iter().cloned().reduce(|all, later| all.and(&later));
         let index = told.groups.len();
         told.groups.extend(whole.map(|whole| whole.group(runs.len(), count, regions)));
         told.findings.extend(worst_in_order(runs).into_iter().map(|run| (run.finding(), index)));
@@ -399,7 +399,7 @@ impl Run {
     }
 
     /// With one that comes later: the worst place is the worse of theirs.
-    fn and(self, later: Self) -> Self {
+    fn and(self, later: &Self) -> Self {
         let worst = if later.worst.weight > self.worst.weight + SLACK { later.worst } else { self.worst };
         Self {
             worst,

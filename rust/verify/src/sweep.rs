@@ -232,11 +232,11 @@ impl Survey<'_> {
     fn settle(&self, open: &mut Open, at: impl Fn(Vector) -> f64, along: f64) {
         let limits = self.limits.get();
         let mut nearest = f64::INFINITY;
-        for i in 0..BETWEEN {
-            if let Some(position) = self.question.places[i].filter(|_| open.of[i]) {
+        for ((place, limit), is_open) in self.question.places.iter().zip(limits).zip(&mut open.of[..BETWEEN]) {
+            if let Some(position) = place.filter(|_| *is_open) {
                 let bound = at(position);
-                open.of[i] = bound < limits[i];
-                nearest = if open.of[i] { nearest.min(bound) } else { nearest };
+                *is_open = bound < limit;
+                nearest = if *is_open { nearest.min(bound) } else { nearest };
             }
         }
         open.of[BETWEEN] &= along < limits[BETWEEN];

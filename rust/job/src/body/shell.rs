@@ -57,7 +57,7 @@ fn unbalanced(body: &Body<'_>, way: Vector) -> Unbalanced {
         let leaving = hits.iter().filter(|hit| hit.along > 0.0).count();
         lines += 1.0;
         signed += f64::from(2 * leaving != hits.len());
-        odd += f64::from(hits.len() % 2 != 0);
+        odd += f64::from(!hits.len().is_multiple_of(2));
         inward += f64::from(hits.first().is_some_and(|hit| hit.along > 0.0));
     }
     Unbalanced { signed: signed / lines, plain: odd / lines, inward: inward / lines }

@@ -78,7 +78,7 @@ fn closed_and_open_surfaces_are_told_apart() {
     assert_eq!(with(&solid, |body| body.shell()), Shell::Closed);
     assert_eq!(with(&between(&cup, None), |body| body.shell()), Shell::Open);
     assert_eq!(with(&changed(&solid, |_, [a, b, c]| Some([a, c, b])), |body| body.shell()), Shell::InsideOut);
-    let turned = |i: usize, [a, b, c]: [i64; 3]| Some(if i % 3 == 0 { [a, c, b] } else { [a, b, c] });
+    let turned = |i: usize, [a, b, c]: [i64; 3]| Some(if i.is_multiple_of(3) { [a, c, b] } else { [a, b, c] });
     assert_eq!(with(&changed(&solid, turned), |body| body.shell()), Shell::Mixed);
 }
 

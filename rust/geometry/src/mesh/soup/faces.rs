@@ -421,12 +421,15 @@ fn islands(surface: &Surface, face_of: &[u32], faces: &Faces, is_noisy: bool) ->
     border.chunk_by(|a, b| a.0 == b.0).filter_map(around).collect()
 }
 
+/// A face's box as its rank from the top down, and its triangles by face and number.
+type Boxed<'a> = ([f64; 6], &'a [(u32, u32)]);
+
 /// Faces numbered from the top down, by the boxes around them, and their shapes.
 fn numbered(surface: &Surface, facet: &[u32], facets: &Facets, together: &mut Union) -> (Vec<u32>, Vec<Shape>) {
     let mut members: Vec<(u32, u32)> = facet.iter().enumerate().map(|(t, f)| (together.root(*f), t as u32)).collect();
     members.par_sort_unstable();
     let faces = Faces::of(facets, together);
-    let mut found: Vec<([f64; 6], &[(u32, u32)])> = members
+    let mut found: Vec<Boxed<'_>> = members
         .chunk_by(|a, b| a.0 == b.0)
         .map(|own| {
             let corners = own.iter().flat_map(|(_, t)| surface.triangles[*t as usize]);
@@ -443,7 +446,7 @@ fn numbered(surface: &Surface, facet: &[u32], facets: &Facets, together: &mut Un
     for (number, (_, own)) in found.iter().enumerate() {
         own.iter().for_each(|(_, t)| numbers[surface.given[*t as usize] as usize] = number as u32 + 1);
     }
-    let shape = |(_, own): &([f64; 6], &[(u32, u32)])| {
+    let shape = |(_, own): &Boxed<'_>| {
         if faces.facets[own[0].0 as usize] == 1 {
             return Shape::Plane;
         }
