@@ -39,6 +39,26 @@ class Limit:
     patience: float = 1.0
 
 
+class _Peak(threading.Thread):
+    """Watches how much memory a process holds at most, of its own: what wait4 tells begins with its parent's."""
+
+    def __init__(self, pid: int) -> None:
+        super().__init__(daemon=True)
+        self.status = Path(f"/proc/{pid}/status")
+        self.megabytes = 0.0
+        self.ended = threading.Event()
+
+    def run(self) -> None:
+        """Looks every hundredth of a second: the kernel keeps the highest."""
+        while not self.ended.wait(0.01):
+            try:
+                lines = self.status.read_text().splitlines()
+            except OSError:
+                return
+            highest = [line.split()[1] for line in lines if line.startswith("VmHWM")]
+            self.megabytes = max([self.megabytes, *(int(kilobytes) / 1024 for kilobytes in highest)])
+
+
 PROCESSORS = 1.5
 """How many of them a command keeps busy, about."""
 
@@ -59,7 +79,8 @@ def styluscam(words: list[str], folder: Path, limit: Limit) -> Ended:
         resource.prlimit(process.pid, resource.RLIMIT_AS, (MEMORY, MEMORY))
         most = round(PROCESSORS * limit.seconds)
         resource.prlimit(process.pid, resource.RLIMIT_CPU, (most, most))
-        stopped = threading.Event()
+        stopped, peak = threading.Event(), _Peak(process.pid)
+        peak.start()
 
         def stop() -> None:
             stopped.set()
@@ -69,6 +90,7 @@ def styluscam(words: list[str], folder: Path, limit: Limit) -> Ended:
         timer.start()
         _, status, usage = os.wait4(process.pid, 0)
         timer.cancel()
+        peak.ended.set()
         seconds = time.monotonic() - start
         code = process.returncode = os.waitstatus_to_exitcode(status)
         texts = []
@@ -77,4 +99,4 @@ def styluscam(words: list[str], folder: Path, limit: Limit) -> Ended:
             texts.append(stream.read().decode("utf-8", "replace"))
     cpu = usage.ru_utime + usage.ru_stime
     late = stopped.is_set() or (code in (-signal.SIGKILL, -signal.SIGXCPU) and cpu > 0.95 * most)
-    return Ended(code, texts[0], texts[1], seconds, cpu, usage.ru_maxrss / 1024, late)
+    return Ended(code, texts[0], texts[1], seconds, cpu, peak.megabytes, late)

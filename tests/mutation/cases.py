@@ -185,7 +185,8 @@ def document(
         made["process"] = {"kind": "spif"}
         made["part"]["model_face"] = sheet[1]
         made["setup"]["sheet"] = copy.deepcopy(sheet[0]) | {"max_wall_angle_deg": 75.0}
-        made["accept"] = ["punch"] if kind == "zig-zag" else []  # rows alone form no sheet
+        # rows alone form no sheet; bumps are no trays: what is judged here is the program
+        made["accept"] = ["flange", "bridged", "unreached", *(["punch"] if kind == "zig-zag" else [])]
     return made
 
 
@@ -267,7 +268,8 @@ def arc_case(number: int, folder: Path, family: Family | None = None) -> Case:
     if family in ROUNDED:
         machine, section = family, {"name": family}
     profile = draw.choice([PROFILES[0], PROFILES[2]])
-    made = document("z-level", profile, section)
+    # the loops go below the part's foot, where a ball touches the lowest of its sides
+    made = document("z-level", profile, section, z_bottom=-25.0)
     made["setup"]["zero"] = [draw.choice([0.0, 2.0]), -3.0, 0.0]
     pieces = 0 if family == "heidenhain" else draw.choice([1, 2, 4])
     return Case(

@@ -59,6 +59,7 @@ def job_document(job: Any, operations: list[Any], part: EnginePart, machine: str
     return {
         "schema": 1,
         "title": job.Label,
+        "accept": sorted({risk for obj in operations for risk in obj.AcceptedRisks}),
         "part": _part_section(first),
         "setup": {
             "zero": "model",

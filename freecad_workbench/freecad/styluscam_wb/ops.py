@@ -177,6 +177,9 @@ def update_properties(obj: Any) -> None:
             _set_choices(obj, field, definitions)
     if not hasattr(obj, "WholeModel"):
         obj.addProperty("App::PropertyBool", "WholeModel", GROUP, "All faces that look up, when no face is chosen")
+    if not hasattr(obj, "AcceptedRisks"):
+        risks = "Risks that are taken, by name: what the judge would refuse for them becomes a warning"
+        obj.addProperty("App::PropertyStringList", "AcceptedRisks", GROUP, risks)
     if not hasattr(obj, "Notes"):
         obj.addProperty("App::PropertyStringList", "Notes", GROUP, "What planning has to say")
         obj.setEditorMode("Notes", 1)

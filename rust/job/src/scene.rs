@@ -48,8 +48,15 @@ impl Scene {
     /// Which triangles belong to some faces and do not look down.
     pub(crate) fn looking_up(&self, faces: &[u32]) -> Vec<bool> {
         let faces: HashSet<u32> = faces.iter().copied().collect();
-        let of_faces = self.mesh.faces().iter().map(|face| faces.contains(face));
-        of_faces.enumerate().map(|(triangle, is_of_face)| is_of_face && !self.mesh.looks_down(triangle)).collect()
+        // where a sheet was cut off it is upright too: no tool forms that
+        let is_rim = |triangle: usize, face: u32| {
+            let rises = self.views.get(&face).is_some_and(|view| view.up > 0.0);
+            self.sheet.is_some() && rises && self.mesh.is_upright(triangle)
+        };
+        let looks_up = |(triangle, face): (usize, &u32)| {
+            faces.contains(face) && !self.mesh.looks_down(triangle) && !is_rim(triangle, *face)
+        };
+        self.mesh.faces().iter().enumerate().map(looks_up).collect()
     }
 
     /// Height of the part's lowest point, mm.

@@ -3,6 +3,7 @@
 use crate::findings::Fault;
 use crate::legs::{Leg, LegKind};
 use crate::measure::{highest, normal_of, Measured, Sample, Strike};
+use crate::walls::VERTICAL;
 use crate::{ContactRecord, FindingKind, Forming, Limits, Place, Subject, SLACK};
 
 /// What triangles may add to a wall's angle, rad.
@@ -190,8 +191,9 @@ fn strain(forming: &Forming, leg: &Leg, sample: &Sample) -> impl Iterator<Item =
     let (angle, thickness) = (libm::acos(cos), forming.thickness * cos);
     let at = |kind| Fault { position: sample.tip, ..leg.fault(kind) };
     let most = forming.max_wall_angle;
-    let steep =
-        (angle > most + ANGLE).then(|| at(FindingKind::WallAngle).measured(angle.to_degrees(), most.to_degrees()));
+    // an upright contact may be the blank's edge: `walls` tells it from a wall
+    let steep = (angle > most + ANGLE && cos > VERTICAL)
+        .then(|| at(FindingKind::WallAngle).measured(angle.to_degrees(), most.to_degrees()));
     let thin = (thickness < forming.min_thickness - SLACK)
         .then(|| at(FindingKind::Thinning).measured(thickness, forming.min_thickness));
     steep.into_iter().chain(thin)

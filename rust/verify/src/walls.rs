@@ -13,7 +13,9 @@ use crate::{FindingKind, Limits, Severity, Subject, Vector};
 /// Area that makes a wall, mm^2, and as a share of the faces: less is a sliver's.
 const AREA: (f64, f64) = (1.0, 1e-3);
 /// Normals whose Z is smaller are a vertical wall's.
-const VERTICAL: f64 = 1e-3;
+pub(crate) const VERTICAL: f64 = 1e-3;
+/// Corners of two faces that differ by less are one, mm.
+const SAME: f64 = 1e-4;
 /// A wall that rises from a face rises by more than this, mm.
 const RISES: f64 = 0.1;
 
@@ -29,7 +31,11 @@ pub(crate) fn finding(subject: &Subject, limits: &Limits) -> Option<Finding> {
         let is_formed = |triangle: &usize| forms(passes, subject.mesh, &cutter, above, *triangle);
         let sloped = (0..passes.wanted.len()).filter(|t| passes.wanted[*t] && !is_vertical(subject.mesh, *t));
         let sloped: Vec<usize> = sloped.filter(is_formed).collect();
-        let rising = rising_from(subject.mesh, &sloped).into_iter().filter(is_formed);
+        let all = 0..subject.mesh.triangles().len();
+        let up: Vec<usize> = all.filter(|triangle| subject.mesh.normal(*triangle).z > VERTICAL).collect();
+        let from_any = rising_from(subject.mesh, &up).into_iter().filter(|triangle| passes.wanted[*triangle]);
+        let from_formed = rising_from(subject.mesh, &sloped).into_iter().filter(|triangle| !passes.wanted[*triangle]);
+        let rising = from_any.chain(from_formed).filter(is_formed);
         walls.extend(sloped.iter().copied().chain(rising).map(|triangle| Wall::new(subject.mesh, triangle)));
         area += sloped.iter().map(|triangle| subject.mesh.area(*triangle)).sum::<f64>();
     }
@@ -80,8 +86,8 @@ fn is_vertical(mesh: &Mesh, triangle: usize) -> bool {
 
 /// Vertical triangles that rise from sloped ones. The edge of a plate or sheet is vertical too, and falls from them.
 fn rising_from(mesh: &Mesh, sloped: &[usize]) -> Vec<usize> {
-    let key = |p: Vector| [p.x, p.y, p.z].map(|x| (x + 0.0).to_bits()); // -0 is 0
-    let feet: HashSet<[u64; 3]> = sloped.iter().flat_map(|triangle| mesh.corners(*triangle)).map(key).collect();
+    let key = |p: Vector| [p.x, p.y, p.z].map(|x| (x / SAME).round() as i64);
+    let feet: HashSet<[i64; 3]> = sloped.iter().flat_map(|triangle| mesh.corners(*triangle)).map(key).collect();
     let rises = |triangle: &usize| {
         let corners = mesh.corners(*triangle);
         let highest = corners.iter().map(|corner| corner.z).fold(f64::NEG_INFINITY, f64::max);

@@ -72,7 +72,8 @@ pub fn milling(mesh: &Mesh, looks: &Hollows) -> Milled {
     let (tool, words) = sizes::cutter(mesh, seen.iter().copied().filter(|face| !drilled(face)), shape);
     let mut reasons = vec![words];
     let fits = |face: &&FaceLook| Hollows::bound([*face], 0.5).is_none_or(|radius| 2.02 * radius >= tool.diameter);
-    let (open, narrow): (Vec<&FaceLook>, Vec<&FaceLook>) = walls.iter().partition(|face| fits(face));
+    let walls = walls.into_iter().filter(|face| face.vertical < PRISMATIC || is_touched(mesh, face.face, &tool));
+    let (open, narrow): (Vec<&FaceLook>, Vec<&FaceLook>) = walls.partition(|face| fits(face));
     reasons.extend(left(&narrow, &tool));
     let with_levels = area(&open) >= WORTH * whole && floors.len().max(open.len()) <= NAMES;
     let with_rows = area(&floors) >= WORTH * whole || !with_levels;
@@ -98,6 +99,17 @@ pub fn milling(mesh: &Mesh, looks: &Hollows) -> Milled {
     reasons.push(words.to_owned());
     reasons.push("these are finishing passes: the stock is to be roughed before".to_owned());
     Milled { works, tool, reasons }
+}
+
+/// Whether the tool's side touches an upright face while its tip stays above the part's foot.
+fn is_touched(mesh: &Mesh, face: u32, tool: &Cutter) -> bool {
+    let side = match tool.shape {
+        Shape::Ball => 0.5 * tool.diameter,
+        Shape::Flat => 0.0,
+    };
+    let own = (0..mesh.triangles().len()).filter(|t| mesh.faces()[*t] == face);
+    let top = own.flat_map(|t| mesh.corners(t)).map(|corner| corner.z).fold(f64::NEG_INFINITY, f64::max);
+    top - mesh.bounds().0.z > 1.2 * side
 }
 
 /// Rows serve a face that is wall and floor in one.
