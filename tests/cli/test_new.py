@@ -176,7 +176,7 @@ def made(parts, cli, name, mesh):
 
 
 @pytest.mark.xfail(
-    strict=True, reason="open: levels roll over the outer edge of a sheet that is a solid, and are taken for walls"
+    strict=True, reason="open: levels roll over the outer edge of a sheet with two faces: no walls"
 )
 def test_a_sheet_is_formed_with_its_own_thickness(parts, cli):
     document, reasons = made(parts, cli, "sheet", mesh_of(cup, lambda x, y: cup(x, y) - 0.8))
@@ -189,7 +189,7 @@ def test_a_sheet_is_formed_with_its_own_thickness(parts, cli):
 
 
 @pytest.mark.xfail(
-    strict=True, reason="open: levels roll over the outer edge of a sheet that is a solid, and are taken for walls"
+    strict=True, reason="open: levels roll over the outer edge of a sheet with two faces: no walls"
 )
 def test_a_sheet_that_opens_downward_is_turned_over(parts, cli):
     document, reasons = made(parts, cli, "over", mesh_of(lambda x, y: -cup(x, y), lambda x, y: -cup(x, y) - 0.8))
