@@ -175,7 +175,6 @@ def made(parts, cli, name, mesh):
     return sc.Job.read(parts / f"{name}.toml").document, " ".join(ran.json["reasons"])
 
 
-@pytest.mark.xfail(strict=True, reason="open: levels roll over the outer edge of a sheet with two faces: no walls")
 def test_a_sheet_is_formed_with_its_own_thickness(parts, cli):
     document, reasons = made(parts, cli, "sheet", mesh_of(cup, lambda x, y: cup(x, y) - 0.8))
     assert document["process"]["kind"] == "spif" and document["part"]["model_face"] == "tool"
@@ -186,7 +185,6 @@ def test_a_sheet_is_formed_with_its_own_thickness(parts, cli):
     assert cli("run", parts / "sheet.toml").code == 0
 
 
-@pytest.mark.xfail(strict=True, reason="open: levels roll over the outer edge of a sheet with two faces: no walls")
 def test_a_sheet_that_opens_downward_is_turned_over(parts, cli):
     document, reasons = made(parts, cli, "over", mesh_of(lambda x, y: -cup(x, y), lambda x, y: -cup(x, y) - 0.8))
     assert document["process"]["kind"] == "spif" and document["setup"]["up"] == "-z"

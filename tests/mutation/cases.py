@@ -268,8 +268,7 @@ def arc_case(number: int, folder: Path, family: Family | None = None) -> Case:
     if family in ROUNDED:
         machine, section = family, {"name": family}
     profile = draw.choice([PROFILES[0], PROFILES[2]])
-    # the loops go below the part's foot, where a ball touches the lowest of its sides
-    made = document("z-level", profile, section, z_bottom=-25.0)
+    made = document("z-level", profile, section)
     made["setup"]["zero"] = [draw.choice([0.0, 2.0]), -3.0, 0.0]
     pieces = 0 if family == "heidenhain" else draw.choice([1, 2, 4])
     return Case(

@@ -1,8 +1,8 @@
 //! Which triangles a selection means, and what the model's faces look like to the tool.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
-use styluscam_geometry::Mesh;
+use styluscam_geometry::{Mesh, Vector};
 
 use crate::{JobDocument, JobError, OperationKind, OperationSection, Process, Scene, Selection};
 
@@ -20,6 +20,8 @@ pub struct FaceView {
     pub down: f64,
     /// Area of upright walls, which do neither, mm^2.
     pub upright: f64,
+    /// Area where the part was cut off, mm^2: upright beside what looks down.
+    pub rim: f64,
     /// Largest slope, rad.
     pub steepest: f64,
     /// Whether the part is nothing but triangles: its faces were found, not made by its designer.
@@ -28,6 +30,7 @@ pub struct FaceView {
 
 /// All faces by number.
 pub fn views(mesh: &Mesh) -> BTreeMap<u32, FaceView> {
+    let rims = rims(mesh);
     let mut views: BTreeMap<u32, FaceView> = BTreeMap::new();
     for (t, face) in mesh.faces().iter().enumerate() {
         let (normal, area) = (mesh.normal(t), mesh.area(t));
@@ -37,9 +40,20 @@ pub fn views(mesh: &Mesh) -> BTreeMap<u32, FaceView> {
         view.up += if normal.z > UP { area } else { 0.0 };
         view.down += if mesh.looks_down(t) { area } else { 0.0 };
         view.upright += if normal.z <= UP && !mesh.looks_down(t) { area } else { 0.0 };
+        view.rim += if rims[t] { area } else { 0.0 };
         view.steepest = view.steepest.max(libm::atan2(normal.x.hypot(normal.y), normal.z));
     }
     views
+}
+
+/// Which triangles stand upright and meet one that looks down: of a sheet, these are its cut edges.
+pub fn rims(mesh: &Mesh) -> Vec<bool> {
+    // corners by what they measure: faces of a STEP part share none
+    let key = |p: Vector| (p + Vector::zeros()).map(f64::to_bits);
+    let count = mesh.triangles().len();
+    let looking_down = (0..count).filter(|t| mesh.looks_down(*t));
+    let under: HashSet<_> = looking_down.flat_map(|t| mesh.corners(t)).map(key).collect();
+    (0..count).map(|t| mesh.is_upright(t) && mesh.corners(t).into_iter().any(|p| under.contains(&key(p)))).collect()
 }
 
 /// The faces that an operation is for, in order of their numbers: its own selection, or the part's.
@@ -58,8 +72,9 @@ pub fn of_operation(
     };
     let all = match (section.kind, job.process.kind) {
         (OperationKind::ZLevel, Process::Milling) => Look::UpOrAside,
-        // an upright wall of a sheet is where it was cut off, and rows pass walls at one height only
-        (OperationKind::ZLevel, Process::Spif) | (OperationKind::ZigZag, _) => Look::Up,
+        (_, Process::Spif) => Look::UpButRims,
+        // rows pass walls at one height only
+        (OperationKind::ZigZag, Process::Milling) => Look::Up,
     };
     chosen(selection, &scene.views, all, job.part.allow_undercuts, &place)
 }
@@ -69,6 +84,8 @@ pub fn of_operation(
 pub enum Look {
     /// Those that look up.
     Up,
+    /// As [`Up`](Self::Up); of a mesh upright walls too, but for those where a sheet was cut off.
+    UpButRims,
     /// Upright walls too.
     UpOrAside,
 }
@@ -87,7 +104,11 @@ pub fn chosen(
     match selection {
         Selection::All => {
             // a mesh is meant whole: that its walls are faces of their own changes no job
-            let aside = |view: &FaceView| view.upright > 0.0 && (all == Look::UpOrAside || view.is_found);
+            let aside = |view: &FaceView| match all {
+                Look::Up => view.is_found && view.upright > 0.0,
+                Look::UpButRims => view.is_found && view.upright > 0.0 && view.rim == 0.0,
+                Look::UpOrAside => view.upright > 0.0,
+            };
             let looks = |view: &FaceView| view.up > 0.0 || aside(view);
             let up: Vec<u32> = views.iter().filter(|(_, view)| looks(view)).map(|(n, _)| *n).collect();
             if up.is_empty() {

