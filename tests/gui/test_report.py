@@ -136,7 +136,6 @@ def test_it_loads_without_a_complaint_and_asks_for_nothing(tab: Tab, page: Path)
     assert len(tab.picture("#stage")) > 20_000
 
 
-@pytest.mark.xfail(strict=False, reason="open: the table of faces is wider than a narrow page")
 def test_the_page_fits_wide_and_narrow(opened: Tab) -> None:
     for size in (WIDE, (1050, 700), (700, 900), NARROW):
         opened.size(*size)
@@ -294,7 +293,6 @@ def test_any_program_without_a_part(tab: Tab, folder: Path, subject: Subject) ->
     assert tab.run("document.querySelector('#map')") is None
 
 
-@pytest.mark.xfail(strict=False, reason="open: the table of faces is wider than a narrow page")
 def test_two_programs_fit_side_by_side(tab: Tab, folder: Path, subject: Subject) -> None:
     both = folder / "both.html"
     both.write_text(comparison_page([subject, subject]), encoding="utf-8")
