@@ -6,6 +6,7 @@ import io
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -87,14 +88,21 @@ def quiet_kernel() -> Iterator[None]:
             messenger.AddPrinter(printer)
 
 
+@cache
+def thrown_by_kernel() -> tuple[type[Exception], ...]:
+    """Every class of exceptions of the kernel: in Python none of them derives from another."""
+    from OCP import Standard, StdFail
+
+    classes = [*vars(Standard).values(), *vars(StdFail).values()]
+    return tuple(cls for cls in classes if isinstance(cls, type) and issubclass(cls, Exception))
+
+
 @contextmanager
 def kernel_failures(file: Path) -> Iterator[None]:
     """Turn what the kernel throws into a sentence: its own words are names of its classes."""
-    from OCP.Standard import Standard_Failure
-
     try:
         yield
-    except Standard_Failure as error:
+    except thrown_by_kernel() as error:
         cure = "open the part in a CAD system, check its geometry there and export it again"
         raise GeometryError(
             f"{file}: the CAD kernel gives up on its geometry: {cure}",
@@ -366,7 +374,6 @@ def _parametric(face: Kernel, outward: float) -> Parametric:
     from OCP.BRepTools import BRepTools
     from OCP.Geom import Geom_BSplineSurface, Geom_RectangularTrimmedSurface
     from OCP.GeomConvert import GeomConvert
-    from OCP.Standard import Standard_Failure
 
     surface = BRep_Tool.Surface_s(face)
     while isinstance(surface, Geom_RectangularTrimmedSurface):
@@ -379,7 +386,7 @@ def _parametric(face: Kernel, outward: float) -> Parametric:
         try:
             trimmed = Geom_RectangularTrimmedSurface(surface, u0, u1, v0, v1)
             surface = GeomConvert.SurfaceToBSplineSurface_s(trimmed)
-        except Standard_Failure:
+        except thrown_by_kernel():
             return Parametric(*_by_kernel(face), *none, outward)
     nurbs = nurbs_of(surface)
     return Parametric(nurbs, nurbs.bounds, *none, outward)

@@ -228,6 +228,10 @@ class Parametric:
     ROUNDS = 40
     # A chord between two points of a border may leave the parameter domain by this part of it.
     OVERSHOOT = 0.01
+    # A bound that is shorter than this part of the surface is a pole.
+    POLE = 1e-7
+    # Ways off a pole that are tried.
+    SIDES = 33
 
     def distance(self, points: Floats) -> Floats:
         """See ExactSurface; right for points nearer to the surface than its smallest radius of curvature."""
@@ -277,6 +281,7 @@ class Parametric:
         low, high = self._limits
         active = np.arange(len(points))
         for _ in range(self.ROUNDS):
+            self._leave_poles(points, foot, active)
             surface[active], along_u[active], along_v[active] = now = self.evaluate(foot[active])
             step = _tangent_step(points[active] - now[0], now[1], now[2])
             moved = np.clip(foot[active] + step, low, high)
@@ -288,11 +293,65 @@ class Parametric:
                 break
         return foot, surface, along_u, along_v
 
+    def beside_poles(self, uv: Floats) -> Floats:
+        """Return the parameters (N,k,2) of the corners of N triangles or edges, those on a pole made fit for the others.
+
+        All of a bound is one point at a pole: there the parameter along the bound is the mean of the other corners'.
+        """
+        uv = uv.copy()
+        for bound, value in enumerate(self.bounds):
+            if self._is_pole[bound]:
+                across, along = bound // 2, 1 - bound // 2
+                on_pole = np.abs(uv[:, :, across] - value) <= 1e-9 * max(1.0, abs(value))
+                others = (~on_pole).sum(axis=1)
+                mean = np.where(on_pole, 0.0, uv[:, :, along]).sum(axis=1) / np.maximum(others, 1)
+                uv[:, :, along] = np.where(on_pole & (others > 0)[:, None], mean[:, None], uv[:, :, along])
+        return uv
+
+    @cached_property
+    def _is_pole(self) -> tuple[bool, ...]:
+        """Whether the bounds u0, u1, v0 and v1 are one point each."""
+        ends = np.reshape(self.bounds, (2, 2))
+        places = np.stack(np.meshgrid(*np.linspace(*ends.T, 5).T), axis=-1).reshape(-1, 2)
+        size = np.ptp(self.evaluate(places)[0], axis=0).max()
+        found = []
+        for bound, value in enumerate(self.bounds):
+            along = 1 - bound // 2
+            uv = np.full((5, 2), value)
+            uv[:, along] = np.linspace(*ends[along], 5)
+            found.append(bool(np.ptp(self.evaluate(uv)[0], axis=0).max() <= self.POLE * size))
+        return tuple(found)
+
+    def _leave_poles(self, points: Floats, foot: Floats, active: NDArray[np.intp]) -> None:
+        """Turn those of the feet (N,2) that stand on a pole to the side on which their points (N,3) lie."""
+        for bound, (along, inward) in self._round_poles.items():
+            near = np.abs(foot[active, bound // 2] - self.bounds[bound]) <= self.POLE * abs(np.diff(self.bounds)[bound & 2])
+            standing = active[near]
+            if len(standing):
+                away = points[standing] - self.evaluate(foot[standing])[0]
+                foot[standing, 1 - bound // 2] = along[np.argmax(away @ inward.T, axis=1)]
+
+    @cached_property
+    def _round_poles(self) -> dict[int, tuple[Floats, Floats]]:
+        """For each bound that is a pole parameters (K,) along it, and the unit ways (K,3) that lead off it there."""
+        found = {}
+        for bound in np.flatnonzero(self._is_pole).tolist():
+            across, opposite = bound // 2, self.bounds[bound ^ 1]
+            u0, u1, v0, v1 = self.bounds
+            along = np.linspace(*((v0, v1) if across == 0 else (u0, u1)), self.SIDES)
+            uv = np.full((self.SIDES, 2), self.bounds[bound])
+            uv[:, 1 - across] = along
+            pole = self.evaluate(uv)[0]
+            uv[:, across] += 1e-3 * (opposite - self.bounds[bound])
+            found[bound] = along, unit(self.evaluate(uv)[0] - pole)
+        return found
+
     @cached_property
     def _limits(self) -> tuple[Floats, Floats]:
+        # beyond a pole the surface turns over
         u0, u1, v0, v1 = self.bounds
-        slack = self.OVERSHOOT * np.array([u1 - u0, v1 - v0])
-        return np.array([u0, v0]) - slack, np.array([u1, v1]) + slack
+        slack = self.OVERSHOOT * np.repeat([u1 - u0, v1 - v0], 2) * ~np.array(self._is_pole)
+        return np.array([u0 - slack[0], v0 - slack[2]]), np.array([u1 + slack[1], v1 + slack[3]])
 
     def _oriented(self, uv: Floats, along_u: Floats, along_v: Floats) -> Floats:
         """Return unit normals out of the material, from the derivatives at uv (N,2)."""
@@ -316,7 +375,7 @@ def _tangent_step(residual: Floats, along_u: Floats, along_v: Floats) -> Floats:
     ru = np.einsum("ij,ij->i", residual, along_u)
     rv = np.einsum("ij,ij->i", residual, along_v)
     determinant = uu * vv - uv * uv
-    regular = determinant > 1e-14 * np.maximum(uu * vv, 1e-300)
+    regular = determinant > np.maximum(1e-14 * uu * vv, 1e-20 * np.maximum(uu, vv) ** 2)
     safe = np.where(regular, determinant, 1.0)
     step = np.stack([ru * vv - rv * uv, rv * uu - ru * uv], axis=1) / safe[:, None]
     # Where one derivative vanishes (a pole), walk along the other.

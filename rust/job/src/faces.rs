@@ -9,6 +9,9 @@ use crate::{JobDocument, JobError, OperationKind, OperationSection, Process, Sce
 /// Normals whose Z is above this look up; a wall of 89.9 degrees still does.
 const UP: f64 = 1e-3;
 
+/// Share of a face that may look down and is no undercut: triangles of an upright side lean by their deviation.
+const LEAST_UNDERCUT: f64 = 1e-3;
+
 /// A face of the model as its triangles show it in work coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FaceView {
@@ -144,7 +147,7 @@ fn named(name: &str, views: &BTreeMap<u32, FaceView>, allow_undercuts: bool, pla
             format!("it has {}; see `styluscam part show`", listed(views)),
         ));
     };
-    if view.down > 0.0 && !allow_undercuts {
+    if view.down > LEAST_UNDERCUT * view.area && !allow_undercuts {
         let share = 100.0 * view.down / view.area;
         return Err(JobError::document(
             "undercut",

@@ -251,6 +251,7 @@ pub fn operation(
     let envelope = Envelope::new(&scene.mesh, &scene.index, tool, scene.sheet.as_ref(), budget.margin);
     let heights = TipHeights::of(job, scene, section);
     let surface = Surface::new(&envelope, &selected).between_heights(bounds(section, heights));
+    let surface = if scene.sheet.is_some() { surface.from_above() } else { surface };
     let task = Task { job, scene, machine, section, index, heights, budget: &budget };
     let (passes, smallest_feature) = task.passes(&surface, watch).map_err(JobError::planning(&place))?;
     let offset = offset_of(scene, tool, &envelope, &faces, section.tolerance, watch)?;

@@ -31,25 +31,34 @@ pub struct Surface<'a> {
     /// By triangle; none: all of them, and the borders of the mesh.
     selected: Option<&'a [bool]>,
     heights: [f64; 2],
+    /// Whether what rolls over the upper edges of the selection counts.
+    from_above: bool,
 }
 
 impl<'a> Surface<'a> {
     /// `selected` says of each triangle whether its face was asked for.
     #[must_use]
     pub fn new(envelope: &'a Envelope<'a>, selected: &'a [bool]) -> Self {
-        Self { envelope, selected: Some(selected), heights: EVERYWHERE }
+        Self { envelope, selected: Some(selected), heights: EVERYWHERE, from_above: false }
     }
 
     /// All that the tool can touch counts as selected.
     #[must_use]
     pub fn whole(envelope: &'a Envelope<'a>) -> Self {
-        Self { envelope, selected: None, heights: EVERYWHERE }
+        Self { envelope, selected: None, heights: EVERYWHERE, from_above: false }
     }
 
     /// The same surface, of which only what has its tip between two heights counts as selected.
     #[must_use]
     pub fn between_heights(&self, heights: [f64; 2]) -> Self {
         Self { heights, ..*self }
+    }
+
+    /// The same surface, on which the tool also counts as touching what was selected while it rolls over the upper edges
+    /// of that: so a sheet is formed from its flat top down, step by step, though only the walls were selected.
+    #[must_use]
+    pub fn from_above(&self) -> Self {
+        Self { from_above: true, ..*self }
     }
 
     /// The envelope.
@@ -108,7 +117,7 @@ impl<'a> Surface<'a> {
             tip: Vector::new(x, y, contact.tip),
             normal: contact.normal,
             selected: (self.heights[0]..=self.heights[1]).contains(&contact.tip)
-                && self.selected.is_none_or(|selected| self.envelope.belongs(contact, selected, SPREAD)),
+                && self.selected.is_none_or(|selected| self.envelope.belongs(contact, selected, SPREAD, self.from_above)),
             triangle: contact.triangle,
         }
     }

@@ -168,8 +168,7 @@ impl Look<'_> {
         let asked = self.wanted.iter().copied().filter(|triangle| spacing.touches(self.subject.mesh.normal(*triangle)));
         let asked: Vec<usize> = asked.collect();
         let spots = probes::spread(self.subject.mesh, &asked, TOUCHING).into_par_iter();
-        let touching =
-            spots.filter_map(|probe| self.spot(&probe)).filter(|spot| self.clearance(spot.position) >= -ROOM);
+        let touching = spots.filter_map(|probe| self.spot(&probe)).filter(|spot| self.can_touch(spot));
         touching.map(|spot| spacing.value(spot.tip.into())).collect()
     }
 
@@ -187,7 +186,7 @@ impl Look<'_> {
             let spot = self.spot(probe)?;
             let allowed = ON_PASS + self.tolerated();
             let left = sweeps.left_beyond(spot.point, allowed, spot.position, last)?;
-            let missing = self.clearance(spot.position) >= -ROOM && !self.passes_beside(&spot, sweeps);
+            let missing = self.can_touch(&spot) && !self.passes_beside(&spot, sweeps);
             missing.then(|| self.missing_pass(&spot, last.as_ref(), left, allowed)).flatten()
         })?;
         Ok(self.of_long_gaps(faults))
@@ -234,7 +233,7 @@ impl Look<'_> {
         let places = |share: f64| [spot.position + share * step, spot.position - share * step];
         let amidst = CURVED_AMIDST * self.leaves(spot.point, places(0.5));
         let left = sweeps.left_beyond(spot.point, amidst, spot.position, last)?;
-        if self.clearance(spot.position) < -ROOM {
+        if !self.can_touch(&spot) {
             return None;
         }
         // in the midst of a face a pass is half a step away at most, at its ends a whole one; where it does not go on at
@@ -273,6 +272,14 @@ impl Look<'_> {
     fn asked_for(&self, position: Vector) -> bool {
         let [lowest, highest] = self.passes.heights;
         (lowest..=highest).contains(&self.body.tip(position)[2])
+    }
+
+    /// Whether the tool can touch at a spot and a little farther down: where it only does so within [`ROOM`] of an edge
+    /// beside a floor, no pass is wanted.
+    fn can_touch(&self, spot: &Spot) -> bool {
+        let down = (spot.up * spot.up.z - Vector::z()).try_normalize(LEVEL);
+        let lower = spot.position + down.map_or(Vector::zeros(), |down| 2.0 * ROOM * down);
+        [spot.position, lower].into_iter().all(|position| self.clearance(position) >= -ROOM)
     }
 
     fn clearance(&self, position: Vector) -> f64 {

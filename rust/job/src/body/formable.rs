@@ -6,6 +6,10 @@ use super::Body;
 pub const FORMED_DEG: f64 = 70.0;
 /// Share of the area that may be steeper: the sheet's own rim.
 const RIM: f64 = 0.03;
+/// What is less steep is level, degrees.
+const LEVEL_DEG: f64 = 1.0;
+/// Share of the area that slopes, at least: where floors lie at several heights and nothing slopes, walls between them are upright.
+const SLOPING: f64 = 0.01;
 /// Share of the plan that may stand above the border: embossed places.
 const EMBOSSED: f64 = 0.02;
 /// A sheet that is not deeper than this many thicknesses is flat.
@@ -26,6 +30,8 @@ pub enum Unformable {
     LowBorder(f64),
     /// This share of its area is steeper than [`FORMED_DEG`].
     Steep(f64),
+    /// Its floors lie at several heights, and no wall between them slopes.
+    Stepped,
 }
 
 impl std::fmt::Display for Unformable {
@@ -41,6 +47,7 @@ impl std::fmt::Display for Unformable {
             Self::Steep(share) => {
                 write!(f, "{:.0} % of it are walls of {FORMED_DEG} degrees and more, which tear a sheet", 100.0 * share)
             }
+            Self::Stepped => write!(f, "its floors lie at several heights with upright walls between, which tear a sheet"),
         }
     }
 }
@@ -60,6 +67,9 @@ pub fn depth(body: &Body<'_>, thickness: Option<f64>) -> Result<f64, Unformable>
     let steep = body.steeper(FORMED_DEG);
     if steep > RIM {
         return Err(Unformable::Steep(steep));
+    }
+    if body.steeper(LEVEL_DEG) - steep < SLOPING {
+        return Err(Unformable::Stepped);
     }
     Ok(depth)
 }

@@ -394,16 +394,20 @@ impl<'a> Envelope<'a> {
     /// Whether the contact belongs to triangles that `selected` accepts, all of those that meet there.
     ///
     /// Rolling over an edge or corner between selected and other faces, the contact belongs to the selected one while
-    /// its normal is within `spread` (rad) of the selected facet's.
+    /// its normal is within `spread` (rad) of the selected facet's; `from_above` also while it is less steep.
     #[must_use]
-    pub fn belongs(&self, contact: &Contact, selected: &[bool], spread: f64) -> bool {
+    pub fn belongs(&self, contact: &Contact, selected: &[bool], spread: f64, from_above: bool) -> bool {
+        let is_like = |t: u32| {
+            let normal = self.mesh.normal(t as usize);
+            normal.dot(&contact.normal) >= libm::cos(spread) || (from_above && contact.normal.z >= normal.z)
+        };
         match contact.feature {
             Feature::Facet => selected[contact.triangle as usize],
             Feature::Edge(i) => {
                 let other = self.neighbours(contact.triangle)[usize::from(i)];
-                self.faces_like([contact.triangle, other], contact, selected, spread)
+                faces_like([contact.triangle, other], selected, is_like)
             }
-            Feature::Corner(i) => self.faces_like(self.around(contact, i), contact, selected, spread),
+            Feature::Corner(i) => faces_like(self.around(contact, i), selected, is_like),
         }
     }
 
@@ -448,23 +452,21 @@ impl<'a> Envelope<'a> {
         let beyond = self.index.neighbours(self.index.place(triangle));
         beyond.map(|place| if place == NO_NEIGHBOUR { NO_NEIGHBOUR } else { self.index.number(place) })
     }
+}
 
-    /// Whether the contact's normal lies within `spread` of a selected triangle's, or all triangles are selected.
-    fn faces_like(
-        &self,
-        triangles: impl IntoIterator<Item = u32>,
-        contact: &Contact,
-        selected: &[bool],
-        spread: f64,
-    ) -> bool {
-        let (mut all, mut near) = (true, false);
-        for t in triangles {
-            let on = t != NO_NEIGHBOUR && selected[t as usize];
-            all &= on;
-            near |= on && self.mesh.normal(t as usize).dot(&contact.normal) >= libm::cos(spread);
-        }
-        all || near
+/// Whether one of the selected triangles is like a contact, or all are selected.
+fn faces_like(
+    triangles: impl IntoIterator<Item = u32>,
+    selected: &[bool],
+    is_like: impl Fn(u32) -> bool,
+) -> bool {
+    let (mut all, mut near) = (true, false);
+    for t in triangles {
+        let on = t != NO_NEIGHBOUR && selected[t as usize];
+        all &= on;
+        near |= on && is_like(t);
     }
+    all || near
 }
 
 /// The unit normal of a contact of some slope, from which the axis stands some way away in plan.
