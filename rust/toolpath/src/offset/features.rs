@@ -1,7 +1,8 @@
 //! Which edges and corners of a mesh a drop-cutter must try, and whose they are.
 //!
 //! An edge between two facets that meet in a valley or lie in one plane can carry no contact that
-//! a facet does not carry as well, and is left out. Every other edge is tried once, by the
+//! a facet does not carry as well, and is left out; so is one below an upright facet, for what stands over it in plan is
+//! higher. Every other edge is tried once, by the
 //! first triangle that has it; every corner likewise.
 
 use rayon::prelude::*;
@@ -25,6 +26,8 @@ pub const NO_NEIGHBOUR: u32 = u32::MAX;
 
 /// Two facets count as meeting in a valley only beyond this height of one over the other's plane, relative to size.
 const VALLEY: f64 = 1e-12;
+/// A facet stands upright when its normal rises by less: over its height it leans by less than counts as rounding.
+const UPRIGHT: f64 = 1e-13;
 
 /// Ownership and neighbours of all triangles; `firsts` says of each which corners no triangle before it has. None
 /// when `watch` is cancelled.
@@ -95,25 +98,48 @@ fn owned_edges(triangles: &Triangles, neighbours: &[Neighbours], t: usize) -> Ow
     let mut owned = 0;
     for (i, other) in neighbours[t].into_iter().enumerate() {
         let mine = other == NO_NEIGHBOUR || ((t as u32) < other && !is_valley(triangles, t, i, other));
-        owned |= u8::from(mine) << i;
+        let is_under = || [(t as u32), other].into_iter().any(|wall| stands_on(triangles, wall, side(triangles, t, i)));
+        owned |= u8::from(mine && !is_under()) << i;
     }
     owned
+}
+
+/// The corners of a triangle's edge, by number.
+fn side(triangles: &Triangles, t: usize, i: usize) -> [u32; 2] {
+    let corners = triangles.corners[t];
+    [corners[i], corners[(i + 1) % 3]]
+}
+
+/// Whether a facet stands upright on an edge, given by its corners: over each of its points there is a point of the facet.
+fn stands_on(triangles: &Triangles, wall: u32, edge: [u32; 2]) -> bool {
+    if wall == NO_NEIGHBOUR {
+        return false;
+    }
+    let Some(top) = triangles.corners[wall as usize].iter().position(|corner| !edge.contains(corner)) else {
+        return false;
+    };
+    let corners = triangles.at(wall);
+    let (c, a, b) = (corners[top], corners[(top + 1) % 3], corners[(top + 2) % 3]);
+    let normal = normal::of(corners);
+    let along = (b - a).xy();
+    // the edge's height below the third corner; a vertical edge has nothing over it
+    let share = along.dot(&(c - a).xy()) / along.norm_squared();
+    normal.z.abs() <= UPRIGHT * normal.norm() && along.norm() > 0.0 && c.z > a.z + share * (b.z - a.z)
 }
 
 /// Whether the facets lie on both sides of the edge in plan and neither falls away below the other's plane.
 fn is_valley(triangles: &Triangles, t: usize, i: usize, other: u32) -> bool {
     let corners = triangles.at(t as u32);
     let (a, b, c) = (corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]);
-    let names = triangles.corners[t];
-    let edge = [names[i], names[(i + 1) % 3]];
+    let edge = side(triangles, t, i);
     let Some(k) = triangles.corners[other as usize].iter().position(|v| !edge.contains(v)) else {
         return false;
     };
     let d = triangles.at(other)[k];
-    let side = |p: Vector| (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+    let aside = |p: Vector| (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
     let normal = normal::of(corners);
     let size = normal.norm() * (b - a).norm().max((d - a).norm());
     let lies_over = (d - a).dot(&normal) * normal.z.signum();
     let thin = 1e-9 * size;
-    normal.z.abs() > thin && side(c) * side(d) < 0.0 && lies_over >= -VALLEY * size
+    normal.z.abs() > thin && aside(c) * aside(d) < 0.0 && lies_over >= -VALLEY * size
 }
