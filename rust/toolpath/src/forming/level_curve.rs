@@ -45,7 +45,7 @@ impl<'a> LevelCurve<'a> {
 
     /// Whether the tip must stay above the level at a place.
     pub fn is_above(&mut self, [x, y]: Place) -> bool {
-        self.surface.envelope().tip_near(x, y, &mut self.hint).is_some_and(|tip| is_over(tip, self.z))
+        self.surface.envelope().is_over(x, y, self.z + OVER, &mut self.hint)
     }
 
     fn contact(&mut self, [x, y]: Place) -> Option<Contact> {

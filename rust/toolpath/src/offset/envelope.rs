@@ -135,6 +135,16 @@ impl<'a> Envelope<'a> {
         self.found_near(x, y, hint).map(|found| found.tip + self.above)
     }
 
+    /// Whether the tip must stay higher than `z` at (x, y): quicker than its height. `hint` is as in
+    /// [`contact_near`](Self::contact_near).
+    #[must_use]
+    pub fn is_over(&self, x: f64, y: f64, z: f64, hint: &mut Option<u32>) -> bool {
+        let near = hint.map(|number| self.index.place(number));
+        let found = Searcher::with(|searcher| searcher.over(&self.ground(), [x, y], z - self.above, near));
+        *hint = found.map(|triangle| self.index.number(triangle)).or(*hint);
+        found.is_some()
+    }
+
     fn found_near(&self, x: f64, y: f64, hint: &mut Option<u32>) -> Option<Best> {
         let near = hint.map(|number| self.index.place(number));
         let found = Searcher::with(|searcher| searcher.one(&self.ground(), [x, y], near));

@@ -51,6 +51,17 @@ pub enum Verdict {
     Open,
 }
 
+/// What a walk looks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Wanted {
+    /// The highest contact over the place.
+    Highest,
+    /// Any contact over the place that is over a height.
+    Over(f64),
+    /// The highest contact, and what may be touched elsewhere in the tile.
+    Candidates,
+}
+
 /// Memory of a search, used again from tile to tile.
 #[derive(Default)]
 pub struct Searcher {
@@ -86,9 +97,23 @@ impl Searcher {
     fn one_among(&mut self, ground: &Ground<'_>, survey: &Survey, place: [f64; 2]) -> Best {
         let tile = ground.tile(&[place], &[0]);
         let mut found = ground.guess(place, self.last);
-        self.explore(ground, survey, &tile, place, &mut found, false);
+        self.explore(ground, survey, &tile, place, &mut found, Wanted::Highest);
         self.remember(&found);
         found
+    }
+
+    /// A triangle over which the tip must stay higher than `z` at a place, if there is one. `hint`: a triangle near it.
+    pub fn over(&mut self, ground: &Ground<'_>, place: [f64; 2], z: f64, hint: Option<u32>) -> Option<u32> {
+        self.last = hint.or(self.last);
+        let mut found = ground.guess(place, self.last);
+        if found.tip <= z {
+            // what does not rise over the height is passed over
+            found.tip = z;
+            let tile = ground.tile(&[place], &[0]);
+            self.explore(ground, &Survey::whole(ground), &tile, place, &mut found, Wanted::Over(z));
+        }
+        self.remember(&found);
+        (found.tip > z).then_some(found.triangle)
     }
 
     /// The highest contacts over the places of some tiles, one after the other in `members`, beginning at `starts`.
@@ -124,7 +149,7 @@ impl Searcher {
         }
         let tile = ground.tile(places, members);
         let mut found = ground.guess(tile.middle, self.last);
-        self.explore(ground, survey, &tile, tile.middle, &mut found, true);
+        self.explore(ground, survey, &tile, tile.middle, &mut found, Wanted::Candidates);
         self.remember(&found);
         let count = self.candidates.count();
         if count > CROWDED && (count as f64) < WORTH_QUARTERING * before as f64 {
@@ -219,7 +244,7 @@ impl Searcher {
     pub fn verdict(&mut self, ground: &Ground<'_>, corners: &[[f64; 2]; 2], z: f64) -> Verdict {
         let tile = ground.tile(corners, &[0, 1]);
         let mut found = ground.guess(tile.middle, self.last);
-        self.explore(ground, &Survey::whole(ground), &tile, tile.middle, &mut found, true);
+        self.explore(ground, &Survey::whole(ground), &tile, tile.middle, &mut found, Wanted::Candidates);
         self.remember(&found);
         if found.tip > z {
             let above = ground.contacts.least(found.triangle, tile.middle, tile.half) > z;
@@ -328,8 +353,9 @@ impl Searcher {
         tile: &Tile,
         place: [f64; 2],
         found: &mut Best,
-        collect: bool,
+        wanted: Wanted,
     ) {
+        let collect = wanted == Wanted::Candidates;
         let view = View::of(ground, tile, found);
         let mut floor = ground.floor(tile, found, view.zero, collect);
         self.candidates.clear(view.zero);
@@ -364,6 +390,9 @@ impl Searcher {
                 if f64::from(values[lane] + spare) + view.zero >= found.tip {
                     let before = found.tip;
                     ground.contacts.touch(triangle, place, found);
+                    if matches!(wanted, Wanted::Over(z) if found.tip > z) {
+                        return;
+                    }
                     if found.tip > before {
                         floor = ground.floor(tile, found, view.zero, collect);
                     }
