@@ -15,6 +15,7 @@ __all__ = [
     "Job",
     "Judgement",
     "Machine",
+    "Nurbs",
     "Part",
     "Plan",
     "Program",
@@ -24,6 +25,7 @@ __all__ = [
     "__version__",
     "cl_text",
     "drop_cutter",
+    "feet",
     "job_schema",
     "judge",
     "lines_of_moves",
@@ -302,3 +304,19 @@ def starter(
     edge_gap: float = 0.0,
 ) -> tuple[str, list[str]]: ...
 def shipped_machines() -> list[str]: ...
+
+@final
+class Nurbs:
+    def __new__(
+        cls, degrees: tuple[int, int], knots_u: list[float], knots_v: list[float], poles: _F, weights: _F
+    ) -> Nurbs: ...
+    def __call__(self, parameters: _F) -> tuple[_F, _F, _F]: ...
+
+def feet(
+    surface: Nurbs | Callable[[_F], tuple[_F, _F, _F]],
+    points: _F,
+    near: _F,
+    limits: tuple[tuple[float, float], tuple[float, float]],
+    poles: list[tuple[int, float, float, _F, _F]],
+    step: float,
+) -> tuple[_F, tuple[_F, _F, _F]]: ...

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import _engine
+
 Floats: TypeAlias = NDArray[np.float64]
 Vector: TypeAlias = tuple[float, float, float]
-
-# Points evaluated together: small enough that the temporaries of one chunk stay in the processor's cache.
-CHUNK = 16384
 
 
 @runtime_checkable
@@ -225,7 +224,6 @@ class Parametric:
     # Newton stops when a step moves the foot point by less than this (mm): the distance is then off by its square over
     # twice the radius of curvature, 2e-8 mm where that is 0.01 mm.
     STEP = 2e-5
-    ROUNDS = 40
     # A chord between two points of a border may leave the parameter domain by this part of it.
     OVERSHOOT = 0.01
     # A bound that is shorter than this part of the surface is a pole.
@@ -246,7 +244,7 @@ class Parametric:
         foot, surface, along_u, along_v = self._foot(points, uv)
         away = points - surface
         height = np.einsum("ij,ij->i", away, self._oriented(foot, along_u, along_v))
-        low, high = self._limits
+        low, high = map(np.array, self._limits)
         outside = ((foot <= low) | (foot >= high)).any(axis=1)
         size = np.sqrt(np.einsum("ij,ij->i", away, away))
         return np.asarray(np.where(outside, np.copysign(size, height), height))
@@ -276,22 +274,12 @@ class Parametric:
         Point and derivatives are those before the last step, which is below STEP: the height over their tangent
         plane is the distance up to its square.
         """
-        foot = np.array(uv, dtype=np.float64)
-        surface, along_u, along_v = (np.empty((len(points), 3)) for _ in range(3))
-        low, high = self._limits
-        active = np.arange(len(points))
-        for _ in range(self.ROUNDS):
-            self._leave_poles(points, foot, active)
-            surface[active], along_u[active], along_v[active] = now = self.evaluate(foot[active])
-            step = _tangent_step(points[active] - now[0], now[1], now[2])
-            moved = np.clip(foot[active] + step, low, high)
-            step = np.abs(moved - foot[active])
-            foot[active] = moved
-            length = step[:, 0] * np.abs(now[1]).max(axis=1) + step[:, 1] * np.abs(now[2]).max(axis=1)
-            active = active[length > self.STEP]
-            if not len(active):
-                break
-        return foot, surface, along_u, along_v
+        surface = self.evaluate.engine if isinstance(self.evaluate, Nurbs) else self.evaluate
+        near = np.ascontiguousarray(uv, dtype=np.float64)
+        foot, found = _engine.feet(
+            surface, np.ascontiguousarray(points), near, self._limits, self._round_poles, self.STEP
+        )
+        return foot, *found
 
     def beside_poles(self, uv: Floats) -> Floats:
         """Return the parameters (N,k,2) of the corners of N triangles or edges, those on a pole made fit for the others.
@@ -322,36 +310,27 @@ class Parametric:
             found.append(bool(np.ptp(self.evaluate(uv)[0], axis=0).max() <= self.POLE * size))
         return tuple(found)
 
-    def _leave_poles(self, points: Floats, foot: Floats, active: NDArray[np.intp]) -> None:
-        """Turn those of the feet (N,2) that stand on a pole to the side on which their points (N,3) lie."""
-        for bound, (along, inward) in self._round_poles.items():
-            near = np.abs(foot[active, bound // 2] - self.bounds[bound]) <= self.POLE * abs(np.diff(self.bounds)[bound & 2])
-            standing = active[near]
-            if len(standing):
-                away = points[standing] - self.evaluate(foot[standing])[0]
-                foot[standing, 1 - bound // 2] = along[np.argmax(away @ inward.T, axis=1)]
-
     @cached_property
-    def _round_poles(self) -> dict[int, tuple[Floats, Floats]]:
-        """For each bound that is a pole parameters (K,) along it, and the unit ways (K,3) that lead off it there."""
-        found = {}
+    def _round_poles(self) -> list[tuple[int, float, float, Floats, Floats]]:
+        """For each bound that is a pole: the parameter that is fixed, its value, how near it is meant; values (K,) of the
+        other one, and the unit ways (K,3) that lead off the pole at them."""
+        ends = np.reshape(self.bounds, (2, 2))
+        found = []
         for bound in np.flatnonzero(self._is_pole).tolist():
-            across, opposite = bound // 2, self.bounds[bound ^ 1]
-            u0, u1, v0, v1 = self.bounds
-            along = np.linspace(*((v0, v1) if across == 0 else (u0, u1)), self.SIDES)
-            uv = np.full((self.SIDES, 2), self.bounds[bound])
-            uv[:, 1 - across] = along
-            pole = self.evaluate(uv)[0]
-            uv[:, across] += 1e-3 * (opposite - self.bounds[bound])
-            found[bound] = along, unit(self.evaluate(uv)[0] - pole)
+            fixed, value, inward = bound // 2, self.bounds[bound], self.bounds[bound ^ 1] - self.bounds[bound]
+            uv = np.full((self.SIDES, 2), value)
+            uv[:, 1 - fixed] = np.linspace(*ends[1 - fixed], self.SIDES)
+            pole, along = self.evaluate(uv)[0], uv[:, 1 - fixed].copy()
+            uv[:, fixed] += 1e-3 * inward
+            found.append((fixed, value, self.POLE * abs(inward), along, unit(self.evaluate(uv)[0] - pole)))
         return found
 
     @cached_property
-    def _limits(self) -> tuple[Floats, Floats]:
+    def _limits(self) -> tuple[tuple[float, float], tuple[float, float]]:
         # beyond a pole the surface turns over
         u0, u1, v0, v1 = self.bounds
-        slack = self.OVERSHOOT * np.repeat([u1 - u0, v1 - v0], 2) * ~np.array(self._is_pole)
-        return np.array([u0 - slack[0], v0 - slack[2]]), np.array([u1 + slack[1], v1 + slack[3]])
+        slack = (self.OVERSHOOT * np.repeat([u1 - u0, v1 - v0], 2) * ~np.array(self._is_pole)).tolist()
+        return (u0 - slack[0], v0 - slack[2]), (u1 + slack[1], v1 + slack[3])
 
     def _oriented(self, uv: Floats, along_u: Floats, along_v: Floats) -> Floats:
         """Return unit normals out of the material, from the derivatives at uv (N,2)."""
@@ -367,28 +346,12 @@ class Parametric:
         return self.sign * unit(cross)
 
 
-def _tangent_step(residual: Floats, along_u: Floats, along_v: Floats) -> Floats:
-    """Return the parameter step (N,2) that removes the residual's tangential part, to first order."""
-    uu = np.einsum("ij,ij->i", along_u, along_u)
-    uv = np.einsum("ij,ij->i", along_u, along_v)
-    vv = np.einsum("ij,ij->i", along_v, along_v)
-    ru = np.einsum("ij,ij->i", residual, along_u)
-    rv = np.einsum("ij,ij->i", residual, along_v)
-    determinant = uu * vv - uv * uv
-    regular = determinant > np.maximum(1e-14 * uu * vv, 1e-20 * np.maximum(uu, vv) ** 2)
-    safe = np.where(regular, determinant, 1.0)
-    step = np.stack([ru * vv - rv * uv, rv * uu - ru * uv], axis=1) / safe[:, None]
-    # Where one derivative vanishes (a pole), walk along the other.
-    fallback = np.stack([ru / np.where(uu > 0, uu, 1.0), rv / np.where(vv > 0, vv, 1.0)], axis=1)
-    return np.where(regular[:, None], step, fallback * np.stack([uu >= vv, vv > uu], axis=1))
-
-
 @dataclass(frozen=True, eq=False)
 class Nurbs:
     """A (rational) B-spline surface as arrays: an evaluator for `Parametric`.
 
     `knots_u` and `knots_v` are flat (multiplicities written out) and not periodic; `poles` is (nu,nv,3), `weights`
-    (nu,nv). Outside the knots the end polynomials continue. Evaluation: Piegl and Tiller, The NURBS Book, A2.2, A4.3.
+    (nu,nv). Outside the knots the end polynomials continue.
     """
 
     degree_u: int
@@ -397,12 +360,6 @@ class Nurbs:
     knots_v: Floats
     poles: Floats
     weights: Floats
-    _homogeneous: Floats = field(init=False, repr=False)
-    _polynomials: dict[tuple[int, int], Floats] = field(init=False, repr=False, default_factory=dict)
-
-    def __post_init__(self) -> None:
-        weighted = np.concatenate([self.poles * self.weights[..., None], self.weights[..., None]], axis=2)
-        object.__setattr__(self, "_homogeneous", np.ascontiguousarray(weighted))
 
     @property
     def bounds(self) -> tuple[float, float, float, float]:
@@ -416,96 +373,12 @@ class Nurbs:
 
     def __call__(self, uv: Floats) -> tuple[Floats, Floats, Floats]:
         """Return points and derivatives along u and v, each (N,3), at parameters (N,2)."""
-        span_u = _spans(self.knots_u, self.degree_u, uv[:, 0])
-        span_v = _spans(self.knots_v, self.degree_v, uv[:, 1])
-        patches, patch_of = np.unique(span_u * len(self.knots_v) + span_v, return_inverse=True)
-        out = np.empty((3, len(uv), 3))
-        order = np.argsort(patch_of, kind="stable")
-        starts = np.searchsorted(patch_of[order], np.arange(len(patches) + 1))
-        for number, patch in enumerate(patches.tolist()):
-            for start in range(int(starts[number]), int(starts[number + 1]), CHUNK):
-                rows = order[start : min(start + CHUNK, int(starts[number + 1]))]
-                out[:, rows] = self._evaluate(uv[rows], *divmod(patch, len(self.knots_v)))
-        return out[0], out[1], out[2]
+        return self.engine(np.ascontiguousarray(uv))
 
-    def _evaluate(self, uv: Floats, span_u: int, span_v: int) -> tuple[Floats, Floats, Floats]:
-        """Evaluate points of one polynomial patch: its poles meet the basis functions in matrix products."""
-        basis_u, slope_u = self._basis(0, span_u, uv[:, 0])
-        basis_v, slope_v = self._basis(1, span_v, uv[:, 1])
-        poles = self._homogeneous[span_u - self.degree_u : span_u + 1, span_v - self.degree_v : span_v + 1]
-        flat = poles.transpose(1, 0, 2).reshape(self.degree_v + 1, -1)
-        rows = (basis_v.T @ flat).reshape(len(uv), self.degree_u + 1, 4)
-        row_slopes = (slope_v.T @ flat).reshape(len(uv), self.degree_u + 1, 4)
-        point = np.einsum("in,nik->nk", basis_u, rows)
-        along_u = np.einsum("in,nik->nk", slope_u, rows)
-        along_v = np.einsum("in,nik->nk", basis_u, row_slopes)
-        weight = point[:, 3:]
-        position = point[:, :3] / weight
-        return (
-            position,
-            (along_u[:, :3] - along_u[:, 3:] * position) / weight,
-            (along_v[:, :3] - along_v[:, 3:] * position) / weight,
+    @cached_property
+    def engine(self) -> _engine.Nurbs:
+        """The surface in the engine."""
+        degrees, weights = (self.degree_u, self.degree_v), np.ascontiguousarray(self.weights)
+        return _engine.Nurbs(
+            degrees, self.knots_u.tolist(), self.knots_v.tolist(), np.ascontiguousarray(self.poles), weights
         )
-
-    def _basis(self, direction: int, span: int, at: Floats) -> tuple[Floats, Floats]:
-        """Return a span's basis functions and their derivatives, each (degree+1, N), at parameters (N,)."""
-        knots, degree = ((self.knots_u, self.degree_u), (self.knots_v, self.degree_v))[direction]
-        if degree > HIGHEST:
-            return _basis(knots, degree, span, at)
-        matrix = self._polynomials.get((direction, span))
-        if matrix is None:
-            matrix = self._polynomials[direction, span] = _basis_polynomials(knots, degree, span)
-        start, width = knots[span], knots[span + 1] - knots[span]
-        share = (at - start) / width
-        powers = np.empty((degree + 1, len(at)))
-        powers[0] = 1.0
-        for k in range(1, degree + 1):
-            np.multiply(powers[k - 1], share, out=powers[k])
-        derivatives = matrix[:, 1:] * (np.arange(1, degree + 1) / width)
-        return matrix @ powers, derivatives @ powers[:-1]
-
-
-# Basis functions of a higher degree are not written as polynomials: cancellation would cost digits.
-HIGHEST = 7
-
-
-def _basis_polynomials(knots: Floats, degree: int, span: int) -> Floats:
-    """Return a span's basis functions as polynomials of the share of the span, (degree+1, degree+1), constants first."""
-    start, width = knots[span], knots[span + 1] - knots[span]
-    basis = np.ones((1, 1))
-    for k in range(1, degree + 1):
-        raised = np.zeros((k + 1, k + 1))
-        for i in range(k):
-            left, right = knots[span + 1 + i - k], knots[span + 1 + i]
-            share = basis[i] / (right - left)
-            # (right - at) and (at - left), where at = start + width * share of the span
-            raised[i, :k] += (right - start) * share
-            raised[i, 1:] -= width * share
-            raised[i + 1, :k] += (start - left) * share
-            raised[i + 1, 1:] += width * share
-        basis = raised
-    return basis
-
-
-def _spans(knots: Floats, degree: int, at: Floats) -> NDArray[np.int64]:
-    """Return the non-empty knot span of each parameter (N,); beyond the ends: the first and the last."""
-    starts = np.flatnonzero(knots[:-1] < knots[1:])
-    starts = starts[(starts >= degree) & (starts <= len(knots) - degree - 2)]
-    return np.asarray(starts[np.clip(np.searchsorted(knots[starts], at, side="right") - 1, 0, None)], dtype=np.int64)
-
-
-def _basis(knots: Floats, degree: int, span: int, at: Floats) -> tuple[Floats, Floats]:
-    """Return a knot span's basis functions and their derivatives, each (degree+1, N), at parameters (N,)."""
-    basis = np.ones((1, len(at)))
-    slopes = np.zeros((1, len(at)))
-    for k in range(1, degree + 1):
-        raised, slopes = np.zeros((k + 1, len(at))), np.zeros((k + 1, len(at)))
-        for i in range(k):
-            left, right = knots[span + 1 + i - k], knots[span + 1 + i]
-            share = basis[i] / (right - left)
-            raised[i] += (right - at) * share
-            raised[i + 1] += (at - left) * share
-            slopes[i] -= k * share
-            slopes[i + 1] += k * share
-        basis = raised
-    return basis, slopes

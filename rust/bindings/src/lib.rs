@@ -4,6 +4,7 @@
 
 mod arrays;
 mod errors;
+mod freeform;
 mod job;
 mod machine;
 mod offset;
@@ -17,6 +18,8 @@ use pyo3::prelude::*;
 
 #[pymodule]
 mod _engine {
+    #[pymodule_export]
+    use crate::freeform::{feet, Nurbs};
     #[pymodule_export]
     use crate::job::{job_schema, judge, materials, plan, read_back, starter, trace_gcode};
     #[pymodule_export]

@@ -1,10 +1,11 @@
-//! Shapes: convex profiles, tools, sheets, meshes and their index.
+//! Shapes: convex profiles, tools, sheets, freeform surfaces, meshes and their index.
 //!
 //! Lengths are millimetres, angles radians. Nothing here knows what a path is.
 
 mod cutter;
 mod error;
 mod frame;
+mod freeform;
 mod mesh;
 mod piecewise;
 mod profile;
@@ -14,6 +15,7 @@ mod tool;
 pub use cutter::{Cutter, Height, SupportingLine};
 pub use error::GeometryError;
 pub use frame::Frame;
+pub use freeform::{Foot, FootSearch, NurbsSurface, Pole, SurfacePoint};
 pub use mesh::{Bvh, Mending, Mesh, Node, Shape, Soup};
 pub use profile::{FormulaDocument, Profile, ProfileDocument, ProfileReport, Straight};
 pub use sheet::{ModelFace, Sheet, SheetLaw};

@@ -1,0 +1,18 @@
+//! Freeform surfaces of a model: B-spline surfaces, and the feet of points on any surface that can be evaluated.
+
+mod feet;
+mod nurbs;
+
+pub use feet::{Foot, FootSearch, Pole};
+pub use nurbs::NurbsSurface;
+
+use crate::Vector;
+
+/// A point of a surface and its derivatives, mm and mm per unit of each parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint {
+    /// Where.
+    pub point: Vector,
+    /// Derivatives along u and along v.
+    pub along: [Vector; 2],
+}
