@@ -88,9 +88,7 @@ fn map(body: &Body<'_>, low: Vector, high: Vector) -> Map {
         let is_frame = column == 0 || row == 0 || column + 1 == columns || row + 1 == rows;
         let x = low.x + (column as f64 - 1.0 + WITHIN[0]) * cell;
         let y = low.y + (row as f64 - 1.0 + WITHIN[1]) * cell;
-        let start = Vector::new(x, y, high.z + size.z + 1.0);
-        let hit = (!is_frame).then(|| body.rays.first(start, -Vector::z(), 0.0, |_| true)).flatten();
-        hit.map(|hit| start.z - hit.distance)
+        if is_frame { None } else { body.height_at(x, y) }
     };
     Map { columns, rows, heights: (0..columns * rows).map(height).collect() }
 }

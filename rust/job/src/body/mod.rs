@@ -51,7 +51,9 @@ impl<'a> Body<'a> {
         Self { rays: Rays::new(mesh, bvh), places: samples(mesh, PLACES), size: (high - low).norm() }
     }
 
-    fn mesh(&self) -> &'a Mesh {
+    /// The mesh.
+    #[must_use]
+    pub fn mesh(&self) -> &'a Mesh {
         self.rays.mesh
     }
 
@@ -82,6 +84,15 @@ impl<'a> Body<'a> {
     #[must_use]
     pub fn heights(&self) -> Heights {
         heights::of(self)
+    }
+
+    /// The highest place over (x, y), mm; none beside the part.
+    #[must_use]
+    pub fn height_at(&self, x: f64, y: f64) -> Option<f64> {
+        let (low, high) = self.mesh().bounds();
+        let above = high.z + (high.z - low.z) + 1.0;
+        let hit = self.rays.first(Vector::new(x, y, above), -Vector::z(), 0.0, |_| true)?;
+        Some(above - hit.distance)
     }
 
     /// The faces as seen from above, with the concave radii and the gaps that bound a tool.

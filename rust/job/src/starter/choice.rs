@@ -159,8 +159,9 @@ fn mill(lying: Turned, sides: &[Side; 6], mut reasons: Vec<String>) -> Choice {
     let (up, words) = best_side(sides);
     reasons.extend(words);
     let turned = if up == UpAxis::PlusZ { lying } else { Turned::new(&lying.mesh, up) };
-    let looks = turned.body().hollows();
-    let milled = operations::milling(&turned.mesh, &looks);
+    let body = turned.body();
+    let looks = body.hollows();
+    let milled = operations::milling(&body, &looks);
     reasons.extend(milled.reasons);
     let named = |face: &FaceLook| face.looks_down && milled.works.iter().any(|work| work.names(face.face));
     Choice {

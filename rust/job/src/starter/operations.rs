@@ -4,7 +4,7 @@ use styluscam_geometry::Mesh;
 
 use super::choice::worth;
 use super::sizes::{self, round, Cutter, Shape};
-use crate::body::{FaceLook, Hollows};
+use crate::body::{Body, FaceLook, Hollows};
 use crate::OperationKind;
 
 /// Share of the seen area that is worth an operation of its own.
@@ -24,6 +24,10 @@ const FLAT_ROWS: f64 = 0.5;
 const FLAT_LEVELS: f64 = 0.2;
 /// Path that anybody waits for, mm: rows lie farther apart where they would be longer.
 const LONGEST: f64 = 100_000.0;
+/// Places of a wall before which the floor is looked for, about.
+const LOOKED_AT: usize = 24;
+/// Faces that a reason names at most.
+const NAMED: usize = 6;
 /// Levels at most.
 const LEVELS: f64 = 250.0;
 
@@ -62,7 +66,8 @@ pub fn forming(mesh: &Mesh, looks: &Hollows, tool: &Cutter) -> Work {
 }
 
 /// Rows, levels, or both.
-pub fn milling(mesh: &Mesh, looks: &Hollows) -> Milled {
+pub fn milling(body: &Body<'_>, looks: &Hollows) -> Milled {
+    let mesh = body.mesh();
     let seen: Vec<&FaceLook> = worth(looks).collect();
     let whole = area(&seen);
     let (walls, floors): (Vec<&FaceLook>, Vec<&FaceLook>) = seen.iter().partition(|face| is_wall(face));
@@ -72,9 +77,11 @@ pub fn milling(mesh: &Mesh, looks: &Hollows) -> Milled {
     let (tool, words) = sizes::cutter(mesh, seen.iter().copied().filter(|face| !drilled(face)), shape);
     let mut reasons = vec![words];
     let fits = |face: &&FaceLook| Hollows::bound([*face], 0.5).is_none_or(|radius| 2.02 * radius >= tool.diameter);
-    let walls = walls.into_iter().filter(|face| face.vertical < PRISMATIC || is_touched(mesh, face.face, &tool));
-    let (open, narrow): (Vec<&FaceLook>, Vec<&FaceLook>) = walls.partition(|face| fits(face));
+    let (walls, low): (Vec<&FaceLook>, Vec<&FaceLook>) =
+        walls.into_iter().partition(|face| face.vertical < PRISMATIC || is_touched(body, face, &tool));
+    let (open, narrow): (Vec<&FaceLook>, Vec<&FaceLook>) = walls.into_iter().partition(|face| fits(face));
     reasons.extend(left(&narrow, &tool));
+    reasons.extend(untouched(&low, &tool));
     let with_levels = area(&open) >= WORTH * whole && floors.len().max(open.len()) <= NAMES;
     let with_rows = area(&floors) >= WORTH * whole || !with_levels;
     let angle_deg = if size(mesh)[0] >= size(mesh)[1] { 0.0 } else { 90.0 };
@@ -101,15 +108,32 @@ pub fn milling(mesh: &Mesh, looks: &Hollows) -> Milled {
     Milled { works, tool, reasons }
 }
 
-/// Whether the tool's side touches an upright face while its tip stays above the part's foot.
-fn is_touched(mesh: &Mesh, face: u32, tool: &Cutter) -> bool {
+/// Whether the tool's side touches an upright face while its tip stays above what lies in front of it.
+fn is_touched(body: &Body<'_>, face: &FaceLook, tool: &Cutter) -> bool {
+    let (mesh, foot) = (body.mesh(), body.mesh().bounds().0.z);
     let side = match tool.shape {
         Shape::Ball => 0.5 * tool.diameter,
         Shape::Flat => 0.0,
     };
-    let own = (0..mesh.triangles().len()).filter(|t| mesh.faces()[*t] == face);
-    let top = own.flat_map(|t| mesh.corners(t)).map(|corner| corner.z).fold(f64::NEG_INFINITY, f64::max);
-    top - mesh.bounds().0.z > 1.2 * side
+    let own: Vec<usize> = (0..mesh.triangles().len()).filter(|t| mesh.faces()[*t] == face.face).collect();
+    let floor_before = |triangle: &usize| {
+        let [a, b, c] = mesh.corners(*triangle);
+        let axis = (a + b + c) / 3.0 + 0.5 * tool.diameter * mesh.normal(*triangle);
+        body.height_at(axis.x, axis.y).unwrap_or(foot)
+    };
+    let few = own.iter().step_by(own.len().div_ceil(LOOKED_AT).max(1));
+    few.map(floor_before).any(|floor| face.heights[1] - floor > 1.2 * side)
+}
+
+/// What is left because the tool's side does not reach down to it, in words.
+fn untouched(low: &[&FaceLook], tool: &Cutter) -> Option<String> {
+    let radius = 0.5 * tool.diameter;
+    (!low.is_empty()).then(|| {
+        format!(
+            "left out, for the side of a ball touches walls from {radius} mm over the floor on: {}; a flat tool reaches them",
+            names(low)
+        )
+    })
 }
 
 /// Rows serve a face that is wall and floor in one.
@@ -119,12 +143,7 @@ fn is_wall(face: &FaceLook) -> bool {
 
 /// What is left for another tool, in words.
 fn left(narrow: &[&FaceLook], tool: &Cutter) -> Option<String> {
-    let names = |faces: &[&&FaceLook]| {
-        let shown: Vec<String> = faces.iter().take(6).map(|face| format!("Face{}", face.face)).collect();
-        let more = if faces.len() > 6 { format!(" and {} more", faces.len() - 6) } else { String::new() };
-        format!("{}{more}", shown.join(", "))
-    };
-    let (holes, slots): (Vec<&&FaceLook>, Vec<&&FaceLook>) = narrow.iter().partition(|face| face.hole.is_some());
+    let (holes, slots): (Vec<&FaceLook>, Vec<&FaceLook>) = narrow.iter().partition(|face| face.hole.is_some());
     let mut said = Vec::new();
     if !holes.is_empty() {
         said.push(format!("the holes {} are for a drill", names(&holes)));
@@ -134,6 +153,13 @@ fn left(narrow: &[&FaceLook], tool: &Cutter) -> Option<String> {
     }
     let diameter = tool.diameter;
     (!said.is_empty()).then(|| format!("left out, for the tool of {diameter} mm does not enter: {}", said.join("; ")))
+}
+
+/// Some of the names, and how many more there are.
+fn names(faces: &[&FaceLook]) -> String {
+    let shown: Vec<String> = faces.iter().take(NAMED).map(|face| format!("Face{}", face.face)).collect();
+    let more = if faces.len() > NAMED { format!(" and {} more", faces.len() - NAMED) } else { String::new() };
+    format!("{}{more}", shown.join(", "))
 }
 
 fn area(faces: &[&FaceLook]) -> f64 {
