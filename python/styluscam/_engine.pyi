@@ -12,6 +12,7 @@ _Progress = Callable[[str, float], bool | None]
 
 __all__ = [
     "CancelToken",
+    "FootSearch",
     "Job",
     "Judgement",
     "Machine",
@@ -25,7 +26,6 @@ __all__ = [
     "__version__",
     "cl_text",
     "drop_cutter",
-    "feet",
     "job_schema",
     "judge",
     "lines_of_moves",
@@ -312,11 +312,15 @@ class Nurbs:
     ) -> Nurbs: ...
     def __call__(self, parameters: _F) -> tuple[_F, _F, _F]: ...
 
-def feet(
-    surface: Nurbs | Callable[[_F], tuple[_F, _F, _F]],
-    points: _F,
-    near: _F,
-    limits: tuple[tuple[float, float], tuple[float, float]],
-    poles: list[tuple[int, float, float, _F, _F]],
-    step: float,
-) -> tuple[_F, tuple[_F, _F, _F]]: ...
+@final
+class FootSearch:
+    def __new__(
+        cls,
+        limits: tuple[tuple[float, float], tuple[float, float]],
+        periods: tuple[float | None, float | None],
+        poles: list[tuple[int, float, float, _F, _F]],
+        step: float,
+    ) -> FootSearch: ...
+    def feet(
+        self, surface: Nurbs | Callable[[_F], tuple[_F, _F, _F]], points: _F, near: _F
+    ) -> tuple[_F, tuple[_F, _F, _F]]: ...

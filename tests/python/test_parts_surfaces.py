@@ -123,6 +123,20 @@ def test_nurbs_evaluates_as_the_kernel_does(periodic: bool) -> None:
             assert mine == pytest.approx([theirs.X(), theirs.Y(), theirs.Z()], abs=1e-10)
 
 
+def test_feet_are_found_round_a_pole_and_across_a_seam() -> None:
+    from OCP.Geom import Geom_SphericalSurface
+    from OCP.GeomConvert import GeomConvert
+
+    ours = parametric(GeomConvert.SurfaceToBSplineSurface_s(Geom_SphericalSurface(gp_Ax3(), 5.0)), 20)
+    random = np.random.default_rng(5)
+    ways = np.concatenate([random.normal(size=(300, 3)), random.normal(size=(300, 3)) * (0.1, 0.1, 1.0)])
+    ways[:100, 1] *= 0.01  # beside the seam, and opposite
+    ways /= np.linalg.norm(ways, axis=1)[:, None]
+    lifts = random.uniform(-1.0, 1.0, len(ways))
+    assert np.abs(ours.distance((5.0 + lifts)[:, None] * ways) - lifts).max() < 1e-8
+    assert np.abs(ours.normal((5.0 + lifts)[:, None] * ways) - ways).max() < 1e-4
+
+
 def test_freeform_distance_agrees_with_the_kernel() -> None:
     surface = wavy_surface()
     ours = parametric(surface)

@@ -245,7 +245,8 @@ class Parametric:
         away = points - surface
         height = np.einsum("ij,ij->i", away, self._oriented(foot, along_u, along_v))
         low, high = map(np.array, self._limits)
-        outside = ((foot <= low) | (foot >= high)).any(axis=1)
+        closes = np.array([period is not None for period in self._periods])
+        outside = (((foot <= low) | (foot >= high)) & ~closes).any(axis=1)
         size = np.sqrt(np.einsum("ij,ij->i", away, away))
         return np.asarray(np.where(outside, np.copysign(size, height), height))
 
@@ -276,9 +277,7 @@ class Parametric:
         """
         surface = self.evaluate.engine if isinstance(self.evaluate, Nurbs) else self.evaluate
         near = np.ascontiguousarray(uv, dtype=np.float64)
-        foot, found = _engine.feet(
-            surface, np.ascontiguousarray(points), near, self._limits, self._round_poles, self.STEP
-        )
+        foot, found = self._search.feet(surface, np.ascontiguousarray(points), near)
         return foot, *found
 
     def beside_poles(self, uv: Floats) -> Floats:
@@ -297,29 +296,48 @@ class Parametric:
         return uv
 
     @cached_property
+    def _search(self) -> _engine.FootSearch:
+        return _engine.FootSearch(self._limits, self._periods, self._round_poles, self.STEP)
+
+    @cached_property
+    def _borders(self) -> tuple[Floats, float]:
+        """Points (4,5,3) along the bounds u0, u1, v0 and v1, and what counts as no distance between them, mm."""
+        ends = np.reshape(self.bounds, (2, 2))
+        uv = np.empty((4, 5, 2))
+        for bound, value in enumerate(self.bounds):
+            uv[bound, :, bound // 2] = value
+            uv[bound, :, 1 - bound // 2] = np.linspace(ends[1 - bound // 2, 0], ends[1 - bound // 2, 1], 5)
+        inside = np.stack(np.meshgrid(*np.linspace(ends[:, 0], ends[:, 1], 5).T), axis=-1).reshape(-1, 2)
+        size = float(np.ptp(self.evaluate(inside)[0], axis=0).max())
+        return self.evaluate(uv.reshape(-1, 2))[0].reshape(4, 5, 3), self.POLE * size
+
+    @cached_property
     def _is_pole(self) -> tuple[bool, ...]:
         """Whether the bounds u0, u1, v0 and v1 are one point each."""
-        ends = np.reshape(self.bounds, (2, 2))
-        places = np.stack(np.meshgrid(*np.linspace(*ends.T, 5).T), axis=-1).reshape(-1, 2)
-        size = np.ptp(self.evaluate(places)[0], axis=0).max()
-        found = []
-        for bound, value in enumerate(self.bounds):
-            along = 1 - bound // 2
-            uv = np.full((5, 2), value)
-            uv[:, along] = np.linspace(*ends[along], 5)
-            found.append(bool(np.ptp(self.evaluate(uv)[0], axis=0).max() <= self.POLE * size))
-        return tuple(found)
+        borders, nothing = self._borders
+        return tuple(bool(np.ptp(border, axis=0).max() <= nothing) for border in borders)
+
+    @cached_property
+    def _periods(self) -> tuple[float | None, float | None]:
+        """After how much of u, and of v, the surface is the same again; None where it does not close."""
+        borders, nothing = self._borders
+        closes = [np.abs(borders[k] - borders[k + 1]).max() <= nothing for k in (0, 2)]
+        u0, u1, v0, v1 = self.bounds
+        return (u1 - u0 if closes[0] else None), (v1 - v0 if closes[1] else None)
 
     @cached_property
     def _round_poles(self) -> list[tuple[int, float, float, Floats, Floats]]:
-        """For each bound that is a pole: the parameter that is fixed, its value, how near it is meant; values (K,) of the
-        other one, and the unit ways (K,3) that lead off the pole at them."""
+        """Return what is known of each bound that is a pole.
+
+        The parameter that is fixed there, its value, how near it is meant; values (K,) of the other one, and the unit ways
+        (K,3) that lead off the pole at them.
+        """
         ends = np.reshape(self.bounds, (2, 2))
         found = []
         for bound in np.flatnonzero(self._is_pole).tolist():
             fixed, value, inward = bound // 2, self.bounds[bound], self.bounds[bound ^ 1] - self.bounds[bound]
             uv = np.full((self.SIDES, 2), value)
-            uv[:, 1 - fixed] = np.linspace(*ends[1 - fixed], self.SIDES)
+            uv[:, 1 - fixed] = np.linspace(ends[1 - fixed, 0], ends[1 - fixed, 1], self.SIDES)
             pole, along = self.evaluate(uv)[0], uv[:, 1 - fixed].copy()
             uv[:, fixed] += 1e-3 * inward
             found.append((fixed, value, self.POLE * abs(inward), along, unit(self.evaluate(uv)[0] - pole)))

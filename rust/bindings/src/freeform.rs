@@ -31,7 +31,8 @@ impl Nurbs {
     ) -> PyResult<Self> {
         let (poles, weights) = (poles.as_array(), weights.as_array());
         if poles.dim() != (weights.nrows(), weights.ncols(), 3) {
-            let message = format!("poles {:?} for weights {:?}: (U, V, 3) and (U, V) expected", poles.dim(), weights.dim());
+            let message =
+                format!("poles {:?} for weights {:?}: (U, V, 3) and (U, V) expected", poles.dim(), weights.dim());
             return Err(errors::raise("GeometryError", &message, "shape", "poles", ""));
         }
         let poles: Vec<[f64; 4]> = weights
@@ -50,35 +51,47 @@ impl Nurbs {
     }
 }
 
-/// The feet of points (N, 3) on a surface, sought from parameters (N, 2) near them: parameters (N, 2), points and
-/// derivatives, each (N, 3). The surface is a `Nurbs`, or a callable that answers like one. Parameters stay between the two
-/// rows of `limits`; a search ends when a step is below `step` mm.
-#[pyfunction]
-pub fn feet<'py>(
-    py: Python<'py>,
-    surface: &Bound<'py, PyAny>,
-    points: PyReadonlyArray2<'py, f64>,
-    near: PyReadonlyArray2<'py, f64>,
-    limits: [[f64; 2]; 2],
-    poles: Vec<PoleArrays<'py>>,
-    step: f64,
-) -> PyResult<(Bound<'py, PyArray2<f64>>, Points<'py>)> {
-    let (points, near) = (arrays::vectors(&points, "points")?, arrays::rows::<f64, 2>(&near, "near")?);
-    if points.len() != near.len() {
-        let message = format!("{} parameters for {} points", near.len(), points.len());
-        return Err(errors::raise("GeometryError", &message, "length", "near", ""));
+/// How feet are sought: parameters stay between the two rows of `limits`, or come in again where they close after
+/// `periods`; a search ends when a step is below `step` mm.
+#[pyclass(frozen, module = "styluscam._engine", name = "FootSearch")]
+#[derive(Debug)]
+pub struct Search {
+    search: FootSearch,
+}
+
+#[pymethods]
+impl Search {
+    #[new]
+    fn new(limits: [[f64; 2]; 2], periods: [Option<f64>; 2], poles: Vec<PoleArrays<'_>>, step: f64) -> PyResult<Self> {
+        let poles = poles.iter().map(pole).collect::<PyResult<_>>()?;
+        Ok(Self { search: FootSearch { limits, periods, poles, step } })
     }
-    let search = FootSearch { limits, poles: poles.iter().map(pole).collect::<PyResult<_>>()?, step };
-    let found = match surface.cast::<Nurbs>() {
-        Ok(nurbs) => {
-            let surface = &nurbs.get().surface;
-            py.detach(|| surface.feet(&search, &points, &near))
+
+    /// The feet of points (N, 3) on a surface, sought from parameters (N, 2) near them: parameters (N, 2), points and
+    /// derivatives, each (N, 3). The surface is a `Nurbs`, or a callable that answers like one.
+    fn feet<'py>(
+        &self,
+        py: Python<'py>,
+        surface: &Bound<'py, PyAny>,
+        points: PyReadonlyArray2<'py, f64>,
+        near: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Points<'py>)> {
+        let (points, near) = (arrays::vectors(&points, "points")?, arrays::rows::<f64, 2>(&near, "near")?);
+        if points.len() != near.len() {
+            let message = format!("{} parameters for {} points", near.len(), points.len());
+            return Err(errors::raise("GeometryError", &message, "length", "near", ""));
         }
-        Err(_) => search.feet(|parameters| called(surface, parameters), &points, &near)?,
-    };
-    let parameters = PyArray1::from_vec(py, found.iter().flat_map(|foot| foot.parameters).collect::<Vec<f64>>());
-    let at: Vec<SurfacePoint> = found.iter().map(|foot| foot.surface).collect();
-    Ok((parameters.reshape([found.len(), 2])?, points_of(py, &at)?))
+        let found = match surface.cast::<Nurbs>() {
+            Ok(nurbs) => {
+                let surface = &nurbs.get().surface;
+                py.detach(|| surface.feet(&self.search, &points, &near))
+            }
+            Err(_) => self.search.feet(|parameters| called(surface, parameters), &points, &near)?,
+        };
+        let parameters = PyArray1::from_vec(py, found.iter().flat_map(|foot| foot.parameters).collect::<Vec<f64>>());
+        let at: Vec<SurfacePoint> = found.iter().map(|foot| foot.surface).collect();
+        Ok((parameters.reshape([found.len(), 2])?, points_of(py, &at)?))
+    }
 }
 
 /// What a callable answers.

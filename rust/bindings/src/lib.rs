@@ -19,7 +19,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _engine {
     #[pymodule_export]
-    use crate::freeform::{feet, Nurbs};
+    use crate::freeform::{Nurbs, Search};
     #[pymodule_export]
     use crate::job::{job_schema, judge, materials, plan, read_back, starter, trace_gcode};
     #[pymodule_export]

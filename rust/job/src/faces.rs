@@ -10,7 +10,7 @@ use crate::{JobDocument, JobError, OperationKind, OperationSection, Process, Sce
 const UP: f64 = 1e-3;
 
 /// Share of a face that may look down and is no undercut: triangles of an upright side lean by their deviation.
-const LEAST_UNDERCUT: f64 = 1e-3;
+const LEAST_UNDERCUT: f64 = 5e-3;
 
 /// A face of the model as its triangles show it in work coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

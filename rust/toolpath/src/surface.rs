@@ -117,7 +117,9 @@ impl<'a> Surface<'a> {
             tip: Vector::new(x, y, contact.tip),
             normal: contact.normal,
             selected: (self.heights[0]..=self.heights[1]).contains(&contact.tip)
-                && self.selected.is_none_or(|selected| self.envelope.belongs(contact, selected, SPREAD, self.from_above)),
+                && self
+                    .selected
+                    .is_none_or(|selected| self.envelope.belongs(contact, selected, SPREAD, self.from_above)),
             triangle: contact.triangle,
         }
     }

@@ -27,6 +27,9 @@ pub struct Pole {
 pub struct FootSearch {
     /// Parameters stay between these.
     pub limits: [[f64; 2]; 2],
+    /// After how much of it the surface is the same again, by parameter; none where it does not close: what leaves the limits
+    /// comes in again on the other side.
+    pub periods: [Option<f64>; 2],
     /// Poles among the bounds.
     pub poles: Vec<Pole>,
     /// A search ends when a step moves the foot by less, mm: the distance is then off by its square over twice the radius
@@ -81,9 +84,14 @@ impl FootSearch {
         let step = tangent_step(&(point - at), &along);
         let mut length = 0.0;
         for k in 0..2 {
-            let before = foot.parameters[k];
-            foot.parameters[k] = (before + step[k]).max(self.limits[0][k]).min(self.limits[1][k]);
-            length += (foot.parameters[k] - before).abs() * along[k].amax();
+            let (before, [low, high]) = (foot.parameters[k], [self.limits[0][k], self.limits[1][k]]);
+            let after = before + step[k];
+            let (after, moved) = match self.periods[k] {
+                Some(period) if !(low..=high).contains(&after) => (low + (after - low).rem_euclid(period), step[k]),
+                _ => (after.max(low).min(high), after.max(low).min(high) - before),
+            };
+            foot.parameters[k] = after;
+            length += moved.abs() * along[k].amax();
         }
         length
     }
@@ -156,9 +164,16 @@ mod tests {
 
     fn search() -> FootSearch {
         let quarter = std::f64::consts::FRAC_PI_2;
-        let way = |i: i32| (0.2 * f64::from(i), Vector::new(libm::cos(0.2 * f64::from(i)), libm::sin(0.2 * f64::from(i)), 0.0));
+        let way = |i: i32| {
+            (0.2 * f64::from(i), Vector::new(libm::cos(0.2 * f64::from(i)), libm::sin(0.2 * f64::from(i)), 0.0))
+        };
         let pole = Pole { fixed: 1, value: quarter, near: 1e-9, ways: (0..32).map(way).collect() };
-        FootSearch { limits: [[0.0, -quarter], [std::f64::consts::TAU, quarter]], poles: vec![pole], step: 2e-5 }
+        FootSearch {
+            limits: [[0.0, -quarter], [std::f64::consts::TAU, quarter]],
+            poles: vec![pole],
+            periods: [Some(std::f64::consts::TAU), None],
+            step: 2e-5,
+        }
     }
 
     #[test]
@@ -171,6 +186,13 @@ mod tests {
             assert!((feet[0].surface.point - lifted / 1.1).norm() < 1e-4, "{i}: {feet:?}");
             assert!((lifted - feet[0].surface.point).norm() - 0.1 * RADIUS < 1e-8);
         }
+    }
+
+    #[test]
+    fn a_seam_is_crossed() {
+        let lifted = 1.2 * RADIUS * Vector::new(libm::cos(0.4), libm::sin(0.4), 0.0);
+        let Ok(feet) = search().feet(sphere, &[lifted], &[[std::f64::consts::TAU, 0.1]]);
+        assert!((feet[0].surface.point - lifted / 1.2).norm() < 1e-4, "{feet:?}");
     }
 
     #[test]

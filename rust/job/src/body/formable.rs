@@ -47,7 +47,9 @@ impl std::fmt::Display for Unformable {
             Self::Steep(share) => {
                 write!(f, "{:.0} % of it are walls of {FORMED_DEG} degrees and more, which tear a sheet", 100.0 * share)
             }
-            Self::Stepped => write!(f, "its floors lie at several heights with upright walls between, which tear a sheet"),
+            Self::Stepped => {
+                write!(f, "its floors lie at several heights with upright walls between, which tear a sheet")
+            }
         }
     }
 }

@@ -88,7 +88,11 @@ fn map(body: &Body<'_>, low: Vector, high: Vector) -> Map {
         let is_frame = column == 0 || row == 0 || column + 1 == columns || row + 1 == rows;
         let x = low.x + (column as f64 - 1.0 + WITHIN[0]) * cell;
         let y = low.y + (row as f64 - 1.0 + WITHIN[1]) * cell;
-        if is_frame { None } else { body.height_at(x, y) }
+        if is_frame {
+            None
+        } else {
+            body.height_at(x, y)
+        }
     };
     Map { columns, rows, heights: (0..columns * rows).map(height).collect() }
 }

@@ -465,11 +465,7 @@ impl<'a> Envelope<'a> {
 }
 
 /// Whether one of the selected triangles is like a contact, or all are selected.
-fn faces_like(
-    triangles: impl IntoIterator<Item = u32>,
-    selected: &[bool],
-    is_like: impl Fn(u32) -> bool,
-) -> bool {
+fn faces_like(triangles: impl IntoIterator<Item = u32>, selected: &[bool], is_like: impl Fn(u32) -> bool) -> bool {
     let (mut all, mut near) = (true, false);
     for t in triangles {
         let on = t != NO_NEIGHBOUR && selected[t as usize];
