@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shlex
 from pathlib import Path
@@ -54,9 +55,10 @@ def new(
     files.require_writable([path], [part])
     with progress.shown(not (json or quiet)) as report:
         arrays = _looked_at(part, units, report)
-    made = starter_job(arrays, _relative(part, path.parent), units)
-    Job.check(made.text)
-    files.write_whole(path, made.text)
+        made = starter_job(arrays, _relative(part, path.parent), units)
+        Job.check(made.text)
+        files.write_whole(path, made.text)
+        _read_ahead(path, report)
     if json:
         console.say_json({"written": [str(path)], "reasons": made.reasons})
     elif not quiet:
@@ -82,6 +84,12 @@ def _looked_at(part: Path, units: str | None, report: Progress | None) -> PartAr
         likely = "in" if max(size) <= LIKELY_INCH else "mm"
         hint = f"as mm the part is {mm} mm, as inch {inch} mm: likely --units {likely}"
         raise GeometryError(f"{error}; {hint}", code=error.code, where=error.where, hint=hint) from error
+
+
+def _read_ahead(job: Path, report: Progress | None) -> None:
+    """Read the part as its job wants it, while the CAD kernel is loaded: `run` finds it in the cache of parts."""
+    with contextlib.suppress(GeometryError, JobError):  # `run` says what is wrong
+        Job.read(job).part(report)
 
 
 def _relative(part: Path, folder: Path) -> str:

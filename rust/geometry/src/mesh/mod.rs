@@ -145,10 +145,12 @@ impl Mesh {
         self.normal(triangle).z.abs() <= UPRIGHT
     }
 
-    /// Whether a triangle looks down: no tool from above touches it.
+    /// Whether a triangle looks down: no tool from above touches it. The model's normals say so where they are known:
+    /// triangles of an upright wall may lean by their deviation.
     #[must_use]
     pub fn looks_down(&self, triangle: usize) -> bool {
-        self.normal(triangle).z < -UPRIGHT
+        let [a, b, c] = self.corner_normals(triangle).map(|normal| normal.z);
+        a + b + c < -3.0 * UPRIGHT
     }
 
     /// Whether the model's normals at the corners are known.
@@ -204,4 +206,18 @@ fn check_vertices(vertices: &[Vector]) -> Result<(), GeometryError> {
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_models_normals_say_whether_a_leaning_triangle_looks_down() {
+        let vertices = vec![Vector::new(0.0, 0.0, 0.0), Vector::new(0.0, 1.0, 0.0), Vector::new(0.001, 0.0, 2.0)];
+        let alone = Mesh::new(vertices.clone(), &[[0, 1, 2]], &[]).unwrap();
+        assert!(alone.normal(0).x > 0.99 && alone.looks_down(0));
+        let upright = Mesh::with_normals(vertices, &[[0, 1, 2]], &[], &[[Vector::x(); 3]]).unwrap();
+        assert!(!upright.looks_down(0));
+    }
 }

@@ -28,7 +28,7 @@ const FEED: f64 = 0.01;
 const FEEDS: [f64; 2] = [100.0, 1500.0];
 /// The path's tolerance, and what the file's own edges may take of it, mm.
 const PATH_TOLERANCE: f64 = 0.01;
-const PART_TOLERANCE: f64 = 0.002;
+const PART_TOLERANCE: f64 = 0.003;
 /// Nodes of the grid over the part's plan in which levels look for loops, about.
 const NODES: f64 = 2e5;
 /// A part that lies farther from its origin than this many times its size gets a zero point of its own.
@@ -83,7 +83,7 @@ pub fn starter(part: &StarterPart<'_>) -> Starter {
 /// Of the triangles and of the path, mm: a file whose edges lie off its surfaces is read no finer than that.
 fn tolerances(part: &StarterPart<'_>, choice: &mut Choice) -> [f64; 2] {
     let size = (0..3).map(|axis| choice.bounds[1][axis] - choice.bounds[0][axis]).fold(0.0, f64::max);
-    // triangles of a large part at two micrometres are millions
+    // triangles of a large part at three micrometres are millions
     let own = round(PART_TOLERANCE * f64::max(1.0, size / 500.0));
     if part.edge_gap <= own {
         return [own, round(PATH_TOLERANCE * own / PART_TOLERANCE)];

@@ -1,5 +1,7 @@
 //! Exact points of a level set of the envelope: where the triangle that is touched lets the tool go.
 
+use std::ops::RangeInclusive;
+
 use styluscam_geometry::Vector;
 
 use crate::offset::{Contact, Line, Verdict};
@@ -69,6 +71,10 @@ impl<'a> LevelCurve<'a> {
         let way = Plan::new(free[0] - above[0], free[1] - above[1]);
         let length = way.norm();
         let line = Line { from: above, along: (way / length).into() };
+        // what was touched last is most often touched here as well
+        if let Some(point) = self.hint.and_then(|last| self.freed_by(&[last], &line, 0.0..=length)) {
+            return Some(point);
+        }
         let (mut low, mut high) = (0.0, length);
         let mut at = guess * length;
         let mut last = None;
@@ -103,6 +109,20 @@ impl<'a> LevelCurve<'a> {
         self.point(&line, high, &contact)
     }
 
+    /// The point of the level where the last of some triangles lets the tool go, if nothing else keeps it off there and the
+    /// way lies within the limits.
+    fn freed_by(&mut self, triangles: &[u32], line: &Line, limits: RangeInclusive<f64>) -> Option<PathPoint> {
+        let envelope = self.surface.envelope();
+        let ways = triangles.iter().filter_map(|triangle| envelope.release(*triangle, line, self.z + OVER));
+        let (way, contact) = ways.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let is_last = limits.contains(&way) && !self.is_above(line.at(way + self.beyond));
+        if is_last {
+            self.point(line, way, &contact)
+        } else {
+            None
+        }
+    }
+
     /// Where the triangle of a contact lets the tool go on the line.
     fn release(&self, contact: &Contact, line: &Line) -> Option<(f64, Contact)> {
         self.surface.envelope().release(contact.triangle, line, self.z + OVER)
@@ -121,6 +141,12 @@ impl<'a> LevelCurve<'a> {
         let (chord, middle) = ((b.tip - a.tip).xy(), ((a.tip + b.tip) * 0.5).xy());
         let (length, across) = (chord.norm(), Plan::new(-chord.y, chord.x).try_normalize(1e-12)?);
         let line = Line { from: middle.into(), along: across.into() };
+        // most often what is touched at an end is touched between; to the left of the middle only where that must stay higher
+        if let Some(point) = self.freed_by(&[a.triangle, b.triangle], &line, -length..=length) {
+            if (point.tip.xy() - middle).dot(&across) <= self.beyond || self.is_above(middle.into()) {
+                return Some(point);
+            }
+        }
         let mut at = 0.0;
         for _ in 0..STEPS {
             let contact = self.contact(line.at(at));

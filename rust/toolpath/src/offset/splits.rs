@@ -20,6 +20,9 @@ use rayon::prelude::*;
 
 use super::offset_surface::{Corner, OffsetSurface};
 
+/// How much longer the sides of a triangle may stay that is stopped at all its corners: what it hides is no border.
+const ALL_STOPPED: f64 = 4.0;
+
 /// A side by its ends, the lower first.
 type Side = (u32, u32);
 
@@ -58,8 +61,8 @@ impl Large {
 }
 
 impl Splits {
-    /// The sides longer than `fine` (mm) of triangles whose corners differ in flag, or have a flag that says stopped; and
-    /// with each the longest side of every triangle that has it.
+    /// The sides longer than `fine` (mm) of triangles whose corners differ in flag, and those [`ALL_STOPPED`] times as long
+    /// where all corners are stopped; with each the longest side of every triangle that has it.
     pub fn of(surface: &OffsetSurface, fine: f64) -> Self {
         let large: Vec<Large> =
             (0..surface.triangles.len()).into_par_iter().filter_map(|t| Large::of(surface, t, fine)).collect();
@@ -106,11 +109,18 @@ impl Splits {
 /// The sides to be halved: those that flags ask for, and the longest sides of all triangles beside them, and so on.
 fn propagated(surface: &OffsetSurface, large: &[Large], fine: f64) -> HashSet<Side> {
     let flag = |corner: u32| surface.points[corner as usize].flag;
-    let differs = |large: &&Large| {
+    let asked = |large: &Large| {
         let [a, b, c] = surface.triangles[large.triangle].map(flag);
-        a.is_stopped() || a != b || a != c
+        let least = if a != b || a != c {
+            fine
+        } else if a.is_stopped() {
+            ALL_STOPPED * fine
+        } else {
+            f64::INFINITY
+        };
+        large.long(least).collect::<Vec<Side>>()
     };
-    let mut halved: HashSet<Side> = large.iter().filter(differs).flat_map(|large| large.long(fine)).collect();
+    let mut halved: HashSet<Side> = large.iter().flat_map(asked).collect();
     if halved.is_empty() {
         return halved;
     }
