@@ -6,7 +6,7 @@ use styluscam_geometry::{Tool, Vector};
 use styluscam_motion::{Event, EventKind, Move, OperationRecord, Program, ToolRecord, Watch};
 use styluscam_post::{Machine, OptionValue};
 use styluscam_toolpath::{
-    forming::{levels, selected_range, z_levels, zig_zag, Floors, Grid, LevelRange, Rows},
+    forming::{left_out, levels, selected_range, with_levels_at, z_levels, zig_zag, Floors, Grid, LevelRange, Rows},
     link,
     offset::{bridges, Envelope, OffsetSurface, SurfaceFlag},
     Heights, Links, Pass, PlanError, Rates, Surface,
@@ -423,8 +423,13 @@ impl Task<'_> {
         let top = self.heights.top.unwrap_or_else(|| self.round(highest - self.budget.margin));
         let bottom = self.heights.bottom;
         let range = LevelRange { top, bottom, reachable: lowest, step, resolution };
-        let heights = levels(&range, &Floors::of(surface.envelope()))?;
-        let passes = z_levels(surface, &grid, &heights, self.budget.deviation, watch)?;
+        let floors = Floors::of(surface.envelope());
+        let heights = levels(&range, &floors)?;
+        let mut passes = z_levels(surface, &grid, &heights, self.budget.deviation, watch)?;
+        let bands = left_out(surface, &passes, grid.spacing(), watch)?;
+        if let Some(heights) = with_levels_at(&heights, &bands, &range, &floors) {
+            passes = z_levels(surface, &grid, &heights, self.budget.deviation, watch)?;
+        }
         if passes.is_empty() {
             return Err(PlanError::Empty { top, bottom: bottom.max(lowest) });
         }

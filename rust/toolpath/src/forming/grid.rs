@@ -41,7 +41,8 @@ impl Grid {
     }
 
     /// Distance between nodes, mm.
-    pub(super) fn spacing(&self) -> f64 {
+    #[must_use]
+    pub fn spacing(&self) -> f64 {
         self.lattice.cell
     }
 

@@ -23,6 +23,19 @@ pub struct LevelRange {
     pub resolution: f64,
 }
 
+impl LevelRange {
+    /// The lowest multiple of the resolution over a tip, a quarter of a unit higher: a floor is clearly below its level then,
+    /// and not beside it by chance.
+    fn above(&self, tip: f64) -> f64 {
+        (tip / self.resolution + 0.25).ceil() * self.resolution
+    }
+
+    /// A level's height, just above a floor where it meets one.
+    fn stood(&self, z: f64, floors: &Floors) -> f64 {
+        Some(floors.raised(z)).filter(|raised| *raised > z).map_or(z, |raised| self.above(raised))
+    }
+}
+
 /// Heights from the top down, each a step below the one before it, the last at the bottom.
 ///
 /// The last level stands at `bottom`, or where the tool cannot go as low, just above the lowest place that it
@@ -34,10 +47,8 @@ pub struct LevelRange {
 pub fn levels(range: &LevelRange, floors: &Floors) -> Result<Vec<f64>, PlanError> {
     let LevelRange { top, bottom, reachable, step, resolution } = *range;
     let rounded = |z: f64| (z / resolution).round() * resolution;
-    // a quarter of a unit higher, so that a floor is clearly below its level and not beside it by chance
-    let above = |tip: f64| (tip / resolution + 0.25).ceil() * resolution;
-    let stood = |z: f64| Some(floors.raised(z)).filter(|raised| *raised > z).map_or(z, above);
-    let floor = stood(above(reachable).max(rounded(bottom)));
+    let stood = |z: f64| range.stood(z, floors);
+    let floor = stood(range.above(reachable).max(rounded(bottom)));
     let count = ((top - floor) / step).ceil().max(0.0);
     if count > LIMIT as f64 {
         return Err(PlanError::TooMany { what: "step.height", value: step, count: count as usize, limit: LIMIT });
@@ -52,6 +63,30 @@ pub fn levels(range: &LevelRange, floors: &Floors) -> Result<Vec<f64>, PlanError
     }
     out.dedup();
     Ok(out)
+}
+
+/// The same heights with one more in each of some bands (lowest and highest tip, mm) that holds none: at its lower end, or a
+/// quarter of a step over the next level below it, if that is still in the band. None where nothing is to be added.
+#[must_use]
+pub fn with_levels_at(heights: &[f64], bands: &[(f64, f64)], range: &LevelRange, floors: &Floors) -> Option<Vec<f64>> {
+    let mut bands = bands.to_vec();
+    bands.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let mut all = heights.to_vec();
+    for (low, high) in bands {
+        let (low, high) = (low.max(range.bottom), high.min(range.top));
+        if all.iter().any(|z| (low..=high).contains(z)) {
+            continue;
+        }
+        let below = all.iter().copied().filter(|z| *z < low).fold(f64::NEG_INFINITY, f64::max);
+        let aside = range.above(below + SHORT * range.step);
+        let level = range.stood(if aside > low && aside < high { aside } else { range.above(low) }, floors);
+        if level <= high {
+            all.push(level);
+        }
+    }
+    all.sort_by(|a, b| b.total_cmp(a));
+    all.dedup();
+    (all.len() > heights.len()).then_some(all)
 }
 
 #[cfg(test)]
@@ -87,6 +122,18 @@ mod tests {
         let found = levels(&range, &Floors::at(&[-2.0, -1.0], 0.0024)).unwrap();
         let expected = [-0.5, -0.997, -1.5, -1.997];
         assert!(found.len() == 4 && found.iter().zip(expected).all(|(z, e)| (z - e).abs() < 1e-12), "{found:?}");
+    }
+
+    #[test]
+    fn bands_between_levels_get_one_of_their_own() {
+        let range = LevelRange { top: 0.0, bottom: -2.0, reachable: -9.0, step: 0.5, resolution: 0.001 };
+        let heights = [-0.5, -1.0, -1.5, -2.0];
+        let with = |bands: &[(f64, f64)]| with_levels_at(&heights, bands, &range, &Floors::default());
+        assert_eq!(with(&[(-1.2, -0.9), (-3.0, -2.2), (0.1, 0.4)]), None);
+        // one level for two bands that overlap; clear of the level below where the band allows
+        let expected = [-0.5, -0.874, -1.0, -1.299, -1.5, -2.0];
+        let found = with(&[(-0.95, -0.6), (-0.9, -0.7), (-1.3, -1.2)]).unwrap();
+        assert!(found.len() == 6 && found.iter().zip(expected).all(|(z, e)| (z - e).abs() < 1e-9), "{found:?}");
     }
 
     #[test]

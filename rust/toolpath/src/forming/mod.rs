@@ -4,6 +4,7 @@ mod bounds;
 mod contour;
 mod floors;
 mod grid;
+mod left_out;
 mod level_curve;
 mod levels;
 mod reach;
@@ -17,7 +18,8 @@ mod zig_zag;
 
 pub use floors::Floors;
 pub use grid::Grid;
-pub use levels::{levels, LevelRange};
+pub use left_out::left_out;
+pub use levels::{levels, with_levels_at, LevelRange};
 pub use reach::selected_range;
 pub use z_level::z_levels;
 pub use zig_zag::{zig_zag, Rows};

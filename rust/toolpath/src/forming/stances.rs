@@ -12,13 +12,18 @@ const WALL: f64 = 1e-9;
 ///
 /// Something else may keep the tool from standing there.
 pub(super) fn stances(surface: &Surface<'_>) -> Vec<[Vector; 3]> {
-    let (envelope, mesh) = (surface.envelope(), surface.envelope().mesh());
     let triangles: Vec<usize> = surface.triangles().collect();
-    let stances = triangles.into_par_iter().filter_map(|triangle| {
-        let normal = mesh.normal(triangle);
+    stances_of(surface, &triangles).into_iter().map(|(_, stands)| stands).collect()
+}
+
+/// The same of some of the mesh's triangles, each with its number.
+pub(super) fn stances_of(surface: &Surface<'_>, triangles: &[usize]) -> Vec<(usize, [Vector; 3])> {
+    let (envelope, mesh) = (surface.envelope(), surface.envelope().mesh());
+    let stances = triangles.par_iter().filter_map(|triangle| {
+        let normal = mesh.normal(*triangle);
         // at the origin the tool touches a plane of this normal there
         let touching = (normal.z > WALL).then(|| envelope.touching_point(Vector::zeros(), normal))?;
-        Some(mesh.corners(triangle).map(|corner| corner - touching))
+        Some((*triangle, mesh.corners(*triangle).map(|corner| corner - touching)))
     });
     stances.collect()
 }

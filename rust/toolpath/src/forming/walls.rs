@@ -14,6 +14,7 @@ const ROUNDINGS: f64 = 4.0;
 
 /// A place of a wall where the tool may stand beside it.
 struct Beside {
+    triangle: usize,
     /// The tool's place in plan.
     place: [f64; 2],
     /// Lowest and highest tip with which its side touches the wall there, mm.
@@ -22,23 +23,37 @@ struct Beside {
 
 /// Lowest and highest tip with which the tool touches selected upright walls, mm; none where it touches none.
 ///
-/// Beside each wall, places `spacing` mm apart are asked how low the tool comes there.
-///
 /// # Errors
 /// `Cancelled` when `watch` says so.
 pub(super) fn range(surface: &Surface<'_>, spacing: f64, watch: &Watch) -> Result<Option<(f64, f64)>, Cancelled> {
     let mesh = surface.envelope().mesh();
-    let walls = surface.triangles().filter(|triangle| mesh.is_upright(*triangle));
-    let beside: Vec<Beside> = walls.flat_map(|triangle| places(surface, triangle, spacing)).collect();
+    let walls: Vec<usize> = surface.triangles().filter(|triangle| mesh.is_upright(*triangle)).collect();
+    let touched = touched(surface, &walls, spacing, watch)?.into_iter().map(|(_, tips)| tips);
+    Ok(touched.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))))
+}
+
+/// Lowest and highest tip with which the tool touches upright triangles, mm, each with the triangle's number.
+///
+/// Beside each of them, places `spacing` mm apart are asked how low the tool comes there.
+///
+/// # Errors
+/// `Cancelled` when `watch` says so.
+pub(super) fn touched(
+    surface: &Surface<'_>,
+    triangles: &[usize],
+    spacing: f64,
+    watch: &Watch,
+) -> Result<Vec<(usize, (f64, f64))>, Cancelled> {
+    let beside: Vec<Beside> = triangles.iter().flat_map(|triangle| places(surface, *triangle, spacing)).collect();
     let asked: Vec<[f64; 2]> = beside.iter().map(|beside| beside.place).collect();
     watch.begin("walls", asked.len());
     let contacts = surface.envelope().contacts(&asked, watch)?;
     let touched = beside.iter().zip(&contacts).filter_map(|(beside, contact)| {
         let [lowest, highest] = beside.tips;
         let lowest = contact.as_ref().map_or(lowest, |contact| lowest.max(contact.tip));
-        (lowest <= highest).then_some((lowest, highest))
+        (lowest <= highest).then_some((beside.triangle, (lowest, highest)))
     });
-    Ok(touched.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))))
+    Ok(touched.collect())
 }
 
 /// Places beside an upright triangle, at the middles of equal shares of its length in plan.
@@ -57,7 +72,7 @@ fn places(surface: &Surface<'_>, triangle: usize, spacing: f64) -> Vec<Beside> {
         let [foot, top] = heights(&corners, at)?;
         let wall = mesh.corners(triangle)[0] + along * (at - corners[0][0]);
         let stand = wall - touching + outward * off;
-        Some(Beside { place: [stand.x, stand.y], tips: [foot - touching.z, top - touching.z] })
+        Some(Beside { triangle, place: [stand.x, stand.y], tips: [foot - touching.z, top - touching.z] })
     });
     beside.collect()
 }
