@@ -27,7 +27,7 @@ pub(crate) const GOUGE: f64 = 0.001;
 const BRIDGED: f64 = 1.0;
 /// Where more than this share of its radius is left, a milling tool has no room: in corners of three square walls it leaves
 /// 0.73 of it.
-const NO_ROOM: f64 = 0.75;
+pub(crate) const NO_ROOM: f64 = 0.75;
 
 /// The judge's report and the program that was read.
 #[derive(Clone, Debug, Serialize)]

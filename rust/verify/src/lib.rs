@@ -67,6 +67,7 @@ pub use reach::Reach;
 pub use report::{ContactRecord, Place, Report};
 pub use simulation::{simulate, Grid, Simulation, Skin};
 pub use subject::{Bears, Forming, Limits, Obstacle, Subject, TextFacts, ToolCalls};
+pub use unreached::ToolReach;
 
 /// A point or vector of space, mm.
 type Vector = styluscam_geometry::Vector;

@@ -6,6 +6,7 @@
 //! leave there counts. What lies between passes is no bridge: there the tool can touch.
 
 use rayon::prelude::*;
+use styluscam_geometry::{Bvh, Mesh, Tool};
 use styluscam_motion::{Cancelled, Watch};
 
 use crate::body::Body;
@@ -15,7 +16,7 @@ use crate::findings::Finding;
 use crate::legs::Leg;
 use crate::passes::{Passes, ROOM};
 use crate::probes::{self, Probe};
-use crate::{FindingKind, Limits, Severity, Subject};
+use crate::{FindingKind, Limits, Severity, Subject, Vector};
 
 /// Points that are looked at.
 const POINTS: usize = 2000;
@@ -91,27 +92,61 @@ impl<'a> Task<'a> {
             return None;
         }
         let up = subject.mesh.normal(probe.triangle);
-        let mut position = probe.point - self.body.farthest(up).0;
+        let position = probe.point - self.body.farthest(up).0;
         let [lowest, highest] = self.passes.heights;
         if !(lowest..=highest).contains(&self.body.tip(position)[2]) {
             return None;
         }
         let prober = Prober { body: &self.body, mesh: subject.mesh, bvh: subject.bvh };
-        let mut least = f64::INFINITY;
-        for _ in 0..PUSHES {
-            match prober.at(position, None) {
-                Some(touch) if touch.value < -ROOM => position += touch.value * touch.away,
-                _ => {
-                    let gap = self.body.distance(probe.point - position);
-                    least = least.min(gap.value.max(0.0));
-                    if least <= enough {
-                        break;
-                    }
-                    position += gap.value * gap.away;
+        Some(nearest(&prober, probe.point, position, enough))
+    }
+}
+
+/// What lies between a point and a tool that starts from a position, pushed out of the part and pulled to the point by turns,
+/// where it is as near as it can get or leaves no more than `enough`, mm.
+fn nearest(prober: &Prober, point: Vector, mut position: Vector, enough: f64) -> f64 {
+    let mut least = f64::INFINITY;
+    for _ in 0..PUSHES {
+        match prober.at(position, None) {
+            Some(touch) if touch.value < -ROOM => position += touch.value * touch.away,
+            _ => {
+                let gap = prober.body.distance(point - position);
+                least = least.min(gap.value.max(0.0));
+                if least <= enough {
+                    break;
                 }
+                position += gap.value * gap.away;
             }
         }
-        Some(least)
+    }
+    least
+}
+
+/// What a tool without a sheet gets to, whatever its program.
+pub struct ToolReach<'a> {
+    body: Body,
+    mesh: &'a Mesh,
+    bvh: &'a Bvh,
+}
+
+impl<'a> ToolReach<'a> {
+    /// Of a tool over a part as it lies on the machine, and the part's index.
+    #[must_use]
+    pub fn new(tool: &Tool, mesh: &'a Mesh, bvh: &'a Bvh) -> Self {
+        Self { body: Body::new(tool, None), mesh, bvh }
+    }
+
+    /// Share of some triangles' area, 0 to 1, on which the tool leaves more than `enough` (mm) at best: looked for at
+    /// `points` places.
+    #[must_use]
+    pub fn share_left(&self, triangles: &[usize], points: usize, enough: f64) -> f64 {
+        let prober = Prober { body: &self.body, mesh: self.mesh, bvh: self.bvh };
+        let probes = probes::spread(self.mesh, triangles, points);
+        let is_left = |probe: &&Probe| {
+            let position = probe.point - self.body.farthest(self.mesh.normal(probe.triangle)).0;
+            nearest(&prober, probe.point, position, enough) > enough
+        };
+        probes.par_iter().filter(is_left).count() as f64 / probes.len().max(1) as f64
     }
 }
 

@@ -39,16 +39,15 @@ const UPRIGHT_DEG: f64 = 89.0;
 pub struct Body<'a> {
     rays: Rays<'a>,
     places: Vec<Sample>,
-    /// The box's diagonal, mm.
-    size: f64,
+    /// Lowest and highest corner of the box.
+    bounds: (Vector, Vector),
 }
 
 impl<'a> Body<'a> {
     /// Of a mesh that lies as the tool sees it, +Z towards the spindle, and its index.
     #[must_use]
     pub fn new(mesh: &'a Mesh, bvh: &'a Bvh) -> Self {
-        let (low, high) = mesh.bounds();
-        Self { rays: Rays::new(mesh, bvh), places: samples(mesh, PLACES), size: (high - low).norm() }
+        Self { rays: Rays::new(mesh, bvh), places: samples(mesh, PLACES), bounds: mesh.bounds() }
     }
 
     /// The mesh.
@@ -57,9 +56,26 @@ impl<'a> Body<'a> {
         self.rays.mesh
     }
 
+    /// The mesh's index.
+    #[must_use]
+    pub fn bvh(&self) -> &'a Bvh {
+        self.rays.bvh
+    }
+
+    /// Lowest and highest corner of its box, mm.
+    #[must_use]
+    pub fn bounds(&self) -> (Vector, Vector) {
+        self.bounds
+    }
+
+    /// The box's diagonal, mm.
+    fn size(&self) -> f64 {
+        (self.bounds.1 - self.bounds.0).norm()
+    }
+
     /// Length below which two places are one, mm.
     fn fine(&self) -> f64 {
-        1e-6 * self.size
+        1e-6 * self.size()
     }
 
     /// Whether the surface is open, closed, or wound both ways.
@@ -89,7 +105,7 @@ impl<'a> Body<'a> {
     /// The highest place over (x, y), mm; none beside the part.
     #[must_use]
     pub fn height_at(&self, x: f64, y: f64) -> Option<f64> {
-        let (low, high) = self.mesh().bounds();
+        let (low, high) = self.bounds;
         let above = high.z + (high.z - low.z) + 1.0;
         let hit = self.rays.first(Vector::new(x, y, above), -Vector::z(), 0.0, |_| true)?;
         Some(above - hit.distance)

@@ -19,7 +19,7 @@ pub struct Hit {
 /// A mesh and its index.
 pub struct Rays<'a> {
     pub mesh: &'a Mesh,
-    bvh: &'a Bvh,
+    pub bvh: &'a Bvh,
 }
 
 impl<'a> Rays<'a> {

@@ -34,7 +34,7 @@ fn side(body: &Body<'_>, axis: UpAxis) -> Side {
     let up = axis.vector();
     let (low, high) = body.mesh().bounds();
     let foot = up.zip_map(&low.zip_zip_map(&high, &up, |l, h, u| if u < 0.0 { h } else { l }), |u, x| u * x).sum();
-    let stands = |place: &Sample| place.normal.dot(&up) < -FLAT && place.point.dot(&up) - foot < 1e-3 * body.size;
+    let stands = |place: &Sample| place.normal.dot(&up) < -FLAT && place.point.dot(&up) - foot < 1e-3 * body.size();
     let (mut all, mut hidden, mut looks_up) = (0.0, 0.0, 0.0);
     for place in body.places.iter().filter(|place| !stands(place)) {
         all += 1.0;
@@ -50,6 +50,6 @@ pub fn is_seen(body: &Body<'_>, place: &Sample, up: Vector) -> bool {
     if place.normal.dot(&up) < -AWAY {
         return false;
     }
-    let start = place.point + OFF * body.size * place.normal;
+    let start = place.point + OFF * body.size() * place.normal;
     body.rays.first(start, up, 0.0, |_| true).is_none()
 }

@@ -26,6 +26,8 @@ pub struct Choice {
     pub tool: sizes::Cutter,
     /// In order.
     pub operations: Vec<operations::Work>,
+    /// Share of the faces that the tool may be unable to get to, where that is more than usual.
+    pub max_unreached: Option<f64>,
     /// Whether faces are named that partly look down.
     pub allow_undercuts: bool,
     /// Lowest and highest corner of the part as it lies, mm.
@@ -150,6 +152,7 @@ fn form(found: Formed, thickness: Option<f64>, mut reasons: Vec<String>) -> Choi
         sheet: Some(thickness),
         operations: vec![operations::forming(&turned.mesh, &looks, &tool)],
         tool,
+        max_unreached: None,
         allow_undercuts: false,
         bounds: bounds(&turned.mesh),
     }
@@ -169,6 +172,7 @@ fn mill(lying: Turned, sides: &[Side; 6], mut reasons: Vec<String>) -> Choice {
         up,
         sheet: None,
         tool: milled.tool,
+        max_unreached: milled.max_unreached,
         allow_undercuts: looks.faces.iter().any(named),
         operations: milled.works,
         bounds: bounds(&turned.mesh),

@@ -200,12 +200,16 @@ law = "constant"            # or "sine"
     )
 }
 
-fn process(choice: &Choice) -> &'static str {
-    if choice.sheet.is_some() {
-        "[process]\nkind = \"spif\"               # single-point incremental forming\n"
+fn process(choice: &Choice) -> String {
+    let kind = if choice.sheet.is_some() {
+        "kind = \"spif\"               # single-point incremental forming\n"
     } else {
-        "[process]\nkind = \"milling\"\n"
-    }
+        "kind = \"milling\"\n"
+    };
+    let unreached = choice.max_unreached.map_or(String::new(), |share| {
+        format!("max_unreached = {}        # share of the faces that the tool may be unable to get to\n", number(share))
+    });
+    format!("[process]\n{kind}{unreached}")
 }
 
 fn tool_name(choice: &Choice) -> &'static str {

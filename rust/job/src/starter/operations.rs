@@ -1,10 +1,15 @@
 //! The operations of a job: rows for floors and gentle slopes, levels for walls, no face twice.
 
+use std::collections::BTreeMap;
+
 use styluscam_geometry::Mesh;
+use styluscam_verify::ToolReach;
 
 use super::choice::worth;
 use super::sizes::{self, round, Cutter, Shape};
 use crate::body::{Body, FaceLook, Hollows};
+use crate::document::ProcessSection;
+use crate::judge::NO_ROOM;
 use crate::OperationKind;
 
 /// Share of the seen area that is worth an operation of its own.
@@ -26,8 +31,18 @@ const FLAT_LEVELS: f64 = 0.2;
 const LONGEST: f64 = 100_000.0;
 /// Places of a wall before which the floor is looked for, about.
 const LOOKED_AT: usize = 24;
+/// A tool touches what it comes nearer to than this share of its radius.
+const TOUCHED: f64 = 0.02;
+/// Places at which it is asked what a tool gets to: shares are right to about two percent.
+const PLACES: usize = 2000;
 /// Faces that a reason names at most.
 const NAMED: usize = 6;
+/// Of what the judge lets pass: a tool that leaves less than this share of it is sure to pass,
+const SURE: f64 = 0.8;
+/// and a smaller one is worth its longer path if it leaves no more than this share of what the wider one leaves.
+const WORTHWHILE: f64 = 0.95;
+/// Share of the faces beyond which the tool is no tool for the part.
+const MOST_LEFT: f64 = 0.3;
 /// Levels at most.
 const LEVELS: f64 = 250.0;
 
@@ -56,6 +71,8 @@ pub struct Milled {
     pub works: Vec<Work>,
     pub tool: Cutter,
     pub reasons: Vec<String>,
+    /// Share of the faces that the tool may be unable to get to, where that is more than usual.
+    pub max_unreached: Option<f64>,
 }
 
 /// Levels over all that looks up.
@@ -65,20 +82,50 @@ pub fn forming(mesh: &Mesh, looks: &Hollows, tool: &Cutter) -> Work {
     Work { id: "walls", kind: OperationKind::ZLevel, faces: None, pitch, angle_deg: 0.0 }
 }
 
-/// Rows, levels, or both.
+/// Rows, levels, or both, with a tool that gets to the faces.
 pub fn milling(body: &Body<'_>, looks: &Hollows) -> Milled {
-    let mesh = body.mesh();
     let seen: Vec<&FaceLook> = worth(looks).collect();
-    let whole = area(&seen);
-    let (walls, floors): (Vec<&FaceLook>, Vec<&FaceLook>) = seen.iter().partition(|face| is_wall(face));
     let is_prismatic = seen.iter().all(|face| face.flat >= PRISMATIC || face.vertical >= PRISMATIC);
     let shape = if is_prismatic { Shape::Flat } else { Shape::Ball };
     let drilled = |face: &&FaceLook| face.hole.is_some();
-    let (tool, words) = sizes::cutter(mesh, seen.iter().copied().filter(|face| !drilled(face)), shape);
+    let (fitting, words) = sizes::cutter(body.mesh(), seen.iter().copied().filter(|face| !drilled(face)), shape);
+    let by_face = ByFace::of(body);
+    let allowed = ProcessSection::default().max_unreached;
+    let mut milled = worked(&by_face, &seen, fitting, words);
+    let mut left = by_face.share_left(&milled);
+    while left > SURE * allowed {
+        let Some(diameter) = sizes::next_smaller(milled.tool.diameter, body.mesh()) else { break };
+        let words = format!("the tool, {diameter} mm wide: wider ones get to less of the faces");
+        let smaller = worked(&by_face, &seen, Cutter { diameter, ..fitting }, words);
+        let share = by_face.share_left(&smaller);
+        if share > WORTHWHILE * left {
+            break;
+        }
+        (milled, left) = (smaller, share);
+    }
+    if left > SURE * allowed && left <= MOST_LEFT {
+        let limit = (100.0 * (left + (1.0 - SURE) * allowed)).ceil() / 100.0;
+        milled.max_unreached = Some(limit);
+        milled.reasons.push(format!(
+            "no tool that suits the part gets to {:.0} % of these faces, which lie under others or between walls: \
+             max_unreached = {limit} lets that pass; leave faces out, or cut them from another side",
+            100.0 * left
+        ));
+    }
+    milled
+}
+
+/// Rows, levels, or both for the faces seen, with a tool.
+fn worked(by_face: &ByFace<'_>, seen: &[&FaceLook], tool: Cutter, words: String) -> Milled {
+    let mesh = by_face.body.mesh();
+    let whole = area(seen);
+    let (walls, floors): (Vec<&FaceLook>, Vec<&FaceLook>) = seen.iter().partition(|face| is_wall(face));
     let mut reasons = vec![words];
     let fits = |face: &&FaceLook| Hollows::bound([*face], 0.5).is_none_or(|radius| 2.02 * radius >= tool.diameter);
-    let (walls, low): (Vec<&FaceLook>, Vec<&FaceLook>) =
-        walls.into_iter().partition(|face| face.vertical < PRISMATIC || is_touched(body, face, &tool));
+    let reach = by_face.reach(&tool).filter(|_| walls.len() <= NAMES);
+    let (walls, low): (Vec<&FaceLook>, Vec<&FaceLook>) = walls
+        .into_iter()
+        .partition(|face| face.vertical < PRISMATIC || by_face.is_touched(face, &tool, reach.as_ref()));
     let (open, narrow): (Vec<&FaceLook>, Vec<&FaceLook>) = walls.into_iter().partition(|face| fits(face));
     reasons.extend(left(&narrow, &tool));
     reasons.extend(untouched(&low, &tool));
@@ -86,7 +133,7 @@ pub fn milling(body: &Body<'_>, looks: &Hollows) -> Milled {
     let with_rows = area(&floors) >= WORTH * whole || !with_levels;
     let angle_deg = if size(mesh)[0] >= size(mesh)[1] { 0.0 } else { 90.0 };
     let rows =
-        |faces| Work { id: "floors", kind: OperationKind::ZigZag, faces, pitch: rows_apart(&seen, &tool), angle_deg };
+        |faces| Work { id: "floors", kind: OperationKind::ZigZag, faces, pitch: rows_apart(seen, &tool), angle_deg };
     let levels = |faces| Work {
         id: "walls",
         kind: OperationKind::ZLevel,
@@ -105,24 +152,66 @@ pub fn milling(body: &Body<'_>, looks: &Hollows) -> Milled {
     };
     reasons.push(words.to_owned());
     reasons.push("these are finishing passes: the stock is to be roughed before".to_owned());
-    Milled { works, tool, reasons }
+    Milled { works, tool, reasons, max_unreached: None }
 }
 
-/// Whether the tool's side touches an upright face while its tip stays above what lies in front of it.
-fn is_touched(body: &Body<'_>, face: &FaceLook, tool: &Cutter) -> bool {
-    let (mesh, foot) = (body.mesh(), body.mesh().bounds().0.z);
-    let side = match tool.shape {
-        Shape::Ball => 0.5 * tool.diameter,
-        Shape::Flat => 0.0,
-    };
-    let own: Vec<usize> = (0..mesh.triangles().len()).filter(|t| mesh.faces()[*t] == face.face).collect();
-    let floor_before = |triangle: &usize| {
-        let [a, b, c] = mesh.corners(*triangle);
-        let axis = (a + b + c) / 3.0 + 0.5 * tool.diameter * mesh.normal(*triangle);
-        body.height_at(axis.x, axis.y).unwrap_or(foot)
-    };
-    let few = own.iter().step_by(own.len().div_ceil(LOOKED_AT).max(1));
-    few.map(floor_before).any(|floor| face.heights[1] - floor > 1.2 * side)
+/// A body's triangles by face.
+struct ByFace<'a> {
+    body: &'a Body<'a>,
+    triangles: BTreeMap<u32, Vec<usize>>,
+    /// Height of the part's foot, mm.
+    foot: f64,
+}
+
+impl<'a> ByFace<'a> {
+    fn of(body: &'a Body<'a>) -> Self {
+        let mut triangles: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        for (triangle, face) in body.mesh().faces().iter().enumerate() {
+            triangles.entry(*face).or_default().push(triangle);
+        }
+        Self { body, triangles, foot: body.bounds().0.z }
+    }
+
+    /// What a tool gets to; none for one that cannot be made: the job's check says why.
+    fn reach(&self, tool: &Cutter) -> Option<ToolReach<'a>> {
+        tool.made().map(|tool| ToolReach::new(&tool, self.body.mesh(), self.body.bvh()))
+    }
+
+    fn of_face(&self, face: u32) -> &[usize] {
+        self.triangles.get(&face).map_or(&[], Vec::as_slice)
+    }
+
+    /// Whether the tool's side touches an upright face while its tip stays above what lies in front of it.
+    fn is_touched(&self, face: &FaceLook, tool: &Cutter, reach: Option<&ToolReach<'_>>) -> bool {
+        let (body, mesh) = (self.body, self.body.mesh());
+        let side = match tool.shape {
+            Shape::Ball => 0.5 * tool.diameter,
+            Shape::Flat => 0.0,
+        };
+        let floor_before = |triangle: &usize| {
+            let [a, b, c] = mesh.corners(*triangle);
+            let axis = (a + b + c) / 3.0 + 0.5 * tool.diameter * mesh.normal(*triangle);
+            body.height_at(axis.x, axis.y).unwrap_or(self.foot)
+        };
+        let own = self.of_face(face.face);
+        let few = own.iter().step_by(own.len().div_ceil(LOOKED_AT).max(1));
+        let has_room = few.map(floor_before).any(|floor| face.heights[1] - floor > 1.2 * side);
+        let touches = |reach: &ToolReach<'_>| reach.share_left(own, LOOKED_AT, TOUCHED * side) < 1.0;
+        has_room && (tool.shape == Shape::Flat || reach.is_none_or(touches))
+    }
+
+    /// Share of the faces to which the tool does not get, as the judge will say.
+    fn share_left(&self, milled: &Milled) -> f64 {
+        let mesh = self.body.mesh();
+        let faces: Vec<&[usize]> = if milled.works.iter().any(|work| work.faces.is_none()) {
+            self.triangles.values().map(Vec::as_slice).collect()
+        } else {
+            milled.works.iter().flat_map(|work| work.faces.iter().flatten()).map(|face| self.of_face(*face)).collect()
+        };
+        let triangles: Vec<usize> = faces.concat().into_iter().filter(|triangle| !mesh.looks_down(*triangle)).collect();
+        let radius = 0.5 * milled.tool.diameter;
+        self.reach(&milled.tool).map_or(0.0, |reach| reach.share_left(&triangles, PLACES, NO_ROOM * radius))
+    }
 }
 
 /// What is left because the tool's side does not reach down to it, in words.

@@ -1,6 +1,6 @@
 //! Tools and distances between passes: from what the part has, in the sizes that a shop has.
 
-use styluscam_geometry::{Bvh, Mesh};
+use styluscam_geometry::{Bvh, Mesh, ProfileDocument, Tool, ToolDocument};
 
 use super::choice::worth;
 use crate::body::{Body, FaceLook, Hollows};
@@ -9,8 +9,10 @@ use crate::body::{Body, FaceLook, Hollows};
 const DIAMETERS: [f64; 14] = [20.0, 16.0, 12.0, 10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.5, 1.0, 0.8, 0.5];
 /// Largest diameter against the part's smaller side: a stylus travels within it, a cutter around it.
 const WIDEST: [f64; 2] = [0.15, 0.25];
-/// Cutters that nothing bounds are no smaller than this, mm.
+/// Cutters that nothing bounds are no smaller than this, mm,
 const STURDY: f64 = 2.0;
+/// but no wider than this share of the part's smaller side.
+const HALF: f64 = 0.5;
 /// Smallest diameter against the part's larger side: below it the path is longer than anybody waits for.
 const THINNEST: f64 = 0.02;
 /// Share of the area that may be narrower than the tool: the places that a shop leaves for a second tool.
@@ -35,6 +37,25 @@ pub struct Cutter {
     pub diameter: f64,
 }
 
+impl Cutter {
+    /// The tool itself; none where its diameter is no tool's.
+    pub fn made(&self) -> Option<Tool> {
+        let diameter = self.diameter;
+        let profile = match self.shape {
+            Shape::Ball => ProfileDocument::Ball { diameter, radius: None, tip_flat: 0.0 },
+            Shape::Flat => ProfileDocument::Flat { diameter, tip_flat: 0.0 },
+        };
+        Tool::new(ToolDocument::of(profile)).ok()
+    }
+}
+
+/// The next smaller diameter that a shop has and that makes sense for a part of some size, mm.
+pub fn next_smaller(diameter: f64, mesh: &Mesh) -> Option<f64> {
+    let (low, high) = mesh.bounds();
+    let least = THINNEST * (high.x - low.x).max(high.y - low.y);
+    DIAMETERS.into_iter().find(|other| *other < diameter).filter(|smaller| *smaller >= least)
+}
+
 /// The radius up to which a tool from above fits the concave places of a part, all but a fiftieth of its area, mm; none where
 /// nothing bounds it.
 #[must_use]
@@ -55,7 +76,8 @@ pub fn stylus(mesh: &Mesh, looks: &Hollows, thickness: Option<f64>) -> (Cutter, 
 /// The largest cutter that fits some faces, and the sentence that says so.
 pub fn cutter<'f>(mesh: &Mesh, faces: impl IntoIterator<Item = &'f FaceLook>, shape: Shape) -> (Cutter, String) {
     let [_, widest] = WIDEST.map(|share| share * smaller_side(mesh));
-    let (diameter, words) = fitting(mesh, Hollows::bound(faces, LEFT), widest.max(STURDY), 0.0);
+    let sturdy = STURDY.min(HALF * smaller_side(mesh));
+    let (diameter, words) = fitting(mesh, Hollows::bound(faces, LEFT), widest.max(sturdy), 0.0);
     (Cutter { shape, diameter }, words)
 }
 
