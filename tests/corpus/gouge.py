@@ -68,13 +68,13 @@ def checked(text: str, job: dict[str, Any], corners: Floats, allowed: float, fam
     found.path_box = [ends.min(axis=0).tolist(), ends.max(axis=0).tolist()]
     tools = {tool.get("number", 1): tool for tool in job["tools"].values()}
     tips, numbers, lines, feeding = _places(moves, seed)
-    near = 0
+    near, reach = 0, NEAR + max(operation.get("tolerance", 0.0) for operation in job["operations"])
     for number in np.unique(numbers):
         of_tool = numbers == number
         tool = Tool.of(tools[int(number)]["profile"], job["setup"].get("sheet"), job["part"].get("model_face"))
-        depths = Scene(tool, corners).distances(tips[of_tool], allowed)
+        depths = Scene(tool, corners, reach).distances(tips[of_tool], allowed)
         found.samples += len(depths)
-        near += int(np.sum((depths < NEAR) & feeding[of_tool]))
+        near += int(np.sum((depths < reach) & feeding[of_tool]))
         worst = int(depths.argmin())
         if depths[worst] < -allowed and -depths[worst] > found.deepest:
             place = tips[of_tool][worst]
@@ -108,8 +108,8 @@ def _touching(tool: Tool, slopes: Floats) -> Floats:
 class Scene:
     """Triangles in cells of a grid over the plan, and a tool."""
 
-    def __init__(self, tool: Tool, corners: Floats) -> None:
-        self.tool = tool
+    def __init__(self, tool: Tool, corners: Floats, near: float = NEAR) -> None:
+        self.tool, self.near = tool, near
         self.corners = corners
         self.low, self.high = corners.min(axis=1), corners.max(axis=1)
         self.slopes = np.linspace(0.0, 0.5 * math.pi, PLANES)
@@ -120,7 +120,7 @@ class Scene:
         self.touch_r, self.touch_z = _touching(tool, self.fine).T
         self.bottom_r = np.concatenate([[0.0], np.maximum.accumulate(self.touch_r)])
         self.bottom_z = np.concatenate([[-tool.raised], self.touch_z])
-        self.radius = tool.radius + NEAR
+        self.radius = tool.radius + near
         self._sort()
 
     def _sort(self) -> None:
@@ -193,8 +193,8 @@ class Scene:
         places = np.repeat(np.repeat(rows, keys.shape[1]), flat)
         tip = tips[places]
         aside = np.maximum(np.maximum(self.low[triangles, :2] - tip[:, :2], tip[:, :2] - self.high[triangles, :2]), 0.0)
-        apart = np.maximum(np.hypot(aside[:, 0], aside[:, 1]) - NEAR, 0.0)
-        bottom = np.interp(apart, self.bottom_r, self.bottom_z, right=np.inf) - 0.01 * self.tool.radius - 2 * NEAR
+        apart = np.maximum(np.hypot(aside[:, 0], aside[:, 1]) - self.near, 0.0)
+        bottom = np.interp(apart, self.bottom_r, self.bottom_z, right=np.inf) - 0.01 * self.tool.radius - 2 * self.near
         keep = self.high[triangles, 2] > tip[:, 2] + bottom
         return places[keep], triangles[keep]
 
@@ -218,7 +218,7 @@ class Scene:
         return out
 
     def _not_parted(self, corners: Floats) -> np.ndarray:
-        """Indices of triangles (N, 3, 3) that no plane tried parts from the tool by NEAR.
+        """Indices of triangles (N, 3, 3) that no plane tried parts from the tool by `near`.
 
         The plane that is best at a point of the triangle bounds all of it; the point then goes towards the corner that the
         plane is nearest to (Frank and Wolfe).
@@ -230,7 +230,7 @@ class Scene:
             out = points[:, :2] / np.maximum(r, 1e-12)[:, None] * self.sine[best][:, None]
             way = np.column_stack([out, -self.cosine[best]])
             values = np.einsum("ijk,ik->ij", corners[left], way) - self.offsets[best][:, None]
-            keep = values.min(axis=1) < NEAR
+            keep = values.min(axis=1) < self.near
             left, points, values = left[keep], points[keep], values[keep]
             nearest = corners[left, values.argmin(axis=1)]
             points = points + 2 / (turn + 2) * (nearest - points)

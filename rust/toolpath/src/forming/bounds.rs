@@ -3,7 +3,12 @@
 use rayon::prelude::*;
 use styluscam_motion::{Cancelled, Watch};
 
-use super::{grid::Grid, level_curve};
+use super::{
+    grid::Grid,
+    level_curve::{self, LevelCurve},
+    sides::Sides,
+    square::Square,
+};
 use crate::{lattice::Node, Cells, Surface};
 
 /// What is known of the envelope in the cells of a grid.
@@ -29,7 +34,30 @@ impl Bounds {
             let cell = lattice.cell_of(number);
             levels.next_under(grid, cell).map_or(f64::NEG_INFINITY, |level| floor(grid, surface, cell, level))
         });
-        Ok(Self { floors: floors.collect(), ceilings })
+        Self { floors: floors.collect(), ceilings }.tightened(grid, surface, &levels, watch)
+    }
+
+    /// Cells in which a level may hide are looked into once, at the level next to their corners: where nothing hides of that
+    /// one, nothing does of those beyond it.
+    fn tightened(self, grid: &Grid, surface: &Surface<'_>, levels: &Levels, watch: &Watch) -> Result<Self, Cancelled> {
+        watch.begin("hidden", self.floors.len());
+        let hides = |cell: Node, level: f64| {
+            Sides::new(grid, level).look_into(&Square::cell(cell), &mut LevelCurve::new(surface, level))
+        };
+        let tightened: Result<Vec<(f64, f64)>, Cancelled> = (0..self.floors.len())
+            .into_par_iter()
+            .map(|number| {
+                let cell = grid.lattice().cell_of(number);
+                let under = levels.next_under(grid, cell).filter(|level| self.may_dip(number, *level));
+                let floor = under.filter(|level| !hides(cell, *level)).map(level_curve::least_over);
+                let over = Some(levels.next_over(grid, cell)).filter(|level| self.may_rise(number, *level));
+                let ceiling = over.filter(|level| !hides(cell, *level));
+                watch.advance(1)?;
+                Ok((floor.unwrap_or(self.floors[number]), ceiling.unwrap_or(self.ceilings[number])))
+            })
+            .collect();
+        let (floors, ceilings) = tightened?.into_iter().unzip();
+        Ok(Self { floors, ceilings })
     }
 
     /// Whether a level hides in a cell whose corners are all above it.

@@ -21,6 +21,11 @@ pub fn is_over(tip: f64, level: f64) -> bool {
     tip > level + OVER
 }
 
+/// A height that is over a level, as little as counts.
+pub fn least_over(level: f64) -> f64 {
+    level + 2.0 * OVER
+}
+
 /// A place in plan.
 pub type Place = [f64; 2];
 type Plan = nalgebra::Vector2<f64>;

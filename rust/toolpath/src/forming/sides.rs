@@ -61,23 +61,38 @@ impl<'a> Sides<'a> {
         square.corners().into_iter().filter(|node| self.is_above(*node)).count()
     }
 
-    /// Finds out about the nodes of a cell, [`LOOKED_AT`] apart, as far as bounds do not decide at once.
-    pub fn look_into(&mut self, cell: &Square, curve: &mut LevelCurve<'_>) {
-        let mut open = vec![*cell];
+    /// Finds out about the nodes of a cell whose corners lie on one side, [`LOOKED_AT`] apart, as far as bounds do not decide at
+    /// once; whether some lie on the other side. Only then they are kept.
+    pub fn look_into(&mut self, cell: &Square, curve: &mut LevelCurve<'_>) -> bool {
+        let side = self.is_above(cell.first);
+        let (mut open, mut decided, mut asked) = (vec![*cell], Vec::new(), HashMap::new());
         while let Some(square) = open.pop() {
             let [low, _, high, _] = square.corners();
             match curve.verdict(&[self.place(low), self.place(high)]) {
                 Verdict::Open if square.size > LOOKED_AT => open.extend(square.quarters()),
-                Verdict::Open => square.corners().iter().for_each(|node| {
-                    self.find(*node, curve);
-                }),
-                decided => {
-                    for node in nodes_of(&square).filter(|node| !is_coarse(*node)) {
-                        self.fine.entry(node).or_insert(decided == Verdict::Above);
+                Verdict::Open => {
+                    for node in square.corners() {
+                        let above = self.known(node).or_else(|| asked.get(&node).copied());
+                        let above = above.unwrap_or_else(|| curve.is_above(self.place(node)));
+                        asked.insert(node, above);
                     }
                 }
+                verdict => decided.push((square, verdict == Verdict::Above)),
             }
         }
+        let differs = |above: &bool| *above != side;
+        if !asked.values().any(differs) && !decided.iter().any(|(_, above)| differs(above)) {
+            return false;
+        }
+        for (node, above) in asked.into_iter().filter(|(node, _)| !is_coarse(*node)) {
+            self.fine.entry(node).or_insert(above);
+        }
+        for (square, above) in decided {
+            for node in nodes_of(&square).filter(|node| !is_coarse(*node)) {
+                self.fine.entry(node).or_insert(above);
+            }
+        }
+        true
     }
 
     /// Whether nodes of a square that was looked into lie on different sides.

@@ -70,8 +70,9 @@ impl<'a, 'c> Trace<'a, 'c> {
                 4 if !bounds.may_dip(number, z) => {}
                 0 | 4 => {
                     watch.advance(0)?;
-                    self.sides.look_into(&square, self.curve);
-                    self.divide_where_nodes_differ(square);
+                    if self.sides.look_into(&square, self.curve) {
+                        self.divide_where_nodes_differ(square);
+                    }
                 }
                 _ => self.open.push(square),
             }
