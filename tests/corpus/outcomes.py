@@ -19,6 +19,8 @@ from process import Ended, Limit, styluscam
 JUDGED = 0.001
 """The depth from which the engine's own judge calls an entry a gouge, mm."""
 AS_WRITTEN = "as-written"
+THICKEST_SHEET = 6.0
+"""mm: thicker ones are pressed; a corpus part of 2 m is a small one made larger."""
 REASONS = {
     "unit": r"\bunits?\b",
     "undercut": r"undercut|look(s)? down|other side|from this side|up = ",
@@ -202,7 +204,9 @@ def _misjudged(job: dict[str, Any], part: dict[str, Any]) -> str:
     kind = job.get("process", {}).get("kind", "spif")
     if part["body"] == "solid" and kind != "milling":
         return f"a solid body is planned as {kind}"
-    if part["body"] == "sheet" and "done" in part["expect"] and kind == "milling" and part["family"] != "flat-sheet":
+    cannot_be_formed = "refused:steep" in part["expect"] or part["family"] == "flat-sheet"
+    cannot_be_formed |= part["body"] == "sheet" and part["thickness"] > THICKEST_SHEET
+    if part["body"] == "sheet" and "done" in part["expect"] and kind == "milling" and not cannot_be_formed:
         return "a sheet part is milled"
     said = job.get("setup", {}).get("sheet", {}).get("thickness")
     if part["body"] == "sheet" and said is not None and abs(said - part["thickness"]) > 0.05 * part["thickness"]:

@@ -4,7 +4,7 @@
 use styluscam_geometry::{ModelFace, Sheet};
 use styluscam_verify::FindingKind;
 
-use crate::body::{Body, Shell, Unformable};
+use crate::body::{Body, Unformable};
 use crate::{JobDocument, Scene, Selection};
 
 /// A model whose thickness differs from the sheet's by more than this share of it, and by more than so many mm, is
@@ -16,7 +16,7 @@ const OTHER_MM: f64 = 0.03;
 pub fn mismatches(job: &JobDocument, scene: &Scene) -> Vec<(FindingKind, String)> {
     let Some(sheet) = scene.sheet else { return Vec::new() };
     let body = Body::new(&scene.mesh, &scene.bvh);
-    let thickness = if body.shell() == Shell::Closed { body.thickness() } else { None };
+    let thickness = body.thickness();
     let of_sheet = thickness.filter(|thickness| thickness.is_sheet()).map(|thickness| thickness.median);
     let formed = body.formed_depth(of_sheet);
     let solid = thickness.filter(|_| of_sheet.is_none() && takes_all(job)).zip(formed.err());

@@ -84,10 +84,10 @@ impl<'a> Body<'a> {
         shell::of(self)
     }
 
-    /// How thick a closed body is, by place.
+    /// How thick a body is that encloses a volume, but for holes where triangles are missing, by place.
     #[must_use]
     pub fn thickness(&self) -> Option<Thickness> {
-        thickness::of(self)
+        matches!(self.shell(), Shell::Closed | Shell::Torn).then(|| thickness::of(self)).flatten()
     }
 
     /// What can be seen from each of the six directions of [`SIDES`].

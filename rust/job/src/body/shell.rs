@@ -12,12 +12,16 @@ const WAYS: [[f64; 3]; 3] = [[0.211, 0.157, 0.965], [0.683, -0.312, 0.661], [-0.
 const LINES: usize = 200;
 /// Share of the lines that may miss their other end, where a triangle is lost or turned over.
 const SLACK: f64 = 0.04;
+/// The same where a body has holes: through a surface without thickness most lines in some direction pass once.
+const TORN: f64 = 0.25;
 
 /// What kind of surface a mesh is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shell {
     /// It encloses a volume.
     Closed,
+    /// It encloses a volume but for holes where triangles are missing.
+    Torn,
     /// It encloses a volume, and its triangles are wound inward.
     InsideOut,
     /// It has a border: a surface without thickness.
@@ -35,6 +39,7 @@ pub fn of(body: &Body<'_>) -> Shell {
         () if signed <= SLACK && inward > 0.5 => Shell::InsideOut,
         () if signed <= SLACK => Shell::Closed,
         () if plain <= SLACK => Shell::Mixed,
+        () if signed <= TORN && inward <= 0.5 => Shell::Torn,
         () => Shell::Open,
     }
 }

@@ -63,13 +63,15 @@ pub fn choose(part: &StarterPart<'_>) -> Choice {
     let lying = Turned::new(part.mesh, UpAxis::PlusZ);
     let body = lying.body();
     let shell = body.shell();
-    let thickness = if shell == Shell::Closed { body.thickness() } else { None };
+    let thickness = body.thickness();
     let sides = body.sides();
-    match (shell, thickness) {
+    let mut choice = match (shell, thickness) {
         (Shell::Open, _) => open(lying, &sides),
-        (Shell::Closed, Some(thickness)) if thickness.is_sheet() => sheet(lying, &thickness, &sides),
-        (Shell::Closed, Some(thickness)) => mill(lying, &sides, vec![solid(&thickness)]),
-        (Shell::Closed, None) => mill(lying, &sides, vec!["the part is a closed solid: it is milled".to_owned()]),
+        (Shell::Closed | Shell::Torn, Some(thickness)) if thickness.is_sheet() => sheet(lying, &thickness, &sides),
+        (Shell::Closed | Shell::Torn, Some(thickness)) => mill(lying, &sides, vec![solid(&thickness)]),
+        (Shell::Closed | Shell::Torn, None) => {
+            mill(lying, &sides, vec!["the part is a closed solid: it is milled".to_owned()])
+        }
         (Shell::InsideOut, _) => mill(
             lying,
             &sides,
@@ -79,7 +81,11 @@ pub fn choose(part: &StarterPart<'_>) -> Choice {
             let words = "some of the part's triangles are wound inward: repair the mesh before you trust this job";
             mill(lying, &sides, vec![words.to_owned()])
         }
+    };
+    if shell == Shell::Torn {
+        choice.reasons.push("the part's surface has holes: repair the mesh before you trust this job".to_owned());
     }
+    choice
 }
 
 fn solid(thickness: &Thickness) -> String {

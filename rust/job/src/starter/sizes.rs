@@ -109,9 +109,10 @@ fn fitting(mesh: &Mesh, bound: Option<f64>, widest: f64, least: f64) -> (f64, St
     (wide, words)
 }
 
-/// A length as a person measures it: to 0.01 mm.
+/// A length as a person measures it: to 0.01 mm, thin ones to 0.001 mm.
 pub fn measured(length: f64) -> f64 {
-    ((length * 100.0).round() / 100.0).max(0.01)
+    let unit = if length < 0.2 { 1000.0 } else { 100.0 };
+    ((length * unit).round() / unit).max(1.0 / unit)
 }
 
 /// Up to two significant places.
