@@ -31,7 +31,7 @@ pub fn left_out(
 
     let mut tips: Vec<(u32, (f64, f64))> = walls::touched(surface, &upright, spacing, watch)?
         .into_iter()
-        .map(|(triangle, tips)| (face(triangle), tips))
+        .map(|touched| (face(touched.triangle), touched.tips))
         .collect();
     let stances = stances_of(surface, &sloping);
     let places: Vec<[f64; 2]> = stances.iter().flat_map(|(_, stands)| stands.map(|at| [at.x, at.y])).collect();

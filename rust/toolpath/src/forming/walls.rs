@@ -21,6 +21,13 @@ struct Beside {
     tips: [f64; 2],
 }
 
+/// A place of a wall that the tool touches.
+pub(super) struct Touched {
+    pub triangle: usize,
+    /// Lowest and highest tip with which it is touched there, mm.
+    pub tips: (f64, f64),
+}
+
 /// Lowest and highest tip with which the tool touches selected upright walls, mm; none where it touches none.
 ///
 /// # Errors
@@ -28,11 +35,11 @@ struct Beside {
 pub(super) fn range(surface: &Surface<'_>, spacing: f64, watch: &Watch) -> Result<Option<(f64, f64)>, Cancelled> {
     let mesh = surface.envelope().mesh();
     let walls: Vec<usize> = surface.triangles().filter(|triangle| mesh.is_upright(*triangle)).collect();
-    let touched = touched(surface, &walls, spacing, watch)?.into_iter().map(|(_, tips)| tips);
+    let touched = touched(surface, &walls, spacing, watch)?.into_iter().map(|touched| touched.tips);
     Ok(touched.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))))
 }
 
-/// Lowest and highest tip with which the tool touches upright triangles, mm, each with the triangle's number.
+/// Where the tool touches upright triangles.
 ///
 /// Beside each of them, places `spacing` mm apart are asked how low the tool comes there.
 ///
@@ -43,7 +50,7 @@ pub(super) fn touched(
     triangles: &[usize],
     spacing: f64,
     watch: &Watch,
-) -> Result<Vec<(usize, (f64, f64))>, Cancelled> {
+) -> Result<Vec<Touched>, Cancelled> {
     let beside: Vec<Beside> = triangles.iter().flat_map(|triangle| places(surface, *triangle, spacing)).collect();
     let asked: Vec<[f64; 2]> = beside.iter().map(|beside| beside.place).collect();
     watch.begin("walls", asked.len());
@@ -51,7 +58,7 @@ pub(super) fn touched(
     let touched = beside.iter().zip(&contacts).filter_map(|(beside, contact)| {
         let [lowest, highest] = beside.tips;
         let lowest = contact.as_ref().map_or(lowest, |contact| lowest.max(contact.tip));
-        (lowest <= highest).then_some((beside.triangle, (lowest, highest)))
+        (lowest <= highest).then_some(Touched { triangle: beside.triangle, tips: (lowest, highest) })
     });
     Ok(touched.collect())
 }
