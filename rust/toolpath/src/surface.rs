@@ -3,7 +3,7 @@
 use styluscam_geometry::Vector;
 
 use crate::fitting;
-use crate::offset::{Contact, Envelope};
+use crate::offset::{Contact, Envelope, Keeping};
 
 /// A contact on an unselected face's border still counts while its normal is this close to a selected facet's, rad:
 /// wide enough for tessellated tangent joins, too narrow to roll round an edge.
@@ -86,15 +86,15 @@ impl<'a> Surface<'a> {
     pub(crate) fn keeps_to(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
         let height = fitting::in_height(a, b, most);
         self.envelope.dip([a.tip, b.tip], [a.triangle, b.triangle]) <= height
-            && self.envelope.keeps_under([a.tip, b.tip], height, |_| height)
+            && self.envelope.keeps_under([a.tip, b.tip], height, |_| height) == Keeping::Under
     }
 
-    /// Whether exact positions between two may lie over the straight line by more than `most` mm: false only where it is
-    /// proven that none does.
+    /// Whether exact positions between two may lie over the straight line by more than `most` mm: false where it is proven
+    /// that none does, and where more triangles are near than are tried.
     #[must_use]
     pub(crate) fn may_rise(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
         let height = fitting::in_height(a, b, most);
-        !self.envelope.keeps_under([a.tip, b.tip], height, |_| height)
+        self.envelope.keeps_under([a.tip, b.tip], height, |_| height) == Keeping::Over
     }
 
     /// As [`keeps_to`](Self::keeps_to), and that nothing is touched between two selected positions but what is selected.
@@ -107,7 +107,7 @@ impl<'a> Surface<'a> {
         a.selected
             && b.selected
             && self.envelope.dip([a.tip, b.tip], [a.triangle, b.triangle]) < height
-            && self.envelope.keeps_under([a.tip, b.tip], -height, limit)
+            && self.envelope.keeps_under([a.tip, b.tip], -height, limit) == Keeping::Under
     }
 
     /// A contact over (x, y) as a path point.

@@ -146,9 +146,10 @@ impl<'a> LevelCurve<'a> {
         let (chord, middle) = ((b.tip - a.tip).xy(), ((a.tip + b.tip) * 0.5).xy());
         let (length, across) = (chord.norm(), Plan::new(-chord.y, chord.x).try_normalize(1e-12)?);
         let line = Line { from: middle.into(), along: across.into() };
-        // most often what is touched at an end is touched between; to the left of the middle only where that must stay higher
+        // most often what is touched at an end is touched between
         if let Some(point) = self.freed_by(&[a.triangle, b.triangle], &line, -length..=length) {
-            if (point.tip.xy() - middle).dot(&across) <= self.beyond || self.is_above(middle.into()) {
+            let way = (point.tip.xy() - middle).dot(&across);
+            if way.abs() <= self.beyond || self.is_above(middle.into()) == (way > 0.0) {
                 return Some(point);
             }
         }

@@ -11,7 +11,7 @@ use super::contact::{self, Best, Chord, Contacts, Facet, Feature};
 use super::features::{Neighbours, NO_NEIGHBOUR};
 use super::index::{Index, Lines, Matched};
 use super::push::{self, Line, Release};
-use super::search::{Ground, Searcher, Verdict};
+use super::search::{Ground, Keeping, Searcher, Verdict};
 use super::tiles::Tiles;
 use crate::lattice::{Cells, Lattice, Node};
 
@@ -261,7 +261,7 @@ impl<'a> Envelope<'a> {
     /// Whether the tip may stay within some height of the straight line between two tips all the way: no triangle asks
     /// for more than `most` (mm) says of it over the line, which is never less than `least`.
     #[must_use]
-    pub fn keeps_under(&self, line: [Vector; 2], least: f64, most: impl Fn(u32) -> f64) -> bool {
+    pub fn keeps_under(&self, line: [Vector; 2], least: f64, most: impl Fn(u32) -> f64) -> Keeping {
         let most = |triangle| most(self.index.number(triangle));
         Searcher::with(|searcher| searcher.keeps_under(&self.ground(), &self.chord(line), least, &most))
     }

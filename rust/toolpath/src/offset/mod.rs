@@ -23,5 +23,5 @@ pub use index::Index;
 pub use offset_surface::{OffsetPoint, OffsetSurface, SurfaceFlag};
 pub use push::Line;
 pub use regions::Region;
-pub use search::Verdict;
+pub use search::{Keeping, Verdict};
 pub use slope_matched::{slope_matched_offset, OffsetFlag};

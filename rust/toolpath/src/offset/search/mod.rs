@@ -35,6 +35,8 @@ const MOST_BRANCHES: usize = 128;
 
 /// Chords are looked along in parts of at most so many times the cutter's radius.
 const PART: f64 = 4.0;
+/// Triangles that are tried for a part at most: where thousands of slivers meet, a proof takes longer than it saves.
+const MOST_TRIED: usize = 1024;
 /// Bounds over their ends are so many times as far from those over the middle as in a tile: their rounding.
 const MARGINS: f32 = 4.0;
 /// Rounding of a height in single precision, as a share of it.
@@ -49,6 +51,17 @@ pub enum Verdict {
     Free,
     /// Neither, or not known.
     Open,
+}
+
+/// What is known of the tips along a chord.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Keeping {
+    /// They stay under the heights asked about.
+    Under,
+    /// One is over, or looks so.
+    Over,
+    /// Not known: more triangles come that near to the chord than are tried.
+    Crowded,
 }
 
 /// What a walk looks for.
@@ -262,16 +275,32 @@ impl Searcher {
 
     /// Whether the tip may stay within some height of a chord all the way: no triangle asks for more than `most` says of it
     /// over the chord, which is never less than `least`.
-    pub fn keeps_under(&mut self, ground: &Ground<'_>, chord: &Chord, least: f64, most: &impl Fn(u32) -> f64) -> bool {
+    pub fn keeps_under(
+        &mut self,
+        ground: &Ground<'_>,
+        chord: &Chord,
+        least: f64,
+        most: &impl Fn(u32) -> f64,
+    ) -> Keeping {
         let length = libm::hypot(chord.along[0], chord.along[1]);
         let parts = (length / (PART * ground.cutter.max_radius())).ceil().max(1.0);
-        (0..parts as usize).all(|i| {
+        for i in 0..parts as usize {
             let part = chord.part(i as f64 / parts, (i + 1) as f64 / parts);
-            self.part_keeps_under(ground, &part, least, most)
-        })
+            match self.part_keeps_under(ground, &part, least, most) {
+                Keeping::Under => {}
+                other => return other,
+            }
+        }
+        Keeping::Under
     }
 
-    fn part_keeps_under(&mut self, ground: &Ground<'_>, chord: &Chord, least: f64, most: &impl Fn(u32) -> f64) -> bool {
+    fn part_keeps_under(
+        &mut self,
+        ground: &Ground<'_>,
+        chord: &Chord,
+        least: f64,
+        most: &impl Fn(u32) -> f64,
+    ) -> Keeping {
         let tile = ground.tile(&[chord.from, chord.at(1.0).0], &[0, 1]);
         let middle = chord.at(0.5).1;
         let view = View::of(ground, &tile, &Best { tip: middle, ..Best::NOTHING });
@@ -284,7 +313,7 @@ impl Searcher {
         let enough = f32x8::splat(lowest - SHARE * (lowest.abs() + line.rise.abs()) - MARGINS * view.margin);
         self.stack.clear();
         self.stack.extend(Survey::whole(ground).branches);
-        let mut last = None;
+        let (mut last, mut tried) = (None, 0);
         while let Some(branch) = self.stack.pop() {
             let values = view.opened_over(ground, branch, &line);
             let mut open = !values.simd_lt(enough).to_bitmask() & 0xff;
@@ -297,13 +326,19 @@ impl Searcher {
                     continue;
                 }
                 let triangle = ground.index.of_piece(node);
-                if last != Some(triangle) && !ground.contacts.stays_under(triangle, chord, most(triangle)) {
-                    return false;
+                if last == Some(triangle) {
+                    continue;
                 }
-                last = Some(triangle);
+                if tried == MOST_TRIED {
+                    return Keeping::Crowded;
+                }
+                if !ground.contacts.stays_under(triangle, chord, most(triangle)) {
+                    return Keeping::Over;
+                }
+                (last, tried) = (Some(triangle), tried + 1);
             }
         }
-        true
+        Keeping::Under
     }
 
     /// The leaves of the walk just made through a tile, as a survey of it.
