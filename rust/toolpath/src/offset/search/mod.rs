@@ -36,7 +36,7 @@ const MOST_BRANCHES: usize = 128;
 /// Chords are looked along in parts of at most so many times the cutter's radius.
 const PART: f64 = 4.0;
 /// Triangles that are tried for a part at most: where thousands of slivers meet, a proof takes longer than it saves.
-const MOST_TRIED: usize = 1024;
+const MOST_TRIED: usize = 256;
 /// Bounds over their ends are so many times as far from those over the middle as in a tile: their rounding.
 const MARGINS: f32 = 4.0;
 /// Rounding of a height in single precision, as a share of it.
