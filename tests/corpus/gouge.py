@@ -68,7 +68,8 @@ def checked(text: str, job: dict[str, Any], corners: Floats, allowed: float, fam
     found.path_box = [ends.min(axis=0).tolist(), ends.max(axis=0).tolist()]
     tools = {tool.get("number", 1): tool for tool in job["tools"].values()}
     tips, numbers, lines, feeding = _places(moves, seed)
-    near, reach = 0, NEAR + max((operation.get("tolerance", 0.0) for operation in job.get("operations", ())), default=0.0)
+    tolerances = [operation.get("tolerance", 0.0) for operation in job.get("operations", ())]
+    near, reach = 0, NEAR + max(tolerances, default=0.0)
     for number in np.unique(numbers):
         of_tool = numbers == number
         tool = Tool.of(tools[int(number)]["profile"], job["setup"].get("sheet"), job["part"].get("model_face"))
