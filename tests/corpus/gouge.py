@@ -22,7 +22,9 @@ from convex_tool import Floats, Tool
 
 SAMPLES = 1600
 NEAR = 0.05
-"""mm: a place of the path nearer than this touches."""
+"""mm: a place of the path nearer than this, and the job's tolerance, touches."""
+LOOSE = 0.1
+"""mm: tolerances count up to this: a path over a part of 10 m lies that far above it."""
 PLANES = 64
 """Supporting planes of the tool."""
 MEASURED = 64
@@ -69,7 +71,7 @@ def checked(text: str, job: dict[str, Any], corners: Floats, allowed: float, fam
     tools = {tool.get("number", 1): tool for tool in job["tools"].values()}
     tips, numbers, lines, feeding = _places(moves, seed)
     tolerances = [operation.get("tolerance", 0.0) for operation in job.get("operations", ())]
-    near, reach = 0, NEAR + max(tolerances, default=0.0)
+    near, reach = 0, NEAR + min(max(tolerances, default=0.0), LOOSE)
     for number in np.unique(numbers):
         of_tool = numbers == number
         tool = Tool.of(tools[int(number)]["profile"], job["setup"].get("sheet"), job["part"].get("model_face"))

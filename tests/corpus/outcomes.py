@@ -205,7 +205,10 @@ def _misjudged(job: dict[str, Any], part: dict[str, Any]) -> str:
     if part["body"] == "solid" and kind != "milling":
         return f"a solid body is planned as {kind}"
     cannot_be_formed = "refused:steep" in part["expect"] or part["family"] == "flat-sheet"
-    cannot_be_formed |= part["body"] == "sheet" and part["thickness"] > THICKEST_SHEET
+    if part["body"] == "sheet" and part["thickness"] > THICKEST_SHEET:
+        if kind != "milling":
+            return f"a sheet of {part['thickness']:.1f} mm is formed"
+        cannot_be_formed = True
     if part["body"] == "sheet" and "done" in part["expect"] and kind == "milling" and not cannot_be_formed:
         return "a sheet part is milled"
     said = job.get("setup", {}).get("sheet", {}).get("thickness")

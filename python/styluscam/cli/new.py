@@ -58,13 +58,14 @@ def new(
         made = starter_job(arrays, _relative(part, path.parent), units)
         Job.check(made.text)
         files.write_whole(path, made.text)
-        _read_ahead(path, report)
     if json:
         console.say_json({"written": [str(path)], "reasons": made.reasons})
     elif not quiet:
         console.fields([("" if number else "because", reason) for number, reason in enumerate(made.reasons)])
         console.say(f"written: {shown_path(path)}")
         console.say(f"next:    styluscam run {shlex.quote(shown_path(path))}")
+    with progress.shown(not (json or quiet)) as report:
+        _read_ahead(path, report)
     return 0
 
 
@@ -88,7 +89,7 @@ def _looked_at(part: Path, units: str | None, report: Progress | None) -> PartAr
 
 def _read_ahead(job: Path, report: Progress | None) -> None:
     """Read the part as its job wants it, while the CAD kernel is loaded: `run` finds it in the cache of parts."""
-    with contextlib.suppress(GeometryError, JobError):  # `run` says what is wrong
+    with contextlib.suppress(GeometryError, JobError, OSError):  # `run` says what is wrong
         Job.read(job).part(report)
 
 

@@ -142,15 +142,18 @@ impl Mesh {
     /// Whether a triangle is a part of an upright wall.
     #[must_use]
     pub fn is_upright(&self, triangle: usize) -> bool {
-        self.normal(triangle).z.abs() <= UPRIGHT
+        self.rise(triangle).abs() <= UPRIGHT
     }
 
-    /// Whether a triangle looks down: no tool from above touches it. The model's normals say so where they are known:
-    /// triangles of an upright wall may lean by their deviation.
+    /// Whether a triangle looks down: no tool from above touches its inside.
     #[must_use]
     pub fn looks_down(&self, triangle: usize) -> bool {
-        let [a, b, c] = self.corner_normals(triangle).map(|normal| normal.z);
-        a + b + c < -3.0 * UPRIGHT
+        self.rise(triangle) < -UPRIGHT
+    }
+
+    /// The Z of a triangle's normal, by the model's where those are known: triangles of an upright wall lean by their deviation.
+    fn rise(&self, triangle: usize) -> f64 {
+        self.corner_normals(triangle).iter().map(|normal| normal.z).sum::<f64>() / 3.0
     }
 
     /// Whether the model's normals at the corners are known.
@@ -218,6 +221,6 @@ mod tests {
         let alone = Mesh::new(vertices.clone(), &[[0, 1, 2]], &[]).unwrap();
         assert!(alone.normal(0).x > 0.99 && alone.looks_down(0));
         let upright = Mesh::with_normals(vertices, &[[0, 1, 2]], &[], &[[Vector::x(); 3]]).unwrap();
-        assert!(!upright.looks_down(0));
+        assert!(!upright.looks_down(0) && upright.is_upright(0) && !alone.is_upright(0));
     }
 }

@@ -16,8 +16,6 @@ const EMBOSSED: f64 = 0.02;
 const FLAT: f64 = 2.0;
 /// A surface without thickness that is not deeper than this is flat, mm.
 const FLAT_SURFACE: f64 = 0.2;
-/// Thicker sheets are pressed, not formed point by point, mm.
-const THICKEST: f64 = 6.0;
 /// Two heights are one within this share of the depth: a border is not exactly level.
 const SAME: f64 = 0.03;
 
@@ -26,8 +24,6 @@ const SAME: f64 = 0.03;
 pub enum Unformable {
     /// Nothing of it is seen from above.
     Unseen,
-    /// It is this thick, mm.
-    Thick(f64),
     /// It is flat.
     Flat,
     /// Its border lies this far below its highest place, mm.
@@ -42,9 +38,6 @@ impl std::fmt::Display for Unformable {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Unseen => write!(f, "nothing of it is seen from above"),
-            Self::Thick(thickness) => {
-                write!(f, "{thickness:.1} mm are more than the {THICKEST} mm that a stylus forms")
-            }
             Self::Flat => write!(f, "it is flat, and there is nothing to form"),
             Self::LowBorder(below) => write!(
                 f,
@@ -63,9 +56,6 @@ impl std::fmt::Display for Unformable {
 
 /// The depth below the border, mm, for a sheet of a `thickness` (none: a surface).
 pub fn depth(body: &Body<'_>, thickness: Option<f64>) -> Result<f64, Unformable> {
-    if let Some(thickness) = thickness.filter(|thickness| *thickness > THICKEST) {
-        return Err(Unformable::Thick(thickness));
-    }
     let heights = body.heights();
     let depth = heights.top - heights.bottom;
     let border = heights.border.ok_or(Unformable::Unseen)?;

@@ -12,8 +12,8 @@ const WAYS: [[f64; 3]; 3] = [[0.211, 0.157, 0.965], [0.683, -0.312, 0.661], [-0.
 const LINES: usize = 200;
 /// Share of the lines that may miss their other end, where a triangle is lost or turned over.
 const SLACK: f64 = 0.04;
-/// The same where a body has holes: through a surface without thickness most lines in some direction pass once.
-const TORN: f64 = 0.25;
+/// The same where a body has holes: an open pipe, which most lines cross twice, has 0.15 and more.
+const TORN: f64 = 0.12;
 
 /// What kind of surface a mesh is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -13,6 +13,9 @@ const ON_SIDE: f64 = 0.25;
 /// Share of an open surface that must look up for the tool to come from there.
 const FACES_TOOL: f64 = 0.5;
 
+/// Thicker sheets are pressed, not formed point by point, mm.
+const THICKEST: f64 = 6.0;
+
 /// A choice, with its reasons as sentences.
 #[derive(Clone, Debug)]
 pub struct Choice {
@@ -129,6 +132,9 @@ fn sheet(lying: Turned, thickness: &Thickness, sides: &[Side; 6]) -> Choice {
 
 /// The first side from which a sheet can be formed, or why not even the first can.
 fn formed(lying: &Turned, thickness: Option<f64>, ups: &[UpAxis]) -> Result<Formed, String> {
+    if thickness.is_some_and(|thickness| thickness > THICKEST) {
+        return Err(format!("that is more than the {THICKEST} mm that a stylus forms"));
+    }
     let mut first = None;
     for up in ups {
         let turned = Turned::new(&lying.mesh, *up);

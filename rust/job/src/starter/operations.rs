@@ -35,6 +35,8 @@ const LOOKED_AT: usize = 24;
 const TOUCHED: f64 = 0.02;
 /// Places at which it is asked what a tool gets to: shares are right to about two percent.
 const PLACES: usize = 2000;
+/// What rises less looks to the side, in the normal's Z.
+const UP: f64 = 1e-3;
 /// Faces that a reason names at most.
 const NAMED: usize = 6;
 /// Of what the judge lets pass: a tool that leaves less than this share of it is sure to pass,
@@ -103,12 +105,14 @@ pub fn milling(body: &Body<'_>, looks: &Hollows) -> Milled {
         }
         (milled, left) = (smaller, share);
     }
-    if left > SURE * allowed && left <= MOST_LEFT {
+    if left > SURE * allowed {
         let limit = (100.0 * (left + (1.0 - SURE) * allowed)).ceil() / 100.0;
-        milled.max_unreached = Some(limit);
+        milled.max_unreached = Some(limit).filter(|_| left <= MOST_LEFT);
+        let passes =
+            if left <= MOST_LEFT { format!("max_unreached = {limit} lets that pass; ") } else { String::new() };
         milled.reasons.push(format!(
-            "no tool that suits the part gets to {:.0} % of these faces, which lie under others or between walls: \
-             max_unreached = {limit} lets that pass; leave faces out, or cut them from another side",
+            "the tool does not get to {:.0} % of these faces, which lie under others or between walls: {passes}leave faces \
+             out, or cut them from another side",
             100.0 * left
         ));
     }
@@ -200,15 +204,17 @@ impl<'a> ByFace<'a> {
         has_room && (tool.shape == Shape::Flat || reach.is_none_or(touches))
     }
 
-    /// Share of the faces to which the tool does not get, as the judge will say.
+    /// Share of the faces to which the tool does not get, by the judge's measure, but for what the program's moves leave where
+    /// the tool stands between walls: at least what the judge will say. Rows over the whole part serve what looks up.
     fn share_left(&self, milled: &Milled) -> f64 {
         let mesh = self.body.mesh();
-        let faces: Vec<&[usize]> = if milled.works.iter().any(|work| work.faces.is_none()) {
-            self.triangles.values().map(Vec::as_slice).collect()
+        let triangles: Vec<usize> = if milled.works.iter().any(|work| work.faces.is_none()) {
+            (0..mesh.triangles().len()).filter(|triangle| mesh.normal(*triangle).z > UP).collect()
         } else {
-            milled.works.iter().flat_map(|work| work.faces.iter().flatten()).map(|face| self.of_face(*face)).collect()
+            let named = milled.works.iter().flat_map(|work| work.faces.iter().flatten());
+            let all = named.flat_map(|face| self.of_face(*face)).copied();
+            all.filter(|triangle| !mesh.looks_down(*triangle)).collect()
         };
-        let triangles: Vec<usize> = faces.concat().into_iter().filter(|triangle| !mesh.looks_down(*triangle)).collect();
         let radius = 0.5 * milled.tool.diameter;
         self.reach(&milled.tool).map_or(0.0, |reach| reach.share_left(&triangles, PLACES, NO_ROOM * radius))
     }

@@ -121,3 +121,13 @@ pub fn round(value: f64) -> f64 {
     let rounded = (value / unit - 1e-9).ceil() * unit;
     (rounded * 1e9).round() / 1e9
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thin_sheets_are_measured_to_a_thousandth() {
+        assert_eq!([0.0347, 0.8012, 1.456, 1e-9].map(measured), [0.035, 0.8, 1.46, 0.001]);
+    }
+}

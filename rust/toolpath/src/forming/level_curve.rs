@@ -13,6 +13,8 @@ const OVER: f64 = 1e-9;
 const BEYOND: f64 = 1e-9;
 /// or, far from the origin, so many times what rounding makes of a place.
 const ROUNDINGS: f64 = 2.0;
+/// Of the length of a chord: within this beside its middle the triangles touched at its ends are believed.
+const BEND: f64 = 0.25;
 /// Triangles met on the way to a point at most; two or three are usual.
 const STEPS: usize = 60;
 
@@ -146,8 +148,9 @@ impl<'a> LevelCurve<'a> {
         let (chord, middle) = ((b.tip - a.tip).xy(), ((a.tip + b.tip) * 0.5).xy());
         let (length, across) = (chord.norm(), Plan::new(-chord.y, chord.x).try_normalize(1e-12)?);
         let line = Line { from: middle.into(), along: across.into() };
-        // most often what is touched at an end is touched between
-        if let Some(point) = self.freed_by(&[a.triangle, b.triangle], &line, -length..=length) {
+        // most often what is touched at an end is touched between, and the level bends little
+        let near = BEND * length;
+        if let Some(point) = self.freed_by(&[a.triangle, b.triangle], &line, -near..=near) {
             let way = (point.tip.xy() - middle).dot(&across);
             if way.abs() <= self.beyond || self.is_above(middle.into()) == (way > 0.0) {
                 return Some(point);

@@ -66,7 +66,7 @@ pub fn levels(range: &LevelRange, floors: &Floors) -> Result<Vec<f64>, PlanError
 }
 
 /// The same heights with one more in each of some bands (lowest and highest tip, mm) that holds none: at its lower end, or a
-/// quarter of a step over the next level below it, if that is still in the band. None where nothing is to be added.
+/// quarter of a step over the next level below it, but no higher than the band's middle. None where nothing is to be added.
 #[must_use]
 pub fn with_levels_at(heights: &[f64], bands: &[(f64, f64)], range: &LevelRange, floors: &Floors) -> Option<Vec<f64>> {
     let mut bands = bands.to_vec();
@@ -79,7 +79,7 @@ pub fn with_levels_at(heights: &[f64], bands: &[(f64, f64)], range: &LevelRange,
         }
         let below = all.iter().copied().filter(|z| *z < low).fold(f64::NEG_INFINITY, f64::max);
         let aside = range.above(below + SHORT * range.step);
-        let level = range.stood(if aside > low && aside < high { aside } else { range.above(low) }, floors);
+        let level = range.stood(aside.min(range.above(0.5 * (low + high))).max(range.above(low)), floors);
         if level <= high {
             all.push(level);
         }
@@ -131,6 +131,9 @@ mod tests {
         let with = |bands: &[(f64, f64)]| with_levels_at(&heights, bands, &range, &Floors::default());
         assert_eq!(with(&[(-1.2, -0.9), (-3.0, -2.2), (0.1, 0.4)]), None);
         // one level for two bands that overlap; clear of the level below where the band allows
+        // a band that begins just over a level: its middle
+        let found = with(&[(-0.999, -0.9)]).unwrap();
+        assert!(found.len() == 5 && (found[1] + 0.949).abs() < 1e-9, "{found:?}");
         let expected = [-0.5, -0.874, -1.0, -1.299, -1.5, -2.0];
         let found = with(&[(-0.95, -0.6), (-0.9, -0.7), (-1.3, -1.2)]).unwrap();
         assert!(found.len() == 6 && found.iter().zip(expected).all(|(z, e)| (z - e).abs() < 1e-9), "{found:?}");
