@@ -55,9 +55,9 @@ def new(
     files.require_writable([path], [part])
     with progress.shown(not (json or quiet)) as report:
         arrays = _looked_at(part, units, report)
-        made = starter_job(arrays, _relative(part, path.parent), units)
-        Job.check(made.text)
-        files.write_whole(path, made.text)
+    made = starter_job(arrays, _relative(part, path.parent), units)
+    Job.check(made.text)
+    files.write_whole(path, made.text)
     if json:
         console.say_json({"written": [str(path)], "reasons": made.reasons})
     elif not quiet:

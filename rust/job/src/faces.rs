@@ -7,7 +7,7 @@ use styluscam_geometry::{Mesh, Vector};
 use crate::{JobDocument, JobError, OperationKind, OperationSection, Process, Scene, Selection};
 
 /// Normals whose Z is above this look up; a wall of 89.9 degrees still does.
-const UP: f64 = 1e-3;
+pub(crate) const UP: f64 = 1e-3;
 
 /// Share of a face that may look down and is no undercut: triangles of an upright side lean by their deviation.
 const LEAST_UNDERCUT: f64 = 5e-3;

@@ -71,7 +71,7 @@ impl Map {
 }
 
 pub fn of(body: &Body<'_>) -> Heights {
-    let (low, high) = body.mesh().bounds();
+    let (low, high) = body.bounds();
     let map = map(body, low, high);
     let seen: Vec<f64> = map.heights.iter().flatten().copied().collect();
     let bottom = seen.iter().copied().fold(high.z, f64::min);

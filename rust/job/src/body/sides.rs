@@ -32,7 +32,7 @@ pub fn of(body: &Body<'_>) -> [Side; 6] {
 
 fn side(body: &Body<'_>, axis: UpAxis) -> Side {
     let up = axis.vector();
-    let (low, high) = body.mesh().bounds();
+    let (low, high) = body.bounds();
     let foot = up.zip_map(&low.zip_zip_map(&high, &up, |l, h, u| if u < 0.0 { h } else { l }), |u, x| u * x).sum();
     let stands = |place: &Sample| place.normal.dot(&up) < -FLAT && place.point.dot(&up) - foot < 1e-3 * body.size();
     let (mut all, mut hidden, mut looks_up) = (0.0, 0.0, 0.0);

@@ -9,6 +9,7 @@ use super::choice::worth;
 use super::sizes::{self, round, Cutter, Shape};
 use crate::body::{Body, FaceLook, Hollows};
 use crate::document::ProcessSection;
+use crate::faces::UP;
 use crate::judge::NO_ROOM;
 use crate::OperationKind;
 
@@ -35,8 +36,6 @@ const LOOKED_AT: usize = 24;
 const TOUCHED: f64 = 0.02;
 /// Places at which it is asked what a tool gets to: shares are right to about two percent.
 const PLACES: usize = 2000;
-/// What rises less looks to the side, in the normal's Z.
-const UP: f64 = 1e-3;
 /// Faces that a reason names at most.
 const NAMED: usize = 6;
 /// Of what the judge lets pass: a tool that leaves less than this share of it is sure to pass,
@@ -126,7 +125,8 @@ fn worked(by_face: &ByFace<'_>, seen: &[&FaceLook], tool: Cutter, words: String)
     let (walls, floors): (Vec<&FaceLook>, Vec<&FaceLook>) = seen.iter().partition(|face| is_wall(face));
     let mut reasons = vec![words];
     let fits = |face: &&FaceLook| Hollows::bound([*face], 0.5).is_none_or(|radius| 2.02 * radius >= tool.diameter);
-    let reach = by_face.reach(&tool).filter(|_| walls.len() <= NAMES);
+    let asks_reach = tool.shape == Shape::Ball && walls.len() <= NAMES;
+    let reach = asks_reach.then(|| by_face.reach(&tool)).flatten();
     let (walls, low): (Vec<&FaceLook>, Vec<&FaceLook>) = walls
         .into_iter()
         .partition(|face| face.vertical < PRISMATIC || by_face.is_touched(face, &tool, reach.as_ref()));
@@ -201,7 +201,7 @@ impl<'a> ByFace<'a> {
         let few = own.iter().step_by(own.len().div_ceil(LOOKED_AT).max(1));
         let has_room = few.map(floor_before).any(|floor| face.heights[1] - floor > 1.2 * side);
         let touches = |reach: &ToolReach<'_>| reach.share_left(own, LOOKED_AT, TOUCHED * side) < 1.0;
-        has_room && (tool.shape == Shape::Flat || reach.is_none_or(touches))
+        has_room && reach.is_none_or(touches)
     }
 
     /// Share of the faces to which the tool does not get, by the judge's measure, but for what the program's moves leave where

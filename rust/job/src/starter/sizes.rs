@@ -51,9 +51,7 @@ impl Cutter {
 
 /// The next smaller diameter that a shop has and that makes sense for a part of some size, mm.
 pub fn next_smaller(diameter: f64, mesh: &Mesh) -> Option<f64> {
-    let (low, high) = mesh.bounds();
-    let least = THINNEST * (high.x - low.x).max(high.y - low.y);
-    DIAMETERS.into_iter().find(|other| *other < diameter).filter(|smaller| *smaller >= least)
+    DIAMETERS.into_iter().find(|other| *other < diameter).filter(|smaller| *smaller >= thinnest(mesh))
 }
 
 /// The radius up to which a tool from above fits the concave places of a part, all but a fiftieth of its area, mm; none where
@@ -87,12 +85,16 @@ fn smaller_side(mesh: &Mesh) -> f64 {
     (high.x - low.x).min(high.y - low.y)
 }
 
-fn fitting(mesh: &Mesh, bound: Option<f64>, widest: f64, least: f64) -> (f64, String) {
+/// Smallest diameter that makes sense for the part's size, mm.
+fn thinnest(mesh: &Mesh) -> f64 {
     let (low, high) = mesh.bounds();
-    let size = high - low;
+    THINNEST * (high.x - low.x).max(high.y - low.y)
+}
+
+fn fitting(mesh: &Mesh, bound: Option<f64>, widest: f64, least: f64) -> (f64, String) {
     let at_most = |limit: f64| DIAMETERS.into_iter().find(|d| *d <= limit).unwrap_or(0.5);
-    let widest = at_most(widest).max(at_most(THINNEST * size.x.max(size.y)));
-    let thinnest = f64::max(THINNEST * size.x.max(size.y), least);
+    let widest = at_most(widest).max(at_most(thinnest(mesh)));
+    let thinnest = f64::max(thinnest(mesh), least);
     let Some(radius) = bound.filter(|radius| 2.0 * SLACK * radius < widest) else {
         return (widest, format!("the tool, {widest} mm wide, follows from the part's size: nothing narrow bounds it"));
     };
@@ -128,6 +130,8 @@ mod tests {
 
     #[test]
     fn thin_sheets_are_measured_to_a_thousandth() {
-        assert_eq!([0.0347, 0.8012, 1.456, 1e-9].map(measured), [0.035, 0.8, 1.46, 0.001]);
+        for (thickness, expected) in [(0.0347, 0.035), (0.8012, 0.8), (1.456, 1.46), (1e-9, 0.001)] {
+            assert!((measured(thickness) - expected).abs() < 1e-12, "{thickness}");
+        }
     }
 }

@@ -37,8 +37,8 @@ impl Bounds {
         Self { floors: floors.collect(), ceilings }.tightened(grid, surface, &levels, watch)
     }
 
-    /// Cells in which a level may hide are looked into once, at the level next to their corners: where nothing hides of that
-    /// one, nothing does of those beyond it.
+    /// Cells in which a level may hide are looked into once, at the level next to their corners: where no node looked at
+    /// is beyond that one, none is beyond the next.
     fn tightened(self, grid: &Grid, surface: &Surface<'_>, levels: &Levels, watch: &Watch) -> Result<Self, Cancelled> {
         watch.begin("hidden", self.floors.len());
         let hides = |cell: Node, level: f64| {

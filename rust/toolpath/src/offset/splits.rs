@@ -20,7 +20,8 @@ use rayon::prelude::*;
 
 use super::offset_surface::{Corner, OffsetSurface};
 
-/// How much longer the sides of a triangle may stay that is stopped at all its corners: what it hides is no border.
+/// How much longer the sides of a triangle may stay that is stopped at all its corners: a
+/// reached place in it that is narrower than the tool's radius may be missed.
 const ALL_STOPPED: f64 = 4.0;
 
 /// A side by its ends, the lower first.
