@@ -232,7 +232,9 @@ impl Look<'_> {
         let step = self.passes.spacing.along(spot.up).filter(|step| 0.5 * step.norm() < self.body.radius())?;
         let places = |share: f64| [spot.position + share * step, spot.position - share * step];
         let amidst = CURVED_AMIDST * self.leaves(spot.point, places(0.5));
-        let left = sweeps.left_beyond(spot.point, amidst, spot.position, last)?;
+        let rough = ROUGH + self.tolerated();
+        // what is left grows at least as fast as the distance to the passes: less is not explained anywhere
+        let left = sweeps.left_beyond(spot.point, amidst + rough, spot.position, last)?;
         if !self.can_touch(&spot) {
             return None;
         }
@@ -243,7 +245,7 @@ impl Look<'_> {
             1 => CURVED * self.leaves(spot.point, places(1.0)),
             _ => amidst,
         };
-        let allowed = explained + ROUGH + self.tolerated();
+        let allowed = explained + rough;
         (left > allowed).then(|| self.missing_pass(&spot, last.as_ref(), left, allowed)).flatten()
     }
 

@@ -35,7 +35,7 @@ pub struct Contact {
     pub normal: Vector,
     /// Triangle touched, one of equals.
     pub triangle: u32,
-    feature: Feature,
+    pub(super) feature: Feature,
 }
 
 impl Contact {
@@ -401,78 +401,12 @@ impl<'a> Envelope<'a> {
         }
     }
 
-    /// Whether the contact belongs to triangles that `selected` accepts, all of those that meet there.
-    ///
-    /// Rolling over an edge or corner between selected and other faces, the contact belongs to the selected one while
-    /// its normal is within `spread` (rad) of the selected facet's; `from_above` also while it is less steep.
-    #[must_use]
-    pub fn belongs(&self, contact: &Contact, selected: &[bool], spread: f64, from_above: bool) -> bool {
-        let is_like = |t: u32| {
-            let normal = self.mesh.normal(t as usize);
-            normal.dot(&contact.normal) >= libm::cos(spread) || (from_above && contact.normal.z >= normal.z)
-        };
-        match contact.feature {
-            Feature::Facet => selected[contact.triangle as usize],
-            Feature::Edge(i) => {
-                let other = self.neighbours(contact.triangle)[usize::from(i)];
-                faces_like([contact.triangle, other], selected, is_like)
-            }
-            Feature::Corner(i) => faces_like(self.around(contact, i), selected, is_like),
-        }
-    }
-
-    /// The triangles that meet where the contact is: one, those beside an edge, or those around a corner.
-    #[must_use]
-    pub fn touched(&self, contact: &Contact) -> Vec<u32> {
-        let mut touched = match contact.feature {
-            Feature::Facet => vec![contact.triangle],
-            Feature::Edge(i) => vec![contact.triangle, self.neighbours(contact.triangle)[usize::from(i)]],
-            Feature::Corner(i) => self.around(contact, i),
-        };
-        touched.retain(|t| *t != NO_NEIGHBOUR);
-        touched
-    }
-
-    /// Triangles around the corner touched, found through the edges of the one that was asked; where the mesh ends
-    /// there, [`NO_NEIGHBOUR`] is among them.
-    fn around(&self, contact: &Contact, corner: u8) -> Vec<u32> {
-        let vertex = self.mesh.triangles()[contact.triangle as usize][usize::from(corner)];
-        let mut fan = vec![contact.triangle];
-        let mut next = 0;
-        while next < fan.len() {
-            let triangle = fan[next];
-            next += 1;
-            if triangle == NO_NEIGHBOUR {
-                continue;
-            }
-            let corners = self.mesh.triangles()[triangle as usize];
-            for (i, neighbour) in self.neighbours(triangle).into_iter().enumerate() {
-                let meets = corners[i] == vertex || corners[(i + 1) % 3] == vertex;
-                if meets && !fan.contains(&neighbour) {
-                    fan.push(neighbour);
-                }
-            }
-        }
-        fan
-    }
-
     /// The triangles beyond the three edges of one; `u32::MAX` where the mesh ends.
     #[must_use]
     pub fn neighbours(&self, triangle: u32) -> Neighbours {
         let beyond = self.index.neighbours(self.index.place(triangle));
         beyond.map(|place| if place == NO_NEIGHBOUR { NO_NEIGHBOUR } else { self.index.number(place) })
     }
-}
-
-/// Whether one of the selected triangles is like a contact, or all are selected.
-fn faces_like(triangles: impl IntoIterator<Item = u32>, selected: &[bool], is_like: impl Fn(u32) -> bool) -> bool {
-    let (mut all, mut near) = (true, false);
-    for t in triangles {
-        let on = t != NO_NEIGHBOUR && selected[t as usize];
-        all &= on;
-        near |= on && is_like(t);
-    }
-    all || near
 }
 
 /// The unit normal of a contact of some slope, from which the axis stands some way away in plan.

@@ -13,6 +13,7 @@ mod patches;
 mod push;
 mod regions;
 mod search;
+mod selection;
 mod slope_matched;
 mod splits;
 mod tiles;

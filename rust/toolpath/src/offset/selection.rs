@@ -1,0 +1,131 @@
+//! To which triangles a contact belongs where some of those that meet there are selected and some are not.
+
+use styluscam_geometry::Vector;
+
+use super::contact::Feature;
+use super::envelope::{Contact, Envelope};
+use super::features::NO_NEIGHBOUR;
+
+/// Normals that differ by less, as the sine of an angle, are the same.
+const SAME: f64 = 1e-9;
+
+impl Envelope<'_> {
+    /// Whether the contact belongs to triangles that `selected` accepts, all of those that meet there.
+    ///
+    /// Rolling over an edge or corner between selected and other faces, the contact belongs to the selected ones while
+    /// its normal is within `spread` (rad) of what they span: the rim of a pin touched between two of its facets is the
+    /// pin's wall. `from_above` it also does while it is less steep than one of them.
+    #[must_use]
+    pub fn belongs(&self, contact: &Contact, selected: &[bool], spread: f64, from_above: bool) -> bool {
+        if contact.feature == Feature::Facet {
+            return selected[contact.triangle as usize];
+        }
+        let touched = self.meeting(contact);
+        let is_selected = |t: &u32| *t != NO_NEIGHBOUR && selected[*t as usize];
+        if touched.iter().all(is_selected) {
+            return true;
+        }
+        let normals = touched.into_iter().filter(is_selected).map(|t| self.mesh().normal(t as usize));
+        let normals: Vec<Vector> = normals.collect();
+        normals.iter().any(|normal| from_above && contact.normal.z >= normal.z)
+            || is_spanned(contact.normal, &normals, spread)
+    }
+
+    /// The triangles that meet where the contact is: one, those beside an edge, or those around a corner.
+    #[must_use]
+    pub fn touched(&self, contact: &Contact) -> Vec<u32> {
+        let mut touched = self.meeting(contact);
+        touched.retain(|t| *t != NO_NEIGHBOUR);
+        touched
+    }
+
+    /// The same; where the mesh ends there, [`NO_NEIGHBOUR`] is among them.
+    fn meeting(&self, contact: &Contact) -> Vec<u32> {
+        match contact.feature {
+            Feature::Facet => vec![contact.triangle],
+            Feature::Edge(i) => vec![contact.triangle, self.neighbours(contact.triangle)[usize::from(i)]],
+            Feature::Corner(i) => self.around(contact, i),
+        }
+    }
+
+    /// Triangles around the corner touched, found through the edges of the one that was asked.
+    fn around(&self, contact: &Contact, corner: u8) -> Vec<u32> {
+        let vertex = self.mesh().triangles()[contact.triangle as usize][usize::from(corner)];
+        let mut fan = vec![contact.triangle];
+        let mut next = 0;
+        while next < fan.len() {
+            let triangle = fan[next];
+            next += 1;
+            if triangle == NO_NEIGHBOUR {
+                continue;
+            }
+            let corners = self.mesh().triangles()[triangle as usize];
+            for (i, neighbour) in self.neighbours(triangle).into_iter().enumerate() {
+                let meets = corners[i] == vertex || corners[(i + 1) % 3] == vertex;
+                if meets && !fan.contains(&neighbour) {
+                    fan.push(neighbour);
+                }
+            }
+        }
+        fan
+    }
+}
+
+/// Whether a direction is within `spread` (rad) of one of some others, or of what lies between them: all unit vectors.
+///
+/// A vertex is touched under every direction of the spherical polygon that its facets' normals span (the Gauss map of a
+/// convex vertex); its triangles with the corner nearest to the direction cover all of it that matters there.
+fn is_spanned(direction: Vector, others: &[Vector], spread: f64) -> bool {
+    let near = |a: &&Vector, b: &&Vector| a.dot(&direction).total_cmp(&b.dot(&direction));
+    let Some(nearest) = others.iter().max_by(near) else { return false };
+    if nearest.dot(&direction) >= libm::cos(spread) {
+        return true;
+    }
+    let apart: Vec<&Vector> = others.iter().filter(|other| nearest.cross(other).norm() > SAME).collect();
+    apart.iter().enumerate().any(|(i, second)| {
+        is_on_arc(direction, [nearest, second], spread)
+            || apart[i + 1..].iter().any(|third| is_in_triangle(direction, [nearest, second, third]))
+    })
+}
+
+/// Whether a direction is within `spread` (rad) of the great circle through two others, and between them.
+fn is_on_arc(direction: Vector, [a, b]: [&Vector; 2], spread: f64) -> bool {
+    let pole = a.cross(b).normalize();
+    direction.dot(&pole).abs() <= libm::sin(spread)
+        && a.cross(&direction).dot(&pole) >= 0.0
+        && direction.cross(b).dot(&pole) >= 0.0
+}
+
+/// Whether a direction is in the spherical triangle of three others.
+fn is_in_triangle(direction: Vector, [a, b, c]: [&Vector; 3]) -> bool {
+    let turn = a.cross(b).dot(c);
+    turn.abs() > SAME && [[a, b], [b, c], [c, a]].iter().all(|[p, q]| turn * p.cross(q).dot(&direction) >= 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn unit(x: f64, y: f64, z: f64) -> Vector {
+        Vector::new(x, y, z).normalize()
+    }
+
+    #[test]
+    fn between_two_facets_of_a_pin_is_its_wall() {
+        let facets = [unit(1.0, 0.1, 0.0), unit(1.0, -0.1, 0.0)];
+        assert!(is_spanned(unit(1.0, 0.0, 0.0), &facets, 0.0175));
+        assert!(is_spanned(unit(1.0, 0.09, 0.01), &facets, 0.0175));
+        assert!(!is_spanned(unit(1.0, 0.13, 0.0), &facets, 0.0175), "beyond both");
+        assert!(!is_spanned(unit(1.0, 0.0, 0.03), &facets, 0.0175), "rolling over the rim");
+        assert!(!is_spanned(unit(-1.0, 0.0, 0.0), &facets, 0.0175), "the other side of the circle");
+        assert!(!is_spanned(unit(1.0, 0.0, 0.0), &[], 0.0175));
+    }
+
+    #[test]
+    fn three_facets_span_all_between_them() {
+        let facets = [unit(1.0, 0.0, 1.0), unit(-0.5, 0.8, 1.0), unit(-0.5, -0.8, 1.0)];
+        assert!(is_spanned(unit(0.0, 0.0, 1.0), &facets, 0.0));
+        assert!(!is_spanned(unit(0.0, 0.0, -1.0), &facets, 0.0));
+        assert!(!is_spanned(unit(1.0, 0.7, 1.0), &facets, 0.01));
+    }
+}
