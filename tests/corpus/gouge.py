@@ -8,6 +8,7 @@ what they leave open is measured. Lengths in mm, work coordinates.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -52,6 +53,10 @@ class Checked:
     """Why a controller would not take the text, or why nothing could be checked."""
     path_box: list[list[float]] | None = None
     """Of the tips at feed."""
+    cuts: int = 0
+    """Ways at feed between two rapids."""
+    short: int = 0
+    """Those of them that are shorter in plan than twice the job's smallest feature: facets, gone to one by one."""
 
 
 def checked(text: str, job: dict[str, Any], corners: Floats, allowed: float, family: Family, seed: int) -> Checked:
@@ -68,6 +73,9 @@ def checked(text: str, job: dict[str, Any], corners: Floats, allowed: float, fam
         return found
     ends = np.array([move.end for move in feeds])
     found.path_box = [ends.min(axis=0).tolist(), ends.max(axis=0).tolist()]
+    cuts = _cuts(moves)
+    features = [operation.get("smallest_feature", 0.0) for operation in job.get("operations", ())]
+    found.cuts, found.short = len(cuts), int((cuts < 2.0 * min(features, default=0.0)).sum())
     tools = {tool.get("number", 1): tool for tool in job["tools"].values()}
     tips, numbers, lines, feeding = _places(moves, seed)
     tolerances = [operation.get("tolerance", 0.0) for operation in job.get("operations", ())]
@@ -85,6 +93,18 @@ def checked(text: str, job: dict[str, Any], corners: Floats, allowed: float, fam
             found.at = (float(place[0]), float(place[1]), float(place[2]))
     found.touching = near / max(1, int(feeding.sum()))
     return found
+
+
+def _cuts(moves: list[gcode.Move]) -> Floats:
+    """Lengths (N,) in plan of the ways at feed between two rapids, mm; those straight up or down are none."""
+    lengths, way = [], 0.0
+    for before, move in itertools.pairwise(moves):
+        if move.kind != "rapid":
+            way += math.hypot(move.end[0] - before.end[0], move.end[1] - before.end[1])
+        elif way > 0.0:
+            lengths.append(way)
+            way = 0.0
+    return np.array([*lengths, way] if way > 0.0 else lengths)
 
 
 def _places(moves: list[gcode.Move], seed: int) -> tuple[Floats, np.ndarray, np.ndarray, np.ndarray]:
