@@ -23,8 +23,9 @@ from .tessellation import FaceMesh, Tessellation, refine_until
 Kernel: TypeAlias = Any
 
 # The kernel meshes face borders within the deflection asked, face insides this much coarser: they are refined in
-# numpy, only where the surface bends, which gives fewer triangles in less time than the kernel's own refinement.
-INSIDE_COARSER = 1.4
+# numpy, only where the surface bends, which gives fewer triangles in less time than the kernel's own refinement. Far
+# coarser ones (40 times) take as long, and trust fewer samples with what a face hides between them.
+INSIDE_COARSER = 5.0
 # Largest turn (rad) between neighbouring border segments: it decides only on arcs below 65 times the deflection.
 ANGLE = 0.35
 
