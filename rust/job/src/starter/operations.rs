@@ -42,6 +42,8 @@ const NAMED: usize = 6;
 const SURE: f64 = 0.8;
 /// and a smaller one is worth its longer path if it leaves no more than this share of what the wider one leaves.
 const WORTHWHILE: f64 = 0.95;
+/// Sizes in a row that are not, after which no smaller one is asked.
+const TRIED: usize = 2;
 /// Share of the faces beyond which the tool is no tool for the part.
 const MOST_LEFT: f64 = 0.3;
 /// Levels at most.
@@ -94,15 +96,17 @@ pub fn milling(body: &Body<'_>, looks: &Hollows) -> Milled {
     let allowed = ProcessSection::default().max_unreached;
     let mut milled = worked(&by_face, &seen, fitting, words);
     let mut left = by_face.share_left(&milled);
-    while left > SURE * allowed {
-        let Some(diameter) = sizes::next_smaller(milled.tool.diameter, body.mesh()) else { break };
+    let (mut diameter, mut in_vain) = (fitting.diameter, 0);
+    while left > SURE * allowed && in_vain < TRIED {
+        let Some(smaller) = sizes::next_smaller(diameter, body.mesh()) else { break };
+        diameter = smaller;
         let words = format!("the tool, {diameter} mm wide: wider ones get to less of the faces");
         let smaller = worked(&by_face, &seen, Cutter { diameter, ..fitting }, words);
         let share = by_face.share_left(&smaller);
-        if share > WORTHWHILE * left {
-            break;
+        in_vain += 1;
+        if share <= WORTHWHILE * left {
+            (milled, left, in_vain) = (smaller, share, 0);
         }
-        (milled, left) = (smaller, share);
     }
     if left > SURE * allowed {
         let limit = (100.0 * (left + (1.0 - SURE) * allowed)).ceil() / 100.0;
@@ -125,6 +129,7 @@ fn worked(by_face: &ByFace<'_>, seen: &[&FaceLook], tool: Cutter, words: String)
     let (walls, floors): (Vec<&FaceLook>, Vec<&FaceLook>) = seen.iter().partition(|face| is_wall(face));
     let mut reasons = vec![words];
     let fits = |face: &&FaceLook| Hollows::bound([*face], 0.5).is_none_or(|radius| 2.02 * radius >= tool.diameter);
+    // where there are more walls than names, rows over the whole part serve all of it
     let asks_reach = tool.shape == Shape::Ball && walls.len() <= NAMES;
     let reach = asks_reach.then(|| by_face.reach(&tool)).flatten();
     let (walls, low): (Vec<&FaceLook>, Vec<&FaceLook>) = walls
@@ -222,10 +227,11 @@ impl<'a> ByFace<'a> {
 
 /// What is left because the tool's side does not reach down to it, in words.
 fn untouched(low: &[&FaceLook], tool: &Cutter) -> Option<String> {
-    let radius = 0.5 * tool.diameter;
+    let diameter = tool.diameter;
     (!low.is_empty()).then(|| {
         format!(
-            "left out, for the side of a ball touches walls from {radius} mm over the floor on: {}; a flat tool reaches them",
+            "left out, for over the floor, and for what stands beside, the ball of {diameter} mm does not touch them: {}; \
+             a flat or a smaller tool may",
             names(low)
         )
     })

@@ -12,7 +12,8 @@ const LEAST: f64 = 0.02;
 /// The region of a triangle that was not asked for.
 const NONE: u32 = u32::MAX;
 
-/// Lowest and highest tip with which the tool touches each connected region of what was selected that no pass touches, mm.
+/// Bands of heights, lowest and highest tip in mm, in which the tool touches a connected region of what was selected that
+/// no pass touches.
 ///
 /// Walls are looked at in places `spacing` mm apart, slopes at the corners of their facets. A region that some pass touches
 /// has its levels, a step apart.
@@ -41,21 +42,37 @@ pub fn left_out(
     let places: Vec<[f64; 2]> = stances.iter().flat_map(|(_, stands)| stands.map(|at| [at.x, at.y])).collect();
     watch.begin("slopes", places.len());
     let contacts = surface.envelope().contacts(&places, watch)?;
-    let triangles = stances.iter().flat_map(|(triangle, _)| [*triangle; 3]);
-    for (triangle, (place, contact)) in triangles.zip(places.iter().zip(&contacts)) {
-        let point = contact.as_ref().map(|contact| surface.path_point(place[0], place[1], contact));
-        let is_own = |touched: u32| region(touched as usize) == region(triangle);
-        if let Some(point) = point.filter(|point| point.selected && is_own(point.triangle)) {
-            tips.push((region(triangle), (point.tip.z, point.tip.z)));
-        }
+    for ((triangle, _), (places, contacts)) in stances.iter().zip(places.chunks(3).zip(contacts.chunks(3))) {
+        let own = places.iter().zip(contacts).filter_map(|(place, contact)| {
+            let point = surface.path_point(place[0], place[1], contact.as_ref()?);
+            (point.selected && region(point.triangle as usize) == region(*triangle)).then_some(point.tip.z)
+        });
+        tips.extend(own.map(|tip| (tip, tip)).reduce(joined).map(|range| (region(*triangle), range)));
     }
 
-    let mut by_region: BTreeMap<u32, (f64, f64)> = BTreeMap::new();
-    for (region, (low, high)) in tips {
-        let known = by_region.entry(region).or_insert((low, high));
-        *known = (known.0.min(low), known.1.max(high));
+    let mut by_region: BTreeMap<u32, Vec<(f64, f64)>> = BTreeMap::new();
+    for (region, range) in tips {
+        by_region.entry(region).or_default().push(range);
     }
-    Ok(by_region.into_values().filter(|(low, high)| high - low >= LEAST).collect())
+    Ok(by_region.into_values().flat_map(bands).filter(|(low, high)| high - low >= LEAST).collect())
+}
+
+/// The range over two others.
+fn joined(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
+    (a.0.min(b.0), a.1.max(b.1))
+}
+
+/// Ranges joined where they overlap, from the lowest up.
+fn bands(mut ranges: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    ranges.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut bands: Vec<(f64, f64)> = Vec::new();
+    for range in ranges {
+        match bands.last_mut() {
+            Some(last) if range.0 <= last.1 + LEAST => *last = joined(*last, range),
+            _ => bands.push(range),
+        }
+    }
+    bands
 }
 
 /// The connected region of each triangle of the mesh, as its first triangle's number; [`NONE`] where it was not selected.
@@ -73,4 +90,16 @@ fn regions(surface: &Surface<'_>) -> Vec<u32> {
         }
     }
     regions
+}
+
+#[cfg(test)]
+mod tests {
+    use super::bands;
+
+    #[test]
+    fn ranges_that_overlap_are_one_band() {
+        let ranges = vec![(9.0, 9.2), (5.0, 5.2), (5.1, 5.4), (5.41, 5.5), (5.3, 5.35)];
+        assert_eq!(bands(ranges), [(5.0, 5.5), (9.0, 9.2)]);
+        assert!(bands(Vec::new()).is_empty());
+    }
 }
