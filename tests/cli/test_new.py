@@ -185,6 +185,34 @@ def test_a_sheet_is_formed_with_its_own_thickness(parts, cli):
     assert cli("run", parts / "sheet.toml").code == 0
 
 
+def test_a_sheet_too_thick_to_form_is_milled(parts, cli):
+    document, reasons = made(parts, cli, "thick", mesh_of(cup, lambda x, y: cup(x, y) - 8.0))
+    assert document["process"]["kind"] == "milling" and "6 mm that a stylus forms" in reasons
+
+
+def test_what_no_tool_gets_to_is_let_pass_by_name(parts, cli):
+    """Slots that are narrower at their foot than any tool for a part of this size."""
+    slots = mesh_of(lambda x, _: np.where(np.round(x) % 6 == 0, -8.0, 0.0), lambda x, _: 0.0 * x - 20.0)
+    document, reasons = made(parts, cli, "slots", slots)
+    limit = document["process"]["max_unreached"]
+    assert 0.01 < limit <= 0.3 and f"max_unreached = {limit}" in reasons
+    coarser(parts / "slots.toml")
+    ran = cli("run", parts / "slots.toml", "--json")
+    assert ran.code == 0, ran.out[-2000:]
+
+
+def test_run_takes_what_new_read_ahead(parts, cli, monkeypatch, tmp_path):
+    monkeypatch.setenv("STYLUSCAM_CACHE", str(tmp_path))
+    assert cli("new", parts / "box.step", "--out", parts / "ahead.toml", "--force").code == 0
+
+    def read_brep(*_):
+        raise AssertionError("read again")
+
+    monkeypatch.setattr("styluscam.parts.step.read_brep", read_brep)
+    ran = cli("run", parts / "ahead.toml", "--json")
+    assert ran.code == 0, ran.out[-2000:]
+
+
 def test_a_sheet_that_opens_downward_is_turned_over(parts, cli):
     document, reasons = made(parts, cli, "over", mesh_of(lambda x, y: -cup(x, y), lambda x, y: -cup(x, y) - 0.8))
     assert document["process"]["kind"] == "spif" and document["setup"]["up"] == "-z"

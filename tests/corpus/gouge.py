@@ -55,8 +55,8 @@ class Checked:
     """Of the tips at feed."""
     cuts: int = 0
     """Ways at feed between two rapids."""
-    short: int = 0
-    """Those of them that are shorter in plan than twice the job's smallest feature: facets, gone to one by one."""
+    lifts: int = 0
+    """Times that the tool was lifted between two of them, nearer to each other than half the job's smallest feature."""
 
 
 def checked(text: str, job: dict[str, Any], corners: Floats, allowed: float, family: Family, seed: int) -> Checked:
@@ -75,7 +75,8 @@ def checked(text: str, job: dict[str, Any], corners: Floats, allowed: float, fam
     found.path_box = [ends.min(axis=0).tolist(), ends.max(axis=0).tolist()]
     cuts = _cuts(moves)
     features = [operation.get("smallest_feature", 0.0) for operation in job.get("operations", ())]
-    found.cuts, found.short = len(cuts), int((cuts < 2.0 * min(features, default=0.0)).sum())
+    gaps = [math.dist(before[1], after[0]) for before, after in itertools.pairwise(cuts)]
+    found.cuts, found.lifts = len(cuts), sum(gap < 0.5 * min(features, default=0.0) for gap in gaps)
     tools = {tool.get("number", 1): tool for tool in job["tools"].values()}
     tips, numbers, lines, feeding = _places(moves, seed)
     tolerances = [operation.get("tolerance", 0.0) for operation in job.get("operations", ())]
@@ -95,16 +96,16 @@ def checked(text: str, job: dict[str, Any], corners: Floats, allowed: float, fam
     return found
 
 
-def _cuts(moves: list[gcode.Move]) -> Floats:
-    """Lengths (N,) in plan of the ways at feed between two rapids, mm; those straight up or down are none."""
-    lengths, way = [], 0.0
+def _cuts(moves: list[gcode.Move]) -> list[tuple[Any, Any]]:
+    """First and last tip of the ways at feed between two rapids, without those straight up or down."""
+    cuts: list[tuple[Any, Any]] = []
+    goes_on = False
     for before, move in itertools.pairwise(moves):
-        if move.kind != "rapid":
-            way += math.hypot(move.end[0] - before.end[0], move.end[1] - before.end[1])
-        elif way > 0.0:
-            lengths.append(way)
-            way = 0.0
-    return np.array([*lengths, way] if way > 0.0 else lengths)
+        goes_on = goes_on and move.kind != "rapid"
+        if move.kind != "rapid" and math.dist(before.end[:2], move.end[:2]) > 0.0:
+            cuts.append((cuts.pop()[0] if goes_on else before.end, move.end))
+            goes_on = True
+    return cuts
 
 
 def _places(moves: list[gcode.Move], seed: int) -> tuple[Floats, np.ndarray, np.ndarray, np.ndarray]:

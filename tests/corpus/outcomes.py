@@ -36,9 +36,9 @@ REASONS = {
 """What a refusal's sentence says where it is of a kind."""
 CLASSES = re.compile(r"\b[A-Z]\w*(Error|Exception)\b|Traceback|Standard_|StdFail")
 TOLD = re.compile(r"[:;,] \S+")
-FEW = 40
-IN_PIECES = 0.2
-"""Cuts of no length that are many: more than these, and more than this share of all."""
+FEW = 10
+IN_PIECES = 0.05
+"""Lifts for nothing that are many: more than these, and more than this share of all cuts."""
 
 
 @dataclass
@@ -252,6 +252,6 @@ def _misplaced(found: Checked, placed: np.ndarray, document: dict[str, Any]) -> 
             return f"the summary's box is off the part's by {off:.3f} mm"
     if found.touching == 0.0:
         return "the path touches the part nowhere"
-    if found.short > max(FEW, IN_PIECES * found.cuts):
-        return f"the path is in pieces: {found.short} of {found.cuts} cuts are shorter than two smallest features"
+    if found.lifts > max(FEW, IN_PIECES * found.cuts):
+        return f"the path is in pieces: {found.lifts} of {found.cuts} cuts begin where the one before ended"
     return ""

@@ -76,11 +76,11 @@ def test_a_text_that_a_controller_refuses_is_not_checked():
     assert "no end" in checked("G21 G90\nG0 X0\n", job(PROFILES["ball"]), TRIANGLES, 0.002, "linuxcnc", 1).refused
 
 
-def test_cuts_of_no_length_are_counted():
-    cut = "G0 X{x} Y0\nG1 Z0\nG1 X{end} Y0.05\nG0 Z20\n"
-    ways = [(-15, -14.9), (-12, -11.9), (0, 4), (6, 6.1)]
-    body = "".join(cut.format(x=x, end=end) for x, end in ways)
+def test_lifts_for_nothing_are_counted():
+    cut = "G0 X{x} Y0\nG1 Z0\nG1 X{x1} Y0.05\nG1 X{end}\nG0 Z20\n"
+    ways = [(-15, -14.9), (-14.7, -12), (0, 4), (6, 6.1), (6.2, 9)]
+    body = "".join(cut.format(x=x, x1=x + 0.05, end=end) for x, end in ways)
     text = f"G21 G90 G17 G54\nT1 M6\nG43 H1\nG0 Z20\nF500\n{body}M2\n"
     document = job(PROFILES["ball"]) | {"operations": [{"smallest_feature": 0.6}, {"smallest_feature": 0.5}]}
     found = checked(text, document, TRIANGLES[:2], 0.002, "linuxcnc", 1)
-    assert (found.cuts, found.short) == (4, 3)
+    assert (found.cuts, found.lifts) == (5, 2)
