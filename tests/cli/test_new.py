@@ -186,18 +186,19 @@ def test_a_sheet_is_formed_with_its_own_thickness(parts, cli):
 
 
 def test_a_sheet_too_thick_to_form_is_milled(parts, cli):
-    document, reasons = made(parts, cli, "thick", mesh_of(cup, lambda x, y: cup(x, y) - 8.0))
+    dish = lambda x, y: np.clip(0.2 * (np.hypot(x, y) - 100.0), -15.0, 0.0)  # noqa: E731
+    document, reasons = made(parts, cli, "thick", mesh_of(dish, lambda x, y: dish(x, y) - 8.0, size=300.0))
     assert document["process"]["kind"] == "milling" and "6 mm that a stylus forms" in reasons
 
 
 def test_what_no_tool_gets_to_is_let_pass_by_name(parts, cli):
-    """Slots that are narrower at their foot than any tool for a part of this size."""
-    slots = mesh_of(lambda x, _: np.where(np.round(x) % 6 == 0, -8.0, 0.0), lambda x, _: 0.0 * x - 20.0)
-    document, reasons = made(parts, cli, "slots", slots)
+    """Pits, a node wide and deep as ten, that are narrower than any tool for a part of this size."""
+    pits = -10.0 * (np.random.default_rng(3).random(31 * 31) < 0.15)
+    document, reasons = made(parts, cli, "pits", mesh_of(lambda x, _: pits, lambda x, _: 0.0 * x - 20.0, nodes=31))
     limit = document["process"]["max_unreached"]
-    assert 0.01 < limit <= 0.3 and f"max_unreached = {limit}" in reasons
-    coarser(parts / "slots.toml")
-    ran = cli("run", parts / "slots.toml", "--json")
+    assert 0.1 < limit <= 0.3 and f"max_unreached = {limit}" in reasons
+    coarser(parts / "pits.toml")
+    ran = cli("run", parts / "pits.toml", "--json")
     assert ran.code == 0, ran.out[-2000:]
 
 

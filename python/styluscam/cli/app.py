@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import atexit
+import contextlib
 import logging
+import os
 import sys
 import traceback
 import warnings
@@ -76,8 +79,17 @@ def _top(
 
 
 def main() -> NoReturn:
-    """The entry point: runs the command line and ends the process with its exit code."""
-    sys.exit(invoke(sys.argv[1:]))
+    """The entry point: runs the command line and ends the process with its exit code.
+
+    It ends without the interpreter's teardown, which frees the CAD kernel object by object in 0.3 s: all files are
+    closed by then.
+    """
+    code = invoke(sys.argv[1:])
+    atexit._run_exitfuncs()
+    for stream in (sys.stdout, sys.stderr):
+        with contextlib.suppress(OSError, ValueError, AttributeError):  # closed, gone, or never there
+            stream.flush()
+    os._exit(code)
 
 
 def invoke(arguments: Sequence[str]) -> int:

@@ -129,18 +129,18 @@ impl Direction {
         let (mut basis, mut slopes) = ([0.0; HIGHEST + 1], [0.0; HIGHEST + 1]);
         basis[0] = 1.0;
         for k in 1..=degree {
-            let lower = basis;
-            basis[..=k].fill(0.0);
+            let mut from_left = 0.0;
             for i in 0..k {
                 let (left, right) = (knots[span + 1 + i - k], knots[span + 1 + i]);
-                let share = lower[i] / (right - left);
-                basis[i] += (right - at) * share;
-                basis[i + 1] += (at - left) * share;
+                let share = basis[i] / (right - left);
+                basis[i] = from_left + (right - at) * share;
+                from_left = (at - left) * share;
                 if k == degree {
                     slopes[i] -= k as f64 * share;
                     slopes[i + 1] += k as f64 * share;
                 }
             }
+            basis[k] = from_left;
         }
         (span, basis, slopes)
     }

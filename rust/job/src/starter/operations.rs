@@ -247,10 +247,12 @@ fn left(narrow: &[&FaceLook], tool: &Cutter) -> Option<String> {
     let (holes, slots): (Vec<&FaceLook>, Vec<&FaceLook>) = narrow.iter().partition(|face| face.hole.is_some());
     let mut said = Vec::new();
     if !holes.is_empty() {
-        said.push(format!("the holes {} are for a drill", names(&holes)));
+        let (plural, are) = if holes.len() == 1 { ("", "is") } else { ("s", "are") };
+        said.push(format!("the hole{plural} {} {are} for a drill", names(&holes)));
     }
     if !slots.is_empty() {
-        said.push(format!("{} are narrower than the tool and for a smaller one", names(&slots)));
+        let are = if slots.len() == 1 { "is" } else { "are" };
+        said.push(format!("{} {are} narrower than the tool and for a smaller one", names(&slots)));
     }
     let diameter = tool.diameter;
     (!said.is_empty()).then(|| format!("left out, for the tool of {diameter} mm does not enter: {}", said.join("; ")))
