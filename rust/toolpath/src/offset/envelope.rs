@@ -401,6 +401,11 @@ impl<'a> Envelope<'a> {
         }
     }
 
+    /// Height over the tool's tip from which on its side is upright, mm.
+    pub(super) fn side_height(&self) -> f64 {
+        self.cutter.max_height() - self.above
+    }
+
     /// The triangles beyond the three edges of one; `u32::MAX` where the mesh ends.
     #[must_use]
     pub fn neighbours(&self, triangle: u32) -> Neighbours {

@@ -8,15 +8,28 @@ use super::features::NO_NEIGHBOUR;
 
 /// Normals that differ by less, as the sine of an angle, are the same.
 const SAME: f64 = 1e-9;
+/// The tool's upright side touches whatever stands no farther off than this, mm: triangles of a fillet bulge over the wall
+/// that they join by what they deviate from it.
+const TOGETHER: f64 = 0.01;
+/// Directions that are paired at most, the nearest ones: where thousands of triangles meet, those span what matters.
+const MOST: usize = 24;
+/// Normals that rise by less are those of the tool's upright side.
+const SIDE: f64 = 1e-9;
 
 impl Envelope<'_> {
-    /// Whether the contact belongs to triangles that `selected` accepts, all of those that meet there.
+    /// Whether the contact belongs to triangles that `selected` accepts: to those that meet there, or to a wall beside them
+    /// that the tool's upright side touches as well.
     ///
     /// Rolling over an edge or corner between selected and other faces, the contact belongs to the selected ones while
     /// its normal is within `spread` (rad) of what they span: the rim of a pin touched between two of its facets is the
     /// pin's wall. `from_above` it also does while it is less steep than one of them.
     #[must_use]
     pub fn belongs(&self, contact: &Contact, selected: &[bool], spread: f64, from_above: bool) -> bool {
+        self.meets(contact, selected, spread, from_above) || self.has_wall_beside(contact, selected)
+    }
+
+    /// Whether the contact belongs to selected triangles of those that meet there.
+    fn meets(&self, contact: &Contact, selected: &[bool], spread: f64, from_above: bool) -> bool {
         if contact.feature == Feature::Facet {
             return selected[contact.triangle as usize];
         }
@@ -29,6 +42,26 @@ impl Envelope<'_> {
         let normals: Vec<Vector> = normals.collect();
         normals.iter().any(|normal| from_above && contact.normal.z >= normal.z)
             || is_spanned(contact.normal, &normals, spread)
+    }
+
+    /// Whether a selected wall that joins the triangle touched stands in the same upright line as the contact, as far as
+    /// the tool's side can tell.
+    fn has_wall_beside(&self, contact: &Contact, selected: &[bool]) -> bool {
+        let mesh = self.mesh();
+        let stands = |triangle: u32| {
+            let (normal, corners) = (mesh.normal(triangle as usize), mesh.corners(triangle as usize));
+            let along = Vector::new(-normal.y, normal.x, 0.0);
+            let places = corners.map(|corner| (corner - contact.point).dot(&along));
+            let highest = corners.iter().map(|corner| corner.z).fold(f64::NEG_INFINITY, f64::max);
+            normal.dot(&contact.normal) > 0.0
+                && (contact.point - corners[0]).dot(&normal).abs() <= TOGETHER
+                && places.iter().any(|place| *place <= TOGETHER)
+                && places.iter().any(|place| *place >= -TOGETHER)
+                && highest >= contact.tip + self.side_height()
+        };
+        let is_wall = |t: &u32| *t != NO_NEIGHBOUR && selected[*t as usize] && mesh.is_upright(*t as usize);
+        contact.normal.z.abs() <= SIDE
+            && (0..3).flat_map(|corner| self.around(contact.triangle, corner)).filter(is_wall).any(stands)
     }
 
     /// The triangles that meet where the contact is: one, those beside an edge, or those around a corner.
@@ -44,14 +77,14 @@ impl Envelope<'_> {
         match contact.feature {
             Feature::Facet => vec![contact.triangle],
             Feature::Edge(i) => vec![contact.triangle, self.neighbours(contact.triangle)[usize::from(i)]],
-            Feature::Corner(i) => self.around(contact, i),
+            Feature::Corner(i) => self.around(contact.triangle, i),
         }
     }
 
     /// Triangles around the corner touched, found through the edges of the one that was asked.
-    fn around(&self, contact: &Contact, corner: u8) -> Vec<u32> {
-        let vertex = self.mesh().triangles()[contact.triangle as usize][usize::from(corner)];
-        let mut fan = vec![contact.triangle];
+    fn around(&self, triangle: u32, corner: u8) -> Vec<u32> {
+        let vertex = self.mesh().triangles()[triangle as usize][usize::from(corner)];
+        let mut fan = vec![triangle];
         let mut next = 0;
         while next < fan.len() {
             let triangle = fan[next];
@@ -73,24 +106,28 @@ impl Envelope<'_> {
 
 /// Whether a direction is within `spread` (rad) of one of some others, or of what lies between them: all unit vectors.
 ///
-/// A vertex is touched under every direction of the spherical polygon that its facets' normals span (the Gauss map of a
-/// convex vertex); its triangles with the corner nearest to the direction cover all of it that matters there.
+/// A convex vertex is touched under every direction of the spherical polygon that its facets' normals span (its Gauss map).
+/// The triangles of the polygon's corners with the one nearest to the direction cover that polygon.
 fn is_spanned(direction: Vector, others: &[Vector], spread: f64) -> bool {
     let near = |a: &&Vector, b: &&Vector| a.dot(&direction).total_cmp(&b.dot(&direction));
     let Some(nearest) = others.iter().max_by(near) else { return false };
     if nearest.dot(&direction) >= libm::cos(spread) {
         return true;
     }
-    let apart: Vec<&Vector> = others.iter().filter(|other| nearest.cross(other).norm() > SAME).collect();
+    let mut apart: Vec<&Vector> = others.iter().filter(|other| nearest.cross(other).norm() > SAME).collect();
+    apart.sort_by(|a, b| near(b, a));
+    apart.truncate(MOST);
     apart.iter().enumerate().any(|(i, second)| {
         is_on_arc(direction, [nearest, second], spread)
-            || apart[i + 1..].iter().any(|third| is_in_triangle(direction, [nearest, second, third]))
+            || apart[i + 1..].iter().any(|third| {
+                is_on_arc(direction, [second, third], spread) || is_in_triangle(direction, [nearest, second, third])
+            })
     })
 }
 
 /// Whether a direction is within `spread` (rad) of the great circle through two others, and between them.
 fn is_on_arc(direction: Vector, [a, b]: [&Vector; 2], spread: f64) -> bool {
-    let pole = a.cross(b).normalize();
+    let Some(pole) = a.cross(b).try_normalize(SAME) else { return false };
     direction.dot(&pole).abs() <= libm::sin(spread)
         && a.cross(&direction).dot(&pole) >= 0.0
         && direction.cross(b).dot(&pole) >= 0.0
@@ -119,6 +156,12 @@ mod tests {
         assert!(!is_spanned(unit(1.0, 0.0, 0.03), &facets, 0.0175), "rolling over the rim");
         assert!(!is_spanned(unit(-1.0, 0.0, 0.0), &facets, 0.0175), "the other side of the circle");
         assert!(!is_spanned(unit(1.0, 0.0, 0.0), &[], 0.0175));
+    }
+
+    #[test]
+    fn what_leans_down_beside_two_facets_takes_nothing_from_them() {
+        let facets = [unit(1.0, 0.07, 0.0), unit(1.0, -0.07, 0.0), unit(1.0, 0.0, -0.03)];
+        assert!(is_spanned(unit(1.0, 0.0, 0.001), &facets, 0.0175));
     }
 
     #[test]
