@@ -36,8 +36,8 @@ REASONS = {
 """What a refusal's sentence says where it is of a kind."""
 CLASSES = re.compile(r"\b[A-Z]\w*(Error|Exception)\b|Traceback|Standard_|StdFail")
 TOLD = re.compile(r"[:;,] \S+")
-FEW = 10
-IN_PIECES = 0.05
+FEW = 40
+IN_PIECES = 0.2
 """Lifts for nothing that are many: more than these, and more than this share of all cuts."""
 
 
@@ -242,7 +242,7 @@ def _corners(path: Path) -> np.ndarray:
 
 
 def _misplaced(found: Checked, placed: np.ndarray, document: dict[str, Any]) -> str:
-    """Where path and part do not lie together: a wrong unit, a wrong zero."""
+    """Where path and part do not lie together (a wrong unit, a wrong zero), or the path is cut to pieces."""
     points = placed.reshape(-1, 3)
     low, high = points.min(axis=0), points.max(axis=0)
     said = document.get("summary", {})

@@ -22,9 +22,9 @@ from .tessellation import FaceMesh, Tessellation, refine_until
 # An object of the CAD kernel, whose Python bindings have no types.
 Kernel: TypeAlias = Any
 
-# The kernel meshes face borders within the deflection asked, face insides this much coarser: they are refined in
-# numpy, only where the surface bends, which gives fewer triangles in less time than the kernel's own refinement. Far
-# coarser ones (40 times) take as long, and trust fewer samples with what a face hides between them.
+# The kernel meshes face borders within the deflection asked, face insides with one so many times larger: they are
+# refined in numpy, only where the surface bends, which gives fewer triangles in less time than the kernel's own
+# refinement. Larger factors gain nothing, and a bump between the samples of a larger triangle is not seen.
 INSIDE_COARSER = 5.0
 # Largest turn (rad) between neighbouring border segments: it decides only on arcs below 65 times the deflection.
 ANGLE = 0.35

@@ -5,7 +5,7 @@ use styluscam_geometry::Vector;
 use crate::fitting;
 use crate::offset::{Contact, Envelope, Keeping};
 
-/// A contact on an unselected face's border still counts while its normal is this close to a selected facet's, rad:
+/// A contact on an unselected face's border still counts while its normal is this close to what selected facets span, rad:
 /// wide enough for tessellated tangent joins, too narrow to roll round an edge.
 const SPREAD: f64 = 0.0175;
 

@@ -24,6 +24,7 @@ const CHUNK: usize = 256;
 const CURVED: f64 = 1.5;
 /// The same where they lie half a step away: twice as far they leave four times as much.
 const CURVED_AMIDST: f64 = 2.5;
+const _: () = assert!(2.0 * CURVED >= CURVED_AMIDST);
 /// What may be left on a pass, mm: facets that the tool cannot quite touch for their neighbours'.
 const ON_PASS: f64 = 0.015;
 /// A pass this near, as a share of the tool's radius, is the one that should be at a place.
@@ -233,7 +234,8 @@ impl Look<'_> {
         let places = |share: f64| [spot.position + share * step, spot.position - share * step];
         let amidst = CURVED_AMIDST * self.leaves(spot.point, places(0.5));
         let rough = ROUGH + self.tolerated();
-        // what is left grows at least as fast as the distance to the passes: less is not explained anywhere
+        // `leaves` is convex and zero where the tool touches: a whole step off it is at least twice what it is half a step off,
+        // so `explained` below is never less than `amidst`
         let left = sweeps.left_beyond(spot.point, amidst + rough, spot.position, last)?;
         if !self.can_touch(&spot) {
             return None;

@@ -42,7 +42,7 @@ const NAMED: usize = 6;
 const SURE: f64 = 0.8;
 /// and a smaller one is worth its longer path if it leaves no more than this share of what the wider one leaves.
 const WORTHWHILE: f64 = 0.95;
-/// Sizes in a row that are not, after which no smaller one is asked.
+/// Smaller sizes in a row that are not worth it, after which the search ends.
 const TRIED: usize = 2;
 /// Share of the faces beyond which the tool is no tool for the part.
 const MOST_LEFT: f64 = 0.3;
@@ -129,7 +129,7 @@ fn worked(by_face: &ByFace<'_>, seen: &[&FaceLook], tool: Cutter, words: String)
     let (walls, floors): (Vec<&FaceLook>, Vec<&FaceLook>) = seen.iter().partition(|face| is_wall(face));
     let mut reasons = vec![words];
     let fits = |face: &&FaceLook| Hollows::bound([*face], 0.5).is_none_or(|radius| 2.02 * radius >= tool.diameter);
-    // where there are more walls than names, rows over the whole part serve all of it
+    // of more walls than an operation names it is not asked: nearly always rows serve the whole part then
     let asks_reach = tool.shape == Shape::Ball && walls.len() <= NAMES;
     let reach = asks_reach.then(|| by_face.reach(&tool)).flatten();
     let (walls, low): (Vec<&FaceLook>, Vec<&FaceLook>) = walls
@@ -228,10 +228,14 @@ impl<'a> ByFace<'a> {
 /// What is left because the tool's side does not reach down to it, in words.
 fn untouched(low: &[&FaceLook], tool: &Cutter) -> Option<String> {
     let diameter = tool.diameter;
+    let other = match tool.shape {
+        Shape::Ball => "a flat or a smaller tool",
+        Shape::Flat => "a smaller tool",
+    };
     (!low.is_empty()).then(|| {
         format!(
-            "left out, for over the floor, and for what stands beside, the ball of {diameter} mm does not touch them: {}; \
-             a flat or a smaller tool may",
+            "left out, for the tool of {diameter} mm does not touch them over the floor before them, or beside other walls: \
+             {}; {other} may",
             names(low)
         )
     })
