@@ -36,7 +36,10 @@ OPERATIONS = {
 
 
 def without(text: str, kind: str, low: float, high: float) -> tuple[str, int]:
-    """A text without the moves at feed whose tip lies between two places, and how many there were."""
+    """A text without the moves at feed whose tip lies between two places, and how many there were.
+
+    What else those lines say, G1 and F, holds for the lines after them and stays.
+    """
     axis = "Y" if kind == "missing-row" else "Z"
     place, kept, left = np.inf, [], 0
     for line in text.splitlines():
@@ -44,8 +47,7 @@ def without(text: str, kind: str, low: float, high: float) -> tuple[str, int]:
         place = next((float(word[1:]) for word in words if word.startswith(axis)), place)
         inside = low < place < high and any(word[0] in "XYZ" for word in words)
         left += inside
-        if not inside:
-            kept.append(line)
+        kept.append(" ".join(word for word in words if word[0] not in "XYZ") if inside else line)
     return "\n".join(kept) + "\n", left
 
 
