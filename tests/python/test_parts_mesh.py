@@ -106,6 +106,10 @@ def stl(triangles: np.ndarray) -> bytes:
 
 
 ONE = np.array([[(0, 0, 0), (1, 0, 0), (0, 1, 0)]], dtype=float)
+A, B, C, D = (0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)
+FLAT_BODY = np.array([(A, B, C), (A, C, D), (A, D, B), (B, D, C)], dtype=float)
+
+TILT = np.array([[1.0, 0.3, 0.7], [-0.4, 1.0, 0.2], [0.0, 0.0, 1.0]])
 
 BAD = {
     "no units": (stl(ONE), None, "part-units-missing"),
@@ -117,6 +121,8 @@ BAD = {
     "infinite": (stl(np.where(ONE == 1.0, np.inf, ONE)), "mm", "part-nan"),
     "zero area": (stl(0.0 * ONE + 3.0), "mm", None),
     "collinear": (stl(np.array([[(0, 0, 0), (1, 0, 0), (2, 0, 0)]], dtype=float)), "mm", "part-zero-area"),
+    "flat body": (stl(FLAT_BODY), "mm", "part-no-volume"),
+    "flat body, tilted": (stl(40.0 * FLAT_BODY @ TILT), "mm", "part-no-volume"),
     "huge": (stl(2e6 * ONE), "mm", "part-too-large"),
     "far away": (stl(ONE + 2e6), "mm", "part-too-large"),
     "tiny": (stl(1e-4 * ONE), "mm", "part-too-small"),

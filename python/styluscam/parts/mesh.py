@@ -18,6 +18,9 @@ from .progress import Progress, report
 from .stl import read_stl
 from .surfaces import Floats, unit
 
+FLAT = 1e-9
+"""A closed mesh is no body where it is, across a plane through it, this share of its length thick."""
+
 
 def read_mesh(file: Path, tolerance: float, units: str | None, progress: Progress | None = None) -> PartArrays:
     """Read the part in a mesh file. See styluscam.parts.read_part."""
@@ -32,6 +35,9 @@ def read_mesh(file: Path, tolerance: float, units: str | None, progress: Progres
         raise _error(file, "has coordinates that are not numbers (NaN or infinite)", "export it again", "part-nan")
     report(progress, "faces", 0.5)
     vertices, triangles, face_ids, mending, kinds = _mended(file, points * scale, corners)
+    if mending["closed"] and _is_flat(vertices):
+        what = "its triangles close, but enclose nothing: it has no height"
+        raise _error(file, what, "give it its height, or one side only", "part-no-volume")
     report(progress, "arrays", 0.9)
     normals = np.repeat(unit(area_vectors(vertices, triangles))[:, None, :], 3, axis=1)
     part = PartArrays(
@@ -52,6 +58,12 @@ def read_mesh(file: Path, tolerance: float, units: str | None, progress: Progres
     )
     report(progress, "arrays", 1.0)
     return part
+
+
+def _is_flat(vertices: Floats) -> bool:
+    """Return whether all corners lie in one plane, however it is tilted."""
+    *_, height = spread = np.linalg.svd(vertices - vertices.mean(axis=0), compute_uv=False)
+    return bool(height <= FLAT * spread[0])
 
 
 def _mended(file: Path, points: Floats, corners: Ints) -> tuple[Floats, Ints, Ints, dict[str, Any], list[str]]:
@@ -92,6 +104,8 @@ def _said(mending: dict[str, Any], triangles: int) -> tuple[str, ...]:
         )
     if count := mending["degenerate"]:
         notes.append(f"{_many(count, 'triangle')} without area left out")
+    if count := mending["cut"]:
+        notes.append(f"corners on sides of other triangles: those were cut there, {_many(count, 'cut')}")
     if count := mending["duplicate"]:
         notes.append(f"{_many(count, 'triangle')} left out that the file has more than once")
     if count := mending["back_to_back"]:

@@ -6,6 +6,7 @@
 mod copies;
 mod edges;
 mod faces;
+mod seams;
 mod shapes;
 mod weld;
 mod winding;
@@ -26,6 +27,8 @@ pub struct Mending {
     pub moved: f64,
     /// Triangles without area that were dropped, or removed by cutting their neighbour at their middle corner.
     pub degenerate: usize,
+    /// Cuts of triangles at corners of others that lie on their sides.
+    pub cut: usize,
     /// Triangles that were there already, wound alike.
     pub duplicate: usize,
     /// Triangles that lay back to back between two bodies, both of each pair dropped.
@@ -64,22 +67,25 @@ impl Soup {
         }
         let (vertices, index) = weld::exact(points);
         let triangles = numbered(triangles, &index)?;
-        let joined = Self::mended(&vertices, triangles.clone(), true);
-        // corners joined to the wrong ones make neighbours of triangles that are none: better a seam than that
-        let is_wrong = joined.mending.joined > 0 && joined.mending.unclear.is_some();
-        let soup = if is_wrong { Self::mended(&vertices, triangles, false) } else { joined };
+        // corners joined to the wrong ones, or cut into the wrong triangles, make neighbours of triangles that are none:
+        // better a seam than that
+        let mut soup = Self::mended(&vertices, triangles.clone(), Joins::NearAndSeams);
+        for (less, done) in [(Joins::Near, soup.mending.cut), (Joins::None, soup.mending.joined)] {
+            if done > 0 && soup.mending.unclear.is_some() {
+                soup = Self::mended(&vertices, triangles.clone(), less);
+            }
+        }
         if soup.triangles.is_empty() {
             return Err(GeometryError::EmptyMesh);
         }
         Ok(soup)
     }
 
-    /// With corners joined that do not quite meet, or without.
-    fn mended(vertices: &[Vector], mut triangles: Vec<[u32; 3]>, joins: bool) -> Self {
+    fn mended(vertices: &[Vector], mut triangles: Vec<[u32; 3]>, joins: Joins) -> Self {
         let mut mending = Mending::default();
         drop_collapsed(&mut triangles, &mut mending);
         copies::drop_alike(&mut triangles, &mut mending);
-        if joins {
+        if joins != Joins::None {
             weld::near(vertices, &mut triangles, &mut mending);
         }
         if mending.joined > 0 {
@@ -88,6 +94,9 @@ impl Soup {
         }
         copies::drop_opposite(vertices, &mut triangles, &mut mending);
         weld::cut_at_flat(vertices, &mut triangles, &mut mending);
+        if joins == Joins::NearAndSeams {
+            seams::cut(vertices, &mut triangles, &mut mending);
+        }
         winding::turn_outward(vertices, &mut triangles, &mut mending);
         let (vertices, triangles) = weld::used(vertices, triangles);
         Self { vertices, triangles, mending }
@@ -100,6 +109,16 @@ impl Soup {
     pub fn faces(&self) -> (Vec<u32>, Vec<Shape>) {
         faces::of(&self.vertices, &self.triangles)
     }
+}
+
+/// What is joined that does not quite meet.
+#[derive(Clone, Copy, PartialEq)]
+enum Joins {
+    /// Corners within a distance, and sides with the corners of others that lie on them.
+    NearAndSeams,
+    /// Corners only.
+    Near,
+    None,
 }
 
 /// Triangles by the vertices that their points became.

@@ -398,3 +398,35 @@ fn numbers_do_not_depend_on_the_order_of_triangles() {
         assert_eq!(*number, faces[*t]);
     }
 }
+
+#[test]
+fn sides_on_which_corners_of_others_lie_are_cut_there() {
+    let mut cube = cube();
+    // along the edge from (0, 0, 10) to (10, 0, 10): the top has corners at 0.002 and 4, the front at 7
+    let [a, b] = [Vector::new(0.0, 0.0, 10.0), Vector::new(10.0, 0.0, 10.0)];
+    for (low, places) in [(false, vec![0.002, 4.0]), (true, vec![7.0])] {
+        let at = |t: &[Vector; 3]| t.contains(&a) && t.contains(&b) && (t.iter().any(|p| p.z < 5.0) == low);
+        let triangle = cube.0.remove(cube.0.iter().position(at).unwrap());
+        let k = (0..3).find(|k| ![a, b].contains(&triangle[*k])).unwrap();
+        let (apex, from, to) = (triangle[k], triangle[(k + 1) % 3], triangle[(k + 2) % 3]);
+        let mut stops: Vec<Vector> = places.iter().map(|x| Vector::new(*x, 0.0, 10.0)).collect();
+        stops.extend([from, to]);
+        stops.sort_by(|p, q| (p - from).norm().total_cmp(&(q - from).norm()));
+        cube.0.extend(stops.windows(2).map(|pair| [apex, pair[0], pair[1]]));
+    }
+    let soup = cube.mended();
+    assert!(soup.mending.closed && soup.mending.unclear.is_none());
+    assert_eq!((soup.mending.cut, soup.mending.moved, soup.triangles.len()), (3, 0.0, 18));
+}
+
+#[test]
+fn a_border_beside_another_is_not_cut() {
+    // two squares that touch in a corner of one and the middle of a side of the other, in a plane and across it
+    for tip in [Vector::new(5.0, 3.0, 0.0), Vector::new(0.0, 5.0, 3.0)] {
+        let mut squares = Triangles::default();
+        let at = |x: f64, y: f64| Vector::new(x, y, 0.0);
+        squares.quad([at(-10.0, -5.0), at(0.0, -5.0), at(0.0, 5.0), at(-10.0, 5.0)]);
+        squares.0.push([at(0.0, 0.0), at(5.0, -3.0), tip]);
+        assert_eq!(squares.mended().mending.cut, 0);
+    }
+}

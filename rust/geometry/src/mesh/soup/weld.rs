@@ -36,11 +36,16 @@ pub fn exact(points: &[Vector]) -> (Vec<Vector>, Vec<u32>) {
     (vertices, index)
 }
 
-/// Joins corners on open edges that lie near each other, where that closes edges.
-pub fn near(vertices: &[Vector], triangles: &mut [[u32; 3]], mending: &mut Mending) {
+/// Within what distance corners on open edges mean one point, mm.
+pub fn join_distance(vertices: &[Vector]) -> f64 {
     let (low, high) = bounds(vertices.iter().copied());
     let reach = low.amax().max(high.amax());
-    let distance = (SHARE * (high - low).norm()).min(FARTHEST).max(SINGLE * reach);
+    (SHARE * (high - low).norm()).min(FARTHEST).max(SINGLE * reach)
+}
+
+/// Joins corners on open edges that lie near each other, where that closes edges.
+pub fn near(vertices: &[Vector], triangles: &mut [[u32; 3]], mending: &mut Mending) {
+    let distance = join_distance(vertices);
     let open = open_corners(triangles);
     if open.is_empty() || !distance.is_finite() {
         return;
