@@ -5,34 +5,62 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 import pytest
 
 import styluscam as sc
 
-SIDE, STEPOVER = 20.0, 3.0
+STEPOVER = 3.0
+SIDES = 96
+Mesh = tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]
 
 
-def job_of(operation: dict[str, Any]) -> sc.Job:
-    """A pyramid with a square base, milled with a ball that is as wide as the rows are apart."""
-    half = SIDE / 2
-    vertices = np.array([[-half, -half, 0], [half, -half, 0], [half, half, 0], [-half, half, 0], [0, 0, 6.0]])
-    triangles = np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+def turned(profile: list[tuple[float, float]], sides: int = SIDES) -> Mesh:
+    """The surface that a line of (radius, height), mm, from the tip or the bottom, sweeps about Z, its outside up."""
+    angles = 2 * np.pi * np.arange(sides) / sides
+    rings = [np.column_stack([r * np.cos(angles), r * np.sin(angles), np.full(sides, z)]) for r, z in profile]
+    here = np.arange(sides)
+    there = np.roll(here, -1)
+    triangles = []
+    for ring in range(len(profile) - 1):
+        a, b, c, d = (sides * (ring + up) + along for up in (0, 1) for along in (here, there))
+        triangles += [np.column_stack([a, c, b]), np.column_stack([b, c, d])]
+    return np.concatenate(rings), np.concatenate(triangles)
+
+
+def arc(radius: float, depth: float) -> list[tuple[float, float]]:
+    """A bowl's profile, mm, in steps of 3 degrees."""
+    last = np.arccos(1 - depth / radius)
+    angles = np.linspace(0.02, last, int(np.degrees(last) / 3))
+    return [(radius * np.sin(angle), radius * (1 - np.cos(angle))) for angle in angles]
+
+
+PARTS: dict[str, Mesh] = {
+    "pyramid": turned([(0.001, 6.0), (14.0, 0.0)], sides=4),
+    "funnel": turned([(3.0, 0.0), (8.0, 6.0)]),
+    "bowl": turned(arc(12.0, 6.0)),
+    "pin": turned([(5.0, 6.0), (7.0, 0.0)]),
+}
+OPERATIONS = {
+    "missing-row": {"kind": "zig-zag", "stepover": STEPOVER},
+    "missing-level": {"kind": "z-level", "step": {"height": 1.0}},
+}
+
+
+def job_of(part: str, kind: str, smallest_feature: float) -> sc.Job:
+    """A part milled with a ball that is as wide as the rows are apart."""
+    vertices, triangles = PARTS[part]
+    operation: dict[str, Any] = {"tool": "ball", "smallest_feature": smallest_feature, **OPERATIONS[kind]}
     document = {
         "schema": 1,
-        "part": {"file": "pyramid.stl", "units": "mm"},
+        "part": {"file": f"{part}.stl", "units": "mm"},
         "process": {"kind": "milling"},
         "setup": {"zero": "model"},
         "tools": {"ball": {"profile": {"kind": "ball", "diameter": STEPOVER}}},
-        "operations": [{"tool": "ball", **operation}],
+        "operations": [operation],
         "machine": {"name": "linuxcnc"},
     }
     return sc.Job.from_dict(document, part=sc.Part.from_mesh(vertices, triangles))
-
-
-OPERATIONS = {
-    "missing-row": {"kind": "zig-zag", "stepover": STEPOVER},
-    "missing-level": {"kind": "z-level", "step": {"height": 1.0}, "z_bottom": -1.0},
-}
 
 
 def without(text: str, kind: str, low: float, high: float) -> tuple[str, int]:
@@ -51,11 +79,15 @@ def without(text: str, kind: str, low: float, high: float) -> tuple[str, int]:
     return "\n".join(kept) + "\n", left
 
 
-@pytest.mark.parametrize(("high", "severity"), [(1.9, "warning"), (5.9, "error")])
+@pytest.mark.parametrize("smallest_feature", [0.2, 1.0, 3.0])
+@pytest.mark.parametrize(("high", "severity"), [(1.9, "warning"), (5.4, "error")])
 @pytest.mark.parametrize("kind", OPERATIONS)
-def test_passes_that_were_taken_out_are_found(kind: str, high: float, severity: str) -> None:
+@pytest.mark.parametrize("part", PARTS)
+def test_passes_that_were_taken_out_are_found(
+    part: str, kind: str, high: float, severity: str, smallest_feature: float
+) -> None:
     """A few are a matter of what is left over; without many it is another program."""
-    job = job_of(OPERATIONS[kind])
+    job = job_of(part, kind, smallest_feature)
     whole = sc.post(sc.plan(job)).text
     assert not sc.verify(whole, job).findings
     text, left = without(whole, kind, *((0.5, high) if kind == "missing-level" else (-high, high)))

@@ -1,6 +1,6 @@
 //! Which triangles a selection means, and what the model's faces look like to the tool.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use styluscam_geometry::{Mesh, Vector};
 
@@ -49,14 +49,33 @@ pub fn views(mesh: &Mesh) -> BTreeMap<u32, FaceView> {
     views
 }
 
-/// Which triangles stand upright and meet one that looks down: of a sheet, these are its cut edges.
+/// Walls go on in one another where their normals are nearer than 30 degrees, by their cosine.
+const CREASE: f64 = 0.866;
+
+/// Which triangles stand upright and share a side with one that looks down, and the upright ones that go on from them without a crease: of a
+/// sheet, these are its cut edges.
 pub fn rims(mesh: &Mesh) -> Vec<bool> {
     // corners by what they measure: faces of a STEP part share none
-    let key = |p: Vector| (p + Vector::zeros()).map(f64::to_bits);
+    let key = |p: Vector| <[u64; 3]>::from((p + Vector::zeros()).map(f64::to_bits));
+    let corners = |t: usize| mesh.corners(t).map(key);
+    let sides = |t: usize| {
+        let corners = corners(t);
+        (0..3).map(move |i| (corners[i].min(corners[(i + 1) % 3]), corners[i].max(corners[(i + 1) % 3])))
+    };
     let count = mesh.triangles().len();
-    let looking_down = (0..count).filter(|t| mesh.looks_down(*t));
-    let under: HashSet<_> = looking_down.flat_map(|t| mesh.corners(t)).map(key).collect();
-    (0..count).map(|t| mesh.is_upright(t) && mesh.corners(t).into_iter().any(|p| under.contains(&key(p)))).collect()
+    let under: HashSet<_> = (0..count).filter(|t| mesh.looks_down(*t)).flat_map(sides).collect();
+    let upright: Vec<usize> = (0..count).filter(|t| mesh.is_upright(*t)).collect();
+    let mut beside: HashMap<_, Vec<usize>> = HashMap::new();
+    upright.iter().for_each(|t| sides(*t).for_each(|side| beside.entry(side).or_default().push(*t)));
+    let mut rims = vec![false; count];
+    let mut open: Vec<usize> = upright.into_iter().filter(|t| sides(*t).any(|side| under.contains(&side))).collect();
+    while let Some(triangle) = open.pop() {
+        if !std::mem::replace(&mut rims[triangle], true) {
+            let goes_on = |other: &&usize| mesh.normal(**other).dot(&mesh.normal(triangle)) > CREASE;
+            open.extend(sides(triangle).filter_map(|side| beside.get(&side)).flatten().filter(goes_on));
+        }
+    }
+    rims
 }
 
 /// The faces that an operation is for, in order of their numbers: its own selection, or the part's.
@@ -166,5 +185,42 @@ fn listed(views: &BTreeMap<u32, FaceView>) -> String {
             format!("Face{first} to Face{last}")
         }
         _ => views.keys().map(|n| format!("Face{n}")).collect::<Vec<_>>().join(", "),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cut_edge_in_two_strips_is_a_rim_and_the_wall_beside_it_is_none() {
+        // under a front of two strips lies what looks down; the wall around the corner meets it nowhere
+        let at = |x: f64, y: f64, z: f64| Vector::new(x, y, z);
+        let vertices = vec![
+            at(0.0, 0.0, 0.0),
+            at(9.0, 0.0, 0.0),
+            at(9.0, 0.0, 0.5),
+            at(0.0, 0.0, 0.5),
+            at(9.0, 0.0, 1.0),
+            at(0.0, 0.0, 1.0),
+            at(4.0, 5.0, 0.0),
+            at(9.0, 5.0, 1.0),
+            at(9.0, 5.0, 0.5),
+        ];
+        let front = [[0, 1, 2], [0, 2, 3], [3, 2, 4], [3, 4, 5]];
+        let others = [[0, 6, 1], [2, 8, 7], [2, 7, 4]];
+        let triangles: Vec<[i64; 3]> = front.into_iter().chain(others).collect();
+        let mesh = Mesh::new(vertices, &triangles, &[]).unwrap();
+        assert_eq!(rims(&mesh), [true, true, true, true, false, false, false]);
+    }
+
+    #[test]
+    fn a_wall_that_meets_what_looks_down_in_a_corner_only_is_no_rim() {
+        let at = |x: f64, y: f64, z: f64| Vector::new(x, y, z);
+        let vertices =
+            vec![at(0.0, 0.0, 0.0), at(9.0, 0.0, 0.0), at(9.0, 0.0, 5.0), at(-4.0, 0.0, 0.0), at(-4.0, 5.0, 0.0)];
+        let mesh = Mesh::new(vertices, &[[0, 1, 2], [0, 3, 4]], &[]).unwrap();
+        assert!(mesh.is_upright(0) && mesh.looks_down(1));
+        assert_eq!(rims(&mesh), [false, false]);
     }
 }

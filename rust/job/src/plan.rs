@@ -6,11 +6,14 @@ use styluscam_geometry::{Tool, Vector};
 use styluscam_motion::{Event, EventKind, Move, OperationRecord, Program, ToolRecord, Watch};
 use styluscam_post::{Machine, OptionValue};
 use styluscam_toolpath::{
-    forming::{left_out, levels, selected_range, with_levels_at, z_levels, zig_zag, Floors, Grid, LevelRange, Rows},
+    forming::{
+        left_out, levels, raise_last, selected_range, with_levels_at, z_levels, zig_zag, Floors, Grid, LevelRange, Rows,
+    },
     link,
-    offset::{bridges, Envelope, OffsetSurface, SurfaceFlag},
+    offset::{bridges, Bridges, Envelope, OffsetSurface, Stopped, SurfaceFlag},
     Heights, Links, Pass, PlanError, Rates, Surface,
 };
+use styluscam_verify::ToolReach;
 
 use crate::heights::TipHeights;
 use crate::judge::GOUGE;
@@ -91,7 +94,7 @@ pub struct End {
 pub struct ReachedFace {
     /// The face.
     pub face: u32,
-    /// Touched by the tool at its own slope.
+    /// Touched by the tool.
     pub contact: f64,
     /// Kept from the tool by the same smooth patch of the part, which is more curved than the tool.
     pub bridged: f64,
@@ -255,6 +258,7 @@ pub fn operation(
     let task = Task { job, scene, machine, section, index, heights, budget: &budget };
     let (passes, smallest_feature) = task.passes(&surface, watch).map_err(JobError::planning(&place))?;
     let offset = offset_of(scene, tool, &envelope, &faces, section.tolerance, watch)?;
+    let bridges = bridges_of(scene, tool, &envelope, &offset, section.tolerance, watch)?;
     let summary = OperationSummary {
         id: id.to_owned(),
         kind: section.kind.name(),
@@ -263,9 +267,9 @@ pub fn operation(
         wall_angle_max_deg: steepest(scene, &selected).to_degrees(),
         smallest_feature,
         ends: ends(scene, tool, &passes, (section, heights), &selected),
-        reached: reached(scene, &offset),
+        reached: reached(scene, &offset, &bridges),
         reached_coarsely: offset.is_coarse.then_some(offset.fine),
-        bridged: bridged(scene, tool, &envelope, &offset, section.tolerance, watch)?,
+        bridged: bridged(&bridges),
         undercut: undercut(scene, &faces),
         faces,
     };
@@ -340,18 +344,20 @@ fn spread<T: Copy>(all: &[T], most: usize) -> impl Iterator<Item = T> + '_ {
 }
 
 /// What becomes of each face; what was sampled stands for all of it.
-fn reached(scene: &Scene, offset: &OffsetSurface) -> Vec<ReachedFace> {
+fn reached(scene: &Scene, offset: &OffsetSurface, bridges: &[Bridges]) -> Vec<ReachedFace> {
     let regions = offset.regions(&scene.mesh);
     let faces = regions.chunk_by(|a, b| a.face == b.face).filter_map(|regions| {
         let face = regions.first()?.face;
         let sampled: f64 = regions.iter().map(|region| region.area).sum();
         let scale = scene.views.get(&face)?.area / sampled;
         let area = |flag| regions.iter().find(|r| r.flag == flag).map_or(0.0, |region| region.area * scale);
+        let left = bridges.iter().find(|bridges| bridges.face == face).map_or(1.0, |bridges| bridges.share_left);
+        let interferes = area(SurfaceFlag::Interferes);
         Some(ReachedFace {
             face,
-            contact: area(SurfaceFlag::Contact),
+            contact: area(SurfaceFlag::Contact) + (1.0 - left) * interferes,
             bridged: area(SurfaceFlag::Bridged),
-            interferes: area(SurfaceFlag::Interferes),
+            interferes: left * interferes,
             rim: area(SurfaceFlag::Rim),
             undercut: area(SurfaceFlag::Undercut),
         })
@@ -359,29 +365,38 @@ fn reached(scene: &Scene, offset: &OffsetSurface) -> Vec<ReachedFace> {
     faces.collect()
 }
 
-/// Faces that the tool bridges by more than the tolerance, worst first: looked for from up to [`BRIDGE_SAMPLES`] of the
-/// points of each face that the offset says are kept from the tool.
-fn bridged(
+/// What the tool leaves of each face by more than the tolerance: looked for from up to [`BRIDGE_SAMPLES`] of the points of
+/// each face that the offset says are kept from the tool. A flat tool may touch with its edge what it cannot stand on.
+fn bridges_of(
     scene: &Scene,
     tool: &Tool,
     envelope: &Envelope<'_>,
     offset: &OffsetSurface,
     tolerance: f64,
     watch: &Watch,
-) -> Result<Vec<BridgedFace>, JobError> {
-    let mut by_face: BTreeMap<u32, Vec<(u32, Vector)>> = BTreeMap::new();
+) -> Result<Vec<Bridges>, JobError> {
+    let mut by_face: BTreeMap<u32, Vec<Stopped>> = BTreeMap::new();
     for (corners, triangle) in offset.triangles.iter().zip(&offset.numbers) {
         let stopped = corners.iter().map(|i| &offset.points[*i as usize]).find(|point| point.flag.is_stopped());
         if let Some(point) = stopped.filter(|_| scene.mesh.normal(*triangle as usize).z > 1e-3) {
-            by_face.entry(scene.mesh.faces()[*triangle as usize]).or_default().push((*triangle, point.contact));
+            let is_smooth = point.flag == SurfaceFlag::Bridged;
+            let place = Stopped { triangle: *triangle, point: point.contact, is_smooth };
+            by_face.entry(scene.mesh.faces()[*triangle as usize]).or_default().push(place);
         }
     }
-    let sampled: Vec<(u32, Vector)> = by_face.values().flat_map(|all| spread(all, BRIDGE_SAMPLES)).collect();
-    let found = bridges(envelope, tool, scene.sheet.as_ref(), &sampled, tolerance, watch)?;
-    let worst = found.into_iter().map(|b| BridgedFace { face: b.face, excess: b.excess, at: b.point.into() });
+    let sampled: Vec<Stopped> = by_face.values().flat_map(|all| spread(all, BRIDGE_SAMPLES)).collect();
+    let reach = ToolReach::new(tool, scene.sheet.as_ref(), &scene.mesh, &scene.bvh);
+    let left = |triangle: u32, point: Vector, enough: f64| reach.left(triangle as usize, point, enough);
+    Ok(bridges(envelope, tool, scene.sheet.as_ref(), &sampled, tolerance, &left, watch)?)
+}
+
+/// The worst place of each face that the tool bridges, worst first.
+fn bridged(bridges: &[Bridges]) -> Vec<BridgedFace> {
+    let worst = bridges.iter().filter_map(|face| face.worst);
+    let worst = worst.map(|b| BridgedFace { face: b.face, excess: b.excess, at: b.point.into() });
     let mut worst: Vec<BridgedFace> = worst.collect();
     worst.sort_by(|a, b| b.excess.total_cmp(&a.excess).then(a.face.cmp(&b.face)));
-    Ok(worst)
+    worst
 }
 
 struct Task<'a> {
@@ -426,9 +441,16 @@ impl Task<'_> {
         let floors = Floors::of(surface.envelope());
         let heights = levels(&range, &floors)?;
         let mut passes = z_levels(surface, &grid, &heights, self.budget.deviation, watch)?;
-        let bands = left_out(surface, &passes, grid.spacing(), watch)?;
-        if let Some(heights) = with_levels_at(&heights, &bands, &range, &floors) {
-            passes = z_levels(surface, &grid, &heights, self.budget.deviation, watch)?;
+        let bands = left_out(surface, (&heights, &passes), grid.spacing(), watch)?;
+        let mut more = with_levels_at(&heights, &bands, &range, &floors).unwrap_or_else(|| heights.clone());
+        let is_at =
+            |z: f64| passes.iter().flat_map(|pass| pass.points.first()).any(|p| (p.tip.z - z).abs() < resolution);
+        // rims that rise and fall leave stretches of it that are too short
+        if heights.last().is_some_and(|z| more.last() == Some(z) && !is_at(*z)) {
+            raise_last(&mut more, &range, &floors);
+        }
+        if more != heights {
+            passes = z_levels(surface, &grid, &more, self.budget.deviation, watch)?;
         }
         if passes.is_empty() {
             return Err(PlanError::Empty { top, bottom: bottom.max(lowest) });

@@ -113,3 +113,40 @@ proptest! {
         assert_clear(&rows(&envelope, 0.0, 100.0), &envelope, 0.003);
     }
 }
+
+/// Strips along X, 20 mm long, between places across (mm) at heights (mm), with the walls between them.
+fn strips(edges: &[[f64; 2]]) -> Mesh {
+    let rim = edges.iter().flat_map(|[y, z]| [Vector::new(0.0, *y, *z), Vector::new(20.0, *y, *z)]);
+    let quads = (0..edges.len() as i64 - 1).map(|i| 2 * i);
+    let triangles: Vec<[i64; 3]> = quads.flat_map(|a| [[a, a + 1, a + 3], [a, a + 3, a + 2]]).collect();
+    Mesh::new(rim.collect(), &triangles, &[]).unwrap()
+}
+
+#[test]
+fn a_groove_between_two_rows_gets_one_of_its_own() {
+    let tool = tool(ProfileDocument::Flat { diameter: 2.0, tip_flat: 0.0 });
+    for tenths in (0..50).step_by(5) {
+        // a floor, a land that is not selected, a groove 3 mm wide, and land again
+        let at = 13.0 + 0.1 * f64::from(tenths);
+        let mesh = strips(&[
+            [0.0, 0.0],
+            [10.0, 0.0],
+            [10.0, 3.0],
+            [at, 3.0],
+            [at, 0.0],
+            [at + 3.0, 0.0],
+            [at + 3.0, 3.0],
+            [40.0, 3.0],
+        ]);
+        let selected: Vec<bool> = (0..14).map(|t| matches!(t / 2, 0 | 4)).collect();
+        let index = Index::new(&mesh);
+        let envelope = Envelope::new(&mesh, &index, &tool, None, 0.001);
+        let rows = Rows { angle: 0.0, stepover: 5.0, spacing: 0.7, narrow: 0.14 };
+        let surface = Surface::new(&envelope, &selected);
+        let passes = zig_zag(&surface, &rows, DEVIATION, &Watch::default()).unwrap();
+        let across = |pass: &Pass| pass.points[0].tip.y;
+        let in_groove = passes.iter().filter(|pass| (at..=at + 3.0).contains(&across(pass))).count();
+        assert_eq!(in_groove, 1, "a groove at Y{at}");
+        assert!(passes.windows(2).all(|pair| pair[0].group <= pair[1].group && across(&pair[0]) <= across(&pair[1])));
+    }
+}

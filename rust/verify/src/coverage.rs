@@ -201,11 +201,19 @@ impl RTreeObject for Sweep {
     }
 }
 
+impl Sweep {
+    /// The place of the body on the way that is nearest to a point.
+    pub fn nearest(&self, point: Vector) -> Vector {
+        let way = self.stroke.to - self.stroke.from;
+        let share = (point - self.stroke.from).dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE);
+        self.stroke.at(share.clamp(0.0, 1.0))
+    }
+}
+
 impl PointDistance for Sweep {
     fn distance_2(&self, point: &[f64; 3]) -> f64 {
-        let (point, way) = (Vector::from(*point), self.stroke.to - self.stroke.from);
-        let share = (point - self.stroke.from).dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE);
-        (point - self.stroke.at(share.clamp(0.0, 1.0))).norm_squared()
+        let point = Vector::from(*point);
+        (point - self.nearest(point)).norm_squared()
     }
 }
 

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use styluscam_motion::{Cancelled, Watch};
 
 use crate::body::Body;
-use crate::clearance::Prober;
+use crate::clearance::{Prober, Touch};
 use crate::contact_lines;
 use crate::coverage::{Sweep, Sweeps};
 use crate::findings::Fault;
@@ -31,10 +31,25 @@ const ON_PASS: f64 = 0.015;
 const BESIDE: f64 = 0.35;
 /// Passes that differ by less than this share of what lies between neighbours are one.
 const SAME_PASS: f64 = 0.25;
+/// Passes are looked for so many steps around a place: where one is missing the next lies up to two steps away.
+const AROUND: f64 = 2.2;
+/// They run by where they lie no more steps aside, along the pass or off the face.
+const RUNS_BY: f64 = 0.5;
+/// Passes this many steps apart have none missing between them.
+const APART: f64 = 1.05;
 /// What may be left besides, mm: triangles' corners.
 pub(crate) const ROUGH: f64 = 0.01;
 /// Where a tool that touches a triangle is in others by less than this, it can get there, mm.
 pub(crate) const ROOM: f64 = 0.005;
+
+/// Parts of the smallest feature in which a face is measured, and how far a face may bend away within one, as a share of it.
+const STEPS: usize = 8;
+const BENT: f64 = 0.2;
+
+/// Triangles that a tool enters by less are touched, mm.
+const SAME_TOUCH: f64 = 1e-6;
+/// Times that the tool is moved off what it enters, or to what it is to touch.
+const LIFTS: usize = 8;
 
 /// A face goes on where the tool, moved along the plane that it touches, is as near to it as this, mm.
 const TOUCH: f64 = 0.03;
@@ -138,7 +153,10 @@ impl Look<'_> {
         let passes = contact_lines::passes(spacing, self.contacts);
         let (Some(lowest), Some(highest)) = (passes.first(), passes.last()) else { return Vec::new() };
         let touching = self.touching();
-        let touches_between = |low: f64, high: f64| touching.iter().any(|value| *value > low && *value < high);
+        let touches_between = |low: f64, high: f64| {
+            let mut spots = touching.iter().filter(|(value, _)| *value > low && *value < high);
+            spots.any(|(_, spot)| self.holds_feature(spot))
+        };
         let wide = |gap: f64, steps: f64| gap > steps * step + ROUGH;
         let between = passes.windows(2).filter_map(|pair| {
             let (low, high) = (pair[0], pair[1]);
@@ -147,10 +165,12 @@ impl Look<'_> {
             let touches = || touches_between(low.value + 0.3 * gap, high.value - 0.3 * gap);
             (wide(gap, WIDE) && touches()).then_some((later.first, gap))
         });
-        let below = lowest.value - touching.iter().copied().fold(f64::INFINITY, f64::min);
-        let above = touching.iter().copied().fold(f64::NEG_INFINITY, f64::max) - highest.value;
-        let below = wide(below, rest_low).then_some((lowest.last, below));
-        let above = wide(above, rest_high).then_some((highest.last, above));
+        let farthest = |beyond: &dyn Fn(f64) -> f64, steps: f64| {
+            let ends = touching.iter().map(|(value, spot)| (beyond(*value), spot)).filter(|(gap, _)| wide(*gap, steps));
+            ends.filter(|(_, spot)| self.holds_feature(spot)).map(|(gap, _)| gap).max_by(f64::total_cmp)
+        };
+        let below = farthest(&|value| lowest.value - value, rest_low).map(|gap| (lowest.last, gap));
+        let above = farthest(&|value| value - highest.value, rest_high).map(|gap| (highest.last, gap));
         let gaps = between.chain(below).chain(above);
         let fault = |(leg, gap): (&Leg, f64)| {
             let fault = leg.fault(kind).measured(gap, step);
@@ -163,14 +183,14 @@ impl Look<'_> {
         gaps.map(fault).collect()
     }
 
-    /// Heights, or places across the rows, at which the tool can touch.
-    fn touching(&self) -> Vec<f64> {
+    /// Heights, or places across the rows, at which the tool can touch, with where.
+    fn touching(&self) -> Vec<(f64, Spot)> {
         let spacing = self.passes.spacing;
         let asked = self.wanted.iter().copied().filter(|triangle| spacing.touches(self.subject.mesh.normal(*triangle)));
         let asked: Vec<usize> = asked.collect();
         let spots = probes::spread(self.subject.mesh, &asked, TOUCHING).into_par_iter();
         let touching = spots.filter_map(|probe| self.spot(&probe)).filter(|spot| self.can_touch(spot));
-        touching.map(|spot| spacing.value(spot.tip.into())).collect()
+        touching.map(|spot| (spacing.value(spot.tip.into()), spot)).collect()
     }
 
     /// Places where more is left than the distance between passes explains.
@@ -248,7 +268,69 @@ impl Look<'_> {
             _ => amidst,
         };
         let allowed = explained + rough;
-        (left > allowed).then(|| self.missing_pass(&spot, last.as_ref(), left, allowed)).flatten()
+        let is_missing = left > allowed && self.holds_feature(&spot) && !self.lies_between_passes(&spot, step, sweeps);
+        is_missing.then(|| self.missing_pass(&spot, last.as_ref(), left, allowed)).flatten()
+    }
+
+    /// Whether the tool can touch around a spot as far as the smallest feature is wide, along the pass and across.
+    fn holds_feature(&self, spot: &Spot) -> bool {
+        let across = self.passes.spacing.along(spot.up).map_or(Vector::z(), |step| step.normalize());
+        let shortest = self.passes.smallest_feature;
+        [across, spot.up.cross(&across)].into_iter().all(|axis| {
+            let reach: usize = [axis, -axis].into_iter().map(|way| self.steps_that_touch(spot, shortest * way)).sum();
+            reach >= STEPS
+        })
+    }
+
+    /// How many of [`STEPS`] equal parts of a way off a spot the tool can go, touching what the passes are for all the way.
+    fn steps_that_touch(&self, spot: &Spot, way: Vector) -> usize {
+        let step = way.norm() / STEPS as f64;
+        let (mut position, mut way) = (spot.position, way.normalize());
+        for taken in 0..STEPS {
+            let Some((there, across)) = self.brought_to_touch(position + step * way, BENT * step) else { return taken };
+            position = there;
+            way = (way - way.dot(&across) * across).normalize();
+        }
+        STEPS
+    }
+
+    /// Where a tool that is moved by `most` mm at most touches what the passes are for, and the direction across the face
+    /// there.
+    fn brought_to_touch(&self, position: Vector, most: f64) -> Option<(Vector, Vector)> {
+        let mut there = position;
+        for _ in 0..LIFTS {
+            let touch = self.touch(there)?;
+            if touch.value.abs() <= ROOM {
+                return self.passes.wanted[touch.triangle as usize].then_some((there, touch.away));
+            }
+            there += touch.value * touch.away;
+            if (there - position).norm() > most {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// Whether passes run by on either side of a spot no farther apart than ordered, or on one side within a step where none
+    /// does beyond: what is left there follows from the part's shape.
+    fn lies_between_passes(&self, spot: &Spot, step: Vector, sweeps: &Sweeps) -> bool {
+        let (spacing, length) = (self.passes.spacing, step.norm());
+        let along = spot.up.cross(&step).normalize();
+        let value = spacing.value(spot.tip.into());
+        let beside = sweeps.near(spot.position, AROUND * length).filter_map(|sweep| {
+            let place = sweep.nearest(spot.position);
+            let aside = [along, spot.up].map(|axis| (place - spot.position).dot(&axis).abs());
+            let runs_by = aside.into_iter().all(|aside| aside <= RUNS_BY * length);
+            runs_by.then(|| (spacing.value(self.body.tip(place).into()) - value) / spacing.pitch())
+        });
+        let (before, behind): (Vec<f64>, Vec<f64>) = beside.partition(|steps| *steps < 0.0);
+        let before = before.into_iter().reduce(f64::max);
+        let behind = behind.into_iter().reduce(f64::min);
+        match (before, behind) {
+            (Some(before), Some(behind)) => behind - before <= APART,
+            (Some(only), None) | (None, Some(only)) => only.abs() <= 1.0,
+            (None, None) => false,
+        }
     }
 
     /// The fault of a place at which more is left than allowed; it belongs to the move beside it.
@@ -279,16 +361,40 @@ impl Look<'_> {
     }
 
     /// Whether the tool can touch at a spot and a little farther down: where it only does so within [`ROOM`] of an edge
-    /// beside a floor, no pass is wanted.
+    /// beside a floor, no pass is wanted; nor where a triangle that the passes are not for keeps it off.
     fn can_touch(&self, spot: &Spot) -> bool {
         let down = (spot.up * spot.up.z - Vector::z()).try_normalize(LEVEL);
         let lower = spot.position + down.map_or(Vector::zeros(), |down| 2.0 * ROOM * down);
         [spot.position, lower].into_iter().all(|position| self.clearance(position) >= -ROOM)
+            && self.rests_on_wanted(spot)
+    }
+
+    /// Whether the tool, let down beside a spot, comes to rest on what the passes are for: as far off the part as a move may
+    /// be, because there passes are planned.
+    fn rests_on_wanted(&self, spot: &Spot) -> bool {
+        let off = self.tolerated();
+        let Some(aside) = self.passes.spacing.aside(spot.up) else { return true };
+        let mut position = spot.position + off * aside;
+        let mut rests_on_wanted = true;
+        for _ in 0..LIFTS {
+            let Some(touch) = self.touch(position).filter(|touch| touch.value < off - SAME_TOUCH) else { break };
+            rests_on_wanted = self.passes.wanted[touch.triangle as usize];
+            if -touch.away.z < LEVEL {
+                // no height clears an upright wall
+                break;
+            }
+            position.z += (off - touch.value) / -touch.away.z;
+        }
+        rests_on_wanted
     }
 
     fn clearance(&self, position: Vector) -> f64 {
+        self.touch(position).map_or(f64::INFINITY, |touch| touch.value)
+    }
+
+    fn touch(&self, position: Vector) -> Option<Touch> {
         let prober = Prober { body: self.body, mesh: self.subject.mesh, bvh: self.subject.bvh };
-        prober.at(position, None).map_or(f64::INFINITY, |touch| touch.value)
+        prober.at(position, None)
     }
 }
 
@@ -327,6 +433,17 @@ impl Spacing {
         match self {
             Self::Levels(_) => up.xy().norm() > LEVEL,
             Self::Rows(..) => true,
+        }
+    }
+
+    /// The way off a plane of this normal, until it is 1 mm away, on which a tool stays on its pass; none where it cannot.
+    fn aside(self, up: Vector) -> Option<Vector> {
+        match self {
+            Self::Levels(_) => {
+                let steep = up.xy().norm();
+                (steep > LEVEL).then(|| Vector::new(up.x, up.y, 0.0) / (steep * steep))
+            }
+            Self::Rows(..) => (up.z > LEVEL).then(|| Vector::z() / up.z),
         }
     }
 

@@ -6,7 +6,7 @@
 //! leave there counts. What lies between passes is no bridge: there the tool can touch.
 
 use rayon::prelude::*;
-use styluscam_geometry::{Bvh, Mesh, Tool};
+use styluscam_geometry::{Bvh, Mesh, Sheet, Tool};
 use styluscam_motion::{Cancelled, Watch};
 
 use crate::body::Body;
@@ -16,6 +16,7 @@ use crate::findings::Finding;
 use crate::legs::Leg;
 use crate::passes::{Passes, ROOM};
 use crate::probes::{self, Probe};
+use crate::sweep::Guess;
 use crate::{FindingKind, Limits, Severity, Subject, Vector};
 
 /// Points that are looked at.
@@ -24,6 +25,11 @@ const POINTS: usize = 2000;
 const CHUNK: usize = 64;
 /// How often a tool is pushed out of the part, or pulled to the place.
 const PUSHES: usize = 48;
+/// A start is given up when so many pulls, or pushes, in a row left more than this share of what was left before.
+const IN_VAIN: usize = 5;
+const NEARER: f64 = 0.99;
+/// A tool that looks at a point along the triangle's normal by more, a cosine, stands behind the triangle.
+const BEYOND: f64 = 1e-6;
 
 /// The findings of what cannot be reached.
 ///
@@ -98,31 +104,80 @@ impl<'a> Task<'a> {
             return None;
         }
         let prober = Prober { body: &self.body, mesh: subject.mesh, bvh: subject.bvh };
-        Some(nearest(&prober, probe.point, position, enough))
+        Some(nearest(&prober, (probe.point, up), position, enough))
     }
 }
 
-/// What lies between a point and a tool that starts from a position, pushed out of the part and pulled to the point by turns,
-/// where it is as near as it can get or leaves no more than `enough`, mm.
-fn nearest(prober: &Prober, point: Vector, mut position: Vector, enough: f64) -> f64 {
+/// What lies between a point, given with its triangle's normal, and a tool that starts from a position, or from beside it,
+/// where it is as near as it can get or leaves no more than `enough`, mm; infinite where it only stands on the other side of
+/// the triangle. From one start it may end between two walls though there is room on another side.
+fn nearest(prober: &Prober, point: (Vector, Vector), position: Vector, enough: f64) -> f64 {
+    let radius = prober.body.radius();
+    let mut least = nearest_from(prober, point, position, enough);
+    for aside in [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]] {
+        if least <= enough {
+            break;
+        }
+        let start = position + radius * Vector::new(aside[0], aside[1], 0.0);
+        least = least.min(nearest_from(prober, point, start, enough));
+    }
+    least
+}
+
+/// The same from one start: the tool is pushed out of the part and pulled to the point by turns.
+fn nearest_from(prober: &Prober, (point, up): (Vector, Vector), mut position: Vector, enough: f64) -> f64 {
     let mut least = f64::INFINITY;
+    let (mut pulls, mut pushes) = (Attempts::new(), Attempts::new());
+    let mut guess = None;
     for _ in 0..PUSHES {
-        match prober.at(position, None) {
-            Some(touch) if touch.value < -ROOM => position += touch.value * touch.away,
+        let touch = prober.at(position, guess);
+        guess = touch.map(|touch| Guess::like(&touch, position));
+        match touch {
+            Some(touch) if touch.value < -ROOM => {
+                if pushes.are_in_vain(-touch.value) {
+                    // between two walls that leave it no room
+                    break;
+                }
+                position += touch.value * touch.away;
+            }
             _ => {
                 let gap = prober.body.distance(point - position);
-                least = least.min(gap.value.max(0.0));
-                if least <= enough {
+                if gap.value <= enough || gap.away.dot(&up) < BEYOND {
+                    least = least.min(gap.value.max(0.0));
+                }
+                if least <= enough || pulls.are_in_vain(gap.value) {
                     break;
                 }
                 position += gap.value * gap.away;
+                pushes = Attempts::new();
             }
         }
     }
     least
 }
 
-/// What a tool without a sheet gets to, whatever its program.
+/// What attempts to make a distance smaller came to.
+struct Attempts {
+    /// The least so far, mm.
+    least: f64,
+    /// How many since then did not make it smaller.
+    in_vain: usize,
+}
+
+impl Attempts {
+    fn new() -> Self {
+        Self { least: f64::INFINITY, in_vain: 0 }
+    }
+
+    /// Whether too many in a row, with this one, did not make the distance smaller.
+    fn are_in_vain(&mut self, distance: f64) -> bool {
+        self.in_vain = if distance < NEARER * self.least { 0 } else { self.in_vain + 1 };
+        self.least = self.least.min(distance);
+        self.in_vain == IN_VAIN
+    }
+}
+
+/// What a tool gets to, whatever its program.
 pub struct ToolReach<'a> {
     body: Body,
     mesh: &'a Mesh,
@@ -130,22 +185,28 @@ pub struct ToolReach<'a> {
 }
 
 impl<'a> ToolReach<'a> {
-    /// Of a tool over a part as it lies on the machine, and the part's index.
+    /// Of a tool, and a sheet under it, over a part as it lies on the machine, and the part's index.
     #[must_use]
-    pub fn new(tool: &Tool, mesh: &'a Mesh, bvh: &'a Bvh) -> Self {
-        Self { body: Body::new(tool, None), mesh, bvh }
+    pub fn new(tool: &Tool, sheet: Option<&Sheet>, mesh: &'a Mesh, bvh: &'a Bvh) -> Self {
+        Self { body: Body::new(tool, sheet), mesh, bvh }
+    }
+
+    /// What the tool leaves at a point of a triangle at best, or no more than `enough`, mm; infinite where it cannot stand
+    /// beside the point at all.
+    #[must_use]
+    pub fn left(&self, triangle: usize, point: Vector, enough: f64) -> f64 {
+        let prober = Prober { body: &self.body, mesh: self.mesh, bvh: self.bvh };
+        let up = self.mesh.normal(triangle);
+        let position = point - self.body.farthest(up).0;
+        nearest(&prober, (point, up), position, enough)
     }
 
     /// Share of some triangles' area, 0 to 1, on which the tool leaves more than `enough` (mm) at best: looked for at
     /// `points` places.
     #[must_use]
     pub fn share_left(&self, triangles: &[usize], points: usize, enough: f64) -> f64 {
-        let prober = Prober { body: &self.body, mesh: self.mesh, bvh: self.bvh };
         let probes = probes::spread(self.mesh, triangles, points);
-        let is_left = |probe: &&Probe| {
-            let position = probe.point - self.body.farthest(self.mesh.normal(probe.triangle)).0;
-            nearest(&prober, probe.point, position, enough) > enough
-        };
+        let is_left = |probe: &&Probe| self.left(probe.triangle, probe.point, enough) > enough;
         probes.par_iter().filter(is_left).count() as f64 / probes.len().max(1) as f64
     }
 }

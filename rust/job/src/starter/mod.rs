@@ -108,7 +108,7 @@ fn text(part: &StarterPart<'_>, choice: &Choice, [part_tolerance, path_tolerance
         choice.operations.iter().map(|work| operation(work, choice, path_tolerance)).collect::<Vec<_>>().join("\n");
     format!(
         r#"# A StylusCAM job. Lengths are mm, angles degrees, feeds mm/min.
-# Run it:  styluscam run {stem}.toml
+# Run it: `styluscam run` and the name of this file.
 #
 # Why it is so:
 {reasons}schema = 1

@@ -132,10 +132,9 @@ fn worked(by_face: &ByFace<'_>, seen: &[&FaceLook], tool: Cutter, words: String)
     // of more walls than an operation names it is not asked: nearly always rows serve the whole part then
     let asks_reach = tool.shape == Shape::Ball && walls.len() <= NAMES;
     let reach = asks_reach.then(|| by_face.reach(&tool)).flatten();
-    let (walls, low): (Vec<&FaceLook>, Vec<&FaceLook>) = walls
-        .into_iter()
-        .partition(|face| face.vertical < PRISMATIC || by_face.is_touched(face, &tool, reach.as_ref()));
     let (open, narrow): (Vec<&FaceLook>, Vec<&FaceLook>) = walls.into_iter().partition(|face| fits(face));
+    let (open, low): (Vec<&FaceLook>, Vec<&FaceLook>) =
+        open.into_iter().partition(|face| face.vertical < PRISMATIC || by_face.is_touched(face, &tool, reach.as_ref()));
     reasons.extend(left(&narrow, &tool));
     reasons.extend(untouched(&low, &tool));
     let with_levels = area(&open) >= WORTH * whole && floors.len().max(open.len()) <= NAMES;
@@ -183,7 +182,7 @@ impl<'a> ByFace<'a> {
 
     /// What a tool gets to; none for one that cannot be made: the job's check says why.
     fn reach(&self, tool: &Cutter) -> Option<ToolReach<'a>> {
-        tool.made().map(|tool| ToolReach::new(&tool, self.body.mesh(), self.body.bvh()))
+        tool.made().map(|tool| ToolReach::new(&tool, None, self.body.mesh(), self.body.bvh()))
     }
 
     fn of_face(&self, face: u32) -> &[usize] {

@@ -1,105 +1,109 @@
 //! Regions that the tool can touch, but between two levels only: short walls over a slope, steep rims.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
 
+use rayon::prelude::*;
+use styluscam_geometry::Vector;
 use styluscam_motion::{Cancelled, Watch};
 
+use super::untouched::{bands, in_plan, Untouched};
 use super::{stances::stances_of, walls};
 use crate::{Pass, Surface};
 
 /// What is touched over less than this, mm, needs no level.
 const LEAST: f64 = 0.02;
-/// The region of a triangle that was not asked for.
-const NONE: u32 = u32::MAX;
+/// From a corner that the tool touches towards one that it does not: how often that way is halved.
+const HALVINGS: usize = 12;
 
-/// Bands of heights, lowest and highest tip in mm, in which the tool touches a connected region of what was selected that
-/// no pass touches.
+/// A triangle with lowest and highest tip with which it is touched, mm.
+type Touched = (usize, (f64, f64));
+
+/// Bands of heights, lowest and highest tip in mm, that hold none of `heights`, the levels: those in which the tool touches a
+/// place of a selected upright wall, and those in which it touches a connected region of selected slopes that no pass touches.
 ///
-/// Walls are looked at in places `spacing` mm apart, slopes at the corners of their facets. A region that some pass touches
-/// has its levels, a step apart.
+/// Walls are looked at in places `spacing` mm apart, slopes at the corners of their facets and along their sides as far
+/// as they are touched. Slopes beside some that a pass touches have their levels, a step apart.
 ///
 /// # Errors
 /// `Cancelled` when `watch` says so.
 pub fn left_out(
     surface: &Surface<'_>,
-    passes: &[Pass],
+    (heights, passes): (&[f64], &[Pass]),
     spacing: f64,
     watch: &Watch,
 ) -> Result<Vec<(f64, f64)>, Cancelled> {
     let mesh = surface.envelope().mesh();
-    let regions = regions(surface);
-    let region = |triangle: usize| regions[triangle];
-    let points = passes.iter().flat_map(|pass| &pass.points).filter(|point| point.selected);
-    let touched: HashSet<u32> = points.map(|point| region(point.triangle as usize)).collect();
-    let (upright, sloping): (Vec<usize>, Vec<usize>) =
-        surface.triangles().filter(|t| !touched.contains(&region(*t))).partition(|t| mesh.is_upright(*t));
-
-    let mut tips: Vec<(u32, (f64, f64))> = walls::touched(surface, &upright, spacing, watch)?
-        .into_iter()
-        .map(|touched| (region(touched.triangle), touched.tips))
-        .collect();
-    let stances = stances_of(surface, &sloping);
-    let places: Vec<[f64; 2]> = stances.iter().flat_map(|(_, stands)| stands.map(|at| [at.x, at.y])).collect();
-    watch.begin("slopes", places.len());
-    let contacts = surface.envelope().contacts(&places, watch)?;
-    for ((triangle, _), (places, contacts)) in stances.iter().zip(places.chunks(3).zip(contacts.chunks(3))) {
-        let own = places.iter().zip(contacts).filter_map(|(place, contact)| {
-            let point = surface.path_point(place[0], place[1], contact.as_ref()?);
-            (point.selected && region(point.triangle as usize) == region(*triangle)).then_some(point.tip.z)
-        });
-        tips.extend(own.map(|tip| (tip, tip)).reduce(joined).map(|range| (region(*triangle), range)));
-    }
-
+    let upright: Vec<usize> = surface.triangles().filter(|triangle| mesh.is_upright(*triangle)).collect();
+    let untouched = Untouched::by(passes, surface);
+    let sloping: Vec<usize> = untouched.triangles().filter(|t| !mesh.is_upright(*t)).collect();
     let mut by_region: BTreeMap<u32, Vec<(f64, f64)>> = BTreeMap::new();
-    for (region, range) in tips {
-        by_region.entry(region).or_default().push(range);
+    for (triangle, range) in of_slopes(&untouched, &sloping, watch)? {
+        by_region.entry(untouched.region(triangle)).or_default().push(range);
     }
-    Ok(by_region.into_values().flat_map(bands).filter(|(low, high)| high - low >= LEAST).collect())
+    let of_slopes = by_region.into_values().flat_map(|ranges| bands(ranges, LEAST));
+    let holds_none = |(low, high): &(f64, f64)| !heights.iter().any(|z| (low..=high).contains(&z));
+    let is_left = |tips: &(f64, f64)| tips.1 - tips.0 >= LEAST && holds_none(tips);
+    let walls = walls::touched(surface, &upright, spacing, ("walls between levels", watch))?;
+    let of_walls: Vec<(f64, f64)> = walls
+        .par_iter()
+        .filter(|wall| holds_none(&wall.tips))
+        .filter_map(|wall| {
+            // a wall that goes on as far as the next level has its passes, a step apart
+            let (low, high) = wall.to_top(surface);
+            let below = heights.iter().copied().filter(|z| *z < low).reduce(f64::max);
+            let goes_on = below.is_some_and(|z| wall.is_touched_at(surface, z));
+            Some((low, high)).filter(|tips| is_left(tips) && !goes_on)
+        })
+        .collect();
+    Ok(of_walls.into_iter().chain(of_slopes.filter(is_left)).collect())
 }
 
-/// The range over two others.
-fn joined(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
-    (a.0.min(b.0), a.1.max(b.1))
+/// For each sloping triangle of which a corner is touched, lowest and highest tip with which its corners and sides are.
+fn of_slopes(untouched: &Untouched<'_>, triangles: &[usize], watch: &Watch) -> Result<Vec<Touched>, Cancelled> {
+    let stances = stances_of(untouched.surface(), triangles);
+    let corners: Vec<(usize, [f64; 2])> =
+        stances.iter().flat_map(|(triangle, tips)| tips.map(|tip| (*triangle, in_plan(tip)))).collect();
+    watch.begin("slopes between levels", corners.len());
+    let found = untouched.tips(&corners, watch)?;
+    let mut ranges = Vec::new();
+    let mut sides = Vec::new();
+    for ((triangle, corners), tips) in stances.iter().zip(found.chunks(3)) {
+        ranges.extend(tips.iter().flatten().map(|tip| (*triangle, *tip)));
+        let (touched, missed): (Vec<usize>, Vec<usize>) = (0..3).partition(|i| tips[*i].is_some());
+        let pairs = touched.iter().flat_map(|i| missed.iter().map(move |j| (*i, *j)));
+        sides.extend(pairs.map(|(i, j)| Side { triangle: *triangle, touched: corners[i], missed: corners[j] }));
+    }
+    ranges.extend(along(untouched, sides, watch)?);
+    let mut joined: BTreeMap<usize, (f64, f64)> = BTreeMap::new();
+    for (triangle, tip) in ranges {
+        let range = joined.entry(triangle).or_insert((tip, tip));
+        *range = (range.0.min(tip), range.1.max(tip));
+    }
+    Ok(joined.into_iter().collect())
 }
 
-/// Ranges joined where they overlap, from the lowest up.
-fn bands(mut ranges: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
-    ranges.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut bands: Vec<(f64, f64)> = Vec::new();
-    for range in ranges {
-        match bands.last_mut() {
-            Some(last) if range.0 <= last.1 + LEAST => *last = joined(*last, range),
-            _ => bands.push(range),
+/// A side of a triangle by the tips that touch its ends, of which only one can be.
+struct Side {
+    triangle: usize,
+    touched: Vector,
+    missed: Vector,
+}
+
+/// The tips where sides cease to be touched, each with its triangle.
+fn along(untouched: &Untouched<'_>, mut sides: Vec<Side>, watch: &Watch) -> Result<Vec<(usize, f64)>, Cancelled> {
+    let mut last: Vec<Option<f64>> = vec![None; sides.len()];
+    for _ in 0..HALVINGS {
+        let middles: Vec<Vector> = sides.iter().map(|side| (side.touched + side.missed) * 0.5).collect();
+        let asked: Vec<(usize, [f64; 2])> =
+            sides.iter().zip(&middles).map(|(side, middle)| (side.triangle, in_plan(*middle))).collect();
+        for (((side, middle), tip), last) in
+            sides.iter_mut().zip(middles).zip(untouched.tips(&asked, watch)?).zip(&mut last)
+        {
+            match tip {
+                Some(tip) => (side.touched, *last) = (middle, Some(tip)),
+                None => side.missed = middle,
+            }
         }
     }
-    bands
-}
-
-/// The connected region of each triangle of the mesh, as its first triangle's number; [`NONE`] where it was not selected.
-fn regions(surface: &Surface<'_>) -> Vec<u32> {
-    let envelope = surface.envelope();
-    let mut is_open = vec![false; envelope.mesh().triangles().len()];
-    surface.triangles().for_each(|triangle| is_open[triangle] = true);
-    let mut regions = vec![NONE; is_open.len()];
-    for first in surface.triangles() {
-        let mut open = if std::mem::take(&mut is_open[first]) { vec![first as u32] } else { Vec::new() };
-        while let Some(triangle) = open.pop() {
-            regions[triangle as usize] = first as u32;
-            let beside = envelope.neighbours(triangle);
-            open.extend(beside.into_iter().filter(|t| is_open.get_mut(*t as usize).is_some_and(std::mem::take)));
-        }
-    }
-    regions
-}
-
-#[cfg(test)]
-mod tests {
-    use super::bands;
-
-    #[test]
-    fn ranges_that_overlap_are_one_band() {
-        let ranges = vec![(9.0, 9.2), (5.0, 5.2), (5.1, 5.4), (5.41, 5.5), (5.3, 5.35)];
-        assert_eq!(bands(ranges), [(5.0, 5.5), (9.0, 9.2)]);
-        assert!(bands(Vec::new()).is_empty());
-    }
+    Ok(sides.iter().zip(last).filter_map(|(side, tip)| Some((side.triangle, tip?))).collect())
 }

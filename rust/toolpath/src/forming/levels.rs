@@ -7,6 +7,9 @@ use crate::PlanError;
 const LIMIT: usize = 100_000;
 /// Share of a step that is none of its own; the judge takes levels this near for one pass.
 const SHORT: f64 = 0.25;
+/// Where the last level has no pass, how far over it the next attempt is, in steps.
+const OVER_LAST: f64 = 0.2;
+const _: () = assert!(OVER_LAST < SHORT);
 
 /// Where levels begin and end, mm: the first one is a step below the top.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,7 +73,9 @@ pub fn levels(range: &LevelRange, floors: &Floors) -> Result<Vec<f64>, PlanError
 #[must_use]
 pub fn with_levels_at(heights: &[f64], bands: &[(f64, f64)], range: &LevelRange, floors: &Floors) -> Option<Vec<f64>> {
     let mut bands = bands.to_vec();
-    bands.sort_by(|a, b| a.1.total_cmp(&b.1));
+    // of bands that end alike the narrowest first: its level serves the others
+    let end = |z: f64| (z / range.resolution).round();
+    bands.sort_by(|a, b| end(a.1).total_cmp(&end(b.1)).then(b.0.total_cmp(&a.0)));
     let mut all = heights.to_vec();
     for (low, high) in bands {
         let (low, high) = (low.max(range.bottom), high.min(range.top));
@@ -87,6 +92,15 @@ pub fn with_levels_at(heights: &[f64], bands: &[(f64, f64)], range: &LevelRange,
     all.sort_by(|a, b| b.total_cmp(a));
     all.dedup();
     (all.len() > heights.len()).then_some(all)
+}
+
+/// Puts the last level, where it had no pass, so little higher that the judge asks for none below.
+pub fn raise_last(heights: &mut [f64], range: &LevelRange, floors: &Floors) {
+    let Some((last, others)) = heights.split_last_mut() else { return };
+    let raised = range.stood(range.above(*last + OVER_LAST * range.step), floors);
+    if others.last().is_none_or(|next| raised < *next) {
+        *last = raised;
+    }
 }
 
 #[cfg(test)]
@@ -137,6 +151,18 @@ mod tests {
         let expected = [-0.5, -0.874, -1.0, -1.299, -1.5, -2.0];
         let found = with(&[(-0.95, -0.6), (-0.9, -0.7), (-1.3, -1.2)]).unwrap();
         assert!(found.len() == 6 && found.iter().zip(expected).all(|(z, e)| (z - e).abs() < 1e-9), "{found:?}");
+    }
+
+    #[test]
+    fn the_last_level_is_raised_by_a_fifth_of_a_step_if_there_is_room() {
+        let range = LevelRange { top: 0.0, bottom: -2.0, reachable: -9.0, step: 0.5, resolution: 0.001 };
+        let raised = |mut heights: Vec<f64>| {
+            raise_last(&mut heights, &range, &Floors::default());
+            heights
+        };
+        assert!((raised(vec![-1.5, -2.0])[1] + 1.899).abs() < 1e-9);
+        assert_eq!(raised(vec![-1.95, -2.0]), [-1.95, -2.0]);
+        assert!(raised(Vec::new()).is_empty());
     }
 
     #[test]

@@ -2,7 +2,9 @@
 
 mod bounds;
 mod contour;
+mod extra_rows;
 mod floors;
+mod gaps;
 mod grid;
 mod left_out;
 mod level_curve;
@@ -12,6 +14,7 @@ mod sides;
 mod square;
 mod stances;
 mod trace;
+mod untouched;
 mod walls;
 mod z_level;
 mod zig_zag;
@@ -19,7 +22,7 @@ mod zig_zag;
 pub use floors::Floors;
 pub use grid::Grid;
 pub use left_out::left_out;
-pub use levels::{levels, with_levels_at, LevelRange};
+pub use levels::{levels, raise_last, with_levels_at, LevelRange};
 pub use reach::selected_range;
 pub use z_level::z_levels;
 pub use zig_zag::{zig_zag, Rows};

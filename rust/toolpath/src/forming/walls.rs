@@ -11,21 +11,57 @@ const PLACES: usize = 64;
 const OFF: f64 = 1e-6;
 /// Or, far from the origin, so many times what rounding makes of a place.
 const ROUNDINGS: f64 = 4.0;
+/// What other triangles of the same wall may lie before or behind the one asked, mm.
+const UNEVEN: f64 = 0.01;
+
+/// Where the tool stands beside a wall.
+struct Stand {
+    /// Its place in plan where it touches the wall.
+    place: Vector,
+    /// Out of the wall, level.
+    outward: Vector,
+    /// It is asked so far off the wall, mm.
+    off: f64,
+}
+
+impl Stand {
+    /// The place so far off the wall, mm.
+    fn at(&self, off: f64) -> [f64; 2] {
+        let place = self.place + self.outward * off;
+        [place.x, place.y]
+    }
+}
 
 /// A place of a wall where the tool may stand beside it.
 struct Beside {
-    triangle: usize,
-    /// The tool's place in plan.
-    place: [f64; 2],
+    stand: Stand,
     /// Lowest and highest tip with which its side touches the wall there, mm.
     tips: [f64; 2],
 }
 
 /// A place of a wall that the tool touches.
 pub(super) struct Touched {
-    pub triangle: usize,
-    /// Lowest and highest tip with which it is touched there, mm.
+    stand: Stand,
+    /// Lowest and highest tip with which a triangle of the wall is touched there, mm.
     pub tips: (f64, f64),
+}
+
+impl Touched {
+    /// The same up to the top of the whole wall there, mm.
+    pub fn to_top(&self, surface: &Surface<'_>) -> (f64, f64) {
+        let within = [self.stand.off, UNEVEN].map(|off| self.stand.at(-off));
+        let tops = within.iter().filter_map(|[x, y]| surface.at(*x, *y, &mut None)).map(|point| point.tip.z);
+        (self.tips.0, tops.fold(self.tips.1, f64::max))
+    }
+
+    /// Whether the wall is touched there with the tip at a height.
+    pub fn is_touched_at(&self, surface: &Surface<'_>, z: f64) -> bool {
+        let is_over = |off: f64| {
+            let [x, y] = self.stand.at(off);
+            surface.envelope().is_over(x, y, z, &mut None)
+        };
+        is_over(-UNEVEN) && !is_over(UNEVEN)
+    }
 }
 
 /// Lowest and highest tip with which the tool touches selected upright walls, mm; none where it touches none.
@@ -35,13 +71,13 @@ pub(super) struct Touched {
 pub(super) fn range(surface: &Surface<'_>, spacing: f64, watch: &Watch) -> Result<Option<(f64, f64)>, Cancelled> {
     let mesh = surface.envelope().mesh();
     let walls: Vec<usize> = surface.triangles().filter(|triangle| mesh.is_upright(*triangle)).collect();
-    let touched = touched(surface, &walls, spacing, watch)?.into_iter().map(|touched| touched.tips);
+    let touched = touched(surface, &walls, spacing, ("walls", watch))?.into_iter().map(|touched| touched.tips);
     Ok(touched.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))))
 }
 
 /// Where the tool touches upright triangles.
 ///
-/// Beside each of them, places `spacing` mm apart are asked how low the tool comes there.
+/// Beside each of them, places `spacing` mm apart are asked how low the tool comes there; `phase` names this work to the watch.
 ///
 /// # Errors
 /// `Cancelled` when `watch` says so.
@@ -49,16 +85,16 @@ pub(super) fn touched(
     surface: &Surface<'_>,
     triangles: &[usize],
     spacing: f64,
-    watch: &Watch,
+    (phase, watch): (&'static str, &Watch),
 ) -> Result<Vec<Touched>, Cancelled> {
     let beside: Vec<Beside> = triangles.iter().flat_map(|triangle| places(surface, *triangle, spacing)).collect();
-    let asked: Vec<[f64; 2]> = beside.iter().map(|beside| beside.place).collect();
-    watch.begin("walls", asked.len());
+    let asked: Vec<[f64; 2]> = beside.iter().map(|beside| beside.stand.at(beside.stand.off)).collect();
+    watch.begin(phase, asked.len());
     let contacts = surface.envelope().contacts(&asked, watch)?;
-    let touched = beside.iter().zip(&contacts).filter_map(|(beside, contact)| {
+    let touched = beside.into_iter().zip(&contacts).filter_map(|(beside, contact)| {
         let [lowest, highest] = beside.tips;
         let lowest = contact.as_ref().map_or(lowest, |contact| lowest.max(contact.tip));
-        (lowest <= highest).then_some(Touched { triangle: beside.triangle, tips: (lowest, highest) })
+        (lowest <= highest).then_some(Touched { stand: beside.stand, tips: (lowest, highest) })
     });
     Ok(touched.collect())
 }
@@ -78,8 +114,8 @@ fn places(surface: &Surface<'_>, triangle: usize, spacing: f64) -> Vec<Beside> {
         let at = first + (last - first) * (i as f64 + 0.5) / count as f64;
         let [foot, top] = heights(&corners, at)?;
         let wall = mesh.corners(triangle)[0] + along * (at - corners[0][0]);
-        let stand = wall - touching + outward * off;
-        Some(Beside { triangle, place: [stand.x, stand.y], tips: [foot - touching.z, top - touching.z] })
+        let stand = Stand { place: wall - touching, outward, off };
+        Some(Beside { stand, tips: [foot - touching.z, top - touching.z] })
     });
     beside.collect()
 }

@@ -3,12 +3,13 @@
 use rayon::prelude::*;
 use styluscam_motion::Watch;
 
-use super::{bounds::Bounds, contour, grid::Grid, level_curve::LevelCurve, trace::Trace};
+use super::{bounds::Bounds, contour, gaps, grid::Grid, level_curve::LevelCurve, trace::Trace};
 use crate::{fitting, Pass, PathPoint, PlanError, Surface};
 
 /// All passes at the given heights, in their order; chords stray by at most `deviation` mm along the normal.
 ///
-/// Within a level the loops stand in the grid's order. The higher ground is on the right of each.
+/// Within a level the loops stand in the grid's order. The higher ground is on the right of each. The tool stays down over
+/// what is not selected where that is no wider than the grid's smallest feature.
 ///
 /// # Errors
 /// `Cancelled`.
@@ -47,6 +48,8 @@ impl<'a> Level<'a> {
         let segments = Trace::new(grid, bounds, &mut curve, deviation).segments(watch)?;
         let mut passes = Vec::new();
         for chain in contour::chains(segments) {
+            let chain =
+                gaps::bridged(chain, grid.smallest_feature(), deviation, &mut |a: &_, b: &_| curve.between(a, b));
             let closed = chain.closed && chain.points.iter().all(|p| p.selected);
             let runs = fitting::selected_runs(&chain.points, chain.closed, |a, b| curve.between(a, b));
             let pass = |run: &Vec<PathPoint>| Pass { points: fitting::thinned(run, deviation), closed, group };

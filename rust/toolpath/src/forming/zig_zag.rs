@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 use styluscam_motion::Watch;
 
-use super::stances::stances;
+use super::extra_rows::{extra_rows, spread, Pattern};
+use super::{stances::stances, untouched::Untouched};
 use crate::{fitting, fitting::Course, Pass, PathPoint, PlanError, Surface};
 
 /// Distance between samples where a selected facet could be touched between two places at which none is, mm.
@@ -30,28 +31,33 @@ pub struct Rows {
 /// All rows over the selected faces, side by side, each in the direction of `angle`.
 ///
 /// Chords stray by at most `deviation` mm along the normal. Rows are interrupted where the contact leaves the
-/// selected faces.
+/// selected faces. A region that no row touches, for it lies between two of them, gets rows of its own.
 ///
 /// # Errors
 /// Nothing to touch, more rows than a program can hold, `Cancelled`.
 pub fn zig_zag(surface: &Surface<'_>, rows: &Rows, deviation: f64, watch: &Watch) -> Result<Vec<Pass>, PlanError> {
-    let Some(lines) = Lines::over(surface, rows) else {
-        return Err(PlanError::NothingReached(String::new()));
-    };
-    if lines.count > LIMIT {
-        return Err(PlanError::TooMany { what: "stepover", value: rows.stepover, count: lines.count, limit: LIMIT });
+    let lines = Lines::over(surface, rows)?.ok_or_else(|| PlanError::NothingReached(String::new()))?;
+    let mut planned = lines.planned(surface, deviation, watch)?;
+    let untouched = Untouched::by(planned.iter().flat_map(|(_, passes)| passes), surface);
+    let extra = extra_rows(&untouched, &planned, &lines.pattern, rows.spacing, watch)?;
+    if !extra.is_empty() {
+        planned.extend(Lines { rows: extra, ..lines }.planned(surface, deviation, watch)?);
+        planned.sort_by(|a, b| a.0.place.total_cmp(&b.0.place));
     }
-    let facets = lines.facets(surface);
-    watch.begin("rows", lines.count);
-    let passes: Result<Vec<Vec<Pass>>, PlanError> = (0..lines.count)
-        .into_par_iter()
-        .map(|row| {
-            let passes = lines.slice(surface, row, &facets[row], deviation, watch);
-            watch.advance(1)?;
-            Ok(passes)
-        })
-        .collect();
-    Ok(passes?.into_iter().flatten().collect())
+    let numbered = planned
+        .into_iter()
+        .enumerate()
+        .flat_map(|(group, (_, passes))| passes.into_iter().map(move |pass| Pass { group, ..pass }));
+    Ok(numbered.collect())
+}
+
+/// A line of the pattern.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Row {
+    /// Its place across, mm.
+    pub place: f64,
+    /// From and to along it, mm.
+    pub range: [f64; 2],
 }
 
 /// The envelope over a row.
@@ -81,22 +87,17 @@ impl Course for RowCourse<'_> {
 
 /// Parallel lines in plan: along + across = place.
 struct Lines {
-    along: [f64; 2],
-    across: [f64; 2],
-    /// From and to along the rows.
-    range: [f64; 2],
-    /// Place of row 0 across them.
-    first: f64,
-    count: usize,
-    stepover: f64,
+    pattern: Pattern,
+    rows: Vec<Row>,
     spacing: f64,
     narrow: f64,
 }
 
 impl Lines {
     /// Rows over the surface's domain, the pattern centred on it but for [`ASIDE`].
-    fn over(surface: &Surface<'_>, rows: &Rows) -> Option<Self> {
-        let (low, high) = surface.domain()?;
+    fn over(surface: &Surface<'_>, rows: &Rows) -> Result<Option<Self>, PlanError> {
+        let Some((low, high)) = surface.domain() else { return Ok(None) };
+        let Rows { stepover, spacing, narrow, .. } = *rows;
         let (sin, cos) = libm::sincos(rows.angle);
         let (along, across) = ([cos, sin], [-sin, cos]);
         let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];
@@ -108,21 +109,36 @@ impl Lines {
             ]
         };
         let [left, right] = range(across);
-        let count = ((right - left) / rows.stepover).floor() as usize + 1;
-        let first = 0.5 * (left + right - (count - 1) as f64 * rows.stepover) + ASIDE * rows.stepover;
-        let Rows { stepover, spacing, narrow, .. } = *rows;
-        Some(Self { along, across, range: range(along), first, count, stepover, spacing, narrow })
+        let count = ((right - left) / stepover).floor() as usize + 1;
+        if count > LIMIT {
+            return Err(PlanError::TooMany { what: "stepover", value: stepover, count, limit: LIMIT });
+        }
+        let aside = ASIDE * stepover;
+        let range = range(along);
+        let lines = spread([left, right], count, stepover).map(|place| Row { place: place + aside, range });
+        let pattern = Pattern { along, across, stepover };
+        Ok(Some(Self { rows: lines.collect(), pattern, spacing, narrow }))
+    }
+
+    /// Each row with its passes.
+    fn planned(
+        &self,
+        surface: &Surface<'_>,
+        deviation: f64,
+        watch: &Watch,
+    ) -> Result<Vec<(Row, Vec<Pass>)>, PlanError> {
+        let facets = self.facets(surface);
+        watch.begin("rows", self.rows.len());
+        let of_row = |(row, facets): (&Row, &Vec<[f64; 2]>)| {
+            let passes = self.slice(surface, row, facets, deviation, watch);
+            watch.advance(1)?;
+            Ok((*row, passes))
+        };
+        self.rows.par_iter().zip(&facets).map(of_row).collect()
     }
 
     /// The passes of a row; when `watch` is cancelled, some of them.
-    fn slice(
-        &self,
-        surface: &Surface<'_>,
-        row: usize,
-        facets: &[[f64; 2]],
-        deviation: f64,
-        watch: &Watch,
-    ) -> Vec<Pass> {
+    fn slice(&self, surface: &Surface<'_>, row: &Row, facets: &[[f64; 2]], deviation: f64, watch: &Watch) -> Vec<Pass> {
         let mut course = RowCourse { surface, hint: None, watch };
         let plain = |a: &PathPoint, b: &PathPoint| {
             let most = fitting::PROVEN * deviation;
@@ -133,7 +149,7 @@ impl Lines {
         for exact in met {
             for run in fitting::selected_runs(&exact, false, |a, b| course.between(a, b)) {
                 let runs = fitting::densified(&run, deviation, self.narrow, &mut course);
-                let pass = |run| Pass { points: fitting::thinned(run, deviation), closed: false, group: row };
+                let pass = |run| Pass { points: fitting::thinned(run, deviation), closed: false, group: 0 };
                 passes.extend(runs.iter().map(|run| pass(run)));
             }
         }
@@ -145,20 +161,20 @@ impl Lines {
     fn met(
         &self,
         surface: &Surface<'_>,
-        row: usize,
+        row: &Row,
         facets: &[[f64; 2]],
         plain: impl Fn(&PathPoint, &PathPoint) -> bool,
         hint: &mut Option<u32>,
     ) -> Vec<Vec<PathPoint>> {
-        let offset = self.offset(row);
+        let Pattern { along, across, .. } = self.pattern;
         let mut at = |s: f64| {
-            let [x, y] = [0, 1].map(|axis| s * self.along[axis] + offset * self.across[axis]);
+            let [x, y] = [0, 1].map(|axis| s * along[axis] + row.place * across[axis]);
             surface.at(x, y, hint)
         };
         let mut runs = Vec::new();
         let mut run = Vec::new();
         let mut before: Option<f64> = None;
-        for (s, point) in self.sampled(facets, plain, &mut at) {
+        for (s, point) in self.sampled(row.range, facets, plain, &mut at) {
             match (point, before) {
                 (Some(point), Some(before)) if run.is_empty() => {
                     run.extend(outermost(s, before, &mut at));
@@ -182,11 +198,11 @@ impl Lines {
     /// `plain` says of two points whether all between them is selected and on a straight line with them.
     fn sampled(
         &self,
+        [first, last]: [f64; 2],
         facets: &[[f64; 2]],
         plain: impl Fn(&PathPoint, &PathPoint) -> bool,
         at: &mut impl FnMut(f64) -> Option<PathPoint>,
     ) -> Vec<(f64, Option<PathPoint>)> {
-        let [first, last] = self.range;
         let samples = ((last - first) / self.spacing).ceil().max(1.0) as usize;
         let gap = (last - first) / samples as f64;
         let mut facing = vec![false; samples];
@@ -222,30 +238,25 @@ impl Lines {
         sampled
     }
 
-    /// Place of a row across.
-    fn offset(&self, row: usize) -> f64 {
-        self.first + row as f64 * self.stepover
-    }
-
     /// By row, from where to where along it the tool could touch selected facets, but for what keeps it from there.
     fn facets(&self, surface: &Surface<'_>) -> Vec<Vec<[f64; 2]>> {
-        let mut rows = vec![Vec::new(); self.count];
+        let mut found = vec![Vec::new(); self.rows.len()];
         for stances in stances(surface) {
             let plan = stances.map(|tip| {
                 let on = |axis: [f64; 2]| tip.x * axis[0] + tip.y * axis[1];
-                [on(self.along), (on(self.across) - self.first) / self.stepover]
+                [on(self.pattern.along), on(self.pattern.across)]
             });
             let [low, high] = [f64::min, f64::max].map(|of| plan.map(|p| p[1]).into_iter().reduce(of).unwrap_or(0.0));
-            for row in (low.ceil().max(0.0) as usize..self.count).take_while(|row| *row as f64 <= high) {
-                rows[row].extend(share(&plan, row as f64));
-            }
+            let first = self.rows.partition_point(|row| row.place < low);
+            let rows = self.rows.iter().zip(&mut found).skip(first).take_while(|(row, _)| row.place <= high);
+            rows.for_each(|(row, found)| found.extend(share(&plan, row.place)));
         }
-        rows
+        found
     }
 }
 
 /// From where to where along it a triangle (along, across) is cut at a place across.
-fn share(corners: &[[f64; 2]; 3], across: f64) -> Option<[f64; 2]> {
+pub(super) fn share(corners: &[[f64; 2]; 3], across: f64) -> Option<[f64; 2]> {
     let mut cuts = (0..3).filter_map(|i| {
         let ([a, from], [b, to]) = (corners[i], corners[(i + 1) % 3]);
         ((from < across) != (to < across)).then(|| a + (b - a) * (across - from) / (to - from))

@@ -1,10 +1,23 @@
 //! Where the tool bridges: the part is more curved than the tool, and some of it stays untouched.
 
+use std::collections::BTreeMap;
+
 use rayon::prelude::*;
 use styluscam_geometry::{Sheet, Tool, Vector};
 use styluscam_motion::{Cancelled, Watch};
 
 use super::{slope_matched_offset, Envelope};
+
+/// A place that something keeps from the tool's slope-matched position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stopped {
+    /// The triangle on which it lies.
+    pub triangle: u32,
+    /// The point.
+    pub point: Vector,
+    /// Whether the part is more curved there than the tool; else it lies beside something in the way.
+    pub is_smooth: bool,
+}
 
 /// A place that no free position of the tool touches.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,9 +26,25 @@ pub struct Bridge {
     pub point: Vector,
     /// The face it lies on.
     pub face: u32,
-    /// What stays between it and the nearest free position of the tool (with the sheet), along the normal, mm.
+    /// What stays between it and the nearest free position of the tool (with the sheet), mm: along the normal, or the distance
+    /// where the normal leads along a wall.
     pub excess: f64,
 }
+
+/// The places of a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bridges {
+    /// The face.
+    pub face: u32,
+    /// Share of the places in corners that no free position touches, 0 to 1.
+    pub share_left: f64,
+    /// The worst of them.
+    pub worst: Option<Bridge>,
+}
+
+/// What stays at a point of a triangle at most, mm, found in another way; it may say any number that is no more than the last
+/// argument where that is enough to know.
+pub type Left<'a> = dyn Fn(u32, Vector, f64) -> f64 + Sync + 'a;
 
 /// Halvings of the search for the nearest position: the last interval is a 1e-4 of the tool.
 const STEPS: usize = 20;
@@ -23,14 +52,21 @@ const RATIO: f64 = 0.618_033_988_749_894_9;
 
 /// A point counts as on the tool within this, mm.
 const ON_TOOL: f64 = 1e-5;
+/// Along a normal the tool is at most so many times as far as in any direction: a ball in a square corner leaves its radius
+/// along either wall, and 0.414 of it between them.
+const ALONG_WALL: f64 = 2.5;
+/// Share of the way to a triangle's middle by which places are moved inside.
+const INSIDE: f64 = 0.02;
 /// Steps of a climb at most: across a face of 200 samples it is one or two dozen.
 const CLIMB: usize = 200;
+/// What a step of a climb gains at least, as a share.
+const GAIN: f64 = 1e-3;
 
-/// The worst place of each face among `places` (each with its triangle) that stays more than `limit` mm away from every free
-/// position, followed uphill from triangle to triangle.
+/// What of `places` stays more than `limit` mm away from every free position, by face; the worst one
+/// is followed uphill from triangle to triangle.
 ///
 /// A place is touched where the envelope is as low as the slope-matched offset. Elsewhere the nearest free
-/// position is looked for along the steepest line through the place, on both sides.
+/// position is looked for along the steepest line through the place, on both sides, and by `left`.
 ///
 /// # Errors
 /// `Cancelled`.
@@ -38,30 +74,57 @@ pub fn bridges(
     envelope: &Envelope<'_>,
     tool: &Tool,
     sheet: Option<&Sheet>,
-    places: &[(u32, Vector)],
+    places: &[Stopped],
     limit: f64,
+    left: &Left<'_>,
     watch: &Watch,
-) -> Result<Vec<Bridge>, Cancelled> {
+) -> Result<Vec<Bridges>, Cancelled> {
     watch.begin("bridging", places.len());
-    let probe = Probe { envelope, tool, sheet, limit };
-    let found: Result<Vec<Option<(u32, Bridge)>>, Cancelled> = places
+    let probe = Probe { envelope, tool, sheet, limit, left };
+    let found: Result<Vec<Option<Bridge>>, Cancelled> = places
         .par_iter()
         .with_min_len(16)
-        .map(|(triangle, place)| {
+        .map(|place| {
             watch.advance(1)?;
-            Ok(probe.at(*triangle, *place).map(|bridge| (*triangle, bridge)))
+            let [a, b, c] = envelope.mesh().corners(place.triangle as usize);
+            Ok(probe.at(place.triangle, inside(place.point, (a + b + c) / 3.0), limit))
         })
         .collect();
-    let mut worst: Vec<(u32, Bridge)> = Vec::new();
-    for (triangle, bridge) in found?.into_iter().flatten() {
-        match worst.iter_mut().find(|w| w.1.face == bridge.face) {
-            Some(known) if known.1.excess >= bridge.excess => {}
-            Some(known) => *known = (triangle, bridge),
-            None => worst.push((triangle, bridge)),
+    let mut by_face: BTreeMap<u32, Candidates> = BTreeMap::new();
+    for (place, bridge) in places.iter().zip(found?) {
+        let of_face = by_face.entry(envelope.mesh().faces()[place.triangle as usize]).or_default();
+        of_face.corners += usize::from(!place.is_smooth);
+        if let Some(bridge) = bridge {
+            of_face.left += usize::from(!place.is_smooth);
+            of_face.worst = of_face.worst.filter(|(_, worst)| worst.excess >= bridge.excess).or(Some((*place, bridge)));
         }
     }
     watch.advance(0)?;
-    Ok(worst.into_par_iter().map(|(triangle, bridge)| probe.climbed(triangle, bridge)).collect())
+    let bridges = by_face.into_iter().collect::<Vec<_>>().into_par_iter().map(|(face, found)| Bridges {
+        face,
+        share_left: found.share_left(),
+        worst: found.worst.map(|(place, bridge)| probe.climbed(&place, bridge)),
+    });
+    Ok(bridges.collect())
+}
+
+/// What a face's places came to.
+#[derive(Default)]
+struct Candidates {
+    corners: usize,
+    left: usize,
+    worst: Option<(Stopped, Bridge)>,
+}
+
+impl Candidates {
+    /// The share of the corners at which something is left; of none, it is not known that the tool gets there.
+    fn share_left(&self) -> f64 {
+        if self.corners == 0 {
+            1.0
+        } else {
+            self.left as f64 / self.corners as f64
+        }
+    }
 }
 
 struct Probe<'a> {
@@ -69,49 +132,57 @@ struct Probe<'a> {
     tool: &'a Tool,
     sheet: Option<&'a Sheet>,
     limit: f64,
+    left: &'a Left<'a>,
 }
 
 impl Probe<'_> {
-    /// The worst of a triangle's corners and its middle.
-    fn worst(&self, triangle: u32) -> Option<Bridge> {
-        let [a, b, c] = self.envelope.mesh().corners(triangle as usize);
-        let places = [(a + b + c) / 3.0, a, b, c];
-        let bridges = places.into_iter().filter_map(|place| self.at(triangle, place));
-        bridges.max_by(|a, b| a.excess.total_cmp(&b.excess))
+    /// The worst of the corners and the middles of some triangles, with its triangle, if it is clearly worse than `bridge`.
+    fn worse(&self, triangles: impl Iterator<Item = u32>, bridge: &Bridge) -> Option<(u32, Bridge)> {
+        let mut worst = None;
+        let mut least = bridge.excess * (1.0 + GAIN);
+        for triangle in triangles {
+            let [a, b, c] = self.envelope.mesh().corners(triangle as usize);
+            let middle = (a + b + c) / 3.0;
+            for place in [middle, inside(a, middle), inside(b, middle), inside(c, middle)] {
+                if let Some(bridge) = self.at(triangle, place, least) {
+                    (least, worst) = (bridge.excess, Some((triangle, bridge)));
+                }
+            }
+        }
+        worst
     }
 
-    /// From triangle to neighbour as long as the excess grows; the excess found is then measured along the normal.
-    fn climbed(&self, from: u32, bridge: Bridge) -> Bridge {
+    /// From triangle to neighbour as long as the excess grows; of a smooth place the excess found is then measured along the normal.
+    fn climbed(&self, from: &Stopped, bridge: Bridge) -> Bridge {
         let faces = self.envelope.mesh().faces();
-        let (mut triangle, mut best) = (from, bridge);
+        let (mut triangle, mut best) = (from.triangle, bridge);
         for _ in 0..CLIMB {
             let beside = self.envelope.neighbours(triangle).into_iter();
             let beside = beside.filter(|t| faces.get(*t as usize).is_some_and(|face| *face == bridge.face));
-            let next = beside.filter_map(|t| self.worst(t).map(|b| (t, b)));
-            match next.max_by(|p, q| p.1.excess.total_cmp(&q.1.excess)) {
-                Some((t, higher)) if higher.excess > best.excess => (triangle, best) = (t, higher),
-                _ => break,
-            }
+            let Some(next) = self.worse(beside, &best) else { break };
+            (triangle, best) = next;
         }
-        Bridge { excess: self.along_normal(triangle, &best), ..best }
+        Bridge { excess: self.along_normal(triangle, &best).unwrap_or(best.excess), ..best }
     }
 
-    /// From the point along the normal, each time as far as nothing of the tool can be: that ends on the tool.
-    fn along_normal(&self, triangle: u32, bridge: &Bridge) -> f64 {
+    /// From the point along the normal, each time as far as nothing of the tool can be: that ends on the tool, or goes on
+    /// along a wall.
+    fn along_normal(&self, triangle: u32, bridge: &Bridge) -> Option<f64> {
         let normal = self.envelope.mesh().normal(triangle as usize);
         let mut way = bridge.excess;
         for _ in 0..CLIMB {
-            let Some(gap) = self.nearest(triangle, bridge.point + normal * way) else { break };
+            let gap = self.nearest(triangle, bridge.point + normal * way)?;
             if gap < ON_TOOL {
                 break;
             }
             way += gap;
         }
-        way
+        (way <= ALONG_WALL * bridge.excess).then_some(way)
     }
 
-    /// What stays between a point of a triangle and the nearest free position, if it is more than the limit.
-    fn at(&self, triangle: u32, point: Vector) -> Option<Bridge> {
+    /// What stays between a point of a triangle and the nearest free position, if it is more than `least`, mm, which is the
+    /// limit or more.
+    fn at(&self, triangle: u32, point: Vector, least: f64) -> Option<Bridge> {
         let mesh = self.envelope.mesh();
         let normal = mesh.normal(triangle as usize);
         let (matched, _) = slope_matched_offset(self.tool, self.sheet, point, normal);
@@ -119,8 +190,10 @@ impl Probe<'_> {
         if (free.tip - matched.z) * normal.z.abs() <= self.limit {
             return None;
         }
-        let excess = self.nearest(triangle, point)?;
-        (excess > self.limit).then(|| Bridge { point, face: mesh.faces()[triangle as usize], excess })
+        // the way along a line is quicker found, and no shorter
+        let excess = Some(self.nearest(triangle, point)?).filter(|excess| *excess > least)?;
+        let excess = excess.min((self.left)(triangle, point, least));
+        (excess > least).then(|| Bridge { point, face: mesh.faces()[triangle as usize], excess })
     }
 
     /// Distance from a point over a triangle to the nearest free position of the tool, along the steepest line there.
@@ -138,6 +211,11 @@ impl Probe<'_> {
         let reach = self.envelope.cutter().max_radius();
         Some(least(&mut gap, -reach, reach).min(gap(0.0)))
     }
+}
+
+/// A place moved a little towards the middle of its triangle: at the very foot of a wall, rounding decides what is touched.
+fn inside(place: Vector, middle: Vector) -> Vector {
+    place + INSIDE * (middle - place)
 }
 
 /// The least value of a function that falls and then rises, by golden sections.

@@ -18,7 +18,7 @@ mod slope_matched;
 mod splits;
 mod tiles;
 
-pub use bridging::{bridges, Bridge};
+pub use bridging::{bridges, Bridge, Bridges, Stopped};
 pub use envelope::{Contact, Envelope};
 pub use index::Index;
 pub use offset_surface::{OffsetPoint, OffsetSurface, SurfaceFlag};

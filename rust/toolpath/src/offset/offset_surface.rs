@@ -38,7 +38,7 @@ pub enum SurfaceFlag {
     Bridged = 1,
     /// Something beyond a crease stops it: a wall, a step, an island.
     Interferes = 2,
-    /// The surface is steeper than the profile: the base's rim touches, and nothing stops the tool.
+    /// The surface is steeper than the profile, and not upright: the base's rim touches, and nothing stops the tool.
     Rim = 3,
     /// The surface looks down: no vertical tool reaches it.
     Undercut = 4,
@@ -229,13 +229,18 @@ impl Judge<'_> {
         let slope = libm::atan2(libm::hypot(normal.x, normal.y), normal.z);
         let flag = if normal.z < -SAME_ANGLE {
             SurfaceFlag::Undercut
-        } else if slope > self.tool.profile().max_slope() + SAME_ANGLE {
+        } else if slope > self.tool.profile().max_slope() + SAME_ANGLE && !self.is_upright(triangle) {
             SurfaceFlag::Rim
         } else {
             SurfaceFlag::Contact
         };
         let (place, place_triangle) = (point, triangle);
         OffsetPoint { tip, contact: point, normal, slope, flag, depth: 0.0, place, triangle, place_triangle }
+    }
+
+    /// Upright walls are touched by the tool's side, whatever its profile.
+    fn is_upright(&self, triangle: u32) -> bool {
+        self.envelope.mesh().is_upright(triangle as usize)
     }
 
     /// Where the tool touches the part with the margin that the envelope keeps clear.

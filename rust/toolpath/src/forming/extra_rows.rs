@@ -1,0 +1,194 @@
+//! Rows for places that the tool can touch, but that lie between the rows: grooves, narrow floors, strips beside a wall.
+
+use std::collections::BTreeSet;
+
+use styluscam_geometry::Vector;
+use styluscam_motion::{Cancelled, Watch};
+
+use super::{
+    stances::stances_of,
+    untouched::Untouched,
+    zig_zag::{share, Row},
+};
+use crate::Pass;
+
+/// Places looked at are about so many at most.
+const PLACES: f64 = 100_000.0;
+/// Places lie so many to a stepover at least.
+const FINE: f64 = 4.0;
+
+/// How the rows lie: directions along and across them, and the distance between two of them, mm.
+#[derive(Clone, Copy)]
+pub(super) struct Pattern {
+    pub along: [f64; 2],
+    pub across: [f64; 2],
+    pub stepover: f64,
+}
+
+/// A place as it lies along and across the rows, in units of the lattice.
+type Cell = [i64; 2];
+
+/// Rows, by their places across the others, for the places of the selection that the tool can touch, but which have no pass
+/// within a stepover in plan and lie in a connected region of triangles that no pass touches.
+///
+/// What is neither as wide nor as long as `least` mm may be passed over.
+///
+/// # Errors
+/// `Cancelled` when `watch` says so.
+pub(super) fn extra_rows(
+    untouched: &Untouched<'_>,
+    planned: &[(Row, Vec<Pass>)],
+    pattern: &Pattern,
+    least: f64,
+    watch: &Watch,
+) -> Result<Vec<Row>, Cancelled> {
+    let surface = untouched.surface();
+    let mesh = surface.envelope().mesh();
+    let triangles: Vec<usize> = surface.triangles().filter(|triangle| !mesh.is_upright(*triangle)).collect();
+    let area: f64 = triangles.iter().map(|t| mesh.area(*t) * mesh.normal(*t).z.max(0.0)).sum();
+    let spacing = least.min(pattern.stepover / FINE).max((area / PLACES).sqrt());
+    let covered = Covered::by(planned, pattern);
+    let mut asked: Vec<(usize, [f64; 2])> = Vec::new();
+    for (triangle, tips) in stances_of(surface, &triangles) {
+        let is_open = |place: &[f64; 2]| untouched.is_open(triangle) || !covered.is_near(*place);
+        asked.extend(pattern.lattice(&tips, spacing).filter(is_open).map(|place| (triangle, place)));
+    }
+    let in_plan = |[s, t]: [f64; 2]| [0, 1].map(|axis| s * pattern.along[axis] + t * pattern.across[axis]);
+    let places: Vec<(usize, [f64; 2])> = asked.iter().map(|(triangle, place)| (*triangle, in_plan(*place))).collect();
+    watch.begin("between rows", places.len());
+    let touched = asked.iter().zip(untouched.tips(&places, watch)?).filter(|(_, tip)| tip.is_some());
+    let cells = touched.map(|((_, place), _)| place.map(|x| (x / spacing).floor() as i64)).collect();
+    let patches = patches(cells).into_iter().filter(|patch| extent(patch) as f64 * spacing >= least);
+    let mut rows: Vec<Row> = patches.flat_map(|patch| pattern.through(&patch, spacing)).collect();
+    rows.sort_by(|a, b| a.place.total_cmp(&b.place));
+    Ok(rows)
+}
+
+impl Pattern {
+    /// A place in plan, along and across the rows.
+    fn along_across(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.along, self.across].map(|axis| x * axis[0] + y * axis[1])
+    }
+
+    /// Places (along, across) `spacing` apart in a triangle's plan, one at least on each line that cuts it.
+    fn lattice(&self, tips: &[Vector; 3], spacing: f64) -> impl Iterator<Item = [f64; 2]> {
+        let plan = tips.map(|tip| self.along_across([tip.x, tip.y]));
+        let [low, high] = [f64::min, f64::max].map(|of| plan.iter().map(|p| p[1]).fold(plan[0][1], of));
+        let on_line = move |line: i64| {
+            let across = (line as f64 + 0.5) * spacing;
+            share(&plan, across).into_iter().flat_map(move |[from, to]| {
+                let count = ((to - from) / spacing).ceil().max(1.0) as usize;
+                (0..count).map(move |i| [from + (to - from) * (i as f64 + 0.5) / count as f64, across])
+            })
+        };
+        ((low / spacing - 0.5).ceil() as i64..=(high / spacing - 0.5).floor() as i64).flat_map(on_line)
+    }
+
+    /// Rows through a patch, no farther apart than ordered, each as long as the patch is beside it.
+    fn through(&self, patch: &[Cell], spacing: f64) -> Vec<Row> {
+        let lines = || patch.iter().map(|cell| cell[1]);
+        let (Some(low), Some(high)) = (lines().min(), lines().max()) else { return Vec::new() };
+        let band = [low, high].map(|line| (line as f64 + 0.5) * spacing);
+        let count = ((band[1] - band[0]) / self.stepover).floor() as usize + 1;
+        let rows = spread(band, count, self.stepover).filter_map(|place| {
+            let beside =
+                |cell: &&Cell| ((cell[1] as f64 + 0.5) * spacing - place).abs() <= 0.5 * self.stepover + spacing;
+            let ends = || patch.iter().filter(beside).map(|cell| cell[0]);
+            let (from, to) = (ends().min()?, ends().max()?);
+            Some(Row { place, range: [(from - 1) as f64 * spacing, (to + 2) as f64 * spacing] })
+        });
+        rows.collect()
+    }
+}
+
+/// Where the passes of rows lie in plan.
+struct Covered {
+    pattern: Pattern,
+    /// By row, ascending: its place across, and from where to where along it there are passes.
+    rows: Vec<(f64, Vec<[f64; 2]>)>,
+}
+
+impl Covered {
+    fn by(planned: &[(Row, Vec<Pass>)], pattern: &Pattern) -> Self {
+        let ends = |pass: &Pass| {
+            let places = pass.points.iter().map(|point| pattern.along_across([point.tip.x, point.tip.y])[0]);
+            places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], s| [low.min(s), high.max(s)])
+        };
+        let rows = planned.iter().map(|(row, passes)| (row.place, passes.iter().map(ends).collect()));
+        Self { pattern: *pattern, rows: rows.collect() }
+    }
+
+    /// Whether a pass lies within a stepover of a place (along, across).
+    fn is_near(&self, [s, t]: [f64; 2]) -> bool {
+        let step = self.pattern.stepover;
+        let first = self.rows.partition_point(|(place, _)| *place < t - step);
+        let mut rows = self.rows[first..].iter().take_while(|(place, _)| *place <= t + step);
+        rows.any(|(place, runs)| {
+            let aside = |[from, to]: &[f64; 2]| (from - s).max(s - to).max(0.0);
+            runs.iter().any(|run| libm::hypot(aside(run), place - t) <= step)
+        })
+    }
+}
+
+/// Rows a step apart in the middle of a band.
+pub(super) fn spread([low, high]: [f64; 2], count: usize, step: f64) -> impl Iterator<Item = f64> {
+    let first = 0.5 * (low + high - (count - 1) as f64 * step);
+    (0..count).map(move |row| first + row as f64 * step)
+}
+
+/// The longer side of the box round some cells, in cells.
+fn extent(patch: &[Cell]) -> i64 {
+    let along = |axis: usize| {
+        let places = || patch.iter().map(|cell| cell[axis]);
+        places().max().unwrap_or(0) - places().min().unwrap_or(0) + 1
+    };
+    along(0).max(along(1))
+}
+
+/// Cells that join, also over a corner.
+fn patches(mut cells: BTreeSet<Cell>) -> Vec<Vec<Cell>> {
+    let mut patches = Vec::new();
+    while let Some(first) = cells.pop_first() {
+        let mut patch = vec![first];
+        let mut next = 0;
+        while let Some([s, t]) = patch.get(next).copied() {
+            next += 1;
+            let around = (0..9).map(|i| [s + i % 3 - 1, t + i / 3 - 1]);
+            patch.extend(around.filter(|cell| cells.remove(cell)));
+        }
+        patches.push(patch);
+    }
+    patches
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PATTERN: Pattern = Pattern { along: [1.0, 0.0], across: [0.0, 1.0], stepover: 3.0 };
+
+    #[test]
+    fn cells_that_meet_in_a_corner_are_one_patch() {
+        let patches = patches([[0, 0], [1, 1], [3, 1], [4, 0], [2, 5]].into_iter().collect());
+        assert_eq!(patches, [vec![[0, 0], [1, 1]], vec![[2, 5]], vec![[3, 1], [4, 0]]]);
+    }
+
+    #[test]
+    fn a_narrow_patch_has_one_row_and_a_wide_one_as_many_as_it_takes() {
+        let patch = |lines: i64| (0..lines).map(|line| [line, line]).collect::<Vec<Cell>>();
+        let places = |lines: i64| PATTERN.through(&patch(lines), 0.5).iter().map(|row| row.place).collect::<Vec<_>>();
+        assert_eq!(places(3), [0.75]);
+        assert_eq!(places(11), [1.25, 4.25]);
+        let first = Row { place: 1.25, range: [-0.5, 4.0] };
+        assert_eq!(PATTERN.through(&patch(11), 0.5)[0], first, "as long as the patch is beside it");
+    }
+
+    #[test]
+    fn a_place_is_near_a_pass_within_a_stepover() {
+        let row = |place: f64, runs: &[[f64; 2]]| (place, runs.to_vec());
+        let rows = vec![row(0.0, &[[0.0, 10.0]]), row(3.0, &[[0.0, 4.0], [8.0, 10.0]])];
+        let covered = Covered { pattern: PATTERN, rows };
+        assert!(covered.is_near([5.0, 2.9]) && covered.is_near([6.0, 4.0]) && covered.is_near([-2.0, 1.0]));
+        assert!(!covered.is_near([6.0, 5.5]) && !covered.is_near([5.0, -3.1]) && !covered.is_near([13.0, 1.5]));
+    }
+}
