@@ -25,7 +25,10 @@ A_FILE = "the name of a file (str or Path)"
 """What is wanted where only a file can be meant."""
 
 ENDING = re.compile(r"[^;(%].*\.[A-Za-z]{1,8}[0-9]?")
-"""A line that ends as file names do, and no G-code: there no word ends after a point and a letter."""
+"""A line that ends as file names do."""
+
+WORDS = re.compile(r"([A-Za-z]\s*[-+]?(\d+\.?\d*|\.\d+)\s*)+")
+"""A line of nothing but G-code words: `G0 X1.Y2` ends as a file name does, and is none."""
 
 SHOWN = 40
 """Characters of a value that is shown."""
@@ -117,7 +120,7 @@ def gcode_of(value: object, argument: str = "text") -> str:
     Raises:
         VerifyError: the file cannot be read, or the value is neither.
     """
-    if isinstance(value, str) and (_is_text(value) or not (ENDING.fullmatch(value.strip()) or is_file(Path(value)))):
+    if isinstance(value, str) and (_is_text(value) or not (_ends_as_a_file(value.strip()) or is_file(Path(value)))):
         return value
     return read_gcode_text(file_of(value, argument, "G-code, or the name of its file,", VerifyError))
 
@@ -134,6 +137,10 @@ def number_of(value: object, argument: str) -> float:
         except (TypeError, ValueError, OverflowError):
             pass
     raise refused(argument, value, "a number", GeometryError)
+
+
+def _ends_as_a_file(line: str) -> bool:
+    return bool(ENDING.fullmatch(line)) and not WORDS.fullmatch(line)
 
 
 def _is_text(value: str) -> bool:

@@ -36,6 +36,8 @@ HALVED = 12
 """Times that an edge over the tool is halved."""
 PAIRS = 400_000
 """Pairs of a place and a triangle at a time."""
+FEATURE = 1.0
+"""mm: the smallest feature of an operation that names none."""
 
 
 @dataclass
@@ -74,9 +76,9 @@ def checked(text: str, job: dict[str, Any], corners: Floats, allowed: float, fam
     ends = np.array([move.end for move in feeds])
     found.path_box = [ends.min(axis=0).tolist(), ends.max(axis=0).tolist()]
     cuts = _cuts(moves)
-    features = [operation.get("smallest_feature", 0.0) for operation in job.get("operations", ())]
-    gaps = [math.dist(before[1], after[0]) for before, after in itertools.pairwise(cuts)]
-    found.cuts, found.lifts = len(cuts), sum(gap < 0.5 * min(features, default=0.0) for gap in gaps)
+    features = [operation.get("smallest_feature", FEATURE) for operation in job.get("operations", ())]
+    gaps = [math.dist(a.end, b.begin) for a, b in itertools.pairwise(cuts) if a.tool == b.tool]
+    found.cuts, found.lifts = len(cuts), sum(gap < 0.5 * min(features, default=FEATURE) for gap in gaps)
     tools = {tool.get("number", 1): tool for tool in job["tools"].values()}
     tips, numbers, lines, feeding = _places(moves, seed)
     tolerances = [operation.get("tolerance", 0.0) for operation in job.get("operations", ())]
@@ -96,15 +98,29 @@ def checked(text: str, job: dict[str, Any], corners: Floats, allowed: float, fam
     return found
 
 
-def _cuts(moves: list[gcode.Move]) -> list[tuple[Any, Any]]:
-    """First and last tip of the ways at feed between two rapids, without those straight up or down."""
-    cuts: list[tuple[Any, Any]] = []
+@dataclass
+class Cut:
+    """A way at feed between two rapids, from its first move aside to its last."""
+
+    begin: gcode.Point
+    end: gcode.Point
+    tool: int
+
+
+def _cuts(moves: list[gcode.Move]) -> list[Cut]:
+    """All cuts of a program, in their order."""
+    cuts: list[Cut] = []
     goes_on = False
-    for before, move in itertools.pairwise(moves):
+    for move in moves:
         goes_on = goes_on and move.kind != "rapid"
-        if move.kind != "rapid" and math.dist(before.end[:2], move.end[:2]) > 0.0:
-            cuts.append((cuts.pop()[0] if goes_on else before.end, move.end))
-            goes_on = True
+        goes_aside = move.kind == "arc" or math.dist(move.start[:2], move.end[:2]) > 0.0
+        if move.kind == "rapid" or not goes_aside:
+            continue
+        if goes_on:
+            cuts[-1].end = move.end
+        else:
+            cuts.append(Cut(move.start, move.end, move.state.tool))
+        goes_on = True
     return cuts
 
 

@@ -27,11 +27,12 @@ def markdown(rows: list[Outcome]) -> str:
         f"as expected: {sum(not row.wrong for row in written)}; all runs as expected: {sum(not row.wrong for row in rows)}",
         f"`new` + `run`: median {np.median(times):.1f} s, p95 {np.percentile(times, 95):.1f} s, max {times.max():.1f} s; "
         f"peak memory {max((row.peak_mb for row in rows), default=0):.0f} MB",
+        f"done with warnings: {sum(row.outcome == 'done' and bool(row.kinds) for row in rows)}",
         f"programs checked against the modeller's triangles: {sum(row.samples > 0 for row in rows)}, "
         f"{sum(row.samples for row in rows)} places",
         "",
     ]
-    lines += _by_variant(rows) + _unexpected(rows) + _slow(rows) + _sentences(rows)
+    lines += _by_variant(rows) + _unexpected(rows) + _warned(rows) + _slow(rows) + _sentences(rows)
     return "\n".join(lines) + "\n"
 
 
@@ -59,6 +60,14 @@ def _unexpected(rows: list[Outcome]) -> list[str]:
             lines.append(f"  `{row.command}`")
         lines.append("")
     return lines
+
+
+def _warned(rows: list[Outcome]) -> list[str]:
+    lines = ["## Done with warnings", ""]
+    for row in rows:
+        if row.outcome == "done" and row.kinds:
+            lines.append(f"- {row.part} {row.variant}: " + ", ".join(f"{n} {kind}" for kind, n in row.kinds.items()))
+    return [*lines, ""]
 
 
 def _slow(rows: list[Outcome]) -> list[str]:

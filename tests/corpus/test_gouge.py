@@ -84,3 +84,11 @@ def test_lifts_for_nothing_are_counted():
     document = job(PROFILES["ball"]) | {"operations": [{"smallest_feature": 0.6}, {"smallest_feature": 0.5}]}
     found = checked(text, document, TRIANGLES[:2], 0.002, "linuxcnc", 1)
     assert (found.cuts, found.lifts) == (5, 2)
+    circles = text.replace("M2", 2 * "G0 X9 Y0.05\nG1 Z0\nG2 X9 Y0.05 I-3 J0\nG0 Z20\n" + "M2")
+    found = checked(circles, document | {"operations": [{}]}, TRIANGLES[:2], 0.002, "linuxcnc", 1)
+    assert (found.cuts, found.lifts) == (7, 4), (
+        "full circles are cuts; an operation that names no feature has its default"
+    )
+    changed = text.replace("X6.2 Y0", "X6.2 Y0\nT2 M6\nG43 H2")
+    document["tools"] = document["tools"] | {"other": document["tools"]["cutter"] | {"number": 2}}
+    assert checked(changed, document, TRIANGLES[:2], 0.002, "linuxcnc", 1).lifts == 1, "the tool is another one"

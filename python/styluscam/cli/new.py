@@ -59,8 +59,9 @@ def new(
     Job.check(made.text)
     files.write_whole(path, made.text)
     if json:
-        console.say_json({"written": [str(path)], "reasons": made.reasons})
+        console.say_json({"written": [str(path)], "notes": list(arrays.notes), "reasons": made.reasons})
     elif not quiet:
+        console.fields([("note", note) for note in arrays.notes])
         console.fields([("" if number else "because", reason) for number, reason in enumerate(made.reasons)])
         console.say(f"written: {shown_path(path)}")
         console.say(f"next:    styluscam run {shlex.quote(shown_path(path))}")

@@ -76,7 +76,9 @@ def _document(result: running.RunResult, written: list[Path]) -> Document:
 
 def _tell(result: running.RunResult, written: list[Path], quiet: bool, has_program: bool) -> None:
     if not quiet or not result.report.ok:
-        rows = summary.lines_of(result.summary, result.plan.job.document)
+        arrays = result.plan.job.part().arrays
+        rows = [] if arrays is None else [("note", note) for note in arrays.notes]
+        rows += summary.lines_of(result.summary, result.plan.job.document)
         rows += [("written", summary.shown_path(path)) for path in written]
         console.say(summary.title(result.plan.job.document))
         console.fields(rows)

@@ -92,7 +92,7 @@ def _end(end: Document) -> str:
     return f"Z{end['z']:.3f}, {which}: {lowest}"
 
 
-LOST = {"bridged": "bridged", "interferes": "beside something in the way", "rim": "steeper than the tool"}
+LOST = {"bridged": "bridged", "interferes": "beside something in the way", "rim": "touched by the tool's rim alone"}
 """What is said of a face that the tool does not touch wholly at its own slope, by key of the plan."""
 
 LEAST_AREA = 0.05
