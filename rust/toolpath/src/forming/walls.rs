@@ -77,7 +77,8 @@ pub(super) fn range(surface: &Surface<'_>, spacing: f64, watch: &Watch) -> Resul
 
 /// Where the tool touches upright triangles.
 ///
-/// Beside each of them, places `spacing` mm apart are asked how low the tool comes there; `phase` names this work to the watch.
+/// Beside each of them, places `spacing` mm apart are asked how low the tool comes there; `phase` names this work to
+/// the watch.
 ///
 /// # Errors
 /// `Cancelled` when `watch` says so.
