@@ -19,11 +19,13 @@ pub struct Cancelled;
 impl Watch {
     /// Begins a phase of `total` steps.
     pub fn begin(&self, phase: &'static str, total: usize) {
-        if let Ok(mut current) = self.phase.lock() {
-            *current = phase;
-        }
+        // held to the end: no one is told of the new phase and the last one's share
+        let current = self.phase.lock();
         self.done.store(0, Ordering::Relaxed);
         self.total.store(total as u64, Ordering::Relaxed);
+        if let Ok(mut current) = current {
+            *current = phase;
+        }
     }
 
     /// Counts `steps` more as done.
@@ -53,8 +55,9 @@ impl Watch {
     /// The phase and the share of it that is done, 0 to 1.
     #[must_use]
     pub fn state(&self) -> (&'static str, f64) {
-        let phase = self.phase.lock().map_or("", |p| *p);
+        let phase = self.phase.lock();
         let total = self.total.load(Ordering::Relaxed).max(1);
-        (phase, (self.done.load(Ordering::Relaxed) as f64 / total as f64).min(1.0))
+        let share = (self.done.load(Ordering::Relaxed) as f64 / total as f64).min(1.0);
+        (phase.map_or("", |phase| *phase), share)
     }
 }

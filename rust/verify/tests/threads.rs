@@ -4,7 +4,7 @@
 mod common;
 
 use common::{clothoid, limits, Levels, Part};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use styluscam_motion::{Cancelled, Watch};
 use styluscam_verify::judge;
 
@@ -44,9 +44,8 @@ fn it_stops_when_asked() {
         while watch.state().1 < 0.001 {
             std::thread::sleep(Duration::from_millis(1));
         }
-        let asked = Instant::now();
         watch.cancel();
         assert_eq!(running.join().unwrap().unwrap_err(), Cancelled);
-        assert!(asked.elapsed() < Duration::from_millis(200), "{:?}", asked.elapsed());
+        assert!(watch.state().1 < 0.5, "it went on: {:?}", watch.state());
     });
 }
