@@ -2,7 +2,7 @@
 
 Lengths are mm, angles rad (degrees where a name ends in ``_deg``), feeds mm/min. Arrays are float64 numpy,
 C order. Every long call takes ``progress(phase, fraction)``, which is called on the calling thread and cancels by
-returning ``False`` (a phase may come again: levels are planned twice where some were missing), and ``cancel``, a
+returning ``False`` (a phase may come again: levels that were missing are looked for after the others), and ``cancel``, a
 :class:`CancelToken`; the GIL is released meanwhile, and the same input gives the same bytes for any number of threads.
 """
 

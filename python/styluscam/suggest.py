@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from styluscam import _engine, planning, reach
-from styluscam.errors import Cancelled, JobError, PlanError, ToolError
+from styluscam.errors import Cancelled, GeometryError, JobError, PlanError, ToolError
 from styluscam.job import Job
 from styluscam.scallop import scallop_of_spacing
 from styluscam.tool import Tool
@@ -262,14 +262,21 @@ def _asked_by(job: Job, progress: Progress | None) -> list[_Asked]:
     bound = _engine.Scene(job.engine, job.part(progress).engine).fitting_radius
     fits = math.inf if bound is None else bound
     for index, name in enumerate(_names(document)):
-        walls, passes = walls_of(job, index, progress), _Passes(document["operations"][index])
+        try:
+            walls = walls_of(job, index, progress)
+        except GeometryError as error:
+            if error.code != "no-faces":
+                raise
+            continue  # upright walls alone: no profile leaves more there than another
+        passes = _Passes(document["operations"][index])
         classes = walls.classes(passes.rows_deg)
         if len(classes.areas):
             tolerance = float(document["operations"][index]["tolerance"])
             found.append(_Asked(name, walls, passes, classes, ball, thickness, tolerance, fits))
     if not found:
-        hint = "levels make no sense there: try a zig-zag"
-        raise JobError("the selected faces have no walls", code="no-walls", where="part.faces", hint=hint)
+        hint = "rows (zig-zag) over floors can be compared; for upright walls any tool will do that fits their gaps and fillets"
+        message = "the selected faces have no sloping walls: no profile leaves more there than another"
+        raise JobError(message, code="no-walls", where="part.faces", hint=hint)
     return found
 
 

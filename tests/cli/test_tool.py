@@ -383,4 +383,4 @@ def test_suggest_refuses_a_job_without_walls(cli: Any, mine: Path, tmp_path: Pat
     job = tmp_path / "job.toml"
     job.write_text(changed(COARSE_CUP, ('"Face1", "Face2", "Face3", "Face4"', '"Face1"')))
     ran = cli("tool", "suggest", job, "--library", mine)
-    assert ran.code == 2 and "no walls" in ran.err
+    assert ran.code == 2 and "no sloping walls" in ran.err

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from styluscam.types import Document
 from styluscam.words import clock, place
@@ -76,14 +78,31 @@ def _operation(operation: Document) -> list[tuple[str, str]]:
     ]
     if operation["ends"]:
         rows.append(("ends at", _end(operation["ends"])))
-    rows += [("reached", _reached(face)) for face in operation["reached"] if _lost(face)]
+    rows += _worst("reached", operation["reached"], _lost_area, _reached)
     if (coarse := operation["reached_coarsely"]) is not None:
         rows.append(("reached", f"areas are estimated from triangles of {coarse:.3g} mm"))
-    for bridge in operation["bridged"]:
-        rows.append(("bridged", f"Face{bridge['face']} by up to {bridge['excess']:.3f} mm at {place(bridge['at'])}"))
-    for face, area in operation["undercut"]:
-        rows.append(("undercut", f"Face{face}, {area:.1f} mm2 are not reached"))
+    rows += _worst("bridged", operation["bridged"], lambda one: float(one["excess"]), _bridged)
+    rows += _worst("undercut", operation["undercut"], lambda one: float(one[1]), _undercut)
     return rows
+
+
+def _worst(
+    name: str, faces: list[Any], lost: Callable[[Any], float], said: Callable[[Any], str]
+) -> list[tuple[str, str]]:
+    """A row for each face that loses something, in the order of their numbers; of many only the worst, and how many more."""
+    losing = [face for face in faces if lost(face) > 0.0]
+    shown = losing if len(losing) <= SHOWN + 1 else sorted(losing, key=lost, reverse=True)[:SHOWN]
+    rows = [(name, said(face)) for face in losing if face in shown]
+    more = len(losing) - len(rows)
+    return [*rows, (name, f"and {more} more faces, none of them worse: --json has them all")] if more else rows
+
+
+def _bridged(bridge: Document) -> str:
+    return f"Face{bridge['face']} by up to {bridge['excess']:.3f} mm at {place(bridge['at'])}"
+
+
+def _undercut(face: tuple[int, float]) -> str:
+    return f"Face{face[0]}, {face[1]:.1f} mm2 are not reached"
 
 
 def _end(end: Document) -> str:
@@ -97,6 +116,15 @@ LOST = {"bridged": "bridged", "interferes": "beside something in the way", "rim"
 
 LEAST_AREA = 0.05
 """mm^2: areas are shown with one decimal."""
+
+
+SHOWN = 8
+"""Faces that are listed one by one."""
+
+
+def _lost_area(face: Document) -> float:
+    """mm^2; 0 for what is too little to be shown."""
+    return sum(float(face[key]) for key in LOST) if _lost(face) else 0.0
 
 
 def _lost(face: Document) -> list[str]:

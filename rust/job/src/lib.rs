@@ -15,6 +15,7 @@ mod plan;
 mod risk;
 mod scene;
 mod starter;
+mod stopped;
 mod summary;
 mod units;
 

@@ -7,7 +7,8 @@ use styluscam_motion::{Event, EventKind, Move, OperationRecord, Program, ToolRec
 use styluscam_post::{Machine, OptionValue};
 use styluscam_toolpath::{
     forming::{
-        left_out, levels, raise_last, selected_range, with_levels_at, z_levels, zig_zag, Floors, Grid, LevelRange, Rows,
+        left_out, levels, raise_last, selected_range, with_levels_at, z_levels, z_levels_beside, zig_zag, Floors, Grid,
+        LevelRange, Rows,
     },
     link,
     offset::{bridges, Bridges, Envelope, OffsetSurface, Stopped, SurfaceFlag},
@@ -15,8 +16,10 @@ use styluscam_toolpath::{
 };
 use styluscam_verify::ToolReach;
 
+use crate::faces::UP;
 use crate::heights::TipHeights;
 use crate::judge::GOUGE;
+use crate::stopped::{stopped_places, StoppedTriangle};
 use crate::{
     faces, scene, Coolant, Direction, JobDocument, JobError, OperationKind, OperationSection, Scene, Spindle, Step,
 };
@@ -25,8 +28,6 @@ use crate::{
 const OFFSET_SAMPLES: usize = 2000;
 /// Points that refining it may add, where something stops the tool.
 const OFFSET_POINTS: usize = 1 << 16;
-/// Points of a face, of those that something keeps from the tool, from which its worst place is looked for.
-const BRIDGE_SAMPLES: usize = 64;
 /// Decimal places of coordinates that are tried where a machine's own are too few.
 const MOST_DECIMALS: u32 = 6;
 /// What is left for fitting must be at least this, mm, or paths would have millions of points.
@@ -306,9 +307,10 @@ fn bounds(section: &OperationSection, heights: TipHeights) -> [f64; 2] {
 }
 
 fn steepest(scene: &Scene, selected: &[bool]) -> f64 {
+    // facets lean by their deviation: where the model's normals are known, those tell
     let slope = |t: usize| {
-        let n = scene.mesh.normal(t);
-        libm::acos(n.z.clamp(-1.0, 1.0))
+        let normals = scene.mesh.corner_normals(t);
+        normals.map(|n| libm::acos(n.z.clamp(-1.0, 1.0))).into_iter().fold(0.0, f64::max)
     };
     (0..selected.len()).filter(|t| selected[*t]).map(slope).fold(0.0, f64::max)
 }
@@ -375,16 +377,22 @@ fn bridges_of(
     tolerance: f64,
     watch: &Watch,
 ) -> Result<Vec<Bridges>, JobError> {
-    let mut by_face: BTreeMap<u32, Vec<Stopped>> = BTreeMap::new();
+    let mut by_face: BTreeMap<u32, Vec<StoppedTriangle>> = BTreeMap::new();
     for (corners, triangle) in offset.triangles.iter().zip(&offset.numbers) {
-        let stopped = corners.iter().map(|i| &offset.points[*i as usize]).find(|point| point.flag.is_stopped());
-        if let Some(point) = stopped.filter(|_| scene.mesh.normal(*triangle as usize).z > 1e-3) {
-            let is_smooth = point.flag == SurfaceFlag::Bridged;
-            let place = Stopped { triangle: *triangle, point: point.contact, is_smooth };
-            by_face.entry(scene.mesh.faces()[*triangle as usize]).or_default().push(place);
+        let corners = corners.map(|i| &offset.points[i as usize]);
+        let stopped = corners.map(|corner| corner.flag.is_stopped());
+        if scene.mesh.normal(*triangle as usize).z > UP && stopped.contains(&true) {
+            let is_smooth = corners.iter().find(|corner| corner.flag.is_stopped()).map(|corner| corner.flag);
+            let found = StoppedTriangle {
+                triangle: *triangle,
+                corners: corners.map(|corner| corner.contact),
+                stopped,
+                is_smooth: is_smooth == Some(SurfaceFlag::Bridged),
+            };
+            by_face.entry(scene.mesh.faces()[*triangle as usize]).or_default().push(found);
         }
     }
-    let sampled: Vec<Stopped> = by_face.values().flat_map(|all| spread(all, BRIDGE_SAMPLES)).collect();
+    let sampled: Vec<Stopped> = by_face.values().flat_map(|all| stopped_places(all)).collect();
     let reach = ToolReach::new(tool, scene.sheet.as_ref(), &scene.mesh, &scene.bvh);
     let left = |triangle: u32, point: Vector, enough: f64| reach.left(triangle as usize, point, enough);
     Ok(bridges(envelope, tool, scene.sheet.as_ref(), &sampled, tolerance, &left, watch)?)
@@ -450,7 +458,8 @@ impl Task<'_> {
             raise_last(&mut more, &range, &floors);
         }
         if more != heights {
-            passes = z_levels(surface, &grid, &more, self.budget.deviation, watch)?;
+            let known = (&*heights, passes);
+            passes = z_levels_beside(known, surface, &grid, &more, self.budget.deviation, watch)?;
         }
         if passes.is_empty() {
             return Err(PlanError::Empty { top, bottom: bottom.max(lowest) });

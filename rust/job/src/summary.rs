@@ -6,6 +6,9 @@ use styluscam_post::{machine::LengthUnit, Machine};
 
 use crate::{plan::OperationSummary, Judgement, Plan, Scene};
 
+/// Faces that the program's header lists one by one.
+const SHOWN: usize = 8;
+
 /// The job in numbers. Lengths mm, time s, angles degrees.
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
@@ -113,11 +116,14 @@ impl Summary {
                     end.z, end.untouched
                 )
             }));
-            notes.extend(operation.bridged.iter().map(|bridge| {
+            notes.extend(operation.bridged.iter().take(SHOWN).map(|bridge| {
                 let [x, y, z] = bridge.at;
                 format!("bridged: Face{} by up to {:.3} at X{x:.2} Y{y:.2} Z{z:.2}", bridge.face, bridge.excess)
             }));
-            notes.extend(operation.undercut.iter().map(|(face, area)| format!("undercut: Face{face}, {area:.1} mm2")));
+            notes.extend(more("bridged", operation.bridged.len()));
+            let undercut = operation.undercut.iter().take(SHOWN);
+            notes.extend(undercut.map(|(face, area)| format!("undercut: Face{face}, {area:.1} mm2")));
+            notes.extend(more("undercut", operation.undercut.len()));
         }
         let counted = if self.accelerates { "" } else { " without acceleration" };
         notes.push(format!("length {:.0} mm, time {}{counted}", self.length, clock(self.duration)));
@@ -134,6 +140,11 @@ impl Summary {
         let verdict = self.ok.map_or("------", |ok| if ok { "passed" } else { "FAILED" });
         format!("judged from this text: {verdict}, worst gouge {gouge} mm, worst excess {excess} mm")
     }
+}
+
+/// How many faces are not listed, of so many.
+fn more(what: &str, count: usize) -> Option<String> {
+    (count > SHOWN).then(|| format!("{what}: {} more faces", count - SHOWN))
 }
 
 /// Hours, minutes and seconds.

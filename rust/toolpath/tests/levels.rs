@@ -55,7 +55,9 @@ fn walls_between_two_levels_are_left_out_and_those_beside_them_not() {
         assert!(bands.iter().any(|band| (band.1 - height).abs() < 0.02), "{bands:?} {height}");
     }
     assert!(bands.iter().all(|(low, high)| *low >= 0.0 && *high < 0.82), "{bands:?}");
-    assert!(of_levels(&[2.0, 0.3]).is_empty());
+    let feet = of_levels(&[2.0, 0.3]);
+    assert!(!feet.is_empty() && feet.iter().all(|(low, high)| *low < 0.01 && *high < 0.03), "{feet:?}");
+    assert!(of_levels(&[2.0, 0.3, 0.01]).is_empty());
 }
 
 #[test]
@@ -72,6 +74,27 @@ fn a_low_wall_that_goes_on_as_a_high_one_is_left_out() {
     let bands = bands_without(&mesh, &[4.0, 2.0]);
     assert!(!bands.is_empty() && bands.iter().all(|band| (band.1 - 0.5).abs() < 0.02), "{bands:?}");
     assert!(bands_without(&mesh, &[4.0, 0.4]).is_empty());
+}
+
+/// Walls and top of a square block, `half` mm to each side of the axis.
+fn block(half: f64, low: f64, high: f64) -> (Vec<Vector>, Vec<[i64; 3]>) {
+    let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
+    let at = |z: f64| corners.into_iter().map(move |[x, y]| Vector::new(x, y, z));
+    let walls = (0..4).flat_map(|i| [[i, (i + 1) % 4, (i + 1) % 4 + 4], [i, (i + 1) % 4 + 4, i + 4]]);
+    (at(low).chain(at(high)).collect(), walls.chain([[4, 5, 6], [4, 6, 7]]).collect())
+}
+
+#[test]
+fn a_wall_that_ends_on_a_ledge_has_a_level_there() {
+    // the ledge is at 3 mm: between the levels at 4 and 2
+    let (mut vertices, mut triangles) = block(10.0, 0.0, 3.0);
+    let (upper, above) = block(5.0, 3.0, 8.0);
+    triangles.extend(above.into_iter().map(|corners| corners.map(|corner| corner + 8)));
+    vertices.extend(upper);
+    let mesh = Mesh::new(vertices, &triangles, &[]).unwrap();
+    let bands = bands_without(&mesh, &[6.0, 4.0, 2.0, 0.0]);
+    assert!(!bands.is_empty() && bands.iter().all(|band| (band.0 - 3.0).abs() < 0.01 && band.1 < 3.05), "{bands:?}");
+    assert!(bands_without(&mesh, &[6.0, 4.0, 3.01, 2.0, 0.0]).is_empty());
 }
 
 fn bands_without(mesh: &Mesh, heights: &[f64]) -> Vec<(f64, f64)> {

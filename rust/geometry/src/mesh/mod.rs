@@ -168,6 +168,20 @@ impl Mesh {
         self.normals.get(triangle).copied().unwrap_or_else(|| [self.normal(triangle); 3])
     }
 
+    /// Unit normal of a triangle: the mean of the model's at its corners where those are known, else the facet's, which leans by
+    /// the triangle's deviation.
+    #[must_use]
+    pub fn model_normal(&self, triangle: usize) -> Vector {
+        if self.normals.is_empty() {
+            return self.normal(triangle);
+        }
+        self.corner_normals(triangle)
+            .iter()
+            .sum::<Vector>()
+            .try_normalize(f64::EPSILON)
+            .unwrap_or_else(|| self.normal(triangle))
+    }
+
     /// Area of a triangle, mm^2.
     #[must_use]
     pub fn area(&self, triangle: usize) -> f64 {

@@ -123,7 +123,7 @@ fn look(body: &Body<'_>, face: u32, triangles: &[u32], radii: &[f64], count: usi
         hole: None,
     };
     for triangle in triangles.iter().map(|t| *t as usize) {
-        let (area, normal) = (mesh.area(triangle), mesh.normal(triangle));
+        let (area, normal) = (mesh.area(triangle), mesh.model_normal(triangle));
         let slope = libm::acos(normal.z.clamp(-1.0, 1.0)).to_degrees();
         look.area += area;
         look.flat += if slope <= FLOOR_DEG { area } else { 0.0 };

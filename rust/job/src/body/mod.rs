@@ -27,6 +27,7 @@ pub use thickness::Thickness;
 use styluscam_geometry::{Bvh, Mesh, Vector};
 
 use rays::Rays;
+pub(crate) use samples::in_triangle;
 use samples::{samples, Sample};
 
 /// Places from which a body is measured: shares are right to about two percent of the area.

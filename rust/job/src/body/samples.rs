@@ -10,7 +10,7 @@ const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
 pub struct Sample {
     /// Where, mm.
     pub point: Vector,
-    /// Unit normal of the triangle, out of the material.
+    /// Unit normal there, out of the material: the model's where it is known.
     pub normal: Vector,
 }
 
@@ -37,8 +37,12 @@ pub fn of_triangles(mesh: &Mesh, triangles: &[u32], count: usize) -> Vec<Sample>
 }
 
 fn place(mesh: &Mesh, triangle: usize, number: usize) -> Sample {
+    Sample { point: in_triangle(mesh.corners(triangle), number), normal: mesh.model_normal(triangle) }
+}
+
+/// A point of a triangle: those of successive numbers are spread evenly.
+pub fn in_triangle([a, b, c]: [Vector; 3], number: usize) -> Vector {
     let [u, v] = STEPS.map(|step| (0.5 + number as f64 * step).fract());
     let [u, v] = if u + v > 1.0 { [1.0 - u, 1.0 - v] } else { [u, v] };
-    let [a, b, c] = mesh.corners(triangle);
-    Sample { point: a + u * (b - a) + v * (c - a), normal: mesh.normal(triangle) }
+    a + u * (b - a) + v * (c - a)
 }

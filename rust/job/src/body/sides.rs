@@ -12,8 +12,10 @@ pub const SIDES: [UpAxis; 6] =
 const AWAY: f64 = 0.01;
 /// Cosine from which a face at the bottom is the one that the part stands on.
 const FLAT: f64 = 0.999;
-/// Rays start this far off the surface, as a share of the part's size.
+/// Rays start this far off the surface, as a share of the part's size, and mm: triangles of a curved upright wall bulge by their
+/// deviation over those under them.
 const OFF: f64 = 1e-5;
+const BULGE: f64 = 0.01;
 
 /// What a direction shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,6 +52,6 @@ pub fn is_seen(body: &Body<'_>, place: &Sample, up: Vector) -> bool {
     if place.normal.dot(&up) < -AWAY {
         return false;
     }
-    let start = place.point + OFF * body.size() * place.normal;
+    let start = place.point + (OFF * body.size() + BULGE) * place.normal;
     body.rays.first(start, up, 0.0, |_| true).is_none()
 }

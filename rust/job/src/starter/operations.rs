@@ -258,7 +258,8 @@ fn left(narrow: &[&FaceLook], tool: &Cutter) -> Option<String> {
         said.push(format!("{} {are} narrower than the tool and for a smaller one", names(&slots)));
     }
     let diameter = tool.diameter;
-    (!said.is_empty()).then(|| format!("left out, for the tool of {diameter} mm does not enter: {}", said.join("; ")))
+    (!said.is_empty())
+        .then(|| format!("left out, for the tool of {diameter} mm has too little room in them: {}", said.join("; ")))
 }
 
 /// Some of the names, and how many more there are.

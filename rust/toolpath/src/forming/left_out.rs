@@ -12,6 +12,8 @@ use crate::{Pass, Surface};
 
 /// What is touched over less than this, mm, needs no level.
 const LEAST: f64 = 0.02;
+/// Lowest tips over one floor differ by no more than this from one to the next, mm.
+const LEVEL: f64 = 1e-4;
 /// From a corner that the tool touches towards one that it does not: how often that way is halved.
 const HALVINGS: usize = 12;
 
@@ -19,7 +21,8 @@ const HALVINGS: usize = 12;
 type Touched = (usize, (f64, f64));
 
 /// Bands of heights, lowest and highest tip in mm, that hold none of `heights`, the levels: those in which the tool touches a
-/// place of a selected upright wall, and those in which it touches a connected region of selected slopes that no pass touches.
+/// place of a selected upright wall, and those in which it touches a connected region of selected slopes that no pass touches;
+/// and where a selected upright wall ends on a level floor, what it is touched over there ([`feet`]).
 ///
 /// Walls are looked at in places `spacing` mm apart, slopes at the corners of their facets and along their sides as far
 /// as they are touched. Slopes beside some that a pass touches have their levels, a step apart.
@@ -44,6 +47,7 @@ pub fn left_out(
     let holds_none = |(low, high): &(f64, f64)| !heights.iter().any(|z| (low..=high).contains(&z));
     let is_left = |tips: &(f64, f64)| tips.1 - tips.0 >= LEAST && holds_none(tips);
     let walls = walls::touched(surface, &upright, spacing, ("walls between levels", watch))?;
+    let feet = feet(&walls, surface.envelope().cutter().max_radius()).into_iter().filter(holds_none);
     let of_walls: Vec<(f64, f64)> = walls
         .par_iter()
         .filter(|wall| holds_none(&wall.tips))
@@ -55,7 +59,18 @@ pub fn left_out(
             Some((low, high)).filter(|tips| is_left(tips) && !goes_on)
         })
         .collect();
-    Ok(of_walls.into_iter().chain(of_slopes.filter(is_left)).collect())
+    Ok(of_walls.into_iter().chain(of_slopes.filter(is_left)).chain(feet).collect())
+}
+
+/// Where upright walls end on a level floor over more than `length` mm: the lowest tip with which they are touched there, and
+/// what needs no level over it. The last level over it would leave a strip of the wall up to a step high.
+fn feet(walls: &[walls::Touched], length: f64) -> Vec<(f64, f64)> {
+    let mut ends: Vec<(f64, f64)> =
+        walls.iter().filter(|wall| wall.is_stopped).map(|wall| (wall.tips.0, wall.length)).collect();
+    ends.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let level = ends.chunk_by(|a, b| b.0 - a.0 <= LEVEL);
+    let long = level.filter(|floor| floor.iter().map(|(_, length)| length).sum::<f64>() > length);
+    long.filter_map(|floor| floor.last()).map(|(tip, _)| (*tip, tip + LEAST)).collect()
 }
 
 /// For each sloping triangle of which a corner is touched, lowest and highest tip with which its corners and sides are.

@@ -24,5 +24,5 @@ pub use grid::Grid;
 pub use left_out::left_out;
 pub use levels::{levels, raise_last, with_levels_at, LevelRange};
 pub use reach::selected_range;
-pub use z_level::z_levels;
+pub use z_level::{z_levels, z_levels_beside};
 pub use zig_zag::{zig_zag, Rows};

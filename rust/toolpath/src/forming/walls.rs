@@ -37,6 +37,8 @@ struct Beside {
     stand: Stand,
     /// Lowest and highest tip with which its side touches the wall there, mm.
     tips: [f64; 2],
+    /// Length of the wall in plan that the place stands for, mm.
+    length: f64,
 }
 
 /// A place of a wall that the tool touches.
@@ -44,6 +46,10 @@ pub(super) struct Touched {
     stand: Stand,
     /// Lowest and highest tip with which a triangle of the wall is touched there, mm.
     pub tips: (f64, f64),
+    /// Length of the wall in plan that the place stands for, mm.
+    pub length: f64,
+    /// Whether what lies before the wall keeps the tool from going lower, and not the triangle's lower end.
+    pub is_stopped: bool,
 }
 
 impl Touched {
@@ -94,8 +100,10 @@ pub(super) fn touched(
     let contacts = surface.envelope().contacts(&asked, watch)?;
     let touched = beside.into_iter().zip(&contacts).filter_map(|(beside, contact)| {
         let [lowest, highest] = beside.tips;
-        let lowest = contact.as_ref().map_or(lowest, |contact| lowest.max(contact.tip));
-        (lowest <= highest).then_some(Touched { stand: beside.stand, tips: (lowest, highest) })
+        let floor = contact.as_ref().map_or(f64::NEG_INFINITY, |contact| contact.tip);
+        let Beside { stand, length, .. } = beside;
+        let tips = (lowest.max(floor), highest);
+        (tips.0 <= highest).then_some(Touched { stand, tips, length, is_stopped: floor >= lowest })
     });
     Ok(touched.collect())
 }
@@ -116,7 +124,7 @@ fn places(surface: &Surface<'_>, triangle: usize, spacing: f64) -> Vec<Beside> {
         let [foot, top] = heights(&corners, at)?;
         let wall = mesh.corners(triangle)[0] + along * (at - corners[0][0]);
         let stand = Stand { place: wall - touching, outward, off };
-        Some(Beside { stand, tips: [foot - touching.z, top - touching.z] })
+        Some(Beside { stand, tips: [foot - touching.z, top - touching.z], length: (last - first) / count as f64 })
     });
     beside.collect()
 }

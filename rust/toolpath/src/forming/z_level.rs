@@ -35,6 +35,30 @@ pub fn z_levels(
     Ok(levels?.into_iter().flatten().collect())
 }
 
+/// Passes at all `wanted` heights, of which those at some heights are `known`: only the others are looked for.
+///
+/// # Errors
+/// As [`z_levels`].
+pub fn z_levels_beside(
+    known: (&[f64], Vec<Pass>),
+    surface: &Surface<'_>,
+    grid: &Grid,
+    wanted: &[f64],
+    deviation: f64,
+    watch: &Watch,
+) -> Result<Vec<Pass>, PlanError> {
+    let (heights, passes) = known;
+    let others: Vec<f64> = wanted.iter().copied().filter(|z| !heights.contains(z)).collect();
+    let found = z_levels(surface, grid, &others, deviation, watch)?;
+    let at = |z: f64| wanted.iter().position(|height| height.to_bits() == z.to_bits());
+    let known = passes.into_iter().map(|pass| (at(heights[pass.group]), pass));
+    let found = found.into_iter().map(|pass| (at(others[pass.group]), pass));
+    let mut all: Vec<Pass> =
+        known.chain(found).filter_map(|(group, pass)| Some(Pass { group: group?, ..pass })).collect();
+    all.sort_by_key(|pass| pass.group);
+    Ok(all)
+}
+
 struct Level<'a> {
     grid: &'a Grid,
     bounds: &'a Bounds,

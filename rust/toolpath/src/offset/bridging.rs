@@ -17,6 +17,8 @@ pub struct Stopped {
     pub point: Vector,
     /// Whether the part is more curved there than the tool; else it lies beside something in the way.
     pub is_smooth: bool,
+    /// Area that it stands for, mm^2.
+    pub area: f64,
 }
 
 /// A place that no free position of the tool touches.
@@ -36,7 +38,7 @@ pub struct Bridge {
 pub struct Bridges {
     /// The face.
     pub face: u32,
-    /// Share of the places in corners that no free position touches, 0 to 1.
+    /// Share of the area of the places in corners that no free position touches, 0 to 1.
     pub share_left: f64,
     /// The worst of them.
     pub worst: Option<Bridge>,
@@ -59,6 +61,9 @@ const ALONG_WALL: f64 = 2.5;
 const INSIDE: f64 = 0.02;
 /// Steps of a climb at most: across a face of 200 samples it is one or two dozen.
 const CLIMB: usize = 200;
+/// Positions tried around a point: shares of the tool's radius, the widest first, and directions.
+const RINGS: [f64; 4] = [0.98, 0.75, 0.5, 0.25];
+const DIRECTIONS: u32 = 24;
 /// What a step of a climb gains at least, as a share.
 const GAIN: f64 = 1e-3;
 
@@ -93,9 +98,10 @@ pub fn bridges(
     let mut by_face: BTreeMap<u32, Candidates> = BTreeMap::new();
     for (place, bridge) in places.iter().zip(found?) {
         let of_face = by_face.entry(envelope.mesh().faces()[place.triangle as usize]).or_default();
-        of_face.corners += usize::from(!place.is_smooth);
+        let area = if place.is_smooth { 0.0 } else { place.area };
+        of_face.corners += area;
         if let Some(bridge) = bridge {
-            of_face.left += usize::from(!place.is_smooth);
+            of_face.left += area;
             of_face.worst = of_face.worst.filter(|(_, worst)| worst.excess >= bridge.excess).or(Some((*place, bridge)));
         }
     }
@@ -111,18 +117,19 @@ pub fn bridges(
 /// What a face's places came to.
 #[derive(Default)]
 struct Candidates {
-    corners: usize,
-    left: usize,
+    /// Area in corners, and of it the left, mm^2.
+    corners: f64,
+    left: f64,
     worst: Option<(Stopped, Bridge)>,
 }
 
 impl Candidates {
     /// The share of the corners at which something is left; of none, it is not known that the tool gets there.
     fn share_left(&self) -> f64 {
-        if self.corners == 0 {
-            1.0
+        if self.corners > 0.0 {
+            self.left / self.corners
         } else {
-            self.left as f64 / self.corners as f64
+            1.0
         }
     }
 }
@@ -193,7 +200,27 @@ impl Probe<'_> {
         // the way along a line is quicker found, and no shorter
         let excess = Some(self.nearest(triangle, point)?).filter(|excess| *excess > least)?;
         let excess = excess.min((self.left)(triangle, point, least));
+        let excess = if excess > least { excess.min(self.around(point, least)) } else { excess };
         (excess > least).then(|| Bridge { point, face: mesh.faces()[triangle as usize], excess })
+    }
+
+    /// The least distance from a point to the tool in free positions all around it, mm, or the first that is `enough`: the flat of a
+    /// tool touches a floor from the side on which there is room.
+    fn around(&self, point: Vector, enough: f64) -> f64 {
+        let (reach, mut hint) = (self.envelope.cutter().max_radius(), None);
+        let mut least = f64::INFINITY;
+        for share in RINGS {
+            for number in 0..DIRECTIONS {
+                let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(number) / f64::from(DIRECTIONS));
+                let (x, y) = (point.x + share * reach * cos, point.y + share * reach * sin);
+                let Some(contact) = self.envelope.contact_near(x, y, &mut hint) else { continue };
+                least = least.min(self.envelope.gap(point, x, y, contact.tip));
+                if least <= enough {
+                    return least;
+                }
+            }
+        }
+        least
     }
 
     /// Distance from a point over a triangle to the nearest free position of the tool, along the steepest line there.
