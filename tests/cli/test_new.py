@@ -271,11 +271,46 @@ def test_the_tool_fits_the_fillets(parts, cli):
     document = sc.Job.read(parts / "ribs.toml").document
     (tool,) = document["tools"].values()
     assert tool["profile"] == {**tool["profile"], "kind": "ball", "diameter": 8.0}
-    assert "radius 4.0" in " ".join(ran.json["reasons"])
+    assert "a radius of 4.0" in " ".join(ran.json["reasons"])
     # the upright sides in levels, the rest in rows, no face in both
     named = [operation["faces"] for operation in document["operations"]]
     assert [operation["kind"] for operation in document["operations"]] == ["z-level", "zig-zag"]
     assert not set(named[0]) & set(named[1])
+
+
+def splined(height):
+    """A plate whose outline is one closed spline."""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_MakeFace, BRepBuilderAPI_MakeWire
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
+    from OCP.GeomAPI import GeomAPI_Interpolate
+    from OCP.gp import gp_Pnt, gp_Vec
+    from OCP.TColgp import TColgp_HArray1OfPnt
+
+    angles = np.arange(12) * np.pi / 6.0
+    points = TColgp_HArray1OfPnt(1, len(angles))
+    for number, (angle, radius) in enumerate(zip(angles, 25.0 + 6.0 * np.cos(2.0 * angles), strict=True), start=1):
+        points.SetValue(number, gp_Pnt(float(radius * np.cos(angle)), float(radius * np.sin(angle)), 0.0))
+    curve = GeomAPI_Interpolate(points, True, 1e-9)
+    curve.Perform()
+    wire = BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(curve.Curve()).Edge()).Wire()
+    return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire).Face(), gp_Vec(0.0, 0.0, height)).Shape()
+
+
+def test_a_curved_upright_wall_is_a_wall(parts, cli):
+    """Its triangles lean by their deviation, to either side: it does not look down."""
+    write_step(splined(12.0), parts / "splined.step")
+    ran = cli("new", parts / "splined.step", "--force", "--json")
+    assert ran.code == 0, ran.out
+    assert "cannot be reached" not in " ".join(ran.json["reasons"])
+    document = sc.Job.read(parts / "splined.toml").document
+    (tool,) = document["tools"].values()
+    assert document["setup"]["up"] == "+z" and tool["profile"]["kind"] == "flat"
+    assert [len(operation["faces"]) for operation in document["operations"]] == [1, 1]
+    done = cli("run", parts / "splined.toml", "--json")
+    assert done.code == 0, done.out[-2000:]
+    walls, _ = done.json["summary"]["operations"]
+    assert walls["wall_angle_max_deg"] == pytest.approx(90.0, abs=1e-6)
+    assert walls["reached"][0]["contact"] > 0.99 * sum(v for k, v in walls["reached"][0].items() if k != "face")
 
 
 def is_foot(edge):

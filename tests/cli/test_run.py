@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 import styluscam as sc
+from styluscam.cli.summary import lines_of
 
 from .conftest import CHECKOUT, COARSE_CUP, changed
 
@@ -124,6 +125,21 @@ def test_summary_says_first_what_is_mis_zeroed(coarse, cli):
     assert "X -50.000 to 50.000, Y -50.000 to 50.000, Z -31.000 to -1.000" in lines[3]
     assert "T1 H1: clothoid D10, programmed at its tip" in lines[5]
     assert len(lines) < 26
+
+
+def test_of_many_faces_the_summary_lists_the_worst(coarse):
+    """And how many more; none of those loses more than one that is listed."""
+    run = coarse()
+    job, summary = sc.Job.read(run.job).document, run.ran.json["summary"]
+    operation = summary["operations"][0]
+    sides = {"contact": 9.0, "bridged": 0.0, "rim": 0.0, "undercut": 0.0}
+    faces = [{"face": number, **sides, "interferes": float(number % 10)} for number in range(1, 31)]
+    many = {**summary, "operations": [{**operation, "reached": faces, "bridged": [], "undercut": []}]}
+    rows = [value for name, value in lines_of(many, job) if name == "reached"]
+    assert [row.split(",")[0] for row in rows[:-1]] == [f"Face{n}" for n in (7, 8, 9, 17, 18, 19, 28, 29)]
+    assert rows[-1].startswith("and 19 more faces")
+    few = {**summary, "operations": [{**many["operations"][0], "reached": faces[:9]}]}
+    assert len([name for name, _ in lines_of(few, job) if name == "reached"]) == 9
 
 
 def test_summary_equals_the_header(coarse):

@@ -12,7 +12,7 @@ import pytest
 import styluscam as sc
 from styluscam import library, toolfile
 
-from .conftest import COARSE_CUP, changed
+from .conftest import COARSE_CUP, changed, write_step
 
 SHELF = {
     "schema": 1,
@@ -377,6 +377,18 @@ def test_suggest_says_what_a_zig_zag_leaves(cli: Any, mine: Path, tmp_path: Path
     document = cli("tool", "suggest", job, "--library", mine, "--plan", "0", "--json").json
     assert document["part"]["passes"] == "rows 10 mm apart at 30 deg"
     assert all(tool["bridged"] is None for tool in document["tools"])
+
+
+def test_suggest_passes_over_upright_walls(cli: Any, mine: Path, tmp_path: Path) -> None:
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox
+
+    write_step(BRepPrimAPI_MakeBox(60.0, 40.0, 20.0).Shape(), tmp_path / "box.step")
+    made = cli("new", tmp_path / "box.step", "--force")
+    assert made.code == 0, made.err
+    document = sc.Job.read(tmp_path / "box.toml").document
+    assert [operation["kind"] for operation in document["operations"]] == ["z-level", "zig-zag"]
+    ran = cli("tool", "suggest", tmp_path / "box.toml", "--library", mine, "--plan", "0", "--json")
+    assert ran.code == 0 and ran.json["part"]["passes"].startswith("rows"), ran.err
 
 
 def test_suggest_refuses_a_job_without_walls(cli: Any, mine: Path, tmp_path: Path) -> None:

@@ -7,7 +7,7 @@ mod common;
 use common::plates::{plate, Boss};
 use styluscam_geometry::{Mesh, ProfileDocument, Tool, ToolDocument, Vector};
 use styluscam_motion::Watch;
-use styluscam_toolpath::forming::{left_out, z_levels, Grid};
+use styluscam_toolpath::forming::{left_out, z_levels, z_levels_beside, Grid};
 use styluscam_toolpath::offset::{Envelope, Index};
 use styluscam_toolpath::Surface;
 
@@ -95,6 +95,20 @@ fn a_wall_that_ends_on_a_ledge_has_a_level_there() {
     let bands = bands_without(&mesh, &[6.0, 4.0, 2.0, 0.0]);
     assert!(!bands.is_empty() && bands.iter().all(|band| (band.0 - 3.0).abs() < 0.01 && band.1 < 3.05), "{bands:?}");
     assert!(bands_without(&mesh, &[6.0, 4.0, 3.01, 2.0, 0.0]).is_empty());
+}
+
+#[test]
+fn levels_that_are_added_are_those_of_one_plan() {
+    let boss = |x: f64, height: f64| Boss { centre: [x, 20.0], radius: 4.0, sides: 16, height };
+    let mesh = plate([60.0, 40.0], &[boss(10.0, 0.5), boss(30.0, 0.8), boss(50.0, 3.0)]);
+    let profile = ProfileDocument::Flat { diameter: 3.0, tip_flat: 0.0 };
+    over_walls(&mesh, profile, |surface, grid| {
+        let at = |heights: &[f64]| z_levels(surface, grid, heights, 0.01, &Watch::default()).unwrap();
+        let (known, wanted) = ([2.0, 1.0, 0.3], [2.0, 1.5, 0.6, 0.3, 0.1]);
+        let beside = z_levels_beside((&known, at(&known)), surface, grid, &wanted, 0.01, &Watch::default()).unwrap();
+        assert!(!beside.is_empty());
+        assert_eq!(beside, at(&wanted));
+    });
 }
 
 fn bands_without(mesh: &Mesh, heights: &[f64]) -> Vec<(f64, f64)> {

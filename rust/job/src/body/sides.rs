@@ -12,10 +12,10 @@ pub const SIDES: [UpAxis; 6] =
 const AWAY: f64 = 0.01;
 /// Cosine from which a face at the bottom is the one that the part stands on.
 const FLAT: f64 = 0.999;
-/// Rays start this far off the surface, as a share of the part's size, and mm: triangles of a curved upright wall bulge by their
-/// deviation over those under them.
+/// Rays start this far off the surface, as a share of the part's size.
 const OFF: f64 = 1e-5;
-const BULGE: f64 = 0.01;
+/// And farther, mm and as a share of the size: triangles of a curved upright wall bulge by their deviation over those under them.
+const BULGE: [f64; 2] = [0.06, 2e-3];
 
 /// What a direction shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,6 +52,7 @@ pub fn is_seen(body: &Body<'_>, place: &Sample, up: Vector) -> bool {
     if place.normal.dot(&up) < -AWAY {
         return false;
     }
-    let start = place.point + (OFF * body.size() + BULGE) * place.normal;
+    let off = OFF * body.size() + f64::min(BULGE[0], BULGE[1] * body.size());
+    let start = place.point + off * place.normal;
     body.rays.first(start, up, 0.0, |_| true).is_none()
 }
