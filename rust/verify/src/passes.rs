@@ -360,11 +360,13 @@ impl Look<'_> {
         (lowest..=highest).contains(&self.body.tip(position)[2])
     }
 
-    /// Whether the tool can touch at a spot and a little farther down: where it only does so within [`ROOM`] of an edge
-    /// beside a floor, no pass is wanted; nor where a triangle that the passes are not for keeps it off.
+    /// Whether the tool can touch at a spot and a little farther down: where it only does so within the tolerance to either
+    /// side of an edge, beside a floor or over a rim that stops it, no pass is wanted; nor where a triangle that the passes are
+    /// not for keeps it off.
     fn can_touch(&self, spot: &Spot) -> bool {
         let down = (spot.up * spot.up.z - Vector::z()).try_normalize(LEVEL);
-        let lower = spot.position + down.map_or(Vector::zeros(), |down| 2.0 * ROOM * down);
+        let strip = 2.0 * ROOM.max(self.tolerated());
+        let lower = spot.position + down.map_or(Vector::zeros(), |down| strip * down);
         [spot.position, lower].into_iter().all(|position| self.clearance(position) >= -ROOM)
             && self.rests_on_wanted(spot)
     }

@@ -13,6 +13,11 @@ const ON_SIDE: f64 = 0.25;
 /// Share of an open surface that must look up for the tool to come from there.
 const FACES_TOOL: f64 = 0.5;
 
+/// Share of a face that a tool from above must see for the face to be worth an operation,
+const SEEN: f64 = 0.2;
+/// and the share of it that must look up or stand upright.
+const UPWARD: f64 = 0.05;
+
 /// Thicker sheets are pressed, not formed point by point, mm.
 const THICKEST: f64 = 6.0;
 
@@ -111,7 +116,10 @@ fn open(lying: Turned, sides: &[Side; 6]) -> Choice {
             ];
             form(found, None, reasons)
         }
-        Err(why) => mill(lying, sides, vec![format!("{what}, but {why}: it is milled")]),
+        Err(why) => {
+            let torn = "if it should be a solid, triangles are missing: repair the mesh before you trust this job";
+            mill(lying, sides, vec![format!("{what}, but {why}: it is milled"), torn.to_owned()])
+        }
     }
 }
 
@@ -205,7 +213,9 @@ fn best_side(sides: &[Side; 6]) -> (UpAxis, Option<String>) {
     if best.hidden > 0.5 * above.hidden {
         return (
             above.up,
-            Some(format!("{hidden}, nor from any other side: that takes a second setup, with setup.up")),
+            Some(format!(
+                "{hidden}, and no other side shows much more at once: the rest takes a second job, with another setup.up"
+            )),
         );
     }
     let name = best.up.name();
@@ -229,5 +239,15 @@ fn bounds(mesh: &Mesh) -> [[f64; 3]; 2] {
 
 /// The faces of which a tool from above sees enough to work on.
 pub fn worth(looks: &Hollows) -> impl Iterator<Item = &FaceLook> {
-    looks.faces.iter().filter(|face| face.seen > 0.2 && face.flat + face.gentle + face.steep > 0.05)
+    looks.faces.iter().filter(|face| face.seen > SEEN && is_upward(face))
+}
+
+/// The faces that look up or stand upright, and lie under others.
+pub fn covered(looks: &Hollows) -> impl Iterator<Item = &FaceLook> {
+    looks.faces.iter().filter(|face| face.seen <= SEEN && is_upward(face))
+}
+
+/// Whether more of a face than an edge of it looks up or stands upright.
+fn is_upward(face: &FaceLook) -> bool {
+    face.flat + face.gentle + face.steep > UPWARD
 }

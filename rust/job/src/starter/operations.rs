@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use styluscam_geometry::Mesh;
 use styluscam_verify::ToolReach;
 
-use super::choice::worth;
+use super::choice::{covered, worth};
 use super::sizes::{self, round, Cutter, Shape};
 use crate::body::{Body, FaceLook, Hollows};
 use crate::document::ProcessSection;
@@ -108,6 +108,7 @@ pub fn milling(body: &Body<'_>, looks: &Hollows) -> Milled {
             (milled, left, in_vain) = (smaller, share, 0);
         }
     }
+    milled.reasons.extend(under_others(looks));
     if left > SURE * allowed {
         let limit = (100.0 * (left + (1.0 - SURE) * allowed)).ceil() / 100.0;
         milled.max_unreached = Some(limit).filter(|_| left <= MOST_LEFT);
@@ -222,6 +223,18 @@ impl<'a> ByFace<'a> {
         let radius = 0.5 * milled.tool.diameter;
         self.reach(&milled.tool).map_or(0.0, |reach| reach.share_left(&triangles, PLACES, NO_ROOM * radius))
     }
+}
+
+/// What no tool from above gets to, in words: holes across, undercuts.
+fn under_others(looks: &Hollows) -> Option<String> {
+    let mut faces: Vec<&FaceLook> = covered(looks).collect();
+    faces.sort_by(|a, b| b.area.total_cmp(&a.area).then(a.face.cmp(&b.face)));
+    (!faces.is_empty()).then(|| {
+        format!(
+            "left out, for they lie under other faces: {}; a second job from another side may cut them",
+            names(&faces)
+        )
+    })
 }
 
 /// What is left because the tool's side does not reach down to it, in words.
