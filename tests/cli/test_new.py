@@ -227,6 +227,7 @@ def test_an_open_surface_is_formed_where_a_sheet_can_follow_and_milled_where_not
     assert document["process"]["kind"] == "spif" and "an open surface" in reasons
     document, reasons = made(parts, cli, "hill", mesh_of(lambda x, y: -cup(x, y)))
     assert document["process"]["kind"] == "milling" and "only pushes down" in reasons and "6.0 mm below" in reasons
+    assert "if it should be a solid, triangles are missing" in reasons
 
 
 def test_a_flat_plate_and_one_with_upright_walls_are_no_sheets_to_form(parts, cli):
@@ -311,6 +312,20 @@ def test_a_curved_upright_wall_is_a_wall(parts, cli):
     walls, _ = done.json["summary"]["operations"]
     assert walls["wall_angle_max_deg"] == pytest.approx(90.0, abs=1e-6)
     assert walls["reached"][0]["contact"] > 0.99 * sum(v for k, v in walls["reached"][0].items() if k != "face")
+
+
+def test_a_hole_across_is_named(parts, cli):
+    """No tool from above gets into it: it would be left without a word."""
+    from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox, BRepPrimAPI_MakeCylinder
+    from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
+
+    across = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(30.0, 0.0, 15.0), gp_Dir(0.0, 1.0, 0.0)), 5.0, 40.0).Shape()
+    write_step(BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(60.0, 40.0, 30.0).Shape(), across).Shape(), parts / "across.step")
+    ran = cli("new", parts / "across.step", "--force", "--json")
+    (said,) = [reason for reason in ran.json["reasons"] if "lie under other faces" in reason]
+    (named,) = re.findall(r"Face\d+", said)
+    assert f"#   {named}: cylinder" in (parts / "across.toml").read_text(encoding="utf-8")
 
 
 def is_foot(edge):

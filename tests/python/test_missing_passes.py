@@ -95,3 +95,29 @@ def test_passes_that_were_taken_out_are_found(
     found = {finding["kind"]: finding for finding in sc.verify(text, job).findings}
     assert found[kind]["severity"] == severity
     assert found[kind]["value_mm"] > found[kind]["limit"]
+
+
+def rib(height: float, wall_deg: float) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    """Vertices, triangles and faces of a rib 16 mm wide at its top, along Y on a plate: 2 and 4 are its walls."""
+    foot = 8.0 + height * np.tan(np.radians(90.0 - wall_deg))
+    line = [(-30.0, 0.0), (-foot, 0.0), (-8.0, height), (8.0, height), (foot, 0.0), (30.0, 0.0)]
+    count = len(line)
+    vertices = np.array([(x, y, z) for y in (0.0, 40.0) for x, z in line])
+    triangles = [t for i in range(count - 1) for t in ((i, i + 1, count + i + 1), (i, count + i + 1, count + i))]
+    return vertices, np.array(triangles), np.repeat(np.arange(1, count), 2)
+
+
+@pytest.mark.parametrize("step", [0.7, 0.9, 1.1])
+def test_no_pass_is_wanted_at_the_sharp_upper_edge_of_a_wall(step: float) -> None:
+    """The first level lies one step below the edge, and the tool's height at the edge is known to the tolerance only."""
+    vertices, triangles, faces = rib(10.0, 80.0)
+    document = {
+        "schema": 1,
+        "part": {"file": "rib.stl", "units": "mm", "faces": ["Face2", "Face4"]},
+        "process": {"kind": "milling", "max_unreached": 0.9},
+        "tools": {"ball": {"profile": {"kind": "ball", "diameter": 12.0}}},
+        "operations": [{"tool": "ball", "kind": "z-level", "step": {"height": step}}],
+        "machine": {"name": "linuxcnc"},
+    }
+    job = sc.Job.from_dict(document, part=sc.Part.from_mesh(vertices, triangles, face_ids=faces))
+    assert not sc.verify(sc.post(sc.plan(job)).text, job).findings

@@ -122,7 +122,7 @@ def _said(mending: dict[str, Any], triangles: int) -> tuple[str, ...]:
     elif count:
         notes.append(f"{_many(count, 'triangle')} turned over, of bodies that were wound inward (inside out)")
     if not mending["closed"]:
-        notes.append("the mesh is open: not each edge is shared by two triangles")
+        notes.append("the mesh is open (not each edge is shared by two triangles): repair it if the part is a solid")
     return tuple(notes)
 
 

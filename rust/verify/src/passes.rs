@@ -328,7 +328,8 @@ impl Look<'_> {
         let behind = behind.into_iter().reduce(f64::min);
         match (before, behind) {
             (Some(before), Some(behind)) => behind - before <= APART,
-            (Some(only), None) | (None, Some(only)) => only.abs() <= 1.0,
+            // tips at a face's end are known to within the tolerance
+            (Some(only), None) | (None, Some(only)) => (only.abs() - 1.0) * spacing.pitch() <= ROUGH + self.tolerated(),
             (None, None) => false,
         }
     }
