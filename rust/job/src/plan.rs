@@ -367,7 +367,7 @@ fn reached(scene: &Scene, offset: &OffsetSurface, bridges: &[Bridges]) -> Vec<Re
     faces.collect()
 }
 
-/// What the tool leaves of each face by more than the tolerance: looked for from up to [`BRIDGE_SAMPLES`] of the points of
+/// What the tool leaves of each face by more than the tolerance: looked for from [`stopped_places`] among the points of
 /// each face that the offset says are kept from the tool. A flat tool may touch with its edge what it cannot stand on.
 fn bridges_of(
     scene: &Scene,

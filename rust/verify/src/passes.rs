@@ -42,9 +42,19 @@ pub(crate) const ROUGH: f64 = 0.01;
 /// Where a tool that touches a triangle is in others by less than this, it can get there, mm.
 pub(crate) const ROOM: f64 = 0.005;
 
-/// Parts of the smallest feature in which a face is measured, and how far a face may bend away within one, as a share of it.
+/// Parts of the smallest feature in which a face is measured, and how far a face may bend away within one, as a share of it:
+/// across the passes, and along them, where a pass follows the face round its corners.
 const STEPS: usize = 8;
 const BENT: f64 = 0.2;
+const TURNED: f64 = 1.0;
+/// A way that shrinks to less than this share as it meets a face head-on ends there.
+const HEAD_ON: f64 = 0.1;
+/// What levels miss is worth a word from this share of the step in height on: a wall may be lower than the smallest loop is wide.
+const LOW: f64 = 0.5;
+/// What rows miss is worth a word from this share of the smallest feature on in its narrower direction.
+const NARROW: f64 = 0.2;
+/// Passes lie on a spot's face where the tool touches faces that lean by no more from the spot's, by the angle's cosine.
+const ALIKE: f64 = 0.5;
 
 /// Triangles that a tool enters by less are touched, mm.
 const SAME_TOUCH: f64 = 1e-6;
@@ -272,24 +282,38 @@ impl Look<'_> {
         is_missing.then(|| self.missing_pass(&spot, last.as_ref(), left, allowed)).flatten()
     }
 
-    /// Whether the tool can touch around a spot as far as the smallest feature is wide, along the pass and across.
+    /// Whether the tool can touch around a spot as far as the smallest feature is: for levels along the pass, and across it over
+    /// half a step; for rows as far in one direction, and a little in the other.
     fn holds_feature(&self, spot: &Spot) -> bool {
-        let across = self.passes.spacing.along(spot.up).map_or(Vector::z(), |step| step.normalize());
-        let shortest = self.passes.smallest_feature;
-        [across, spot.up.cross(&across)].into_iter().all(|axis| {
-            let reach: usize = [axis, -axis].into_iter().map(|way| self.steps_that_touch(spot, shortest * way)).sum();
-            reach >= STEPS
-        })
+        let step = self.passes.spacing.along(spot.up).unwrap_or(self.passes.spacing.pitch() * Vector::z());
+        let (across, feature) = (step.normalize(), self.passes.smallest_feature);
+        let reaches_across = |length: f64| self.reaches(spot, across, length, BENT);
+        let reaches_along = |length: f64| self.reaches(spot, spot.up.cross(&across), length, TURNED);
+        match self.passes.spacing {
+            Spacing::Levels(_) => reaches_across(feature.min(LOW * step.norm())) && reaches_along(feature),
+            Spacing::Rows(..) => {
+                let narrow = NARROW * feature;
+                reaches_across(narrow) && reaches_along(narrow) && (reaches_across(feature) || reaches_along(feature))
+            }
+        }
     }
 
-    /// How many of [`STEPS`] equal parts of a way off a spot the tool can go, touching what the passes are for all the way.
-    fn steps_that_touch(&self, spot: &Spot, way: Vector) -> usize {
+    /// Whether the tool can go `length` mm both ways together along an axis from a spot, touching what the passes are for.
+    fn reaches(&self, spot: &Spot, axis: Vector, length: f64, bend: f64) -> bool {
+        let parts: usize = [axis, -axis].into_iter().map(|way| self.steps_that_touch(spot, length * way, bend)).sum();
+        parts >= STEPS
+    }
+
+    /// How many of [`STEPS`] equal parts of a way off a spot the tool can go, touching what the passes are for all the way, which
+    /// bends away by no more than a share of a part within it.
+    fn steps_that_touch(&self, spot: &Spot, way: Vector, bend: f64) -> usize {
         let step = way.norm() / STEPS as f64;
         let (mut position, mut way) = (spot.position, way.normalize());
         for taken in 0..STEPS {
-            let Some((there, across)) = self.brought_to_touch(position + step * way, BENT * step) else { return taken };
+            let Some((there, across)) = self.brought_to_touch(position + step * way, bend * step) else { return taken };
             position = there;
-            way = (way - way.dot(&across) * across).normalize();
+            let Some(on) = (way - way.dot(&across) * across).try_normalize(HEAD_ON) else { return taken };
+            way = on;
         }
         STEPS
     }
@@ -301,7 +325,7 @@ impl Look<'_> {
         for _ in 0..LIFTS {
             let touch = self.touch(there)?;
             if touch.value.abs() <= ROOM {
-                return self.passes.wanted[touch.triangle as usize].then_some((there, touch.away));
+                return self.is_wanted(touch.triangle).then_some((there, touch.away));
             }
             there += touch.value * touch.away;
             if (there - position).norm() > most {
@@ -319,8 +343,9 @@ impl Look<'_> {
         let value = spacing.value(spot.tip.into());
         let beside = sweeps.near(spot.position, AROUND * length).filter_map(|sweep| {
             let place = sweep.nearest(spot.position);
-            let aside = [along, spot.up].map(|axis| (place - spot.position).dot(&axis).abs());
-            let runs_by = aside.into_iter().all(|aside| aside <= RUNS_BY * length);
+            let [aside, off] = [along, spot.up].map(|axis| (place - spot.position).dot(&axis).abs());
+            let is_near = aside.max(off) <= RUNS_BY * length;
+            let runs_by = is_near && (off <= ROUGH + self.tolerated() || self.touches_alike(place, spot.up));
             runs_by.then(|| (spacing.value(self.body.tip(place).into()) - value) / spacing.pitch())
         });
         let (before, behind): (Vec<f64>, Vec<f64>) = beside.partition(|steps| *steps < 0.0);
@@ -332,6 +357,11 @@ impl Look<'_> {
             (Some(only), None) | (None, Some(only)) => (only.abs() - 1.0) * spacing.pitch() <= ROUGH + self.tolerated(),
             (None, None) => false,
         }
+    }
+
+    /// Whether what the tool touches at a place, if anything, leans as a face does: not the opposite wall, nor the land above.
+    fn touches_alike(&self, position: Vector, up: Vector) -> bool {
+        self.touch(position).is_some_and(|touch| -touch.away.dot(&up) >= ALIKE)
     }
 
     /// The fault of a place at which more is left than allowed; it belongs to the move beside it.
@@ -376,12 +406,14 @@ impl Look<'_> {
     /// be, because there passes are planned.
     fn rests_on_wanted(&self, spot: &Spot) -> bool {
         let off = self.tolerated();
-        let Some(aside) = self.passes.spacing.aside(spot.up) else { return true };
-        let mut position = spot.position + off * aside;
+        let aside = self.passes.spacing.aside(spot.up).map(|aside| off * aside);
+        // on a gentle slope that is far off, and says nothing about the spot
+        let Some(aside) = aside.filter(|aside| aside.norm() <= self.body.radius()) else { return true };
+        let mut position = spot.position + aside;
         let mut rests_on_wanted = true;
         for _ in 0..LIFTS {
             let Some(touch) = self.touch(position).filter(|touch| touch.value < off - SAME_TOUCH) else { break };
-            rests_on_wanted = self.passes.wanted[touch.triangle as usize];
+            rests_on_wanted = self.is_wanted(touch.triangle);
             if -touch.away.z < LEVEL {
                 // no height clears an upright wall
                 break;
@@ -389,6 +421,10 @@ impl Look<'_> {
             position.z += (off - touch.value) / -touch.away.z;
         }
         rests_on_wanted
+    }
+
+    fn is_wanted(&self, triangle: u32) -> bool {
+        self.passes.wanted.get(triangle as usize) == Some(&true)
     }
 
     fn clearance(&self, position: Vector) -> f64 {

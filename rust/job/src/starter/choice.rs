@@ -78,7 +78,7 @@ pub fn choose(part: &StarterPart<'_>) -> Choice {
         (Shell::Closed | Shell::Torn, Some(thickness)) if thickness.is_sheet() => sheet(lying, &thickness, &sides),
         (Shell::Closed | Shell::Torn, Some(thickness)) => mill(lying, &sides, vec![solid(&thickness)]),
         (Shell::Closed | Shell::Torn, None) => {
-            mill(lying, &sides, vec!["the part is a closed solid: it is milled".to_owned()])
+            mill(lying, &sides, vec!["the part is a solid: it is milled".to_owned()])
         }
         (Shell::InsideOut, _) => mill(
             lying,
@@ -91,7 +91,7 @@ pub fn choose(part: &StarterPart<'_>) -> Choice {
         }
     };
     if shell == Shell::Torn {
-        choice.reasons.push("the part's surface has holes: repair the mesh before you trust this job".to_owned());
+        choice.reasons.push("the part's surface has holes: repair it before you trust this job".to_owned());
     }
     choice
 }
@@ -117,7 +117,7 @@ fn open(lying: Turned, sides: &[Side; 6]) -> Choice {
             form(found, None, reasons)
         }
         Err(why) => {
-            let torn = "if it should be a solid, triangles are missing: repair the mesh before you trust this job";
+            let torn = "if it should be a solid, faces or triangles are missing: repair it before you trust this job";
             mill(lying, sides, vec![format!("{what}, but {why}: it is milled"), torn.to_owned()])
         }
     }
@@ -204,21 +204,20 @@ fn best_side(sides: &[Side; 6]) -> (UpAxis, Option<String>) {
     let [above, ..] = sides;
     let cost = |side: &Side| side.hidden + if is_upright(side.up) { 0.0 } else { 0.5 * HIDDEN };
     let best = sides.iter().min_by(|a, b| cost(a).total_cmp(&cost(b))).unwrap_or(above);
-    let [percent, other] = [above, best].map(|side| format!("{:.0} %", 100.0 * side.hidden));
+    let [percent, other] = [above, best].map(|side| sizes::percent(side.hidden));
     if above.hidden <= HIDDEN {
         return (above.up, None);
     }
     let hidden =
         format!("{percent} of the surface cannot be reached from above (it looks down, or lies under the rest)");
-    if best.hidden > 0.5 * above.hidden {
-        return (
-            above.up,
-            Some(format!(
-                "{hidden}, and no other side shows much more at once: the rest takes a second job, with another setup.up"
-            )),
-        );
-    }
     let name = best.up.name();
+    if best.up == above.up {
+        return (above.up, Some(format!("{hidden}, and no other side hides less: what is left may take a second job")));
+    }
+    if best.hidden > 0.5 * above.hidden {
+        let words = format!("{hidden}, {other} from {name}: what is left may take a second job with another setup.up");
+        return (above.up, Some(words));
+    }
     if !is_upright(best.up) && above.hidden <= ON_SIDE {
         let words = format!("{hidden}; from {name} it would be {other}: setup.up = \"{name}\" mills that side");
         return (above.up, Some(words));

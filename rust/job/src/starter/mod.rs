@@ -8,7 +8,7 @@ use std::path::Path;
 
 use styluscam_geometry::Mesh;
 
-use crate::OperationKind;
+use crate::{OperationKind, UpAxis};
 use choice::{choose, Choice};
 use operations::Work;
 pub use sizes::fitting_radius;
@@ -57,7 +57,7 @@ pub struct StarterFace {
     pub kind: String,
     /// Area, mm^2.
     pub area: f64,
-    /// Smallest and largest slope, degrees.
+    /// Smallest and largest slope with the file's +Z up, degrees.
     pub slope_deg: [f64; 2],
 }
 
@@ -137,7 +137,7 @@ program = {program}
         reasons = choice.reasons.iter().map(|reason| wrapped(reason)).collect::<String>(),
         title = quoted(&stem),
         file = quoted(part.file),
-        faces = listed(part.faces),
+        faces = listed(&lying(part, choice.up)),
         model_face = model_face(choice),
         setup = setup(choice),
         process = process(choice),
@@ -299,6 +299,23 @@ fn wrapped(reason: &str) -> String {
         }
     }
     lines.join("\n") + "\n"
+}
+
+/// The faces as they slope with the tool's side up.
+fn lying(part: &StarterPart<'_>, up: UpAxis) -> Vec<StarterFace> {
+    let mut faces = part.faces.to_vec();
+    if up == UpAxis::PlusZ {
+        return faces;
+    }
+    faces.iter_mut().for_each(|face| face.slope_deg = [180.0, 0.0]);
+    for (triangle, number) in part.mesh.faces().iter().enumerate() {
+        let Some(face) = faces.get_mut((*number as usize).wrapping_sub(1)) else { continue };
+        for normal in part.mesh.corner_normals(triangle) {
+            let slope = libm::acos(normal.dot(&up.vector()).clamp(-1.0, 1.0)).to_degrees();
+            face.slope_deg = [face.slope_deg[0].min(slope), face.slope_deg[1].max(slope)];
+        }
+    }
+    faces
 }
 
 fn listed(faces: &[StarterFace]) -> String {

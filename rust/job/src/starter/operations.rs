@@ -78,6 +78,17 @@ pub struct Milled {
     pub max_unreached: Option<f64>,
 }
 
+impl Milled {
+    /// How a sentence begins about faces that no operation names: rows over the whole part leave out none by name.
+    fn left_out(&self) -> &'static str {
+        if self.works.iter().all(|work| work.faces.is_some()) {
+            "left out: "
+        } else {
+            ""
+        }
+    }
+}
+
 /// Levels over all that looks up.
 pub fn forming(mesh: &Mesh, looks: &Hollows, tool: &Cutter) -> Work {
     let faces: Vec<&FaceLook> = worth(looks).collect();
@@ -108,16 +119,20 @@ pub fn milling(body: &Body<'_>, looks: &Hollows) -> Milled {
             (milled, left, in_vain) = (smaller, share, 0);
         }
     }
-    milled.reasons.extend(under_others(looks));
+    let prefix = milled.left_out();
+    milled.reasons.extend(under_others(looks).map(|words| format!("{prefix}{words}")));
     if left > SURE * allowed {
         let limit = (100.0 * (left + (1.0 - SURE) * allowed)).ceil() / 100.0;
         milled.max_unreached = Some(limit).filter(|_| left <= MOST_LEFT);
-        let passes =
-            if left <= MOST_LEFT { format!("max_unreached = {limit} lets that pass; ") } else { String::new() };
+        let passes = if left <= MOST_LEFT {
+            format!("max_unreached = {limit} lets that pass")
+        } else {
+            "`styluscam run` refuses the job as it stands".to_owned()
+        };
         milled.reasons.push(format!(
-            "the tool does not get to {:.0} % of these faces, which lie under others or between walls: {passes}leave faces \
-             out, or cut them from another side",
-            100.0 * left
+            "the tool does not get to {} of these faces, which lie under others or between walls: {passes}; leave faces out, or \
+             cut them from another side",
+            sizes::percent(left)
         ));
     }
     milled
@@ -128,7 +143,7 @@ fn worked(by_face: &ByFace<'_>, seen: &[&FaceLook], tool: Cutter, words: String)
     let mesh = by_face.body.mesh();
     let whole = area(seen);
     let (walls, floors): (Vec<&FaceLook>, Vec<&FaceLook>) = seen.iter().partition(|face| is_wall(face));
-    let mut reasons = vec![words];
+    let reasons = vec![words];
     let fits = |face: &&FaceLook| Hollows::bound([*face], 0.5).is_none_or(|radius| 2.02 * radius >= tool.diameter);
     // of more walls than an operation names it is not asked: nearly always rows serve the whole part then
     let asks_reach = tool.shape == Shape::Ball && walls.len() <= NAMES;
@@ -136,9 +151,8 @@ fn worked(by_face: &ByFace<'_>, seen: &[&FaceLook], tool: Cutter, words: String)
     let (open, narrow): (Vec<&FaceLook>, Vec<&FaceLook>) = walls.into_iter().partition(|face| fits(face));
     let (open, low): (Vec<&FaceLook>, Vec<&FaceLook>) =
         open.into_iter().partition(|face| face.vertical < PRISMATIC || by_face.is_touched(face, &tool, reach.as_ref()));
-    reasons.extend(left(&narrow, &tool));
-    reasons.extend(untouched(&low, &tool));
-    let with_levels = area(&open) >= WORTH * whole && floors.len().max(open.len()) <= NAMES;
+    let few = floors.len().max(open.len()) <= NAMES;
+    let with_levels = area(&open) >= WORTH * whole && few;
     let with_rows = area(&floors) >= WORTH * whole || !with_levels;
     let angle_deg = if size(mesh)[0] >= size(mesh)[1] { 0.0 } else { 90.0 };
     let rows =
@@ -157,11 +171,19 @@ fn worked(by_face: &ByFace<'_>, seen: &[&FaceLook], tool: Cutter, words: String)
             "levels for the walls, rows for floors and gentle slopes: each face in one of the two",
         ),
         (true, false) => (vec![levels(numbers(&open))], "levels: all that is worth cutting is walls"),
+        (false, _) if !few => (vec![rows(None)], "rows over the whole part: it has too many faces to name them"),
+        (false, _) if !open.is_empty() || !narrow.is_empty() || !low.is_empty() => {
+            (vec![rows(None)], "rows over the whole part: too little of its walls is for levels")
+        }
         (false, _) => (vec![rows(None)], "rows: they serve floors and slopes; no face is all wall"),
     };
-    reasons.push(words.to_owned());
-    reasons.push("these are finishing passes: the stock is to be roughed before".to_owned());
-    Milled { works, tool, reasons, max_unreached: None }
+    let mut milled = Milled { works, tool, reasons, max_unreached: None };
+    let missed = left(&narrow, &tool).into_iter().chain(untouched(&low, &tool));
+    let prefix = milled.left_out();
+    milled.reasons.extend(missed.map(|words| format!("{prefix}{words}")));
+    milled.reasons.push(words.to_owned());
+    milled.reasons.push("these are finishing passes: the stock is to be roughed before".to_owned());
+    milled
 }
 
 /// A body's triangles by face.
@@ -231,7 +253,7 @@ fn under_others(looks: &Hollows) -> Option<String> {
     faces.sort_by(|a, b| b.area.total_cmp(&a.area).then(a.face.cmp(&b.face)));
     (!faces.is_empty()).then(|| {
         format!(
-            "left out, for they lie under other faces: {}; a second job from another side may cut them",
+            "no tool from above gets to what lies under other faces: {}; a second job from another side may",
             names(&faces)
         )
     })
@@ -246,8 +268,7 @@ fn untouched(low: &[&FaceLook], tool: &Cutter) -> Option<String> {
     };
     (!low.is_empty()).then(|| {
         format!(
-            "left out, for the tool of {diameter} mm does not touch them over the floor before them, or beside other walls: \
-             {}; {other} may",
+            "the tool of {diameter} mm does not touch these over the floor before them, or beside other walls: {}; {other} may",
             names(low)
         )
     })
@@ -271,8 +292,7 @@ fn left(narrow: &[&FaceLook], tool: &Cutter) -> Option<String> {
         said.push(format!("{} {are} narrower than the tool and for a smaller one", names(&slots)));
     }
     let diameter = tool.diameter;
-    (!said.is_empty())
-        .then(|| format!("left out, for the tool of {diameter} mm has too little room in them: {}", said.join("; ")))
+    (!said.is_empty()).then(|| format!("the tool of {diameter} mm has too little room in these: {}", said.join("; ")))
 }
 
 /// Some of the names, and how many more there are.

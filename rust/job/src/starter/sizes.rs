@@ -17,8 +17,6 @@ const HALF: f64 = 0.5;
 const THINNEST: f64 = 0.02;
 /// Share of the area that may be narrower than the tool: the places that a shop leaves for a second tool.
 const LEFT: f64 = 0.02;
-/// The same in words.
-const PERCENT: &str = "2 %";
 /// The tool may be this much wider than what bounds it: what triangles know of a radius.
 const SLACK: f64 = 1.01;
 
@@ -98,12 +96,12 @@ fn fitting(mesh: &Mesh, bound: Option<f64>, widest: f64, least: f64) -> (f64, St
     let widest = at_most(widest).max(at_most(thinnest(mesh)));
     let thinnest = f64::max(thinnest(mesh), least);
     let Some(radius) = bound.filter(|radius| 2.0 * SLACK * radius < widest) else {
-        return (widest, format!("the tool, {widest} mm wide, follows from the part's size: nothing narrow bounds it, but for {PERCENT} of the area at most"));
+        return (widest, format!("the tool, {widest} mm wide, follows from the part's size: nothing narrow bounds it, but for {} of the area at most", percent(LEFT)));
     };
     let fits = at_most(2.0 * SLACK * radius);
     let wide = DIAMETERS.into_iter().rev().find(|d| *d >= thinnest).unwrap_or(widest).min(widest);
     if fits >= wide {
-        let words = format!("the tool, {fits} mm wide, fits the narrowest places, but for {PERCENT} of the area: a radius of {radius:.2} mm has room there");
+        let words = format!("the tool, {fits} mm wide, fits the narrowest places, but for {} of the area: a radius of {radius:.2} mm has room there", percent(LEFT));
         return (fits, words);
     }
     let words = format!(
@@ -111,6 +109,11 @@ fn fitting(mesh: &Mesh, bound: Option<f64>, widest: f64, least: f64) -> (f64, St
          that makes sense for its size and leaves something there"
     );
     (wide, words)
+}
+
+/// A share as people say it.
+pub fn percent(share: f64) -> String {
+    format!("{:.0} %", 100.0 * share)
 }
 
 /// A length as a person measures it: to 0.01 mm, thin ones to 0.001 mm.

@@ -28,8 +28,8 @@ pub(super) struct Pattern {
 /// A place as it lies along and across the rows, in units of the lattice.
 type Cell = [i64; 2];
 
-/// Rows, by their places across the others, for the places of the selection that the tool can touch, but which have no pass
-/// within a stepover in plan and lie in a connected region of triangles that no pass touches.
+/// Rows, by their places across the others, for the places of the selection that the tool can touch, and which have no pass
+/// within a stepover in plan, or lie in a connected region of triangles that no pass touches.
 ///
 /// What is neither as wide nor as long as `least` mm may be passed over.
 ///

@@ -21,8 +21,11 @@ pub fn bridged(chain: Chain, longest: f64, deviation: f64, course: &mut impl Cou
     while let Some((first, behind)) = rest.split_first() {
         bridged.push(*first);
         rest = behind;
+        if !first.selected {
+            continue;
+        }
         let gap = behind.iter().take_while(|point| !point.selected).count();
-        if !first.selected || gap == 0 || gap == behind.len() {
+        if gap == 0 || gap == behind.len() {
             continue;
         }
         let stretch: Vec<PathPoint> = std::iter::once(first).chain(&behind[..=gap]).copied().collect();

@@ -22,7 +22,7 @@ type Touched = (usize, (f64, f64));
 
 /// Bands of heights, lowest and highest tip in mm, that hold none of `heights`, the levels: those in which the tool touches a
 /// place of a selected upright wall, and those in which it touches a connected region of selected slopes that no pass touches;
-/// and where a selected upright wall ends on a level floor, what it is touched over there ([`feet`]).
+/// and where a selected upright wall ends on what is in front of it, what it is touched over there ([`feet`]).
 ///
 /// Walls are looked at in places `spacing` mm apart, slopes at the corners of their facets and along their sides as far
 /// as they are touched. Slopes beside some that a pass touches have their levels, a step apart.
@@ -47,7 +47,9 @@ pub fn left_out(
     let holds_none = |(low, high): &(f64, f64)| !heights.iter().any(|z| (low..=high).contains(&z));
     let is_left = |tips: &(f64, f64)| tips.1 - tips.0 >= LEAST && holds_none(tips);
     let walls = walls::touched(surface, &upright, spacing, ("walls between levels", watch))?;
-    let feet = feet(&walls, surface.envelope().cutter().max_radius()).into_iter().filter(holds_none);
+    // round the smallest loop that is sure to be found
+    let length = std::f64::consts::PI * std::f64::consts::SQRT_2 * spacing;
+    let feet = feet(&walls, length).into_iter().filter(holds_none);
     let of_walls: Vec<(f64, f64)> = walls
         .par_iter()
         .filter(|wall| holds_none(&wall.tips))
@@ -62,7 +64,7 @@ pub fn left_out(
     Ok(of_walls.into_iter().chain(of_slopes.filter(is_left)).chain(feet).collect())
 }
 
-/// Where upright walls end on a level floor over more than `length` mm: the lowest tip with which they are touched there, and
+/// Where upright walls end on a floor, or on whatever is in front of them at one height, over more than `length` mm: the lowest tip with which they are touched there, and
 /// what needs no level over it. The last level over it would leave a strip of the wall up to a step high.
 fn feet(walls: &[walls::Touched], length: f64) -> Vec<(f64, f64)> {
     let mut ends: Vec<(f64, f64)> =

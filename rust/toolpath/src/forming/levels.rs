@@ -10,6 +10,8 @@ const SHORT: f64 = 0.25;
 /// Where the last level has no pass, how far over it the next attempt is, in steps.
 const OVER_LAST: f64 = 0.2;
 const _: () = assert!(OVER_LAST < SHORT);
+/// Most that the lowest level over a tip lies above it, in units of the machine's last place.
+const MOST_ABOVE: f64 = 1.26;
 
 /// Where levels begin and end, mm: the first one is a step below the top.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,15 +81,17 @@ pub fn with_levels_at(heights: &[f64], bands: &[(f64, f64)], range: &LevelRange,
     let mut all = heights.to_vec();
     for (low, high) in bands {
         let (low, high) = (low.max(range.bottom), high.min(range.top));
-        if all.iter().any(|z| (low..=high).contains(z)) {
+        let is_outside = low > high;
+        // no level lies finer than the machine's unit
+        let high = high.max(low + MOST_ABOVE * range.resolution);
+        if is_outside || all.iter().any(|z| (low..=high).contains(z)) {
             continue;
         }
         let below = all.iter().copied().filter(|z| *z < low).fold(f64::NEG_INFINITY, f64::max);
         let aside = range.above(below + SHORT * range.step);
         let level = range.stood(aside.min(range.above(0.5 * (low + high))).max(range.above(low)), floors);
-        if level <= high {
-            all.push(level);
-        }
+        let lowest = || range.stood(range.above(low), floors);
+        all.extend([level].into_iter().chain(std::iter::once_with(lowest)).find(|level| *level <= high));
     }
     all.sort_by(|a, b| b.total_cmp(a));
     all.dedup();
@@ -151,6 +155,15 @@ mod tests {
         let expected = [-0.5, -0.874, -1.0, -1.299, -1.5, -2.0];
         let found = with(&[(-0.95, -0.6), (-0.9, -0.7), (-1.3, -1.2)]).unwrap();
         assert!(found.len() == 6 && found.iter().zip(expected).all(|(z, e)| (z - e).abs() < 1e-9), "{found:?}");
+    }
+
+    #[test]
+    fn a_band_thinner_than_the_machines_unit_gets_the_level_over_it() {
+        for (resolution, low) in [(0.01, -1.997), (0.0254, -1.99), (0.0254, -1.98), (0.1, -1.97)] {
+            let range = LevelRange { top: 0.0, bottom: -9.0, reachable: -9.0, step: 2.0, resolution };
+            let found = with_levels_at(&[-1.0, -3.0], &[(low, low + 0.02)], &range, &Floors::default()).unwrap();
+            assert!(found.len() == 3 && (low..low + 1.26 * resolution).contains(&found[1]), "{found:?}");
+        }
     }
 
     #[test]
