@@ -27,7 +27,7 @@ A_FILE = "the name of a file (str or Path)"
 ENDING = re.compile(r"[^;(%].*\.[A-Za-z]{1,8}[0-9]?")
 """A line that ends as file names do."""
 
-WORDS = re.compile(r"([A-Za-z]\s*[-+]?(\d+\.?\d*|\.\d+)\s*)+")
+WORDS = re.compile(r"([A-Za-z]\s*[-+]?(\d+(\.\d*)?|\.\d+)\s*)+")
 """A line of nothing but G-code words: `G0 X1.Y2` ends as a file name does, and is none."""
 
 SHOWN = 40

@@ -44,7 +44,7 @@ class Estimate:
         key, value = self.pitch
         return (
             f"{self.id}: about {self.length / 1000.0:,.0f} m of path and {self.points:,.0f} moves, planned in about "
-            f"{self.seconds / 60.0:,.0f} min. {key} = {2.0 * value:g} (now {value:g}) halves that; "
+            f"{self.seconds / 60.0:,.0f} min. A {key} of {2.0 * value:g} mm (now {value:g} mm) halves that; "
             "a larger smallest_feature, a looser tolerance or fewer faces shorten it too"
         )
 

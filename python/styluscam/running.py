@@ -62,7 +62,7 @@ def run(
     report: FileName | None = None,
     also: Sequence[FileName] = (),
 ) -> RunResult:
-    """Plans a job (object, dict or file), posts it, reads the text back, judges it, and writes it only if nothing was found.
+    """Plans a job (object, dict or file), posts it, reads the text back, judges it, and writes it only if no error was found.
 
     A program that another job wrote, or no job at all, is not replaced without ``force``; one of this job is. ``report``
     names the page to be written, the job's own when left out: whatever was found. ``also`` names files that the caller

@@ -477,7 +477,7 @@ def _notes(asked: list[_Asked], job: Job) -> tuple[str, ...]:
             said.append(f"{name}{walls.crease_mm:.0f} mm of sharp concave edges: every tool leaves something in them")
     left_out = [name for name in _names(job.document) if name not in {each.name for each in asked}]
     if left_out:
-        said.append(f"without walls, and not counted: {', '.join(left_out)}")
+        said.append(f"upright walls or floors alone, where tools do not differ: {', '.join(left_out)}")
     tools = {operation["tool"] for operation in job.document["operations"]}
     if len(tools) > 1:
         said.append(f"each tool is asked to do the work of {len(tools)}: --operation ranks for one operation")

@@ -37,6 +37,8 @@ REASONS = {
 """What a refusal's sentence says where it is of a kind."""
 CLASSES = re.compile(r"\b[A-Z]\w*(Error|Exception)\b|Traceback|Standard_|StdFail")
 TOLD = re.compile(r"[:;,] \S+")
+ACCEPTED = {"wall-angle"}
+"""Warnings that are true of some parts: sheets steeper than any material is sure to bear."""
 FEW = 10
 IN_PIECES = 0.05
 """Lifts for nothing that are many: more than these, and more than this share of all cuts."""
@@ -153,6 +155,8 @@ def unexpected(row: Outcome, expect: list[str]) -> str:
     if row.outcome in ("crash", "timeout", "findings", "gouge", "misplaced"):
         return f"{row.outcome}, expected {wanted}"
     if row.outcome == "done":
+        if warned := sorted(set(row.kinds) - ACCEPTED):
+            return f"done with a warning of {', '.join(warned)}"
         return "" if "done" in expect else f"done, expected {wanted}"
     if CLASSES.search(row.detail):
         return "the sentence names a class"

@@ -43,4 +43,4 @@ def test_what_takes_long_is_said_with_what_shortens_it(tmp_path: Path) -> None:
     job = sc.Job.from_dict(milling_document("zig-zag", BALL, stepover=0.01), part=part)
     (sentence,) = too_long(job)
     assert "zig-zag-1: about" in sentence
-    assert "stepover = 0.02 (now 0.01) halves that" in sentence
+    assert "A stepover of 0.02 mm (now 0.01 mm) halves that" in sentence

@@ -121,3 +121,49 @@ def test_no_pass_is_wanted_at_the_sharp_upper_edge_of_a_wall(step: float) -> Non
     }
     job = sc.Job.from_dict(document, part=sc.Part.from_mesh(vertices, triangles, face_ids=faces))
     assert not sc.verify(sc.post(sc.plan(job)).text, job).findings
+
+
+def levels_job(
+    mesh: tuple[npt.NDArray[np.float64], ...], faces: list[str], step: float, feature: float, kind: str
+) -> sc.Job:
+    """Levels with a tool of 6 mm over some faces of vertices, triangles and faces."""
+    vertices, triangles, numbers = mesh
+    document = {
+        "schema": 1,
+        "part": {"file": "made.stl", "units": "mm", "faces": faces},
+        "process": {"kind": "milling", "max_unreached": 0.99},
+        "tools": {"cutter": {"profile": {"kind": kind, "diameter": 6.0}}},
+        "operations": [
+            {"tool": "cutter", "kind": "z-level", "step": {"height": step}, "smallest_feature": feature},
+        ],
+        "machine": {"name": "linuxcnc"},
+    }
+    return sc.Job.from_dict(document, part=sc.Part.from_mesh(vertices, triangles, face_ids=numbers))
+
+
+def test_levels_of_a_wall_lower_than_the_smallest_feature_are_asked_for() -> None:
+    """How wide the smallest loop is says nothing about how high a wall is."""
+    vertices, triangles = turned([(0.01, 0.9), (10.0, 0.9), (10.0, 0.0), (30.0, 0.0)], sides=4)
+    job = levels_job((vertices, triangles, np.repeat([1, 2, 3], 8)), ["Face2"], 0.1, 1.0, "flat")
+    text = sc.post(sc.plan(job)).text
+    assert not sc.verify(text, job).findings
+    cut, left = without(text, "missing-level", -1.0, 0.75)
+    found = {(finding["kind"], finding["severity"]) for finding in sc.verify(cut, job).findings}
+    assert left and ("missing-level", "error") in found
+
+
+@pytest.mark.parametrize("width", [6.2, 6.3])
+def test_passes_along_the_opposite_wall_of_a_slot_serve_their_own_wall(width: float) -> None:
+    """A slot little wider than the ball, cut along one of its walls: what stays on the other one is found."""
+    rings = [(20.0, 40.0, 0.0), (0.5 * width, 20.0, 0.0), (0.5 * width, 20.0, -10.0)]
+    vertices = np.array([(sx * x, sy * y, z) for x, y, z in rings for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
+    around = [(i, (i + 1) % 4) for i in range(4)]
+    sides = [(up + i, up + j, up + 4 + j, up + 4 + i) for up in (0, 4) for i, j in around]
+    quads = [*sides, (8, 9, 10, 11)]
+    triangles = np.array([half for a, b, c, d in quads for half in ((a, b, c), (a, c, d))])
+    faces = np.repeat([1, 1, 1, 1, 2, 3, 4, 5, 6], 2)
+    job = levels_job((vertices, triangles, faces), ["Face3", "Face5"], 1.0, 0.3, "ball")
+    text = sc.post(sc.plan(job)).text
+    assert not sc.verify(text, job).findings
+    one_wall = sc.verify(text.replace("X-0.", "X0."), job).findings
+    assert len([finding for finding in one_wall if finding["kind"] == "missing-pass"]) >= 4

@@ -13,7 +13,7 @@ import typer
 from styluscam.errors import StylusError
 
 FOUND, INPUT, CANCELLED, FAULT, INTERRUPTED = 1, 2, 3, 4, 130
-"""Exit codes besides 0: verification found something; wrong input; cancelled; a fault of ours; Ctrl-C."""
+"""Exit codes besides 0: the judge found an error; wrong input; cancelled; a fault of ours; Ctrl-C."""
 
 USAGE_ERROR: type[Exception] = typer.BadParameter.__bases__[0]
 """What typer raises for a command line that it cannot use; it is click's, or typer's own copy of it."""
@@ -21,7 +21,21 @@ USAGE_ERROR: type[Exception] = typer.BadParameter.__bases__[0]
 REPORT = "please report this, with --debug, at https://github.com/styluscam/styluscam/issues"
 
 
-_IN_DOCUMENT = ("schema", "title", "part", "setup", "process", "tools", "operations", "machine", "output", "line", "")
+_IN_DOCUMENT = (
+    "schema",
+    "title",
+    "part",
+    "setup",
+    "process",
+    "tools",
+    "operations",
+    "machine",
+    "output",
+    "units",
+    "accept",
+    "line",
+    "",
+)
 
 
 class JobFailedError(Exception):

@@ -15,7 +15,7 @@ from styluscam.job import Job
 from styluscam.types import Document
 
 Despite = Annotated[
-    bool, typer.Option("--write-despite-findings", help="Write the files even where verification found something.")
+    bool, typer.Option("--write-despite-findings", help="Write the files even where the judge found errors.")
 ]
 
 
@@ -32,7 +32,7 @@ def run(
 ) -> int:
     """Plan, post, verify, and write a job's program.
 
-    The posted text is read back and judged; it is written only if nothing was found. A program that this job wrote before
+    The posted text is read back and judged; it is written only if no error was found. A program that this job wrote before
     is replaced, another file only with --force.
     """
     with naming(job), progress.shown(not (json or quiet)) as shown:
@@ -68,16 +68,22 @@ def _draw(result: running.RunResult, path: Path) -> None:
 def _document(result: running.RunResult, written: list[Path]) -> Document:
     return {
         "ok": result.report.ok,
+        "notes": _notes(result),
         "summary": result.summary,
         "report": findings.document(result.report),
         "written": [str(path) for path in written],
     }
 
 
+def _notes(result: running.RunResult) -> list[str]:
+    """What reading the part had to do."""
+    arrays = result.plan.job.part().arrays
+    return [] if arrays is None else list(arrays.notes)
+
+
 def _tell(result: running.RunResult, written: list[Path], quiet: bool, has_program: bool) -> None:
     if not quiet or not result.report.ok:
-        arrays = result.plan.job.part().arrays
-        rows = [] if arrays is None else [("note", note) for note in arrays.notes]
+        rows = [("note", note) for note in _notes(result)]
         rows += summary.lines_of(result.summary, result.plan.job.document)
         rows += [("written", summary.shown_path(path)) for path in written]
         console.say(summary.title(result.plan.job.document))

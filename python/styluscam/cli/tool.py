@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import shlex
 from pathlib import Path
 from typing import Annotated
 
@@ -123,7 +124,9 @@ def new(
         console.say_json({"written": [str(file)]})
     elif not quiet:
         console.say(f"written: {shown_path(file)}")
-        console.say(f"next:    styluscam tool plot {shown_path(file)} --out {file.stem}.svg")
+        console.say(
+            f"next:    styluscam tool plot {shlex.quote(shown_path(file))} --out {shlex.quote(file.stem + '.svg')}"
+        )
     return 0
 
 

@@ -74,10 +74,12 @@ def view(
     page = out or file.with_suffix(".html")
     reader = Machine.find(machine) if machine is not None else None
     with naming(job or file), naming(file, VerifyError), progress.shown(not (json or quiet)) as shown:
-        pages.require(page, picture, inputs=[path for path in (file, job, part) if path is not None])
+        work = Job.read(job) if job is not None else None
+        inputs = [path for path in (file, job, part) if path is not None] + (list(work.inputs()) if work else [])
+        pages.require(page, picture, inputs=inputs)
         text = read_gcode_text(file)
-        if job is not None:
-            subject = viewing.viewed_for_job(text, file.name, Job.read(job), reader)
+        if work is not None:
+            subject = viewing.viewed_for_job(text, file.name, work, reader)
         else:
             solid = Part.read(part, SHOWN_TOLERANCE, units, shown) if part is not None else None
             find = viewing.subroutines_in((file.parent, *(subroutines or ())))

@@ -18,8 +18,9 @@ from .progress import Progress, report
 from .stl import read_stl
 from .surfaces import Floats, unit
 
-FLAT = 1e-9
-"""A closed mesh is no body where it is, across a plane through it, this share of its length thick."""
+FLAT = 1e-6
+"""A closed mesh is no body where it is, across a plane through it, this share of its length thick: numbers in files have
+seven places."""
 
 
 def read_mesh(file: Path, tolerance: float, units: str | None, progress: Progress | None = None) -> PartArrays:
