@@ -138,15 +138,20 @@ fn a_groove_between_two_rows_gets_one_of_its_own() {
             [at + 3.0, 3.0],
             [40.0, 3.0],
         ]);
-        let selected: Vec<bool> = (0..14).map(|t| matches!(t / 2, 0 | 4)).collect();
         let index = Index::new(&mesh);
         let envelope = Envelope::new(&mesh, &index, &tool, None, 0.001);
         let rows = Rows { angle: 0.0, stepover: 5.0, spacing: 0.7, narrow: 0.14 };
-        let surface = Surface::new(&envelope, &selected);
-        let passes = zig_zag(&surface, &rows, DEVIATION, &Watch::default()).unwrap();
         let across = |pass: &Pass| pass.points[0].tip.y;
-        let in_groove = passes.iter().filter(|pass| (at..=at + 3.0).contains(&across(pass))).count();
-        assert_eq!(in_groove, 1, "a groove at Y{at}");
-        assert!(passes.windows(2).all(|pair| pair[0].group <= pair[1].group && across(&pair[0]) <= across(&pair[1])));
+        // the floors alone, and all: then the land's rows lie beside the groove
+        for chosen in [0b001_0001, 0b111_1111] {
+            let selected: Vec<bool> = (0..14).map(|t| chosen >> (t / 2) & 1 == 1).collect();
+            let surface = Surface::new(&envelope, &selected);
+            let passes = zig_zag(&surface, &rows, DEVIATION, &Watch::default()).unwrap();
+            let low = |pass: &&Pass| pass.points.iter().all(|point| point.tip.z < 0.1);
+            let in_groove = passes.iter().filter(low).filter(|pass| (at..=at + 3.0).contains(&across(pass))).count();
+            assert_eq!(in_groove, 1, "a groove at Y{at}");
+            let ascends = |pair: &[Pass]| pair[0].group <= pair[1].group && across(&pair[0]) <= across(&pair[1]);
+            assert!(passes.windows(2).all(ascends));
+        }
     }
 }

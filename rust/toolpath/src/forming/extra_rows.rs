@@ -16,6 +16,9 @@ use crate::Pass;
 const PLACES: f64 = 100_000.0;
 /// Places lie so many to a stepover at least.
 const FINE: f64 = 4.0;
+/// Floors whose corners' heights differ by less are level, mm: a pass above or below one, beyond this and what it may deviate,
+/// is none over it.
+const LEVEL: f64 = 0.02;
 
 /// How the rows lie: directions along and across them, and the distance between two of them, mm.
 #[derive(Clone, Copy)]
@@ -29,7 +32,8 @@ pub(super) struct Pattern {
 type Cell = [i64; 2];
 
 /// Rows, by their places across the others, for the places of the selection that the tool can touch, and which have no pass
-/// within a stepover in plan, or lie in a connected region of triangles that no pass touches.
+/// within a stepover in plan, of a level floor none at its height, or lie in a connected region of triangles that no pass
+/// touches.
 ///
 /// What is neither as wide nor as long as `least` mm may be passed over.
 ///
@@ -39,7 +43,7 @@ pub(super) fn extra_rows(
     untouched: &Untouched<'_>,
     planned: &[(Row, Vec<Pass>)],
     pattern: &Pattern,
-    least: f64,
+    (least, deviation): (f64, f64),
     watch: &Watch,
 ) -> Result<Vec<Row>, Cancelled> {
     let surface = untouched.surface();
@@ -50,7 +54,8 @@ pub(super) fn extra_rows(
     let covered = Covered::by(planned, pattern);
     let mut asked: Vec<(usize, [f64; 2])> = Vec::new();
     for (triangle, tips) in stances_of(surface, &triangles) {
-        let is_open = |place: &[f64; 2]| untouched.is_open(triangle) || !covered.is_near(*place);
+        let floor = level(&tips).map(|height| (height, LEVEL + 2.0 * deviation));
+        let is_open = |place: &[f64; 2]| untouched.is_open(triangle) || !covered.is_near(*place, floor);
         asked.extend(pattern.lattice(&tips, spacing).filter(is_open).map(|place| (triangle, place)));
     }
     let in_plan = |[s, t]: [f64; 2]| [0, 1].map(|axis| s * pattern.along[axis] + t * pattern.across[axis]);
@@ -101,32 +106,61 @@ impl Pattern {
     }
 }
 
-/// Where the passes of rows lie in plan.
+/// The height of a level floor's tips, mm.
+fn level(tips: &[Vector; 3]) -> Option<f64> {
+    let [low, high] = [f64::min, f64::max].map(|of| tips.iter().map(|tip| tip.z).fold(tips[0].z, of));
+    (high - low <= LEVEL).then_some(0.5 * (low + high))
+}
+
+/// A pass along its row: its points by their places along the row, ascending, with their heights, mm.
+type Run = Vec<[f64; 2]>;
+
+/// Where the passes of rows lie.
 struct Covered {
     pattern: Pattern,
-    /// By row, ascending: its place across, and from where to where along it there are passes.
-    rows: Vec<(f64, Vec<[f64; 2]>)>,
+    /// By row, ascending: its place across, and its passes.
+    rows: Vec<(f64, Vec<Run>)>,
 }
 
 impl Covered {
     fn by(planned: &[(Row, Vec<Pass>)], pattern: &Pattern) -> Self {
-        let ends = |pass: &Pass| {
-            let places = pass.points.iter().map(|point| pattern.along_across([point.tip.x, point.tip.y])[0]);
-            places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], s| [low.min(s), high.max(s)])
+        let run = |pass: &Pass| {
+            let along = |tip: &Vector| pattern.along_across([tip.x, tip.y])[0];
+            let mut run: Run = pass.points.iter().map(|point| [along(&point.tip), point.tip.z]).collect();
+            run.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            run
         };
-        let rows = planned.iter().map(|(row, passes)| (row.place, passes.iter().map(ends).collect()));
+        let rows = planned.iter().map(|(row, passes)| (row.place, passes.iter().map(run).collect()));
         Self { pattern: *pattern, rows: rows.collect() }
     }
 
-    /// Whether a pass lies within a stepover of a place (along, across).
-    fn is_near(&self, [s, t]: [f64; 2]) -> bool {
+    /// Whether a pass lies within a stepover of a place (along, across); of a place on a level floor, with its height and by how
+    /// much a pass over it may differ from that, mm, whether one lies there at that height.
+    fn is_near(&self, [s, t]: [f64; 2], floor: Option<(f64, f64)>) -> bool {
         let step = self.pattern.stepover;
         let first = self.rows.partition_point(|(place, _)| *place < t - step);
         let mut rows = self.rows[first..].iter().take_while(|(place, _)| *place <= t + step);
         rows.any(|(place, runs)| {
-            let aside = |[from, to]: &[f64; 2]| (from - s).max(s - to).max(0.0);
-            runs.iter().any(|run| libm::hypot(aside(run), place - t) <= step)
+            let reach = ((step + t - place) * (step - t + place)).max(0.0).sqrt();
+            runs.iter().filter(|run| !run.is_empty()).any(|run| match floor {
+                None => run[0][0] <= s + reach && s - reach <= run[run.len() - 1][0],
+                Some((height, most)) => passes_at(run, [s - reach, s + reach], [height - most, height + most]),
+            })
         })
+    }
+}
+
+/// Whether a run has a height within a range somewhere between two places along it.
+fn passes_at(run: &[[f64; 2]], [from, to]: [f64; 2], [low, high]: [f64; 2]) -> bool {
+    let first = run.partition_point(|[s, _]| *s < from).saturating_sub(1);
+    let touched = |[[s0, z0], [s1, z1]]: [[f64; 2]; 2]| {
+        let at = |s: f64| if s1 > s0 { z0 + (z1 - z0) * ((s - s0) / (s1 - s0)).clamp(0.0, 1.0) } else { z0 };
+        let ends = [at(from), at(to)];
+        s0 <= to && from <= s1 && ends[0].min(ends[1]) <= high && low <= ends[0].max(ends[1])
+    };
+    match run {
+        [only] => touched([*only, *only]),
+        _ => run[first..].windows(2).take_while(|pair| pair[0][0] <= to).any(|pair| touched([pair[0], pair[1]])),
     }
 }
 
@@ -185,10 +219,21 @@ mod tests {
 
     #[test]
     fn a_place_is_near_a_pass_within_a_stepover() {
-        let row = |place: f64, runs: &[[f64; 2]]| (place, runs.to_vec());
-        let rows = vec![row(0.0, &[[0.0, 10.0]]), row(3.0, &[[0.0, 4.0], [8.0, 10.0]])];
+        let run = |from: f64, to: f64| vec![[from, 0.0], [to, 0.0]];
+        let rows = vec![(0.0, vec![run(0.0, 10.0)]), (3.0, vec![run(0.0, 4.0), run(8.0, 10.0)])];
         let covered = Covered { pattern: PATTERN, rows };
-        assert!(covered.is_near([5.0, 2.9]) && covered.is_near([6.0, 4.0]) && covered.is_near([-2.0, 1.0]));
-        assert!(!covered.is_near([6.0, 5.5]) && !covered.is_near([5.0, -3.1]) && !covered.is_near([13.0, 1.5]));
+        let is_near = |place| covered.is_near(place, None);
+        assert!(is_near([5.0, 2.9]) && is_near([6.0, 4.0]) && is_near([-2.0, 1.0]));
+        assert!(!is_near([6.0, 5.5]) && !is_near([5.0, -3.1]) && !is_near([13.0, 1.5]));
+    }
+
+    #[test]
+    fn a_pass_over_the_land_is_none_in_the_groove() {
+        // a row that comes down from the land, 5 mm over the floor, between 4 and 5 along it
+        let rows = vec![(0.0, vec![vec![[0.0, 5.0], [4.0, 5.0], [5.0, 0.0], [9.0, 0.0]]])];
+        let covered = Covered { pattern: PATTERN, rows };
+        let is_near = |place| covered.is_near(place, Some((0.0, 0.1)));
+        assert!(is_near([7.0, 0.0]) && is_near([2.5, 1.0]) && !is_near([1.5, 1.0]) && !is_near([12.5, 0.0]));
+        assert!(covered.is_near([1.5, 1.0], Some((5.0, 0.1))) && covered.is_near([1.5, 1.0], None));
     }
 }

@@ -31,7 +31,8 @@ pub struct Rows {
 /// All rows over the selected faces, side by side, each in the direction of `angle`.
 ///
 /// Chords stray by at most `deviation` mm along the normal. Rows are interrupted where the contact leaves the
-/// selected faces. A region that no row touches, for it lies between two of them, gets rows of its own.
+/// selected faces. A region that no row touches, for it lies between two of them, gets rows of its own, and so does a level floor
+/// where no row lies at its height.
 ///
 /// # Errors
 /// Nothing to touch, more rows than a program can hold, `Cancelled`.
@@ -39,7 +40,7 @@ pub fn zig_zag(surface: &Surface<'_>, rows: &Rows, deviation: f64, watch: &Watch
     let lines = Lines::over(surface, rows)?.ok_or_else(|| PlanError::NothingReached(String::new()))?;
     let mut planned = lines.planned(surface, deviation, watch)?;
     let untouched = Untouched::by(planned.iter().flat_map(|(_, passes)| passes), surface);
-    let extra = extra_rows(&untouched, &planned, &lines.pattern, rows.spacing, watch)?;
+    let extra = extra_rows(&untouched, &planned, &lines.pattern, (rows.spacing, deviation), watch)?;
     if !extra.is_empty() {
         planned.extend(Lines { rows: extra, ..lines }.planned(surface, deviation, watch)?);
         planned.sort_by(|a, b| a.0.place.total_cmp(&b.0.place));
