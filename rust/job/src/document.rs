@@ -68,7 +68,7 @@ pub struct PartSection {
     /// Unit of a file that does not state one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub units: Option<Units>,
-    /// "all" (the faces that look up), or names: ["Face3", "Face4"].
+    /// "all" (the faces that look up; for levels in milling upright walls too), or names: ["Face3", "Face4"].
     #[serde(default)]
     pub faces: Selection,
     /// Which face of the sheet the model shows; required with a sheet.
@@ -269,7 +269,7 @@ pub struct SheetSection {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "mm"))]
     pub min_thickness: Option<f64>,
-    /// Steepest wall that may be formed, degrees; not judged when left out.
+    /// Steepest wall that may be formed, degrees; when left out, what is known of `process.material`, or of any sheet, judges.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "deg"))]
     pub max_wall_angle_deg: Option<f64>,

@@ -51,8 +51,10 @@ const TURNED: f64 = 1.0;
 const HEAD_ON: f64 = 0.1;
 /// What levels miss is worth a word from this share of the step in height on: a wall may be lower than the smallest loop is wide.
 const LOW: f64 = 0.5;
-/// What rows miss is worth a word from this share of the smallest feature on in its narrower direction.
+/// What rows miss, narrower than the smallest feature, is worth a word from this share of it on, where it is so many times as
+/// long: a groove, and no corner of a valley.
 const NARROW: f64 = 0.2;
+const LONG: f64 = 4.0;
 /// Passes lie on a spot's face where the tool touches faces that lean by no more from the spot's, by the angle's cosine.
 const ALIKE: f64 = 0.5;
 
@@ -283,7 +285,7 @@ impl Look<'_> {
     }
 
     /// Whether the tool can touch around a spot as far as the smallest feature is: for levels along the pass, and across it over
-    /// half a step; for rows as far in one direction, and a little in the other.
+    /// half a step; for rows in both directions, or farther in one and a little in the other.
     fn holds_feature(&self, spot: &Spot) -> bool {
         let step = self.passes.spacing.along(spot.up).unwrap_or(self.passes.spacing.pitch() * Vector::z());
         let (across, feature) = (step.normalize(), self.passes.smallest_feature);
@@ -292,8 +294,10 @@ impl Look<'_> {
         match self.passes.spacing {
             Spacing::Levels(_) => reaches_across(feature.min(LOW * step.norm())) && reaches_along(feature),
             Spacing::Rows(..) => {
-                let narrow = NARROW * feature;
-                reaches_across(narrow) && reaches_along(narrow) && (reaches_across(feature) || reaches_along(feature))
+                let [narrow, long] = [NARROW * feature, LONG * feature];
+                reaches_across(feature) && reaches_along(feature)
+                    || reaches_across(long) && reaches_along(narrow)
+                    || reaches_along(long) && reaches_across(narrow)
             }
         }
     }
