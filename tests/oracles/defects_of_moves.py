@@ -6,10 +6,15 @@ import itertools
 import math
 import random
 import re
+import statistics
 
 from controllers import REPEATS
 from gcode import Move
 from spoiling import MOTION, NUMBER, Text, chosen, kind, kind_but, respelt, shifted, without
+
+
+ONE_ROW = 0.02
+"""Contacts whose places across differ by less, mm, are on one row."""
 
 
 def _across(move: Move) -> int:
@@ -234,13 +239,41 @@ def line_strayed(text: Text, random_: random.Random) -> str | None:
 def _blocks(text: Text) -> list[tuple[int, int]]:
     """Levels, as first and last line: from the end of the level before to the end of its own; the first is left out.
 
-    Where there are none, as in rows over a surface: stretches between two lifts.
+    Where there are none, as in rows over a surface: stretches between two lifts, but for rows that were added between those
+    that lie the ordered distance apart. Without them the program is still what was ordered.
     """
     ends = _ends_of_levels(text.moves)
-    if len(ends) < 3:
+    are_levels = len(ends) >= 3
+    if not are_levels:
         ends = [a.line for a, b in itertools.pairwise(text.moves) if a.kind != "rapid" and b.kind == "rapid"]
     blocks = [(first + 1, last) for first, last in itertools.pairwise(ends)]
+    if not are_levels:
+        blocks = _in_step(text, blocks)
     return [(a, b) for a, b in blocks if all(MOTION.fullmatch(line) for line in text.lines[a - 1 : b])]
+
+
+def _in_step(text: Text, blocks: list[tuple[int, int]]) -> list[tuple[int, int]]:
+    """Without the rows that are no whole number of steps from most of the others."""
+    if not text.contacts:
+        return blocks
+    longest = max(text.contacts, key=lambda move: move.length)
+    along = math.atan2(longest.end[1] - longest.start[1], longest.end[0] - longest.start[0])
+    places = []
+    for first, last in blocks:
+        tips = [tip for m in text.contacts if first <= m.line <= last for tip in (m.start, m.end)]
+        across = [tip[1] * math.cos(along) - tip[0] * math.sin(along) for tip in tips]
+        places.append(min(across) if across and max(across) - min(across) < ONE_ROW else math.nan)
+    rows = sorted(place for place in places if not math.isnan(place))
+    steps = [b - a for a, b in itertools.pairwise(rows) if b - a > ONE_ROW]
+    if not steps:
+        return blocks
+    step = statistics.median(steps)
+
+    def in_step(a: float, b: float) -> bool:
+        return abs(a - b - step * round((a - b) / step)) <= ONE_ROW
+
+    most = max(rows, key=lambda row: sum(in_step(row, other) for other in rows))
+    return [block for block, place in zip(blocks, places, strict=True) if math.isnan(place) or in_step(place, most)]
 
 
 def _ends_of_levels(moves: list[Move]) -> list[int]:

@@ -51,7 +51,7 @@ pub(crate) fn spread(
     probes
 }
 
-/// Heights of the levels, or places of the rows across, that are long enough: ascending.
+/// Heights of the levels, or places of the rows across, that are long enough and go on over the whole part: ascending.
 fn values(spacing: Spacing, legs: &[&Leg]) -> Vec<f64> {
     let (pitch, same) = spacing.measures();
     let value = |tip: [f64; 3]| spacing.value(tip.into());
@@ -61,10 +61,30 @@ fn values(spacing: Spacing, legs: &[&Leg]) -> Vec<f64> {
     });
     let length = |chain: &[&Leg]| chain.iter().map(|leg| leg.length()).sum::<f64>();
     let long = chains.filter(|chain| spacing.holds(chain[0]) && length(chain) > LONG * pitch);
-    let mut values: Vec<f64> = long.map(|chain| value(chain[0].end)).collect();
+    let mut values: Vec<f64> = match spacing {
+        Spacing::Levels(_) => long.map(|chain| value(chain[0].end)).collect(),
+        Spacing::Rows(..) => in_step(long.map(|chain| [value(chain[0].end), length(chain)]).collect(), pitch, same),
+    };
     values.sort_by(f64::total_cmp);
     values.dedup_by(|b, a| *b - *a <= same);
     values
+}
+
+/// Of rows, with their places and lengths, the places of those that lie whole steps apart: rows that were added for a strip
+/// between them are no longer than the strip.
+fn in_step(mut rows: Vec<[f64; 2]>, step: f64, same: f64) -> Vec<f64> {
+    let past = |[place, _]: &[f64; 2]| place.rem_euclid(step);
+    rows.sort_by(|a, b| past(a).total_cmp(&past(b)));
+    let mut sets: Vec<Vec<[f64; 2]>> = rows.chunk_by(|a, b| past(b) - past(a) <= same).map(<[_]>::to_vec).collect();
+    // a step on is where the first ones are
+    if let [first, .., last] = &mut sets[..] {
+        if past(&first[0]) + step - past(&last[last.len() - 1]) <= same {
+            first.append(last);
+        }
+    }
+    let length = |set: &Vec<[f64; 2]>| set.iter().map(|[_, length]| length).sum::<f64>();
+    let longest = sets.into_iter().max_by(|a, b| length(a).total_cmp(&length(b)));
+    longest.into_iter().flatten().map(|[place, _]| place).collect()
 }
 
 /// A height or a place across at which moves lie.
@@ -151,5 +171,21 @@ impl Facet {
             between.then(|| self.corners[i] + share * (self.corners[(i + 1) % 3] - self.corners[i]))
         });
         Some([crossings.next()?, crossings.next()?])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_step;
+
+    #[test]
+    fn rows_between_others_are_for_strips() {
+        let regular: Vec<[f64; 2]> = (0..5).map(|row| [-0.6 + 0.3 * f64::from(row), 10.0]).collect();
+        let mut rows = vec![[0.1, 25.0], [0.4, 12.0]];
+        rows.extend(&regular);
+        let mut found = in_step(rows, 0.3, 5e-3);
+        found.sort_by(f64::total_cmp);
+        assert_eq!(found, regular.iter().map(|[place, _]| *place).collect::<Vec<_>>());
+        assert!(in_step(Vec::new(), 0.3, 5e-3).is_empty());
     }
 }

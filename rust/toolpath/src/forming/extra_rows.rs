@@ -28,8 +28,17 @@ pub(super) struct Pattern {
     pub stepover: f64,
 }
 
-/// A place as it lies along and across the rows, in units of the lattice.
+/// A square of a [`Lattice`].
 type Cell = [i64; 2];
+
+/// Squares along and across the rows, from a corner of what is looked at: a part that is moved has the same.
+struct Lattice {
+    pattern: Pattern,
+    /// Least places along and across, mm.
+    corner: [f64; 2],
+    /// Side of a square, mm.
+    spacing: f64,
+}
 
 /// Rows, by their places across the others, for the places of the selection that the tool can touch, and which have no pass
 /// within a stepover in plan, of a level floor none at its height, or lie in a connected region of triangles that no pass
@@ -51,20 +60,22 @@ pub(super) fn extra_rows(
     let triangles: Vec<usize> = surface.triangles().filter(|triangle| !mesh.is_upright(*triangle)).collect();
     let area: f64 = triangles.iter().map(|t| mesh.area(*t) * mesh.normal(*t).z.max(0.0)).sum();
     let spacing = least.min(pattern.stepover / FINE).max((area / PLACES).sqrt());
+    let stances = stances_of(surface, &triangles);
+    let lattice = Lattice::over(stances.iter().flat_map(|(_, tips)| tips), pattern, spacing);
     let covered = Covered::by(planned, pattern);
     let mut asked: Vec<(usize, [f64; 2])> = Vec::new();
-    for (triangle, tips) in stances_of(surface, &triangles) {
-        let floor = level(&tips).map(|height| (height, LEVEL + 2.0 * deviation));
-        let is_open = |place: &[f64; 2]| untouched.is_open(triangle) || !covered.is_near(*place, floor);
-        asked.extend(pattern.lattice(&tips, spacing).filter(is_open).map(|place| (triangle, place)));
+    for (triangle, tips) in &stances {
+        let floor = level(tips).map(|height| (height, LEVEL + 2.0 * deviation));
+        let is_open = |place: &[f64; 2]| untouched.is_open(*triangle) || !covered.is_near(*place, floor);
+        asked.extend(lattice.places(tips).filter(is_open).map(|place| (*triangle, place)));
     }
     let in_plan = |[s, t]: [f64; 2]| [0, 1].map(|axis| s * pattern.along[axis] + t * pattern.across[axis]);
     let places: Vec<(usize, [f64; 2])> = asked.iter().map(|(triangle, place)| (*triangle, in_plan(*place))).collect();
     watch.begin("between rows", places.len());
     let touched = asked.iter().zip(untouched.tips(&places, watch)?).filter(|(_, tip)| tip.is_some());
-    let cells = touched.map(|((_, place), _)| place.map(|x| (x / spacing).floor() as i64)).collect();
+    let cells = touched.map(|((_, place), _)| lattice.cell(*place)).collect();
     let patches = patches(cells).into_iter().filter(|patch| extent(patch) as f64 * spacing >= least);
-    let mut rows: Vec<Row> = patches.flat_map(|patch| pattern.through(&patch, spacing)).collect();
+    let mut rows: Vec<Row> = patches.flat_map(|patch| lattice.through(&patch)).collect();
     rows.sort_by(|a, b| a.place.total_cmp(&b.place));
     Ok(rows)
 }
@@ -74,33 +85,51 @@ impl Pattern {
     fn along_across(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.along, self.across].map(|axis| x * axis[0] + y * axis[1])
     }
+}
 
-    /// Places (along, across) `spacing` apart in a triangle's plan, one at least on each line that cuts it.
-    fn lattice(&self, tips: &[Vector; 3], spacing: f64) -> impl Iterator<Item = [f64; 2]> {
-        let plan = tips.map(|tip| self.along_across([tip.x, tip.y]));
+impl Lattice {
+    fn over<'a>(tips: impl Iterator<Item = &'a Vector>, pattern: &Pattern, spacing: f64) -> Self {
+        let least = |least: [f64; 2], place: [f64; 2]| [0, 1].map(|axis| least[axis].min(place[axis]));
+        let corner = tips.map(|tip| pattern.along_across([tip.x, tip.y])).reduce(least);
+        Self { pattern: *pattern, corner: corner.unwrap_or_default(), spacing }
+    }
+
+    fn cell(&self, place: [f64; 2]) -> Cell {
+        [0, 1].map(|axis| ((place[axis] - self.corner[axis]) / self.spacing).floor() as i64)
+    }
+
+    /// The place across in the middle of a line of squares, mm.
+    fn middle(&self, line: i64) -> f64 {
+        self.corner[1] + (line as f64 + 0.5) * self.spacing
+    }
+
+    /// Places (along, across) a square apart in a triangle's plan, one at least on each line that cuts it.
+    fn places(&self, tips: &[Vector; 3]) -> impl Iterator<Item = [f64; 2]> + use<'_> {
+        let plan = tips.map(|tip| self.pattern.along_across([tip.x, tip.y]));
         let [low, high] = [f64::min, f64::max].map(|of| plan.iter().map(|p| p[1]).fold(plan[0][1], of));
         let on_line = move |line: i64| {
-            let across = (line as f64 + 0.5) * spacing;
+            let across = self.middle(line);
             share(&plan, across).into_iter().flat_map(move |[from, to]| {
-                let count = ((to - from) / spacing).ceil().max(1.0) as usize;
+                let count = ((to - from) / self.spacing).ceil().max(1.0) as usize;
                 (0..count).map(move |i| [from + (to - from) * (i as f64 + 0.5) / count as f64, across])
             })
         };
-        ((low / spacing - 0.5).ceil() as i64..=(high / spacing - 0.5).floor() as i64).flat_map(on_line)
+        let line = |across: f64| (across - self.corner[1]) / self.spacing - 0.5;
+        (line(low).ceil() as i64..=line(high).floor() as i64).flat_map(on_line)
     }
 
     /// Rows through a patch, no farther apart than ordered, each as long as the patch is beside it.
-    fn through(&self, patch: &[Cell], spacing: f64) -> Vec<Row> {
+    fn through(&self, patch: &[Cell]) -> Vec<Row> {
+        let (step, side) = (self.pattern.stepover, self.spacing);
         let lines = || patch.iter().map(|cell| cell[1]);
         let (Some(low), Some(high)) = (lines().min(), lines().max()) else { return Vec::new() };
-        let band = [low, high].map(|line| (line as f64 + 0.5) * spacing);
-        let count = ((band[1] - band[0]) / self.stepover).floor() as usize + 1;
-        let rows = spread(band, count, self.stepover).filter_map(|place| {
-            let beside =
-                |cell: &&Cell| ((cell[1] as f64 + 0.5) * spacing - place).abs() <= 0.5 * self.stepover + spacing;
+        let band = [low, high].map(|line| self.middle(line));
+        let count = ((band[1] - band[0]) / step).floor() as usize + 1;
+        let rows = spread(band, count, step).filter_map(|place| {
+            let beside = |cell: &&Cell| (self.middle(cell[1]) - place).abs() <= 0.5 * step + side;
             let ends = || patch.iter().filter(beside).map(|cell| cell[0]);
             let (from, to) = (ends().min()?, ends().max()?);
-            Some(Row { place, range: [(from - 1) as f64 * spacing, (to + 2) as f64 * spacing] })
+            Some(Row { place, range: [from - 1, to + 2].map(|cell| self.corner[0] + cell as f64 * side) })
         });
         rows.collect()
     }
@@ -209,12 +238,13 @@ mod tests {
 
     #[test]
     fn a_narrow_patch_has_one_row_and_a_wide_one_as_many_as_it_takes() {
+        let lattice = Lattice { pattern: PATTERN, corner: [7.0, 1.0], spacing: 0.5 };
         let patch = |lines: i64| (0..lines).map(|line| [line, line]).collect::<Vec<Cell>>();
-        let places = |lines: i64| PATTERN.through(&patch(lines), 0.5).iter().map(|row| row.place).collect::<Vec<_>>();
-        assert_eq!(places(3), [0.75]);
-        assert_eq!(places(11), [1.25, 4.25]);
-        let first = Row { place: 1.25, range: [-0.5, 4.0] };
-        assert_eq!(PATTERN.through(&patch(11), 0.5)[0], first, "as long as the patch is beside it");
+        let places = |lines: i64| lattice.through(&patch(lines)).iter().map(|row| row.place).collect::<Vec<_>>();
+        assert_eq!(places(3), [1.75]);
+        assert_eq!(places(11), [2.25, 5.25]);
+        let first = Row { place: 2.25, range: [6.5, 11.0] };
+        assert_eq!(lattice.through(&patch(11))[0], first, "as long as the patch is beside it");
     }
 
     #[test]
