@@ -12,7 +12,6 @@ from controllers import REPEATS
 from gcode import Move
 from spoiling import MOTION, NUMBER, Text, chosen, kind, kind_but, respelt, shifted, without
 
-
 ONE_ROW = 0.02
 """Contacts whose places across differ by less, mm, are on one row."""
 
