@@ -19,6 +19,11 @@ const FINE: f64 = 4.0;
 /// Floors whose corners' heights differ by less are level, mm: a pass above or below one, beyond this and what it may deviate,
 /// is none over it.
 const LEVEL: f64 = 0.02;
+/// A pass farther off the plane of a slope than this share of a stepover is none over it: on a floor that is rounder than half a
+/// stepover the nearest row is not so far off.
+const OFF: f64 = 0.25;
+/// Walls whose normal rises by less, a sine, are narrow in plan: what rows leave there is the steep wall's.
+const STEEP: f64 = 0.5;
 
 /// How the rows lie: directions along and across them, and the distance between two of them, mm.
 #[derive(Clone, Copy)]
@@ -41,7 +46,7 @@ struct Lattice {
 }
 
 /// Rows, by their places across the others, for the places of the selection that the tool can touch, and which have no pass
-/// within a stepover in plan, of a level floor none at its height, or lie in a connected region of triangles that no pass
+/// within a stepover in plan that lies on the triangle's plane, or lie in a connected region of triangles that no pass
 /// touches.
 ///
 /// What is neither as wide nor as long as `least` mm may be passed over.
@@ -64,16 +69,24 @@ pub(super) fn extra_rows(
     let lattice = Lattice::over(stances.iter().flat_map(|(_, tips)| tips), pattern, spacing);
     let covered = Covered::by(planned, pattern);
     let mut asked: Vec<(usize, [f64; 2])> = Vec::new();
+    let mut floors = Vec::new();
     for (triangle, tips) in &stances {
-        let floor = level(tips).map(|height| (height, LEVEL + 2.0 * deviation));
-        let is_open = |place: &[f64; 2]| untouched.is_open(*triangle) || !covered.is_near(*place, floor);
-        asked.extend(lattice.places(tips).filter(is_open).map(|place| (*triangle, place)));
+        let floor = Floor::of(tips, pattern, deviation);
+        let is_open = untouched.is_open(*triangle);
+        for place in lattice.places(tips).filter(|place| is_open || !covered.is_near(*place, floor.as_ref())) {
+            asked.push((*triangle, place));
+            floors.push(floor.filter(|_| !is_open));
+        }
     }
     let in_plan = |[s, t]: [f64; 2]| [0, 1].map(|axis| s * pattern.along[axis] + t * pattern.across[axis]);
     let places: Vec<(usize, [f64; 2])> = asked.iter().map(|(triangle, place)| (*triangle, in_plan(*place))).collect();
     watch.begin("between rows", places.len());
-    let touched = asked.iter().zip(untouched.tips(&places, watch)?).filter(|(_, tip)| tip.is_some());
-    let cells = touched.map(|((_, place), _)| lattice.cell(*place)).collect();
+    let tips = untouched.tips(&places, watch)?;
+    let touches = |place: [f64; 2], floor: &Option<Floor>, tip: f64| floor.is_none_or(|floor| floor.has(place, tip));
+    let touched = asked.iter().zip(&floors).zip(tips);
+    let touched = touched.filter(|(((_, place), floor), tip)| tip.is_some_and(|tip| touches(*place, floor, tip)));
+    let touched = touched.map(|((asked, _), _)| asked);
+    let cells = touched.map(|(_, place)| lattice.cell(*place)).collect();
     let patches = patches(cells).into_iter().filter(|patch| extent(patch) as f64 * spacing >= least);
     let mut rows: Vec<Row> = patches.flat_map(|patch| lattice.through(&patch)).collect();
     rows.sort_by(|a, b| a.place.total_cmp(&b.place));
@@ -135,10 +148,40 @@ impl Lattice {
     }
 }
 
-/// The height of a level floor's tips, mm.
-fn level(tips: &[Vector; 3]) -> Option<f64> {
-    let [low, high] = [f64::min, f64::max].map(|of| tips.iter().map(|tip| tip.z).fold(tips[0].z, of));
-    (high - low <= LEVEL).then_some(0.5 * (low + high))
+/// The plane on which the tip is where the tool touches a triangle.
+#[derive(Clone, Copy, Debug)]
+struct Floor {
+    /// The height at place 0, mm, and how much it grows along and across.
+    height: f64,
+    growth: [f64; 2],
+    /// By how much the height of a pass over it may differ, mm.
+    most: f64,
+}
+
+impl Floor {
+    /// None of a steep wall.
+    fn of(tips: &[Vector; 3], pattern: &Pattern, deviation: f64) -> Option<Self> {
+        let up = (tips[1] - tips[0]).cross(&(tips[2] - tips[0])).try_normalize(0.0)?;
+        let up = up * up.z.signum();
+        let [low, high] = [f64::min, f64::max].map(|of| tips.iter().map(|tip| tip.z).fold(tips[0].z, of));
+        if high - low <= LEVEL {
+            return Some(Self { height: 0.5 * (low + high), growth: [0.0; 2], most: LEVEL + 2.0 * deviation });
+        }
+        let growth = [pattern.along, pattern.across].map(|axis| -(up.x * axis[0] + up.y * axis[1]) / up.z);
+        let [s, t] = pattern.along_across([tips[0].x, tips[0].y]);
+        let height = tips[0].z - growth[0] * s - growth[1] * t;
+        (up.z >= STEEP).then(|| Self { height, growth, most: OFF * pattern.stepover / up.z + 2.0 * deviation })
+    }
+
+    /// How far above the plane a tip is, mm.
+    fn above(&self, [s, t]: [f64; 2], tip: f64) -> f64 {
+        tip - self.height - self.growth[0] * s - self.growth[1] * t
+    }
+
+    /// Whether a tip is as high as it should be.
+    fn has(&self, place: [f64; 2], tip: f64) -> bool {
+        self.above(place, tip).abs() <= self.most
+    }
 }
 
 /// A pass along its row: its points by their places along the row, ascending, with their heights, mm.
@@ -163,9 +206,9 @@ impl Covered {
         Self { pattern: *pattern, rows: rows.collect() }
     }
 
-    /// Whether a pass lies within a stepover of a place (along, across); of a place on a level floor, with its height and by how
-    /// much a pass over it may differ from that, mm, whether one lies there at that height.
-    fn is_near(&self, [s, t]: [f64; 2], floor: Option<(f64, f64)>) -> bool {
+    /// Whether a pass lies within a stepover of a place (along, across); of a place on a floor, whether one lies there on its
+    /// plane.
+    fn is_near(&self, [s, t]: [f64; 2], floor: Option<&Floor>) -> bool {
         let step = self.pattern.stepover;
         let first = self.rows.partition_point(|(place, _)| *place < t - step);
         let mut rows = self.rows[first..].iter().take_while(|(place, _)| *place <= t + step);
@@ -173,23 +216,26 @@ impl Covered {
             let reach = ((step + t - place) * (step - t + place)).max(0.0).sqrt();
             runs.iter().filter(|run| !run.is_empty()).any(|run| match floor {
                 None => run[0][0] <= s + reach && s - reach <= run[run.len() - 1][0],
-                Some((height, most)) => passes_at(run, [s - reach, s + reach], [height - most, height + most]),
+                Some(floor) => lies_on(run, [s - reach, s + reach], *place, floor),
             })
         })
     }
 }
 
-/// Whether a run has a height within a range somewhere between two places along it.
-fn passes_at(run: &[[f64; 2]], [from, to]: [f64; 2], [low, high]: [f64; 2]) -> bool {
+/// Whether a run on a row lies on a floor's plane somewhere between two places along it.
+fn lies_on(run: &[[f64; 2]], [from, to]: [f64; 2], row: f64, floor: &Floor) -> bool {
     let first = run.partition_point(|[s, _]| *s < from).saturating_sub(1);
-    let touched = |[[s0, z0], [s1, z1]]: [[f64; 2]; 2]| {
-        let at = |s: f64| if s1 > s0 { z0 + (z1 - z0) * ((s - s0) / (s1 - s0)).clamp(0.0, 1.0) } else { z0 };
+    let lies = |[[s0, z0], [s1, z1]]: [[f64; 2]; 2]| {
+        let at = |s: f64| {
+            let share = if s1 > s0 { ((s - s0) / (s1 - s0)).clamp(0.0, 1.0) } else { 0.0 };
+            floor.above([s0 + share * (s1 - s0), row], z0 + share * (z1 - z0))
+        };
         let ends = [at(from), at(to)];
-        s0 <= to && from <= s1 && ends[0].min(ends[1]) <= high && low <= ends[0].max(ends[1])
+        s0 <= to && from <= s1 && ends[0].min(ends[1]) <= floor.most && -floor.most <= ends[0].max(ends[1])
     };
     match run {
-        [only] => touched([*only, *only]),
-        _ => run[first..].windows(2).take_while(|pair| pair[0][0] <= to).any(|pair| touched([pair[0], pair[1]])),
+        [only] => lies([*only, *only]),
+        _ => run[first..].windows(2).take_while(|pair| pair[0][0] <= to).any(|pair| lies([pair[0], pair[1]])),
     }
 }
 
@@ -262,8 +308,9 @@ mod tests {
         // a row that comes down from the land, 5 mm over the floor, between 4 and 5 along it
         let rows = vec![(0.0, vec![vec![[0.0, 5.0], [4.0, 5.0], [5.0, 0.0], [9.0, 0.0]]])];
         let covered = Covered { pattern: PATTERN, rows };
-        let is_near = |place| covered.is_near(place, Some((0.0, 0.1)));
+        let level = |height| Floor { height, growth: [0.0; 2], most: 0.1 };
+        let is_near = |place| covered.is_near(place, Some(&level(0.0)));
         assert!(is_near([7.0, 0.0]) && is_near([2.5, 1.0]) && !is_near([1.5, 1.0]) && !is_near([12.5, 0.0]));
-        assert!(covered.is_near([1.5, 1.0], Some((5.0, 0.1))) && covered.is_near([1.5, 1.0], None));
+        assert!(covered.is_near([1.5, 1.0], Some(&level(5.0))) && covered.is_near([1.5, 1.0], None));
     }
 }
