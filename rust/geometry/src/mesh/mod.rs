@@ -12,6 +12,11 @@ use crate::{Frame, GeometryError, Vector};
 /// rounding, lean by as much. Over 100 mm it is 0.01 mm.
 const UPRIGHT: f64 = 1e-4;
 
+/// So do those of triangles that lean by less than this over their own height, mm, and rise or fall by less than this:
+/// round walls are twisted where the corners of their two ends do not lie above each other.
+const TWISTED: f64 = 5e-3;
+const MOST_TWISTED: f64 = 1e-3;
+
 /// Largest coordinate accepted, mm: beyond it units are wrong.
 const LIMIT: f64 = 1e6;
 
@@ -142,13 +147,20 @@ impl Mesh {
     /// Whether a triangle is a part of an upright wall.
     #[must_use]
     pub fn is_upright(&self, triangle: usize) -> bool {
-        self.rise(triangle).abs() <= UPRIGHT
+        let rise = self.rise(triangle).abs();
+        rise <= UPRIGHT || rise <= MOST_TWISTED && rise * self.height(triangle) <= TWISTED
     }
 
     /// Whether a triangle looks down: no tool from above touches its inside.
     #[must_use]
     pub fn looks_down(&self, triangle: usize) -> bool {
-        self.rise(triangle) < -UPRIGHT
+        self.rise(triangle) < 0.0 && !self.is_upright(triangle)
+    }
+
+    /// From a triangle's lowest corner to its highest, mm.
+    fn height(&self, triangle: usize) -> f64 {
+        let [a, b, c] = self.corners(triangle).map(|corner| corner.z);
+        a.max(b).max(c) - a.min(b).min(c)
     }
 
     /// The Z of a triangle's normal, by the model's where those are known: triangles of an upright wall lean by their deviation.
@@ -231,10 +243,22 @@ mod tests {
 
     #[test]
     fn the_models_normals_say_whether_a_leaning_triangle_looks_down() {
-        let vertices = vec![Vector::new(0.0, 0.0, 0.0), Vector::new(0.0, 1.0, 0.0), Vector::new(0.001, 0.0, 2.0)];
+        let vertices = vec![Vector::new(0.0, 0.0, 0.0), Vector::new(0.0, 1.0, 0.0), Vector::new(0.01, 0.0, 2.0)];
         let alone = Mesh::new(vertices.clone(), &[[0, 1, 2]], &[]).unwrap();
         assert!(alone.normal(0).x > 0.99 && alone.looks_down(0));
         let upright = Mesh::with_normals(vertices, &[[0, 1, 2]], &[], &[[Vector::x(); 3]]).unwrap();
         assert!(!upright.looks_down(0) && upright.is_upright(0) && !alone.is_upright(0));
+    }
+
+    #[test]
+    fn triangles_that_are_twisted_by_less_than_a_hair_are_upright() {
+        let leaning = |aside: f64, height: f64| {
+            let vertices = vec![Vector::zeros(), Vector::new(0.0, 1.0, 0.0), Vector::new(aside, 0.0, height)];
+            Mesh::new(vertices, &[[0, 1, 2]], &[]).unwrap()
+        };
+        assert!(leaning(0.004, 15.0).is_upright(0) && !leaning(0.004, 15.0).looks_down(0));
+        assert!(leaning(0.006, 15.0).looks_down(0));
+        // a small one of an undercut
+        assert!(leaning(0.004, 1.0).looks_down(0));
     }
 }
