@@ -155,6 +155,16 @@ def test_quiet_says_nothing(coarse, cli):
     assert (ran.code, ran.out, ran.err) == (0, "", "")
 
 
+def test_quiet_says_warnings(tmp_path, cli):
+    job = tmp_path / "job.toml"
+    too_steep = ("thickness = 1.0", "thickness = 1.0\nmax_wall_angle_deg = 30.0")
+    job.write_text('accept = ["wall-angle"]\n' + changed(COARSE_CUP, too_steep))
+    ran = cli("run", job, "--quiet")
+    assert ran.code == 0 and ran.out == "" and "warning: " in ran.err and "a wall is at" in ran.err
+    ran = cli("verify", tmp_path / "cup.ngc", "--job", job, "--quiet")
+    assert ran.code == 0 and ran.out == "" and "a wall is at" in ran.err
+
+
 def test_missing_output_folders_are_made(tmp_path, cli):
     job = tmp_path / "job.toml"
     job.write_text(changed(COARSE_CUP, ('"cup.ngc"', '"new/folder/cup.ngc"'), ('"cup.program.json"', '"other/p.json"')))

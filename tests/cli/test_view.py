@@ -48,6 +48,15 @@ def test_a_foreign_program_is_shown_beside_its_file(cli, foreign):
     assert "Not judged" in page and "foreign.ngc" in page
 
 
+def test_a_page_of_somebody_elses_is_left_alone(cli, foreign):
+    page = foreign.with_suffix(".html")
+    page.write_text("<html><title>set-up sheet</title></html>")
+    ran = cli("view", foreign)
+    assert ran.code == 2 and "name the page with --out" in ran.err and "set-up sheet" in page.read_text()
+    page.unlink()
+    assert cli("view", foreign).code == 0 == cli("view", foreign).code, "its own is replaced"
+
+
 def test_what_no_machine_reads_is_traced(cli, tmp_path):
     program = tmp_path / "loop.ngc"
     program.write_text(LOOP)

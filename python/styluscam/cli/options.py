@@ -40,6 +40,6 @@ ForJob: TypeAlias = Annotated[
     Path, typer.Option("--job", metavar="JOB.toml", help="The job that it is for.", show_default=False)
 ]
 Json: TypeAlias = Annotated[bool, typer.Option("--json", help="Print one JSON document, errors included.")]
-Quiet: TypeAlias = Annotated[bool, typer.Option("--quiet", "-q", help="No progress, and no summary when all is well.")]
+Quiet: TypeAlias = Annotated[bool, typer.Option("--quiet", "-q", help="No progress, and no summary of what may run.")]
 Debug: TypeAlias = Annotated[bool, typer.Option("--debug", help="Show the traceback of a fault.")]
 Force = Annotated[bool, typer.Option("--force", help="Replace a file that is there.")]

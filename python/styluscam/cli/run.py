@@ -88,9 +88,9 @@ def _tell(result: running.RunResult, written: list[Path], quiet: bool, has_progr
         rows += [("written", summary.shown_path(path)) for path in written]
         console.say(summary.title(result.plan.job.document))
         console.fields(rows)
-    if result.report.ok and quiet:
-        return
     if not result.report.findings:
+        if quiet:
+            return
         console.say("verified: the written text was read back and judged, nothing was found")
         return
     for line in findings.lines(result.report):

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from styluscam.types import Document
-from styluscam.words import clock, place
+from styluscam.words import clock, counted, place
 
 
 def lines_of(summary: Document, job: Document) -> list[tuple[str, str]]:
@@ -66,9 +66,9 @@ def _tool(tool: Document) -> str:
 
 def _operation(operation: Document) -> list[tuple[str, str]]:
     level = operation["kind"] == "z-level"
-    what = f"{_count(operation['passes'], 'loop')} on {_count(operation['groups'], 'level')}"
+    what = f"{counted(operation['passes'], 'loop')} on {counted(operation['groups'], 'level')}"
     if not level:
-        what = f"{_count(operation['passes'], 'pass', 'passes')} on {_count(operation['groups'], 'row')}"
+        what = f"{counted(operation['passes'], 'pass', 'passes')} on {counted(operation['groups'], 'row')}"
     faces = ", ".join(f"Face{number}" for number in operation["faces"][:12])
     more = len(operation["faces"]) - 12
     rows = [
@@ -94,7 +94,9 @@ def _worst(
     shown = losing if len(losing) <= SHOWN + 1 else sorted(losing, key=lost, reverse=True)[:SHOWN]
     rows = [(name, said(face)) for face in losing if face in shown]
     more = len(losing) - len(rows)
-    return [*rows, (name, f"and {more} more faces, none of them worse: --json has them all")] if more else rows
+    return (
+        [*rows, (name, f"and {counted(more, 'more face')}, none of them worse: --json has them all")] if more else rows
+    )
 
 
 def _bridged(bridge: Document) -> str:
@@ -134,7 +136,3 @@ def _lost(face: Document) -> list[str]:
 def _reached(face: Document) -> str:
     whole = sum(face[key] for key in (*LOST, "contact", "undercut"))
     return f"Face{face['face']}, {face['contact']:.1f} of {whole:.1f} mm2; {', '.join(_lost(face))}"
-
-
-def _count(number: int, one: str, many: str = "") -> str:
-    return f"{number} {one if number == 1 else many or one + 's'}"

@@ -44,7 +44,10 @@ def verify(
     if json:
         document = {"file": str(file), "job": str(job), **findings.document(judged), "coverage": covered}
         console.say_json({**document, "written": [str(path) for path in written]})
-    elif not (quiet and judged.ok):
+    elif quiet and judged.ok:
+        for line in findings.lines(judged):
+            console.complain(line)
+    else:
         _tell(judged, file)
         console.fields([("written", summary.shown_path(path)) for path in written])
     return 0 if judged.ok else FOUND

@@ -11,8 +11,8 @@ from styluscam import viewing
 from styluscam.cli import console, pages, progress, summary
 from styluscam.cli.failures import naming
 from styluscam.cli.options import Debug, GcodeFile, Json, Picture, Quiet, Units
-from styluscam.errors import JobError, VerifyError
-from styluscam.files import read_gcode_text
+from styluscam.errors import JobError, StylusError, VerifyError
+from styluscam.files import is_file, read_gcode_text
 from styluscam.job import Job
 from styluscam.machine import Machine
 from styluscam.part import Part
@@ -46,6 +46,11 @@ Out = Annotated[
     typer.Option("--out", metavar="FILE.html", help="The page; beside the G-code when left out.", show_default=False),
 ]
 
+GENERATOR = '<meta name="generator" content="StylusCAM">'
+"""In the head of each page of ours, and in none of others'."""
+HEAD = 1000
+"""Characters of a page that hold it."""
+
 SHOWN_TOLERANCE = 0.01
 """mm: of a part that is only looked at."""
 
@@ -71,7 +76,7 @@ def view(
     """
     if job is not None and part is not None:
         raise JobError("--job and --part: a job has its part", code="usage", where="--part", hint="give one of them")
-    page = out or file.with_suffix(".html")
+    page = out or _own_page(file)
     reader = Machine.find(machine) if machine is not None else None
     with naming(job or file), naming(file, VerifyError), progress.shown(not (json or quiet)) as shown:
         work = Job.read(job) if job is not None else None
@@ -98,3 +103,28 @@ def view(
         for gap in subject.gaps or ():
             console.say(f"note: {gap}")
     return 0
+
+
+def _own_page(file: Path) -> Path:
+    """The page beside a program, which may replace an older one.
+
+    Raises:
+        StylusError: a file that is no page of ours has this name.
+    """
+    page = file.with_suffix(".html")
+    if is_file(page) and not _is_ours(page):
+        raise StylusError(
+            f"{page}: is there already, and no page of StylusCAM's",
+            code="exists",
+            where=str(page),
+            hint="name the page with --out",
+        )
+    return page
+
+
+def _is_ours(page: Path) -> bool:
+    try:
+        with page.open(encoding="utf-8", errors="replace") as stream:
+            return GENERATOR in stream.read(HEAD)
+    except OSError:
+        return False

@@ -12,6 +12,7 @@ import numpy as np
 from styluscam import _engine
 
 from ..errors import GeometryError
+from ..words import counted
 from .arrays import FaceInfo, Ints, PartArrays, area_vectors, describe_face
 from .facets import Facets
 from .progress import Progress, report
@@ -100,35 +101,33 @@ def _said(mending: dict[str, Any], triangles: int) -> tuple[str, ...]:
     notes = []
     if count := mending["joined"]:
         notes.append(
-            f"{_many(count, 'corner')} that did not quite meet others joined them, {mending['moved']:.2g} mm away at most "
+            f"{counted(count, 'corner')} that did not quite meet others joined them, {mending['moved']:.2g} mm away at most "
             f"(corners within {mending['join_distance']:.2g} mm are joined)"
         )
     if count := mending["degenerate"]:
-        notes.append(f"{_many(count, 'triangle')} without area left out")
+        notes.append(f"{counted(count, 'triangle')} without area left out")
     if count := mending["cut"]:
-        notes.append(f"corners on sides of other triangles: those were cut there, {_many(count, 'cut')}")
+        notes.append(f"corners on sides of other triangles: those were cut there, {counted(count, 'cut')}")
     if count := mending["duplicate"]:
-        notes.append(f"{_many(count, 'triangle')} left out that the file has more than once")
+        notes.append(f"{counted(count, 'triangle')} left out that the file has more than once")
     if count := mending["back_to_back"]:
-        notes.append(f"{_many(count, 'triangle')} left out back to back between bodies that touch: the bodies are one")
+        notes.append(
+            f"{counted(count, 'triangle')} left out back to back between bodies that touch: the bodies are one"
+        )
     if count := mending["double_sided"]:
         notes.append(
-            f"the file has both sides of a surface: {_many(count, 'triangle')} of the second side left out; where the "
+            f"the file has both sides of a surface: {counted(count, 'triangle')} of the second side left out; where the "
             "surface encloses nothing, its material side is a guess (below)"
         )
     if count := mending["turned"]:
-        notes.append(f"{_many(count, 'triangle')} turned over that wound against their neighbours")
+        notes.append(f"{counted(count, 'triangle')} turned over that wound against their neighbours")
     if (count := mending["inside_out"]) == triangles:
         notes.append("the mesh was wound inward (inside out): its triangles were turned over")
     elif count:
-        notes.append(f"{_many(count, 'triangle')} turned over, of bodies that were wound inward (inside out)")
+        notes.append(f"{counted(count, 'triangle')} turned over, of bodies that were wound inward (inside out)")
     if not mending["closed"]:
         notes.append("the mesh is open (not each edge is shared by two triangles): repair it if the part is a solid")
     return tuple(notes)
-
-
-def _many(count: int, what: str) -> str:
-    return f"{count} {what}" if count == 1 else f"{count} {what}s"
 
 
 def _error(file: Path, what: str, cure: str, code: str) -> GeometryError:
