@@ -2,6 +2,8 @@
 //!
 //! Lengths are millimetres, angles radians. Nothing here knows what a path is.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))] // what tests expect may come from std
+
 mod cutter;
 mod error;
 mod frame;

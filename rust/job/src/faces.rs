@@ -44,7 +44,7 @@ pub fn views(mesh: &Mesh) -> BTreeMap<u32, FaceView> {
         view.down += if mesh.looks_down(t) { area } else { 0.0 };
         view.upright += if normal.z <= UP && !mesh.looks_down(t) { area } else { 0.0 };
         view.rim += if rims[t] { area } else { 0.0 };
-        view.steepest = view.steepest.max(libm::atan2(normal.x.hypot(normal.y), normal.z));
+        view.steepest = view.steepest.max(libm::atan2(libm::hypot(normal.x, normal.y), normal.z));
     }
     views
 }

@@ -64,8 +64,8 @@ impl Program {
     fn plunge_feed(&self, step: &Move) -> f64 {
         let plunges = self.segments().filter_map(|(start, plunge)| {
             let start = start?;
-            let down =
-                plunge.end[2] < start[2] && (plunge.end[0] - start[0]).hypot(plunge.end[1] - start[1]) <= SAME_HEIGHT;
+            let down = plunge.end[2] < start[2]
+                && libm::hypot(plunge.end[0] - start[0], plunge.end[1] - start[1]) <= SAME_HEIGHT;
             (down && plunge.kind == MoveKind::Feed && plunge.operation == step.operation).then_some(plunge.feed)
         });
         plunges.fold(step.feed, f64::min)

@@ -1,5 +1,7 @@
 //! Measures how many blocks a second are posted and read: `cargo run --release -p styluscam-post --example speed`.
 
+#![allow(clippy::disallowed_methods)] // nothing here reaches a program
+
 use std::time::Instant;
 
 use styluscam_motion::{

@@ -1,6 +1,8 @@
 //! Posts moves that are made one by one, and says how many a second and how much memory that took:
 //! `cargo run --release -p styluscam-post --example stream -- 10000000`.
 
+#![allow(clippy::disallowed_methods)] // nothing here reaches a program
+
 use std::fs::File;
 use std::io::Write;
 use std::time::Instant;

@@ -203,7 +203,7 @@ fn moves_alike(a: &ToolRecord, b: &ToolRecord) -> bool {
 
 /// No machine file describes axes that turn the tool.
 fn inspect_axes(program: &Program) -> Result<(), PostError> {
-    let leans = |[x, y, z]: &[f64; 3]| x.hypot(*y) > UPRIGHT || z.is_nan() || *z <= 0.0;
+    let leans = |[x, y, z]: &[f64; 3]| libm::hypot(*x, *y) > UPRIGHT || z.is_nan() || *z <= 0.0;
     program.axes.iter().position(leans).map_or(Ok(()), |index| Err(PostError::ToolAxis { index }))
 }
 

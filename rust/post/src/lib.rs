@@ -3,6 +3,8 @@
 //! [`post`] writes a [`Program`](styluscam_motion::Program) for a [`Machine`]; [`read`] reads text as that machine
 //! would, and [`trace`] shows what no machine file describes. A controller of this family is a TOML file; nothing here knows geometry, clocks or files.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))] // what tests expect may come from std
+
 mod cl;
 mod comment;
 mod freecad;

@@ -1,6 +1,6 @@
 //! Arcs: read as controllers read them, posted so that they take them, and the same way after both.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::float_cmp)]
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::float_cmp)]
 
 mod support;
 

@@ -1,6 +1,6 @@
 //! Every shipped machine: random programs of all that its file says it has come back as they were.
 
-#![allow(clippy::unwrap_used, clippy::panic)]
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::panic)]
 
 mod support;
 

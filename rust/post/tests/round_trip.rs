@@ -1,6 +1,6 @@
 //! Whatever is posted reads back as the same program, rounded; and the text keeps the machine's rules.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::float_cmp)]
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::panic, clippy::float_cmp)]
 
 mod support;
 

@@ -1,5 +1,7 @@
 //! From geometry to motion: where the tool may stand, and in which order it goes there.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))] // what tests expect may come from std
+
 mod error;
 mod fitting;
 pub mod forming;

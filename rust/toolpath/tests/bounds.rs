@@ -1,6 +1,6 @@
 //! What is said of boxes of the plan against what is found at places in them.
 
-#![allow(clippy::unwrap_used)] // a test that panics fails
+#![allow(clippy::disallowed_methods, clippy::unwrap_used)] // a test that panics fails
 
 use proptest::prelude::*;
 use styluscam_geometry::{Mesh, ProfileDocument, Tool, ToolDocument, Vector};

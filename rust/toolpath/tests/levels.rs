@@ -1,6 +1,6 @@
 //! Levels round the walls of pins on a plate: closed passes, and what lies between two levels.
 
-#![allow(clippy::unwrap_used, clippy::panic)] // a test that panics fails
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::panic)] // a test that panics fails
 
 mod common;
 

@@ -1,6 +1,6 @@
 //! The push-cutter against another method: the least distance between tool and triangle, by nested golden sections.
 
-#![allow(clippy::unwrap_used)] // a test that panics fails
+#![allow(clippy::disallowed_methods, clippy::unwrap_used)] // a test that panics fails
 
 use proptest::prelude::*;
 use styluscam_geometry::{Cutter, Mesh, ProfileDocument, Tool, ToolDocument, Vector};

@@ -1,6 +1,6 @@
 //! Offset surfaces are refined where something stops the tool: that ends, with as many points as the places are wide.
 
-#![allow(clippy::unwrap_used, clippy::panic)] // a test that panics fails
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::panic)] // a test that panics fails
 
 mod common;
 

@@ -1,6 +1,6 @@
 //! Rows: long where nothing is, and never into what is narrower than the distance of their first samples.
 
-#![allow(clippy::unwrap_used, clippy::panic)] // a test that panics fails
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::panic)] // a test that panics fails
 
 mod common;
 

@@ -2,7 +2,7 @@
 //!
 //! Faults are distances, not heights: near a rim or a wall a height has no bound that a rounding would respect.
 
-#![allow(clippy::unwrap_used, clippy::panic)] // a test that panics fails
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::panic)] // a test that panics fails
 
 mod common;
 

@@ -87,7 +87,7 @@ impl Blank {
                 0.0
             } else {
                 let [from_x, from_y] = self.middle([other_i, other_j]);
-                tool.quick_height_at_radius((from_x - x).hypot(from_y - y))
+                tool.quick_height_at_radius(libm::hypot(from_x - x, from_y - y))
             };
             self.pressed[at] = self.pressed[at].min(z + height);
         }

@@ -76,7 +76,7 @@ fn of(tool: &Tool, sheet: Option<&Sheet>) -> Vec<Holding> {
         };
         let profile = cone.map_or(cylinder(diameter), |rise| ProfileDocument::V {
             tip_diameter: 2.0 * radius,
-            angle_deg: 2.0 * ((0.5 * diameter - radius) / rise).atan().to_degrees(),
+            angle_deg: 2.0 * libm::atan((0.5 * diameter - radius) / rise).to_degrees(),
             diameter,
             tip_flat: 0.0,
         });

@@ -1,5 +1,5 @@
 //! Arcs are judged as arcs: against the same way in short chords.
-#![allow(clippy::unwrap_used)] // helpers of tests are not test functions
+#![allow(clippy::disallowed_methods, clippy::unwrap_used)] // helpers of tests are not test functions
 
 mod common;
 

@@ -1,5 +1,5 @@
 //! What passes leave: closed forms, and the distance by brute force.
-#![allow(clippy::unwrap_used)] // helpers of tests are not test functions
+#![allow(clippy::disallowed_methods, clippy::unwrap_used)] // helpers of tests are not test functions
 
 mod common;
 

@@ -1,5 +1,5 @@
 //! Sound programs pass, and every seeded defect is found where it is.
-#![allow(clippy::unwrap_used)] // helpers of tests are not test functions
+#![allow(clippy::disallowed_methods, clippy::unwrap_used)] // helpers of tests are not test functions
 
 mod common;
 

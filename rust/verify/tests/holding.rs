@@ -1,5 +1,5 @@
 //! Shank and holder: found where they meet the part, to the depth that arithmetic on paper gives.
-#![allow(clippy::unwrap_used)] // helpers of tests are not test functions
+#![allow(clippy::disallowed_methods, clippy::unwrap_used)] // helpers of tests are not test functions
 
 mod common;
 

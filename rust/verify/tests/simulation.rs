@@ -1,5 +1,5 @@
 //! The material after a program, against closed forms and brute force.
-#![allow(clippy::unwrap_used)] // helpers of tests are not test functions
+#![allow(clippy::disallowed_methods, clippy::unwrap_used)] // helpers of tests are not test functions
 
 mod common;
 

@@ -1,5 +1,5 @@
 //! How long the judge takes: `cargo test --release -p styluscam-verify --test speed -- --ignored --nocapture`.
-#![allow(clippy::unwrap_used)] // helpers of tests are not test functions
+#![allow(clippy::disallowed_methods, clippy::unwrap_used)] // helpers of tests are not test functions
 
 mod common;
 

@@ -1,5 +1,5 @@
 //! The same report on any number of threads, and a stop when asked.
-#![allow(clippy::unwrap_used)] // helpers of tests are not test functions
+#![allow(clippy::disallowed_methods, clippy::unwrap_used)] // helpers of tests are not test functions
 
 mod common;
 

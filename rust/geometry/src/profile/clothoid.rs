@@ -45,7 +45,7 @@ impl Meridian for Clothoid {
     fn slope_at_radius(&self, radius: f64, within: [f64; 2]) -> f64 {
         let c = radius.max(0.0) / self.unit;
         // C is increasing and concave on [0, 1]: C(x) = c by Newton from the left never overshoots
-        let mut x = c + PI * PI / 40.0 * c.powi(5);
+        let mut x = c + PI * PI / 40.0 * (c * c * (c * c) * c);
         for _ in 0..50 {
             let slope = FRAC_PI_2 * x * x;
             let step = (fresnel(x).0 - c) / libm::cos(slope).max(1e-300);

@@ -124,7 +124,7 @@ pub fn measured(length: f64) -> f64 {
 
 /// Up to two significant places.
 pub fn round(value: f64) -> f64 {
-    let unit = 10_f64.powf(value.log10().floor() - 1.0);
+    let unit = libm::pow(10.0, libm::log10(value).floor() - 1.0);
     let rounded = (value / unit - 1e-9).ceil() * unit;
     (rounded * 1e9).round() / 1e9
 }

@@ -94,7 +94,7 @@ impl Circle {
     fn centre_by_radius(&self, word: Word, radius: f64) -> Result<[f64; 3], Flaw> {
         let [first, second, _] = self.plane.axes();
         let chord = [self.end[first] - self.start[first], self.end[second] - self.start[second]];
-        let length = chord[0].hypot(chord[1]);
+        let length = libm::hypot(chord[0], chord[1]);
         if length <= 0.0 {
             return Err((ReadFault::ArcForm, Some(word)));
         }

@@ -325,7 +325,7 @@ fn way_difference(
         None => found.end,
     });
     let off = |place: [f64; 3]| {
-        let radius = (place[first] - arc.centre[first]).hypot(place[second] - arc.centre[second]);
+        let radius = libm::hypot(place[first] - arc.centre[first], place[second] - arc.centre[second]);
         (radius - way.radius()).abs()
     };
     let worst = places.map(off).fold(0.0, f64::max);

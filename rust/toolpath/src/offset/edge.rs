@@ -184,7 +184,7 @@ impl Line {
 
     /// The top of the whole line.
     fn top(&self, cutter: &Cutter, near: f64) -> Top {
-        let guess = libm::atan(cutter.supporting_line(near.hypot(self.q)).rise);
+        let guess = libm::atan(cutter.supporting_line(libm::hypot(near, self.q)).rise);
         top(cutter, self.q, self.steep.abs(), guess)
     }
 

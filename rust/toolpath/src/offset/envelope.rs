@@ -42,7 +42,7 @@ impl Contact {
     /// Slope of the contact, rad.
     #[must_use]
     pub fn slope(&self) -> f64 {
-        libm::atan2(self.normal.x.hypot(self.normal.y), self.normal.z)
+        libm::atan2(libm::hypot(self.normal.x, self.normal.y), self.normal.z)
     }
 }
 

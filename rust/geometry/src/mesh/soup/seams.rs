@@ -68,7 +68,7 @@ impl<'a> Border<'a> {
         corners.sort_unstable();
         let (low, high) = bounds(corners.iter().map(|i| vertices[*i as usize]));
         // about one corner a cell, and none that `distance` reaches beyond
-        let cell = ((high - low).amax() / (corners.len() as f64).cbrt()).max(2.0 * distance);
+        let cell = ((high - low).amax() / libm::cbrt(corners.len() as f64)).max(2.0 * distance);
         let mut border = Self { vertices, beside, cells: HashMap::new(), cell, distance };
         for corner in corners {
             border.cells.entry(border.cell_of(border.at(corner))).or_default().push(corner);

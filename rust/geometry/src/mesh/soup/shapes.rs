@@ -104,7 +104,7 @@ fn is_circle(points: &[Vector], axis: Vector, flatness: f64) -> bool {
     }
     let Some(found) = normal.lu().solve(&right) else { return false };
     let radius = (found.z + found.x * found.x + found.y * found.y).sqrt();
-    is_near(flat.map(|(x, y)| (x - found.x).hypot(y - found.y)), radius, reach(points), flatness)
+    is_near(flat.map(|(x, y)| libm::hypot(x - found.x, y - found.y)), radius, reach(points), flatness)
 }
 
 /// Whether the facets' planes meet in one point, from which the points lie in their directions on one cone.

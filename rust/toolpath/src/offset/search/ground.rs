@@ -94,7 +94,7 @@ impl Ground<'_> {
     }
 
     pub fn probe(&self, tile: &Tile, found: &Best) -> Probe {
-        let reach = self.cutter.max_radius() + tile.half[0].hypot(tile.half[1]);
+        let reach = self.cutter.max_radius() + libm::hypot(tile.half[0], tile.half[1]);
         Probe {
             x: tile.x,
             y: tile.y,
