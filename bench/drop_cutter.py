@@ -25,7 +25,7 @@ from opencamlib_peer import answer, peer_python
 from page import machine, table, write
 
 import styluscam as sc
-from styluscam.judging import judge_plan
+from styluscam.judging.verification import judge_plan
 
 HERE = Path(__file__).resolve().parent
 CHECKOUT = HERE.parent

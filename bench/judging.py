@@ -15,7 +15,7 @@ import planning
 from page import machine, table, write
 
 import styluscam as sc
-from styluscam import judging
+from styluscam.judging import verification
 
 ROUNDS = 3
 """The quickest of so many counts."""
@@ -58,7 +58,7 @@ def measured(part: sc.Part, document: dict[str, Any]) -> list[str]:
     best, cpu, phases = float("inf"), 0.0, planning.Phases()
     for _ in range(ROUNDS):
         shown, began, worked = planning.Phases(), time.perf_counter(), time.process_time()
-        judging.judge_plan(plan, text, shown)
+        verification.judge_plan(plan, text, shown)
         seconds = time.perf_counter() - began
         shown("", 1.0)
         if seconds < best:
@@ -71,7 +71,7 @@ def goes_on(plan: sc.Plan, text: str, after: float) -> float:
     """Seconds that a judgement goes on after it was cancelled; 0 when it had ended before."""
     cancelling = Cancelling(after)
     try:
-        judging.judge_plan(plan, text, cancelling)
+        verification.judge_plan(plan, text, cancelling)
     except sc.Cancelled:
         return time.perf_counter() - cancelling.asked
     return 0.0

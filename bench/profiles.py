@@ -11,7 +11,7 @@ from collections.abc import Callable
 import numpy as np
 
 import styluscam as sc
-from styluscam import starters
+from styluscam.tools import starters
 
 SLOPES = 1_000_000
 REPEATS = 5

@@ -12,8 +12,8 @@ import numpy as np
 from PIL import Image
 
 import styluscam as sc
-from styluscam.offset_mesh import COLOURS, FLAGS
-from styluscam.raster import View, rasterise
+from styluscam.drawing.raster import View, rasterise
+from styluscam.offset.surface import COLOURS, FLAGS
 from styluscam.types import FloatArray
 
 mpl.use("agg")

@@ -10,8 +10,8 @@ from pathlib import Path
 from PIL import Image
 
 import styluscam as sc
-from styluscam import starters, toolfile
-from styluscam.toolplot import tool_picture
+from styluscam.drawing.toolplot import tool_picture
+from styluscam.tools import starters, toolfile
 
 IMAGES = Path(__file__).parent / "images"
 

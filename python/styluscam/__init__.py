@@ -19,17 +19,17 @@ from styluscam.errors import (
     ToolError,
     VerifyError,
 )
-from styluscam.job import Job, job_schema, starter_job
-from styluscam.judging import Report, check_program, verify, verify_file
-from styluscam.machine import Machine
-from styluscam.offset_mesh import OffsetSurface, offset_surface
-from styluscam.offsets import drop_cutter, push_cutter, slope_matched_offset, waterline, waterlines
-from styluscam.part import Part
-from styluscam.planning import Plan, Posted, plan, post, read_gcode
-from styluscam.program import Program
-from styluscam.running import RunResult, run
-from styluscam.simulation import Simulation, simulate
-from styluscam.tool import Tool
+from styluscam.judging.simulation import Simulation, simulate
+from styluscam.judging.verification import Report, check_program, verify, verify_file
+from styluscam.offset.positions import drop_cutter, push_cutter, slope_matched_offset, waterline, waterlines
+from styluscam.offset.surface import OffsetSurface, offset_surface
+from styluscam.parts.part import Part
+from styluscam.programs.job import Job, job_schema, starter_job
+from styluscam.programs.machine import Machine
+from styluscam.programs.planning import Plan, Posted, plan, post, read_gcode
+from styluscam.programs.program import Program
+from styluscam.programs.running import RunResult, run
+from styluscam.tools.tool import Tool
 
 __all__ = [
     "CancelToken",

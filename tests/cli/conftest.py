@@ -114,8 +114,8 @@ def run_cli(*arguments: str | Path) -> Ran:
 @pytest.fixture(scope="session", autouse=True)
 def read_once() -> Iterator[None]:
     """A fixture part is read once per session and tolerance: that takes longer than planning it."""
-    from styluscam import job
     from styluscam.parts import read_part
+    from styluscam.programs import job
 
     known: dict[tuple[str, float], sc.Part] = {}
 

@@ -251,7 +251,7 @@ def test_picture_that_cannot_be_written_stops_before_the_work(folder, cli, comma
 
 
 def test_output_that_cannot_be_written_stops_before_the_work(folder, cli, monkeypatch):
-    from styluscam import running
+    from styluscam.programs import running
 
     def planned(*args, **kwargs):
         raise AssertionError("planned in vain")

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import styluscam as sc
-from styluscam.raster import View, rasterise
+from styluscam.drawing.raster import View, rasterise
 
 from .conftest import FIXTURES
 
@@ -68,7 +68,7 @@ def test_picture_shows_the_part(cli, tmp_path):
 
 @pytest.mark.parametrize("name", ["cone_cup", "cap_r60", "vwaf", "pyramid"])
 def test_every_face_gets_a_name_and_no_two_overlap(name, tmp_path, monkeypatch):
-    from styluscam import picture
+    from styluscam.drawing import picture
     from styluscam.parts import read_part
 
     kept = []
@@ -87,7 +87,7 @@ def test_every_face_gets_a_name_and_no_two_overlap(name, tmp_path, monkeypatch):
 
 
 def test_path_behind_a_wall_is_hidden(tmp_path, monkeypatch):
-    from styluscam import picture
+    from styluscam.drawing import picture
 
     kept = []
     monkeypatch.setattr(picture, "_save", lambda figure, path: kept.append(figure))
@@ -117,7 +117,7 @@ def test_rasteriser_sees_the_nearer_of_two_squares():
 
 
 def test_rasteriser_gives_the_same_in_many_parts(monkeypatch):
-    from styluscam import raster
+    from styluscam.drawing import raster
 
     generator = np.random.default_rng(7)
     vertices = generator.uniform(-1.0, 1.0, (90, 3))
@@ -130,7 +130,7 @@ def test_rasteriser_gives_the_same_in_many_parts(monkeypatch):
 
 
 def test_a_part_without_arrays_cannot_be_drawn(tmp_path):
-    from styluscam.picture import part_picture
+    from styluscam.drawing.picture import part_picture
 
     part = sc.Part.from_mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     with pytest.raises(sc.GeometryError, match=r"Part\.read|from a file"):

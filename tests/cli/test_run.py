@@ -175,7 +175,7 @@ def test_missing_output_folders_are_made(tmp_path, cli):
 @pytest.fixture
 def objecting(tmp_path, monkeypatch):
     """A job whose posted text has one coordinate moved: the judge objects."""
-    from styluscam import running
+    from styluscam.programs import running
 
     post = running.post
 

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import styluscam as sc
-from styluscam import library, toolfile
+from styluscam.tools import library, toolfile
 
 from .conftest import COARSE_CUP, changed, write_step
 
@@ -229,7 +229,7 @@ def test_plot_draws_svg_and_png(cli: Any, tmp_path: Path) -> None:
     ids="+".join,
 )
 def test_nothing_on_a_plot_is_clipped_or_overlaps(names: list[str], tmp_path: Path, monkeypatch: Any) -> None:
-    from styluscam import toolplot
+    from styluscam.drawing import toolplot
 
     kept = []
     monkeypatch.setattr(toolplot, "_save", lambda figure, path: kept.append(figure))
@@ -353,7 +353,7 @@ def test_suggest_takes_each_operation_s_faces(cli: Any, mine: Path, tmp_path: Pa
 
 
 def test_suggest_puts_last_what_cannot_be_planned(cli: Any, mine: Path, tmp_path: Path, monkeypatch: Any) -> None:
-    from styluscam import planning
+    from styluscam.programs import planning
 
     plan = planning.plan
 

@@ -172,7 +172,7 @@ def test_run_writes_the_report_that_the_job_or_the_caller_names(cli, tmp_path):
 
 
 def test_run_writes_the_report_of_a_faulty_program_but_not_the_program(cli, tmp_path, monkeypatch):
-    from styluscam import running
+    from styluscam.programs import running
 
     job = tmp_path / "job.toml"
     job.write_text(COARSE_CUP)

@@ -11,7 +11,7 @@ import pytest
 from freecad_host import INSIDE, FreeCad
 
 import styluscam as sc
-from styluscam import starters, toolfile
+from styluscam.tools import starters, toolfile
 
 pytestmark = [pytest.mark.world, pytest.mark.freecad]
 

@@ -12,7 +12,7 @@ import pytest
 from conftest import Mesh, job_document, milling_document
 
 import styluscam as sc
-from styluscam.program import FEED, MOVE, RAPID
+from styluscam.programs.program import FEED, MOVE, RAPID
 
 BALL = {"kind": "ball", "diameter": 1.5}
 TYPES = {"array", "boolean", "integer", "null", "number", "object", "string"}

@@ -10,7 +10,7 @@ import pytest
 from conftest import job_document, milling_document
 
 import styluscam as sc
-from styluscam.estimate import LONG, estimate, too_long
+from styluscam.advice.estimate import LONG, estimate, too_long
 
 BALL = {"kind": "ball", "diameter": 6.0}
 

@@ -10,7 +10,7 @@ import pytest
 
 import styluscam as sc
 from meridian import Meridian, Profile, fresnel
-from styluscam.offsets import REGULAR, RIM, UNDERCUT
+from styluscam.offset.positions import REGULAR, RIM, UNDERCUT
 
 PARTS = ("cone_cup", "cap_r60", "vwaf", "pyramid")
 PROFILES = ({"kind": "ball", "diameter": 6.0}, {"kind": "clothoid", "diameter": 10.0})

@@ -13,7 +13,7 @@ from conftest import CELL, Floats, box, job_document, made_part, milling_documen
 
 import styluscam as sc
 from meridian import Meridian
-from styluscam.program import FEED, RAPID
+from styluscam.programs.program import FEED, RAPID
 
 SHEET = 1.0
 LOWEST, HIGHEST = -0.001, 0.005

@@ -10,8 +10,8 @@ import numpy.typing as npt
 import pytest
 
 import styluscam as sc
-from styluscam import coverage
-from styluscam.picture import arrays_of
+from styluscam.drawing.picture import arrays_of
+from styluscam.judging import coverage
 from styluscam.report import heatmaps
 from styluscam.report.surface import Surface
 

@@ -13,7 +13,7 @@ import pytest
 import roots
 import rs274
 import styluscam as sc
-from styluscam.machine import differences, starter
+from styluscam.programs.machine import differences, starter
 from styluscam.types import FloatArray
 
 MOVES = {"STRAIGHT_TRAVERSE", "STRAIGHT_FEED", "ARC_FEED"}

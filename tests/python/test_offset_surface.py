@@ -10,7 +10,7 @@ import pytest
 
 import styluscam as sc
 from meridian import Floats, Meridian, Profile
-from styluscam.offset_mesh import FLAGS
+from styluscam.offset.surface import FLAGS
 
 CONTACT, BRIDGED, INTERFERES, RIM, UNDERCUT = range(5)
 TOLERANCE = 0.005

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 import styluscam as sc
-from styluscam.pointsfile import read_points, resolved_toml
+from styluscam.tools.pointsfile import read_points, resolved_toml
 
 WANTED = [[0.0, 0.0], [1.5, 0.125], [3.0, 0.5], [4.5, 1.25]]
 LINES = ["0,0", "1.5,0.125", "3.0,0.5", "4.5,1.25"]

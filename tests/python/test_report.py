@@ -16,7 +16,7 @@ import pytest
 from conftest import Floats, Mesh, box, milling_document
 
 import styluscam as sc
-from styluscam.decimation import thinned
+from styluscam.drawing.decimation import thinned
 from styluscam.report import Subject, comparison_page, figures, heatmaps, report_page
 from styluscam.report.columns import packed
 from styluscam.report.surface import Surface, vertices_of

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import styluscam as sc
-from styluscam.scallop import scallop_of_rows, scallop_of_spacing, scallop_of_step
+from styluscam.tools.scallop import scallop_of_rows, scallop_of_spacing, scallop_of_step
 
 WALLS = np.array([15.0, 30.0, 45.0, 60.0, 75.0])
 

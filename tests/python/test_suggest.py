@@ -10,9 +10,9 @@ import pytest
 
 import styluscam as sc
 from meridian import FIXTURES
-from styluscam.reach import gaps
-from styluscam.suggest import micrometres
-from styluscam.walls import Corners, Walls
+from styluscam.advice.reach import gaps
+from styluscam.advice.suggest import micrometres
+from styluscam.advice.walls import Corners, Walls
 
 NONE = Corners(np.zeros((0, 2, 3)), np.zeros(0), np.zeros(0))
 

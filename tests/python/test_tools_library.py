@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import styluscam as sc
-from styluscam import fctb, library, starters, toolfile
-from styluscam.outline import pieces, polyline, silhouette, transition
+from styluscam.tools import fctb, library, starters, toolfile
+from styluscam.tools.outline import pieces, polyline, silhouette, transition
 
 BALL = {"kind": "ball", "diameter": 6.0}
 

@@ -16,8 +16,8 @@ import ngc_words
 import roots
 import rs274
 from styluscam import _engine
+from styluscam.drawing.viewing import subroutines_in
 from styluscam.errors import VerifyError
-from styluscam.viewing import subroutines_in
 
 pytestmark = pytest.mark.world
 

@@ -214,7 +214,10 @@ def test_only_public_names_are_listed():
     assert all(hasattr(sc, name) for name in listed)
     said = pydoc.render_doc(sc, renderer=pydoc.plaintext)
     assert "drop_cutter" in said
-    code = (
-        "import styluscam.suggest, styluscam.report; from styluscam import library, planning; print(styluscam.machine)"
-    )
+    code = """
+import styluscam.advice.suggest, styluscam.report
+from styluscam.programs import planning
+from styluscam.tools import library
+print(styluscam.programs.machine)
+"""
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, check=False).returncode == 0

@@ -124,7 +124,7 @@ def _stylus_document(bit: Any) -> dict[str, Any]:
 def _native_profile(bit: Any) -> dict[str, Any]:
     """The nearest profile of one of FreeCAD's own bits."""
     engine.styluscam()
-    from styluscam.fctb import NATIVE
+    from styluscam.tools.fctb import NATIVE
 
     kind = compat.tool_kind(bit)
     reader = NATIVE.get(kind.replace("-", ""))
@@ -159,7 +159,7 @@ def solid_of(parameters: dict[str, Any]) -> Any:
 
     document = exact_document(parameters[PROFILE])
     tool = engine.styluscam().Tool.from_dict(document)
-    from styluscam.outline import pieces, transition
+    from styluscam.tools.outline import pieces, transition
 
     shank, top = float(parameters["ShankDiameter"]) / 2.0, float(parameters["Length"])
     edges, rim = [], Vector()

@@ -7,13 +7,13 @@ from typing import Annotated
 
 import typer
 
-from styluscam import judging
 from styluscam.cli import console, findings, pages, progress, summary
 from styluscam.cli.failures import FOUND, naming
 from styluscam.cli.options import Debug, ForJob, Json, Quiet
 from styluscam.errors import VerifyError
 from styluscam.files import write_whole
-from styluscam.job import Job
+from styluscam.judging import verification
+from styluscam.programs.job import Job
 from styluscam.report import Subject, comparison_page, figures, side_by_side
 from styluscam.types import Document, Progress
 
@@ -58,7 +58,7 @@ def compare(
 
 def _judged(file: Path, job: Job, shown: Progress | None) -> Subject:
     with naming(file, VerifyError):
-        report = judging.verify_file(file, job, progress=shown)
+        report = verification.verify_file(file, job, progress=shown)
         report.coverage(progress=shown)
     return Subject.judged(report, job.machine(), file.name)
 

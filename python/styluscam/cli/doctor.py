@@ -12,9 +12,9 @@ from styluscam import __version__
 from styluscam.cli import console
 from styluscam.cli.failures import FAULT
 from styluscam.cli.options import Debug, Json
-from styluscam.offsets import drop_cutter
-from styluscam.part import Part
-from styluscam.tool import Tool
+from styluscam.offset.positions import drop_cutter
+from styluscam.parts.part import Part
+from styluscam.tools.tool import Tool
 from styluscam.types import Document
 
 EXTRAS = {

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from styluscam.judging import Report
+from styluscam.judging.verification import Report
 from styluscam.report.findings import spoken
 from styluscam.types import Document
 

@@ -14,7 +14,7 @@ from styluscam.cli import console
 from styluscam.cli.options import Debug, Force, Json, Quiet
 from styluscam.cli.summary import shown_path
 from styluscam.errors import MachineError
-from styluscam.machine import Machine, Trial, differences, starter
+from styluscam.programs.machine import Machine, Trial, differences, starter
 from styluscam.types import Document
 
 app = typer.Typer(help="Look at machines, make files of your own, and try them out.", rich_markup_mode=None)

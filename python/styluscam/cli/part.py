@@ -55,7 +55,7 @@ def show(
 
 
 def _draw(arrays: PartArrays, path: Path) -> None:
-    from styluscam.picture import part_picture
+    from styluscam.drawing.picture import part_picture
 
     part_picture(arrays, path)
 

@@ -7,11 +7,13 @@ from typing import Annotated
 
 import typer
 
-from styluscam import estimate, files, planning
+from styluscam import files
+from styluscam.advice import estimate
 from styluscam.cli import console, progress, summary
 from styluscam.cli.failures import naming
 from styluscam.cli.options import Debug, JobFile, Json, Picture, Quiet
-from styluscam.job import Job
+from styluscam.programs import planning
+from styluscam.programs.job import Job
 
 ProgramFile = Annotated[
     Path | None,
@@ -55,6 +57,6 @@ def plan(
 
 
 def _draw(planned: planning.Plan, path: Path) -> None:
-    from styluscam.picture import plan_picture
+    from styluscam.drawing.picture import plan_picture
 
     plan_picture(planned, path)

@@ -8,12 +8,13 @@ from typing import Annotated
 
 import typer
 
-from styluscam import files, posting
+from styluscam import files
 from styluscam.cli import console
 from styluscam.cli.options import Debug, Force, Json, Quiet
 from styluscam.cli.summary import shown_path
 from styluscam.errors import JobError
-from styluscam.machine import Machine
+from styluscam.programs import posting
+from styluscam.programs.machine import Machine
 from styluscam.types import Document
 
 Source = Annotated[

@@ -7,11 +7,12 @@ from typing import Annotated
 
 import typer
 
-from styluscam import estimate, running
+from styluscam.advice import estimate
 from styluscam.cli import console, findings, progress, summary
 from styluscam.cli.failures import FOUND, naming
 from styluscam.cli.options import Debug, Force, JobFile, Json, Picture, Quiet, ReportFile
-from styluscam.job import Job
+from styluscam.programs import running
+from styluscam.programs.job import Job
 from styluscam.types import Document
 
 Despite = Annotated[
@@ -60,7 +61,7 @@ def run(
 
 
 def _draw(result: running.RunResult, path: Path) -> None:
-    from styluscam.picture import plan_picture
+    from styluscam.drawing.picture import plan_picture
 
     plan_picture(result.plan, path)
 

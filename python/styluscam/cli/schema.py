@@ -10,7 +10,7 @@ import typer
 from styluscam import _engine
 from styluscam.cli import console
 from styluscam.cli.options import Debug, Json
-from styluscam.job import job_schema
+from styluscam.programs.job import job_schema
 
 OfMachine = Annotated[bool, typer.Option("--machine", help="That of machine files.")]
 

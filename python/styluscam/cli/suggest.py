@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from styluscam import library
 from styluscam.cli import console, progress
 from styluscam.cli.failures import naming
 from styluscam.cli.options import Debug, JobFile, Json, Quiet
-from styluscam.job import Job
-from styluscam.tool import Tool
+from styluscam.programs.job import Job
+from styluscam.tools import library
+from styluscam.tools.tool import Tool
 from styluscam.types import Document
 
 if TYPE_CHECKING:
-    from styluscam.suggest import Candidate
+    from styluscam.advice.suggest import Candidate
 
 LibraryFile = Annotated[
     Path | None,
@@ -50,8 +50,8 @@ def suggest(
     All follow the job's passes, so that the paths are equally long, and do all of its operations. It only ranks: the
     choice is yours.
     """
-    from styluscam.suggest import micrometres
-    from styluscam.suggest import suggest as advise
+    from styluscam.advice.suggest import micrometres
+    from styluscam.advice.suggest import suggest as advise
 
     if own is not None:
         _check(own)

@@ -10,12 +10,13 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from styluscam import files, library, pointsfile, starters, toolfile
+from styluscam import files
 from styluscam.cli import console
 from styluscam.cli.options import Debug, Force, Json, Quiet
 from styluscam.cli.summary import shown_path
 from styluscam.errors import ToolError
-from styluscam.tool import Tool
+from styluscam.tools import library, pointsfile, starters, toolfile
+from styluscam.tools.tool import Tool
 from styluscam.types import Document
 
 app = typer.Typer(help="Look at tools, compare them, and make new ones.", rich_markup_mode=None)
@@ -142,7 +143,7 @@ def plot(
     debug: Debug = False,
 ) -> int:
     """Draw tools to scale, with radius of curvature by slope and the scallop that each leaves by wall angle."""
-    from styluscam.toolplot import tool_picture
+    from styluscam.drawing.toolplot import tool_picture
 
     files.require_writable([out])
     tool_picture([find(name, own) for name in tools], out, step_mm)

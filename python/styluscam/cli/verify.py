@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from styluscam import coverage, judging, simulation
 from styluscam.cli import console, findings, pages, progress, summary
 from styluscam.cli.failures import FOUND, naming
 from styluscam.cli.options import Debug, ForJob, GcodeFile, Json, Picture, Quiet, ReportFile, SimulationFile
 from styluscam.errors import VerifyError
-from styluscam.job import Job
+from styluscam.judging import coverage, simulation, verification
+from styluscam.programs.job import Job
 from styluscam.report import Subject
 from styluscam.report.findings import verdict_of
 from styluscam.words import place
@@ -35,7 +35,7 @@ def verify(
         pages.require(report, picture, inputs=[file, *work.inputs()])
         if simulated is not None:
             simulation.require(simulated, inputs=[file, *work.inputs()])
-        judged = judging.verify_file(file, work, progress=shown)
+        judged = verification.verify_file(file, work, progress=shown)
         covered = judged.coverage(progress=shown) if json or not quiet else []
         written = pages.write(lambda: Subject.judged(judged, work.machine(), file.name), report, picture, shown)
         if simulated is not None:
@@ -53,7 +53,7 @@ def verify(
     return 0 if judged.ok else FOUND
 
 
-def _tell(report: judging.Report, file: Path) -> None:
+def _tell(report: verification.Report, file: Path) -> None:
     document = report.to_dict()
     console.say(f"{file}: {verdict_of(report).headline.lower()}")
     for line in findings.lines(report):

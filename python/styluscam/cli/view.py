@@ -7,15 +7,15 @@ from typing import Annotated
 
 import typer
 
-from styluscam import viewing
 from styluscam.cli import console, pages, progress, summary
 from styluscam.cli.failures import naming
 from styluscam.cli.options import Debug, GcodeFile, Json, Picture, Quiet, Units
+from styluscam.drawing import viewing
 from styluscam.errors import JobError, StylusError, VerifyError
 from styluscam.files import is_file, read_gcode_text
-from styluscam.job import Job
-from styluscam.machine import Machine
-from styluscam.part import Part
+from styluscam.parts.part import Part
+from styluscam.programs.job import Job
+from styluscam.programs.machine import Machine
 from styluscam.report import figures, in_words
 
 OnMachine = Annotated[

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from styluscam.program import RAPID
-from styluscam.toolplot import COLOURS, GRID, INK, SOFT
+from styluscam.drawing.toolplot import COLOURS, GRID, INK, SOFT
+from styluscam.programs.program import RAPID
 from styluscam.types import FloatArray, IntArray
 
 if TYPE_CHECKING:

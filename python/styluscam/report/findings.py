@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from styluscam.judging import Report
+from styluscam.judging.verification import Report
 from styluscam.types import Document, FloatArray, IntArray
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from styluscam.judging import Report
+from styluscam.judging.verification import Report
 from styluscam.report.surface import Mask, Surface, Vertices, vertices_of
 from styluscam.types import Document, FloatArray, IntArray, Progress
 

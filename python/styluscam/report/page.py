@@ -7,9 +7,9 @@ import json
 
 import numpy as np
 
-from styluscam.decimation import thinned
-from styluscam.outline import silhouette
-from styluscam.program import SAG
+from styluscam.drawing.decimation import thinned
+from styluscam.drawing.toolplot import tool_svg
+from styluscam.programs.program import SAG
 from styluscam.report import figures, tables
 from styluscam.report.columns import packed
 from styluscam.report.findings import grouped, measured, spoken, verdict_of
@@ -17,8 +17,8 @@ from styluscam.report.heatmaps import HeatMap, Shown, shown_judged, shown_plain
 from styluscam.report.subject import Subject
 from styluscam.report.templates import PAGE, template
 from styluscam.report.vendored import three
-from styluscam.tool import Tool
-from styluscam.toolplot import tool_svg
+from styluscam.tools.outline import silhouette
+from styluscam.tools.tool import Tool
 from styluscam.types import Document, FloatArray, Progress
 
 SCRIPTS = ("data", "colours", "stage", "part", "path", "tool", "fixture", "player", "findings", "main")

@@ -10,15 +10,15 @@ import numpy as np
 import numpy.typing as npt
 
 from styluscam import _engine
-from styluscam.job import Job
-from styluscam.judging import Report
-from styluscam.machine import Machine
-from styluscam.part import Part
-from styluscam.picture import arrays_of, program_picture, program_png
-from styluscam.program import RAPID, Program
+from styluscam.drawing.picture import arrays_of, program_picture, program_png
+from styluscam.judging.verification import Report
+from styluscam.parts.part import Part
+from styluscam.programs.job import Job
+from styluscam.programs.machine import Machine
+from styluscam.programs.program import RAPID, Program
 from styluscam.report.findings import placed, verdict_of
 from styluscam.report.surface import Surface
-from styluscam.tool import Tool
+from styluscam.tools.tool import Tool
 from styluscam.types import Document, FloatArray, IntArray
 
 RAPIDS, UPRIGHT, CUT = 0, 1, 2

@@ -12,7 +12,7 @@ use crate::{
 
 type Triangles<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<i64>>);
 
-/// Heights after a program; see `styluscam.simulation.Simulation`.
+/// Heights after a program; see `styluscam.judging.simulation.Simulation`.
 #[pyclass(frozen, module = "styluscam._engine")]
 pub struct Simulation {
     pub(crate) simulation: styluscam_verify::Simulation,

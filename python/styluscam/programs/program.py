@@ -12,7 +12,7 @@ from styluscam import _engine
 from styluscam.arguments import A_FILE, FileName, file_of, refused
 from styluscam.errors import JobError
 from styluscam.files import read_text, write_whole
-from styluscam.machine import Machine, MachineLike
+from styluscam.programs.machine import Machine, MachineLike
 from styluscam.types import Document, FloatArray
 from styluscam.words import clock, counted
 

@@ -15,8 +15,8 @@ from functools import lru_cache
 from importlib import resources
 from pathlib import Path
 
-from styluscam import pointsfile, toolfile
 from styluscam.errors import ToolError
+from styluscam.tools import pointsfile, toolfile
 from styluscam.types import Document
 
 SHIPPED = ("forming", "milling")

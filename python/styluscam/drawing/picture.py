@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from styluscam.decimation import thinned
+from styluscam.drawing.decimation import thinned
+from styluscam.drawing.raster import Raster, View, rasterise
 from styluscam.errors import GeometryError, StylusError
-from styluscam.part import Part
 from styluscam.parts import PartArrays
-from styluscam.planning import Plan
-from styluscam.program import RAPID, Program
-from styluscam.raster import Raster, View, rasterise
-from styluscam.tool import Tool
+from styluscam.parts.part import Part
+from styluscam.programs.planning import Plan
+from styluscam.programs.program import RAPID, Program
+from styluscam.tools.tool import Tool
 from styluscam.types import FloatArray, IntArray
 from styluscam.words import clock
 

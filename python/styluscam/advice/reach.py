@@ -12,9 +12,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from styluscam.tool import Tool
+from styluscam.advice.walls import Corners
+from styluscam.tools.tool import Tool
 from styluscam.types import FloatArray
-from styluscam.walls import Corners
 
 STATIONS = 49
 """Normals between the two planes that are looked at."""

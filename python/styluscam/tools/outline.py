@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from styluscam.scallop import Meridian
+from styluscam.tools.scallop import Meridian
 from styluscam.types import Document, FloatArray
 
 STATIONS = 65

@@ -10,13 +10,13 @@ import numpy.typing as npt
 
 from styluscam import _engine
 from styluscam.arguments import A_FILE, FileName, file_of, refused
-from styluscam.brep import recheck
 from styluscam.errors import GeometryError, JobError, PlanError, VerifyError
 from styluscam.files import read_gcode_text
-from styluscam.job import Job, JobLike
-from styluscam.machine import Machine, MachineLike
-from styluscam.planning import Plan, TextLike, text_of
-from styluscam.program import Program
+from styluscam.judging.brep import recheck
+from styluscam.programs.job import Job, JobLike
+from styluscam.programs.machine import Machine, MachineLike
+from styluscam.programs.planning import Plan, TextLike, text_of
+from styluscam.programs.program import Program
 from styluscam.types import Document, FloatArray, Progress, shaped
 from styluscam.types import points as rows
 from styluscam.words import counted

@@ -13,10 +13,10 @@ from styluscam import _engine
 from styluscam.arguments import number_of, refused
 from styluscam.errors import GeometryError
 from styluscam.files import drawn_whole
-from styluscam.meshfile import write_triangles
-from styluscam.offsets import _sheet
-from styluscam.part import Part, PartLike
-from styluscam.tool import Tool, ToolLike
+from styluscam.offset.positions import _sheet
+from styluscam.parts.meshfile import write_triangles
+from styluscam.parts.part import Part, PartLike
+from styluscam.tools.tool import Tool, ToolLike
 from styluscam.types import Document, FloatArray, IntArray, Progress
 
 FLAGS = ("contact", "bridged", "interferes", "rim", "undercut")

@@ -11,8 +11,8 @@ import numpy.typing as npt
 
 from styluscam import _engine
 from styluscam.errors import GeometryError, JobError
-from styluscam.job import Job
 from styluscam.parts import PartArrays
+from styluscam.programs.job import Job
 from styluscam.types import Document, FloatArray, IntArray, Progress
 
 FLOOR_DEG = 5.0

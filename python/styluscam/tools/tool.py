@@ -12,11 +12,11 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from styluscam import fctb, library, pointsfile, toolfile
 from styluscam._engine import Tool as EngineTool
 from styluscam.arguments import A_FILE, FileName, document_of, file_of, word_of
 from styluscam.errors import ToolError
 from styluscam.files import is_file, write_whole
+from styluscam.tools import fctb, library, pointsfile, toolfile
 from styluscam.types import Document, FloatArray, numbers
 
 ToolLike: TypeAlias = "Tool | Document | str | os.PathLike[str]"

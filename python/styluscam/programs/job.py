@@ -9,14 +9,15 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
-from styluscam import _engine, pointsfile
+from styluscam import _engine
 from styluscam.arguments import A_FILE, FileName, document_of, file_of, json_of, refused
 from styluscam.errors import JobError, ToolError
 from styluscam.files import reason, require_end
-from styluscam.machine import Machine
-from styluscam.part import Part, PartLike
 from styluscam.parts import BREP_ENDINGS, MESH_ENDINGS, PartArrays
-from styluscam.tool import Tool
+from styluscam.parts.part import Part, PartLike
+from styluscam.programs.machine import Machine
+from styluscam.tools import pointsfile
+from styluscam.tools.tool import Tool
 from styluscam.types import Document, Progress
 from styluscam.words import counted, shortened
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from styluscam.job import Job
+from styluscam.programs.job import Job
 from styluscam.types import Progress
 
 LONG = 60.0

@@ -13,11 +13,11 @@ from styluscam import _engine
 from styluscam.arguments import A_FILE, FileName, file_of
 from styluscam.errors import JobError, StylusError, VerifyError
 from styluscam.files import is_file, require_writable, write_all_whole
-from styluscam.job import Job, JobLike
-from styluscam.judging import Report, judge_plan
-from styluscam.planning import Plan, Posted, output_name, plan, post
-from styluscam.posting import VERDICT
-from styluscam.program import Program
+from styluscam.judging.verification import Report, judge_plan
+from styluscam.programs.job import Job, JobLike
+from styluscam.programs.planning import Plan, Posted, output_name, plan, post
+from styluscam.programs.posting import VERDICT
+from styluscam.programs.program import Program
 from styluscam.report import Subject, report_page, require_extra
 from styluscam.types import Document, Progress
 from styluscam.words import shortened

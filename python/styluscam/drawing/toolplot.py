@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from styluscam.errors import StylusError, ToolError
-from styluscam.outline import pieces, polyline, silhouette
-from styluscam.scallop import scallop_of_step
-from styluscam.tool import Tool
+from styluscam.tools.outline import pieces, polyline, silhouette
+from styluscam.tools.scallop import scallop_of_step
+from styluscam.tools.tool import Tool
 from styluscam.types import FloatArray
 
 if TYPE_CHECKING:

@@ -13,8 +13,8 @@ from styluscam import _engine
 from styluscam.arguments import A_FILE, FileName, file_of, number_of, refused
 from styluscam.errors import GeometryError, VerifyError
 from styluscam.files import require_writable
-from styluscam.judging import Report
-from styluscam.meshfile import write_triangles, writer
+from styluscam.judging.verification import Report
+from styluscam.parts.meshfile import write_triangles, writer
 from styluscam.types import Document, FloatArray, IntArray, Progress
 
 FINE, NODES = 0.05, 200.0 * 200.0 / 0.05**2

@@ -11,10 +11,10 @@ import numpy as np
 from styluscam import _engine
 from styluscam.errors import VerifyError
 from styluscam.files import read_gcode_text
-from styluscam.job import Job
-from styluscam.machine import Machine
-from styluscam.part import Part
-from styluscam.program import Program
+from styluscam.parts.part import Part
+from styluscam.programs.job import Job
+from styluscam.programs.machine import Machine
+from styluscam.programs.program import Program
 from styluscam.report import Subject
 from styluscam.types import Progress
 

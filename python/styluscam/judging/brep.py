@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from styluscam import _engine
-from styluscam.job import Job
+from styluscam.programs.job import Job
 from styluscam.types import Document
 
 ROUNDING = 1e-6

@@ -10,8 +10,8 @@ from pathlib import Path
 from styluscam import _engine
 from styluscam.errors import JobError
 from styluscam.files import drawn_whole, read_gcode_text
-from styluscam.machine import Machine
-from styluscam.program import Program
+from styluscam.programs.machine import Machine
+from styluscam.programs.program import Program
 
 VERDICT = "judged from this text"
 """How the note begins that belongs to the text which was judged, and to no other."""

@@ -17,13 +17,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from styluscam import _engine, planning, reach
+from styluscam import _engine
+from styluscam.advice import reach
+from styluscam.advice.walls import BIN_DEG, Classes, Walls, walls_of
 from styluscam.errors import Cancelled, GeometryError, JobError, PlanError, ToolError
-from styluscam.job import Job
-from styluscam.scallop import scallop_of_spacing
-from styluscam.tool import Tool
+from styluscam.programs import planning
+from styluscam.programs.job import Job
+from styluscam.tools.scallop import scallop_of_spacing
+from styluscam.tools.tool import Tool
 from styluscam.types import Document, FloatArray, Progress
-from styluscam.walls import BIN_DEG, Classes, Walls, walls_of
 
 BEST = 3
 """Tools for which the job is planned, to see what they bridge."""

@@ -15,12 +15,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from styluscam import _engine, toolfile
+from styluscam import _engine
 from styluscam.errors import ToolError
+from styluscam.tools import toolfile
 from styluscam.types import Document
 
 if TYPE_CHECKING:
-    from styluscam.tool import Tool
+    from styluscam.tools.tool import Tool
 
 VERSION = 2
 """Of the format, as FreeCAD 1.0 and 1.1 write it."""

@@ -10,8 +10,8 @@ import numpy.typing as npt
 from styluscam import _engine
 from styluscam.arguments import document_of, json_of, number_of
 from styluscam.errors import GeometryError
-from styluscam.part import Part, PartLike
-from styluscam.tool import Tool, ToolLike
+from styluscam.parts.part import Part, PartLike
+from styluscam.tools.tool import Tool, ToolLike
 from styluscam.types import Document, FloatArray, Progress, numbers, points, shaped
 
 SHEET = ("thickness", "law", "model_face")

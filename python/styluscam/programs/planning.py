@@ -11,9 +11,9 @@ from typing import TypeAlias
 from styluscam import _engine
 from styluscam.arguments import document_of, gcode_of, refused
 from styluscam.errors import MachineError, PlanError, StylusError
-from styluscam.job import Job, JobLike
-from styluscam.machine import Machine, MachineLike
-from styluscam.program import Program
+from styluscam.programs.job import Job, JobLike
+from styluscam.programs.machine import Machine, MachineLike
+from styluscam.programs.program import Program
 from styluscam.types import Document, Progress
 from styluscam.words import counted, shortened
 
@@ -176,6 +176,6 @@ def read_gcode(text: TextLike, machine: MachineLike) -> Program:
 
     ``text`` is G-code, or the name of a file that holds it: a single line that is an existing file, or ends as file names do.
     It is for looking at and measuring: ways to the machine's own places, and lines behind a ``/``, are no moves of it. To post a
-    text for another machine, where such things must not be lost, there is :func:`styluscam.posting.read_program`.
+    text for another machine, where such things must not be lost, there is :func:`styluscam.programs.posting.read_program`.
     """
     return Program(_engine.read_gcode(text_of(text), Machine.of(machine).engine))

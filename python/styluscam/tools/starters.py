@@ -5,8 +5,8 @@ from __future__ import annotations
 import copy
 import difflib
 
-from styluscam import toolfile
 from styluscam.errors import ToolError
+from styluscam.tools import toolfile
 from styluscam.types import Document
 
 PROFILES: dict[str, Document] = {

@@ -1,0 +1,1 @@
+"""Verification of posted text against the part, and the material that a program leaves."""

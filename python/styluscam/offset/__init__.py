@@ -1,0 +1,1 @@
+"""The tool on the surface: positions, and the offset surface as a mesh."""

@@ -1,0 +1,1 @@
+"""From a job document through programs to a machine's text."""

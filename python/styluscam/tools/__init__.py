@@ -1,0 +1,1 @@
+"""Tools: profiles asked by slope, their documents and files, the shipped library."""
