@@ -179,6 +179,10 @@ picture: dev ## The picture in the README
 profile-pictures: dev ## The pictures in docs/profiles.md
 	$(BIN)/python docs/profile_pictures.py
 
+.PHONY: concept-pictures
+concept-pictures: dev ## The pictures in docs/concepts
+	$(BIN)/python docs/concept_pictures.py
+
 .PHONY: offset-picture
 offset-picture: dev ## The picture of the offset surface in docs/guide.md
 	$(BIN)/python docs/offset_picture.py

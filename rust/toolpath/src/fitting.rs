@@ -6,6 +6,8 @@
 //! Witnesses, exact points, are put in until the path between neighbours is proven to stray little, or as far as that cannot
 //! be seen, looks so from close by; then those are left out over which a longer chord passes closely. What a final
 //! chord strays is at most the sum of both.
+//!
+//! The proofs are derived in docs/concepts/fitting.md.
 
 use crate::PathPoint;
 use styluscam_geometry::Vector;

@@ -4,6 +4,9 @@
 //! cup and clockwise round a hill. A segment is believed when exact points lie close along it, in its own square; else the
 //! square is quartered, down to a thousandth of a cell, and its neighbours follow; what is smaller than that is passed
 //! over. So narrow notches, two ways through a cell and what hides between the nodes are found without a finer grid.
+//!
+//! Marching squares (W. E. Lorensen, H. E. Cline, "Marching cubes", Computer Graphics 21, 1987, in the plane) with exact crossings.
+//! See docs/concepts/waterlines.md.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 

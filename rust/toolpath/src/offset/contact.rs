@@ -1,4 +1,7 @@
 //! Exact contacts of a cutter with a triangle: on the facet, on an edge, on a corner.
+//!
+//! The contacts of drop-cutter: Yau, Chuang, Lee (2004), see [`super::envelope`]; the cuts of a chord where its tangents meet:
+//! J. E. Kelley, "The cutting-plane method for solving convex programs", Journal of the SIAM 8, 1960.
 
 use rayon::prelude::*;
 use styluscam_geometry::{Cutter, Vector};

@@ -1,4 +1,7 @@
 //! The highest tip that an edge allows: one concave maximisation, solved in the slope.
+//!
+//! The contact of drop-cutter with an edge (Yau, Chuang, Lee 2004, see [`super::envelope`]), here for any convex profile.
+//! Derivation: docs/concepts/envelope.md.
 
 use styluscam_geometry::{Cutter, Straight, Vector};
 

@@ -2,6 +2,10 @@
 //!
 //! The tip height at (x, y) is the largest over all triangles of three contacts: facet (the profile's point of
 //! equal slope), edge and vertex. A tree of boxes with planes over them rules out nearly all triangles.
+//!
+//! The three contacts of drop-cutter, for a generalized cutter: H.-T. Yau, C.-M. Chuang, Y.-S. Lee, "Numerical control
+//! machining of triangulated sculptured surfaces in a stereo lithography format with a generalized cutter", International
+//! Journal of Production Research 42, 2004. Derivation: docs/concepts/envelope.md.
 
 use rayon::prelude::*;
 use styluscam_geometry::{Cutter, Mesh, Sheet, Tool, Vector};

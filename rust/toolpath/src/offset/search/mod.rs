@@ -3,6 +3,8 @@
 //! A contact found over the tile's middle is a floor for the whole tile: the cutter cannot be lower beside it than that
 //! point of the mesh lets it. What cannot rise above the floor anywhere in the tile is passed over; the triangles
 //! that are left are then tried for each place.
+//!
+//! Branch and bound over a hierarchy of boxes; why the bounds hold: docs/concepts/search-bounds.md.
 
 mod candidates;
 mod ground;
