@@ -16,8 +16,10 @@ import styluscam as sc
 
 from .conftest import CHECKOUT, FIXTURES, run_cli
 
-PAGES = ("README.md", "docs/guide.md", "docs/posts.md", "docs/profiles.md")
-BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+HOWTO = tuple(f"docs/howto/{page.name}" for page in sorted((CHECKOUT / "docs" / "howto").glob("add-*.md")))
+PAGES = ("README.md", "docs/guide.md", "docs/posts.md", "docs/profiles.md", *HOWTO)
+BLOCK = re.compile(r"^```(\w*)(?: (\S+))?\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+LEFT_OUT = "…\n"
 
 
 JOB = """
@@ -40,11 +42,11 @@ tolerance = 0.02
 """A job that is done in no time."""
 
 
-def blocks(page: str) -> Iterator[tuple[str, int, str, str]]:
-    """Page, line, language and text of every block in it."""
+def blocks(page: str) -> Iterator[tuple[int, str, str | None, str]]:
+    """Line, language, file that it is in (if one is named) and text of every block of a page."""
     text = (CHECKOUT / page).read_text(encoding="utf-8")
     for found in BLOCK.finditer(text):
-        yield page, text[: found.start()].count("\n") + 1, found[1], found[2]
+        yield text[: found.start()].count("\n") + 1, found[1], found[2], found[3]
 
 
 @pytest.fixture
@@ -88,14 +90,27 @@ def as_toml(text: str) -> None:
         assert tools["stylus"].diameter > 0.0
 
 
+def as_quotation(text: str, line: int, page: str, file: str) -> None:
+    """Lines of a file of the repository, one after the other where nothing is left out, and in their order."""
+    rest = (CHECKOUT / file).read_text(encoding="utf-8")
+    for piece in text.split(LEFT_OUT):
+        _, found, rest = rest.partition(piece)
+        assert found, f"{page}:{line}: {file} does not hold, after what is quoted before:\n{piece}"
+
+
 @pytest.mark.parametrize("page", PAGES)
 def test_every_block_of_a_page_runs(page: str, desk: Path) -> None:
     names: dict[str, Any] = {}
     if page.endswith("guide.md"):  # the page begins where a job was run
         assert run_cli("run", "job.toml", "--quiet").code == 0
     ran = 0
-    for _, line, language, text in blocks(page):
-        if language == "python":
+    for line, language, file, text in blocks(page):
+        if file is not None and (CHECKOUT / file).is_file():
+            as_quotation(text, line, page, file)
+        elif file is not None:  # the reader writes it
+            assert "/" not in file, f"{page}:{line}: there is no {file}"
+            Path(file).write_text(text)
+        elif language == "python":
             exec(compile("\n" * line + text, page, "exec"), names)
         elif language == "toml":
             as_toml(text)
@@ -111,3 +126,12 @@ def test_every_block_of_a_page_runs(page: str, desk: Path) -> None:
             pytest.fail(f"{page}:{line}: nobody runs blocks of {language}")
         ran += 1
     assert ran >= 3
+
+
+def test_a_quotation_that_is_not_in_its_file_is_found() -> None:
+    text = (CHECKOUT / "Makefile").read_text()
+    first, second, third, *_ = text.splitlines(keepends=True)
+    as_quotation(first + LEFT_OUT + third, 1, "page", "Makefile")
+    for wrong in (first + third, second + LEFT_OUT + first, first + "nothing\n"):
+        with pytest.raises(AssertionError, match="page:1: Makefile does not hold"):
+            as_quotation(wrong, 1, "page", "Makefile")
