@@ -20,11 +20,11 @@ INTRODUCTION = """\
 # Machines
 
 Each comes as a file of facts and templates. `styluscam machine show NAME --toml` prints it, `styluscam machine check NAME` posts
-a torture program by it and reads the text back, [Write a post for your machine](posts.md) says how to make one of your own.
+a torture program by it and reads the text back, [Write a post for your machine](posts.md) describes how to make one of your own.
 
 "Read" means that every fact was read in the sources named; "partly" that all were but those listed as not confirmed; "unverified"
-that parts are guesses: the header of every program says so. The golden program of each is the same job: two tools (one where the
-machine takes one), lines, arcs, a helix, holes where it has cycles, a wait and coolant.
+that parts are guesses: the header of every program states it. The golden program of each is the same job: two tools (one where
+the machine takes one), lines, arcs, a helix, holes where it has cycles, a wait and coolant.
 
 | machine | what | evidence | second reader in the tests |
 |---|---|---|---|

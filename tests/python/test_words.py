@@ -1,0 +1,54 @@
+"""The pages use the field's words: none of those that CONTRIBUTING.md replaces."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+CHECKOUT = Path(__file__).resolve().parents[2]
+CODE = re.compile(r"^```.*?^```$|`[^`]*`|\]\([^)]*\)", re.DOTALL | re.MULTILINE)
+HISTORY = {"performance.md"}
+"""Pages of measurements, in the words of their day."""
+PAGES = [
+    *(CHECKOUT / name for name in ("README.md", "ARCHITECTURE.md")),
+    *(page for page in sorted((CHECKOUT / "docs").rglob("*.md")) if page.name not in HISTORY),
+]
+REPLACED = {
+    "judge, judged, judgement": r"judg(?:e|es|ed|ing|ement)",
+    "strays, strays by": r"stray(?:s|ed|ing)?",
+    "said, unsaid, says": r"unsaid",
+    "legs": r"legs",
+    "flown, ridden": r"flown|ridden",
+    "told, tells": r"told|tells",
+    "bears": r"bears",
+    "looks down, looks up": r"looks? (?:down|up)",
+    "blind, unplaced moves": r"(?:blind|unplaced) moves?",
+    "wanted faces": r"wanted faces?",
+    "lead, way down": r"way down",
+    "for its own sake": r"own sake",
+    "not a point of this world": r"of this world",
+}
+"""Patterns of those words of the list that have no other meaning in a page, by how the list begins with them."""
+
+
+def found(text: str) -> list[str]:
+    """The words of the list in a text, code and addresses left out."""
+    bare = CODE.sub("", text)
+    return [word for pattern in REPLACED.values() for word in re.findall(rf"\b(?:{pattern})\b", bare, re.IGNORECASE)]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(CHECKOUT).as_posix())
+def test_a_page_uses_the_fields_words(page: Path) -> None:
+    assert found(page.read_text(encoding="utf-8")) == []
+
+
+def test_the_list_is_that_of_contributing() -> None:
+    rows = re.findall(r"^\| (.+?) \| .+ \|$", (CHECKOUT / "CONTRIBUTING.md").read_text(encoding="utf-8"), re.MULTILINE)
+    plain = [row.replace('"', "") for row in rows]
+    assert [word for word in REPLACED if not any(row.startswith(word) for row in plain)] == []
+
+
+def test_words_are_found() -> None:
+    assert found("The Judge's `judge` is [told](judge.md).") == ["Judge", "told"]
