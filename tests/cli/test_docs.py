@@ -19,7 +19,7 @@ from .conftest import CHECKOUT, FIXTURES, run_cli
 HOWTO = tuple(f"docs/howto/{page.name}" for page in sorted((CHECKOUT / "docs" / "howto").glob("add-*.md")))
 PAGES = ("README.md", "docs/guide.md", "docs/posts.md", "docs/profiles.md", *HOWTO)
 BLOCK = re.compile(r"^```(\w*)(?: (\S+))?\n(.*?)^```$", re.DOTALL | re.MULTILINE)
-LEFT_OUT = "…\n"
+LEFT_OUT = "…"
 
 
 JOB = """
@@ -91,9 +91,9 @@ def as_toml(text: str) -> None:
 
 
 def as_quotation(text: str, line: int, page: str, file: str) -> None:
-    """Lines of a file of the repository, one after the other where nothing is left out, and in their order."""
+    """What a file of the repository holds, piece by piece and in its order, where something is left out."""
     rest = (CHECKOUT / file).read_text(encoding="utf-8")
-    for piece in text.split(LEFT_OUT):
+    for piece in filter(None, (piece.strip("\n") for piece in text.split(LEFT_OUT))):
         _, found, rest = rest.partition(piece)
         assert found, f"{page}:{line}: {file} does not hold, after what is quoted before:\n{piece}"
 
@@ -131,7 +131,8 @@ def test_every_block_of_a_page_runs(page: str, desk: Path) -> None:
 def test_a_quotation_that_is_not_in_its_file_is_found() -> None:
     text = (CHECKOUT / "Makefile").read_text()
     first, second, third, *_ = text.splitlines(keepends=True)
-    as_quotation(first + LEFT_OUT + third, 1, "page", "Makefile")
+    as_quotation(f"{first}{LEFT_OUT}\n{third}", 1, "page", "Makefile")
+    as_quotation(f"{first[:9]}{LEFT_OUT}{second[20:]}", 1, "page", "Makefile")
     for wrong in (first + third, second + LEFT_OUT + first, first + "nothing\n"):
         with pytest.raises(AssertionError, match="page:1: Makefile does not hold"):
             as_quotation(wrong, 1, "page", "Makefile")
