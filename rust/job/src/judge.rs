@@ -1,6 +1,7 @@
 //! Posted text, judged: read back, put against the part, limits taken from the job.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use serde::Serialize;
 use styluscam_geometry::{ModelFace, Sheet, Tool, Vector};
@@ -8,8 +9,8 @@ use styluscam_motion::{Program, ToolRecord, Watch};
 use styluscam_post::machine::ToolChange;
 use styluscam_post::{read, Machine, Reading};
 use styluscam_verify::{
-    FaceCoverage, Forming, Grid, Limits, Need, Order, Passes, Reach, Report, Simulation, Spacing, Subject, TextFacts,
-    ToolCalls,
+    Across, Contact, Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Height, Limits, Need, OrderedPasses,
+    Passes, Reach, Report, Scalar, Simulation, Subject, TextFacts, ToolCalls,
 };
 
 use crate::heights::TipHeights;
@@ -79,10 +80,10 @@ pub fn judge(
     let ended = ended || machine.end.is_empty(); // some controllers have no word for it
     let text =
         TextFacts { blind, machine_moves, optional_lines, unsaid, stray_planes, stops, lines, ended, tool_calls };
-    let orders = orders(job, scene, &records)?;
+    let expected = expected(job, scene, &records)?;
     let obstacles = fixture::obstacles(job, scene)?;
     let plain = subject(job, scene, &tools, &unplaced);
-    let subject = Subject { text: Some(&text), orders: &orders, obstacles: &obstacles, ..plain };
+    let subject = Subject { text: Some(&text), expected: &expected, obstacles: &obstacles, ..plain };
     let found = model::mismatches(job, scene);
     let limits = Limits { excess_by_operation: excess(job, &program), found, ..limits(job, scene, &tools, machine) };
     let report = styluscam_verify::judge(&program, &subject, &limits, watch)?;
@@ -174,15 +175,15 @@ fn subject<'a>(job: &'a JobDocument, scene: &'a Scene, tools: &'a [Tool], unplac
         wcs: &job.setup.wcs,
         unplaced,
         text: None,
-        orders: &[],
+        expected: &[],
         obstacles: &[],
     }
 }
 
-/// What the job orders for each of its operations.
-fn orders(job: &JobDocument, scene: &Scene, records: &[ToolRecord]) -> Result<Vec<Order>, JobError> {
-    let order = |(index, section): (usize, &OperationSection)| {
-        Ok(Order {
+/// What the job states for each of its operations.
+fn expected(job: &JobDocument, scene: &Scene, records: &[ToolRecord]) -> Result<Vec<ExpectedOperation>, JobError> {
+    let operation = |(index, section): (usize, &OperationSection)| {
+        Ok(ExpectedOperation {
             id: operation_id(section, index),
             tool: records.iter().position(|record| record.name == section.tool).unwrap_or(usize::MAX),
             cut: section.feeds.cut,
@@ -192,29 +193,40 @@ fn orders(job: &JobDocument, scene: &Scene, records: &[ToolRecord]) -> Result<Ve
                 Spindle::Fixed { rpm, direction } => Some((rpm, direction)),
             },
             flood: section.coolant == Coolant::Flood,
-            passes: passes(job, scene, section, index)?,
-            forms: job.process.kind == Process::Spif && job.setup.sheet.is_some(),
+            expectation: expectation(job, scene, section, index)?,
         })
     };
-    job.operations.iter().enumerate().map(order).collect()
+    job.operations.iter().enumerate().map(operation).collect()
 }
 
-/// How an operation's passes are to lie.
-fn passes(
+/// What an operation's moves and passes must do.
+fn expectation(
     job: &JobDocument,
     scene: &Scene,
     section: &OperationSection,
     index: usize,
-) -> Result<Option<Passes>, JobError> {
-    let spacing = match (section.kind, section.step, section.stepover) {
-        (OperationKind::ZLevel, Some(Step::Height(step)), _) => Spacing::Levels(step),
-        (OperationKind::ZigZag, _, Some(stepover)) => Spacing::Rows(stepover, section.angle_deg.to_radians()),
-        _ => return Ok(None),
-    };
+) -> Result<Expectation, JobError> {
     let heights = TipHeights::of(job, scene, section);
-    let heights = [heights.bottom, heights.top.unwrap_or(f64::INFINITY)];
-    let wanted = scene.looking_up(&faces::of_operation(job, scene, section, index)?);
-    Ok(Some(Passes { spacing, smallest_feature: section.smallest_feature, heights, wanted }))
+    Ok(Expectation {
+        contact: Contact::Touch,
+        selected: scene.looking_up(&faces::of_operation(job, scene, section, index)?),
+        heights: [heights.bottom, heights.top.unwrap_or(f64::INFINITY)],
+        passes: passes(section),
+        forms: job.process.kind == Process::Spif && job.setup.sheet.is_some(),
+    })
+}
+
+/// How an operation's passes are to lie.
+fn passes(section: &OperationSection) -> Passes {
+    let (scalar, step): (Arc<dyn Scalar>, f64) = match (section.kind, section.step, section.stepover) {
+        (OperationKind::ZLevel, Some(Step::Height(step)), _) => (Arc::new(Height), step),
+        (OperationKind::ZigZag, _, Some(stepover)) => {
+            (Arc::new(Across { direction_rad: section.angle_deg.to_radians() }), stepover)
+        }
+        (OperationKind::ZLevel, None, _) => return Passes::Unordered { reason: "for the job has no step" },
+        (OperationKind::ZigZag, _, None) => return Passes::Unordered { reason: "for the job has no stepover" },
+    };
+    Passes::Ordered(OrderedPasses { scalar, step, continuous: false, smallest_feature: section.smallest_feature })
 }
 
 /// The tolerance of each of the text's operations, by the ids in its remarks; the widest of the job where it names none.

@@ -11,7 +11,7 @@ use std::collections::BinaryHeap;
 
 use styluscam_geometry::{Cutter, Mesh};
 
-use crate::passes::ROUGH;
+use crate::tolerances::ROUGH;
 use crate::Vector;
 
 /// Side of a cell, as a share of the tool's radius.

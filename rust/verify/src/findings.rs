@@ -127,6 +127,8 @@ pub enum FindingKind {
     SpindleLimit,
     /// A coordinate that is not a number, or absurd (beyond 10 km).
     NotFinite,
+    /// Something that the verifier does not check, and why.
+    NotChecked,
 }
 
 impl FindingKind {
@@ -174,6 +176,8 @@ pub enum Severity {
     Error,
     /// Worth knowing; the program may run.
     Warning,
+    /// What the report does not answer for; the program may run.
+    Note,
 }
 
 /// One fault: its worst place and the lines over which it lasts.

@@ -2,13 +2,13 @@
 
 use styluscam_motion::{Cancelled, Program, Watch};
 
+use crate::assignment::Assignment;
 use crate::findings::{merge, Merged};
 use crate::legs::placed;
 use crate::measure::measure;
-use crate::orders::{self, Orders};
 use crate::{
-    diagnosis, passes, reach, sequence, travel, unreached, walls, Finding, FindingKind, Limits, Report, Severity,
-    Subject,
+    diagnosis, passes, reach, sequence, settings, travel, unreached, walls, Finding, FindingKind, Limits, Report,
+    Severity, Subject,
 };
 
 /// Judges a program read back from posted text against the part.
@@ -23,11 +23,11 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let mut faults = std::mem::take(&mut tally.faults);
     faults.extend(travel::faults(program, &legs, subject, limits));
     faults.extend(reach::faults(program, subject, &limits.reach));
-    let orders = Orders::new(program, subject);
-    faults.extend(orders.faults(program, &legs, limits));
-    faults.extend(sequence::faults(program, &legs, &orders, subject, limits));
-    faults.extend(sequence::punches(program, &legs, &orders, subject, limits));
-    faults.extend(passes::faults(&legs, &orders, subject, limits, watch)?);
+    let assignment = Assignment::new(program, subject);
+    faults.extend(settings::faults(program, &legs, &assignment, limits));
+    faults.extend(sequence::faults(program, &legs, &assignment, subject, limits));
+    faults.extend(sequence::punches(program, &legs, &assignment, subject, limits));
+    faults.extend(passes::faults(&legs, &assignment, subject, limits, watch)?);
     let beyond_reach = unreached::findings(&legs, subject, limits, watch)?;
     let steep = walls::finding(subject, limits);
     if steep.is_some() {
@@ -38,8 +38,8 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let Merged { mut told, mut counts, lengths } = merge(&faults, program, (high - low).norm());
     let nothing = tally.nothing_touches().then(|| diagnosis::no_contact(program, &legs, &tally, subject));
     let offset = travel::work_offset(program, subject.wcs);
-    let wholes = reach::findings(program, subject, &limits.reach).into_iter().chain(orders::missing(program, subject));
-    let wholes = wholes.chain(orders.unnamed(subject)).chain(orders.out_of_order(program, subject));
+    let wholes =
+        reach::findings(program, subject, &limits.reach).into_iter().chain(assignment.findings(program, subject));
     let wholes = wholes.chain(travel::optional_lines(subject)).chain(travel::unsaid(program, subject));
     let found = limits.found.iter().map(|(kind, words)| Finding::of_all(*kind, Severity::Error, words.clone()));
     let wholes = wholes.chain(found).chain(steep).chain(beyond_reach);

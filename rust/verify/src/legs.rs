@@ -2,6 +2,8 @@
 
 use styluscam_motion::{ArcWay, EventKind, MoveKind, Program};
 
+use crate::assignment::Assignment;
+use crate::expectation::Contact;
 use crate::findings::Fault;
 use crate::{FindingKind, Limits, Subject, Vector};
 
@@ -147,6 +149,9 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
     let mut legs = Vec::with_capacity(program.moves.len());
     let (low, high) = subject.mesh.bounds();
     let part = (high - low).norm();
+    let assignment = Assignment::new(program, subject);
+    let touches =
+        |operation: u32| assignment.of(operation).is_none_or(|expected| expected.expectation.contact == Contact::Touch);
     let mut start = None;
     for (index, step) in program.moves.iter().enumerate() {
         for event in upcoming.before(index) {
@@ -158,7 +163,8 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
         if known {
             let way = start.and_then(|start| step.way(start));
             let kind = if way.is_some() { LegKind::Contact } else { kind(step.kind, start, step.end) };
-            let excess = limits.excess_of(step.operation).filter(|_| kind == LegKind::Contact);
+            let excess =
+                limits.excess_of(step.operation).filter(|_| kind == LegKind::Contact && touches(step.operation));
             let leg = Leg {
                 index,
                 operation: step.operation,

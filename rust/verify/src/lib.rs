@@ -27,6 +27,7 @@
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // what tests expect may come from std
 
+mod assignment;
 mod blank;
 mod body;
 mod bounds;
@@ -35,6 +36,7 @@ mod contact_lines;
 mod convex;
 mod coverage;
 mod diagnosis;
+mod expectation;
 mod findings;
 mod flats;
 mod groups;
@@ -42,16 +44,18 @@ mod holding;
 mod judge;
 mod legs;
 mod measure;
-mod orders;
 mod passes;
 mod probes;
 mod reach;
 mod report;
+mod scalar;
 mod sequence;
+mod settings;
 mod simulation;
 mod subject;
 mod sweep;
 mod tally;
+mod tolerances;
 mod travel;
 mod unplaced;
 mod unreached;
@@ -59,14 +63,14 @@ mod walls;
 mod words;
 
 pub use coverage::{coverage, left, needs, FaceCoverage};
+pub use expectation::{Contact, Expectation, ExpectedOperation, OrderedPasses, Passes};
 pub use findings::{Finding, FindingKind, Severity};
 pub use flats::Need;
 pub use groups::Group;
 pub use judge::judge;
-pub use orders::Order;
-pub use passes::{Passes, Spacing};
 pub use reach::Reach;
 pub use report::{ContactRecord, Place, Report};
+pub use scalar::{Across, Height, Scalar};
 pub use simulation::{simulate, Grid, Simulation, Skin};
 pub use subject::{Bears, Forming, Limits, Obstacle, Subject, TextFacts, ToolCalls};
 pub use unreached::ToolReach;
@@ -74,6 +78,4 @@ pub use unreached::ToolReach;
 /// A point or vector of space, mm.
 type Vector = styluscam_geometry::Vector;
 
-/// What arithmetic may cost, mm: comparisons with limits allow it, and of two places whose values
-/// differ by less the earlier one is named.
-const SLACK: f64 = 1e-6;
+use tolerances::SLACK;

@@ -6,14 +6,17 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 use styluscam_motion::{Cancelled, Watch};
 
+use crate::assignment::Assignment;
 use crate::body::Body;
 use crate::clearance::{Prober, Touch};
 use crate::contact_lines;
 use crate::coverage::{Sweep, Sweeps};
+use crate::expectation::{Expectation, OrderedPasses};
 use crate::findings::Fault;
 use crate::legs::{Leg, LegKind};
-use crate::orders::Orders;
 use crate::probes::{self, Probe};
+use crate::scalar::Scalar;
+use crate::tolerances::{ROOM, ROUGH, WIDE};
 use crate::{FindingKind, Limits, Subject, Vector};
 
 /// Points that are looked at for an operation.
@@ -37,10 +40,6 @@ const AROUND: f64 = 2.2;
 const RUNS_BY: f64 = 0.5;
 /// Passes this many steps apart have none missing between them.
 const APART: f64 = 1.05;
-/// What may be left besides, mm: triangles' corners.
-pub(crate) const ROUGH: f64 = 0.01;
-/// Where a tool that touches a triangle is in others by less than this, it can get there, mm.
-pub(crate) const ROOM: f64 = 0.005;
 
 /// Parts of the smallest feature in which a face is measured, and how far a face may bend away within one, as a share of it:
 /// across the passes, and along them, where a pass follows the face round its corners.
@@ -49,12 +48,6 @@ const BENT: f64 = 0.2;
 const TURNED: f64 = 1.0;
 /// A way that shrinks to less than this share as it meets a face head-on ends there.
 const HEAD_ON: f64 = 0.1;
-/// What levels miss is worth a word from this share of the step in height on: a wall may be lower than the smallest loop is wide.
-const LOW: f64 = 0.5;
-/// What rows miss, narrower than the smallest feature, is worth a word from this share of it on, where it is so many times as
-/// long: a groove, and no corner of a valley.
-const NARROW: f64 = 0.2;
-const LONG: f64 = 4.0;
 /// Passes lie on a spot's face where the tool touches faces that lean by no more from the spot's, by the angle's cosine.
 const ALIKE: f64 = 0.5;
 
@@ -71,55 +64,30 @@ const LEVEL: f64 = 1e-4;
 
 /// Points at which it is asked where the tool can touch.
 const TOUCHING: usize = 2000;
-/// Passes may be this many steps apart: a short last step is joined to the one before it.
-pub(crate) const WIDE: f64 = 1.3;
 /// Passes that are more steps apart are no oversight of a few places: the program is not the job's.
 const MANY: f64 = 3.0;
-/// The last level may be this many steps above the lowest height at which the tool can touch.
-const REST: f64 = 0.25;
-
-/// How an operation's passes lie.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Passes {
-    /// What lies between them.
-    pub spacing: Spacing,
-    /// Loops that hold no disc of this diameter may be missing, mm.
-    pub smallest_feature: f64,
-    /// Lowest and highest tip that is asked for, mm.
-    pub heights: [f64; 2],
-    /// Which triangles they are for.
-    pub wanted: Vec<bool>,
-}
-
-/// The distance between neighbouring passes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Spacing {
-    /// In height, mm.
-    Levels(f64),
-    /// In plan, mm, across a direction, rad from X.
-    Rows(f64, f64),
-}
 
 /// Faults in the order of the moves that lie beside the missing passes.
 pub(crate) fn faults(
     legs: &[Leg],
-    orders: &Orders,
+    assignment: &Assignment,
     subject: &Subject,
     limits: &Limits,
     watch: &Watch,
 ) -> Result<Vec<Fault>, Cancelled> {
     let mut worst: BTreeMap<(usize, FindingKind), Fault> = BTreeMap::new();
-    for order in subject.orders {
-        let Some(passes) = &order.passes else { continue };
-        let own = |leg: &&Leg| leg.kind == LegKind::Contact && orders.own(order, leg);
+    for operation in subject.expected {
+        let expectation = &operation.expectation;
+        let Some(passes) = expectation.ordered() else { continue };
+        let own = |leg: &&Leg| leg.kind == LegKind::Contact && assignment.is(leg.operation, operation);
         let contacts: Vec<&Leg> = legs.iter().filter(own).collect();
         if contacts.is_empty() {
             continue;
         }
         let sweeps = Sweeps::of(&contacts, subject);
-        let Some(body) = sweeps.body(order.tool) else { continue };
-        let wanted: Vec<usize> = (0..passes.wanted.len()).filter(|t| passes.wanted[*t]).collect();
-        let look = Look { subject, limits, passes, wanted: &wanted, body, contacts: &contacts };
+        let Some(body) = sweeps.body(operation.tool) else { continue };
+        let selected = expectation.triangles();
+        let look = Look { subject, limits, expectation, passes, selected: &selected, body, contacts: &contacts };
         let left = look.left(&sweeps, watch)?;
         let on_passes = look.left_on_passes(&sweeps, watch)?;
         for fault in left.into_iter().chain(on_passes).chain(look.gaps()) {
@@ -136,9 +104,10 @@ pub(crate) fn faults(
 struct Look<'a> {
     subject: &'a Subject<'a>,
     limits: &'a Limits,
-    passes: &'a Passes,
+    expectation: &'a Expectation,
+    passes: &'a OrderedPasses,
     /// The triangles that its passes are for.
-    wanted: &'a [usize],
+    selected: &'a [usize],
     body: &'a Body,
     /// The operation's moves that should touch.
     contacts: &'a [&'a Leg],
@@ -157,12 +126,9 @@ struct Spot {
 impl Look<'_> {
     /// Passes that are farther apart than ordered, or end too soon, while the tool could touch between or beyond.
     fn gaps(&self) -> Vec<Fault> {
-        let (spacing, step) = (self.passes.spacing, self.passes.spacing.pitch());
-        let (kind, [rest_low, rest_high]) = match spacing {
-            Spacing::Levels(_) => (FindingKind::MissingLevel, [REST, WIDE]),
-            Spacing::Rows(..) => (FindingKind::MissingRow, [WIDE, WIDE]),
-        };
-        let passes = contact_lines::passes(spacing, self.contacts);
+        let (scalar, step) = (self.scalar(), self.passes.step);
+        let [rest_low, rest_high] = scalar.rest();
+        let passes = contact_lines::passes(self.passes, self.contacts);
         let (Some(lowest), Some(highest)) = (passes.first(), passes.last()) else { return Vec::new() };
         let touching = self.touching();
         let touches_between = |low: f64, high: f64| {
@@ -185,7 +151,7 @@ impl Look<'_> {
         let above = farthest(&|value| value - highest.value, rest_high).map(|gap| (highest.last, gap));
         let gaps = between.chain(below).chain(above);
         let fault = |(leg, gap): (&Leg, f64)| {
-            let fault = leg.fault(kind).measured(gap, step);
+            let fault = leg.fault(scalar.gap()).measured(gap, step);
             if gap > MANY * step {
                 fault
             } else {
@@ -197,24 +163,28 @@ impl Look<'_> {
 
     /// Heights, or places across the rows, at which the tool can touch, with where.
     fn touching(&self) -> Vec<(f64, Spot)> {
-        let spacing = self.passes.spacing;
-        let asked = self.wanted.iter().copied().filter(|triangle| spacing.touches(self.subject.mesh.normal(*triangle)));
-        let asked: Vec<usize> = asked.collect();
-        let spots = probes::spread(self.subject.mesh, &asked, TOUCHING).into_par_iter();
+        let (scalar, mesh) = (self.scalar(), self.subject.mesh);
+        let is_crossed = |triangle: &usize| {
+            let up = mesh.normal(*triangle);
+            let tip = |corner: Vector| self.body.tip(corner - self.body.farthest(up).0);
+            mesh.corners(*triangle).into_iter().any(|corner| scalar.crosses(tip(corner).into(), up))
+        };
+        let asked: Vec<usize> = self.selected.iter().copied().filter(is_crossed).collect();
+        let spots = probes::spread(mesh, &asked, TOUCHING).into_par_iter();
         let touching = spots.filter_map(|probe| self.spot(&probe)).filter(|spot| self.can_touch(spot));
-        touching.map(|spot| (spacing.value(spot.tip.into()), spot)).collect()
+        touching.map(|spot| (scalar.value(spot.tip.into()), spot)).collect()
     }
 
     /// Places where more is left than the distance between passes explains.
     fn left(&self, sweeps: &Sweeps, watch: &Watch) -> Result<Vec<Fault>, Cancelled> {
-        let probes = probes::spread(self.subject.mesh, self.wanted, POINTS);
+        let probes = probes::spread(self.subject.mesh, self.selected, POINTS);
         of_all(&probes, watch, |probe, last| self.left_at(probe, sweeps, last))
     }
 
     /// Places that the passes should touch, and do not.
     fn left_on_passes(&self, sweeps: &Sweeps, watch: &Watch) -> Result<Vec<Fault>, Cancelled> {
-        let (mesh, spacing) = (self.subject.mesh, self.passes.spacing);
-        let probes = contact_lines::spread(mesh, self.wanted, self.body, spacing, self.contacts, POINTS);
+        let mesh = self.subject.mesh;
+        let probes = contact_lines::spread(mesh, self.selected, self.body, self.passes, self.contacts, POINTS);
         let faults = of_all(&probes, watch, |probe, last| {
             let spot = self.spot(probe)?;
             let allowed = ON_PASS + self.tolerated();
@@ -227,9 +197,9 @@ impl Look<'_> {
 
     /// Those that have company on their pass: what is shorter than the smallest feature may be missing.
     fn of_long_gaps(&self, mut faults: Vec<Fault>) -> Vec<Fault> {
-        let value = |fault: &Fault| self.passes.spacing.value(fault.position.into());
+        let value = |fault: &Fault| self.scalar().value(fault.position.into());
         faults.sort_by(|a, b| value(a).total_cmp(&value(b)));
-        let same = SAME_PASS * self.passes.spacing.pitch();
+        let same = SAME_PASS * self.passes.step;
         let passes = faults.chunk_by(|a, b| value(b) - value(a) <= same);
         let long = |pass: &[Fault]| -> Vec<Fault> {
             pass.iter().filter(|fault| pass.iter().any(|other| self.are_apart(fault, other))).copied().collect()
@@ -246,9 +216,9 @@ impl Look<'_> {
 
     /// Whether the pass lies beside a spot on it: within the tolerance the same height may be some way off.
     fn passes_beside(&self, spot: &Spot, sweeps: &Sweeps) -> bool {
-        let value = self.passes.spacing.value(spot.tip.into());
-        let pitch = self.passes.spacing.pitch();
-        let same = |leg: &Leg| (self.passes.spacing.value(leg.end.into()) - value).abs() <= SAME_PASS * pitch;
+        let value = self.scalar().value(spot.tip.into());
+        let pitch = self.passes.step;
+        let same = |leg: &Leg| (self.scalar().value(leg.end.into()) - value).abs() <= SAME_PASS * pitch;
         sweeps.near(spot.position, BESIDE * self.body.radius()).any(|sweep| same(self.contacts[sweep.leg]))
     }
 
@@ -262,7 +232,7 @@ impl Look<'_> {
     /// What is left at a point, if it is more than the distance between passes explains, and the tool can get there.
     fn left_at(&self, probe: &Probe, sweeps: &Sweeps, last: &mut Option<(usize, Sweep)>) -> Option<Fault> {
         let spot = self.spot(probe)?;
-        let step = self.passes.spacing.along(spot.up).filter(|step| 0.5 * step.norm() < self.body.radius())?;
+        let step = self.next(&spot).filter(|step| 0.5 * step.norm() < self.body.radius())?;
         let places = |share: f64| [spot.position + share * step, spot.position - share * step];
         let amidst = CURVED_AMIDST * self.leaves(spot.point, places(0.5));
         let rough = ROUGH + self.tolerated();
@@ -284,22 +254,23 @@ impl Look<'_> {
         is_missing.then(|| self.missing_pass(&spot, last.as_ref(), left, allowed)).flatten()
     }
 
-    /// Whether the tool can touch around a spot as far as the smallest feature is: for levels along the pass, and across it over
-    /// half a step; for rows in both directions, or farther in one and a little in the other.
+    /// Whether the tool can touch around a spot as far as a feature is that counts.
     fn holds_feature(&self, spot: &Spot) -> bool {
-        let step = self.passes.spacing.along(spot.up).unwrap_or(self.passes.spacing.pitch() * Vector::z());
+        let step = self.next(spot).unwrap_or(self.passes.step * Vector::z());
         let (across, feature) = (step.normalize(), self.passes.smallest_feature);
         let reaches_across = |length: f64| self.reaches(spot, across, length, BENT);
         let reaches_along = |length: f64| self.reaches(spot, spot.up.cross(&across), length, TURNED);
-        match self.passes.spacing {
-            Spacing::Levels(_) => reaches_across(feature.min(LOW * step.norm())) && reaches_along(feature),
-            Spacing::Rows(..) => {
-                let [narrow, long] = [NARROW * feature, LONG * feature];
-                reaches_across(feature) && reaches_along(feature)
-                    || reaches_across(long) && reaches_along(narrow)
-                    || reaches_along(long) && reaches_across(narrow)
-            }
-        }
+        let mut lengths = self.scalar().features(feature, step.norm()).into_iter();
+        lengths.any(|[across, along]| reaches_across(across) && reaches_along(along))
+    }
+
+    fn scalar(&self) -> &dyn Scalar {
+        &*self.passes.scalar
+    }
+
+    /// The shift from a spot to the next pass on its plane.
+    fn next(&self, spot: &Spot) -> Option<Vector> {
+        self.scalar().next(spot.tip.into(), spot.up, self.passes.step)
     }
 
     /// Whether the tool can go `length` mm both ways together along an axis from a spot, touching what the passes are for.
@@ -342,15 +313,15 @@ impl Look<'_> {
     /// Whether passes run by on either side of a spot no farther apart than ordered, or on one side within a step where none
     /// does beyond: what is left there follows from the part's shape.
     fn lies_between_passes(&self, spot: &Spot, step: Vector, sweeps: &Sweeps) -> bool {
-        let (spacing, length) = (self.passes.spacing, step.norm());
+        let (scalar, length) = (self.scalar(), step.norm());
         let along = spot.up.cross(&step).normalize();
-        let value = spacing.value(spot.tip.into());
+        let value = scalar.value(spot.tip.into());
         let beside = sweeps.near(spot.position, AROUND * length).filter_map(|sweep| {
             let place = sweep.nearest(spot.position);
             let [aside, off] = [along, spot.up].map(|axis| (place - spot.position).dot(&axis).abs());
             let is_near = aside.max(off) <= RUNS_BY * length;
             let runs_by = is_near && (off <= ROUGH + self.tolerated() || self.touches_alike(place, spot.up));
-            runs_by.then(|| (spacing.value(self.body.tip(place).into()) - value) / spacing.pitch())
+            runs_by.then(|| (scalar.value(self.body.tip(place).into()) - value) / self.passes.step)
         });
         let (before, behind): (Vec<f64>, Vec<f64>) = beside.partition(|steps| *steps < 0.0);
         let before = before.into_iter().reduce(f64::max);
@@ -358,7 +329,9 @@ impl Look<'_> {
         match (before, behind) {
             (Some(before), Some(behind)) => behind - before <= APART,
             // tips at a face's end are known to within the tolerance
-            (Some(only), None) | (None, Some(only)) => (only.abs() - 1.0) * spacing.pitch() <= ROUGH + self.tolerated(),
+            (Some(only), None) | (None, Some(only)) => {
+                (only.abs() - 1.0) * self.passes.step <= ROUGH + self.tolerated()
+            }
             (None, None) => false,
         }
     }
@@ -391,8 +364,7 @@ impl Look<'_> {
 
     /// Whether the tip is at a height that is asked for.
     fn asked_for(&self, position: Vector) -> bool {
-        let [lowest, highest] = self.passes.heights;
-        (lowest..=highest).contains(&self.body.tip(position)[2])
+        self.expectation.reaches(self.body.tip(position)[2])
     }
 
     /// Whether the tool can touch at a spot and a little farther down: where it only does so within the tolerance to either
@@ -410,7 +382,7 @@ impl Look<'_> {
     /// be, because there passes are planned.
     fn rests_on_wanted(&self, spot: &Spot) -> bool {
         let off = self.tolerated();
-        let aside = self.passes.spacing.aside(spot.up).map(|aside| off * aside);
+        let aside = self.scalar().aside(spot.tip.into(), spot.up).map(|aside| off * aside);
         // on a gentle slope that is far off, and says nothing about the spot
         let Some(aside) = aside.filter(|aside| aside.norm() <= self.body.radius()) else { return true };
         let mut position = spot.position + aside;
@@ -428,7 +400,7 @@ impl Look<'_> {
     }
 
     fn is_wanted(&self, triangle: u32) -> bool {
-        self.passes.wanted.get(triangle as usize) == Some(&true)
+        self.expectation.selects(triangle as usize)
     }
 
     fn clearance(&self, position: Vector) -> f64 {
@@ -457,53 +429,4 @@ fn of_all(
         })
         .collect();
     Ok(found?.concat())
-}
-
-impl Spacing {
-    /// What is the same all along a pass: the tip's height, or its place across the rows.
-    pub(crate) fn value(self, tip: Vector) -> f64 {
-        match self {
-            Self::Levels(_) => tip.z,
-            Self::Rows(_, angle) => {
-                let (sin, cos) = libm::sincos(angle);
-                -sin * tip.x + cos * tip.y
-            }
-        }
-    }
-
-    /// Whether passes are to touch a plane of this normal: levels have no line on a level one, which wants rows.
-    fn touches(self, up: Vector) -> bool {
-        match self {
-            Self::Levels(_) => up.xy().norm() > LEVEL,
-            Self::Rows(..) => true,
-        }
-    }
-
-    /// The way off a plane of this normal, until it is 1 mm away, on which a tool stays on its pass; none where it cannot.
-    fn aside(self, up: Vector) -> Option<Vector> {
-        match self {
-            Self::Levels(_) => {
-                let steep = up.xy().norm();
-                (steep > LEVEL).then(|| Vector::new(up.x, up.y, 0.0) / (steep * steep))
-            }
-            Self::Rows(..) => (up.z > LEVEL).then(|| Vector::z() / up.z),
-        }
-    }
-
-    /// The way on a plane of this normal from a pass to the next; none where that is beyond all measure.
-    fn along(self, up: Vector) -> Option<Vector> {
-        let steep = (up.x * up.x + up.y * up.y).sqrt();
-        match self {
-            Self::Levels(step) if steep > 1e-6 => {
-                let (run, rise) = (step * up.z / (steep * steep), -step);
-                Some(Vector::new(run * up.x, run * up.y, rise))
-            }
-            Self::Rows(spacing, angle) if up.z > 1e-6 => {
-                let (sin, cos) = libm::sincos(angle);
-                let (x, y) = (-sin * spacing, cos * spacing);
-                Some(Vector::new(x, y, -(up.x * x + up.y * y) / up.z))
-            }
-            _ => None,
-        }
-    }
 }

@@ -6,12 +6,12 @@ use std::collections::HashMap;
 use styluscam_geometry::{Cutter, Tool};
 use styluscam_motion::Program;
 
+use crate::assignment::Assignment;
 use crate::blank::Blank;
-use crate::contact_lines::SAME_LEVEL;
+use crate::expectation::OrderedPasses;
 use crate::findings::Fault;
 use crate::legs::{Leg, LegKind};
-use crate::orders::Orders;
-use crate::passes::{Spacing, ROUGH, WIDE};
+use crate::tolerances::{ROUGH, SAME_LEVEL, WIDE};
 use crate::{FindingKind, Limits, Subject};
 
 /// A level counts as lower from this share of the step on.
@@ -31,11 +31,12 @@ const MOST_PLACES: f64 = 10_000.0;
 pub(crate) fn punches(
     program: &Program,
     legs: &[Leg],
-    orders: &Orders,
+    assignment: &Assignment,
     subject: &Subject,
     limits: &Limits,
 ) -> Vec<Fault> {
-    let Some(forming) = limits.forming.filter(|_| subject.orders.iter().any(|order| order.forms)) else {
+    let Some(forming) = limits.forming.filter(|_| subject.expected.iter().any(|operation| operation.expectation.forms))
+    else {
         return Vec::new();
     };
     let tools: Vec<Cutter> = subject.tools.iter().map(Tool::cutter).collect();
@@ -45,11 +46,9 @@ pub(crate) fn punches(
     let mut operation = None;
     let mut faults = Vec::new();
     for leg in legs.iter().filter(|leg| !matches!(leg.kind, LegKind::Rapid | LegKind::Retract | LegKind::Still)) {
-        let Some(order) = orders.of(leg).filter(|order| order.forms) else { continue };
-        let (Some(spacing), Some(tool)) = (order.passes.as_ref().map(|passes| passes.spacing), tools.get(order.tool))
-        else {
-            continue;
-        };
+        let Some(order) = assignment.of(leg.operation).filter(|order| order.expectation.forms) else { continue };
+        let Some(tool) = tools.get(order.tool) else { continue };
+        let step = order.expectation.ordered().and_then(descent);
         if operation.replace(leg.operation) != Some(leg.operation) {
             rows.drain(..).for_each(|(tip, tool)| blank.press(tip, tool));
         }
@@ -57,19 +56,25 @@ pub(crate) fn punches(
         let places = places(leg, blank.cell());
         let deepest = places
             .iter()
-            .filter_map(|tip| punch(&mut blank, *tip, spacing, dent))
+            .filter_map(|tip| punch(&mut blank, *tip, step, dent))
             .max_by(|a, b| a.depth().total_cmp(&b.depth()));
         if let Some(Punch { tip, stands }) = deepest {
             let fault = Fault { position: tip, ..leg.fault(FindingKind::Punch) }.measured(tip[2], stands);
             let falls = leg.kind == LegKind::Plunge && at_cut(program, leg, order.cut, limits);
             faults.push(if falls { fault.warning() } else { fault });
         }
-        match spacing {
-            Spacing::Levels(_) => places.into_iter().for_each(|tip| blank.press(tip, tool)),
-            Spacing::Rows(..) => rows.extend(places.into_iter().map(|tip| (tip, tool))),
+        if step.is_some() {
+            places.into_iter().for_each(|tip| blank.press(tip, tool));
+        } else {
+            rows.extend(places.into_iter().map(|tip| (tip, tool)));
         }
     }
     faults
+}
+
+/// The step of passes that go down one below the other, mm.
+fn descent(passes: &OrderedPasses) -> Option<f64> {
+    passes.scalar.descends().then_some(passes.step)
 }
 
 /// A tip below the sheet, which stands at a height there.
@@ -85,13 +90,13 @@ impl Punch {
 }
 
 /// Whether a tip is deeper below the sheet than it may go.
-fn punch(blank: &mut Blank, tip: [f64; 3], spacing: Spacing, dent: f64) -> Option<Punch> {
+fn punch(blank: &mut Blank, tip: [f64; 3], step: Option<f64>, dent: f64) -> Option<Punch> {
     let [x, y, z] = tip;
     let pressed = blank.pressed_at([x, y]);
-    let allowed = match spacing {
-        Spacing::Levels(step) if pressed < blank.top() => WIDE * step + ROUGH,
-        Spacing::Levels(step) => dent.max(WIDE * step + ROUGH),
-        Spacing::Rows(..) => dent,
+    let allowed = match step {
+        Some(step) if pressed < blank.top() => WIDE * step + ROUGH,
+        Some(step) => dent.max(WIDE * step + ROUGH),
+        None => dent,
     };
     let is_below = |stands: f64| z < stands - allowed;
     let stands = is_below(pressed).then(|| blank.hangs_at([x, y]))?;
@@ -113,13 +118,14 @@ fn places(leg: &Leg, pitch: f64) -> Vec<[f64; 3]> {
 pub(crate) fn faults(
     program: &Program,
     legs: &[Leg],
-    orders: &Orders,
+    assignment: &Assignment,
     subject: &Subject,
     limits: &Limits,
 ) -> Vec<Fault> {
     let mut faults = Vec::new();
-    for order in subject.orders.iter().filter(|order| order.forms) {
-        let Some(Spacing::Levels(step)) = order.passes.as_ref().map(|passes| passes.spacing) else { continue };
+    for order in subject.expected.iter().filter(|order| order.expectation.forms) {
+        let Some(passes) = order.expectation.ordered() else { continue };
+        let Some(step) = descent(passes) else { continue };
         let Some(tool) = subject.tools.get(order.tool) else { continue };
         let cell = 0.5 * tool.diameter();
         let mut lowest: HashMap<[i64; 2], f64> = HashMap::new();
@@ -135,7 +141,10 @@ pub(crate) fn faults(
                 (_, None, Some(start)) if along => away_from = Some(start[2]),
                 _ => {}
             }
-            if leg.kind != LegKind::Contact || leg.falls() || away_from.is_some() || !orders.own(order, &leg) {
+            if leg.kind != LegKind::Contact || leg.falls() && !passes.continuous || away_from.is_some() {
+                continue;
+            }
+            if !assignment.is(leg.operation, order) {
                 continue;
             }
             let [x, y, z] = leg.end;

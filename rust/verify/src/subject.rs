@@ -5,7 +5,7 @@ use std::ops::Range;
 use styluscam_geometry::{Bvh, Mesh, Sheet, Tool};
 use styluscam_motion::MachineMove;
 
-use crate::orders::Order;
+use crate::expectation::ExpectedOperation;
 use crate::reach::Reach;
 use crate::FindingKind;
 
@@ -33,8 +33,8 @@ pub struct Subject<'a> {
     pub unplaced: &'a [Range<usize>],
     /// What its text says besides the moves; none for a program that was not read from text.
     pub text: Option<&'a TextFacts>,
-    /// What the job orders; none when feeds, spindle and coolant are not to be judged.
-    pub orders: &'a [Order],
+    /// The job's operations; none when feeds, spindle, coolant and passes are not to be checked.
+    pub expected: &'a [ExpectedOperation],
     /// What stands around the part.
     pub obstacles: &'a [Obstacle],
 }

@@ -3,11 +3,9 @@
 use crate::findings::Fault;
 use crate::legs::{Leg, LegKind};
 use crate::measure::{highest, normal_of, Measured, Sample, Strike};
-use crate::walls::VERTICAL;
+use crate::tolerances::{ANGLE, VERTICAL};
 use crate::{ContactRecord, FindingKind, Forming, Limits, Place, Subject, SLACK};
 
-/// What triangles may add to a wall's angle, rad.
-pub(crate) const ANGLE: f64 = 1e-3;
 /// Contacts that are kept at most.
 const KEPT: usize = 4000;
 

@@ -12,11 +12,12 @@ use styluscam_motion::{Cancelled, Watch};
 use crate::body::Body;
 use crate::clearance::Prober;
 use crate::coverage::Sweeps;
+use crate::expectation::{Contact, Expectation, ExpectedOperation};
 use crate::findings::Finding;
 use crate::legs::Leg;
-use crate::passes::{Passes, ROOM};
 use crate::probes::{self, Probe};
 use crate::sweep::Guess;
+use crate::tolerances::ROOM;
 use crate::{FindingKind, Limits, Severity, Subject, Vector};
 
 /// Points that are looked at.
@@ -45,10 +46,9 @@ pub(crate) fn findings(
     if most.is_infinite() {
         return Ok(Vec::new());
     }
-    let tasks: Vec<Task> =
-        subject.orders.iter().filter_map(|order| Task::new(order.passes.as_ref()?, order.tool, subject)).collect();
-    let is_wanted = |triangle: &usize| tasks.iter().any(|task| task.passes.wanted.get(*triangle) == Some(&true));
-    let wanted: Vec<usize> = (0..subject.mesh.triangles().len()).filter(is_wanted).collect();
+    let tasks: Vec<Task> = subject.expected.iter().filter_map(|operation| Task::new(operation, subject)).collect();
+    let is_selected = |triangle: &usize| tasks.iter().any(|task| task.expectation.selects(*triangle));
+    let wanted: Vec<usize> = (0..subject.mesh.triangles().len()).filter(is_selected).collect();
     let probes = probes::spread(subject.mesh, &wanted, POINTS);
     watch.begin("reach", probes.len().div_ceil(CHUNK));
     let gaps: Result<Vec<Vec<Option<f64>>>, Cancelled> = probes
@@ -82,25 +82,25 @@ struct Place<'a> {
 
 /// What an operation's tool is to touch.
 struct Task<'a> {
-    passes: &'a Passes,
+    expectation: &'a Expectation,
     body: Body,
 }
 
 impl<'a> Task<'a> {
-    fn new(passes: &'a Passes, tool: usize, subject: &Subject) -> Option<Self> {
-        Some(Self { passes, body: Body::new(subject.tools.get(tool)?, subject.sheet.as_ref()) })
+    fn new(operation: &'a ExpectedOperation, subject: &Subject) -> Option<Self> {
+        let expectation = Some(&operation.expectation).filter(|it| it.contact == Contact::Touch)?;
+        Some(Self { expectation, body: Body::new(subject.tools.get(operation.tool)?, subject.sheet.as_ref()) })
     }
 
     /// What lies between a point and the tool, where it is as near as it can get or leaves no more than `enough`, mm; none
     /// where that is not asked for.
     fn gap(&self, probe: &Probe, subject: &Subject, enough: f64) -> Option<f64> {
-        if self.passes.wanted.get(probe.triangle) != Some(&true) {
+        if !self.expectation.selects(probe.triangle) {
             return None;
         }
         let up = subject.mesh.normal(probe.triangle);
         let position = probe.point - self.body.farthest(up).0;
-        let [lowest, highest] = self.passes.heights;
-        if !(lowest..=highest).contains(&self.body.tip(position)[2]) {
+        if !self.expectation.reaches(self.body.tip(position)[2]) {
             return None;
         }
         let prober = Prober { body: &self.body, mesh: subject.mesh, bvh: subject.bvh };

@@ -4,16 +4,14 @@ use std::collections::HashSet;
 
 use styluscam_geometry::{Cutter, Mesh, Tool};
 
+use crate::expectation::Expectation;
 use crate::findings::Finding;
-use crate::passes::Passes;
 use crate::subject::{Bears, Forming};
-use crate::tally::ANGLE;
+use crate::tolerances::{ANGLE, VERTICAL};
 use crate::{FindingKind, Limits, Severity, Subject, Vector};
 
 /// Area that makes a wall, mm^2, and as a share of the faces: less is a sliver's.
 const AREA: (f64, f64) = (1.0, 1e-3);
-/// Normals whose Z is smaller are a vertical wall's.
-pub(crate) const VERTICAL: f64 = 1e-3;
 /// Corners of two faces that differ by less are one, mm.
 const SAME: f64 = 1e-4;
 /// A wall that rises from a face rises by more than this, mm.
@@ -24,17 +22,19 @@ pub(crate) fn finding(subject: &Subject, limits: &Limits) -> Option<Finding> {
     let forming = limits.forming?;
     let mut walls: Vec<Wall> = Vec::new();
     let mut area = 0.0;
-    for order in subject.orders.iter().filter(|order| order.forms) {
-        let (Some(passes), Some(tool)) = (&order.passes, subject.tools.get(order.tool)) else { continue };
+    for operation in subject.expected.iter().filter(|operation| operation.expectation.forms) {
+        let expectation = &operation.expectation;
+        let Some(tool) = subject.tools.get(operation.tool) else { continue };
         let cutter = tool.cutter_with(subject.sheet.as_ref(), 0.0);
         let above = Tool::tip_above(subject.sheet.as_ref(), 0.0);
-        let is_formed = |triangle: &usize| forms(passes, subject.mesh, &cutter, above, *triangle);
-        let sloped = (0..passes.wanted.len()).filter(|t| passes.wanted[*t] && !is_vertical(subject.mesh, *t));
+        let is_formed = |triangle: &usize| forms(expectation, subject.mesh, &cutter, above, *triangle);
+        let sloped = expectation.triangles().into_iter().filter(|triangle| !is_vertical(subject.mesh, *triangle));
         let sloped: Vec<usize> = sloped.filter(is_formed).collect();
         let all = 0..subject.mesh.triangles().len();
         let up: Vec<usize> = all.filter(|triangle| subject.mesh.normal(*triangle).z > VERTICAL).collect();
-        let from_any = rising_from(subject.mesh, &up).into_iter().filter(|triangle| passes.wanted[*triangle]);
-        let from_formed = rising_from(subject.mesh, &sloped).into_iter().filter(|triangle| !passes.wanted[*triangle]);
+        let from_any = rising_from(subject.mesh, &up).into_iter().filter(|triangle| expectation.selects(*triangle));
+        let from_formed =
+            rising_from(subject.mesh, &sloped).into_iter().filter(|triangle| !expectation.selects(*triangle));
         let rising = from_any.chain(from_formed).filter(is_formed);
         walls.extend(sloped.iter().copied().chain(rising).map(|triangle| Wall::new(subject.mesh, triangle)));
         area += sloped.iter().map(|triangle| subject.mesh.area(*triangle)).sum::<f64>();
@@ -73,11 +73,10 @@ fn steepest(mut walls: Vec<Wall>, most: f64, enough: f64) -> Option<Wall> {
 }
 
 /// Whether the tool is at a height that is asked for when it touches a triangle's middle.
-fn forms(passes: &Passes, mesh: &Mesh, cutter: &Cutter, above: f64, triangle: usize) -> bool {
+fn forms(expectation: &Expectation, mesh: &Mesh, cutter: &Cutter, above: f64, triangle: usize) -> bool {
     let wall = Wall::new(mesh, triangle);
     let tip = wall.at.z - cutter.point_at(wall.angle).1 + above;
-    let [lowest, highest] = passes.heights;
-    (lowest..=highest).contains(&tip)
+    expectation.reaches(tip)
 }
 
 fn is_vertical(mesh: &Mesh, triangle: usize) -> bool {

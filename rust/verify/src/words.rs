@@ -164,6 +164,7 @@ fn what(fault: &Fault) -> String {
         FindingKind::NoFeedMoves => "the program has no feed move".to_owned(),
         FindingKind::NoContact => "nothing touches the part".to_owned(),
         FindingKind::WorkOffset => "the work offset is not the part's".to_owned(),
+        FindingKind::NotChecked => "something is not checked".to_owned(),
     }
 }
 
@@ -255,6 +256,7 @@ fn remedy(kind: FindingKind) -> &'static str {
         FindingKind::SpindleLimit => "correct S",
         FindingKind::NotFinite => "correct the coordinate",
         FindingKind::NoFeedMoves => "post an operation that has a path",
+        FindingKind::NotChecked => "check it yourself",
         FindingKind::NoContact => "check zero, units and tool reference",
     }
 }

@@ -62,7 +62,7 @@ impl Part {
             wcs: "G54",
             unplaced: &[],
             text: None,
-            orders: &[],
+            expected: &[],
             obstacles: &[],
         }
     }

@@ -1,0 +1,100 @@
+//! Which of the job's operations each operation of a text is, and what that leaves over.
+
+use styluscam_motion::Program;
+
+use crate::expectation::{ExpectedOperation, Passes};
+use crate::findings::{Finding, FindingKind, Severity};
+use crate::subject::Subject;
+
+/// For each of the program's operations the job's, where it has one.
+pub(crate) struct Assignment<'a>(Vec<Option<&'a ExpectedOperation>>);
+
+impl<'a> Assignment<'a> {
+    /// By their ids; a job with one operation means it, whatever the text calls it. A text that names none of several means
+    /// them all, when it loads their tools in their order.
+    pub fn new(program: &Program, subject: &Subject<'a>) -> Self {
+        let expected = subject.expected;
+        let by_id = |id: &str| expected.iter().find(|operation| operation.id == id);
+        let of: Vec<_> = program.operations.iter().map(|operation| by_id(&operation.id)).collect();
+        let tools = || program.operations.iter().map(|operation| operation.tool as usize);
+        let named = of.iter().any(Option::is_some);
+        match expected {
+            [only] => Self(vec![Some(only); of.len()]),
+            _ if !named && tools().eq(expected.iter().map(|operation| operation.tool)) => {
+                Self(expected.iter().map(Some).collect())
+            }
+            _ => Self(of),
+        }
+    }
+
+    /// What is expected of one of the program's operations, by its index.
+    pub fn of(&self, index: u32) -> Option<&'a ExpectedOperation> {
+        self.0.get(index as usize).copied().flatten()
+    }
+
+    /// Whether this is expected of one of the program's operations, by its index.
+    pub fn is(&self, index: u32, expected: &ExpectedOperation) -> bool {
+        self.of(index).is_some_and(|of| std::ptr::eq(of, expected))
+    }
+
+    /// The findings of operations that are missing, not named, in another order, or not checked in full.
+    pub fn findings(&self, program: &Program, subject: &Subject) -> Vec<Finding> {
+        let mut findings = missing(program, subject);
+        findings.extend(self.unnamed(subject));
+        findings.extend(self.out_of_order(program, subject));
+        findings.extend(self.not_checked(subject));
+        findings
+    }
+
+    /// The finding of operations that come in another order than the job's.
+    fn out_of_order(&self, program: &Program, subject: &Subject) -> Option<Finding> {
+        let position =
+            |operation: &ExpectedOperation| subject.expected.iter().position(|other| std::ptr::eq(other, operation));
+        let known = self.0.iter().enumerate().filter_map(|(i, operation)| Some((i, position((*operation)?)?)));
+        let known: Vec<(usize, usize)> = known.collect();
+        let pair = known.windows(2).find(|pair| pair[1].1 < pair[0].1)?;
+        let [before, id] = [pair[0], pair[1]].map(|(_, operation)| &subject.expected[operation].id);
+        let first = program.moves.iter().find(|step| step.operation as usize == pair[1].0);
+        let line = first.map_or(0, |step| step.line);
+        let message = format!(
+            "line {line}: operation {id:?} comes after {before:?}, and in the job before it; post the job again"
+        );
+        Some(Finding::of_all(FindingKind::OperationOrder, Severity::Error, message).at_line(line))
+    }
+
+    /// The finding of a text of which nothing can be compared with the job.
+    fn unnamed(&self, subject: &Subject) -> Option<Finding> {
+        let known = subject.expected.is_empty() || self.0.is_empty() || self.0.iter().any(Option::is_some);
+        let message = format!(
+            "the text names none of the job's {} operations, and does not load their tools in their order: it cannot be \
+             compared with the job's feeds, spindle and passes; post the job again, with its remarks",
+            subject.expected.len()
+        );
+        (!known).then(|| Finding::of_all(FindingKind::UnnamedOperations, Severity::Error, message))
+    }
+
+    /// Notes of the operations whose passes are not checked.
+    fn not_checked<'b>(&'b self, subject: &'b Subject) -> impl Iterator<Item = Finding> + 'b {
+        let is_in_text =
+            |operation: &&ExpectedOperation| self.0.iter().flatten().any(|of| std::ptr::eq(*of, *operation));
+        subject.expected.iter().filter(is_in_text).filter_map(|ExpectedOperation { id, expectation, .. }| {
+            let Passes::Unordered { reason } = expectation.passes else { return None };
+            let message = format!("operation {id:?}: its passes are not checked, {reason}");
+            Some(Finding::of_all(FindingKind::NotChecked, Severity::Note, message))
+        })
+    }
+}
+
+/// The findings of operations that the text does not carry out, when it carries out any by name.
+fn missing(program: &Program, subject: &Subject) -> Vec<Finding> {
+    let named = |expected: &&ExpectedOperation| program.operations.iter().any(|operation| operation.id == expected.id);
+    if !subject.expected.iter().any(|operation| named(&operation)) {
+        return Vec::new();
+    }
+    let left = subject.expected.iter().filter(|operation| !named(operation));
+    let message = |id: &str| format!("the text has no operation {id:?} of the job; post the whole job");
+    let finding = |operation: &ExpectedOperation| {
+        Finding::of_all(FindingKind::MissingOperation, Severity::Error, message(&operation.id))
+    };
+    left.map(finding).collect()
+}

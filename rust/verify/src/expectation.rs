@@ -1,0 +1,104 @@
+//! What a job states for an operation, as data: what its moves must do, and how its passes lie.
+
+use std::sync::Arc;
+
+use styluscam_motion::SpindleDirection;
+
+use crate::scalar::Scalar;
+
+/// An operation as the job states it.
+#[derive(Clone, Debug)]
+pub struct ExpectedOperation {
+    /// The operation's id, as the text's remarks name it.
+    pub id: String,
+    /// Index of its tool.
+    pub tool: usize,
+    /// Feed along the path, mm/min.
+    pub cut: f64,
+    /// Feed straight down, mm/min.
+    pub plunge: f64,
+    /// Speed and sense of the spindle; it stands when there are none.
+    pub spindle: Option<(f64, SpindleDirection)>,
+    /// Whether coolant flows.
+    pub flood: bool,
+    /// What its moves and passes must do.
+    pub expectation: Expectation,
+}
+
+/// What is expected of an operation's moves and passes. Gouges, collisions and rapids are checked whatever is stated here.
+///
+/// Stock and engagement are not checked yet: what is expected of them becomes a field here, so that every kind of operation
+/// has to state it.
+#[derive(Clone, Debug)]
+pub struct Expectation {
+    /// Whether its lateral feeds must touch.
+    pub contact: Contact,
+    /// The triangles of the part that it is for, one entry a triangle.
+    pub selected: Vec<bool>,
+    /// Lowest and highest tip that it is to reach, mm.
+    pub heights: [f64; 2],
+    /// How its passes lie.
+    pub passes: Passes,
+    /// Whether it forms a sheet, and deeper at once than a step is a punch.
+    pub forms: bool,
+}
+
+/// What lateral feeds owe the part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Contact {
+    /// They must touch it, within the operation's excess (see [`crate::Limits`]).
+    Touch,
+    /// They must only stay clear of it: roughing.
+    Clear,
+}
+
+/// How passes lie.
+#[derive(Clone, Debug)]
+pub enum Passes {
+    /// In an order that is checked: none may be missing.
+    Ordered(OrderedPasses),
+    /// Nothing is known of their order; the report gives the reason.
+    Unordered {
+        /// Why they are not checked, as half a sentence.
+        reason: &'static str,
+    },
+}
+
+/// Passes that lie a step apart.
+#[derive(Clone, Debug)]
+pub struct OrderedPasses {
+    /// What is equal along a pass, and differs by a step from the next.
+    pub scalar: Arc<dyn Scalar>,
+    /// The distance between neighbouring passes, in the scalar, mm.
+    pub step: f64,
+    /// Whether the scalar moves on by a step a turn (a spiral), instead of from pass to pass.
+    pub continuous: bool,
+    /// Passes may be missing where the tool can touch no farther than this along and across them, mm.
+    pub smallest_feature: f64,
+}
+
+impl Expectation {
+    /// Its passes, where their order is known.
+    pub(crate) fn ordered(&self) -> Option<&OrderedPasses> {
+        match &self.passes {
+            Passes::Ordered(passes) => Some(passes),
+            Passes::Unordered { .. } => None,
+        }
+    }
+
+    /// Whether it is for a triangle.
+    pub(crate) fn selects(&self, triangle: usize) -> bool {
+        self.selected.get(triangle) == Some(&true)
+    }
+
+    /// The triangles that it is for.
+    pub(crate) fn triangles(&self) -> Vec<usize> {
+        (0..self.selected.len()).filter(|triangle| self.selected[*triangle]).collect()
+    }
+
+    /// Whether a tip at this height, mm, is to be reached.
+    pub(crate) fn reaches(&self, height: f64) -> bool {
+        let [lowest, highest] = self.heights;
+        (lowest..=highest).contains(&height)
+    }
+}
