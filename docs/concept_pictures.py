@@ -388,7 +388,7 @@ def verifier() -> Figure:
         fontsize=9.5,
         color=ORANGE,
     )
-    note(curve, "tangents lie below", (0.31, 0.62), (0.52, 4.7), BLUE)
+    note(curve, "tangents lie below", (0.37, -0.75), (0.5, 3.6), BLUE)
     labelled(curve, "share of the move", "clearance, mm")
     curve.set_ylim(-2.8, 7.2)
     return figure
