@@ -16,6 +16,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -147,75 +148,78 @@ def figure(value: float) -> str:
     return f"{round(value, digits):,.{digits}f}" if value < 100 else f"{float(f'{value:.3g}'):,.0f}"
 
 
+HEADS = [
+    "triangles", "tool", "order", "threads", "points/s", "per CPU s", "OpenCAMLib points/s", "per CPU s", "ratio",
+]  # fmt: skip
+"""Of the table of rates."""
+
+
+@dataclass
+class Rates:
+    """What the rows of the tables are made of."""
+
+    rows: list[list[str]] = field(default_factory=list)
+    setups: list[list[str]] = field(default_factory=list)
+    version: str = ""
+    """OpenCAMLib's."""
+    differences: list[float] = field(default_factory=list)
+    """Between the two programs' tips, mm."""
+
+    def add(self, triangles: int, threads: int, repeats: int, python: Path | None) -> None:
+        """Measures one size with that many threads."""
+        found = ours_in_process(triangles, threads, repeats)
+        lows = (min(row[clock] for row in found) for clock in ("index", "index_cpu", "setup", "setup_cpu"))
+        self.setups.append([f"{triangles:,}", str(threads), *(f"{1e3 * low:.0f}" for low in lows)])
+        for row in found:
+            line = [
+                f"{triangles:,}",
+                row["tool"],
+                row["order"],
+                str(threads),
+                figure(rate(row)),
+                figure(rate(row, "cpu")),
+            ]
+            if python and triangles in PEER_POINTS and row["tool"] == "ball D6":
+                other = peer(python, triangles, row["order"], threads, repeats)
+                self.version = other["version"]
+                self.differences.append(largest_difference(triangles, other))
+                line += [figure(rate(other)), figure(rate(other, "cpu")), f"{figure(rate(row) / rate(other))} x"]
+            else:
+                line += ["", "", ""]
+            self.rows.append(line)
+            print(" ".join(line), file=sys.stderr)
+
+
 def measured(large: bool, repeats: int) -> str:
     """The section between the markers."""
     load = os.getloadavg()[0]
     python, reason = peer_python()
-    sizes = [20_000, 200_000, *([2_000_000] if large else [])]
-    rows, setups, version, differences = [], [], "", []
-    for triangles in sizes:
+    rates = Rates()
+    for triangles in [20_000, 200_000, *([2_000_000] if large else [])]:
         for threads in THREADS:
-            found = ours_in_process(triangles, threads, repeats)
-            setups.append(
-                [
-                    f"{triangles:,}",
-                    str(threads),
-                    *(f"{1e3 * min(r[c] for r in found):.0f}" for c in ("index", "index_cpu", "setup", "setup_cpu")),
-                ]
-            )
-            for row in found:
-                line = [
-                    f"{triangles:,}",
-                    row["tool"],
-                    row["order"],
-                    str(threads),
-                    figure(rate(row)),
-                    figure(rate(row, "cpu")),
-                ]
-                if python and triangles in PEER_POINTS and row["tool"] == "ball D6":
-                    other = peer(python, triangles, row["order"], threads, repeats)
-                    version = other["version"]
-                    differences.append(largest_difference(triangles, other))
-                    line += [figure(rate(other)), figure(rate(other, "cpu")), f"{figure(rate(row) / rate(other))} x"]
-                else:
-                    line += ["", "", ""]
-                rows.append(line)
-                print(" ".join(line), file=sys.stderr)
-    heads = [
-        "triangles",
-        "tool",
-        "order",
-        "threads",
-        "points/s",
-        "per CPU s",
-        "OpenCAMLib points/s",
-        "per CPU s",
-        "ratio",
-    ]
+            rates.add(triangles, threads, repeats, python)
+    peers = f"OpenCAMLib {rates.version}" if rates.version else f"OpenCAMLib was left out: {reason}"
     parts = [
         f"Machine: {machine()}; load average {load:.1f} when the run began. styluscam {sc.__version__}, "
-        f"Python {platform.python_version()}, numpy {np.__version__}"
-        + (f", OpenCAMLib {version}." if version else f". OpenCAMLib was left out: {reason}."),
+        f"Python {platform.python_version()}, numpy {np.__version__}{',' if rates.version else '.'} {peers}.",
         f"Best of {repeats}. Wall-clock rates suffer from other work on the machine; CPU time less.",
         "### Drop-cutter",
         f"Wavy surface of 100 x 100 mm; ours {POINTS:,} points a call, OpenCAMLib "
         + " and ".join(f"{n} at {t:,}" for t, n in PEER_POINTS.items())
         + " triangles (`BatchDropCutter`). Set-up is measured by a call with one point and left out on both sides.",
-        table(heads, rows),
-        *(
-            [f"Largest difference between the two programs' ball tips: {max(differences):.1e} mm."]
-            if differences
-            else []
-        ),
+        table(HEADS, rates.rows),
+    ]
+    if rates.differences:
+        parts.append(f"Largest difference between the two programs' ball tips: {max(rates.differences):.1e} mm.")
+    phases = [[name, f"{wall:.3f}", f"{cpu:.3f}"] for name, wall, cpu in main_job(repeats)]
+    parts += [
         "### Set-up",
         "The index with neighbours is built once for a part, at its first call; facets and boxes are made ready for the tool "
         "at each.",
-        table(["triangles", "threads", "index wall ms", "CPU ms", "tool wall ms", "CPU ms"], setups),
+        table(["triangles", "threads", "index wall ms", "CPU ms", "tool wall ms", "CPU ms"], rates.setups),
         "### The main job",
         "`examples/first-light/job.toml`, Z-levels of 0.5 mm.",
-        table(
-            ["phase", "wall s", "CPU s"], [[name, f"{wall:.3f}", f"{cpu:.3f}"] for name, wall, cpu in main_job(repeats)]
-        ),
+        table(["phase", "wall s", "CPU s"], phases),
     ]
     return "\n\n".join(parts)
 

@@ -114,7 +114,7 @@ def run_cli(*arguments: str | Path) -> Ran:
 @pytest.fixture(scope="session", autouse=True)
 def read_once() -> Iterator[None]:
     """A fixture part is read once per session and tolerance: that takes longer than planning it."""
-    from styluscam.parts import read_part
+    from styluscam.parts.reading import read_part
     from styluscam.programs import job
 
     known: dict[tuple[str, float], sc.Part] = {}
@@ -152,7 +152,7 @@ def write_step(shape: Any, path: Path) -> None:
     """Writes a shape as STEP, without the kernel's chatter."""
     from OCP.STEPControl import STEPControl_StepModelType, STEPControl_Writer
 
-    from styluscam.parts.step import quiet_kernel
+    from styluscam.parts.kernel import quiet_kernel
 
     with quiet_kernel():
         writer = STEPControl_Writer()

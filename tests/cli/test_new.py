@@ -209,7 +209,7 @@ def test_run_takes_what_new_read_ahead(parts, cli, monkeypatch, tmp_path):
     def read_brep(*_):
         raise AssertionError("read again")
 
-    monkeypatch.setattr("styluscam.parts.step.read_brep", read_brep)
+    monkeypatch.setattr("styluscam.parts.reading.read_brep", read_brep)
     ran = cli("run", parts / "ahead.toml", "--json")
     assert ran.code == 0, ran.out[-2000:]
 

@@ -69,7 +69,7 @@ def test_picture_shows_the_part(cli, tmp_path):
 @pytest.mark.parametrize("name", ["cone_cup", "cap_r60", "vwaf", "pyramid"])
 def test_every_face_gets_a_name_and_no_two_overlap(name, tmp_path, monkeypatch):
     from styluscam.drawing import picture
-    from styluscam.parts import read_part
+    from styluscam.parts.reading import read_part
 
     kept = []
     monkeypatch.setattr(picture, "_save", lambda figure, path: kept.append(figure))

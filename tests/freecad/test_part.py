@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from freecad_host import STEP
 
-from styluscam.parts import read_part
+from styluscam.parts.reading import read_part
 
 pytestmark = [pytest.mark.world, pytest.mark.freecad]
 

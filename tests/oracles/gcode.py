@@ -66,6 +66,16 @@ LETTERS = set("FGHIJKMNPQRSTXYZ")
 COMMENT = re.compile(r"\([^()]*\)")
 PLANE_AXES = {"G17": (0, 1, 2), "G18": (2, 0, 1), "G19": (1, 2, 0)}
 """First and second axis of the plane, and its normal."""
+SETS: dict[str, tuple[str, object]] = {
+    **{code: ("units", code) for code in ("G20", "G21")},
+    **{code: ("plane", code) for code in PLANE_AXES},
+    **{code: ("distance", code) for code in ("G90", "G91")},
+    **{code: ("wcs", code) for code in OFFSETS},
+    **{code: ("spindle", code) for code in ("M3", "M4", "M5")},
+    "M8": ("flood", True),
+    "M9": ("flood", False),
+}
+"""Codes that set one field of the state, and to what."""
 DROPS_LENGTH: tuple[Family, ...] = ("fanuc",)
 """Families whose G53 and G28 of Z take the tool's length away."""
 
@@ -246,27 +256,29 @@ class _Reader:
         self.framed = True
 
     def _modes(self, codes: list[str], values: dict[str, float]) -> None:
-        state = self.state
         for code in codes:
-            if code in ("G20", "G21"):
-                state = replace(state, units=code)
-            elif code in PLANE_AXES:
-                state = replace(state, plane=code)
-            elif code in ("G90", "G91"):
-                state = replace(state, distance=code)
-            elif code in ("G93", "G94"):
-                state = replace(state, feed_mode=code, feed=state.feed if code == state.feed_mode else 0.0)
-            elif code in OFFSETS:
-                state = replace(state, wcs=code)
-            elif code in ("G61", "G64"):
-                named = [f"{letter}{values[letter]:g}" for letter in "PQ" if letter in values]
-                state = replace(state, path=" ".join([code, *named]))
-            elif code in ("M3", "M4", "M5"):
-                state = replace(state, spindle=code)
-            elif code in ("M8", "M9"):
-                state = replace(state, flood=code == "M8")
-            elif code in ("G0", "G1", "G2", "G3", "G80"):
-                self.motion = code
+            self._mode(code, values)
+        self._registers(codes, values)
+        self._pauses(codes, values)
+
+    def _mode(self, code: str, values: dict[str, float]) -> None:
+        """One modal code."""
+        state = self.state
+        if code in SETS:
+            field, value = SETS[code]
+            state = replace(state, **{field: value})
+        elif code in ("G93", "G94"):
+            state = replace(state, feed_mode=code, feed=state.feed if code == state.feed_mode else 0.0)
+        elif code in ("G61", "G64"):
+            named = [f"{letter}{values[letter]:g}" for letter in "PQ" if letter in values]
+            state = replace(state, path=" ".join([code, *named]))
+        elif code in MODAL[0]:
+            self.motion = code
+        self.state = state
+
+    def _registers(self, codes: list[str], values: dict[str, float]) -> None:
+        """Feed, speed, tool and its length, after the modes of the line."""
+        state = self.state
         if "F" in values:
             state = replace(state, feed=values["F"] * _mm(state))
         if "S" in values:
@@ -279,13 +291,16 @@ class _Reader:
             state = replace(state, length_offset=int(values.get("H", state.tool)))
         if "G49" in codes:
             state = replace(state, length_offset=0)
+        self.state = state
+
+    def _pauses(self, codes: list[str], values: dict[str, float]) -> None:
+        """Stops and dwells before the line's move."""
         if "M0" in codes:
-            state = replace(state, paused=state.paused + WAIT)
+            self.state = replace(self.state, paused=self.state.paused + WAIT)
         if "G4" in codes:
             if "P" not in values:
                 raise Refused("G4 without P")
-            state = replace(state, paused=state.paused + values["P"])
-        self.state = state
+            self.state = replace(self.state, paused=self.state.paused + values["P"])
 
     def _move(self, codes: list[str], values: dict[str, float], number: int) -> None:
         named = [axis for axis in "XYZ" if axis in values]

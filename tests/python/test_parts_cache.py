@@ -9,7 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from styluscam.parts import PartArrays, cache, read_part
+from styluscam.parts import cache
+from styluscam.parts.arrays import PartArrays
+from styluscam.parts.reading import read_part
 
 pytest.importorskip("OCP.STEPControl", reason="needs the step extra")
 from test_parts_step import all_kinds, box, write_step

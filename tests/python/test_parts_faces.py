@@ -11,7 +11,9 @@ import pytest
 
 import styluscam as sc
 from styluscam.errors import GeometryError
-from styluscam.parts import PartArrays, mesh, read_part
+from styluscam.parts import mesh
+from styluscam.parts.arrays import PartArrays
+from styluscam.parts.reading import read_part
 
 BOX = np.array([(x, y, z) for x in (0, 10) for y in (0, 10) for z in (0, 10)], dtype=float)
 SIDES = np.array(

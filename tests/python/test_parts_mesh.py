@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from styluscam.errors import GeometryError
-from styluscam.parts import read_part
 from styluscam.parts.facets import Facets
+from styluscam.parts.reading import read_part
 
 trimesh = pytest.importorskip("trimesh", reason="needs the mesh extra")
 

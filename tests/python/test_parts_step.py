@@ -36,8 +36,9 @@ from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS_Compound, TopoDS_Shell
 
 from styluscam.errors import Cancelled, GeometryError
-from styluscam.parts import PartArrays, read_part
-from styluscam.parts.step import faces_of, quiet_kernel
+from styluscam.parts.arrays import PartArrays
+from styluscam.parts.kernel import faces_of, quiet_kernel
+from styluscam.parts.reading import read_part
 
 FIXTURES = Path(__file__).parents[2] / "fixtures"
 AS_IS = STEPControl_StepModelType.STEPControl_AsIs
@@ -109,10 +110,10 @@ def kinds(kinds_file: Path) -> PartArrays:
 
 
 def read_shape(file: Path) -> Any:
-    from styluscam.parts.step import _load
+    from styluscam.parts.loading import load
 
     with quiet_kernel():
-        return _load(file)[0]
+        return load(file)[0]
 
 
 def test_a_box_is_exact(tmp_path: Path) -> None:
@@ -438,7 +439,7 @@ def test_stdout_stays_clean(make: Any, tmp_path: Path) -> None:
     """Whatever the kernel has to say, at C level too: a process that only reads prints nothing."""
     files = [str(make(tmp_path)), str(write_step(box(), tmp_path / "good.step"))]
     script = (
-        "import sys, styluscam.parts as p\n"
+        "import sys, styluscam.parts.reading as p\n"
         "for f in sys.argv[1:]:\n"
         "    try: p.read_part(f)\n"
         "    except Exception as e: sys.stderr.write(type(e).__name__)\n"
@@ -458,7 +459,7 @@ def test_missing_kernel_names_the_extra(tmp_path: Path, monkeypatch: pytest.Monk
 
 
 def test_importing_the_readers_loads_numpy_only() -> None:
-    script = "import sys, styluscam.parts; print([m for m in ('OCP', 'trimesh', 'scipy') if m in sys.modules])"
+    script = "import sys, styluscam.parts.reading; print([m for m in ('OCP', 'trimesh', 'scipy') if m in sys.modules])"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from styluscam.errors import GeometryError
-from styluscam.parts import read_part
+from styluscam.parts.reading import read_part
 
 CORNERS = np.array([(x, y, z) for x in (0, 10) for y in (0, 10) for z in (0, 10)], dtype=float)
 TRIANGLES = np.array(

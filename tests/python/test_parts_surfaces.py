@@ -21,7 +21,7 @@ from OCP.GeomAPI import GeomAPI_PointsToBSplineSurface, GeomAPI_ProjectPointOnSu
 from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt, gp_Vec
 from OCP.TColgp import TColgp_Array2OfPnt
 
-from styluscam.parts.step import nurbs_of
+from styluscam.parts.exact import nurbs_of
 from styluscam.parts.surfaces import Cone, Cylinder, ExactSurface, Parametric, Plane, Sphere, Torus
 
 LOCATION, AXIS = (3.0, -2.0, 5.0), (0.3, -0.5, 0.8)

@@ -187,7 +187,7 @@ def test_a_surface_that_only_the_kernel_knows_travels():
     from OCP.Geom import Geom_OffsetSurface, Geom_SphericalSurface
     from OCP.gp import gp_Ax3
 
-    from styluscam.parts.step import surface_of
+    from styluscam.parts.exact import surface_of
 
     sphere = Geom_OffsetSurface(Geom_SphericalSurface(gp_Ax3(), 10.0), 2.0)
     surface = surface_of(BRepBuilderAPI_MakeFace(sphere, 0.1, 1.0, 0.1, 1.0, 1e-6).Face())

@@ -17,7 +17,7 @@ from .surfaces import surface_of, with_uv
 
 if TYPE_CHECKING:
     from styluscam import Part as EnginePart
-    from styluscam.parts import PartArrays
+    from styluscam.parts.arrays import PartArrays
     from styluscam.parts.tessellation import FaceMesh
 
     Progress = Any

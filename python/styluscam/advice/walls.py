@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from styluscam import _engine
 from styluscam.errors import GeometryError, JobError
-from styluscam.parts import PartArrays
+from styluscam.parts.arrays import PartArrays
 from styluscam.programs.job import Job
 from styluscam.types import Document, FloatArray, IntArray, Progress
 

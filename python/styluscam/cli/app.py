@@ -14,7 +14,7 @@ from typing import Annotated, NoReturn
 
 import typer
 
-from styluscam import __version__
+from styluscam._engine import __version__
 from styluscam.cli import (
     compare,
     console,

@@ -14,7 +14,9 @@ from styluscam.errors import VerifyError
 from styluscam.files import write_whole
 from styluscam.judging import verification
 from styluscam.programs.job import Job
-from styluscam.report import Subject, comparison_page, figures, side_by_side
+from styluscam.report.comparison import comparison_page
+from styluscam.report.subject import Subject
+from styluscam.report.tables import figures, side_by_side
 from styluscam.types import Document, Progress
 
 First = Annotated[Path, typer.Argument(metavar="A.ngc", help="A program.", show_default=False)]

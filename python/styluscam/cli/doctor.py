@@ -8,7 +8,7 @@ import platform
 
 import numpy as np
 
-from styluscam import __version__
+from styluscam._engine import __version__
 from styluscam.cli import console
 from styluscam.cli.failures import FAULT
 from styluscam.cli.options import Debug, Json

@@ -15,7 +15,8 @@ from styluscam.cli import console, progress
 from styluscam.cli.options import Debug, Force, Json, PartFile, Quiet, Units
 from styluscam.cli.summary import shown_path
 from styluscam.errors import GeometryError, JobError
-from styluscam.parts import PartArrays, read_part, require_part
+from styluscam.parts.arrays import PartArrays
+from styluscam.parts.reading import read_part, require_part
 from styluscam.programs.job import Job, starter_job
 from styluscam.types import Progress
 

@@ -6,7 +6,9 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from styluscam.files import require_writable, write_whole
-from styluscam.report import Subject, report_page, require_extra
+from styluscam.report.page import report_page
+from styluscam.report.subject import Subject
+from styluscam.report.templates import require_extra
 from styluscam.types import Progress
 
 

@@ -12,7 +12,8 @@ from styluscam import files
 from styluscam.cli import console, progress
 from styluscam.cli.options import Debug, Json, PartFile, Picture, Quiet, Units
 from styluscam.cli.summary import shown_path
-from styluscam.parts import FaceInfo, PartArrays, read_part
+from styluscam.parts.arrays import FaceInfo, PartArrays
+from styluscam.parts.reading import read_part
 from styluscam.types import Document
 
 app = typer.Typer(help="Look at parts.", rich_markup_mode=None)

@@ -10,8 +10,8 @@ from styluscam.cli.options import Debug, ForJob, GcodeFile, Json, Picture, Quiet
 from styluscam.errors import VerifyError
 from styluscam.judging import coverage, simulation, verification
 from styluscam.programs.job import Job
-from styluscam.report import Subject
 from styluscam.report.findings import verdict_of
+from styluscam.report.subject import Subject
 from styluscam.words import place
 
 

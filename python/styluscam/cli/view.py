@@ -16,7 +16,7 @@ from styluscam.files import is_file, read_gcode_text
 from styluscam.parts.part import Part
 from styluscam.programs.job import Job
 from styluscam.programs.machine import Machine
-from styluscam.report import figures, in_words
+from styluscam.report.tables import figures, in_words
 
 OnMachine = Annotated[
     str | None,

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from styluscam.drawing.decimation import thinned
 from styluscam.drawing.raster import Raster, View, rasterise
 from styluscam.errors import GeometryError, StylusError
-from styluscam.parts import PartArrays
+from styluscam.parts.arrays import PartArrays
 from styluscam.parts.part import Part
 from styluscam.programs.planning import Plan
 from styluscam.programs.program import RAPID, Program

@@ -15,7 +15,7 @@ from styluscam.parts.part import Part
 from styluscam.programs.job import Job
 from styluscam.programs.machine import Machine
 from styluscam.programs.program import Program
-from styluscam.report import Subject
+from styluscam.report.subject import Subject
 from styluscam.types import Progress
 
 Find: TypeAlias = Callable[[str], str | None]

@@ -8,7 +8,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from .surfaces import ExactSurface, Floats
+from styluscam.parts.surfaces import ExactSurface, Floats
 
 Ints: TypeAlias = NDArray[np.int64]
 Vector: TypeAlias = tuple[float, float, float]

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import GeometryError
-from .arrays import FaceInfo, PartArrays, area_vectors, describe_face, signed_volume
-from .surfaces import Cone, ExactSurface, Floats, Nurbs, Parametric
-from .tessellation import GAP_SHARE, FaceMesh, Tessellation, is_closed, weld
+from styluscam.errors import GeometryError
+from styluscam.parts.arrays import FaceInfo, PartArrays, area_vectors, describe_face, signed_volume
+from styluscam.parts.surfaces import Cone, ExactSurface, Floats, Nurbs, Parametric
+from styluscam.parts.tessellation import GAP_SHARE, FaceMesh, Tessellation, is_closed, weld
 
 # A face's mesh may miss this part of its exact area before it is looked at closer: chords are shorter than arcs.
 AREA_SHARE = 0.02

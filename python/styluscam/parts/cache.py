@@ -22,8 +22,8 @@ from typing import Any
 
 import numpy as np
 
-from .arrays import FaceInfo, PartArrays
-from .surfaces import Cone, Cylinder, ExactSurface, Nurbs, Parametric, Plane, Sphere, Torus
+from styluscam.parts.arrays import FaceInfo, PartArrays
+from styluscam.parts.surfaces import Cone, Cylinder, ExactSurface, Nurbs, Parametric, Plane, Sphere, Torus
 
 # What the folder may hold, and one part of it, bytes: the least recently used parts go.
 MOST, MOST_OF_ONE = 1 << 30, 1 << 28

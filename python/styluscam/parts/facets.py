@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .arrays import Ints, area_vectors
-from .surfaces import Floats, unit
+from styluscam.parts.arrays import Ints, area_vectors
+from styluscam.parts.surfaces import Floats, unit
 
 
 @dataclass(frozen=True, eq=False)

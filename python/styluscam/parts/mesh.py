@@ -10,14 +10,15 @@ from typing import Any
 import numpy as np
 
 from styluscam import _engine
-
-from ..errors import GeometryError
-from ..words import counted
-from .arrays import FaceInfo, Ints, PartArrays, area_vectors, describe_face
-from .facets import Facets
-from .progress import Progress, report
-from .stl import read_stl
-from .surfaces import Floats, unit
+from styluscam.errors import GeometryError
+from styluscam.parts.arrays import FaceInfo, Ints, PartArrays, area_vectors, describe_face
+from styluscam.parts.facets import Facets
+from styluscam.parts.formats import UNITS
+from styluscam.parts.mending import Mending
+from styluscam.parts.progress import Progress, report
+from styluscam.parts.stl import read_stl
+from styluscam.parts.surfaces import Floats, unit
+from styluscam.words import place
 
 FLAT = 1e-6
 """A closed mesh is no body where it is, across a plane through it, this share of its length thick: numbers in files have
@@ -25,7 +26,7 @@ seven places."""
 
 
 def read_mesh(file: Path, tolerance: float, units: str | None, progress: Progress | None = None) -> PartArrays:
-    """Read the part in a mesh file. See styluscam.parts.read_part."""
+    """Read the part in a mesh file. See styluscam.parts.reading.read_part."""
     report(progress, "read", 0.0)
     scale, units = _scale(file, units)
     points, corners, own_units, notes = _load(file)
@@ -37,7 +38,7 @@ def read_mesh(file: Path, tolerance: float, units: str | None, progress: Progres
         raise _error(file, "has coordinates that are not numbers (NaN or infinite)", "export it again", "part-nan")
     report(progress, "faces", 0.5)
     vertices, triangles, face_ids, mending, kinds = _mended(file, points * scale, corners)
-    if mending["closed"] and _is_flat(vertices):
+    if mending.closed and _is_flat(vertices):
         what = "its triangles close, but enclose nothing: it has no height"
         raise _error(file, what, "give it its height, or one side only", "part-no-volume")
     report(progress, "arrays", 0.9)
@@ -48,13 +49,13 @@ def read_mesh(file: Path, tolerance: float, units: str | None, progress: Progres
         normals=normals,
         face_ids=face_ids,
         faces=_described(vertices[triangles], normals, face_ids, kinds),
-        deviation_inward=mending["moved"],
-        deviation_outward=mending["moved"],
+        deviation_inward=mending.moved,
+        deviation_outward=mending.moved,
         tolerance=tolerance,
         source=str(file),
         units=units,
-        is_closed=mending["closed"],
-        notes=notes + _said(mending, len(triangles)),
+        is_closed=mending.closed,
+        notes=notes + mending.notes(len(triangles)),
         surfaces=(Facets(vertices, triangles),) * len(kinds),
         is_mesh=True,
     )
@@ -68,7 +69,7 @@ def _is_flat(vertices: Floats) -> bool:
     return bool(height <= FLAT * spread[0])
 
 
-def _mended(file: Path, points: Floats, corners: Ints) -> tuple[Floats, Ints, Ints, dict[str, Any], list[str]]:
+def _mended(file: Path, points: Floats, corners: Ints) -> tuple[Floats, Ints, Ints, Mending, list[str]]:
     """Return vertices, triangles wound outward, the face of each, what was done to them, and each face's kind."""
     try:
         vertices, triangles, face_ids, text = _engine.mended(points, np.ascontiguousarray(corners))
@@ -78,10 +79,10 @@ def _mended(file: Path, points: Floats, corners: Ints) -> tuple[Floats, Ints, In
             raise _error(file, what, "export it again", "part-zero-area") from error
         raise _error(file, f"damaged: {error}", "export the part again", "part-damaged") from error
     done = json.loads(text)
-    mending: dict[str, Any] = done["mending"]
-    if mending["unclear"] is not None:
-        place = " ".join(f"{axis}{value:.3f}" for axis, value in zip("XYZ", mending["unclear"], strict=True))
-        what = f"its triangles are wound inconsistently, some are inside out, and which side is out is not clear at {place}"
+    mending = Mending(**done["mending"])
+    if mending.unclear is not None:
+        point = place(mending.unclear)
+        what = f"its triangles are wound inconsistently, some are inside out, and which side is out is not clear at {point}"
         cure = "make its normals consistent, all outward, in the program that made it"
         raise _error(file, what, cure, "part-inconsistent")
     return vertices, triangles, face_ids, mending, done["shapes"]
@@ -96,48 +97,12 @@ def _described(corners: Floats, normals: Floats, face_ids: Ints, kinds: list[str
     return tuple(describe_face(i, kind, corners[at], normals[at]) for i, (kind, at) in enumerate(faces, 1))
 
 
-def _said(mending: dict[str, Any], triangles: int) -> tuple[str, ...]:
-    """Return sentences on what was done to the file's triangles."""
-    notes = []
-    if count := mending["joined"]:
-        notes.append(
-            f"{counted(count, 'corner')} that did not quite meet others joined them, {mending['moved']:.2g} mm away at most "
-            f"(corners within {mending['join_distance']:.2g} mm are joined)"
-        )
-    if count := mending["degenerate"]:
-        notes.append(f"{counted(count, 'triangle')} without area left out")
-    if count := mending["cut"]:
-        notes.append(f"corners on sides of other triangles: those were cut there, {counted(count, 'cut')}")
-    if count := mending["duplicate"]:
-        notes.append(f"{counted(count, 'triangle')} left out that the file has more than once")
-    if count := mending["back_to_back"]:
-        notes.append(
-            f"{counted(count, 'triangle')} left out back to back between bodies that touch: the bodies are one"
-        )
-    if count := mending["double_sided"]:
-        notes.append(
-            f"the file has both sides of a surface: {counted(count, 'triangle')} of the second side left out; where the "
-            "surface encloses nothing, its material side is a guess (below)"
-        )
-    if count := mending["turned"]:
-        notes.append(f"{counted(count, 'triangle')} turned over that wound against their neighbours")
-    if (count := mending["inside_out"]) == triangles:
-        notes.append("the mesh was wound inward (inside out): its triangles were turned over")
-    elif count:
-        notes.append(f"{counted(count, 'triangle')} turned over, of bodies that were wound inward (inside out)")
-    if not mending["closed"]:
-        notes.append("the mesh is open (not each edge is shared by two triangles): repair it if the part is a solid")
-    return tuple(notes)
-
-
 def _error(file: Path, what: str, cure: str, code: str) -> GeometryError:
     return GeometryError(f"{file}: {what}: {cure}", code=code, where=str(file), hint=cure)
 
 
 def _scale(file: Path, units: str | None) -> tuple[float, str]:
     """Return the factor to mm, and the unit's name. 3MF carries its own."""
-    from . import UNITS
-
     if file.suffix.lower() == ".3mf":
         if units is not None:
             raise _error(file, "a .3mf file carries its units", f"remove units = {units!r}", "part-units-not-wanted")

@@ -13,7 +13,8 @@ import numpy.typing as npt
 from styluscam import _engine
 from styluscam.arguments import FileName, file_of, number_of, refused
 from styluscam.errors import GeometryError
-from styluscam.parts import PartArrays, read_part
+from styluscam.parts.arrays import PartArrays
+from styluscam.parts.reading import read_part
 from styluscam.types import Document, FloatArray, Progress, numbers, points, shaped, whole_numbers
 from styluscam.words import counted, shortened, size
 

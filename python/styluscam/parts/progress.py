@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeAlias
 
-from ..errors import Cancelled
+from styluscam.errors import Cancelled
 
 Progress: TypeAlias = Callable[[str, float], bool | None]
 

@@ -14,9 +14,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import GeometryError
-from .arrays import Ints
-from .surfaces import Floats
+from styluscam.errors import GeometryError
+from styluscam.parts.arrays import Ints
+from styluscam.parts.surfaces import Floats
 
 HEADER, RECORD = 84, np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 

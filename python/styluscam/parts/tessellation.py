@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import GeometryError
-from .arrays import Ints
-from .surfaces import ExactSurface, Floats, Parametric, Plane
+from styluscam.errors import GeometryError
+from styluscam.parts.arrays import Ints
+from styluscam.parts.surfaces import ExactSurface, Floats, Parametric, Plane
 
 # Samples lie on a barycentric grid of this order, and at the centroid. A surface's distance over a small triangle
 # whose corners lie on it is a quadratic form that vanishes at the corners; over each cell of the grid it differs from

@@ -13,7 +13,8 @@ from styluscam import _engine
 from styluscam.arguments import A_FILE, FileName, document_of, file_of, json_of, refused
 from styluscam.errors import JobError, ToolError
 from styluscam.files import reason, require_end
-from styluscam.parts import BREP_ENDINGS, MESH_ENDINGS, PartArrays
+from styluscam.parts.arrays import PartArrays
+from styluscam.parts.formats import BREP_ENDINGS, MESH_ENDINGS
 from styluscam.parts.part import Part, PartLike
 from styluscam.programs.machine import Machine
 from styluscam.tools import pointsfile

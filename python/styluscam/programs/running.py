@@ -18,7 +18,9 @@ from styluscam.programs.job import Job, JobLike
 from styluscam.programs.planning import Plan, Posted, output_name, plan, post
 from styluscam.programs.posting import VERDICT
 from styluscam.programs.program import Program
-from styluscam.report import Subject, report_page, require_extra
+from styluscam.report.page import report_page
+from styluscam.report.subject import Subject
+from styluscam.report.templates import require_extra
 from styluscam.types import Document, Progress
 from styluscam.words import shortened
 

@@ -6,8 +6,8 @@ import base64
 from collections.abc import Sequence
 
 from styluscam.report import tables
-from styluscam.report.figures import Plot, Series, feed_over_time, height_over_time
 from styluscam.report.findings import grouped, measured, spoken, verdict_of
+from styluscam.report.plots import Plot, Series, feed_over_time, height_over_time
 from styluscam.report.subject import Subject
 from styluscam.report.templates import PAGE, template
 

@@ -10,7 +10,7 @@ import numpy as np
 from styluscam.drawing.decimation import thinned
 from styluscam.drawing.toolplot import tool_svg
 from styluscam.programs.program import SAG
-from styluscam.report import figures, tables
+from styluscam.report import plots, tables
 from styluscam.report.columns import packed
 from styluscam.report.findings import grouped, measured, spoken, verdict_of
 from styluscam.report.heatmaps import HeatMap, Shown, shown_judged, shown_plain
@@ -83,12 +83,12 @@ def _shown(subject: Subject, progress: Progress | None) -> Shown | None:
     return shown_judged(subject.surface, subject.report, progress)
 
 
-def _plots(subject: Subject, shown: Shown | None) -> list[figures.Plot]:
-    series = [figures.Series(subject.times, subject.places[:, 2], subject.moves["feed"], subject.moves["kind"])]
-    plots = [figures.height_over_time(series), figures.feed_over_time(series)] if len(subject.places) else []
+def _plots(subject: Subject, shown: Shown | None) -> list[plots.Plot]:
+    series = [plots.Series(subject.times, subject.places[:, 2], subject.moves["feed"], subject.moves["kind"])]
+    drawn = [plots.height_over_time(series), plots.feed_over_time(series)] if len(subject.places) else []
     if shown is not None and len(shown.scallops):
-        plots.append(figures.scallop_histogram(shown.scallops, shown.weights))
-    return plots
+        drawn.append(plots.scallop_histogram(shown.scallops, shown.weights))
+    return drawn
 
 
 def _tool_pictures(subject: Subject) -> list[tuple[str, str]]:
@@ -96,7 +96,7 @@ def _tool_pictures(subject: Subject) -> list[tuple[str, str]]:
     steps = [float(operation["step"]["height"]) for operation in _operations(subject) if operation.get("step")]
     step = min(steps, default=0.5)
     known = [(record, tool) for record, tool in subject.tools if tool is not None]
-    return [(_tool_name(record), figures.element(tool_svg([tool], step))) for record, tool in known]
+    return [(_tool_name(record), plots.element(tool_svg([tool], step))) for record, tool in known]
 
 
 def _operations(subject: Subject) -> list[Document]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from styluscam.parts import PartArrays
+from styluscam.parts.arrays import PartArrays
 from styluscam.types import FloatArray, IntArray
 
 Mask = npt.NDArray[np.bool_]

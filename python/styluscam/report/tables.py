@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from styluscam import __version__
+from styluscam._engine import __version__
 from styluscam.judging.coverage import LEAST_AREA, Totals, to_form, unformed
 from styluscam.report.subject import RAPIDS, Subject
 from styluscam.report.vendored import THREE_VERSION

@@ -11,7 +11,6 @@ import math
 import re
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,9 +18,6 @@ from styluscam import _engine
 from styluscam.errors import ToolError
 from styluscam.tools import toolfile
 from styluscam.types import Document
-
-if TYPE_CHECKING:
-    from styluscam.tools.tool import Tool
 
 VERSION = 2
 """Of the format, as FreeCAD 1.0 and 1.1 write it."""
@@ -43,22 +39,20 @@ NUMBER = re.compile(r"\s*([-+]?[\d.,]+(?:e[-+]?\d+)?)(?:\s+(\d+))?(?:/(\d+))?\s*
 """A decimal number, or a fraction such as ``1 1/8``, and a unit."""
 
 
-def text_of(tool: Tool) -> str:
-    """The file's text for a tool."""
-    height = float(tool.height_at(tool.max_slope))
-    document = tool.to_dict()
-    usual = _usual(document, tool.diameter, height)
+def text_of(document: Document, name: str, diameter: float, height: float) -> str:
+    """The file's text for the document of a tool file; diameter and height (mm) are the profile's."""
+    usual = _usual(document, diameter, height)
     lengths = {
-        "Diameter": tool.diameter,
+        "Diameter": diameter,
         "CuttingEdgeHeight": height,
         "Length": document.get("length", usual["length"]),
         "ShankDiameter": document.get("shank_diameter", usual["shank_diameter"]),
     }
-    parameters = {EXACT: json.dumps(tool.to_file())} | {name: f"{value!r} mm" for name, value in lengths.items()}
+    parameters = {EXACT: json.dumps(document)} | {name: f"{value!r} mm" for name, value in lengths.items()}
     return toolfile.text_of(
         {
             "version": VERSION,
-            "name": tool.title or tool.name or tool.description,
+            "name": name,
             "shape": "stylus.fcstd",
             "shape-type": "Stylus",
             "parameter": parameters,

@@ -195,7 +195,12 @@ class Tool:
             StylusError: the file cannot be written.
         """
         path = file_of(path, "path", A_FILE, ToolError)
-        text = fctb.text_of(self) if path.suffix.lower() == ".fctb" else toolfile.text_of(self.to_file())
+        document = self.to_file()
+        if path.suffix.lower() == ".fctb":
+            height = float(self.height_at(self.max_slope))
+            text = fctb.text_of(document, self.title or self.name or self.description, self.diameter, height)
+        else:
+            text = toolfile.text_of(document)
         write_whole(path, text)
 
     def to_dict(self) -> Document:
