@@ -54,11 +54,8 @@ def text(job: Any, post: str, arguments: str) -> str:
 def job_of(document: Any) -> Any:
     """A block with a pocket, two through holes and a round recess, and operations for each."""
     import Path.Main.Job as PathJob
-    import Path.Op.Adaptive as Adaptive
-    import Path.Op.Drilling as Drilling
-    import Path.Op.Helix as Helix
     import Path.Op.PocketShape as Pocket
-    import Path.Op.Profile as Profile
+    from Path.Op import Adaptive, Drilling, Helix, Profile
 
     body = document.addObject("Part::Feature", "Body")
     body.Shape = block()

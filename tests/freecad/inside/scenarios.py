@@ -205,7 +205,7 @@ def with_native(*lines: str) -> Scenario:
     """A job with an operation of FreeCAD's own beside ours."""
 
     def scenario() -> dict[str, Any]:
-        import Path.Op.Custom as Custom
+        from Path.Op import Custom
 
         stage = Stage()
         own = Custom.Create("Own", parentJob=stage.job)
@@ -414,7 +414,7 @@ def faces_as_in_the_file() -> dict[str, Any]:
 
 def two_tools() -> dict[str, Any]:
     """Two operations of ours with a tool each: FreeCAD cannot choose between controllers by itself."""
-    import Path.Tool.Controller as Controller
+    from Path.Tool import Controller
 
     from freecad.styluscam_wb import tools
 
@@ -440,7 +440,7 @@ def two_tools() -> dict[str, Any]:
 def first_of_two_tools() -> dict[str, Any]:
     """The first operation of a job that has two controllers."""
     import FreeCAD
-    import Path.Tool.Controller as Controller
+    from Path.Tool import Controller
 
     from freecad.styluscam_wb import ops, tools
 
