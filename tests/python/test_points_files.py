@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 import styluscam as sc
-from styluscam.tools.pointsfile import read_points, resolved_toml
+from styluscam.tools.pointsfile import read_points
 
 WANTED = [[0.0, 0.0], [1.5, 0.125], [3.0, 0.5], [4.5, 1.25]]
 LINES = ["0,0", "1.5,0.125", "3.0,0.5", "4.5,1.25"]
@@ -141,11 +141,27 @@ def test_jobs_name_files_too(folder: Path) -> None:
         sc.Job.read(folder / "job.toml")
 
 
-def test_a_job_s_text_keeps_its_lines(folder: Path) -> None:
-    text, files = resolved_toml(JOB, folder)
-    assert text.count("\n") == JOB.count("\n") and len(files) == 2
-    assert text.splitlines()[2] == JOB.splitlines()[2]
-    assert resolved_toml('a = """\npoints = \'x.csv\'\n"""\n', folder) == ('a = """\npoints = \'x.csv\'\n"""\n', [])
+def test_only_the_points_of_a_tool_s_profile_name_a_file(folder: Path) -> None:
+    line = JOB.splitlines()[2]
+    assert sc.Job.from_toml(JOB, folder).title == "points = 'none.csv'"
+    read = sc.Job.from_toml(JOB.replace(line, 'title = """\npoints = \'x.csv\'\n"""'), folder)
+    assert read.title == "points = 'x.csv'\n"
+    assert {path.name for path in read.inputs() if path.suffix == ".csv"} == {"p.csv"}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "where"),
+    [
+        ("[machine]", "[machine", f"line {JOB.count(chr(10), 0, JOB.index('[machine]')) + 1}"),
+        ("stepover = 1.0", "stepover = nan", "operations[0].stepover"),
+        ("stepover = 1.0", "stepover = 1979-05-27", "operations[0].stepover"),
+        ("stepover = 1.0", "stepovr = 1.0", "operations[0].stepovr"),
+    ],
+)
+def test_errors_of_a_job_that_names_files_name_its_lines_and_keys(folder: Path, old: str, new: str, where: str) -> None:
+    with pytest.raises(sc.JobError) as caught:
+        sc.Job.from_toml(JOB.replace(old, new), folder)
+    assert caught.value.where == where
 
 
 def test_the_schema_knows_both() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import shlex
+import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
@@ -21,6 +22,11 @@ from styluscam.tools import pointsfile
 from styluscam.tools.tool import Tool
 from styluscam.types import Document, Progress
 from styluscam.words import counted, shortened
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
 
 JobLike: TypeAlias = "Job | Document | str | os.PathLike[str]"
 """A job, its document, or a job file."""
@@ -127,12 +133,7 @@ class Job:
             raise JobError(f"{path}: {why}", code="unreadable", where=str(path), hint="name a job file") from error
         # a job that comes through a pipe speaks of files from here
         folder = Path.cwd() if path.is_fifo() else path.resolve().parent
-        if path.suffix == ".json":
-            text, files = _resolved_json(text, folder)
-            engine = _engine.Job.from_json(text)
-        else:
-            text, files = pointsfile.resolved_toml(text, folder)
-            engine = _engine.Job.from_toml(text)
+        engine, files = _of_json(text, folder) if path.suffix == ".json" else _of_toml(text, folder)
         return cls._built(engine, folder, path.stem, file=path, tool_files=files)
 
     @classmethod
@@ -145,8 +146,8 @@ class Job:
         if not isinstance(text, str):
             raise refused("text", text, "the text of a job file", JobError)
         place = file_of(folder, "folder", "the name of a folder (str or Path)", JobError)
-        text, files = pointsfile.resolved_toml(text, place)
-        return cls._built(_engine.Job.from_toml(text), place, tool_files=files)
+        engine, files = _of_toml(text, place)
+        return cls._built(engine, place, tool_files=files)
 
     @classmethod
     def from_dict(cls, document: Document, folder: FileName = ".", part: PartLike | None = None) -> Job:
@@ -259,14 +260,24 @@ def _resolved(document: Document, folder: Path) -> tuple[Document, list[Path]]:
     return {**document, "tools": taken}, files
 
 
-def _resolved_json(text: str, folder: Path) -> tuple[str, list[Path]]:
-    """As :func:`_resolved` for a file's text; as it is where it names none, so that errors keep their lines."""
+def _of_toml(text: str, folder: Path) -> tuple[_engine.Job, list[Path]]:
+    """The job in a TOML text, and the files with points that it names; what is no TOML is for the engine to report."""
+    try:
+        document = tomllib.loads(text)
+    except (ValueError, RecursionError):
+        return _engine.Job.from_toml(text), []
+    document, files = _resolved(document, folder)
+    return (_engine.Job.from_json(json_of(document, "job", JobError)) if files else _engine.Job.from_toml(text)), files
+
+
+def _of_json(text: str, folder: Path) -> tuple[_engine.Job, list[Path]]:
+    """As :func:`_of_toml`, of a JSON text."""
     try:
         document = json.loads(text)
     except (ValueError, RecursionError):
-        return text, []
+        return _engine.Job.from_json(text), []
     document, files = _resolved(document, folder) if isinstance(document, dict) else (document, [])
-    return (json.dumps(document) if files else text), files
+    return _engine.Job.from_json(json.dumps(document) if files else text), files
 
 
 def job_schema() -> Document:

@@ -8,7 +8,6 @@ quotes, a comma may be the decimal point. Lines that begin with # are comments, 
 from __future__ import annotations
 
 import csv
-import json
 import math
 import re
 from pathlib import Path
@@ -26,15 +25,6 @@ HEADING = re.compile(r"[^\W\d_]|^\D*$")
 
 ORDERS = {"r": 0, "radius": 0, "z": 1, "height": 1}
 """Which column a heading's first word stands for."""
-
-TOML = re.compile(
-    r""""{3}(?:\\.|[^\\])*?"{3}|'{3}.*?'{3}|\#[^\n]*"""  # longer strings and comments
-    r"""|(?P<key>(?:^|(?<=[\s{,.]))(?:points|"points"|'points')[ \t]*=[ \t]*)"""
-    r"""(?P<name>"(?:\\.|[^"\\\n])*"|'[^'\n]*')"""
-    r"""|"(?:\\.|[^"\\\n])*"|'[^'\n]*'""",
-    re.DOTALL | re.MULTILINE,
-)
-"""Steps over what a key cannot stand in, to the key ``points`` with a text as its value."""
 
 
 def read_points(path: str | Path) -> list[list[float]]:
@@ -83,27 +73,6 @@ def with_place(document: Document, folder: str | Path) -> Document:
     if not isinstance(profile, dict) or not isinstance(profile.get("points"), str):
         return document
     return {**document, "profile": {**profile, "points": str(Path(folder).resolve() / profile["points"])}}
-
-
-def resolved_toml(text: str, folder: Path) -> tuple[str, list[Path]]:
-    """A job's text with the points in the place of the files that its profiles name, line by line as it was; the files.
-
-    Raises:
-        ToolError: as :func:`read_points`.
-    """
-    files: list[Path] = []
-
-    def points(found: re.Match[str]) -> str:
-        if found["key"] is None:
-            return found[0]
-        try:
-            name = found["name"][1:-1] if found["name"][0] == "'" else json.loads(found["name"])
-        except ValueError:
-            return found[0]
-        files.append(folder / name)
-        return found["key"] + json.dumps(read_points(files[-1]))
-
-    return TOML.sub(points, text), files
 
 
 def _text(path: Path) -> str:
