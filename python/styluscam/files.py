@@ -5,13 +5,16 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import secrets
 import stat
-import tempfile
 import unicodedata
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
+from typing import TypeAlias
 
 from styluscam.errors import StylusError, VerifyError
+
+Buffer: TypeAlias = "bytes | bytearray | memoryview"
 
 
 def read_text(path: str | Path, failure: type[StylusError]) -> str:
@@ -48,34 +51,118 @@ def read_gcode_text(path: str | Path) -> str:
         return text
 
 
-def write_whole(path: Path, text: str) -> None:
-    """Writes ``text`` beside ``path`` and renames it: a reader sees the old file or the new one, never a part."""
-    write_all_whole({path: text})
-
-
-def write_all_whole(files: dict[Path, str]) -> None:
-    """As :func:`write_whole` for several files: none is renamed before all are written. Missing folders are made.
+def write_whole(path: Path, content: str | Buffer) -> None:
+    """Writes a text (as UTF-8) or bytes to a file: a reader sees the old file or the new one, never a part of it.
 
     Raises:
-        StylusError: a place that must not be written to, or a full disk; nothing was renamed then. Where the system
+        StylusError: as :func:`drawn_whole`.
+    """
+    write_all_whole({path: content})
+
+
+def write_all_whole(files: Mapping[Path, str | Buffer]) -> None:
+    """As :func:`write_whole` for several files: none is replaced before all are written.
+
+    Raises:
+        StylusError: as :func:`all_drawn_whole`.
+    """
+    with all_drawn_whole(files) as temporaries:
+        for (path, content), temporary in zip(files.items(), temporaries, strict=True):
+            with _naming(path):
+                temporary.write_bytes(content.encode() if isinstance(content, str) else content)
+
+
+@contextlib.contextmanager
+def drawn_whole(path: Path) -> Iterator[Path]:
+    """A temporary file beside ``path``, for a writer that takes a name; it becomes ``path`` when all went well.
+
+    Raises:
+        StylusError: as :func:`all_drawn_whole`.
+    """
+    with all_drawn_whole([path]) as (temporary,), _naming(path):
+        yield temporary
+
+
+@contextlib.contextmanager
+def all_drawn_whole(paths: Iterable[Path]) -> Iterator[list[Path]]:
+    """Temporary files beside ``paths``, to be written; they take the paths' names when the block ends without an error.
+
+    Missing folders are made. Files that are replaced keep their permissions, new ones have those of the umask. Contents
+    are on the disk before the first name changes, the names before the block is left.
+
+    Raises:
+        StylusError: a path that must not be written to, or a full disk; nothing was replaced then. Where the system
             refuses a later renaming, the files before it are the new ones: each is whole.
     """
-    require_writable(files)
-    written: list[tuple[str, Path]] = []
+    paths = list(paths)
+    require_writable(paths)
+    temporaries: dict[Path, Path] = {}
     try:
-        for path, text in files.items():
-            path.parent.mkdir(parents=True, exist_ok=True)
-            written.append((_write_beside(path, text), path))
-        while written:
-            temporary, path = written[0]
-            Path(temporary).replace(path)
-            written.pop(0)
+        for path in paths:
+            with _naming(path):
+                path.parent.mkdir(parents=True, exist_ok=True)
+                temporaries[path] = _temporary(path)
+        yield list(temporaries.values())
+        for path, temporary in temporaries.items():
+            with _naming(path):
+                _sync(temporary)
+        for path in paths:
+            with _naming(path):
+                _take_permissions(temporaries[path], path)
+                temporaries[path].replace(path)
+            del temporaries[path]
+        for folder in {path.parent for path in paths}:
+            _sync_folder(folder)
+    finally:
+        for temporary in temporaries.values():
+            with contextlib.suppress(OSError):
+                temporary.unlink()
+
+
+def _temporary(path: Path) -> Path:
+    """A new, empty file in the folder of ``path``, with the permissions that the umask leaves."""
+    while True:
+        temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}")
+        try:
+            handle = os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666)
+        except FileExistsError:
+            continue
+        os.close(handle)
+        return temporary
+
+
+def _take_permissions(temporary: Path, path: Path) -> None:
+    """Gives a file the permissions of the one that it replaces, if there is one."""
+    with contextlib.suppress(FileNotFoundError):
+        temporary.chmod(stat.S_IMODE(path.stat().st_mode))
+
+
+def _sync(file: Path) -> None:
+    """Brings a file's content to the disk."""
+    handle = os.open(file, os.O_RDWR)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
+
+
+def _sync_folder(folder: Path) -> None:
+    """Brings a folder's names to the disk, where the system can: Windows opens no folders."""
+    with contextlib.suppress(OSError):
+        handle = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)
+
+
+@contextlib.contextmanager
+def _naming(path: Path) -> Iterator[None]:
+    """Errors of the system as one that names the output."""
+    try:
+        yield
     except OSError as error:
         raise _unwritable(path, error) from error
-    finally:
-        for temporary, _ in written:
-            with contextlib.suppress(OSError):
-                Path(temporary).unlink()
 
 
 def require_writable(outputs: Iterable[Path], inputs: Iterable[Path] = ()) -> None:
@@ -126,28 +213,6 @@ def _place(path: Path) -> str:
     return os.path.normcase(path.resolve())
 
 
-@contextlib.contextmanager
-def drawn_whole(path: Path) -> Iterator[Path]:
-    """A temporary name in the folder of ``path``, to be drawn to; it becomes ``path`` when all went well."""
-    require_writable([path])
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
-        os.close(handle)
-    except OSError as error:
-        raise _unwritable(path, error) from error
-    try:
-        yield Path(name)
-        Path(name).chmod(0o644)
-        Path(name).replace(path)
-    except OSError as error:
-        Path(name).unlink()
-        raise _unwritable(path, error) from error
-    except BaseException:
-        Path(name).unlink()
-        raise
-
-
 def _look(path: Path) -> None:
     if "\0" in str(path):
         raise OSError(errno.EINVAL, "the name holds a character that no file name has", str(path))
@@ -171,20 +236,3 @@ def _unwritable(path: Path, error: OSError | ValueError) -> StylusError:
 def reason(error: OSError | ValueError) -> str:
     """What the system says, without the number and the name around it."""
     return str(getattr(error, "strerror", None) or error)
-
-
-def _write_beside(path: Path, text: str) -> str:
-    """The name of a temporary file in the same folder that holds ``text``."""
-    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="") as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        umask = os.umask(0)
-        os.umask(umask)
-        Path(name).chmod(0o666 & ~umask)
-    except BaseException:
-        Path(name).unlink()
-        raise
-    return name

@@ -140,7 +140,7 @@ def test_a_part_without_arrays_cannot_be_drawn(tmp_path):
 def test_without_matplotlib_the_extra_is_named(cli, tmp_path, monkeypatch):
     import sys
 
-    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
     ran = cli("part", "show", FIXTURES / "cone_cup.step", "--picture", tmp_path / "p.png")
     assert ran.code == 2 and ran.err.count("\n") == 1 and "styluscam[plot]" in ran.err
     assert not list(tmp_path.iterdir())

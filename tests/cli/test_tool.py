@@ -257,7 +257,7 @@ def test_nothing_on_a_plot_is_clipped_or_overlaps(names: list[str], tmp_path: Pa
 
 
 def test_without_matplotlib_the_extra_is_named(cli: Any, tmp_path: Path, monkeypatch: Any) -> None:
-    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
     ran = cli("tool", "plot", "hemisphere-d10", "--out", tmp_path / "p.png")
     assert ran.code == 2 and ran.err.count("\n") == 1 and "styluscam[plot]" in ran.err
     assert not list(tmp_path.iterdir())

@@ -12,24 +12,19 @@ from styluscam._engine import __version__
 from styluscam.cli import console
 from styluscam.cli.failures import FAULT
 from styluscam.cli.options import Debug, Json
+from styluscam.extras import EXTRAS, hint
 from styluscam.offset.positions import drop_cutter
 from styluscam.parts.part import Part
 from styluscam.tools.tool import Tool
 from styluscam.types import Document
 
-EXTRAS = {
-    "step": (("OCP.STEPControl", "cadquery-ocp-novtk"),),
-    "mesh": (("trimesh", "trimesh"), ("networkx", "networkx"), ("lxml", "lxml")),
-    "plot": (("matplotlib", "matplotlib"),),
-    "report": (("jinja2", "jinja2"), ("matplotlib", "matplotlib")),
-}
-"""Modules by extra, with the name under which an index has them."""
-
 
 def doctor(json: Json = False, debug: Debug = False) -> int:
     """Check versions, extras and the engine."""
     works = _engine_works()
-    extras = {name: {module: _version(module, index) for module, index in parts} for name, parts in EXTRAS.items()}
+    extras = {
+        name: {module: _version(module, index) for module, index in parts.items()} for name, parts in EXTRAS.items()
+    }
     document: Document = {
         "styluscam": __version__,
         "python": platform.python_version(),
@@ -52,7 +47,7 @@ def _lines(document: Document) -> list[tuple[str, str]]:
     for extra, parts in document["extras"].items():
         missing = [module for module, version in parts.items() if version is None]
         there = ", ".join(f"{module.partition('.')[0]} {version}" for module, version in parts.items() if version)
-        cure = f"not there: {', '.join(missing)}; pip install 'styluscam[{extra}]'" if missing else ""
+        cure = f"not there: {', '.join(missing)}; {hint(extra)}" if missing else ""
         rows.append((f"extra {extra}", "; ".join(text for text in (there, cure) if text)))
     return rows
 

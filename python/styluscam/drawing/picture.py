@@ -13,7 +13,9 @@ import numpy.typing as npt
 
 from styluscam.drawing.decimation import thinned
 from styluscam.drawing.raster import Raster, View, rasterise
-from styluscam.errors import GeometryError, StylusError
+from styluscam.errors import GeometryError
+from styluscam.extras import require
+from styluscam.files import drawn_whole
 from styluscam.parts.arrays import PartArrays
 from styluscam.parts.part import Part
 from styluscam.programs.planning import Plan
@@ -211,12 +213,10 @@ def arrays_of(part: Part | PartArrays) -> PartArrays:
 
 
 def _figure() -> Figure:
-    try:
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
-    except ImportError as error:
-        message = "pictures need matplotlib: pip install 'styluscam[plot]'"
-        raise StylusError(message, code="extra-plot", hint="pip install 'styluscam[plot]'") from error
+    require("plot", "a picture")
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
     figure = Figure(figsize=(SIZE[0] / DPI, SIZE[1] / DPI), dpi=DPI, facecolor="white")
     FigureCanvasAgg(figure)
     return figure
@@ -234,8 +234,6 @@ def _pane(figure: Figure, place: tuple[int, int, int, int]) -> Axes:
 
 def _save(figure: Figure, path: Path) -> None:
     """Writes the PNG to a temporary name and renames it; without the name of the program that made it."""
-    from styluscam.files import drawn_whole
-
     with drawn_whole(path) as name:
         figure.savefig(name, **PNG)
 

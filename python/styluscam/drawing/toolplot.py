@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from styluscam.errors import StylusError, ToolError
+from styluscam.errors import ToolError
+from styluscam.extras import require
+from styluscam.files import drawn_whole
 from styluscam.tools.outline import pieces, polyline, silhouette
 from styluscam.tools.scallop import scallop_of_step
 from styluscam.tools.tool import Tool
@@ -120,12 +122,10 @@ def _label(tool: Tool) -> str:
 
 
 def _figure() -> Figure:
-    try:
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
-    except ImportError as error:
-        message = "pictures need matplotlib: pip install 'styluscam[plot]'"
-        raise StylusError(message, code="extra-plot", hint="pip install 'styluscam[plot]'") from error
+    require("plot", "a picture")
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
     figure = Figure(figsize=SIZE, dpi=DPI, facecolor="white")
     FigureCanvasAgg(figure)
     return figure
@@ -337,8 +337,6 @@ def _clean(axes: Axes, x: str, y: str) -> None:
 
 def _save(figure: Figure, path: Path) -> None:
     """Writes the picture to a temporary name and renames it; the same tools give the same bytes."""
-    from styluscam.files import drawn_whole
-
     kind = path.suffix.lower()[1:]
     with drawn_whole(path) as name:
         figure.savefig(name, format=kind, dpi=DPI, metadata={"Software": None} if kind == "png" else {"Date": None})

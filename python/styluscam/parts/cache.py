@@ -13,7 +13,6 @@ import io
 import json
 import os
 import sys
-import tempfile
 import zipfile
 from dataclasses import asdict, replace
 from importlib import metadata
@@ -22,6 +21,8 @@ from typing import Any
 
 import numpy as np
 
+from styluscam.errors import StylusError
+from styluscam.files import write_whole
 from styluscam.parts.arrays import FaceInfo, PartArrays
 from styluscam.parts.surfaces import Cone, Cylinder, ExactSurface, Nurbs, Parametric, Plane, Sphere, Torus
 
@@ -92,26 +93,16 @@ def keep(name: str | None, part: PartArrays) -> None:
     entries = None if name is None else _entries(part)
     if entries is None:
         return
-    with contextlib.suppress(OSError, RuntimeError):  # no home, no room, no right to write: it is read again then
+    with contextlib.suppress(
+        OSError, RuntimeError, StylusError
+    ):  # no home, no room, no right to write: it is read again then
         place = folder()
         place.mkdir(parents=True, exist_ok=True)
         _make_room(place)
         stream = io.BytesIO()
         np.savez(stream, **entries)
         if stream.tell() <= MOST_OF_ONE:
-            _write(place / f"{name}.npz", stream.getbuffer())
-
-
-def _write(path: Path, content: memoryview) -> None:
-    handle, temporary = tempfile.mkstemp(prefix=".part.", dir=path.parent)
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(content)
-        Path(temporary).replace(path)
-    except BaseException:
-        with contextlib.suppress(OSError):
-            Path(temporary).unlink()
-        raise
+            write_whole(place / f"{name}.npz", stream.getbuffer())
 
 
 def _make_room(place: Path) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from styluscam.errors import GeometryError
+from styluscam.extras import require
 
 # An object of the CAD kernel, whose Python bindings have no types.
 Kernel: TypeAlias = Any
@@ -16,15 +17,8 @@ Kernel: TypeAlias = Any
 
 def ocp(file: Path) -> None:
     """Import the CAD kernel, or say what to install."""
-    try:
-        import OCP.STEPControl  # noqa: F401
-    except ImportError as error:
-        raise GeometryError(
-            f"{file}: reading {file.suffix} files needs the CAD kernel: pip install 'styluscam[step]'",
-            code="part-extra-step",
-            where=str(file),
-            hint="pip install 'styluscam[step]'",
-        ) from error
+    what = f"{file}: reading {file.suffix} files"
+    require("step", what, failure=GeometryError, code="part-extra-step", where=str(file))
 
 
 @contextmanager

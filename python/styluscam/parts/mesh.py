@@ -11,6 +11,7 @@ import numpy as np
 
 from styluscam import _engine
 from styluscam.errors import GeometryError
+from styluscam.extras import require
 from styluscam.parts.arrays import FaceInfo, Ints, PartArrays, area_vectors, describe_face
 from styluscam.parts.facets import Facets
 from styluscam.parts.formats import UNITS
@@ -144,18 +145,19 @@ def _load(file: Path) -> tuple[Floats, Ints, tuple[float, str] | None, tuple[str
 def _meshes(file: Path) -> list[Any]:
     """Return the file's meshes, each at its place, as trimesh reads them."""
     kind = file.suffix.lower()[1:].upper()
-    try:
-        import trimesh
-    except ImportError as error:
-        cure = "pip install 'styluscam[mesh]'"
-        raise _error(file, f"reading {kind} files needs trimesh", cure, "part-extra-mesh") from error
+    # networkx and lxml are what trimesh reads 3MF with
+    trimesh = require(
+        "mesh",
+        f"{file}: reading {kind} files",
+        modules=() if kind == "3MF" else ("trimesh",),
+        failure=GeometryError,
+        code="part-extra-mesh",
+        where=str(file),
+    )
     try:
         loaded: Any = trimesh.load_scene(str(file), process=False)
         return [g for g in loaded.dump() if isinstance(g, trimesh.Trimesh)]
     except Exception as error:  # trimesh lets through whatever its parsers raise
-        if isinstance(error, ImportError) and file.suffix.lower() == ".3mf":
-            cure = "pip install 'styluscam[mesh]'"
-            raise _error(file, f"reading it needs {error.name}", cure, "part-extra-mesh") from error
         # the parsers' own words are about Python, not about the file: they stay in the cause
         what = f"cannot be read as {kind}: it is damaged, or another format"
         raise _error(file, what, "export the part again", "part-damaged") from error

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from styluscam.errors import GeometryError
+from styluscam.extras import require
 from styluscam.files import drawn_whole
 from styluscam.types import FloatArray, IntArray
 
@@ -33,11 +34,5 @@ def writer(file: Path) -> ModuleType:
     Raises:
         GeometryError: it is missing.
     """
-    try:
-        import trimesh
-    except ImportError as error:
-        cure = "pip install 'styluscam[mesh]'"
-        message = f"{file}: writing {file.suffix.lower()} files needs trimesh: {cure}"
-        raise GeometryError(message, code="extra-mesh", where=str(file), hint=cure) from error
-    module: ModuleType = trimesh
-    return module
+    what = f"{file}: writing {file.suffix.lower()} files"
+    return require("mesh", what, modules=("trimesh",), failure=GeometryError, where=str(file))

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import contextlib
 import re
 from dataclasses import dataclass
 from pathlib import Path
 
 from styluscam import _engine
 from styluscam.errors import JobError
-from styluscam.files import drawn_whole, read_gcode_text
+from styluscam.files import all_drawn_whole, read_gcode_text
 from styluscam.programs.machine import Machine
 from styluscam.programs.program import Program
 
@@ -80,10 +79,9 @@ def _not_judged(notes: list[str]) -> list[str]:
 
 def write(programs: dict[Path, tuple[Program, Machine]]) -> None:
     """Posts to files piece by piece: no text is ever whole in memory, and the files appear whole, all or none."""
-    with contextlib.ExitStack() as stack:
-        for path, (program, machine) in programs.items():
-            beside = stack.enter_context(drawn_whole(path))
-            _engine.post_to(program.engine, machine.engine, str(beside))
+    with all_drawn_whole(programs) as temporaries:
+        for (program, machine), temporary in zip(programs.values(), temporaries, strict=True):
+            _engine.post_to(program.engine, machine.engine, str(temporary))
 
 
 def paired(program: Program, support: Program) -> tuple[Program, Program]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from styluscam.errors import StylusError
+from styluscam.extras import require
 
 if TYPE_CHECKING:
     from jinja2 import Template
@@ -19,12 +19,7 @@ def require_extra() -> None:
     Raises:
         StylusError: jinja2 or matplotlib are missing.
     """
-    try:
-        import jinja2  # noqa: F401
-        import matplotlib  # noqa: F401
-    except ImportError as error:
-        message = "reports need jinja2 and matplotlib: pip install 'styluscam[report]'"
-        raise StylusError(message, code="extra-report", hint="pip install 'styluscam[report]'") from error
+    require("report", "a report")
 
 
 def template(name: str) -> Template:
