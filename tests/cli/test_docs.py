@@ -6,7 +6,7 @@ import json
 import re
 import shlex
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +21,7 @@ HOWTO = tuple(f"docs/howto/{page.name}" for page in sorted((CHECKOUT / "docs" / 
 PAGES = ("README.md", "docs/guide.md", "docs/posts.md", "docs/profiles.md", *HOWTO)
 BLOCK = re.compile(r"^```(\w*)(?: (\S+))?\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 LEFT_OUT = "…"
+FORMULAS = {"math", "mermaid"}
 
 
 JOB = """
@@ -99,37 +100,43 @@ def as_quotation(text: str, line: int, page: str, file: str) -> None:
         assert found, f"{page}:{line}: {file} does not hold, after what is quoted before:\n{piece}"
 
 
+def as_commands(text: str, line: int, page: str) -> None:
+    """Commands of ours are run; of make there must be the targets."""
+    if "styluscam " in text:
+        as_console(text, line, page)
+        return
+    assert text.startswith("make "), f"{page}:{line}: a block of what?"
+    targets = (CHECKOUT / "Makefile").read_text()
+    assert all(f"\n{target}:" in targets for target in re.findall(r"^make (\w+)", text, re.MULTILINE))
+
+
+def as_file(text: str, line: int, page: str, file: str, language: str) -> None:
+    """A file that the reader writes, a quotation, or part of a change (see `change_of`)."""
+    if "/" not in file:
+        Path(file).write_text(text)
+    elif language != "diff" and (CHECKOUT / file).is_file():
+        as_quotation(text, line, page, file)
+
+
 @pytest.mark.parametrize("page", PAGES)
 def test_every_block_of_a_page_runs(page: str, desk: Path) -> None:
     names: dict[str, Any] = {}
+    run: dict[str, Callable[[str, int], object]] = {
+        "python": lambda text, line: exec(compile("\n" * line + text, page, "exec"), names),
+        "toml": lambda text, _: as_toml(text),
+        "json": lambda text, _: sc.Tool.from_dict(json.loads(text)),
+        "": lambda text, line: as_commands(text, line, page),
+    }
     if page.endswith("guide.md"):  # the page begins where a job was run
         assert run_cli("run", "job.toml", "--quiet").code == 0
-    ran = 0
-    for line, language, file, text in blocks(page):
-        if language in {"math", "mermaid"}:
-            continue
-        if file is not None and "/" not in file:  # the reader writes it
-            Path(file).write_text(text)
-        elif file is not None and language != "diff" and (CHECKOUT / file).is_file():
-            as_quotation(text, line, page, file)
-        elif file is not None:
-            pass  # part of a change: see below
-        elif language == "python":
-            exec(compile("\n" * line + text, page, "exec"), names)
-        elif language == "toml":
-            as_toml(text)
-        elif language == "json":
-            assert sc.Tool.from_dict(json.loads(text)).diameter > 0.0
-        elif language == "" and "styluscam " in text:
-            as_console(text, line, page)
-        elif language == "":
-            assert text.startswith("make "), f"{page}:{line}: a block of what?"
-            targets = (CHECKOUT / "Makefile").read_text()
-            assert all(f"\n{target}:" in targets for target in re.findall(r"^make (\w+)", text, re.MULTILINE))
+    shown = [block for block in blocks(page) if block[1] not in FORMULAS]
+    for line, language, file, text in shown:
+        assert file is not None or language in run, f"{page}:{line}: nobody runs blocks of {language}"
+        if file is not None:
+            as_file(text, line, page, file, language)
         else:
-            pytest.fail(f"{page}:{line}: nobody runs blocks of {language}")
-        ran += 1
-    assert ran >= 3
+            run[language](text, line)
+    assert len(shown) >= 3
 
 
 def change_of(page: str) -> Change:
