@@ -148,13 +148,13 @@ def test_a_text_is_refused(name: str) -> None:
     assert caught.value.code == code
 
 
-@pytest.mark.parametrize(("code", "said"), [("G90 ", "G90"), ("G54\n", "G54")])
-def test_modes_that_are_not_said_are_warned_of(code: str, said: str) -> None:
+@pytest.mark.parametrize(("code", "named"), [("G90 ", "G90"), ("G54\n", "G54")])
+def test_modal_codes_that_are_not_stated_are_warned_of(code: str, named: str) -> None:
     of = job()
     text = text_of(of).replace(code, "", 1)
     (finding,) = sc.verify(text, of).findings
     assert (finding["kind"], finding["severity"]) == ("unsaid-mode", "warning")
-    assert f"has not said {said}:" in finding["message"]
+    assert f": modal code not stated ({named}): " in finding["message"]
 
 
 def test_what_is_measured_has_its_unit() -> None:

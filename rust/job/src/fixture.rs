@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use styluscam_geometry::{Bvh, Mesh, ModelFace, Sheet, Vector};
-use styluscam_verify::{FindingKind, Obstacle};
+use styluscam_verify::{Obstacle, ObstacleKind};
 
 use crate::{JobDocument, JobError, Scene};
 
@@ -158,8 +158,8 @@ pub(crate) fn obstacles(job: &JobDocument, scene: &Scene) -> Result<Vec<Obstacle
     let obstacle = |plate: Plate| {
         let mesh = mesh_of(&plate).map_err(JobError::geometry("setup.fixture"))?;
         let (kind, sheet) = match plate.holder {
-            Holder::Clamp => (FindingKind::ClampCollision, None),
-            Holder::Backing => (FindingKind::BackingCollision, whole),
+            Holder::Clamp => (ObstacleKind::Clamp, None),
+            Holder::Backing => (ObstacleKind::Backing, whole),
         };
         Ok(Obstacle { kind, bvh: Bvh::new(&mesh), mesh, sheet, margin })
     };

@@ -57,7 +57,7 @@ impl<'a> Assignment<'a> {
         let first = program.moves.iter().find(|step| step.operation as usize == pair[1].0);
         let line = first.map_or(0, |step| step.line);
         let message = format!(
-            "line {line}: operation {id:?} comes after {before:?}, and in the job before it; post the job again"
+            "line {line}: operation {id:?} comes after {before:?}, and before it in the job; post the job again"
         );
         Some(Finding::of_all(FindingKind::OperationOrder, Severity::Error, message).at_line(line))
     }

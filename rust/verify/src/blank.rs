@@ -1,18 +1,17 @@
-//! The sheet while it is formed: how low it stands, place by place.
+//! The sheet while it is formed: how low it stands, cell by cell.
 //!
 //! Where the tool was, the sheet stands no higher than the tool's profile. Where it was not, the sheet hangs between what is
-//! formed and what is flat: inside a loop it hangs as low as the loop, since no way leads from there to flat sheet that does
-//! not cross it. So the height of a place is that of the best way to it from sheet that stays flat, and the height of a way
-//! is that of its lowest place: the flooding of terrain, upside down (R. Barnes, C. Lehman, D. Mulla, "Priority-Flood",
+//! formed and what is flat: inside a loop it hangs as low as the loop, since no path leads from there to flat sheet that does
+//! not cross it. So the height of a position is that of the best path to it from sheet that stays flat, and the height of a path
+//! is that of its lowest position: the flooding of terrain, upside down (R. Barnes, C. Lehman, D. Mulla, "Priority-Flood",
 //! Computers & Geosciences 62, 2014).
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use styluscam_geometry::{Cutter, Mesh};
+use styluscam_geometry::{Cutter, Mesh, Vector};
 
 use crate::tolerances::ROUGH;
-use crate::Vector;
 
 /// Side of a cell, as a share of the tool's radius.
 const CELL: f64 = 0.5;
@@ -35,7 +34,7 @@ pub(crate) struct Blank {
     flat: Vec<usize>,
     /// Whether something was pressed since the heights at which it hangs were found.
     is_stale: bool,
-    /// The lowest place of all, mm.
+    /// The lowest position of all, mm.
     lowest: f64,
 }
 
@@ -93,7 +92,7 @@ impl Blank {
         }
     }
 
-    /// Height at which the sheet stands at a place, as far as the tools around have pressed it, mm.
+    /// Height at which the sheet stands at a position, as far as the tools around have pressed it, mm.
     pub fn pressed_at(&self, place: [f64; 2]) -> f64 {
         let [i, j] = self.place(place);
         let around = (-1..=1).flat_map(|di| (-1..=1).map(move |dj| [i + di, j + dj]));
@@ -101,7 +100,7 @@ impl Blank {
     }
 
     /// Height at which it stands there, also where it only hangs, mm. Off the part it is taken to hang as low as anything
-    /// is: what lies there the job does not say.
+    /// is: what lies there the job does not state.
     pub fn hangs_at(&mut self, place: [f64; 2]) -> f64 {
         let Some(at) = self.index(self.place(place)).filter(|at| self.part[*at]) else { return self.lowest };
         if self.is_stale {
@@ -110,7 +109,7 @@ impl Blank {
         self.hanging[at].min(self.pressed_at(place))
     }
 
-    /// Lets it hang: from the highest places on, each cell as high as the best way to it.
+    /// Lets it hang: from the highest positions on, each cell as high as the best path to it.
     fn hang(&mut self) {
         self.is_stale = false;
         self.hanging = vec![f64::NEG_INFINITY; self.pressed.len()];
@@ -160,7 +159,7 @@ impl Blank {
     }
 }
 
-/// Height of a triangle over a place in plan, mm; minus infinity where it does not lie there.
+/// Height of a triangle over a position in plan, mm; minus infinity where it does not lie there.
 fn height_over([a, b, c]: &[Vector; 3], [x, y]: [f64; 2]) -> f64 {
     let across = |p: &Vector, q: &Vector| (p.x - x) * (q.y - y) - (p.y - y) * (q.x - x);
     let shares = [across(b, c), across(c, a), across(a, b)];

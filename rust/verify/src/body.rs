@@ -1,15 +1,10 @@
-//! The body that is judged: tool and sheet as one convex solid, open upwards.
-//!
-//! Distances by support functions alone: E. G. Gilbert, D. W. Johnson, S. S. Keerthi, "A fast procedure for computing the
-//! distance between complex objects in three-dimensional space", IEEE Journal of Robotics and Automation 4, 1988; simpler here,
-//! for the body is one of revolution. See docs/concepts/verifier.md.
+//! The body that is checked: tool and sheet as one convex solid, open upwards.
 
 use std::f64::consts::FRAC_PI_2;
 
-use styluscam_geometry::{Cutter, Sheet, Tool};
+use styluscam_geometry::{Cutter, Sheet, Tool, Vector};
 
 use crate::convex::Tangent;
-use crate::Vector;
 
 /// Cells of the support table. A chord over one of 4096 is less than 1e-7 of the tool's radius above the function.
 const CELLS: usize = 4096;
@@ -84,7 +79,7 @@ pub(crate) struct Distance {
 }
 
 impl Body {
-    /// Tool and sheet, to be judged together.
+    /// Tool and sheet, to be checked together.
     pub fn new(tool: &Tool, sheet: Option<&Sheet>) -> Self {
         Self::above(tool, sheet, 0.0)
     }
@@ -94,7 +89,7 @@ impl Body {
         let cutter = tool.cutter_with(sheet, 0.0);
         let supports = (0..=CELLS).map(|i| support_at(&cutter, i)).collect();
         let mut planes: Vec<_> = (0..=PLANES).map(|i| Tangency::at(&cutter, plane_root(i))).collect();
-        // both ends of a straight part: between them the plane stays and the place jumps
+        // both ends of a straight part: between them the plane stays and the position jumps
         planes.extend(cutter.straights().iter().flat_map(|s| [s.inner, s.outer].map(|end| Tangency::on(s.slope, end))));
         planes.sort_by(|a, b| {
             a.slope.total_cmp(&b.slope).then(a.radius.total_cmp(&b.radius)).then(a.height.total_cmp(&b.height))
@@ -144,13 +139,12 @@ impl Body {
         cell + usize::from(gap(cell + 1) > gap(cell))
     }
 
-    /// A point of the part is in the body for the body's own sake, and not because it grazes a ridge, when it is in it by
-    /// this share of the depth: on the axis of a slender cone, which is near to its side everywhere, by little.
+    /// Minimum penetration that counts as a gouge at a point, and not as grazing a ridge, as a share of the depth: on the axis of a slender cone, which is near to its side everywhere, by little.
     pub fn own(&self) -> f64 {
         self.own
     }
 
-    /// Radius of the sphere that it ends in, when it does, mm: then all is told by the centre. Its cylinder is as wide.
+    /// Radius of the sphere that it ends in, when it does, mm: then its centre alone counts. Its cylinder is as wide.
     pub fn ball(&self) -> Option<f64> {
         self.cutter.as_ball()
     }
@@ -343,7 +337,7 @@ impl Tangency {
         Self { root, slope, sin, cos, radius, height, straight: false }
     }
 
-    /// At a place of the meridian where many have this slope.
+    /// At a position of the meridian where many have this slope.
     fn on(slope: f64, (radius, height): (f64, f64)) -> Self {
         let (sin, cos) = libm::sincos(slope);
         Self { root: slope.sqrt(), slope, sin, cos, radius, height, straight: false }

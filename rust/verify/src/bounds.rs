@@ -1,13 +1,12 @@
-//! Bounds, from below, of the distance between the body on its way and whatever a node of the index holds.
+//! Bounds, from below, of the distance between the body on its path and whatever a node of the index holds.
 //!
-//! Every plane that touches the body gives one; a body on a straight way has the support of the end that
+//! Every plane that touches the body gives one; a body on a straight path has the support of the end that
 //! reaches farther.
 
-use styluscam_geometry::Node;
+use styluscam_geometry::{Node, Vector};
 
 use crate::body::{length, Body, Plane};
-use crate::sweep::Stroke;
-use crate::Vector;
+use crate::stroke::Stroke;
 
 /// A bound from one plane for what lies on one side of it, wherever the body stands.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +40,7 @@ impl Gap {
         Self { away: Vector::new(gx, gy, -1.0) * scale, reach: -(over + body.support_bound(steep, 1.0)) * scale }
     }
 
-    /// How far off the body is at a place, at least, mm.
+    /// How far off the body is at a position, at least, mm.
     pub fn at(&self, position: Vector) -> f64 {
         self.reach - self.away.dot(&position)
     }
@@ -52,12 +51,12 @@ impl Gap {
     }
 }
 
-/// Planes that may keep a node off the body at a place; the second is dearer.
+/// Planes that may keep a node off the body at a position; the second is dearer.
 pub(crate) fn planes_at(body: &Body, node: &Node, position: Vector) -> [Plane; 2] {
     [patch_plane(body, node, position), box_plane(body, node.low, node.high, position)]
 }
 
-/// The bound by the boxes alone: the body on its way is in its cylinder, or in the sphere that it ends in and above that.
+/// The bound by the boxes alone: the body on its path is in its cylinder, or in the sphere that it ends in and above that.
 pub(crate) fn apart(body: &Body, node: &Node, Stroke { from, to }: Stroke) -> f64 {
     let beside = |low: f64, high: f64, a: f64, b: f64| (low - a.max(b)).max(a.min(b) - high).max(0.0);
     let x = beside(node.low.x, node.high.x, from.x, to.x);
@@ -79,7 +78,7 @@ fn patch_plane(body: &Body, node: &Node, position: Vector) -> Plane {
 
 /// A plane that keeps the box off the body, nearly as far as any can.
 ///
-/// The box's nearest place is on its top: the body only grows upwards.
+/// The box's nearest position is on its top: the body only grows upwards.
 fn box_plane(body: &Body, low: Vector, high: Vector, position: Vector) -> Plane {
     let near = |low: f64, high: f64, at: f64| at.clamp(low, high) - at;
     let x = near(low.x, high.x, position.x);

@@ -1,10 +1,9 @@
 //! The clearance of one triangle: the least distance from the body to any of its points.
 
-use styluscam_geometry::{Bvh, Mesh};
+use styluscam_geometry::{Bvh, Mesh, Vector};
 
 use crate::body::{length, Body, Plane};
 use crate::convex::lower;
-use crate::Vector;
 
 /// Rounding that a distance may carry, mm.
 const ROUNDING: f64 = 1e-9;
@@ -153,7 +152,7 @@ impl Search<'_> {
 
     /// The axis passes below the plane: the farthest point counts if its foot is well inside the body.
     ///
-    /// Else the depth of the foot and of the place where the axis pierces the triangle are taken: with the edges
+    /// Else the depth of the foot and of the position where the axis pierces the triangle are taken: with the edges
     /// they find every triangle that the body meets.
     fn deep(&mut self, facet: &Facet, foot: Vector, held: bool, gap: f64, plane: Plane) {
         if held {

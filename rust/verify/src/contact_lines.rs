@@ -1,32 +1,31 @@
 //! Where the passes that a text has should touch: lines on the triangles, because along a facet the tool's height and its
-//! place change as evenly as the point that it touches.
+//! position change as evenly as the point that it touches.
 
-use styluscam_geometry::Mesh;
+use styluscam_geometry::{Mesh, Vector};
 
 use crate::body::Body;
 use crate::expectation::OrderedPasses;
-use crate::legs::Leg;
 use crate::probes::Probe;
 use crate::scalar::Scalar;
-use crate::Vector;
+use crate::segments::Segment;
 
 /// Moves at one height are a pass when they are as long as so many steps: links along the part are shorter.
 const LONG: f64 = 6.0;
-/// Points spread evenly over the lines at which the passes of `legs` should touch the triangles `wanted`, about `count`
+/// Points spread evenly over the lines at which the passes of `segments` should touch the triangles `selected`, about `count`
 /// of them.
 ///
-/// `legs` are those of one operation that should touch.
+/// `segments` are those of one operation that should touch.
 pub(crate) fn spread(
     mesh: &Mesh,
-    wanted: &[usize],
+    selected: &[usize],
     body: &Body,
     passes: &OrderedPasses,
-    legs: &[&Leg],
+    segments: &[&Segment],
     count: usize,
 ) -> Vec<Probe> {
-    let values = values(passes, legs);
+    let values = values(passes, segments);
     let scalar = &*passes.scalar;
-    let facets: Vec<Facet> = wanted.iter().filter_map(|triangle| Facet::new(mesh, *triangle, body, scalar)).collect();
+    let facets: Vec<Facet> = selected.iter().filter_map(|triangle| Facet::new(mesh, *triangle, body, scalar)).collect();
     let length: f64 = facets.iter().map(|facet| facet.lines(&values).map(|[a, b]| (b - a).norm()).sum::<f64>()).sum();
     let each = length / count as f64;
     let mut probes = Vec::with_capacity(count);
@@ -45,14 +44,14 @@ pub(crate) fn spread(
 }
 
 /// Values of the passes that are long enough and go on over the whole part: ascending. A pass that moves on has none.
-fn values(passes: &OrderedPasses, legs: &[&Leg]) -> Vec<f64> {
+fn values(passes: &OrderedPasses, segments: &[&Segment]) -> Vec<f64> {
     let scalar = &*passes.scalar;
     let value = |tip: [f64; 3]| scalar.value(tip.into());
-    let chains = legs.chunk_by(|a, b| {
+    let chains = segments.chunk_by(|a, b| {
         let joined = b.start == Some(a.end);
         joined && holds(scalar, a) && holds(scalar, b) && (value(a.end) - value(b.end)).abs() <= scalar.same()
     });
-    let length = |chain: &[&Leg]| chain.iter().map(|leg| leg.length()).sum::<f64>();
+    let length = |chain: &[&Segment]| chain.iter().map(|segment| segment.length()).sum::<f64>();
     let long = chains.filter(|chain| holds(scalar, chain[0]) && length(chain) > LONG * passes.step);
     let long = long.map(|chain| [value(chain[0].end), length(chain)]).collect();
     let mut values = scalar.throughout(long, passes.step);
@@ -65,16 +64,16 @@ fn values(passes: &OrderedPasses, legs: &[&Leg]) -> Vec<f64> {
 #[derive(Clone, Copy)]
 pub(crate) struct Pass<'a> {
     pub value: f64,
-    pub first: &'a Leg,
-    pub last: &'a Leg,
+    pub first: &'a Segment,
+    pub last: &'a Segment,
 }
 
 /// Every value at which one of the moves lies, however short: ascending. Of passes that move on, the values at moves' ends.
-pub(crate) fn passes<'a>(expected: &OrderedPasses, legs: &[&'a Leg]) -> Vec<Pass<'a>> {
+pub(crate) fn passes<'a>(expected: &OrderedPasses, segments: &[&'a Segment]) -> Vec<Pass<'a>> {
     let scalar = &*expected.scalar;
-    let own = legs.iter().filter(|leg| expected.continuous || holds(scalar, leg));
+    let own = segments.iter().filter(|segment| expected.continuous || holds(scalar, segment));
     let mut passes: Vec<Pass> =
-        own.map(|leg| Pass { value: scalar.value(leg.end.into()), first: leg, last: leg }).collect();
+        own.map(|segment| Pass { value: scalar.value(segment.end.into()), first: segment, last: segment }).collect();
     passes.sort_by(|a, b| a.value.total_cmp(&b.value));
     passes.dedup_by(|b, a| {
         let one = b.value - a.value <= scalar.same();
@@ -88,16 +87,16 @@ pub(crate) fn passes<'a>(expected: &OrderedPasses, legs: &[&'a Leg]) -> Vec<Pass
 }
 
 /// Whether a move lies on one pass.
-fn holds(scalar: &dyn Scalar, leg: &Leg) -> bool {
+fn holds(scalar: &dyn Scalar, segment: &Segment) -> bool {
     let value = |tip: [f64; 3]| scalar.value(tip.into());
-    leg.start.is_some_and(|start| (value(start) - value(leg.end)).abs() <= scalar.same())
+    segment.start.is_some_and(|start| (value(start) - value(segment.end)).abs() <= scalar.same())
 }
 
 /// A triangle on which passes should show.
 struct Facet {
     triangle: usize,
     corners: [Vector; 3],
-    /// The height or place of the tool that touches each corner.
+    /// The height or position of the tool that touches each corner.
     values: [f64; 3],
 }
 
@@ -111,7 +110,7 @@ impl Facet {
         shows.then(|| Self { triangle, corners, values: tips.map(|tip| scalar.value(tip)) })
     }
 
-    /// Where the tool at these heights or places touches it.
+    /// Where the tool at these heights or positions touches it.
     fn lines<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = [Vector; 2]> + 'a {
         let least = self.values.into_iter().fold(f64::INFINITY, f64::min);
         let most = self.values.into_iter().fold(f64::NEG_INFINITY, f64::max);

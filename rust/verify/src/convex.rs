@@ -1,9 +1,6 @@
 //! The lowest value of a convex function on [0, 1], by tangents.
-//!
-//! J. E. Kelley, "The cutting-plane method for solving convex programs", Journal of the SIAM 8, 1960: in one dimension, with
-//! Newton's steps between the cuts. See docs/concepts/verifier.md.
 
-/// A convex function at one place.
+/// A convex function at one position.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tangent {
     /// The function's value.
@@ -37,7 +34,7 @@ pub(crate) fn lower(first: f64, length: f64, best: f64, mut at: impl FnMut(f64) 
         lowest = lowest.min(here.value);
         match short {
             Some(before) if here.rate.abs() <= 0.5 * before => return,
-            // beside a kink, or near the axis, the function bends sharply in one place only
+            // beside a kink, or near the axis, the function bends sharply in one position only
             Some(_) => smooth = false,
             None => {}
         }

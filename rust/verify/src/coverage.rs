@@ -11,17 +11,18 @@ use rayon::prelude::*;
 use rstar::{PointDistance, RTree, RTreeObject, SelectionFunction, AABB};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use styluscam_geometry::Vector;
 use styluscam_motion::{Cancelled, Program, Watch};
 
 use crate::body::Body;
 use crate::bounds::box_bound;
 use crate::convex::{lower, EQUAL};
 use crate::flats::{Flats, Need};
-use crate::legs::{placed, Leg, LegKind};
 use crate::measure::strokes_of;
 use crate::probes::{self, Probe};
-use crate::sweep::Stroke;
-use crate::{Limits, Subject, Vector};
+use crate::segments::{placed, Segment, SegmentKind};
+use crate::stroke::Stroke;
+use crate::subject::{Limits, Subject};
 
 /// Points for each square of the mean distance between passes.
 const PER_PASS: f64 = 25.0;
@@ -31,7 +32,7 @@ const OF_A_FACE: usize = 400;
 const POINTS: [f64; 2] = [20_000.0, 400_000.0];
 /// Points in a piece of work. Fixed, so that the result does not depend on the number of threads.
 const CHUNK: usize = 256;
-/// A place counts as covered when no more than this share of the diameter is left there, that of the smallest tool that
+/// A position counts as covered when no more than this share of the diameter is left there, that of the smallest tool that
 /// touches anything.
 const COVERED: f64 = 0.01;
 /// Arcs are looked at as chords that are nearer than this, mm.
@@ -42,7 +43,7 @@ const SAG: f64 = 1e-4;
 pub struct FaceCoverage {
     /// The face.
     pub face: u32,
-    /// Its area, mm^2, without what looks down.
+    /// Its area, mm^2, without what faces down.
     pub area: f64,
     /// Share of it that needs no forming since the blank lies there before.
     pub flat: f64,
@@ -63,21 +64,21 @@ pub struct FaceCoverage {
     pub points: usize,
 }
 
-/// What a program leaves on the triangles that `wanted` names, face by face in the order of their numbers.
+/// What a program leaves on the triangles that `selected` names, face by face in the order of their numbers.
 ///
 /// # Errors
-/// `Cancelled` when the watch says so.
+/// `Cancelled` when the watch is cancelled.
 pub fn coverage(
     program: &Program,
     subject: &Subject,
     limits: &Limits,
-    wanted: &[bool],
+    selected: &[bool],
     watch: &Watch,
 ) -> Result<Vec<FaceCoverage>, Cancelled> {
-    let legs = placed(program, subject, limits);
-    let sweeps = Sweeps::of_all(&legs, subject);
-    let flats = Flats::of(&legs, subject, limits, sweeps.enough);
-    let faces = faces(subject, wanted);
+    let segments = placed(program, subject, limits);
+    let sweeps = Sweeps::of_all(&segments, subject);
+    let flats = Flats::of(&segments, subject, limits, sweeps.enough);
+    let faces = faces(subject, selected);
     let area: f64 = faces.iter().map(|face| face.area).sum();
     let between_passes = area / sweeps.length.max(f64::MIN_POSITIVE);
     let count = (PER_PASS * area / (between_passes * between_passes)).clamp(POINTS[0], POINTS[1]);
@@ -97,7 +98,7 @@ pub fn coverage(
 /// What each of some points, with its unit normal, asks for.
 ///
 /// # Errors
-/// `Cancelled` when the watch says so.
+/// `Cancelled` when the watch is cancelled.
 pub fn needs(
     program: &Program,
     subject: &Subject,
@@ -106,8 +107,8 @@ pub fn needs(
     watch: &Watch,
 ) -> Result<Vec<Need>, Cancelled> {
     watch.begin("what stays flat", points.len());
-    let legs = placed(program, subject, limits);
-    let flats = Flats::of(&legs, subject, limits, Sweeps::of_all(&legs, subject).enough);
+    let segments = placed(program, subject, limits);
+    let flats = Flats::of(&segments, subject, limits, Sweeps::of_all(&segments, subject).enough);
     let of_chunk = |chunk: &[(Vector, Vector)]| {
         watch.advance(chunk.len())?;
         Ok(chunk.iter().map(|(point, up)| flats.need(*point, *up)).collect())
@@ -119,7 +120,7 @@ pub fn needs(
 /// What a program leaves at each of some points, mm: negative where they lie in what is swept, infinite where nothing is.
 ///
 /// # Errors
-/// `Cancelled` when the watch says so.
+/// `Cancelled` when the watch is cancelled.
 pub fn left(
     program: &Program,
     subject: &Subject,
@@ -131,16 +132,16 @@ pub fn left(
     Sweeps::of_all(&placed(program, subject, limits), subject).left_at(points, watch)
 }
 
-/// A face's wanted triangles.
+/// A face's selected triangles.
 struct Face {
     number: u32,
     triangles: Vec<usize>,
     area: f64,
 }
 
-fn faces(subject: &Subject, wanted: &[bool]) -> Vec<Face> {
+fn faces(subject: &Subject, selected: &[bool]) -> Vec<Face> {
     let mut by_number: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-    for triangle in (0..wanted.len()).filter(|t| wanted[*t]) {
+    for triangle in (0..selected.len()).filter(|t| selected[*t]) {
         by_number.entry(subject.mesh.faces()[triangle]).or_default().push(triangle);
     }
     let face = |(number, triangles): (u32, Vec<usize>)| {
@@ -181,7 +182,7 @@ pub(crate) struct Sweeps {
     tools: Vec<(Body, RTree<Sweep>)>,
     /// Length of all of them, mm.
     length: f64,
-    /// What may be left at a covered place, mm.
+    /// What may be left at a covered position, mm.
     enough: f64,
 }
 
@@ -189,8 +190,8 @@ pub(crate) struct Sweeps {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sweep {
     stroke: Stroke,
-    /// Index of its leg among those that are meant to touch.
-    pub leg: usize,
+    /// Index of its segment among those that are meant to touch.
+    pub segment: usize,
 }
 
 impl RTreeObject for Sweep {
@@ -202,7 +203,7 @@ impl RTreeObject for Sweep {
 }
 
 impl Sweep {
-    /// The place of the body on the way that is nearest to a point.
+    /// The position of the body on the path that is nearest to a point.
     pub fn nearest(&self, point: Vector) -> Vector {
         let way = self.stroke.to - self.stroke.from;
         let share = (point - self.stroke.from).dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE);
@@ -218,20 +219,20 @@ impl PointDistance for Sweep {
 }
 
 impl Sweeps {
-    /// Those of `legs` that are meant to touch.
-    pub fn of_all(legs: &[Leg], subject: &Subject) -> Self {
-        let contacts: Vec<&Leg> = legs.iter().filter(|leg| leg.kind == LegKind::Contact).collect();
+    /// Those of `segments` that are meant to touch.
+    pub fn of_all(segments: &[Segment], subject: &Subject) -> Self {
+        let contacts: Vec<&Segment> = segments.iter().filter(|segment| segment.kind == SegmentKind::Lateral).collect();
         Self::of(&contacts, subject)
     }
 
     /// Of moves that are meant to touch.
-    pub fn of(contacts: &[&Leg], subject: &Subject) -> Self {
+    pub fn of(contacts: &[&Segment], subject: &Subject) -> Self {
         let tools = subject.tools.iter().enumerate().map(|(number, tool)| {
             let body = Body::new(tool, subject.sheet.as_ref());
-            let own = contacts.iter().enumerate().filter(|(_, leg)| leg.tool == Some(number));
-            let pieces = own.flat_map(|(leg, whole)| whole.pieces().map(move |piece| (leg, piece)));
-            let strokes = pieces.flat_map(|(leg, piece)| {
-                strokes_of(&piece, &body, SAG).into_iter().map(move |stroke| Sweep { stroke, leg })
+            let own = contacts.iter().enumerate().filter(|(_, segment)| segment.tool == Some(number));
+            let pieces = own.flat_map(|(segment, whole)| whole.pieces().map(move |piece| (segment, piece)));
+            let strokes = pieces.flat_map(|(segment, piece)| {
+                strokes_of(&piece, &body, SAG).into_iter().map(move |stroke| Sweep { stroke, segment })
             });
             let tree = RTree::bulk_load(strokes.collect());
             (body, tree)
@@ -249,7 +250,7 @@ impl Sweeps {
         self.tools.get(tool).map(|(body, _)| body)
     }
 
-    /// The moves whose body is within a distance of a place on its way, mm.
+    /// The moves whose body is within a distance of a position on its path, mm.
     pub fn near(&self, position: Vector, distance: f64) -> impl Iterator<Item = &Sweep> {
         let trees = self.tools.iter().map(|(_, tree)| tree);
         trees.flat_map(move |tree| tree.locate_within_distance(position.into(), distance * distance))
@@ -329,7 +330,7 @@ impl SelectionFunction<Sweep> for Search<'_> {
     }
 }
 
-/// Distance from a point to a body on its way, where it is below `best`: convex in the place on the way.
+/// Distance from a point to a body on its path, where it is below `best`: convex in the position on the path.
 fn distance(body: &Body, point: Vector, stroke: &Stroke, best: f64) -> f64 {
     let along = stroke.from - stroke.to;
     let mut least = f64::INFINITY;

@@ -2,14 +2,15 @@
 
 use styluscam_motion::Program;
 
-use crate::legs::{Leg, LegKind};
-use crate::measure::{normal_of, Sample};
+use crate::findings::{Finding, FindingKind, Severity};
+use crate::samples::{normal_of, Sample};
+use crate::segments::{Segment, SegmentKind};
+use crate::subject::Subject;
 use crate::tally::Tally;
-use crate::{Finding, FindingKind, Severity, Subject};
 
 /// Lengths agree when they differ by less than this share.
 const AGREE: f64 = 0.03;
-/// Least cosine of the slope at which a vertical shift is told from a distance.
+/// Least cosine of the slope at which a vertical shift differs from a distance.
 const STEEPEST: f64 = 0.1;
 /// Millimetres in an inch.
 const INCH: f64 = 25.4;
@@ -17,11 +18,11 @@ const INCH: f64 = 25.4;
 const ABOUT: f64 = 1.6;
 
 /// The finding, with a hint of the probable cause.
-pub(crate) fn no_contact(program: &Program, legs: &[Leg], tally: &Tally, subject: &Subject) -> Finding {
+pub(crate) fn no_contact(program: &Program, segments: &[Segment], tally: &Tally, subject: &Subject) -> Finding {
     let samples: Vec<Sample> = tally.kept.iter().map(|kept| kept.sample).collect();
     let clearance = median(samples.iter().map(|s| s.touch.value));
     let away = if clearance < 0.0 { "inside it" } else { "away from it" };
-    let hint = hint(program, legs, &samples, subject, clearance).map_or_else(String::new, |h| format!(" ({h})"));
+    let hint = hint(program, segments, &samples, subject, clearance).map_or_else(String::new, |h| format!(" ({h})"));
     let message = format!(
         "nothing touches the part: the tool's median distance is {:.4} mm {away}; \
          check zero, units and tool reference{hint}",
@@ -36,9 +37,15 @@ pub(crate) fn no_contact(program: &Program, legs: &[Leg], tally: &Tally, subject
     }
 }
 
-fn hint(program: &Program, legs: &[Leg], samples: &[Sample], subject: &Subject, clearance: f64) -> Option<String> {
+fn hint(
+    program: &Program,
+    segments: &[Segment],
+    samples: &[Sample],
+    subject: &Subject,
+    clearance: f64,
+) -> Option<String> {
     let raised = median(samples.iter().filter_map(vertical));
-    units_hint(legs, subject)
+    units_hint(segments, subject)
         .or_else(|| sheet_hint(subject, clearance, raised))
         .or_else(|| reference_hint(program, subject, raised))
 }
@@ -49,10 +56,10 @@ fn vertical(sample: &Sample) -> Option<f64> {
     (cos > STEEPEST).then(|| sample.touch.value / cos)
 }
 
-fn units_hint(legs: &[Leg], subject: &Subject) -> Option<String> {
+fn units_hint(segments: &[Segment], subject: &Subject) -> Option<String> {
     let (low, high) = subject.mesh.bounds();
     let part = (high.x - low.x).max(high.y - low.y);
-    let ratio = extent(legs) / part;
+    let ratio = extent(segments) / part;
     let about = |factor: f64| ratio > factor / ABOUT && ratio < factor * ABOUT;
     if about(INCH) {
         Some("the path is about 25 times as large as the part: millimetres taken for inches?".to_owned())
@@ -64,8 +71,8 @@ fn units_hint(legs: &[Leg], subject: &Subject) -> Option<String> {
 }
 
 /// The larger side of the contact moves' box in plan, mm.
-fn extent(legs: &[Leg]) -> f64 {
-    let ends = || legs.iter().filter(|l| l.kind == LegKind::Contact).map(|l| l.end);
+fn extent(segments: &[Segment]) -> f64 {
+    let ends = || segments.iter().filter(|l| l.kind == SegmentKind::Lateral).map(|l| l.end);
     let side = |axis: usize| {
         let range = ends().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p[axis]), b.max(p[axis])));
         range.1 - range.0
@@ -91,7 +98,7 @@ fn reference_hint(program: &Program, subject: &Subject, raised: f64) -> Option<S
     let radii = subject.tools.iter().map(|t| t.diameter() / 2.0);
     let height = recorded.chain(centres).chain(radii).find(|h| *h > 0.0 && agree(raised, *h))?;
     Some(format!(
-        "it is {height:.3} mm off in height, as the tool's centre is over its tip: which one does the text move?"
+        "it is {height:.3} mm off in height, as the tool's centre is over its tip: which of them does the text move?"
     ))
 }
 

@@ -46,7 +46,7 @@ pub struct Expectation {
 /// What lateral feeds owe the part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Contact {
-    /// They must touch it, within the operation's excess (see [`crate::Limits`]).
+    /// They must touch it, within the operation's excess (`Limits::excess_of`).
     Touch,
     /// They must only stay clear of it: roughing.
     Clear,

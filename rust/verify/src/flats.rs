@@ -1,4 +1,4 @@
-//! What of a sheet needs no forming: places where the model is the flat blank, and level floors that go down flat with the
+//! What of a sheet needs no forming: positions where the model is the flat blank, and level floors that go down flat with the
 //! walls around them.
 //!
 //! Single-point forming works where the tool rolls over the sheet; what lies inside the tool's path keeps its shape and is
@@ -9,17 +9,19 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use styluscam_geometry::Vector;
 
 use crate::body::{length, Body};
-use crate::legs::{Leg, LegKind};
-use crate::{Limits, Subject, Vector, SLACK};
+use crate::segments::{Segment, SegmentKind};
+use crate::subject::{Limits, Subject};
+use crate::tolerances::SLACK;
 
 /// Level is what rises less than this, rad: 0.001 mm over a millimetre.
 const LEVEL: f64 = 1e-3;
 /// Bins of a pass's sides by height in plan: a side is looked up, not searched.
 const BINS: usize = 256;
 
-/// What a place of a sheet asks for.
+/// What a position of a sheet asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Need {
@@ -35,19 +37,19 @@ pub enum Need {
 pub(crate) struct Flats {
     /// Height of the model's surface on the blank, mm; none where no sheet is formed.
     blank: Option<f64>,
-    /// How far off the blank a place still lies on it, mm.
+    /// How far off the blank a position still lies on it, mm.
     tolerance: f64,
     passes: Vec<Ring>,
 }
 
 impl Flats {
     /// Those of a program; a floor may be `enough` mm off the passes around it.
-    pub fn of(legs: &[Leg], subject: &Subject, limits: &Limits, enough: f64) -> Self {
+    pub fn of(segments: &[Segment], subject: &Subject, limits: &Limits, enough: f64) -> Self {
         let under = subject.sheet.map_or(0.0, |sheet| sheet.along_normal() + sheet.along_vertical());
         let blank = limits.forming.filter(|_| subject.sheet.is_some()).map(|forming| forming.top - under);
         let tolerance = limits.excess.unwrap_or(0.0) + subject.deviation_outward + SLACK;
         let bodies: Vec<Body> = subject.tools.iter().map(|tool| Body::new(tool, subject.sheet.as_ref())).collect();
-        let passes = if blank.is_some() { rings(legs, &bodies, enough) } else { Vec::new() };
+        let passes = if blank.is_some() { rings(segments, &bodies, enough) } else { Vec::new() };
         Self { blank, tolerance, passes }
     }
 
@@ -76,17 +78,18 @@ struct Ring {
 }
 
 /// The closed passes among moves that are meant to touch; of arcs their pieces' chords count.
-fn rings(legs: &[Leg], bodies: &[Body], enough: f64) -> Vec<Ring> {
-    let level = |leg: &&Leg| leg.kind == LegKind::Contact && leg.excess.is_some() && !leg.falls();
-    let level: Vec<&Leg> = legs.iter().filter(level).collect();
-    let joined = |a: &&Leg, b: &&Leg| b.start == Some(a.end) && b.tool == a.tool;
+fn rings(segments: &[Segment], bodies: &[Body], enough: f64) -> Vec<Ring> {
+    let level =
+        |segment: &&Segment| segment.kind == SegmentKind::Lateral && segment.excess.is_some() && !segment.falls();
+    let level: Vec<&Segment> = segments.iter().filter(level).collect();
+    let joined = |a: &&Segment, b: &&Segment| b.start == Some(a.end) && b.tool == a.tool;
     level.chunk_by(joined).flat_map(|chain| loops(chain, bodies, enough)).collect()
 }
 
 /// The loops that a chain of moves at one height goes through: each ends where it began; the last one may also end beside
 /// that, nearer than its tool is wide.
-fn loops(chain: &[&Leg], bodies: &[Body], enough: f64) -> Vec<Ring> {
-    let Some((first, body)) = chain.first().and_then(|leg| Some((leg, bodies.get(leg.tool?)?))) else {
+fn loops(chain: &[&Segment], bodies: &[Body], enough: f64) -> Vec<Ring> {
+    let Some((first, body)) = chain.first().and_then(|segment| Some((segment, bodies.get(segment.tool?)?))) else {
         return Vec::new();
     };
     let height = body.position(first.end).z;
@@ -95,7 +98,7 @@ fn loops(chain: &[&Leg], bodies: &[Body], enough: f64) -> Vec<Ring> {
     let apart = |a: &[f64; 2], b: &[f64; 2]| length(b[0] - a[0], b[1] - a[1]);
     let mut rings = Vec::new();
     let mut places: Vec<[f64; 2]> = first.start.map(plan).into_iter().collect();
-    for place in chain.iter().flat_map(|leg| leg.pieces()).map(|piece| plan(piece.end)) {
+    for place in chain.iter().flat_map(|segment| segment.pieces()).map(|piece| plan(piece.end)) {
         places.push(place);
         if places.len() > 3 && apart(&places[0], &place) <= SLACK {
             rings.push(Ring::new(&places, heights));

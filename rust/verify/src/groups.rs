@@ -1,15 +1,15 @@
-//! Findings told together: those of one kind, and of one region of the part where there are clearly separate ones.
+//! Findings reported together: those of one kind, and of one region of the part where there are clearly separate ones.
 
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Finding, FindingKind, Severity};
+use crate::findings::{Finding, FindingKind, Severity};
 
 /// Regions are separate where nothing is found for this share of the part's size.
 const APART: f64 = 0.1;
-/// More separate regions than this are told as one group: their list would be the noise that groups are against.
+/// More separate regions than this are reported as one group: their list would be the noise that groups are against.
 const REGIONS: usize = 3;
 /// Cells are counted to this far from the origin, so that their neighbours can be named.
 const FARTHEST: f64 = 1e12;
@@ -23,12 +23,12 @@ pub struct Group {
     pub severity: Severity,
     /// How many findings there are, listed or not.
     pub count: usize,
-    /// In how many separate regions of the part they lie: more than one where these are too many to be told apart.
+    /// In how many separate regions of the part they lie: more than one where these are too many to be distinguished.
     pub regions: usize,
     /// Corners of the box that holds the tool's tip at all of them, work coordinates, mm.
     #[serde(rename = "box")]
     pub extent: Option<[[f64; 3]; 2]>,
-    /// Line of the worst place, from 1; 0 when there is none.
+    /// Line of the worst position, from 1; 0 when there is none.
     pub line: u32,
     /// First line of all of them.
     pub first_line: u32,
@@ -38,7 +38,7 @@ pub struct Group {
     pub moves: usize,
     /// The length of these moves, mm.
     pub length_mm: f64,
-    /// The tool's tip at the worst place, work coordinates, mm.
+    /// The tool's tip at the worst position, work coordinates, mm.
     pub position: Option<[f64; 3]>,
     /// What was measured there, in `unit`.
     pub value: Option<f64>,
@@ -76,7 +76,7 @@ impl Group {
     }
 }
 
-/// Findings, and the group of each by its place in the second list.
+/// Findings, and the group of each by its position in the second list.
 #[derive(Default)]
 pub(crate) struct Told {
     pub findings: Vec<(Finding, usize)>,
@@ -129,7 +129,7 @@ impl Told {
     }
 }
 
-/// Places, in cells as large as what must lie between separate regions.
+/// Positions, in cells as large as what must lie between separate regions.
 #[derive(Clone, Copy)]
 pub(crate) struct Cells {
     size: f64,
@@ -150,7 +150,7 @@ impl Cells {
 }
 
 /// The region of each of some sets of cells, from 0 in their order, and how many there are; all are in one where they are
-/// too many to be told apart. Cells of a set belong together, and so do those that touch.
+/// too many to be distinguished. Cells of a set belong together, and so do those that touch.
 pub(crate) fn regions<'a>(sets: impl Iterator<Item = &'a [Cell]> + Clone) -> (Vec<usize>, usize) {
     let cells: BTreeMap<Cell, usize> = sets.clone().flatten().map(|cell| (*cell, 0)).collect();
     let cells: BTreeMap<Cell, usize> = cells.into_keys().enumerate().map(|(i, cell)| (cell, i)).collect();

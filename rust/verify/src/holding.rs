@@ -4,7 +4,8 @@ use styluscam_geometry::{Base, Bvh, Mesh, ProfileDocument, Sheet, Tool, ToolDocu
 
 use crate::body::Body;
 use crate::clearance::Prober;
-use crate::{FindingKind, Subject};
+use crate::faults::{self, FaultKind};
+use crate::subject::{ObstacleKind, Subject};
 
 /// Share of a tangent base's height at which the straight hull of its half cosine wave has the shank's radius: the line
 /// from its foot that touches the wave rises pi / 2.3311 (1 - cos 2.3311) / 2 times as fast as the wave does on average.
@@ -14,7 +15,7 @@ const TANGENT_HULL: f64 = 0.878;
 #[derive(Clone, Debug)]
 struct Holding {
     /// What it is when it meets the part.
-    kind: FindingKind,
+    kind: &'static FaultKind,
     /// With the tool's own tip for what it is asked.
     body: Body,
 }
@@ -22,7 +23,9 @@ struct Holding {
 /// A body and what it must not come near.
 pub(crate) struct Collider<'a> {
     /// What it is when it does.
-    pub kind: FindingKind,
+    pub kind: &'static FaultKind,
+    /// Whether the part is what it must not come near.
+    pub is_at_part: bool,
     body: Body,
     mesh: &'a Mesh,
     bvh: &'a Bvh,
@@ -43,13 +46,17 @@ impl Collider<'_> {
 pub(crate) fn colliders<'a>(tool: &Tool, subject: &Subject<'a>, least: f64) -> Vec<Collider<'a>> {
     let above = of(tool, subject.sheet.as_ref()).into_iter().map(|holding| {
         let (mesh, bvh) = (subject.mesh, subject.bvh);
-        Collider { kind: holding.kind, body: holding.body, mesh, bvh, top: mesh.bounds().1.z, least }
+        Collider { kind: holding.kind, is_at_part: true, body: holding.body, mesh, bvh, top: mesh.bounds().1.z, least }
     });
     let around = subject.obstacles.iter().flat_map(|obstacle| {
         let sheet = obstacle.sheet.as_ref();
         let bodies = of(tool, sheet).into_iter().map(|holding| holding.body);
         std::iter::once(Body::new(tool, sheet)).chain(bodies).map(|body| Collider {
-            kind: obstacle.kind,
+            kind: match obstacle.kind {
+                ObstacleKind::Clamp => &faults::CLAMP,
+                ObstacleKind::Backing => &faults::BACKING,
+            },
+            is_at_part: false,
             body,
             mesh: &obstacle.mesh,
             bvh: &obstacle.bvh,
@@ -80,10 +87,10 @@ fn of(tool: &Tool, sheet: Option<&Sheet>) -> Vec<Holding> {
             diameter,
             tip_flat: 0.0,
         });
-        holdings.extend(holding(FindingKind::ShankCollision, profile, height, sheet));
+        holdings.extend(holding(&faults::SHANK, profile, height, sheet));
     }
     if let (Some(holder), Some(length)) = (document.holder, document.length) {
-        holdings.extend(holding(FindingKind::HolderCollision, cylinder(holder.diameter), length, sheet));
+        holdings.extend(holding(&faults::HOLDER, cylinder(holder.diameter), length, sheet));
     }
     holdings
 }
@@ -93,7 +100,7 @@ fn cylinder(diameter: f64) -> ProfileDocument {
 }
 
 /// None where the numbers make no body: a tool's own checks have passed them.
-fn holding(kind: FindingKind, profile: ProfileDocument, height: f64, sheet: Option<&Sheet>) -> Option<Holding> {
+fn holding(kind: &'static FaultKind, profile: ProfileDocument, height: f64, sheet: Option<&Sheet>) -> Option<Holding> {
     let tool = Tool::new(ToolDocument::of(profile)).ok()?;
     Some(Holding { kind, body: Body::above(&tool, sheet, height) })
 }

@@ -1,46 +1,46 @@
-//! The judgement: moves in, report out.
+//! The verification: moves in, report out.
 
 use styluscam_motion::{Cancelled, Program, Watch};
 
 use crate::assignment::Assignment;
-use crate::findings::{merge, Merged};
-use crate::legs::placed;
+use crate::findings::{Finding, FindingKind, Severity};
 use crate::measure::measure;
-use crate::{
-    diagnosis, passes, reach, sequence, settings, travel, unreached, walls, Finding, FindingKind, Limits, Report,
-    Severity, Subject,
-};
+use crate::merge::{merge, Merged};
+use crate::report::Report;
+use crate::segments::placed;
+use crate::subject::{Limits, Subject};
+use crate::{diagnosis, passes, reach, sequence, settings, travel, unreached, walls};
 
-/// Judges a program read back from posted text against the part.
+/// Checks a program read back from posted text against the part.
 ///
 /// Positions are the tool's tip in work coordinates. The same input gives the same report on any number of threads.
 ///
 /// # Errors
-/// `Cancelled` when the watch says so; it is polled at every move.
+/// `Cancelled` when the watch is cancelled; it is polled at every move.
 pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watch) -> Result<Report, Cancelled> {
-    let legs = placed(program, subject, limits);
-    let mut tally = measure(&legs, subject, limits, watch)?;
+    let segments = placed(program, subject, limits);
+    let mut tally = measure(&segments, subject, limits, watch)?;
     let mut faults = std::mem::take(&mut tally.faults);
-    faults.extend(travel::faults(program, &legs, subject, limits));
+    faults.extend(travel::faults(program, &segments, subject, limits));
     faults.extend(reach::faults(program, subject, &limits.reach));
     let assignment = Assignment::new(program, subject);
-    faults.extend(settings::faults(program, &legs, &assignment, limits));
-    faults.extend(sequence::faults(program, &legs, &assignment, subject, limits));
-    faults.extend(sequence::punches(program, &legs, &assignment, subject, limits));
-    faults.extend(passes::faults(&legs, &assignment, subject, limits, watch)?);
-    let beyond_reach = unreached::findings(&legs, subject, limits, watch)?;
+    faults.extend(settings::faults(program, &segments, &assignment, limits));
+    faults.extend(sequence::faults(program, &segments, &assignment, subject, limits));
+    faults.extend(sequence::punches(program, &segments, &assignment, subject, limits));
+    faults.extend(passes::faults(&segments, &assignment, subject, limits, watch)?);
+    let beyond_reach = unreached::findings(&segments, subject, limits, watch)?;
     let steep = walls::finding(subject, limits);
     if steep.is_some() {
-        // said once for the part: every contact on those walls would say it again
-        faults.retain(|fault| fault.kind != FindingKind::WallAngle);
+        // reported once for the part: every contact on those walls would repeat it
+        faults.retain(|fault| fault.kind.finding != FindingKind::WallAngle);
     }
     let (low, high) = subject.mesh.bounds();
     let Merged { mut told, mut counts, lengths } = merge(&faults, program, (high - low).norm());
-    let nothing = tally.nothing_touches().then(|| diagnosis::no_contact(program, &legs, &tally, subject));
+    let nothing = tally.nothing_touches().then(|| diagnosis::no_contact(program, &segments, &tally, subject));
     let offset = travel::work_offset(program, subject.wcs);
     let wholes =
         reach::findings(program, subject, &limits.reach).into_iter().chain(assignment.findings(program, subject));
-    let wholes = wholes.chain(travel::optional_lines(subject)).chain(travel::unsaid(program, subject));
+    let wholes = wholes.chain(travel::optional_lines(subject)).chain(travel::modes_not_stated(program, subject));
     let found = limits.found.iter().map(|(kind, words)| Finding::of_all(*kind, Severity::Error, words.clone()));
     let wholes = wholes.chain(found).chain(steep).chain(beyond_reach);
     let wholes: Vec<Finding> = wholes.chain(travel::no_feed_moves(program)).chain(offset).chain(nothing).collect();

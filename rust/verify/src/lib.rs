@@ -1,13 +1,13 @@
-//! The judge of posted text: moves read back from it, held against the part.
+//! The verifier of posted text: moves read back from it, compared with the part.
 //!
 //! It works with distances. The signed distance of a point to the tool (a convex body) is a convex
 //! function of the point; the clearance at a position is that function's minimum over the part's
 //! triangles. Nothing here lowers a tool onto a surface: that is how planning finds its paths, and a
-//! judge that shared the way would share the mistakes.
+//! judge that shared the method would share the mistakes.
 //!
 //! What is proved, what is sampled:
 //!
-//! - *Gouge* is proved, not sampled: a straight move sweeps a convex body, so the deepest place over
+//! - *Gouge* is proved, not sampled: a straight move sweeps a convex body, so the deepest position over
 //!   the whole move is the minimum of one convex function per triangle. Only triangles that a
 //!   supporting plane of the swept body cannot keep away are measured.
 //! - *Depth* is measured along the triangle's normal where the tool's lowest point lies over the
@@ -37,27 +37,31 @@ mod convex;
 mod coverage;
 mod diagnosis;
 mod expectation;
+mod faults;
 mod findings;
 mod flats;
 mod groups;
 mod holding;
 mod judge;
-mod legs;
 mod measure;
+mod merge;
 mod passes;
 mod probes;
 mod reach;
 mod report;
+mod samples;
 mod scalar;
+mod segments;
 mod sequence;
 mod settings;
 mod simulation;
+mod stroke;
 mod subject;
 mod sweep;
 mod tally;
 mod tolerances;
 mod travel;
-mod unplaced;
+mod unknown;
 mod unreached;
 mod walls;
 mod words;
@@ -68,14 +72,8 @@ pub use findings::{Finding, FindingKind, Severity};
 pub use flats::Need;
 pub use groups::Group;
 pub use judge::judge;
-pub use reach::Reach;
 pub use report::{ContactRecord, Place, Report};
-pub use scalar::{Across, Height, Scalar};
+pub use scalar::{Across, Height, PassKind, Scalar};
 pub use simulation::{simulate, Grid, Simulation, Skin};
-pub use subject::{Bears, Forming, Limits, Obstacle, Subject, TextFacts, ToolCalls};
+pub use subject::{Bears, Forming, Limits, Obstacle, ObstacleKind, Reach, Subject, TextFacts, ToolCalls};
 pub use unreached::ToolReach;
-
-/// A point or vector of space, mm.
-type Vector = styluscam_geometry::Vector;
-
-use tolerances::SLACK;

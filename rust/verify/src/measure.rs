@@ -1,61 +1,33 @@
-//! Distances along each move: the exact part of the judgement, in parallel.
+//! Distances along each move: the exact part of the verification, in parallel.
 
 use std::collections::VecDeque;
 
 use rayon::prelude::*;
+use styluscam_geometry::Vector;
 use styluscam_motion::{ArcWay, Cancelled, Watch};
 
 use crate::body::Body;
 use crate::clearance::{Prober, Touch};
 use crate::holding::{colliders, Collider};
-use crate::legs::{Leg, LegKind};
-use crate::sweep::{Guess, Passed, Question, Seen, Stroke};
+use crate::samples::{lowest, Measured, Sample, Strike};
+use crate::segments::{Segment, SegmentKind};
+use crate::stroke::Stroke;
+use crate::subject::{Limits, Subject};
+use crate::sweep::{Guess, Passed, Question, Seen};
 use crate::tally::{Rule, Tally};
-use crate::{FindingKind, Limits, Subject, Vector, SLACK};
+use crate::tolerances::SLACK;
 
 /// Moves in a piece of work. Fixed, so that the result does not depend on the number of threads.
 const CHUNK: usize = 64;
 
-/// The clearance at one place of a contact move.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Sample {
-    /// The tool's tip.
-    pub tip: [f64; 3],
-    pub touch: Touch,
-}
-
-/// Length of a move, as a share of the tool's radius, up to which one search answers for all its places.
+/// Length of a move, as a share of the tool's radius, up to which one search answers for all its positions.
 const JOINT: f64 = 1.0;
 
 /// A chord this near to its arc stands for it, mm.
 const FLAT: f64 = 1e-7;
 
-/// Pieces of an arc's leg that are halved at most: all of them, at radius 100 mm, are off by less than 1e-5 mm then.
+/// Pieces of an arc's segment that are halved at most: all of them, at radius 100 mm, are off by less than 1e-5 mm then.
 const HALVINGS: usize = 512;
-
-/// What was found along one move.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Measured {
-    /// The deepest place, when it could matter.
-    pub deepest: Option<Sample>,
-    /// Start, middle and end of a contact move, as far as they are known.
-    pub contacts: [Option<Sample>; 3],
-    /// Too little air under a rapid that comes down: the place where it ends.
-    pub landing: Option<Sample>,
-    /// The worst place of what comes too near to something besides, what that is, and what must be left, mm.
-    pub struck: Option<Strike>,
-    /// Positions at which the clearance was measured.
-    pub samples: usize,
-}
-
-/// Something that comes too near to something else.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Strike {
-    pub kind: FindingKind,
-    pub sample: Sample,
-    /// The clearance that must be left, mm.
-    pub least: f64,
-}
 
 /// A tool as bodies.
 struct Bodies<'a> {
@@ -63,24 +35,29 @@ struct Bodies<'a> {
     colliders: Vec<Collider<'a>>,
 }
 
-/// Measures every leg.
-pub(crate) fn measure(legs: &[Leg], subject: &Subject, limits: &Limits, watch: &Watch) -> Result<Tally, Cancelled> {
-    watch.begin("verifying", legs.len());
+/// Measures every segment.
+pub(crate) fn measure(
+    segments: &[Segment],
+    subject: &Subject,
+    limits: &Limits,
+    watch: &Watch,
+) -> Result<Tally, Cancelled> {
+    watch.begin("verifying", segments.len());
     let least = gouge_level(subject, limits);
     let bodies =
         |tool| Bodies { profile: Body::new(tool, subject.sheet.as_ref()), colliders: colliders(tool, subject, least) };
     let bodies: Vec<Bodies> = subject.tools.iter().map(bodies).collect();
     let top = subject.mesh.bounds().1.z;
-    let rule = Rule::new(legs, subject, limits);
-    let chunks: Vec<&[Leg]> = legs.chunks(CHUNK).collect();
+    let rule = Rule::new(segments, subject, limits);
+    let chunks: Vec<&[Segment]> = segments.chunks(CHUNK).collect();
     let tallies = chunks.par_iter().zip(contacts_before(&chunks)).map(|(chunk, mut ordinal)| {
         let mut walk = Walk { subject, limits, bodies: &bodies, top, last: None };
         let mut tally = Tally::default();
-        for leg in *chunk {
-            for piece in leg.pieces() {
+        for segment in *chunk {
+            for piece in segment.pieces() {
                 watch.advance(0)?; // a long move has many
                 rule.add(&mut tally, &piece, &walk.along(&piece), ordinal);
-                ordinal += usize::from(leg.excess.is_some());
+                ordinal += usize::from(segment.excess.is_some());
             }
             watch.advance(1)?;
         }
@@ -92,10 +69,10 @@ pub(crate) fn measure(legs: &[Leg], subject: &Subject, limits: &Limits, watch: &
 }
 
 /// How many pieces that should touch come before each chunk.
-fn contacts_before(chunks: &[&[Leg]]) -> Vec<usize> {
+fn contacts_before(chunks: &[&[Segment]]) -> Vec<usize> {
     let mut before = 0;
-    let count = |chunk: &&[Leg]| {
-        let own: usize = chunk.iter().filter(|leg| leg.excess.is_some()).map(Leg::piece_count).sum();
+    let count = |chunk: &&[Segment]| {
+        let own: usize = chunk.iter().filter(|segment| segment.excess.is_some()).map(Segment::piece_count).sum();
         before += own;
         before - own
     };
@@ -114,17 +91,17 @@ struct Walk<'a> {
 }
 
 impl<'a> Walk<'a> {
-    fn along(&mut self, leg: &Leg) -> Measured {
-        let Some((tool, bodies)) = leg.tool.and_then(|t| Some((t, self.bodies.get(t)?))) else {
+    fn along(&mut self, segment: &Segment) -> Measured {
+        let Some((tool, bodies)) = segment.tool.and_then(|t| Some((t, self.bodies.get(t)?))) else {
             return Measured::default();
         };
         let prober = self.prober(&bodies.profile);
-        let found = match leg.bend {
-            Some(bend) => self.along_bend(leg, &bend, tool, &prober),
-            None if leg.excess.is_some() => self.along_contact(leg, tool, &prober),
-            None => self.along_air(leg, &prober),
+        let found = match segment.bend {
+            Some(bend) => self.along_bend(segment, &bend, tool, &prober),
+            None if segment.excess.is_some() => self.along_contact(segment, tool, &prober),
+            None => self.along_air(segment, &prober),
         };
-        let strikes = bodies.colliders.iter().filter_map(|collider| strike(leg, collider));
+        let strikes = bodies.colliders.iter().filter_map(|collider| strike(segment, collider));
         let room = |strike: &Strike| strike.sample.touch.value - strike.least;
         Measured { struck: strikes.min_by(|a, b| room(a).total_cmp(&room(b))), ..found }
     }
@@ -134,11 +111,11 @@ impl<'a> Walk<'a> {
     }
 
     /// A piece of an arc: samples, if it should touch, and a proof that nothing between them is deeper.
-    fn along_bend(&mut self, leg: &Leg, bend: &ArcWay, tool: usize, prober: &Prober) -> Measured {
+    fn along_bend(&mut self, segment: &Segment, bend: &ArcWay, tool: usize, prober: &Prober) -> Measured {
         let mut found = Measured::default();
-        if leg.excess.is_some() {
-            let start = leg.start.and_then(|tip| self.start(tip, tool, prober, &mut found));
-            let samples = [bend.at(0.5), leg.end].map(|tip| self.sample(tip, prober));
+        if segment.excess.is_some() {
+            let start = segment.start.and_then(|tip| self.start(tip, tool, prober, &mut found));
+            let samples = [bend.at(0.5), segment.end].map(|tip| self.sample(tip, prober));
             found.contacts = [start, samples[0], samples[1]];
             found.samples += samples.iter().flatten().count();
             self.last = samples[1].map(|end| (tool, end));
@@ -154,11 +131,11 @@ impl<'a> Walk<'a> {
     }
 
     /// A move that should touch: three samples, and a proof that nothing between them is deeper.
-    fn along_contact(&mut self, leg: &Leg, tool: usize, prober: &Prober) -> Measured {
+    fn along_contact(&mut self, segment: &Segment, tool: usize, prober: &Prober) -> Measured {
         let mut found = Measured::default();
-        let start = leg.start.and_then(|tip| self.start(tip, tool, prober, &mut found));
-        let stroke = stroke_of(leg, prober.body);
-        let middle = leg.start.map(|_| stroke.at(0.5));
+        let start = segment.start.and_then(|tip| self.start(tip, tool, prober, &mut found));
+        let stroke = stroke_of(segment, prober.body);
+        let middle = segment.start.map(|_| stroke.at(0.5));
         let asked = Question { stroke, places: [middle, Some(stroke.to)], below: self.below(start) };
         let seen = if stroke.length() > JOINT * prober.body.radius() {
             self.one_by_one(asked, prober)
@@ -168,7 +145,7 @@ impl<'a> Walk<'a> {
         let sample = |position: Option<Vector>, touch: Option<Touch>| {
             Some(Sample { tip: prober.body.tip(position?), touch: touch? })
         };
-        let end = seen.places[1].map(|touch| Sample { tip: leg.end, touch });
+        let end = seen.places[1].map(|touch| Sample { tip: segment.end, touch });
         found.contacts = [start, sample(middle, seen.places[0]), end];
         found.samples += found.contacts[1..].iter().flatten().count();
         self.last = end.map(|end| (tool, end));
@@ -198,7 +175,7 @@ impl<'a> Walk<'a> {
         self.sample(tip, prober)
     }
 
-    /// The depth from which on a place between the samples matters.
+    /// The depth from which on a position between the samples matters.
     fn below(&self, start: Option<Sample>) -> f64 {
         self.gouge_level().min(start.map_or(f64::INFINITY, |s| s.touch.value - SLACK))
     }
@@ -209,15 +186,15 @@ impl<'a> Walk<'a> {
     }
 
     /// A move that need not touch: only what goes too deep is looked for.
-    fn along_air(&self, leg: &Leg, prober: &Prober) -> Measured {
+    fn along_air(&self, segment: &Segment, prober: &Prober) -> Measured {
         let mut found = Measured::default();
-        if lowest_of(leg, prober.body) - self.top > self.limits.rapid_gap.max(self.gouge_level()) {
+        if lowest_of(segment, prober.body) - self.top > self.limits.rapid_gap.max(self.gouge_level()) {
             return found;
         }
-        let stroke = stroke_of(leg, prober.body);
-        found.deepest = deepest_of(leg, self.gouge_level(), prober);
+        let stroke = stroke_of(segment, prober.body);
+        found.deepest = deepest_of(segment, self.gouge_level(), prober);
         found.samples = usize::from(found.deepest.is_some());
-        if leg.kind == LegKind::Rapid && leg.descends() && found.deepest.is_none() {
+        if segment.kind == SegmentKind::Rapid && segment.descends() && found.deepest.is_none() {
             found.landing = deepest(Stroke::still(stroke.to), self.limits.rapid_gap, prober);
         }
         found
@@ -228,39 +205,39 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// The clearance at and below which a place counts as a gouge, mm.
+/// The clearance at and below which a position counts as a gouge, mm.
 fn gouge_level(subject: &Subject, limits: &Limits) -> f64 {
     subject.deviation_inward - limits.gouge
 }
 
-/// Where a body comes too near to something on a leg.
-fn strike(leg: &Leg, collider: &Collider) -> Option<Strike> {
+/// Where a body comes too near to something on a segment.
+fn strike(segment: &Segment, collider: &Collider) -> Option<Strike> {
     let prober = collider.prober();
-    let near = lowest_of(leg, prober.body) - collider.top <= collider.least;
-    let sample = near.then(|| deepest_of(leg, collider.least, &prober)).flatten()?;
-    Some(Strike { kind: collider.kind, sample, least: collider.least })
+    let near = lowest_of(segment, prober.body) - collider.top <= collider.least;
+    let sample = near.then(|| deepest_of(segment, collider.least, &prober)).flatten()?;
+    Some(Strike { kind: collider.kind, is_at_part: collider.is_at_part, sample, least: collider.least })
 }
 
 /// Height of the body's tip where it is lowest, mm.
-fn lowest_of(leg: &Leg, body: &Body) -> f64 {
-    body.position([0.0, 0.0, leg.lowest()]).z
+fn lowest_of(segment: &Segment, body: &Body) -> f64 {
+    body.position([0.0, 0.0, segment.lowest()]).z
 }
 
-/// The deepest place of a leg, if it is below `below`.
-fn deepest_of(leg: &Leg, below: f64, prober: &Prober) -> Option<Sample> {
-    match leg.bend {
+/// The deepest position of a segment, if it is below `below`.
+fn deepest_of(segment: &Segment, below: f64, prober: &Prober) -> Option<Sample> {
+    match segment.bend {
         Some(bend) => deepest_on_arc(&bend, below, prober),
-        None => deepest(stroke_of(leg, prober.body), below, prober),
+        None => deepest(stroke_of(segment, prober.body), below, prober),
     }
 }
 
-/// The deepest place of a stroke, if it is below `below`.
+/// The deepest position of a stroke, if it is below `below`.
 fn deepest(stroke: Stroke, below: f64, prober: &Prober) -> Option<Sample> {
     let passed = prober.survey(Question { stroke, places: [None; 2], below }, None).deepest;
     passed.map(|p| sample_of(p, prober.body))
 }
 
-/// The deepest place of a piece of an arc, if it is below `below`: chords that pass deeper than they are off it are halved.
+/// The deepest position of a piece of an arc, if it is below `below`: chords that pass deeper than they are off it are halved.
 ///
 /// Where halving ends, the depth on the chord and what the chord is off are both counted: never too little.
 fn deepest_on_arc(bend: &ArcWay, below: f64, prober: &Prober) -> Option<Sample> {
@@ -284,18 +261,18 @@ fn deepest_on_arc(bend: &ArcWay, below: f64, prober: &Prober) -> Option<Sample> 
     best
 }
 
-/// The way of the body's tip in chords, none farther than `sag` mm from it.
-pub(crate) fn strokes_of(leg: &Leg, body: &Body, sag: f64) -> Vec<Stroke> {
-    let Some(bend) = leg.bend else { return vec![stroke_of(leg, body)] };
+/// The path of the body's tip in chords, none farther than `sag` mm from it.
+pub(crate) fn strokes_of(segment: &Segment, body: &Body, sag: f64) -> Vec<Stroke> {
+    let Some(bend) = segment.bend else { return vec![stroke_of(segment, body)] };
     let count = bend.chords(sag);
     let at = |i: usize| body.position(bend.at(i as f64 / count as f64));
     (0..count).map(|i| Stroke { from: at(i), to: at(i + 1) }).collect()
 }
 
-/// The way of the body's tip, or its chord; a point when the start is not known.
-fn stroke_of(leg: &Leg, body: &Body) -> Stroke {
-    let to = body.position(leg.end);
-    Stroke { from: leg.start.map_or(to, |s| body.position(s)), to }
+/// The path of the body's tip, or its chord; a point when the start is not known.
+fn stroke_of(segment: &Segment, body: &Body) -> Stroke {
+    let to = body.position(segment.end);
+    Stroke { from: segment.start.map_or(to, |s| body.position(s)), to }
 }
 
 /// Whether two tips are the same numbers.
@@ -305,22 +282,4 @@ fn same(a: [f64; 3], b: [f64; 3]) -> bool {
 
 fn sample_of(passed: Passed, body: &Body) -> Sample {
     Sample { tip: body.tip(passed.position), touch: passed.touch }
-}
-
-/// The deepest of the samples; the latest of those that are equal but for arithmetic, because the place that
-/// two moves share belongs to the one that ends there.
-fn lowest(samples: &[Option<Sample>; 3]) -> Option<Sample> {
-    let deeper = |a: Sample, b: Sample| if b.touch.value <= a.touch.value + SLACK { b } else { a };
-    samples.iter().flatten().copied().reduce(deeper)
-}
-
-/// The sample farthest off; the latest of those that are equal but for arithmetic.
-pub(crate) fn highest(samples: &[Option<Sample>; 3]) -> Option<Sample> {
-    let higher = |a: Sample, b: Sample| if b.touch.value >= a.touch.value - SLACK { b } else { a };
-    samples.iter().flatten().copied().reduce(higher)
-}
-
-/// The direction in which the part lies, as a unit normal out of it.
-pub(crate) fn normal_of(touch: &Touch) -> Vector {
-    -touch.away
 }

@@ -1,8 +1,6 @@
 //! Points spread over chosen triangles, each for the same area.
 
-use styluscam_geometry::Mesh;
-
-use crate::Vector;
+use styluscam_geometry::{Mesh, Vector};
 
 /// Steps of a sequence that fills the unit square evenly: powers of the plastic number's inverse.
 /// Source: M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018.

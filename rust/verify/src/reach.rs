@@ -1,33 +1,21 @@
-//! What the machine can do, held against the text: axes, feeds, spindle speeds.
+//! What the machine can do, compared with the text: axes, feeds, spindle speeds.
 
 use styluscam_motion::{EventKind, Program};
 
-use crate::findings::{Fault, Finding};
-use crate::legs::in_this_world;
-use crate::{FindingKind, Severity, Subject, SLACK};
-
-/// What the machine can do; what is left out is not judged.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Reach {
-    /// Lowest and highest place of each axis, of the point that the text moves, mm.
-    pub axes: [Option<[f64; 2]>; 3],
-    /// Length of each axis, mm.
-    pub travel: Option<[f64; 3]>,
-    /// Largest feed, mm/min.
-    pub feed: Option<f64>,
-    /// Smallest and largest speed of the spindle, rev/min.
-    pub rpm: Option<[f64; 2]>,
-}
+use crate::faults::{self, Fault};
+use crate::findings::{Finding, FindingKind, Severity};
+use crate::segments::in_this_world;
+use crate::subject::{Reach, Subject};
+use crate::tolerances::SLACK;
 
 /// Faults of single moves, in their order.
 pub(crate) fn faults(program: &Program, subject: &Subject, reach: &Reach) -> Vec<Fault> {
     let most = reach.feed.unwrap_or(f64::INFINITY);
     let too_fast = program.moves.iter().enumerate().filter(|(_, step)| step.feed > most * (1.0 + SLACK));
-    let mut faults: Vec<Fault> = too_fast
-        .map(|(index, step)| Fault::of(FindingKind::FeedLimit, index, step).measured(step.feed, most))
-        .collect();
+    let mut faults: Vec<Fault> =
+        too_fast.map(|(index, step)| Fault::of(&faults::FEED_LIMIT, index, step).measured(step.feed, most)).collect();
     for (index, low, high) in boxes(program, subject) {
-        let fault = |axis: usize| Fault::of(FindingKind::AXIS_LIMITS[axis], index, &program.moves[index]);
+        let fault = |axis: usize| Fault::of(&faults::AXES[axis], index, &program.moves[index]);
         for (axis, range) in reach.axes.iter().enumerate() {
             let Some([least, most]) = *range else { continue };
             if low[axis] < least - SLACK {
@@ -60,14 +48,14 @@ pub(crate) fn findings(program: &Program, subject: &Subject, reach: &Reach) -> V
     for (before, rpm) in speeds.filter(|(_, rpm)| *rpm > most || *rpm < least) {
         let line = program.moves.get(before).map_or(0, |step| step.line);
         let message = format!(
-            "before line {line}: the spindle is to turn at {rpm} rev/min, and the machine's turns at {least} to {most}; correct S"
+            "before line {line}: the spindle is set to {rpm} rev/min, and the machine's turns at {least} to {most}; correct S"
         );
         findings.push(Finding::of_all(FindingKind::SpindleLimit, Severity::Error, message).at_line(line));
     }
     findings
 }
 
-/// The boxes of the moves that have a place in space.
+/// The boxes of the moves whose position is known.
 fn boxes<'a>(program: &'a Program, subject: &'a Subject) -> impl Iterator<Item = (usize, [f64; 3], [f64; 3])> + 'a {
     let placed = program.posted_boxes().enumerate().filter(|(index, _)| subject.places(*index));
     placed

@@ -1,13 +1,14 @@
-//! What the judge hands back.
+//! What the verifier hands back.
 
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Finding, FindingKind, Group};
+use crate::findings::{Finding, FindingKind};
+use crate::groups::Group;
 
-/// A place of the program.
+/// A position of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Place {
     /// Line of the text, from 1; 0 when it was not read from text.
@@ -33,7 +34,7 @@ pub struct ContactRecord {
     pub face: u32,
 }
 
-/// The judgement. Places of equal value: the first one in the program.
+/// The verification. Positions of equal value: the first one in the program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Report {
     /// No finding is an error.

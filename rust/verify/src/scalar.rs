@@ -8,7 +8,6 @@ use std::fmt::Debug;
 
 use styluscam_geometry::Vector;
 
-use crate::findings::FindingKind;
 use crate::tolerances::{SAME_LEVEL, WIDE};
 
 /// Rows that differ by less are one, mm: positions on them are rounded to a machine's last digit.
@@ -71,9 +70,9 @@ pub trait Scalar: Debug + Send + Sync {
         self.on_plane(tip, up).norm() > GENTLE
     }
 
-    /// The finding of passes that are too far apart, or end too soon.
-    fn gap(&self) -> FindingKind {
-        FindingKind::MissingRow
+    /// What a pass is to its neighbours.
+    fn kind(&self) -> PassKind {
+        PassKind::Row
     }
 
     /// Steps by which the tool may be able to touch beyond the first and the last pass.
@@ -104,6 +103,15 @@ pub trait Scalar: Debug + Send + Sync {
         let gradient = self.gradient(tip);
         gradient - gradient.dot(&up) * up
     }
+}
+
+/// What a pass is to its neighbours: by this a gap between passes is reported.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PassKind {
+    /// It lies above or below them.
+    Level,
+    /// It lies beside them.
+    Row,
 }
 
 /// Height of the tip: levels, and spirals that go down.
@@ -145,8 +153,8 @@ impl Scalar for Height {
         up.xy().norm() > GENTLE
     }
 
-    fn gap(&self) -> FindingKind {
-        FindingKind::MissingLevel
+    fn kind(&self) -> PassKind {
+        PassKind::Level
     }
 
     fn rest(&self) -> [f64; 2] {

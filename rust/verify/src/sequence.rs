@@ -1,5 +1,5 @@
 //! The order in which a sheet is formed: nothing deeper at once than a step, or it is pierced, and no level after a lower one
-//! at the same place, or it is stretched twice.
+//! at the same position, or it is stretched twice.
 
 use std::collections::HashMap;
 
@@ -9,19 +9,19 @@ use styluscam_motion::Program;
 use crate::assignment::Assignment;
 use crate::blank::Blank;
 use crate::expectation::OrderedPasses;
-use crate::findings::Fault;
-use crate::legs::{Leg, LegKind};
+use crate::faults::{self, Fault};
+use crate::segments::{Segment, SegmentKind};
+use crate::subject::{Limits, Subject};
 use crate::tolerances::{ROUGH, SAME_LEVEL, WIDE};
-use crate::{FindingKind, Limits, Subject};
 
 /// A level counts as lower from this share of the step on.
 const LOWER: f64 = 0.25;
 
 /// Cosine of the slope up to which flat sheet may wrap the tool in one go: by the sine law it then keeps three quarters of its
-/// thickness, and 41 degrees are a wall angle that every sheet bears.
+/// thickness, and 41 degrees are a wall angle that every sheet withstands.
 const WRAPPED: f64 = 0.75;
 
-/// Places of a move that are looked at, at most.
+/// Positions of a move that are looked at, at most.
 const MOST_PLACES: f64 = 10_000.0;
 
 /// Moves that go deeper than they may below the sheet as it stands around them.
@@ -30,7 +30,7 @@ const MOST_PLACES: f64 = 10_000.0;
 /// operations before them have formed. A fall at the path's own feed is a part of a pass over a wall, and worth a warning.
 pub(crate) fn punches(
     program: &Program,
-    legs: &[Leg],
+    segments: &[Segment],
     assignment: &Assignment,
     subject: &Subject,
     limits: &Limits,
@@ -45,22 +45,25 @@ pub(crate) fn punches(
     let mut rows = Vec::new();
     let mut operation = None;
     let mut faults = Vec::new();
-    for leg in legs.iter().filter(|leg| !matches!(leg.kind, LegKind::Rapid | LegKind::Retract | LegKind::Still)) {
-        let Some(order) = assignment.of(leg.operation).filter(|order| order.expectation.forms) else { continue };
+    for segment in segments
+        .iter()
+        .filter(|segment| !matches!(segment.kind, SegmentKind::Rapid | SegmentKind::Retract | SegmentKind::Still))
+    {
+        let Some(order) = assignment.of(segment.operation).filter(|order| order.expectation.forms) else { continue };
         let Some(tool) = tools.get(order.tool) else { continue };
         let step = order.expectation.ordered().and_then(descent);
-        if operation.replace(leg.operation) != Some(leg.operation) {
+        if operation.replace(segment.operation) != Some(segment.operation) {
             rows.drain(..).for_each(|(tip, tool)| blank.press(tip, tool));
         }
         let dent = dent(tool, forming.thickness) + ROUGH;
-        let places = places(leg, blank.cell());
+        let places = places(segment, blank.cell());
         let deepest = places
             .iter()
             .filter_map(|tip| punch(&mut blank, *tip, step, dent))
             .max_by(|a, b| a.depth().total_cmp(&b.depth()));
         if let Some(Punch { tip, stands }) = deepest {
-            let fault = Fault { position: tip, ..leg.fault(FindingKind::Punch) }.measured(tip[2], stands);
-            let falls = leg.kind == LegKind::Plunge && at_cut(program, leg, order.cut, limits);
+            let fault = Fault { position: tip, ..segment.fault(&faults::PUNCH) }.measured(tip[2], stands);
+            let falls = segment.kind == SegmentKind::Plunge && at_cut(program, segment, order.cut, limits);
             faults.push(if falls { fault.warning() } else { fault });
         }
         if step.is_some() {
@@ -108,16 +111,16 @@ fn dent(tool: &Cutter, thickness: f64) -> f64 {
     tool.point_at(libm::acos(WRAPPED)).1 + thickness * (1.0 - WRAPPED)
 }
 
-/// Places of the tip on its way that are no farther apart than `pitch`, mm, without the first; on absurdly long moves some.
-fn places(leg: &Leg, pitch: f64) -> Vec<[f64; 3]> {
-    let count = (leg.length() / pitch).ceil().clamp(1.0, MOST_PLACES) as u32;
-    (1..=count).map(|i| leg.at(f64::from(i) / f64::from(count))).collect()
+/// Positions of the tip on its path that are no farther apart than `pitch`, mm, without the first; on extremely long moves some.
+fn places(segment: &Segment, pitch: f64) -> Vec<[f64; 3]> {
+    let count = (segment.length() / pitch).ceil().clamp(1.0, MOST_PLACES) as u32;
+    (1..=count).map(|i| segment.at(f64::from(i) / f64::from(count))).collect()
 }
 
 /// Faults in the order of the moves.
 pub(crate) fn faults(
     program: &Program,
-    legs: &[Leg],
+    segments: &[Segment],
     assignment: &Assignment,
     subject: &Subject,
     limits: &Limits,
@@ -132,27 +135,27 @@ pub(crate) fn faults(
         // straight up or down at the path's feed the tool climbs over what stands there, or falls beside it, and comes
         // back: that is no level
         let mut away_from: Option<f64> = None;
-        for leg in legs.iter().flat_map(Leg::pieces) {
-            let along =
-                at_cut(program, &leg, order.cut, limits) && matches!(leg.kind, LegKind::Plunge | LegKind::Retract);
-            match (leg.kind, away_from, leg.start) {
-                (LegKind::Rapid, ..) => away_from = None,
-                (_, Some(level), _) if (leg.end[2] - level).abs() <= SAME_LEVEL => away_from = None,
+        for segment in segments.iter().flat_map(Segment::pieces) {
+            let along = at_cut(program, &segment, order.cut, limits)
+                && matches!(segment.kind, SegmentKind::Plunge | SegmentKind::Retract);
+            match (segment.kind, away_from, segment.start) {
+                (SegmentKind::Rapid, ..) => away_from = None,
+                (_, Some(level), _) if (segment.end[2] - level).abs() <= SAME_LEVEL => away_from = None,
                 (_, None, Some(start)) if along => away_from = Some(start[2]),
                 _ => {}
             }
-            if leg.kind != LegKind::Contact || leg.falls() && !passes.continuous || away_from.is_some() {
+            if segment.kind != SegmentKind::Lateral || segment.falls() && !passes.continuous || away_from.is_some() {
                 continue;
             }
-            if !assignment.is(leg.operation, order) {
+            if !assignment.is(segment.operation, order) {
                 continue;
             }
-            let [x, y, z] = leg.end;
+            let [x, y, z] = segment.end;
             let [i, j] = [x, y].map(|at| (at / cell).floor() as i64);
             let around = (-1..=1).flat_map(|di| (-1..=1).map(move |dj| [i + di, j + dj]));
             let formed = around.filter_map(|place| lowest.get(&place)).copied().fold(f64::INFINITY, f64::min);
             if z > formed + LOWER * step {
-                faults.push(leg.fault(FindingKind::FormingOrder).measured(z, formed).warning());
+                faults.push(segment.fault(&faults::FORMING_ORDER).measured(z, formed).warning());
             }
             let here = lowest.entry([i, j]).or_insert(z);
             *here = here.min(z);
@@ -163,6 +166,6 @@ pub(crate) fn faults(
 }
 
 /// Whether a move has the feed of the path.
-fn at_cut(program: &Program, leg: &Leg, cut: f64, limits: &Limits) -> bool {
-    (program.moves[leg.index].feed - cut).abs() <= limits.feed_unit
+fn at_cut(program: &Program, segment: &Segment, cut: f64, limits: &Limits) -> bool {
+    (program.moves[segment.index].feed - cut).abs() <= limits.feed_unit
 }

@@ -4,57 +4,67 @@ use styluscam_motion::{EventKind, Program, SpindleDirection};
 
 use crate::assignment::Assignment;
 use crate::expectation::ExpectedOperation;
-use crate::findings::{Fault, FindingKind};
-use crate::legs::{Leg, LegKind};
+use crate::faults::{self, Fault};
+use crate::segments::{Segment, SegmentKind};
 use crate::subject::Limits;
 
 /// Feeds that differ by less than this share are the same: what arithmetic may cost, as units change.
 const SAME_FEED: f64 = 1e-6;
 
 /// Faults of the moves, in their operation.
-pub(crate) fn faults(program: &Program, legs: &[Leg], assignment: &Assignment, limits: &Limits) -> Vec<Fault> {
+pub(crate) fn faults(program: &Program, segments: &[Segment], assignment: &Assignment, limits: &Limits) -> Vec<Fault> {
     let mut upcoming = program.upcoming();
     let mut machine = Machine { spindle: None, flood: false, mist: false };
     let mut faults = Vec::new();
-    let mut last: Option<LegKind> = None;
-    for leg in legs {
-        upcoming.before(leg.index).for_each(|event| machine.take(event));
-        let before = last.replace(leg.kind);
-        if leg.kind == LegKind::Rapid {
+    let mut last: Option<SegmentKind> = None;
+    for segment in segments {
+        upcoming.before(segment.index).for_each(|event| machine.take(event));
+        let before = last.replace(segment.kind);
+        if segment.kind == SegmentKind::Rapid {
             continue;
         }
-        let comes_down = before.is_none_or(|kind| kind == LegKind::Rapid);
-        let step = &program.moves[leg.index];
-        let Some(operation) = assignment.of(leg.operation) else { continue };
-        faults.extend(feed_fault(operation, leg, comes_down, step.feed, limits.feed_unit));
-        faults.extend(spindle_fault(operation, leg, machine.spindle));
+        let comes_down = before.is_none_or(|kind| kind == SegmentKind::Rapid);
+        let step = &program.moves[segment.index];
+        let Some(operation) = assignment.of(segment.operation) else { continue };
+        faults.extend(feed_fault(operation, segment, comes_down, step.feed, limits.feed_unit));
+        faults.extend(spindle_fault(operation, segment, machine.spindle));
         if machine.flood != operation.flood || machine.mist {
-            faults.push(leg.fault(FindingKind::CoolantDiffers));
+            faults.push(segment.fault(&faults::COOLANT));
         }
-        if leg.tool.is_some_and(|tool| tool != operation.tool) {
-            faults.push(leg.fault(FindingKind::ToolDiffers));
+        if segment.tool.is_some_and(|tool| tool != operation.tool) {
+            faults.push(segment.fault(&faults::TOOL));
         }
     }
     faults
 }
 
-/// From a rapid the tool comes down at the plunge's feed; on its way along the part straight down is as good as any
+/// From a rapid the tool comes down at the plunge's feed; on its path along the part straight down is as good as any
 /// other direction.
-fn feed_fault(operation: &ExpectedOperation, leg: &Leg, comes_down: bool, feed: f64, unit: f64) -> Option<Fault> {
-    let expected = match leg.kind {
-        LegKind::Plunge if comes_down => operation.plunge,
+fn feed_fault(
+    operation: &ExpectedOperation,
+    segment: &Segment,
+    comes_down: bool,
+    feed: f64,
+    unit: f64,
+) -> Option<Fault> {
+    let expected = match segment.kind {
+        SegmentKind::Plunge if comes_down => operation.plunge,
         // a feed that goes nowhere or up is no faster than any other
-        LegKind::Still | LegKind::Retract => feed.min(operation.cut.max(operation.plunge)),
+        SegmentKind::Still | SegmentKind::Retract => feed.min(operation.cut.max(operation.plunge)),
         _ => operation.cut,
     };
     let same = (feed - expected).abs() <= unit + SAME_FEED * expected;
-    (feed > 0.0 && !same).then(|| leg.fault(FindingKind::FeedDiffers).measured(feed, expected))
+    (feed > 0.0 && !same).then(|| segment.fault(&faults::FEED).measured(feed, expected))
 }
 
-fn spindle_fault(operation: &ExpectedOperation, leg: &Leg, turns: Option<(f64, SpindleDirection)>) -> Option<Fault> {
+fn spindle_fault(
+    operation: &ExpectedOperation,
+    segment: &Segment,
+    turns: Option<(f64, SpindleDirection)>,
+) -> Option<Fault> {
     let (found, expected) = (signed(turns), signed(operation.spindle));
     let same = (found - expected).abs() <= 0.5 + SAME_FEED * expected.abs();
-    (!same).then(|| leg.fault(FindingKind::SpindleDiffers).measured(found, expected))
+    (!same).then(|| segment.fault(&faults::SPINDLE).measured(found, expected))
 }
 
 /// Speed, negative counterclockwise, 0 when it stands.

@@ -1,4 +1,4 @@
-//! What a program is judged against, and how strictly.
+//! What a program is checked against, and how strictly.
 
 use std::ops::Range;
 
@@ -6,8 +6,7 @@ use styluscam_geometry::{Bvh, Mesh, Sheet, Tool};
 use styluscam_motion::MachineMove;
 
 use crate::expectation::ExpectedOperation;
-use crate::reach::Reach;
-use crate::FindingKind;
+use crate::findings::FindingKind;
 
 /// The part and the tools, in the program's work coordinates.
 #[derive(Clone, Copy, Debug)]
@@ -21,17 +20,17 @@ pub struct Subject<'a> {
     /// The sheet between tool and part, when there is one.
     pub sheet: Option<Sheet>,
     /// How far the triangles lie inside the true surface at most, mm: taken off every clearance
-    /// before it is judged as a gouge.
+    /// before it is checked as a gouge.
     pub deviation_inward: f64,
     /// How far the triangles lie outside the true surface at most, mm: added to every clearance
-    /// before it is judged as an excess.
+    /// before it is checked as an excess.
     pub deviation_outward: f64,
     /// Work offset in which the part stands; the program must be in it.
     pub wcs: &'a str,
-    /// Moves whose end is not known in all three axes, in ascending runs. They have no place in space, and the move
+    /// Moves whose end is not known in all three axes, in ascending runs. They have no position, and the move
     /// after them has no start.
     pub unplaced: &'a [Range<usize>],
-    /// What its text says besides the moves; none for a program that was not read from text.
+    /// What its text states besides the moves; none for a program that was not read from text.
     pub text: Option<&'a TextFacts>,
     /// The job's operations; none when feeds, spindle, coolant and passes are not to be checked.
     pub expected: &'a [ExpectedOperation],
@@ -42,8 +41,8 @@ pub struct Subject<'a> {
 /// Something that the tool, or tool and sheet, must not come near.
 #[derive(Debug)]
 pub struct Obstacle {
-    /// What it is when they do.
-    pub kind: FindingKind,
+    /// What it is.
+    pub kind: ObstacleKind,
     /// Its faces as tools from above meet them, work coordinates, mm.
     pub mesh: Mesh,
     /// The mesh's index.
@@ -54,7 +53,16 @@ pub struct Obstacle {
     pub margin: f64,
 }
 
-/// What a sheet bears.
+/// What stands around a part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ObstacleKind {
+    /// The frame that clamps the sheet.
+    Clamp,
+    /// The plate under the sheet.
+    Backing,
+}
+
+/// What a sheet withstands.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Forming {
     /// Its thickness before, mm.
@@ -65,16 +73,16 @@ pub struct Forming {
     pub min_thickness: f64,
     /// Steepest wall, rad.
     pub max_wall_angle: f64,
-    /// Walls up to this angle it bears whatever it is made of, rad; infinite where the steepest is known.
+    /// Walls up to this angle it withstands whatever it is made of, rad; infinite where the steepest is known.
     pub sure_wall_angle: f64,
     /// Whence that is known.
     pub bears: Bears,
 }
 
-/// Whence it is known how steep a wall a sheet bears.
+/// Whence it is known how steep a wall a sheet withstands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bears {
-    /// The job says so.
+    /// The job states it.
     Said,
     /// It is the material's, of this name.
     Material(&'static str),
@@ -82,16 +90,16 @@ pub enum Bears {
     Unknown,
 }
 
-/// What a text says besides its moves.
+/// What a text states besides its moves.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TextFacts {
     /// Moves at whose end the height is not known, in ascending runs.
     pub blind: Vec<Range<usize>>,
     /// Moves in the machine's own coordinates.
     pub machine_moves: Vec<MachineMove>,
-    /// Lines that run where a switch at the machine says so, and that the moves leave out.
+    /// Lines that run where a switch at the machine decides, and that the moves leave out.
     pub optional_lines: Vec<u32>,
-    /// Modal codes that the first move relies on and that the text does not say.
+    /// Modal codes that the first move relies on and that the text does not state.
     pub unsaid: Vec<&'static str>,
     /// Moves made while another plane than G17 was in force and no arc used it, in runs.
     pub stray_planes: Vec<Range<usize>>,
@@ -110,7 +118,7 @@ pub struct TextFacts {
 pub enum ToolCalls {
     /// The machine loads the tool.
     Load,
-    /// They say which tool the operator has loaded.
+    /// They name which tool the operator has loaded.
     #[default]
     Name,
     /// There is no word for them.
@@ -134,11 +142,11 @@ pub struct Limits {
     pub rapid_gap: f64,
     /// Height Z below which rapids do not go, mm; minus infinity where only the air under them counts.
     pub retract: f64,
-    /// By how much a feed may differ from the one ordered: it was rounded, mm/min.
+    /// By how much a feed may differ from the one that the job states: it was rounded, mm/min.
     pub feed_unit: f64,
     /// What the machine can do.
     pub reach: Reach,
-    /// What the sheet bears, where one is formed.
+    /// What the sheet withstands, where one is formed.
     pub forming: Option<Forming>,
     /// Most that may be left on the faces where the tool cannot get, mm.
     pub bridged: f64,
@@ -150,6 +158,19 @@ pub struct Limits {
     pub accepted: Vec<FindingKind>,
     /// What was found wrong with the job before its program was looked at, each with its sentence.
     pub found: Vec<(FindingKind, String)>,
+}
+
+/// What the machine can do; what is left out is not checked.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reach {
+    /// Lowest and highest position of each axis, of the point that the text moves, mm.
+    pub axes: [Option<[f64; 2]>; 3],
+    /// Length of each axis, mm.
+    pub travel: Option<[f64; 3]>,
+    /// Largest feed, mm/min.
+    pub feed: Option<f64>,
+    /// Smallest and largest speed of the spindle, rev/min.
+    pub rpm: Option<[f64; 2]>,
 }
 
 impl Subject<'_> {

@@ -1,20 +1,19 @@
-//! Where the body on a straight way is nearest to the part, or deepest in it.
+//! Where the body on a straight path is nearest to the part, or deepest in it.
 //!
-//! Along a straight move the distance from the body to a triangle is convex in the place on the move:
+//! Along a straight move the distance from the body to a triangle is convex in the position on the move:
 //! a supporting plane that keeps the triangle off at both ends keeps it off all the way, and where
-//! none is found the lowest place comes from one convex search.
-//!
-//! The derivation, and why one search is enough for a whole move: docs/concepts/verifier.md.
+//! none is found the lowest position comes from one convex search.
 
 use std::cell::Cell;
 
-use styluscam_geometry::Node;
+use styluscam_geometry::{Node, Vector};
 
 use crate::body::Plane;
 use crate::bounds::{apart, planes_at, Gap};
 use crate::clearance::{Facet, Prober, Touch};
 use crate::convex::{lower, Tangent, EQUAL};
-use crate::{Vector, SLACK};
+use crate::stroke::Stroke;
+use crate::tolerances::SLACK;
 
 /// A contact and the body's position there.
 #[derive(Clone, Copy, Debug)]
@@ -23,53 +22,20 @@ pub(crate) struct Passed {
     pub position: Vector,
 }
 
-/// A straight move of the body's tip.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Stroke {
-    pub from: Vector,
-    pub to: Vector,
-}
-
-impl Stroke {
-    /// A body that stays where it is.
-    pub fn still(at: Vector) -> Self {
-        Self { from: at, to: at }
-    }
-
-    pub fn at(&self, share: f64) -> Vector {
-        self.from + share * (self.to - self.from)
-    }
-
-    pub fn length(&self) -> f64 {
-        (self.to - self.from).norm()
-    }
-
-    /// A share of the stroke at which the body is about nearest to a point.
-    pub fn share_near(&self, p: Vector) -> f64 {
-        let along = self.to - self.from;
-        let plan = along.x * along.x + along.y * along.y;
-        if plan > 0.0 {
-            ((along.x * (p.x - self.from.x) + along.y * (p.y - self.from.y)) / plan).clamp(0.0, 1.0)
-        } else {
-            f64::from(u8::from(along.z < 0.0))
-        }
-    }
-}
-
 /// What is asked about a stroke.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Question {
     pub stroke: Stroke,
     /// Positions on the stroke at which the clearance is asked for.
     pub places: [Option<Vector>; 2],
-    /// The deepest contact is asked for if it is below this, and below every place by more than arithmetic; mm.
+    /// The deepest contact is asked for if it is below this, and below every position by more than arithmetic; mm.
     pub below: f64,
 }
 
 /// The answer.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Seen {
-    /// The contacts at the places asked for.
+    /// The contacts at the positions asked for.
     pub places: [Option<Touch>; 2],
     /// The deepest contact; none is a proof that there is none as deep as asked.
     pub deepest: Option<Passed>,
@@ -94,7 +60,7 @@ impl Guess {
 }
 
 impl Prober<'_> {
-    /// The contact of the body at one place; none where the part is empty.
+    /// The contact of the body at one position; none where the part is empty.
     pub fn at(&self, position: Vector, guess: Option<Guess>) -> Option<Touch> {
         let places = [Some(position), None];
         let question = Question { stroke: Stroke::still(position), places, below: f64::NEG_INFINITY };
@@ -117,17 +83,17 @@ impl Prober<'_> {
         };
         self.bvh.maximise(f64::NEG_INFINITY, |node| -survey.bound(node), visit);
         let seen = survey.seen.get();
-        // a place may have turned out deeper after the deepest contact between the places was found
+        // a position may have turned out deeper after the deepest contact between the positions was found
         Seen { deepest: seen.deepest.filter(|p| p.touch.value <= survey.below()), ..seen }
     }
 }
 
-/// A question on its way through the index.
+/// A question on its path through the index.
 struct Survey<'a> {
     prober: &'a Prober<'a>,
     question: Question,
     seen: Cell<Seen>,
-    /// Distance below which a triangle still matters, for each place and for what lies between them, mm.
+    /// Distance below which a triangle still matters, for each position and for what lies between them, mm.
     limits: Cell<[f64; 3]>,
     /// The contacts found so far: their planes keep most of the part off.
     hints: Cell<[Option<Hint>; 3]>,
@@ -141,10 +107,10 @@ struct Hint {
     triangle: u32,
 }
 
-/// The index of what lies between the places, after these.
+/// The index of what lies between the positions, after these.
 const BETWEEN: usize = 2;
 
-/// For what a triangle, or a node, may still matter: the places, and what lies between them.
+/// For what a triangle, or a node, may still matter: the positions, and what lies between them.
 #[derive(Clone, Copy)]
 struct Open {
     of: [bool; 3],
@@ -217,19 +183,19 @@ impl Survey<'_> {
         Open { of: [first.is_some(), second.is_some(), self.below() > f64::NEG_INFINITY], nearest: f64::INFINITY }
     }
 
-    /// Depth from which on a triangle matters between the places, mm.
+    /// Depth from which on a triangle matters between the positions, mm.
     fn below(&self) -> f64 {
         self.limits.get()[BETWEEN]
     }
 
-    /// Where to look for a plane that settles one of the places, or what lies between them, if that is open.
+    /// Where to look for a plane that settles one of the positions, or what lies between them, if that is open.
     fn target(&self, open: &Open, target: usize, middle: Vector) -> Option<Vector> {
         let stroke = &self.question.stroke;
         let between = || Some(stroke.at(stroke.share_near(middle)));
         self.question.places.get(target).copied().unwrap_or_else(between).filter(|_| open.of[target])
     }
 
-    /// Closes what bounds settle: one for each place, one for all between.
+    /// Closes what bounds settle: one for each position, one for all between.
     #[inline]
     fn settle(&self, open: &mut Open, at: impl Fn(Vector) -> f64, along: f64) {
         let limits = self.limits.get();
@@ -289,7 +255,7 @@ impl Survey<'_> {
         self.seen.set(seen);
     }
 
-    /// Closes what planes settle for a triangle: those of the contacts, then for each place one found for the triangle's
+    /// Closes what planes settle for a triangle: those of the contacts, then for each position one found for the triangle's
     /// middle, and one half way to the corner that this leaves nearest.
     fn keep_off(&self, open: &mut Open, corners: &[Vector; 3], hints: &[Option<Hint>; 3]) {
         let settle = |open: &mut Open, plane: &Plane| {
@@ -325,7 +291,7 @@ impl Survey<'_> {
         facet.over + rise.min(0.0) - self.prober.body.support_bound(facet.steep, facet.up.z.max(0.0))
     }
 
-    /// Looks for the deepest contact with one triangle between the places.
+    /// Looks for the deepest contact with one triangle between the positions.
     fn pass(&self, triangle: u32, corners: &[Vector; 3]) {
         let stroke = self.question.stroke;
         let along = stroke.to - stroke.from;
@@ -398,7 +364,7 @@ mod tests {
         #[test]
         fn the_index_loses_nothing(body in any_body(), mesh in any_mesh(), at in any_point(25.0, -2.0, 15.0)) {
             let (found, expected) = with(&body, &mesh, |p| (nearest(p, at), of_all(p, at)));
-            // how deep a kink is in the part is told by a bound only
+            // how deep a kink is in the part is known by a bound only
             let deep = found < -1e-3 && expected < -1e-3;
             prop_assert!(deep || (found - expected).abs() < 1e-9, "{found} {expected}");
         }

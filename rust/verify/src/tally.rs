@@ -1,15 +1,16 @@
-//! What the measured moves come to: their faults, the worst places, and some of the contacts.
+//! What the measured moves come to: their faults, the worst positions, and some of the contacts.
 
-use crate::findings::Fault;
-use crate::legs::{Leg, LegKind};
-use crate::measure::{highest, normal_of, Measured, Sample, Strike};
-use crate::tolerances::{ANGLE, VERTICAL};
-use crate::{ContactRecord, FindingKind, Forming, Limits, Place, Subject, SLACK};
+use crate::faults::{self, Fault, FaultKind};
+use crate::report::{ContactRecord, Place};
+use crate::samples::{highest, normal_of, Measured, Sample, Strike};
+use crate::segments::{Segment, SegmentKind};
+use crate::subject::{Forming, Limits, Subject};
+use crate::tolerances::{ANGLE, SLACK, VERTICAL};
 
 /// Contacts that are kept at most.
 const KEPT: usize = 4000;
 
-/// The largest value so far and its place.
+/// The largest value so far and its position.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Worst {
     pub value: f64,
@@ -54,7 +55,7 @@ pub(crate) struct Tally {
     pub excess: Worst,
     /// Positions at which the clearance was measured.
     pub samples: usize,
-    /// Samples of moves that should touch, each place once.
+    /// Samples of moves that should touch, each position once.
     pub contacts: usize,
     /// How many of them do.
     touching: usize,
@@ -100,25 +101,26 @@ pub(crate) struct Rule<'a> {
 }
 
 impl<'a> Rule<'a> {
-    pub fn new(legs: &[Leg], subject: &'a Subject<'a>, limits: &'a Limits) -> Self {
-        let contacts = 2 * legs.iter().filter(|leg| leg.excess.is_some()).map(Leg::piece_count).sum::<usize>();
+    pub fn new(segments: &[Segment], subject: &'a Subject<'a>, limits: &'a Limits) -> Self {
+        let contacts =
+            2 * segments.iter().filter(|segment| segment.excess.is_some()).map(Segment::piece_count).sum::<usize>();
         Self { subject, limits, keep_every: contacts.div_ceil(KEPT).max(1) }
     }
 
     /// Adds a piece of a move to its tally; `ordinal` counts the pieces before it that should touch.
-    pub fn add(&self, tally: &mut Tally, leg: &Leg, found: &Measured, ordinal: usize) {
+    pub fn add(&self, tally: &mut Tally, segment: &Segment, found: &Measured, ordinal: usize) {
         tally.samples += found.samples;
         if let Some(deepest) = &found.deepest {
-            tally.gouge.take(self.depth(deepest), place(leg, deepest));
-            tally.faults.extend(self.entry(leg, deepest));
+            tally.gouge.take(self.depth(deepest), place(segment, deepest));
+            tally.faults.extend(self.entry(segment, deepest));
         }
-        tally.faults.extend(found.struck.as_ref().and_then(|strike| self.strike(leg, strike)));
+        tally.faults.extend(found.struck.as_ref().and_then(|strike| self.strike(segment, strike)));
         if let Some(landing) = &found.landing {
             let (air, limit) = (landing.touch.value, self.limits.rapid_gap);
-            tally.faults.push(fault(FindingKind::RapidPlunge, leg, landing, (air, limit), limit - air));
+            tally.faults.push(fault(&faults::RAPID_PLUNGE, segment, landing, (air, limit), limit - air));
         }
-        if let Some(limit) = leg.excess {
-            self.contact(tally, leg, found, limit, ordinal.is_multiple_of(self.keep_every));
+        if let Some(limit) = segment.excess {
+            self.contact(tally, segment, found, limit, ordinal.is_multiple_of(self.keep_every));
         }
     }
 
@@ -132,40 +134,38 @@ impl<'a> Rule<'a> {
 
     /// The fault of a move that is too deep in the part.
     ///
-    /// A rapid that is deepest where it starts only leaves a place that the move before it is blamed for.
-    fn entry(&self, leg: &Leg, deepest: &Sample) -> Option<Fault> {
+    /// A rapid that is deepest where it starts only leaves a position that the move before it is blamed for.
+    fn entry(&self, segment: &Segment, deepest: &Sample) -> Option<Fault> {
         let depth = self.depth(deepest);
-        let brought_here = leg.kind == LegKind::Rapid && leg.starts_at(deepest.tip);
+        let brought_here = segment.kind == SegmentKind::Rapid && segment.starts_at(deepest.tip);
         if depth <= self.limits.gouge + SLACK || brought_here {
             return None;
         }
-        let (kind, value) = match leg.kind {
-            LegKind::Rapid if leg.descends() && !leg.travels() => (FindingKind::RapidPlunge, -depth),
-            LegKind::Rapid => (FindingKind::RapidIntoMaterial, depth),
-            _ => (FindingKind::Gouge, depth),
+        let (kind, value) = match segment.kind {
+            SegmentKind::Rapid if segment.descends() && !segment.travels() => (&faults::RAPID_PLUNGE, -depth),
+            SegmentKind::Rapid => (&faults::RAPID_INTO_MATERIAL, depth),
+            _ => (&faults::GOUGE, depth),
         };
-        Some(fault(kind, leg, deepest, (value, self.limits.gouge), depth))
+        Some(fault(kind, segment, deepest, (value, self.limits.gouge), depth))
     }
 
-    fn strike(&self, leg: &Leg, Strike { kind, sample, least }: &Strike) -> Option<Fault> {
+    fn strike(&self, segment: &Segment, strike: &Strike) -> Option<Fault> {
+        let Strike { kind, is_at_part, sample, least } = strike;
         let room = sample.touch.value - least;
-        if room >= -SLACK || leg.kind == LegKind::Rapid && leg.starts_at(sample.tip) {
+        if room >= -SLACK || segment.kind == SegmentKind::Rapid && segment.starts_at(sample.tip) {
             return None;
         }
-        let measure = match kind {
-            FindingKind::ShankCollision | FindingKind::HolderCollision => (self.depth(sample), self.limits.gouge),
-            _ => (sample.touch.value, *least),
-        };
-        Some(fault(*kind, leg, sample, measure, -room))
+        let measure = if *is_at_part { (self.depth(sample), self.limits.gouge) } else { (sample.touch.value, *least) };
+        Some(fault(kind, segment, sample, measure, -room))
     }
 
     /// A move that should touch, within `limit` mm. Its middle and its end are counted: its start is the end of another.
-    fn contact(&self, tally: &mut Tally, leg: &Leg, found: &Measured, limit: f64, kept: bool) {
+    fn contact(&self, tally: &mut Tally, segment: &Segment, found: &Measured, limit: f64, kept: bool) {
         if let Some(sample) = highest(&found.contacts) {
             let excess = self.distance(&sample);
-            tally.excess.take(excess, place(leg, &sample));
+            tally.excess.take(excess, place(segment, &sample));
             if excess > limit + SLACK {
-                tally.faults.push(fault(FindingKind::Excess, leg, &sample, (excess, limit), excess));
+                tally.faults.push(fault(&faults::EXCESS, segment, &sample, (excess, limit), excess));
             }
         }
         for sample in found.contacts[1..].iter().flatten() {
@@ -174,33 +174,33 @@ impl<'a> Rule<'a> {
             tally.contacts += 1;
             tally.touching += usize::from(touches);
             if touches {
-                tally.faults.extend(self.limits.forming.iter().flat_map(|forming| strain(forming, leg, sample)));
+                tally.faults.extend(self.limits.forming.iter().flat_map(|forming| strain(forming, segment, sample)));
             }
             if kept {
-                tally.kept.push(Kept { sample: *sample, line: leg.line, touches });
+                tally.kept.push(Kept { sample: *sample, line: segment.line, touches });
             }
         }
     }
 }
 
-/// A contact at which the sheet is formed steeper or thinner than it bears.
-fn strain(forming: &Forming, leg: &Leg, sample: &Sample) -> impl Iterator<Item = Fault> {
+/// A contact at which the sheet is formed steeper or thinner than it withstands.
+fn strain(forming: &Forming, segment: &Segment, sample: &Sample) -> impl Iterator<Item = Fault> {
     let cos = normal_of(&sample.touch).z.clamp(0.0, 1.0);
     let (angle, thickness) = (libm::acos(cos), forming.thickness * cos);
-    let at = |kind| Fault { position: sample.tip, ..leg.fault(kind) };
+    let at = |kind: &'static FaultKind| Fault { position: sample.tip, ..segment.fault(kind) };
     let most = forming.max_wall_angle;
-    // an upright contact may be the blank's edge: `walls` tells it from a wall
+    // an upright contact may be the blank's edge: `walls` distinguishes it from a wall
     let steep = (angle > most + ANGLE && cos > VERTICAL)
-        .then(|| at(FindingKind::WallAngle).measured(angle.to_degrees(), most.to_degrees()));
+        .then(|| at(&faults::WALL_ANGLE).measured(angle.to_degrees(), most.to_degrees()));
     let thin = (thickness < forming.min_thickness - SLACK)
-        .then(|| at(FindingKind::Thinning).measured(thickness, forming.min_thickness));
+        .then(|| at(&faults::THINNING).measured(thickness, forming.min_thickness));
     steep.into_iter().chain(thin)
 }
 
-fn place(leg: &Leg, sample: &Sample) -> Place {
-    Place { line: leg.line, position: sample.tip }
+fn place(segment: &Segment, sample: &Sample) -> Place {
+    Place { line: segment.line, position: sample.tip }
 }
 
-fn fault(kind: FindingKind, leg: &Leg, at: &Sample, measure: (f64, f64), weight: f64) -> Fault {
-    Fault { position: at.tip, measure: Some(measure), weight, ..leg.fault(kind) }
+fn fault(kind: &'static FaultKind, segment: &Segment, at: &Sample, measure: (f64, f64), weight: f64) -> Fault {
+    Fault { position: at.tip, measure: Some(measure), weight, ..segment.fault(kind) }
 }

@@ -4,10 +4,12 @@
 /// differ by less the earlier one is named.
 pub(crate) const SLACK: f64 = 1e-6;
 
-/// What may be left beside a pass besides the scallop, mm: triangles' corners.
+/// What may be left beside a pass besides the scallop, the tolerance and the mesh's deviation, mm: triangles' corners.
+/// Empirical, ten times the tessellation's default bound of 0.001 mm.
 pub(crate) const ROUGH: f64 = 0.01;
 
-/// Where a tool that touches a triangle is in others by less than this, it can get there, mm.
+/// Where a tool that touches a triangle is in others by less than this, it can get there, mm. Empirical, as large as the
+/// default tolerance; it does not follow an operation's.
 pub(crate) const ROOM: f64 = 0.005;
 
 /// Passes may be this many steps apart: a short last step is joined to the one before it.

@@ -1,80 +1,84 @@
-//! Checks that need no distances: rapids' heights, feeds, tools, known places.
+//! Checks that need no distances: rapids' heights, feeds, tools, known positions.
 
 use styluscam_motion::{EventKind, Move, MoveKind, Program};
 
-use crate::findings::{Fault, Finding};
-use crate::legs::{in_this_world, Leg, LegKind};
-use crate::unplaced::{self, standing_low};
-use crate::{FindingKind, Limits, Severity, Subject, ToolCalls, SLACK};
+use crate::faults::{self, Fault};
+use crate::findings::{Finding, FindingKind, Severity};
+use crate::segments::{in_this_world, Segment, SegmentKind};
+use crate::subject::{Limits, Subject, ToolCalls};
+use crate::tolerances::SLACK;
+use crate::unknown::{self, standing_low};
 
 /// Faults of the moves' text, in the order of the moves.
-pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits: &Limits) -> Vec<Fault> {
+pub(crate) fn faults(program: &Program, segments: &[Segment], subject: &Subject, limits: &Limits) -> Vec<Fault> {
     let mut faults = Vec::new();
     for (index, step) in program.moves.iter().enumerate() {
         faults.extend(text_faults(index, step, subject));
     }
-    faults.extend(legs.iter().filter_map(|leg| height_fault(leg, limits)));
-    faults.extend(legs.iter().filter(|leg| leg.tool.is_none()).map(|leg| leg.fault(FindingKind::UnknownTool)));
+    faults.extend(segments.iter().filter_map(|segment| height_fault(segment, limits)));
+    faults.extend(
+        segments.iter().filter(|segment| segment.tool.is_none()).map(|segment| segment.fault(&faults::UNKNOWN_TOOL)),
+    );
     faults.extend(missing_tool_change(program, subject));
-    faults.extend(unplaced::faults(program, legs, subject, limits));
-    faults.extend(unsafe_end(program, legs, subject, limits));
-    faults.extend(dwells(program, legs, subject, limits));
-    faults.extend(stops(legs, subject, limits));
-    faults.extend(legs.iter().filter_map(|leg| deep_rapid(leg, limits)));
-    faults.extend(stray_planes(program, subject));
+    faults.extend(unknown::faults(program, segments, subject, limits));
+    faults.extend(unsafe_end(program, segments, subject, limits));
+    faults.extend(dwells(program, segments, subject, limits));
+    faults.extend(stops(segments, subject, limits));
+    faults.extend(segments.iter().filter_map(|segment| deep_rapid(segment, limits)));
+    faults.extend(planes_not_needed(program, subject));
     faults.extend(no_end(program, subject));
     faults
 }
 
-/// Places at which the program ends, or changes the tool, with the tool down.
-fn unsafe_end(program: &Program, legs: &[Leg], subject: &Subject, limits: &Limits) -> Vec<Fault> {
+/// Positions at which the program ends, or changes the tool, with the tool down.
+fn unsafe_end(program: &Program, segments: &[Segment], subject: &Subject, limits: &Limits) -> Vec<Fault> {
     let changes = program.events.iter().filter(|event| matches!(event.kind, EventKind::ToolChange { .. }));
     let stops = changes.map(|event| event.before).chain([program.moves.len()]);
     let left = stops.filter_map(|before| {
-        let leg = standing_low(legs, before, subject, limits).filter(|leg| leg.index + 1 == before)?;
-        Some(leg.fault(FindingKind::UnsafeEnd).measured(leg.end[2], limits.clearance))
+        let segment = standing_low(segments, before, subject, limits).filter(|segment| segment.index + 1 == before)?;
+        Some(segment.fault(&faults::UNSAFE_END).measured(segment.end[2], limits.clearance))
     });
     left.collect()
 }
 
 /// Waits with the tool down.
-fn dwells(program: &Program, legs: &[Leg], subject: &Subject, limits: &Limits) -> Vec<Fault> {
+fn dwells(program: &Program, segments: &[Segment], subject: &Subject, limits: &Limits) -> Vec<Fault> {
     let waits = program.events.iter().filter_map(|event| match event.kind {
         EventKind::Dwell { seconds } if seconds > 0.0 => Some((event.before, seconds)),
         _ => None,
     });
     let down = waits.filter_map(|(before, seconds)| {
-        let leg = standing_low(legs, before, subject, limits)?;
-        Some(leg.fault(FindingKind::Dwell).measured(seconds, 0.0))
+        let segment = standing_low(segments, before, subject, limits)?;
+        Some(segment.fault(&faults::DWELL).measured(seconds, 0.0))
     });
     down.collect()
 }
 
 /// Stops with the tool down.
-fn stops(legs: &[Leg], subject: &Subject, limits: &Limits) -> Vec<Fault> {
+fn stops(segments: &[Segment], subject: &Subject, limits: &Limits) -> Vec<Fault> {
     let stops = subject.text.iter().flat_map(|text| &text.stops);
-    let down = stops.filter_map(|before| standing_low(legs, *before, subject, limits));
-    down.map(|leg| leg.fault(FindingKind::StopBelow)).collect()
+    let down = stops.filter_map(|before| standing_low(segments, *before, subject, limits));
+    down.map(|segment| segment.fault(&faults::STOP_BELOW)).collect()
 }
 
 /// A rapid down to where only feeds should go.
-fn deep_rapid(leg: &Leg, limits: &Limits) -> Option<Fault> {
-    let deep = leg.kind == LegKind::Rapid && leg.descends() && leg.end[2] < limits.retract - SLACK;
-    deep.then(|| leg.fault(FindingKind::DeepRapid).measured(leg.end[2], limits.retract))
+fn deep_rapid(segment: &Segment, limits: &Limits) -> Option<Fault> {
+    let deep = segment.kind == SegmentKind::Rapid && segment.descends() && segment.end[2] < limits.retract - SLACK;
+    deep.then(|| segment.fault(&faults::DEEP_RAPID).measured(segment.end[2], limits.retract))
 }
 
-fn stray_planes(program: &Program, subject: &Subject) -> Vec<Fault> {
+fn planes_not_needed(program: &Program, subject: &Subject) -> Vec<Fault> {
     let runs = subject.text.iter().flat_map(|text| &text.stray_planes);
     let moves = runs.flat_map(Clone::clone).filter_map(|index| Some((index, program.moves.get(index)?)));
     let feeds = moves.filter(|(_, step)| step.kind == MoveKind::Feed);
-    feeds.map(|(index, step)| Fault::of(FindingKind::WorkPlane, index, step)).collect()
+    feeds.map(|(index, step)| Fault::of(&faults::PLANE_NOT_NEEDED, index, step)).collect()
 }
 
 /// A text without its end may be cut off; what it has switched on stays on.
 fn no_end(program: &Program, subject: &Subject) -> Option<Fault> {
     let text = subject.text.filter(|text| !text.ended)?;
     let step = program.moves.last()?;
-    Some(Fault { line: text.lines, ..Fault::of(FindingKind::NoEnd, program.moves.len() - 1, step) })
+    Some(Fault { line: text.lines, ..Fault::of(&faults::NO_END, program.moves.len() - 1, step) })
 }
 
 /// The finding of a program that never feeds.
@@ -84,25 +88,25 @@ pub(crate) fn no_feed_moves(program: &Program) -> Option<Finding> {
     none.then(|| Finding::of_all(FindingKind::NoFeedMoves, Severity::Error, message))
 }
 
-/// The finding of lines that run where the machine's switch for optional blocks says so.
+/// The finding of lines that run where the machine's switch for optional blocks decides.
 pub(crate) fn optional_lines(subject: &Subject) -> Option<Finding> {
     let lines = &subject.text?.optional_lines;
     let (line, last_line) = (*lines.first()?, *lines.last()?);
     let count = lines.len();
     let message = format!(
-        "line {line}: {count} of the text's lines begin with / and run or do not, as a switch at the machine stands; \
-         take them out, or their marks"
+        "line {line}: {count} of the text's lines begin with / and run only as a switch at the machine is set; \
+         remove them, or their marks"
     );
     let finding = Finding::of_all(FindingKind::OptionalLines, Severity::Error, message).at_line(line);
     Some(Finding { last_line, ..finding })
 }
 
-/// The finding of modal codes that are not said: the controller is as the last program, or the operator, left it.
-pub(crate) fn unsaid(program: &Program, subject: &Subject) -> Option<Finding> {
+/// The finding of modal codes that are not stated: the controller is as the last program, or the operator, left it.
+pub(crate) fn modes_not_stated(program: &Program, subject: &Subject) -> Option<Finding> {
     let codes = subject.text.map(|text| text.unsaid.join(" and ")).filter(|codes| !codes.is_empty())?;
     let line = program.moves.first().map_or(0, |step| step.line);
     let message = format!(
-        "line {line}: the text moves and has not said {codes}: what the controller was left in counts; write {codes} first"
+        "line {line}: modal code not stated ({codes}): the controller keeps what the last program left; write {codes} before the first move"
     );
     Some(Finding::of_all(FindingKind::UnsaidMode, Severity::Warning, message).at_line(line))
 }
@@ -125,24 +129,24 @@ fn text_faults(index: usize, step: &Move, subject: &Subject) -> impl Iterator<It
     let from_a_place = index.checked_sub(1).is_some_and(|before| subject.places(before));
     let fault = |kind| Fault::of(kind, index, step);
     [
-        (feeds && !(step.feed > 0.0 && step.feed.is_finite())).then(|| fault(FindingKind::MissingFeed)),
-        (feeds && !(placed && from_a_place)).then(|| fault(FindingKind::UnplacedFeed)),
-        (absurd && placed).then(|| fault(FindingKind::NotFinite)),
+        (feeds && !(step.feed > 0.0 && step.feed.is_finite())).then(|| fault(&faults::MISSING_FEED)),
+        (feeds && !(placed && from_a_place)).then(|| fault(&faults::UNPLACED_FEED)),
+        (absurd && placed).then(|| fault(&faults::NOT_FINITE)),
     ]
     .into_iter()
     .flatten()
 }
 
 /// A rapid that goes sideways below the clearance height.
-fn height_fault(leg: &Leg, limits: &Limits) -> Option<Fault> {
-    let start = leg.start?;
-    let lowest = start[2].min(leg.end[2]);
-    if leg.kind != LegKind::Rapid || !leg.travels() || lowest >= limits.clearance - SLACK {
+fn height_fault(segment: &Segment, limits: &Limits) -> Option<Fault> {
+    let start = segment.start?;
+    let lowest = start[2].min(segment.end[2]);
+    if segment.kind != SegmentKind::Rapid || !segment.travels() || lowest >= limits.clearance - SLACK {
         return None;
     }
-    let kind = if leg.descends() { FindingKind::DogLegRapid } else { FindingKind::LowRapid };
-    let position = if start[2] < leg.end[2] { start } else { leg.end };
-    Some(Fault { position, ..leg.fault(kind) }.measured(lowest, limits.clearance))
+    let kind = if segment.descends() { &faults::DOG_LEG_RAPID } else { &faults::LOW_RAPID };
+    let position = if start[2] < segment.end[2] { start } else { segment.end };
+    Some(Fault { position, ..segment.fault(kind) }.measured(lowest, limits.clearance))
 }
 
 /// A feed move before any tool change: harmless only where there is but one tool, and the operator loads it.
@@ -158,6 +162,6 @@ fn missing_tool_change(program: &Program, subject: &Subject) -> Option<Fault> {
     }
     let alone = calls != ToolCalls::Load && program.tools.len() <= 1;
     let step = program.moves.get(index)?;
-    let fault = Fault::of(FindingKind::MissingToolChange, index, step);
+    let fault = Fault::of(&faults::MISSING_TOOL_CHANGE, index, step);
     Some(if alone { fault.warning() } else { fault })
 }

@@ -1,30 +1,30 @@
-//! Places of the faces that the tools cannot get to: how much the program leaves there, and on how much of the area.
+//! Positions of the faces that the tools cannot get to: how much the program leaves there, and on how much of the area.
 //!
-//! A place is looked at with the tool where it touches the place's own triangle. Where that tool is in the part elsewhere, it
-//! is pushed out of it, and pulled to the place again, by turns; what lies between tool and place at best is bridged. Where it
-//! cannot be pushed out, since the place lies between walls that are nearer than the tool is wide, what the program's moves
+//! A position is looked at with the tool where it touches the position's own triangle. Where that tool is in the part elsewhere, it
+//! is pushed out of it, and pulled to the position again, by turns; what lies between tool and position at best is bridged. Where it
+//! cannot be pushed out, since the position lies between walls that are nearer than the tool is wide, what the program's moves
 //! leave there counts. What lies between passes is no bridge: there the tool can touch.
 
 use rayon::prelude::*;
-use styluscam_geometry::{Bvh, Mesh, Sheet, Tool};
+use styluscam_geometry::{Bvh, Mesh, Sheet, Tool, Vector};
 use styluscam_motion::{Cancelled, Watch};
 
 use crate::body::Body;
 use crate::clearance::Prober;
 use crate::coverage::Sweeps;
 use crate::expectation::{Contact, Expectation, ExpectedOperation};
-use crate::findings::Finding;
-use crate::legs::Leg;
+use crate::findings::{Finding, FindingKind, Severity};
 use crate::probes::{self, Probe};
+use crate::segments::Segment;
+use crate::subject::{Limits, Subject};
 use crate::sweep::Guess;
 use crate::tolerances::ROOM;
-use crate::{FindingKind, Limits, Severity, Subject, Vector};
 
 /// Points that are looked at.
 const POINTS: usize = 2000;
 /// Points in a piece of work. Fixed, so that the result does not depend on the number of threads.
 const CHUNK: usize = 64;
-/// How often a tool is pushed out of the part, or pulled to the place.
+/// How often a tool is pushed out of the part, or pulled to the position.
 const PUSHES: usize = 48;
 /// A start is given up when so many pulls, or pushes, in a row left more than this share of what was left before.
 const IN_VAIN: usize = 5;
@@ -35,9 +35,9 @@ const BEYOND: f64 = 1e-6;
 /// The findings of what cannot be reached.
 ///
 /// # Errors
-/// `Cancelled` when the watch says so.
+/// `Cancelled` when the watch is cancelled.
 pub(crate) fn findings(
-    legs: &[Leg],
+    segments: &[Segment],
     subject: &Subject,
     limits: &Limits,
     watch: &Watch,
@@ -48,8 +48,8 @@ pub(crate) fn findings(
     }
     let tasks: Vec<Task> = subject.expected.iter().filter_map(|operation| Task::new(operation, subject)).collect();
     let is_selected = |triangle: &usize| tasks.iter().any(|task| task.expectation.selects(*triangle));
-    let wanted: Vec<usize> = (0..subject.mesh.triangles().len()).filter(is_selected).collect();
-    let probes = probes::spread(subject.mesh, &wanted, POINTS);
+    let selected: Vec<usize> = (0..subject.mesh.triangles().len()).filter(is_selected).collect();
+    let probes = probes::spread(subject.mesh, &selected, POINTS);
     watch.begin("reach", probes.len().div_ceil(CHUNK));
     let gaps: Result<Vec<Vec<Option<f64>>>, Cancelled> = probes
         .par_chunks(CHUNK)
@@ -63,17 +63,17 @@ pub(crate) fn findings(
     let mut places: Vec<Place> =
         asked.iter().filter(|(_, gap)| *gap > most).map(|(probe, gap)| Place { probe, left: *gap }).collect();
     if !places.is_empty() {
-        let sweeps = Sweeps::of_all(legs, subject);
+        let sweeps = Sweeps::of_all(segments, subject);
         let mut last = None;
         for place in &mut places {
             place.left = place.left.min(sweeps.left(place.probe.point, &mut last));
         }
     }
-    let area: f64 = wanted.iter().map(|triangle| subject.mesh.area(*triangle)).sum();
-    Ok(told(&places, asked.len(), area / probes.len().max(1) as f64, subject, limits))
+    let area: f64 = selected.iter().map(|triangle| subject.mesh.area(*triangle)).sum();
+    Ok(findings_of(&places, asked.len(), area / probes.len().max(1) as f64, subject, limits))
 }
 
-/// A place that no tool can touch.
+/// A position that no tool can touch.
 struct Place<'a> {
     probe: &'a Probe,
     /// What is left there, mm; infinite where the program does nothing.
@@ -110,7 +110,7 @@ impl<'a> Task<'a> {
 
 /// What lies between a point, given with its triangle's normal, and a tool that starts from a position, or from beside it,
 /// where it is as near as it can get or leaves no more than `enough`, mm; infinite where it only stands on the other side of
-/// the triangle. From one start it may end between two walls though there is room on another side.
+/// the triangle. From one start it may end between two walls though there is space on another side.
 fn nearest(prober: &Prober, point: (Vector, Vector), position: Vector, enough: f64) -> f64 {
     let radius = prober.body.radius();
     let mut least = nearest_from(prober, point, position, enough);
@@ -135,7 +135,7 @@ fn nearest_from(prober: &Prober, (point, up): (Vector, Vector), mut position: Ve
         match touch {
             Some(touch) if touch.value < -ROOM => {
                 if pushes.are_in_vain(-touch.value) {
-                    // between two walls that leave it no room
+                    // between two walls that leave it no space
                     break;
                 }
                 position += touch.value * touch.away;
@@ -202,7 +202,7 @@ impl<'a> ToolReach<'a> {
     }
 
     /// Share of some triangles' area, 0 to 1, on which the tool leaves more than `enough` (mm) at best: looked for at
-    /// `points` places.
+    /// `points` positions.
     #[must_use]
     pub fn share_left(&self, triangles: &[usize], points: usize, enough: f64) -> f64 {
         let probes = probes::spread(self.mesh, triangles, points);
@@ -216,7 +216,7 @@ fn gap(tasks: &[Task], probe: &Probe, subject: &Subject, enough: f64) -> Option<
     tasks.iter().filter_map(|task| task.gap(probe, subject, enough)).min_by(f64::total_cmp)
 }
 
-fn told(places: &[Place], asked: usize, area_each: f64, subject: &Subject, limits: &Limits) -> Vec<Finding> {
+fn findings_of(places: &[Place], asked: usize, area_each: f64, subject: &Subject, limits: &Limits) -> Vec<Finding> {
     let mut findings = Vec::new();
     let Some(worst) = places.iter().max_by(|a, b| a.left.total_cmp(&b.left)) else { return findings };
     let face = |place: &Place| subject.mesh.faces().get(place.probe.triangle).copied().unwrap_or(0);

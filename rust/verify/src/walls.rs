@@ -1,14 +1,13 @@
-//! Walls of the part that are steeper than the sheet bears, whether a move touches them or not.
+//! Walls of the part that are steeper than the sheet allows, whether a move touches them or not.
 
 use std::collections::HashSet;
 
-use styluscam_geometry::{Cutter, Mesh, Tool};
+use styluscam_geometry::{Cutter, Mesh, Tool, Vector};
 
 use crate::expectation::Expectation;
-use crate::findings::Finding;
-use crate::subject::{Bears, Forming};
+use crate::findings::{Finding, FindingKind, Severity};
+use crate::subject::{Bears, Forming, Limits, Subject};
 use crate::tolerances::{ANGLE, VERTICAL};
-use crate::{FindingKind, Limits, Severity, Subject, Vector};
 
 /// Area that makes a wall, mm^2, and as a share of the faces: less is a sliver's.
 const AREA: (f64, f64) = (1.0, 1e-3);
@@ -42,7 +41,7 @@ pub(crate) fn finding(subject: &Subject, limits: &Limits) -> Option<Finding> {
     let most = forming.max_wall_angle.min(forming.sure_wall_angle);
     let enough = AREA.0.min(AREA.1 * area);
     let steepest = steepest(walls, most + ANGLE, enough)?;
-    Some(told(&forming, &steepest))
+    Some(finding_of(&forming, &steepest))
 }
 
 /// A triangle of a wall.
@@ -95,7 +94,7 @@ fn rising_from(mesh: &Mesh, sloped: &[usize]) -> Vec<usize> {
     (0..mesh.triangles().len()).filter(|triangle| is_vertical(mesh, *triangle)).filter(rises).collect()
 }
 
-fn told(forming: &Forming, wall: &Wall) -> Finding {
+fn finding_of(forming: &Forming, wall: &Wall) -> Finding {
     let angle = wall.angle.to_degrees();
     let [most, sure] = [forming.max_wall_angle, forming.sure_wall_angle].map(f64::to_degrees);
     let is_error = wall.angle > forming.max_wall_angle + ANGLE;
@@ -106,21 +105,21 @@ fn told(forming: &Forming, wall: &Wall) -> Finding {
              its walls share the angle, or form in stages"
         ),
         (Bears::Material(name), true) => format!(
-            "{place}: a wall is at {angle:.1} degrees, and {name} bears {most:.1} in one pass; turn the part so that its \
-             walls share the angle, form in stages, or give what your sheet bears as setup.sheet.max_wall_angle_deg"
+            "{place}: a wall is at {angle:.1} degrees, and {name} allows {most:.1} in one pass; turn the part so that its \
+             walls share the angle, form in stages, or state what your sheet allows as setup.sheet.max_wall_angle_deg"
         ),
         (Bears::Material(name), false) => format!(
-            "{place}: a wall is at {angle:.1} degrees, and {name} bears {sure:.1} to {most:.1} in one pass; try it, and \
-             give what your sheet bears as setup.sheet.max_wall_angle_deg"
+            "{place}: a wall is at {angle:.1} degrees, and {name} allows {sure:.1} to {most:.1} in one pass; try it, and \
+             state what your sheet allows as setup.sheet.max_wall_angle_deg"
         ),
         (Bears::Unknown, true) => format!(
-            "{place}: a wall is at {angle:.1} degrees, and no material that we know of bears more than {most:.1} in one \
-             pass; turn the part so that its walls share the angle, form in stages, or give what your sheet bears as \
+            "{place}: a wall is at {angle:.1} degrees, and no known material allows more than {most:.1} in one \
+             pass; turn the part so that its walls share the angle, form in stages, or state what your sheet allows as \
              setup.sheet.max_wall_angle_deg"
         ),
         (Bears::Unknown, false) => format!(
-            "{place}: a wall is at {angle:.1} degrees, and not every material bears more than {sure:.1} in one pass; name \
-             the material (process.material), or give what your sheet bears as setup.sheet.max_wall_angle_deg"
+            "{place}: a wall is at {angle:.1} degrees, and not every material allows more than {sure:.1} in one pass; name \
+             the material (process.material), or state what your sheet allows as setup.sheet.max_wall_angle_deg"
         ),
     };
     let severity = if is_error { Severity::Error } else { Severity::Warning };

@@ -350,6 +350,6 @@ fn the_same_fault_in_two_regions_is_told_twice_and_not_a_hundred_times() {
         assert!((deepest - if low[0] > 0.0 { 0.14 } else { 0.034 }).abs() < 0.01, "{deepest}");
         let worst = listed.iter().find(|finding| finding.value == group.value).unwrap();
         assert_eq!((group.line, group.position), (worst.line, worst.position));
-        assert!(group.message.contains(&format!("the worst of {} places in X", group.count)), "{}", group.message);
+        assert!(group.message.contains(&format!("the worst of {} positions in X", group.count)), "{}", group.message);
     }
 }

@@ -1,11 +1,11 @@
 //! What was left of the material over the part, or taken out of it.
 
 use rayon::prelude::*;
-use styluscam_geometry::{Bvh, Mesh, Node};
+use styluscam_geometry::{Bvh, Mesh, Node, Vector};
 use styluscam_motion::{Cancelled, Watch};
 
-use super::{Grid, Simulation};
-use crate::Vector;
+use super::grid::Grid;
+use super::stock::Simulation;
 
 /// What a triangle reaches beyond its sides, as a share of it: a node on an edge belongs to both.
 const EDGE: f64 = 1e-9;
@@ -15,7 +15,7 @@ impl Simulation {
     /// it lies above it or beside the part.
     ///
     /// # Errors
-    /// `Cancelled` when the watch says so.
+    /// `Cancelled` when the watch is cancelled.
     pub fn distances(&self, mesh: &Mesh, bvh: &Bvh, watch: &Watch) -> Result<Vec<f64>, Cancelled> {
         let [width, depth] = self.grid.nodes;
         watch.begin("comparing", depth);
@@ -85,7 +85,7 @@ fn distance(mesh: &Mesh, bvh: &Bvh, point: Vector, most: f64) -> f64 {
     (-bvh.maximise(-(most * most), bound, visit)).sqrt()
 }
 
-/// The way from a point to the nearest one of a triangle: on its plane if that is inside, else on a side.
+/// The shift from a point to the nearest one of a triangle: on its plane if that is inside, else on a side.
 fn nearest([a, b, c]: [Vector; 3], point: Vector) -> Vector {
     let (ab, ac) = (b - a, c - a);
     let share = |along: Vector, from: Vector| (along.dot(&(point - from)) / along.norm_squared()).clamp(0.0, 1.0);

@@ -1,25 +1,25 @@
-//! A short way of a tool's tip, straight or bent a little, and how low it brings the tool over a place.
+//! A short path of a tool's tip, straight or bent a little, and how low it brings the tool over a position.
 
 use styluscam_motion::ArcWay;
 
 use super::underside::Underside;
 use crate::body::length;
 
-/// Newton's steps at most, on straight and on bent ways.
+/// Newton's steps at most, on straight and on bent paths.
 const STEPS: [usize; 2] = [60, 6];
-/// A step that changes nothing any more, as a share of a bent way.
+/// A step that changes nothing any more, as a share of a bent path.
 const SHORT_SHARE: f64 = 1e-5;
-/// Thirds that are taken off a way at most: what is left of it is shorter than rounding.
+/// Thirds that are taken off a path at most: what is left of it is shorter than rounding.
 const THIRDS: u32 = 60;
 /// A step of Newton's after which there is none to take, as a share of the tool's radius.
 const SHORT: f64 = 1e-6;
-/// Places nearer to each other than this share of the tool's radius are one.
+/// Positions nearer to each other than this share of the tool's radius are one.
 const ROUNDING: f64 = 1e-12;
 
-/// A place in plan, mm.
+/// A position in plan, mm.
 pub(super) type Place = [f64; 2];
 
-/// A way of the tip: at a share t from 0 to 1 it is at `from + t along + 4 t (1 - t) bulge`.
+/// A path of the tip: at a share t from 0 to 1 it is at `from + t along + 4 t (1 - t) bulge`.
 ///
 /// On an arc that is short enough for its bulge the parabola is off it by a thousandth of that.
 #[derive(Clone, Copy, Debug)]
@@ -40,14 +40,14 @@ pub(super) struct Cut {
 /// A plane that a cut's surface is nowhere below.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
-    /// Height over the place that it was made for, mm.
+    /// Height over the position that it was made for, mm.
     pub height: f64,
     /// Its gradient.
     pub gradient: [f64; 2],
 }
 
 impl Plane {
-    /// Height at an offset from that place, mm.
+    /// Height at an offset from that position, mm.
     #[inline]
     pub fn at(&self, offset: Place) -> f64 {
         self.height + self.gradient[0] * offset[0] + self.gradient[1] * offset[1]
@@ -64,7 +64,7 @@ impl Cut {
         Self::straight([0.0; 3], [0.0; 3], tool).of_part(way, arc, [0.0, 1.0])
     }
 
-    /// A part of the arc, told by its ends and its middle.
+    /// A part of the arc, given by its ends and its middle.
     fn of_part(&self, way: &ArcWay, arc: u32, part: [f32; 2]) -> Self {
         let [from, to] = part.map(|share| way.at(f64::from(share)));
         let middle = way.at(0.5 * (f64::from(part[0]) + f64::from(part[1])));
@@ -90,7 +90,7 @@ impl Cut {
         Self::straight(at, at, self.tool)
     }
 
-    /// Lower and upper corner of a box in plan that holds the tip's way.
+    /// Lower and upper corner of a box in plan that holds the tip's path.
     pub fn bounds(&self) -> [Place; 2] {
         let ends = |k: usize| (self.from[k], self.from[k] + self.along[k]);
         let ((x0, x1), (y0, y1)) = (ends(0), ends(1));
@@ -102,13 +102,13 @@ impl Cut {
         [0, 1, 2].map(|k| self.from[k] + share * self.along[k] + swing * self.bulge[k])
     }
 
-    /// Distance in plan from a place to the chord, mm.
+    /// Distance in plan from a position to the chord, mm.
     pub fn distance(&self, place: Place) -> f64 {
         let share = self.nearest(place).clamp(0.0, 1.0);
         length(place[0] - self.from[0] - share * self.along[0], place[1] - self.from[1] - share * self.along[1])
     }
 
-    /// Share at which the line of the chord is nearest to a place in plan; 0 where it has no length there.
+    /// Share at which the line of the chord is nearest to a position in plan; 0 where it has no length there.
     fn nearest(&self, place: Place) -> f64 {
         let [x, y, _] = self.along;
         let square = x * x + y * y;
@@ -119,7 +119,7 @@ impl Cut {
         }
     }
 
-    /// The lowest that it brings the tool over a place, mm, and the share at which; infinite where it does not come.
+    /// The lowest that it brings the tool over a position, mm, and the share at which; infinite where it does not come.
     #[inline]
     pub fn over(&self, tool: &Underside, place: Place) -> (f64, f64) {
         let share = self.share(tool, place);
@@ -137,9 +137,9 @@ impl Cut {
         tip[2] + tool.height(length(place[0] - tip[0], place[1] - tip[1]))
     }
 
-    /// The share at which the tool on the chord is lowest over a place; where it does not come, the nearest.
+    /// The share at which the tool on the chord is lowest over a position; where it does not come, the nearest.
     ///
-    /// Along the chord the height is convex: at its minimum the rise of the tool's surface along the way undoes the way's.
+    /// Along the chord the height is convex: at its minimum the rise of the tool's surface along the path undoes the path's.
     fn share(&self, tool: &Underside, place: Place) -> f64 {
         let [x, y, z] = self.along;
         let square = x * x + y * y;
@@ -158,7 +158,7 @@ impl Cut {
         if reach < 0.0 {
             return nearest;
         }
-        // distances along the chord in plan from the place, towards where the chord falls
+        // distances along the chord in plan from the position, towards where the chord falls
         let reach = reach.sqrt();
         let (first, last) = if z > 0.0 { (middle - 1.0, middle) } else { (-middle, 1.0 - middle) };
         let (first, last) = ((first * size).max(0.0), (last * size).min(reach));
@@ -170,7 +170,7 @@ impl Cut {
             Some(_) => (fall * reach / (1.0 + fall * fall).sqrt()).clamp(first, last),
             None => balance(tool, fall, aside, [first, last]),
         };
-        // ends to the bit: elsewhere the tool's rise and the way's are taken to be in balance
+        // ends to the bit: elsewhere the tool's rise and the path's are taken to be in balance
         let lower_end = f64::from(u8::from(z < 0.0));
         if best >= last && last < reach {
             return lower_end;
@@ -181,7 +181,7 @@ impl Cut {
         (middle - (best / size).copysign(z)).clamp(0.0, 1.0)
     }
 
-    /// The lowest on a bent way: Newton from the share that is best on its chord, where that leads to a minimum.
+    /// The lowest on a bent path: Newton from the share that is best on its chord, where that leads to a minimum.
     fn bent_over(&self, tool: &Underside, place: Place, share: f64) -> (f64, f64) {
         let mut share = share;
         for _ in 0..STEPS[1] {
@@ -201,7 +201,7 @@ impl Cut {
         self.by_thirds(tool, place)
     }
 
-    /// How fast the height over a place changes with the share, and how fast that does; none off the tool and beside kinks.
+    /// How fast the height over a position changes with the share, and how fast that does; none off the tool and beside kinks.
     fn rates(&self, tool: &Underside, place: Place, share: f64) -> Option<(f64, f64)> {
         let tip = self.at(share);
         let (turn, bend) = (4.0 - 8.0 * share, -8.0);
@@ -219,7 +219,7 @@ impl Cut {
         Some((first, bend * self.bulge[2] + curvature? * out * out + rise * away / distance))
     }
 
-    /// The lowest on a bent way by thirds: at rims and kinks.
+    /// The lowest on a bent path by thirds: at rims and kinks.
     fn by_thirds(&self, tool: &Underside, place: Place) -> (f64, f64) {
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..THIRDS {
@@ -237,9 +237,9 @@ impl Cut {
         ends.into_iter().fold((f64::INFINITY, 0.0), |best, found| if found.0 < best.0 { found } else { best })
     }
 
-    /// A plane that its surface is nowhere below within `around` mm of a place.
+    /// A plane that its surface is nowhere below within `around` mm of a position.
     ///
-    /// Height is convex in place and share together: a plane that touches at one share, and what the share can gain.
+    /// Height is convex in position and share together: a plane that touches at one share, and what the share can gain.
     pub fn plane(&self, tool: &Underside, place: Place, around: f64) -> Plane {
         let share = self.share(tool, place);
         let apart = [place[0] - self.from[0] - share * self.along[0], place[1] - self.from[1] - share * self.along[1]];
@@ -270,7 +270,7 @@ impl Cut {
     }
 }
 
-/// How far along a way that falls by `fall` the tool is lowest over a place that lies the root of `aside` off it, mm.
+/// How far along a path that falls by `fall` the tool is lowest over a position that lies the root of `aside` off it, mm.
 fn balance(tool: &Underside, fall: f64, aside: f64, [first, last]: [f64; 2]) -> f64 {
     let slope = |along: f64| {
         let distance = (aside + along * along).sqrt().min(tool.radius());
@@ -300,7 +300,7 @@ fn balance(tool: &Underside, fall: f64, aside: f64, [first, last]: [f64; 2]) -> 
         if let Some(next) = newton.filter(|next| *next > low && *next < high) {
             let step = (next - along).abs();
             along = next;
-            // an interior place: the next step would be as its square
+            // an interior position: the next step would be as its square
             if step <= SHORT * tool.radius() && next > first && next < last {
                 break;
             }

@@ -1,6 +1,6 @@
 //! Heights after all cuts: the lowest of them over every node, found by halving the plan.
 //!
-//! A region of nodes keeps the cuts that may be lowest somewhere in it. Along a straight way the height that a cut leaves
+//! A region of nodes keeps the cuts that may be lowest somewhere in it. Along a straight path the height that a cut leaves
 //! is convex over the plan: it is nowhere below a plane that touches it, and nowhere in a rectangle above the highest of its
 //! corners. So a cut whose plane is above another cut at the four corners is above it everywhere between them.
 
@@ -134,7 +134,7 @@ impl Field<'_> {
         let Some(lowest) = (0..cuts.len()).reduce(lowest) else { return };
         let cut = cuts[lowest].1;
         let tool = self.tool(&cut);
-        // along a bent way height is convex for the tool at rest only
+        // along a bent path height is convex for the tool at rest only
         let cover = if cut.sag > 0.0 { cut.still(cut.over(tool, extent.middle).1, self.arcs) } else { cut };
         let corners = extent.corners();
         let heights = corners.map(|[x, y]| cover.over(tool, [extent.middle[0] + x, extent.middle[1] + y]).0);

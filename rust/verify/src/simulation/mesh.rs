@@ -5,8 +5,10 @@
 //! triangles are off any node. Source: W. Evans, D. Kirkpatrick, G. Townsend, "Right-Triangulated Irregular Networks",
 //! Algorithmica 30, 2001.
 
-use super::{Grid, Simulation};
-use crate::Vector;
+use styluscam_geometry::Vector;
+
+use super::grid::Grid;
+use super::stock::Simulation;
 
 /// No vertex yet.
 const NONE: u32 = u32::MAX;

@@ -1,7 +1,7 @@
 //! The material as a program leaves it: heights over a grid in plan, cut by every move.
 //!
-//! Tools come from above and are open upwards, so what they leave is one height over each place in plan: the lowest that the
-//! tool's lower surface was there. At the nodes of the grid it is exact, between them nothing is said. Straight moves
+//! Tools come from above and are open upwards, so what they leave is one height over each position in plan: the lowest that the
+//! tool's lower surface was there. At the nodes of the grid it is exact, between them nothing is known. Straight moves
 //! are swept as they are, arcs as parabolas that are off them by less than 1e-6 mm. Rapids cut too, as straight lines.
 //!
 //! A formed sheet follows the tool: the face that it touches is the same lowest surface, the others are its offsets by the
@@ -13,36 +13,27 @@ mod cut;
 mod field;
 mod grid;
 mod mesh;
+mod stock;
 mod underside;
 
 use styluscam_motion::{ArcWay, Cancelled, Program, Watch};
 
-use crate::legs::{placed, Leg};
-use crate::{Limits, Subject};
+use crate::segments::{placed, Segment};
+use crate::subject::{Limits, Subject};
 use cut::Cut;
 use field::{Field, Tile};
 use underside::Underside;
 
 pub use grid::Grid;
 pub use mesh::Skin;
-
-/// Material after the last move.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Simulation {
-    /// Where the nodes are.
-    pub grid: Grid,
-    /// Height at every node, row by row from the lowest Y, mm.
-    pub heights: Vec<f64>,
-    /// Height before the first move, mm.
-    pub top: f64,
-}
+pub use stock::Simulation;
 
 /// Cuts a stock with a flat top with all moves of a program.
 ///
 /// With a sheet, the face that is followed is the one that `subject.sheet` names; `top` (mm) is its height on the blank.
 ///
 /// # Errors
-/// `Cancelled` when the watch says so.
+/// `Cancelled` when the watch is cancelled.
 pub fn simulate(
     program: &Program,
     subject: &Subject,
@@ -60,15 +51,17 @@ pub fn simulate(
 }
 
 /// What every move cuts, and the arcs that some of them are parts of.
-fn cuts(legs: &[Leg]) -> (Vec<Cut>, Vec<ArcWay>) {
+fn cuts(segments: &[Segment]) -> (Vec<Cut>, Vec<ArcWay>) {
     let mut arcs = Vec::new();
-    let cut = |leg: Leg| {
-        let tool = leg.tool? as u32;
-        let Some(way) = leg.bend else { return Some(Cut::straight(leg.start.unwrap_or(leg.end), leg.end, tool)) };
+    let cut = |segment: Segment| {
+        let tool = segment.tool? as u32;
+        let Some(way) = segment.bend else {
+            return Some(Cut::straight(segment.start.unwrap_or(segment.end), segment.end, tool));
+        };
         arcs.push(way);
         Some(Cut::bent(&way, arcs.len() as u32 - 1, tool))
     };
-    (legs.iter().flat_map(Leg::pieces).filter_map(cut).collect(), arcs)
+    (segments.iter().flat_map(Segment::pieces).filter_map(cut).collect(), arcs)
 }
 
 /// The tiles' heights in the order of the grid.

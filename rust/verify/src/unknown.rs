@@ -1,27 +1,27 @@
-//! Moves whose place is not known: at the start, after a tool change, and in the machine's own coordinates.
+//! Moves whose position is not known: at the start, after a tool change, and in the machine's own coordinates.
 
 use styluscam_motion::{MachineMove, Program};
 
-use crate::findings::Fault;
-use crate::legs::{last_before, Leg, LegKind};
-use crate::subject::run_of;
-use crate::{FindingKind, Limits, Subject, TextFacts, SLACK};
+use crate::faults::{self, Fault};
+use crate::segments::{last_before, Segment, SegmentKind};
+use crate::subject::{run_of, Limits, Subject, TextFacts};
+use crate::tolerances::SLACK;
 
-/// The share of the Z axis' length, from the machine's zero down, in which a machine place counts as its top.
+/// The share of the Z axis' length, from the machine's zero down, in which a machine position counts as its top.
 const TOP: f64 = 0.1;
 /// It is no more than this, mm.
 const NEAR_TOP: f64 = 10.0;
 
 /// Moves across before the tool is known to be up, and down before it is known where.
-pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits: &Limits) -> Vec<Fault> {
-    let first = legs.iter().filter(|leg| leg.start.is_none() && leg.kind == LegKind::Rapid);
-    let low = first.filter(|leg| leg.end[2] < limits.clearance - SLACK);
+pub(crate) fn faults(program: &Program, segments: &[Segment], subject: &Subject, limits: &Limits) -> Vec<Fault> {
+    let first = segments.iter().filter(|segment| segment.start.is_none() && segment.kind == SegmentKind::Rapid);
+    let low = first.filter(|segment| segment.end[2] < limits.clearance - SLACK);
     let begins = subject.unplaced.first().filter(|run| run.start == 0).map_or(0, |run| run.end);
     let fault = |index: usize, height: f64| {
-        let kind = if index <= begins { FindingKind::UnsafeStart } else { FindingKind::UnknownPlace };
+        let kind = if index <= begins { &faults::UNSAFE_START } else { &faults::UNKNOWN_POSITION };
         Fault::of(kind, index, &program.moves[index]).measured(height, limits.clearance)
     };
-    let mut faults: Vec<Fault> = low.map(|leg| fault(leg.index, leg.end[2])).collect();
+    let mut faults: Vec<Fault> = low.map(|segment| fault(segment.index, segment.end[2])).collect();
     let Some(text) = subject.text else { return faults };
     for index in subject.unplaced.iter().flat_map(Clone::clone) {
         let height = program.moves.get(index).map_or(f64::NAN, |step| step.end[2]);
@@ -32,16 +32,16 @@ pub(crate) fn faults(program: &Program, legs: &[Leg], subject: &Subject, limits:
             faults.push(fault(index, f64::NAN));
         }
     }
-    faults.extend(text.machine_moves.iter().filter_map(|step| machine_fault(program, step, legs, subject, limits)));
+    faults.extend(text.machine_moves.iter().filter_map(|step| machine_fault(program, step, segments, subject, limits)));
     faults.sort_by_key(|fault| fault.index);
     faults
 }
 
-/// Machine coordinates say nothing about the work: the tool goes up to the machine's top, and only there across.
+/// Machine coordinates do not give a position in work coordinates: the tool goes up to the machine's top, and only there across.
 fn machine_fault(
     program: &Program,
     step: &MachineMove,
-    legs: &[Leg],
+    segments: &[Segment],
     subject: &Subject,
     limits: &Limits,
 ) -> Option<Fault> {
@@ -51,20 +51,20 @@ fn machine_fault(
     let low = || {
         let blind = step.before == 0 || run_of(&text.blind, step.before.saturating_sub(1)).is_some();
         let raised = blind && at_the_top(text, step.before, limits);
-        !raised && (blind || standing_low(legs, step.before, subject, limits).is_some())
+        !raised && (blind || standing_low(segments, step.before, subject, limits).is_some())
     };
     if !(down || across && low()) {
         return None;
     }
     let nowhere = [f64::NAN; 3];
-    let position = last_before(legs, step.before).map_or(nowhere, |leg| leg.end);
+    let position = last_before(segments, step.before).map_or(nowhere, |segment| segment.end);
     let index = step.before.min(program.moves.len().saturating_sub(1));
-    let fault = Fault::new(FindingKind::MachinePlace, index, step.line, position);
+    let fault = Fault::new(&faults::MACHINE_POSITION, index, step.line, position);
     Some(fault.measured(step.places[2].unwrap_or(f64::NAN), f64::NAN))
 }
 
 /// Whether a move in machine coordinates ends at the machine's top: at its zero, over it, or a little under it where the
-/// axis' length is known. The range of Z is one of the work's coordinates and does not say where that zero is.
+/// axis' length is known. The range of Z is one of the work's coordinates and does not tell where that zero is.
 fn goes_up(step: &MachineMove, limits: &Limits) -> bool {
     let range = limits.reach.axes[2].map(|[low, high]| high - low);
     let length = range.or(limits.reach.travel.map(|travel| travel[2]));
@@ -81,10 +81,15 @@ fn at_the_top(text: &TextFacts, index: usize, limits: &Limits) -> bool {
 
 /// The move that left the tool below the clearance height where it stands before a move, unless it went to the
 /// machine's top since.
-pub(crate) fn standing_low<'a>(legs: &'a [Leg], before: usize, subject: &Subject, limits: &Limits) -> Option<&'a Leg> {
-    let leg = last_before(legs, before).filter(|leg| leg.end[2] < limits.clearance - SLACK)?;
+pub(crate) fn standing_low<'a>(
+    segments: &'a [Segment],
+    before: usize,
+    subject: &Subject,
+    limits: &Limits,
+) -> Option<&'a Segment> {
+    let segment = last_before(segments, before).filter(|segment| segment.end[2] < limits.clearance - SLACK)?;
     let since = subject.text.iter().flat_map(|text| &text.machine_moves);
     let raised =
-        since.filter(|step| step.before > leg.index && step.before <= before).any(|step| goes_up(step, limits));
-    (!raised).then_some(leg)
+        since.filter(|step| step.before > segment.index && step.before <= before).any(|step| goes_up(step, limits));
+    (!raised).then_some(segment)
 }

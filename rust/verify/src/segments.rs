@@ -1,21 +1,22 @@
-//! The moves as the judge sees them: what each is meant to do, with which tool, from where.
+//! The moves as the verifier sees them: what each is meant to do, with which tool, from where.
 
+use styluscam_geometry::Vector;
 use styluscam_motion::{ArcWay, EventKind, MoveKind, Program};
 
 use crate::assignment::Assignment;
 use crate::expectation::Contact;
-use crate::findings::Fault;
-use crate::{FindingKind, Limits, Subject, Vector};
+use crate::faults::{Fault, FaultKind};
+use crate::subject::{Limits, Subject};
 
 /// Two coordinates this close are the same, mm: below what any machine resolves.
 const SAME: f64 = 1e-6;
 
-/// Largest coordinate that is judged, mm.
+/// Largest coordinate that is checked, mm.
 const FARTHEST: f64 = 1e7;
 
-/// What a move is meant to do, told from its text and geometry alone.
+/// What a move is meant to do, known from its text and geometry alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum LegKind {
+pub(crate) enum SegmentKind {
     /// Positioning at the rapid rate.
     Rapid,
     /// Straight down at a feed.
@@ -25,7 +26,7 @@ pub(crate) enum LegKind {
     /// A feed move that goes nowhere.
     Still,
     /// Any other feed move: it should touch the part.
-    Contact,
+    Lateral,
 }
 
 /// Largest turn of a piece, rad.
@@ -40,12 +41,12 @@ const FAR: f64 = 4.0;
 
 /// One move, or a piece of one.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Leg {
+pub(crate) struct Segment {
     /// Index of the move in the program.
     pub index: usize,
     /// Index of the move's operation in the program.
     pub operation: u32,
-    pub kind: LegKind,
+    pub kind: SegmentKind,
     /// The tool's tip where the move starts, when it is known.
     pub start: Option<[f64; 3]>,
     /// The tool's tip where it ends.
@@ -62,7 +63,7 @@ pub(crate) struct Leg {
     pieces: u32,
 }
 
-impl Leg {
+impl Segment {
     /// Its length, mm; 0 when the start is not known.
     pub fn length(&self) -> f64 {
         let chord = self.start.map_or(0.0, |start| (Vector::from(self.end) - Vector::from(start)).norm());
@@ -96,7 +97,7 @@ impl Leg {
         turns.max(lengths).ceil().clamp(1.0, f64::from(u32::MAX)) as u32
     }
 
-    /// The tip at a share of its way.
+    /// The tip at a share of its path.
     pub fn at(&self, share: f64) -> [f64; 3] {
         let (start, end) = (Vector::from(self.start.unwrap_or(self.end)), Vector::from(self.end));
         self.bend.map_or_else(|| (start + share * (end - start)).into(), |bend| bend.at(share))
@@ -107,7 +108,7 @@ impl Leg {
         self.start.is_some_and(|s| !same_plan(s, self.end))
     }
 
-    /// Whether it starts at a place.
+    /// Whether it starts at a position.
     pub fn starts_at(&self, place: [f64; 3]) -> bool {
         self.start.is_some_and(|s| same_plan(s, place) && (s[2] - place[2]).abs() <= SAME)
     }
@@ -118,7 +119,7 @@ impl Leg {
         bent || self.start.is_none_or(|s| (self.end[2] - s[2]).abs() > SAME)
     }
 
-    /// The lowest height of the tip on its way, mm.
+    /// The lowest height of the tip on its path, mm.
     pub fn lowest(&self) -> f64 {
         let straight = self.start.map_or(self.end[2], |start| start[2].min(self.end[2]));
         self.bend.map_or(straight, |bend| bend.bounds().0[2])
@@ -130,23 +131,23 @@ impl Leg {
     }
 
     /// An error at its end.
-    pub fn fault(&self, kind: FindingKind) -> Fault {
+    pub fn fault(&self, kind: &'static FaultKind) -> Fault {
         Fault::new(kind, self.index, self.line, self.end)
     }
 }
 
-/// The last of the legs before a move.
-pub(crate) fn last_before(legs: &[Leg], index: usize) -> Option<&Leg> {
-    legs.get(legs.partition_point(|leg| leg.index < index).checked_sub(1)?)
+/// The last of the segments before a move.
+pub(crate) fn last_before(segments: &[Segment], index: usize) -> Option<&Segment> {
+    segments.get(segments.partition_point(|segment| segment.index < index).checked_sub(1)?)
 }
 
-/// The moves that have a place in space, in order.
-pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> Vec<Leg> {
+/// The moves whose position is known, in order.
+pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> Vec<Segment> {
     let mut upcoming = program.upcoming();
-    // until a tool is called the first one is taken to be loaded: the check for a missing change says so
+    // until a tool is called the first one is taken to be loaded: the check for a missing change reports it
     let known_tool = |tool: usize| Some(tool).filter(|tool| *tool < subject.tools.len());
     let mut tool = known_tool(0);
-    let mut legs = Vec::with_capacity(program.moves.len());
+    let mut segments = Vec::with_capacity(program.moves.len());
     let (low, high) = subject.mesh.bounds();
     let part = (high - low).norm();
     let assignment = Assignment::new(program, subject);
@@ -162,10 +163,10 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
         let known = subject.places(index) && in_this_world(step.end);
         if known {
             let way = start.and_then(|start| step.way(start));
-            let kind = if way.is_some() { LegKind::Contact } else { kind(step.kind, start, step.end) };
+            let kind = if way.is_some() { SegmentKind::Lateral } else { kind(step.kind, start, step.end) };
             let excess =
-                limits.excess_of(step.operation).filter(|_| kind == LegKind::Contact && touches(step.operation));
-            let leg = Leg {
+                limits.excess_of(step.operation).filter(|_| kind == SegmentKind::Lateral && touches(step.operation));
+            let segment = Segment {
                 index,
                 operation: step.operation,
                 kind,
@@ -178,27 +179,27 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
                 pieces: 1,
             };
             let radius = tool.and_then(|t| subject.tools.get(t)).map_or(f64::INFINITY, |t| 0.5 * t.diameter());
-            legs.push(Leg { pieces: leg.count(PIECE * radius, FAR * (part + 2.0 * radius)), ..leg });
+            segments.push(Segment { pieces: segment.count(PIECE * radius, FAR * (part + 2.0 * radius)), ..segment });
         }
         start = known.then_some(step.end);
     }
-    legs
+    segments
 }
 
-fn kind(kind: MoveKind, start: Option<[f64; 3]>, end: [f64; 3]) -> LegKind {
+fn kind(kind: MoveKind, start: Option<[f64; 3]>, end: [f64; 3]) -> SegmentKind {
     let Some(start) = start.filter(|_| kind != MoveKind::Rapid) else {
-        return if kind == MoveKind::Rapid { LegKind::Rapid } else { LegKind::Contact };
+        return if kind == MoveKind::Rapid { SegmentKind::Rapid } else { SegmentKind::Lateral };
     };
     let rise = end[2] - start[2];
     match same_plan(start, end) {
-        false => LegKind::Contact,
-        true if rise > SAME => LegKind::Retract,
-        true if rise < -SAME => LegKind::Plunge,
-        true => LegKind::Still,
+        false => SegmentKind::Lateral,
+        true if rise > SAME => SegmentKind::Retract,
+        true if rise < -SAME => SegmentKind::Plunge,
+        true => SegmentKind::Still,
     }
 }
 
-/// Whether a place's coordinates are numbers, and not absurd: arithmetic holds up to there.
+/// Whether a position's coordinates are numbers, and not too large: arithmetic holds up to there.
 pub(crate) fn in_this_world(place: [f64; 3]) -> bool {
     place.iter().all(|x| x.abs() <= FARTHEST)
 }
