@@ -75,11 +75,20 @@ pub fn judge(
     let tool_calls = match machine.tool.change {
         ToolChange::M6 | ToolChange::T | ToolChange::ToolCall => ToolCalls::Load,
         ToolChange::Pause | ToolChange::LoadBeforeStart => ToolCalls::Name,
-        ToolChange::Unsaid => ToolCalls::Unsaid,
+        ToolChange::Unsaid => ToolCalls::NotStated,
     };
     let ended = ended || machine.end.is_empty(); // some controllers have no word for it
-    let text =
-        TextFacts { blind, machine_moves, optional_lines, unsaid, stray_planes, stops, lines, ended, tool_calls };
+    let text = TextFacts {
+        unknown_heights: blind,
+        machine_moves,
+        optional_lines,
+        not_stated: unsaid,
+        planes_not_needed: stray_planes,
+        stops,
+        lines,
+        ended,
+        tool_calls,
+    };
     let expected = expected(job, scene, &records)?;
     let obstacles = fixture::obstacles(job, scene)?;
     let plain = subject(job, scene, &tools, &unplaced);
@@ -173,7 +182,7 @@ fn subject<'a>(job: &'a JobDocument, scene: &'a Scene, tools: &'a [Tool], unplac
         deviation_inward: scene.inward,
         deviation_outward: scene.outward,
         wcs: &job.setup.wcs,
-        unplaced,
+        unknown_positions: unplaced,
         text: None,
         expected: &[],
         obstacles: &[],
@@ -285,7 +294,7 @@ fn forming(job: &JobDocument, sheet: &SheetSection, top: f64) -> Forming {
         min_thickness: sheet.min_thickness.unwrap_or(0.0),
         max_wall_angle: wall.most_deg.to_radians(),
         sure_wall_angle: wall.sure_deg.to_radians(),
-        bears: wall.bears,
+        source: wall.source,
     }
 }
 

@@ -5,7 +5,7 @@
 use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
-use styluscam_verify::Bears;
+use styluscam_verify::WallAngleSource;
 
 use crate::{JobDocument, JobError, SheetSection};
 
@@ -55,21 +55,21 @@ pub(crate) struct WallAngle {
     /// Walls up to this angle are sure, degrees.
     pub sure_deg: f64,
     /// Whence that is known.
-    pub bears: Bears,
+    pub source: WallAngleSource,
 }
 
 /// What the job's sheet bears: what it says itself, what is known of its material, or what is known of all.
 pub(crate) fn wall_angle(job: &JobDocument, sheet: &SheetSection) -> WallAngle {
     if let Some(most_deg) = sheet.max_wall_angle_deg {
-        return WallAngle { most_deg, sure_deg: f64::INFINITY, bears: Bears::Said };
+        return WallAngle { most_deg, sure_deg: f64::INFINITY, source: WallAngleSource::Job };
     }
     if let Some(material) = job.process.material.as_deref().and_then(named) {
         let [sure_deg, most_deg] = material.bears(sheet.thickness);
-        return WallAngle { most_deg, sure_deg, bears: Bears::Material(&material.name) };
+        return WallAngle { most_deg, sure_deg, source: WallAngleSource::Material(&material.name) };
     }
     let known = SHIPPED.iter().map(|material| material.bears(sheet.thickness));
     let [sure_deg, most_deg] = known.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or([f64::INFINITY; 2]);
-    WallAngle { most_deg, sure_deg, bears: Bears::Unknown }
+    WallAngle { most_deg, sure_deg, source: WallAngleSource::Unknown }
 }
 
 /// Refuses a material that is not known.

@@ -97,29 +97,29 @@ fn loops(chain: &[&Segment], bodies: &[Body], enough: f64) -> Vec<Ring> {
     let plan = |place: [f64; 3]| [place[0], place[1]];
     let apart = |a: &[f64; 2], b: &[f64; 2]| length(b[0] - a[0], b[1] - a[1]);
     let mut rings = Vec::new();
-    let mut places: Vec<[f64; 2]> = first.start.map(plan).into_iter().collect();
+    let mut positions: Vec<[f64; 2]> = first.start.map(plan).into_iter().collect();
     for place in chain.iter().flat_map(|segment| segment.pieces()).map(|piece| plan(piece.end)) {
-        places.push(place);
-        if places.len() > 3 && apart(&places[0], &place) <= SLACK {
-            rings.push(Ring::new(&places, heights));
-            places = vec![place];
+        positions.push(place);
+        if positions.len() > 3 && apart(&positions[0], &place) <= SLACK {
+            rings.push(Ring::new(&positions, heights));
+            positions = vec![place];
         }
     }
-    if places.len() > 2 && apart(&places[0], &places[places.len() - 1]) <= body.radius() {
-        rings.push(Ring::new(&places, heights));
+    if positions.len() > 2 && apart(&positions[0], &positions[positions.len() - 1]) <= body.radius() {
+        rings.push(Ring::new(&positions, heights));
     }
     rings
 }
 
 impl Ring {
-    fn new(places: &[[f64; 2]], heights: [f64; 2]) -> Self {
+    fn new(positions: &[[f64; 2]], heights: [f64; 2]) -> Self {
         let corner = |pick: fn(f64, f64) -> f64, none: f64| {
-            [0, 1].map(|axis| places.iter().map(|place| place[axis]).fold(none, pick))
+            [0, 1].map(|axis| positions.iter().map(|place| place[axis]).fold(none, pick))
         };
         let (low, high) = (corner(f64::min, f64::INFINITY), corner(f64::max, f64::NEG_INFINITY));
         let mut ring = Self { heights, low, high, bins: vec![Vec::new(); BINS] };
-        for (i, from) in places.iter().enumerate() {
-            let to = places[(i + 1) % places.len()];
+        for (i, from) in positions.iter().enumerate() {
+            let to = positions[(i + 1) % positions.len()];
             let [a, b] = [ring.bin(from[1].min(to[1])), ring.bin(from[1].max(to[1]))];
             ring.bins[a..=b].iter_mut().for_each(|bin| bin.push([*from, to]));
         }

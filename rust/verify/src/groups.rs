@@ -78,12 +78,12 @@ impl Group {
 
 /// Findings, and the group of each by its position in the second list.
 #[derive(Default)]
-pub(crate) struct Told {
+pub(crate) struct Reported {
     pub findings: Vec<(Finding, usize)>,
     pub groups: Vec<Group>,
 }
 
-impl Told {
+impl Reported {
     /// Adds findings about the whole program.
     pub fn add(&mut self, wholes: Vec<Finding>) {
         let mut by_kind: BTreeMap<(Severity, FindingKind), Vec<Finding>> = BTreeMap::new();
@@ -204,15 +204,15 @@ mod tests {
 
     #[test]
     fn errors_come_first_and_groups_know_their_findings() {
-        let mut told = Told::default();
+        let mut reported = Reported::default();
         let whole = |kind, severity| Finding::of_all(kind, severity, format!("{kind:?}"));
-        told.add(vec![
+        reported.add(vec![
             whole(FindingKind::UnsaidMode, Severity::Warning),
             whole(FindingKind::Travel, Severity::Error),
             whole(FindingKind::MissingOperation, Severity::Error),
             whole(FindingKind::MissingOperation, Severity::Error),
         ]);
-        let (findings, groups) = told.in_order();
+        let (findings, groups) = reported.in_order();
         let kinds: Vec<FindingKind> = findings.iter().map(|finding| finding.kind).collect();
         let [missing, travel] = [FindingKind::MissingOperation, FindingKind::Travel];
         assert_eq!(kinds, [missing, missing, travel, FindingKind::UnsaidMode]);
@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn places_out_of_this_world_have_neighbours() {
+    fn positions_beyond_all_cells_have_neighbours() {
         let cells = Cells::of(0.0);
         let place = [f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
         assert_eq!(of(&[&[cells.at(place)]]), (vec![0], 1));

@@ -35,7 +35,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         faults.retain(|fault| fault.kind.finding != FindingKind::WallAngle);
     }
     let (low, high) = subject.mesh.bounds();
-    let Merged { mut told, mut counts, lengths } = merge(&faults, program, (high - low).norm());
+    let Merged { mut reported, mut counts, lengths } = merge(&faults, program, (high - low).norm());
     let nothing = tally.nothing_touches().then(|| diagnosis::no_contact(program, &segments, &tally, subject));
     let offset = travel::work_offset(program, subject.wcs);
     let wholes =
@@ -47,9 +47,9 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     for whole in &wholes {
         *counts.entry(whole.kind).or_default() += 1;
     }
-    told.add(wholes);
-    told.accept(&limits.accepted);
-    let (findings, groups) = told.in_order();
+    reported.add(wholes);
+    reported.accept(&limits.accepted);
+    let (findings, groups) = reported.in_order();
     Ok(Report {
         ok: findings.iter().all(|f| f.severity != Severity::Error),
         findings,

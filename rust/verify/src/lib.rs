@@ -75,5 +75,5 @@ pub use judge::judge;
 pub use report::{ContactRecord, Place, Report};
 pub use scalar::{Across, Height, PassKind, Scalar};
 pub use simulation::{simulate, Grid, Simulation, Skin};
-pub use subject::{Bears, Forming, Limits, Obstacle, ObstacleKind, Reach, Subject, TextFacts, ToolCalls};
+pub use subject::{Forming, Limits, Obstacle, ObstacleKind, Reach, Subject, TextFacts, ToolCalls, WallAngleSource};
 pub use unreached::ToolReach;

@@ -136,7 +136,7 @@ impl<'a> Walk<'a> {
         let start = segment.start.and_then(|tip| self.start(tip, tool, prober, &mut found));
         let stroke = stroke_of(segment, prober.body);
         let middle = segment.start.map(|_| stroke.at(0.5));
-        let asked = Question { stroke, places: [middle, Some(stroke.to)], below: self.below(start) };
+        let asked = Question { stroke, positions: [middle, Some(stroke.to)], below: self.below(start) };
         let seen = if stroke.length() > JOINT * prober.body.radius() {
             self.one_by_one(asked, prober)
         } else {
@@ -145,8 +145,8 @@ impl<'a> Walk<'a> {
         let sample = |position: Option<Vector>, touch: Option<Touch>| {
             Some(Sample { tip: prober.body.tip(position?), touch: touch? })
         };
-        let end = seen.places[1].map(|touch| Sample { tip: segment.end, touch });
-        found.contacts = [start, sample(middle, seen.places[0]), end];
+        let end = seen.positions[1].map(|touch| Sample { tip: segment.end, touch });
+        found.contacts = [start, sample(middle, seen.positions[0]), end];
         found.samples += found.contacts[1..].iter().flatten().count();
         self.last = end.map(|end| (tool, end));
         let passed = seen.deepest.map(|p| sample_of(p, prober.body));
@@ -157,13 +157,13 @@ impl<'a> Walk<'a> {
     /// On a long move one search for all would look at too much.
     fn one_by_one(&self, asked: Question, prober: &Prober) -> Seen {
         let guess = |touch: Option<Touch>, place: Option<Vector>| Some(Guess::like(&touch?, place?));
-        let [first, second] = asked.places;
+        let [first, second] = asked.positions;
         let middle = first.and_then(|place| prober.at(place, self.guess(prober)));
         let end = second.and_then(|place| prober.at(place, guess(middle, first).or(self.guess(prober))));
         let sampled = [middle, end].iter().flatten().fold(f64::INFINITY, |a, t| a.min(t.value));
         let below = asked.below.min(sampled - SLACK);
-        let passed = prober.survey(Question { places: [None; 2], below, ..asked }, guess(end, second));
-        Seen { places: [middle, end], deepest: passed.deepest }
+        let passed = prober.survey(Question { positions: [None; 2], below, ..asked }, guess(end, second));
+        Seen { positions: [middle, end], deepest: passed.deepest }
     }
 
     /// The start's sample: mostly the end of the move before.
@@ -233,7 +233,7 @@ fn deepest_of(segment: &Segment, below: f64, prober: &Prober) -> Option<Sample> 
 
 /// The deepest position of a stroke, if it is below `below`.
 fn deepest(stroke: Stroke, below: f64, prober: &Prober) -> Option<Sample> {
-    let passed = prober.survey(Question { stroke, places: [None; 2], below }, None).deepest;
+    let passed = prober.survey(Question { stroke, positions: [None; 2], below }, None).deepest;
     passed.map(|p| sample_of(p, prober.body))
 }
 

@@ -6,7 +6,7 @@ use styluscam_motion::Program;
 
 use crate::faults::Fault;
 use crate::findings::{Finding, FindingKind, Severity};
-use crate::groups::{regions, Cell, Cells, Group, Told};
+use crate::groups::{regions, Cell, Cells, Group, Reported};
 use crate::tolerances::SLACK;
 use crate::words::{self, Extent};
 
@@ -32,7 +32,7 @@ struct Run {
 /// Faults, merged.
 pub(crate) struct Merged {
     /// The worst of each kind, kind by kind in the order of the moves, and what they come to.
-    pub told: Told,
+    pub reported: Reported,
     /// How many there are of each kind.
     pub counts: BTreeMap<FindingKind, usize>,
     /// The length of all moves that show each kind, mm.
@@ -53,21 +53,21 @@ pub(crate) fn merge(faults: &[Fault], program: &Program, size: f64) -> Merged {
     }
     let counts = runs.iter().map(|(kind, runs)| (*kind, runs.len())).collect();
     let lengths = runs.iter().map(|(kind, runs)| (*kind, runs.iter().map(|run| run.length).sum())).collect();
-    let mut told = Told::default();
+    let mut reported = Reported::default();
     for runs in runs.into_values() {
         let mut by_severity: BTreeMap<Severity, Vec<Run>> = BTreeMap::new();
         for run in runs {
             by_severity.entry(run.worst.severity).or_default().push(run);
         }
         for runs in by_severity.into_values() {
-            group(runs, &mut told);
+            group(runs, &mut reported);
         }
     }
-    Merged { told, counts, lengths }
+    Merged { reported, counts, lengths }
 }
 
 /// Adds the groups that runs of one kind and severity come to, and the worst findings of each.
-fn group(runs: Vec<Run>, told: &mut Told) {
+fn group(runs: Vec<Run>, reported: &mut Reported) {
     let regional = runs.first().is_some_and(|run| run.worst.kind.is_on_part);
     let (of_runs, regions) =
         if regional { regions(runs.iter().map(|run| &run.cells[..])) } else { (vec![0; runs.len()], 1) };
@@ -78,9 +78,9 @@ fn group(runs: Vec<Run>, told: &mut Told) {
     let count = by_region.len();
     for runs in by_region.into_values() {
         let whole = runs.iter().cloned().reduce(|all, later| all.and(&later));
-        let index = told.groups.len();
-        told.groups.extend(whole.map(|whole| whole.group(runs.len(), count, regions)));
-        told.findings.extend(worst_in_order(runs).into_iter().map(|run| (run.finding(), index)));
+        let index = reported.groups.len();
+        reported.groups.extend(whole.map(|whole| whole.group(runs.len(), count, regions)));
+        reported.findings.extend(worst_in_order(runs).into_iter().map(|run| (run.finding(), index)));
     }
 }
 
@@ -152,11 +152,11 @@ impl Run {
         Extent { lines: [self.first_line, self.last_line], moves: self.moves, length: self.length }
     }
 
-    /// What `count` runs come to, of which this is the whole; `told` groups tell of all the `regions` of their kind.
-    fn group(self, count: usize, told: usize, regions: usize) -> Group {
+    /// What `count` runs come to, of which this is the whole; `reported` groups stand for all the `regions` of their kind.
+    fn group(self, count: usize, reported: usize, regions: usize) -> Group {
         let extent = Some(self.extent).filter(|corners| corners.as_flattened().iter().all(|x| x.is_finite()));
-        let regions = if told == 1 { regions } else { 1 };
-        let region = extent.filter(|_| told > 1);
+        let regions = if reported == 1 { regions } else { 1 };
+        let region = extent.filter(|_| reported > 1);
         let message = if count == 1 {
             words::message(&self.worst, &self.extent())
         } else {

@@ -251,8 +251,8 @@ impl Look<'_> {
     fn left_at(&self, probe: &Probe, sweeps: &Sweeps, last: &mut Option<(usize, Sweep)>) -> Option<Fault> {
         let spot = self.spot(probe)?;
         let step = self.next(&spot).filter(|step| 0.5 * step.norm() < self.body.radius())?;
-        let places = |share: f64| [spot.position + share * step, spot.position - share * step];
-        let amidst = CURVED_AMIDST * self.leaves(spot.point, places(0.5));
+        let positions = |share: f64| [spot.position + share * step, spot.position - share * step];
+        let amidst = CURVED_AMIDST * self.leaves(spot.point, positions(0.5));
         let rough = ROUGH + self.tolerated();
         // `leaves` is convex and zero where the tool touches: a whole step off it is at least twice what it is half a step off,
         // so `explained` below is never less than `amidst`
@@ -262,9 +262,9 @@ impl Look<'_> {
         }
         // in the midst of a face a pass is half a step away at most, at its ends a whole one; where it does not go on at
         // all, what lies around is not like it
-        let explained = match places(0.5).into_iter().filter(|place| self.goes_on(*place)).count() {
+        let explained = match positions(0.5).into_iter().filter(|place| self.goes_on(*place)).count() {
             0 => return None,
-            1 => CURVED * self.leaves(spot.point, places(1.0)),
+            1 => CURVED * self.leaves(spot.point, positions(1.0)),
             _ => amidst,
         };
         let allowed = explained + rough;
@@ -371,8 +371,8 @@ impl Look<'_> {
     }
 
     /// What passes at these positions leave at a point, mm.
-    fn leaves(&self, point: Vector, places: [Vector; 2]) -> f64 {
-        places.map(|place| self.body.distance(point - place).value).into_iter().fold(0.0, f64::max)
+    fn leaves(&self, point: Vector, positions: [Vector; 2]) -> f64 {
+        positions.map(|place| self.body.distance(point - place).value).into_iter().fold(0.0, f64::max)
     }
 
     /// Whether the tool touches the part at a position that is asked for.

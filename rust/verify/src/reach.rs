@@ -4,7 +4,7 @@ use styluscam_motion::{EventKind, Program};
 
 use crate::faults::{self, Fault};
 use crate::findings::{Finding, FindingKind, Severity};
-use crate::segments::in_this_world;
+use crate::segments::is_in_range;
 use crate::subject::{Reach, Subject};
 use crate::tolerances::SLACK;
 
@@ -57,9 +57,9 @@ pub(crate) fn findings(program: &Program, subject: &Subject, reach: &Reach) -> V
 
 /// The boxes of the moves whose position is known.
 fn boxes<'a>(program: &'a Program, subject: &'a Subject) -> impl Iterator<Item = (usize, [f64; 3], [f64; 3])> + 'a {
-    let placed = program.posted_boxes().enumerate().filter(|(index, _)| subject.places(*index));
+    let placed = program.posted_boxes().enumerate().filter(|(index, _)| subject.is_known(*index));
     placed
-        .filter(|(_, (low, high))| in_this_world(*low) && in_this_world(*high))
+        .filter(|(_, (low, high))| is_in_range(*low) && is_in_range(*high))
         .map(|(index, (low, high))| (index, low, high))
 }
 

@@ -160,7 +160,7 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
                 tool = known_tool(*called as usize);
             }
         }
-        let known = subject.places(index) && in_this_world(step.end);
+        let known = subject.is_known(index) && is_in_range(step.end);
         if known {
             let way = start.and_then(|start| step.way(start));
             let kind = if way.is_some() { SegmentKind::Lateral } else { kind(step.kind, start, step.end) };
@@ -200,7 +200,7 @@ fn kind(kind: MoveKind, start: Option<[f64; 3]>, end: [f64; 3]) -> SegmentKind {
 }
 
 /// Whether a position's coordinates are numbers, and not too large: arithmetic holds up to there.
-pub(crate) fn in_this_world(place: [f64; 3]) -> bool {
+pub(crate) fn is_in_range(place: [f64; 3]) -> bool {
     place.iter().all(|x| x.abs() <= FARTHEST)
 }
 

@@ -56,8 +56,8 @@ pub(crate) fn punches(
             rows.drain(..).for_each(|(tip, tool)| blank.press(tip, tool));
         }
         let dent = dent(tool, forming.thickness) + ROUGH;
-        let places = places(segment, blank.cell());
-        let deepest = places
+        let positions = positions(segment, blank.cell());
+        let deepest = positions
             .iter()
             .filter_map(|tip| punch(&mut blank, *tip, step, dent))
             .max_by(|a, b| a.depth().total_cmp(&b.depth()));
@@ -67,9 +67,9 @@ pub(crate) fn punches(
             faults.push(if falls { fault.warning() } else { fault });
         }
         if step.is_some() {
-            places.into_iter().for_each(|tip| blank.press(tip, tool));
+            positions.into_iter().for_each(|tip| blank.press(tip, tool));
         } else {
-            rows.extend(places.into_iter().map(|tip| (tip, tool)));
+            rows.extend(positions.into_iter().map(|tip| (tip, tool)));
         }
     }
     faults
@@ -112,7 +112,7 @@ fn dent(tool: &Cutter, thickness: f64) -> f64 {
 }
 
 /// Positions of the tip on its path that are no farther apart than `pitch`, mm, without the first; on extremely long moves some.
-fn places(segment: &Segment, pitch: f64) -> Vec<[f64; 3]> {
+fn positions(segment: &Segment, pitch: f64) -> Vec<[f64; 3]> {
     let count = (segment.length() / pitch).ceil().clamp(1.0, MOST_PLACES) as u32;
     (1..=count).map(|i| segment.at(f64::from(i) / f64::from(count))).collect()
 }

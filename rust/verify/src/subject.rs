@@ -29,7 +29,7 @@ pub struct Subject<'a> {
     pub wcs: &'a str,
     /// Moves whose end is not known in all three axes, in ascending runs. They have no position, and the move
     /// after them has no start.
-    pub unplaced: &'a [Range<usize>],
+    pub unknown_positions: &'a [Range<usize>],
     /// What its text states besides the moves; none for a program that was not read from text.
     pub text: Option<&'a TextFacts>,
     /// The job's operations; none when feeds, spindle, coolant and passes are not to be checked.
@@ -76,14 +76,14 @@ pub struct Forming {
     /// Walls up to this angle it withstands whatever it is made of, rad; infinite where the steepest is known.
     pub sure_wall_angle: f64,
     /// Whence that is known.
-    pub bears: Bears,
+    pub source: WallAngleSource,
 }
 
 /// Whence it is known how steep a wall a sheet withstands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bears {
+pub enum WallAngleSource {
     /// The job states it.
-    Said,
+    Job,
     /// It is the material's, of this name.
     Material(&'static str),
     /// The job names no material: it is the most and the least of those that are known.
@@ -94,15 +94,15 @@ pub enum Bears {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TextFacts {
     /// Moves at whose end the height is not known, in ascending runs.
-    pub blind: Vec<Range<usize>>,
+    pub unknown_heights: Vec<Range<usize>>,
     /// Moves in the machine's own coordinates.
     pub machine_moves: Vec<MachineMove>,
     /// Lines that run where a switch at the machine decides, and that the moves leave out.
     pub optional_lines: Vec<u32>,
     /// Modal codes that the first move relies on and that the text does not state.
-    pub unsaid: Vec<&'static str>,
+    pub not_stated: Vec<&'static str>,
     /// Moves made while another plane than G17 was in force and no arc used it, in runs.
-    pub stray_planes: Vec<Range<usize>>,
+    pub planes_not_needed: Vec<Range<usize>>,
     /// Moves before which the program stops (M0, M1).
     pub stops: Vec<usize>,
     /// Its lines.
@@ -122,7 +122,7 @@ pub enum ToolCalls {
     #[default]
     Name,
     /// There is no word for them.
-    Unsaid,
+    NotStated,
 }
 
 /// What is allowed. Comparisons allow another 1e-6 mm for arithmetic.
@@ -175,8 +175,8 @@ pub struct Reach {
 
 impl Subject<'_> {
     /// Whether a move's end is known.
-    pub(crate) fn places(&self, index: usize) -> bool {
-        run_of(self.unplaced, index).is_none()
+    pub(crate) fn is_known(&self, index: usize) -> bool {
+        run_of(self.unknown_positions, index).is_none()
     }
 }
 

@@ -27,7 +27,7 @@ pub(crate) struct Passed {
 pub(crate) struct Question {
     pub stroke: Stroke,
     /// Positions on the stroke at which the clearance is asked for.
-    pub places: [Option<Vector>; 2],
+    pub positions: [Option<Vector>; 2],
     /// The deepest contact is asked for if it is below this, and below every position by more than arithmetic; mm.
     pub below: f64,
 }
@@ -36,7 +36,7 @@ pub(crate) struct Question {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Seen {
     /// The contacts at the positions asked for.
-    pub places: [Option<Touch>; 2],
+    pub positions: [Option<Touch>; 2],
     /// The deepest contact; none is a proof that there is none as deep as asked.
     pub deepest: Option<Passed>,
 }
@@ -62,9 +62,9 @@ impl Guess {
 impl Prober<'_> {
     /// The contact of the body at one position; none where the part is empty.
     pub fn at(&self, position: Vector, guess: Option<Guess>) -> Option<Touch> {
-        let places = [Some(position), None];
-        let question = Question { stroke: Stroke::still(position), places, below: f64::NEG_INFINITY };
-        self.survey(question, guess).places[0]
+        let positions = [Some(position), None];
+        let question = Question { stroke: Stroke::still(position), positions, below: f64::NEG_INFINITY };
+        self.survey(question, guess).positions[0]
     }
 
     /// Answers a question.
@@ -128,12 +128,12 @@ impl Survey<'_> {
     /// Looks where the contacts may be: what is found there keeps most of the part off.
     fn begin(&self, guess: Guess) {
         let mut guess = guess;
-        for (i, place) in self.question.places.iter().enumerate() {
+        for (i, place) in self.question.positions.iter().enumerate() {
             let Some(position) = *place else { continue };
             for triangle in guess.triangle.iter().chain(self.prober.bvh.near(position + guess.offset)) {
                 self.visit(*triangle);
             }
-            if let Some(touch) = self.seen.get().places[i] {
+            if let Some(touch) = self.seen.get().positions[i] {
                 guess = Guess::like(&touch, position);
             }
         }
@@ -179,7 +179,7 @@ impl Survey<'_> {
 
     /// What is asked at all.
     fn all(&self) -> Open {
-        let [first, second] = self.question.places;
+        let [first, second] = self.question.positions;
         Open { of: [first.is_some(), second.is_some(), self.below() > f64::NEG_INFINITY], nearest: f64::INFINITY }
     }
 
@@ -192,7 +192,7 @@ impl Survey<'_> {
     fn target(&self, open: &Open, target: usize, middle: Vector) -> Option<Vector> {
         let stroke = &self.question.stroke;
         let between = || Some(stroke.at(stroke.share_near(middle)));
-        self.question.places.get(target).copied().unwrap_or_else(between).filter(|_| open.of[target])
+        self.question.positions.get(target).copied().unwrap_or_else(between).filter(|_| open.of[target])
     }
 
     /// Closes what bounds settle: one for each position, one for all between.
@@ -200,7 +200,7 @@ impl Survey<'_> {
     fn settle(&self, open: &mut Open, at: impl Fn(Vector) -> f64, along: f64) {
         let limits = self.limits.get();
         let mut nearest = f64::INFINITY;
-        for ((place, limit), is_open) in self.question.places.iter().zip(limits).zip(&mut open.of[..BETWEEN]) {
+        for ((place, limit), is_open) in self.question.positions.iter().zip(limits).zip(&mut open.of[..BETWEEN]) {
             if let Some(position) = place.filter(|_| *is_open) {
                 let bound = at(position);
                 *is_open = bound < limit;
@@ -226,10 +226,10 @@ impl Survey<'_> {
         let mut seen = self.seen.get();
         let mut better = false;
         for i in 0..2 {
-            let Some(position) = self.question.places[i].filter(|_| open.of[i]) else { continue };
-            let best = seen.places[i].map_or(f64::INFINITY, |touch| touch.value);
+            let Some(position) = self.question.positions[i].filter(|_| open.of[i]) else { continue };
+            let best = seen.positions[i].map_or(f64::INFINITY, |touch| touch.value);
             if let Some(touch) = self.prober.touch(triangle, position, best) {
-                seen.places[i] = Some(touch);
+                seen.positions[i] = Some(touch);
                 better = true;
             }
         }
@@ -243,7 +243,7 @@ impl Survey<'_> {
 
     /// Takes what was seen and draws limits and planes from it.
     fn update(&self, seen: Seen) {
-        let [first, second] = seen.places;
+        let [first, second] = seen.positions;
         let value = |touch: Option<Touch>| touch.map_or(f64::INFINITY, |touch| touch.value);
         let deepest = seen.deepest.map_or(self.question.below, |p| p.touch.value);
         let below = deepest.min(value(first) - SLACK).min(value(second) - SLACK);
@@ -343,8 +343,8 @@ mod tests {
 
     fn nearest(prober: &Prober, position: Vector) -> f64 {
         let question =
-            Question { stroke: Stroke::still(position), places: [Some(position), None], below: f64::NEG_INFINITY };
-        prober.survey(question, None).places[0].unwrap().value
+            Question { stroke: Stroke::still(position), positions: [Some(position), None], below: f64::NEG_INFINITY };
+        prober.survey(question, None).positions[0].unwrap().value
     }
 
     /// The least clearance over all triangles, without the index.
@@ -373,10 +373,10 @@ mod tests {
         fn one_search_answers_as_three_do(body in any_body(), mesh in any_mesh(), from in any_point(25.0, 3.0, 15.0),
                                           way in any_point(3.0, -1.0, 1.0)) {
             let stroke = Stroke { from, to: from + way };
-            let places = [Some(stroke.at(0.5)), Some(stroke.to)];
+            let positions = [Some(stroke.at(0.5)), Some(stroke.to)];
             with(&body, &mesh, |p| {
-                let seen = p.survey(Question { stroke, places, below: 5.0 }, Some(Guess { triangle: Some(3), offset: Vector::zeros() }));
-                for (place, touch) in places.iter().zip(&seen.places) {
+                let seen = p.survey(Question { stroke, positions, below: 5.0 }, Some(Guess { triangle: Some(3), offset: Vector::zeros() }));
+                for (place, touch) in positions.iter().zip(&seen.positions) {
                     let (found, expected) = (touch.unwrap().value, of_all(p, place.unwrap()));
                     prop_assert!((found - expected).abs() < 1e-9, "{found} {expected}");
                     let deeper = seen.deepest.is_none_or(|p| p.touch.value < found - 0.5 * SLACK);
@@ -391,7 +391,7 @@ mod tests {
                                              way in any_point(30.0, -5.0, 5.0)) {
             let stroke = Stroke { from, to: from + way };
             with(&body, &mesh, |p| {
-                let passed = p.survey(Question { stroke, places: [None; 2], below: 1.0 }, None).deepest;
+                let passed = p.survey(Question { stroke, positions: [None; 2], below: 1.0 }, None).deepest;
                 let sampled = (0..=200).map(|i| of_all(p, stroke.at(f64::from(i) / 200.0)));
                 let sampled = sampled.fold(f64::INFINITY, f64::min);
                 match passed {

@@ -4,7 +4,7 @@ use styluscam_motion::{EventKind, Move, MoveKind, Program};
 
 use crate::faults::{self, Fault};
 use crate::findings::{Finding, FindingKind, Severity};
-use crate::segments::{in_this_world, Segment, SegmentKind};
+use crate::segments::{is_in_range, Segment, SegmentKind};
 use crate::subject::{Limits, Subject, ToolCalls};
 use crate::tolerances::SLACK;
 use crate::unknown::{self, standing_low};
@@ -68,7 +68,7 @@ fn deep_rapid(segment: &Segment, limits: &Limits) -> Option<Fault> {
 }
 
 fn planes_not_needed(program: &Program, subject: &Subject) -> Vec<Fault> {
-    let runs = subject.text.iter().flat_map(|text| &text.stray_planes);
+    let runs = subject.text.iter().flat_map(|text| &text.planes_not_needed);
     let moves = runs.flat_map(Clone::clone).filter_map(|index| Some((index, program.moves.get(index)?)));
     let feeds = moves.filter(|(_, step)| step.kind == MoveKind::Feed);
     feeds.map(|(index, step)| Fault::of(&faults::PLANE_NOT_NEEDED, index, step)).collect()
@@ -103,7 +103,7 @@ pub(crate) fn optional_lines(subject: &Subject) -> Option<Finding> {
 
 /// The finding of modal codes that are not stated: the controller is as the last program, or the operator, left it.
 pub(crate) fn modes_not_stated(program: &Program, subject: &Subject) -> Option<Finding> {
-    let codes = subject.text.map(|text| text.unsaid.join(" and ")).filter(|codes| !codes.is_empty())?;
+    let codes = subject.text.map(|text| text.not_stated.join(" and ")).filter(|codes| !codes.is_empty())?;
     let line = program.moves.first().map_or(0, |step| step.line);
     let message = format!(
         "line {line}: modal code not stated ({codes}): the controller keeps what the last program left; write {codes} before the first move"
@@ -124,9 +124,9 @@ pub(crate) fn work_offset(program: &Program, wcs: &str) -> Option<Finding> {
 
 fn text_faults(index: usize, step: &Move, subject: &Subject) -> impl Iterator<Item = Fault> {
     let feeds = step.kind != MoveKind::Rapid;
-    let absurd = !in_this_world(step.end);
-    let placed = subject.places(index);
-    let from_a_place = index.checked_sub(1).is_some_and(|before| subject.places(before));
+    let absurd = !is_in_range(step.end);
+    let placed = subject.is_known(index);
+    let from_a_place = index.checked_sub(1).is_some_and(|before| subject.is_known(before));
     let fault = |kind| Fault::of(kind, index, step);
     [
         (feeds && !(step.feed > 0.0 && step.feed.is_finite())).then(|| fault(&faults::MISSING_FEED)),
@@ -157,7 +157,7 @@ fn missing_tool_change(program: &Program, subject: &Subject) -> Option<Fault> {
         return None;
     }
     let calls = subject.text.map(|text| text.tool_calls).unwrap_or_default();
-    if calls == ToolCalls::Unsaid && program.tools.len() <= 1 {
+    if calls == ToolCalls::NotStated && program.tools.len() <= 1 {
         return None;
     }
     let alone = calls != ToolCalls::Load && program.tools.len() <= 1;

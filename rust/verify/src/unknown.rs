@@ -16,16 +16,16 @@ const NEAR_TOP: f64 = 10.0;
 pub(crate) fn faults(program: &Program, segments: &[Segment], subject: &Subject, limits: &Limits) -> Vec<Fault> {
     let first = segments.iter().filter(|segment| segment.start.is_none() && segment.kind == SegmentKind::Rapid);
     let low = first.filter(|segment| segment.end[2] < limits.clearance - SLACK);
-    let begins = subject.unplaced.first().filter(|run| run.start == 0).map_or(0, |run| run.end);
+    let begins = subject.unknown_positions.first().filter(|run| run.start == 0).map_or(0, |run| run.end);
     let fault = |index: usize, height: f64| {
         let kind = if index <= begins { &faults::UNSAFE_START } else { &faults::UNKNOWN_POSITION };
         Fault::of(kind, index, &program.moves[index]).measured(height, limits.clearance)
     };
     let mut faults: Vec<Fault> = low.map(|segment| fault(segment.index, segment.end[2])).collect();
     let Some(text) = subject.text else { return faults };
-    for index in subject.unplaced.iter().flat_map(Clone::clone) {
+    for index in subject.unknown_positions.iter().flat_map(Clone::clone) {
         let height = program.moves.get(index).map_or(f64::NAN, |step| step.end[2]);
-        let known = run_of(&text.blind, index).is_none();
+        let known = run_of(&text.unknown_heights, index).is_none();
         if known && height < limits.clearance - SLACK {
             faults.push(fault(index, height));
         } else if !known && !at_the_top(text, index, limits) {
@@ -49,9 +49,9 @@ fn machine_fault(
     let across = step.places[..2].iter().any(Option::is_some);
     let down = step.places[2].is_some() && !goes_up(step, limits);
     let low = || {
-        let blind = step.before == 0 || run_of(&text.blind, step.before.saturating_sub(1)).is_some();
-        let raised = blind && at_the_top(text, step.before, limits);
-        !raised && (blind || standing_low(segments, step.before, subject, limits).is_some())
+        let unknown = step.before == 0 || run_of(&text.unknown_heights, step.before.saturating_sub(1)).is_some();
+        let raised = unknown && at_the_top(text, step.before, limits);
+        !raised && (unknown || standing_low(segments, step.before, subject, limits).is_some())
     };
     if !(down || across && low()) {
         return None;
@@ -73,7 +73,7 @@ fn goes_up(step: &MachineMove, limits: &Limits) -> bool {
 
 /// Whether the tool, whose height in the work is not known after a move, was sent to the machine's top before.
 fn at_the_top(text: &TextFacts, index: usize, limits: &Limits) -> bool {
-    let since = run_of(&text.blind, index).map_or(index, |run| run.start);
+    let since = run_of(&text.unknown_heights, index).map_or(index, |run| run.start);
     let last =
         text.machine_moves.iter().rev().find(|step| step.places[2].is_some() && (since..=index).contains(&step.before));
     last.is_some_and(|step| goes_up(step, limits))

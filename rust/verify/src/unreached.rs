@@ -60,17 +60,17 @@ pub(crate) fn findings(
         .collect();
     let asked: Vec<(&Probe, f64)> =
         probes.iter().zip(gaps?.concat()).filter_map(|(probe, gap)| Some((probe, gap?))).collect();
-    let mut places: Vec<Place> =
+    let mut positions: Vec<Place> =
         asked.iter().filter(|(_, gap)| *gap > most).map(|(probe, gap)| Place { probe, left: *gap }).collect();
-    if !places.is_empty() {
+    if !positions.is_empty() {
         let sweeps = Sweeps::of_all(segments, subject);
         let mut last = None;
-        for place in &mut places {
+        for place in &mut positions {
             place.left = place.left.min(sweeps.left(place.probe.point, &mut last));
         }
     }
     let area: f64 = selected.iter().map(|triangle| subject.mesh.area(*triangle)).sum();
-    Ok(findings_of(&places, asked.len(), area / probes.len().max(1) as f64, subject, limits))
+    Ok(findings_of(&positions, asked.len(), area / probes.len().max(1) as f64, subject, limits))
 }
 
 /// A position that no tool can touch.
@@ -216,9 +216,9 @@ fn gap(tasks: &[Task], probe: &Probe, subject: &Subject, enough: f64) -> Option<
     tasks.iter().filter_map(|task| task.gap(probe, subject, enough)).min_by(f64::total_cmp)
 }
 
-fn findings_of(places: &[Place], asked: usize, area_each: f64, subject: &Subject, limits: &Limits) -> Vec<Finding> {
+fn findings_of(positions: &[Place], asked: usize, area_each: f64, subject: &Subject, limits: &Limits) -> Vec<Finding> {
     let mut findings = Vec::new();
-    let Some(worst) = places.iter().max_by(|a, b| a.left.total_cmp(&b.left)) else { return findings };
+    let Some(worst) = positions.iter().max_by(|a, b| a.left.total_cmp(&b.left)) else { return findings };
     let face = |place: &Place| subject.mesh.faces().get(place.probe.triangle).copied().unwrap_or(0);
     let left = |left: f64| if left.is_finite() { format!("{left:.3} mm") } else { "everything".to_owned() };
     let [x, y, z]: [f64; 3] = worst.probe.point.into();
@@ -239,7 +239,7 @@ fn findings_of(places: &[Place], asked: usize, area_each: f64, subject: &Subject
             ..Finding::of_all(FindingKind::Bridged, Severity::Error, message)
         });
     }
-    let unreached = places.iter().filter(|place| place.left > limits.unreached_from).count();
+    let unreached = positions.iter().filter(|place| place.left > limits.unreached_from).count();
     let share = unreached as f64 / asked.max(1) as f64;
     if share > limits.unreached {
         let [unreached, whole] = [unreached, asked].map(|points| points as f64 * area_each);

@@ -6,7 +6,7 @@ use styluscam_geometry::{Cutter, Mesh, Tool, Vector};
 
 use crate::expectation::Expectation;
 use crate::findings::{Finding, FindingKind, Severity};
-use crate::subject::{Bears, Forming, Limits, Subject};
+use crate::subject::{Forming, Limits, Subject, WallAngleSource};
 use crate::tolerances::{ANGLE, VERTICAL};
 
 /// Area that makes a wall, mm^2, and as a share of the faces: less is a sliver's.
@@ -99,25 +99,25 @@ fn finding_of(forming: &Forming, wall: &Wall) -> Finding {
     let [most, sure] = [forming.max_wall_angle, forming.sure_wall_angle].map(f64::to_degrees);
     let is_error = wall.angle > forming.max_wall_angle + ANGLE;
     let place = format!("X{:.3} Y{:.3} Z{:.3}", wall.at.x, wall.at.y, wall.at.z);
-    let message = match (forming.bears, is_error) {
-        (Bears::Said, _) => format!(
+    let message = match (forming.source, is_error) {
+        (WallAngleSource::Job, _) => format!(
             "{place}: a wall is at {angle:.1} degrees, and the job's max_wall_angle_deg is {most:.1}; turn the part so that \
              its walls share the angle, or form in stages"
         ),
-        (Bears::Material(name), true) => format!(
+        (WallAngleSource::Material(name), true) => format!(
             "{place}: a wall is at {angle:.1} degrees, and {name} allows {most:.1} in one pass; turn the part so that its \
              walls share the angle, form in stages, or state what your sheet allows as setup.sheet.max_wall_angle_deg"
         ),
-        (Bears::Material(name), false) => format!(
+        (WallAngleSource::Material(name), false) => format!(
             "{place}: a wall is at {angle:.1} degrees, and {name} allows {sure:.1} to {most:.1} in one pass; try it, and \
              state what your sheet allows as setup.sheet.max_wall_angle_deg"
         ),
-        (Bears::Unknown, true) => format!(
+        (WallAngleSource::Unknown, true) => format!(
             "{place}: a wall is at {angle:.1} degrees, and no known material allows more than {most:.1} in one \
              pass; turn the part so that its walls share the angle, form in stages, or state what your sheet allows as \
              setup.sheet.max_wall_angle_deg"
         ),
-        (Bears::Unknown, false) => format!(
+        (WallAngleSource::Unknown, false) => format!(
             "{place}: a wall is at {angle:.1} degrees, and not every material allows more than {sure:.1} in one pass; name \
              the material (process.material), or state what your sheet allows as setup.sheet.max_wall_angle_deg"
         ),

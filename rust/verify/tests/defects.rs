@@ -221,7 +221,7 @@ fn a_feed_move_from_an_unknown_place_is_found() {
     let tools = [tool];
     let mut subject = part.subject(&tools);
     let run = 0..3;
-    subject.unplaced = std::slice::from_ref(&run);
+    subject.unknown_positions = std::slice::from_ref(&run);
     let report = judge(&program, &subject, &limits(), &Watch::default()).unwrap();
     let found = of_kind(&report, FindingKind::UnplacedFeed);
     assert_eq!((found[0].first_line, found[0].last_line), (12, 14));
@@ -312,11 +312,11 @@ fn nothing_is_too_strange_to_be_judged() {
     let mut program = path.program(&tool);
     let tools = [tool];
     let nowhere = 0..9999;
-    for (unplaced, tools, excess) in
+    for (unknown_positions, tools, excess) in
         [(&[][..], &tools[..], Some(0.005)), (std::slice::from_ref(&nowhere), &tools, None), (&[], &[], Some(-1.0))]
     {
         program.operations.clear();
-        let subject = styluscam_verify::Subject { unplaced, tools, ..part.subject(tools) };
+        let subject = styluscam_verify::Subject { unknown_positions, tools, ..part.subject(tools) };
         let strange = Limits { excess, gouge: f64::NAN, clearance: f64::INFINITY, ..limits() };
         for limits in [limits(), strange] {
             assert!(!judge(&program, &subject, &limits, &Watch::default()).unwrap().ok);

@@ -60,7 +60,7 @@ impl Part {
             deviation_inward: 0.0,
             deviation_outward: 0.0,
             wcs: "G54",
-            unplaced: &[],
+            unknown_positions: &[],
             text: None,
             expected: &[],
             obstacles: &[],
