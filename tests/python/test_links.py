@@ -65,6 +65,16 @@ def test_links_lead_somewhere(page: Path) -> None:
     assert defects(page) == []
 
 
+CONCEPTS = sorted(page for page in (CHECKOUT / "docs" / "concepts").glob("*.md") if page.name != "README.md")
+
+
+@pytest.mark.parametrize("page", CONCEPTS, ids=lambda page: page.stem)
+def test_a_module_that_a_concept_explains_names_the_page(page: Path) -> None:
+    code = [(page.parent / link).resolve() for link in links(page) if link.endswith(".rs")]
+    heads = [line for file in code for line in file.read_text(encoding="utf-8").splitlines() if line.startswith("//!")]
+    assert any(f"docs/concepts/{page.name}" in line for line in heads)
+
+
 def test_every_picture_is_shown() -> None:
     shown = {(page.parent / link).resolve() for page in pages() for link in links(page)}
     drawn = [path for ending in ("png", "svg") for path in (CHECKOUT / "docs").rglob(f"*.{ending}")]

@@ -1,4 +1,8 @@
 //! The body that is checked: tool and sheet as one convex solid, open upwards.
+//!
+//! Distances by support functions alone: E. G. Gilbert, D. W. Johnson, S. S. Keerthi, "A fast procedure for computing the
+//! distance between complex objects in three-dimensional space", IEEE Journal of Robotics and Automation 4, 1988; simpler here,
+//! for the body is one of revolution. See docs/concepts/verifier.md.
 
 use std::f64::consts::FRAC_PI_2;
 

@@ -1,4 +1,7 @@
 //! The lowest value of a convex function on [0, 1], by tangents.
+//!
+//! J. E. Kelley, "The cutting-plane method for solving convex programs", Journal of the SIAM 8, 1960: in one dimension, with
+//! Newton's steps between the cuts. See docs/concepts/verifier.md.
 
 /// A convex function at one position.
 #[derive(Clone, Copy, Debug)]

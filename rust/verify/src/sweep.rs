@@ -3,6 +3,8 @@
 //! Along a straight move the distance from the body to a triangle is convex in the position on the move:
 //! a supporting plane that keeps the triangle off at both ends keeps it off all the way, and where
 //! none is found the lowest position comes from one convex search.
+//!
+//! The derivation, and why one search is enough for a whole move: docs/concepts/verifier.md.
 
 use std::cell::Cell;
 

@@ -1,4 +1,6 @@
 //! The slope-matched offset: the tool's tip for a contact, found by matching slopes (US 2023/0035585).
+//!
+//! Derivation: docs/concepts/slope-matching.md.
 
 use styluscam_geometry::{Sheet, Tool, Vector};
 

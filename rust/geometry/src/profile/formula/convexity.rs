@@ -12,6 +12,8 @@
 //!
 //! A cell at the tip or the base need not be proved where it is [`TINY`] of the size, in r and z, or so in one of them
 //! and [`SMALL`] in the other: there only its two ends have been looked at, and between them it is taken to rise.
+//!
+//! See docs/concepts/convexity.md.
 
 use std::fmt;
 
