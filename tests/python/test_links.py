@@ -70,8 +70,16 @@ CONCEPTS = sorted(page for page in (CHECKOUT / "docs" / "concepts").glob("*.md")
 
 @pytest.mark.parametrize("page", CONCEPTS, ids=lambda page: page.stem)
 def test_a_module_that_a_concept_explains_names_the_page(page: Path) -> None:
-    code = [(page.parent / link).resolve() for link in links(page) if link.endswith(".rs")]
-    heads = [line for file in code for line in file.read_text(encoding="utf-8").splitlines() if line.startswith("//!")]
+    linked = [(page.parent / link).resolve() for link in links(page)]
+    folders = {path if path.is_dir() else path.parent for path in linked if "rust" in path.parts}
+    code = [path for path in (*linked, *(folder / "mod.rs" for folder in folders)) if path.suffix == ".rs"]
+    heads = [
+        line
+        for file in code
+        if file.is_file()
+        for line in file.read_text(encoding="utf-8").splitlines()
+        if line.startswith("//!")
+    ]
     assert any(f"docs/concepts/{page.name}" in line for line in heads)
 
 
