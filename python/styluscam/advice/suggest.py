@@ -19,6 +19,7 @@ import numpy as np
 
 from styluscam import _engine
 from styluscam.advice import reach
+from styluscam.advice.facts import Facts, OperationFacts, WallShare
 from styluscam.advice.walls import BIN_DEG, Classes, Walls, walls_of
 from styluscam.errors import Cancelled, GeometryError, JobError, PlanError, ToolError
 from styluscam.programs import planning
@@ -134,13 +135,13 @@ class Advice:
     """The ranking, best first, and what the part asks for."""
 
     candidates: tuple[Candidate, ...]
-    facts: Document
+    facts: Facts
     notes: tuple[str, ...] = field(default=())
 
     def to_dict(self) -> Document:
         """For scripts."""
         return {
-            "part": self.facts,
+            "part": self.facts.to_dict(),
             "notes": list(self.notes),
             "tools": [candidate.to_dict() for candidate in self.candidates],
         }
@@ -438,25 +439,22 @@ def _square_of(candidate: Candidate, excess: float, faces: list[int], asked: lis
     return excess**2 * within / sum(each.walls.area for each in asked)
 
 
-def _facts(asked: list[_Asked]) -> Document:
+def _facts(asked: list[_Asked]) -> Facts:
     angles, areas = _angles(asked)
     hollows = [hollow for each in asked if (hollow := each.walls.smallest_hollow_mm) is not None]
     area = sum(each.walls.area for each in asked)
-    return {
-        "passes": "; ".join(dict.fromkeys(each.passes.words for each in asked)),
-        "operations": [
-            {"id": each.name, "passes": each.passes.words, "faces": each.walls.faces, "area_mm2": each.walls.area}
-            for each in asked
-        ],
-        "walls": [
-            {"angle_deg": float(angle), "share": float(area)}
-            for angle, area in zip(angles, areas / areas.sum(), strict=True)
-        ],
-        "floor_share": sum(each.walls.floor_share * each.walls.area for each in asked) / area,
-        "smallest_concave_radius_mm": min(hollows, default=None),
-        "fitting_radius_mm": asked[0].fits if math.isfinite(asked[0].fits) else None,
-        "sharp_concave_edges_mm": max(each.walls.crease_mm for each in asked),
-    }
+    shares = zip(angles, areas / areas.sum(), strict=True)
+    return Facts(
+        passes="; ".join(dict.fromkeys(each.passes.words for each in asked)),
+        operations=tuple(
+            OperationFacts(each.name, each.passes.words, each.walls.faces, each.walls.area) for each in asked
+        ),
+        walls=tuple(WallShare(float(angle), float(share)) for angle, share in shares),
+        floor_share=sum(each.walls.floor_share * each.walls.area for each in asked) / area,
+        smallest_concave_radius_mm=min(hollows, default=None),
+        fitting_radius_mm=asked[0].fits if math.isfinite(asked[0].fits) else None,
+        sharp_concave_edges_mm=max(each.walls.crease_mm for each in asked),
+    )
 
 
 def _angles(asked: list[_Asked]) -> tuple[FloatArray, FloatArray]:

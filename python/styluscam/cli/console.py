@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from typing import TextIO
 
 from styluscam.errors import StylusError
+from styluscam.records import plain
 
 WIDTH = 110
 """Columns of tables where stdout is no terminal."""
@@ -87,7 +88,7 @@ def say(text: str = "") -> None:
 
 def say_json(document: object) -> None:
     """The one document that ``--json`` prints."""
-    say(json.dumps(document, indent=2, ensure_ascii=False))
+    say(json.dumps(document, indent=2, ensure_ascii=False, default=plain))
 
 
 def complain(text: str) -> None:

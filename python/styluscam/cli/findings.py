@@ -13,10 +13,10 @@ SHOWN = 6
 def lines(report: Report) -> list[str]:
     """One line for each group of findings, errors first; those that would fill more than a screen by their names only."""
     told, named = report.groups[:SHOWN], report.groups[SHOWN:]
-    said = [f"{group['severity']}: {group['message']}" for group in told]
+    said = [f"{group.severity}: {group.message}" for group in told]
     if not named:
         return said
-    rest = ", ".join(f"{spoken(group['kind'])} ({group['severity']}, {group['count']})" for group in named)
+    rest = ", ".join(f"{spoken(group.kind)} ({group.severity}, {group.count})" for group in named)
     return [*said, f"and of other kinds or places: {rest}; --report or --json tells of them all"]
 
 

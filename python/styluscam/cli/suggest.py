@@ -13,9 +13,9 @@ from styluscam.cli.options import Debug, JobFile, Json, Quiet
 from styluscam.programs.job import Job
 from styluscam.tools import library
 from styluscam.tools.tool import Tool
-from styluscam.types import Document
 
 if TYPE_CHECKING:
+    from styluscam.advice.facts import Facts
     from styluscam.advice.suggest import Candidate
 
 LibraryFile = Annotated[
@@ -63,7 +63,7 @@ def suggest(
         console.say_json({"library": shelf.name, **advice.to_dict()})
         return 0
     candidates = advice.candidates[:rows]
-    console.say(f"{shelf.name}: {len(advice.candidates)} tools, {advice.facts['passes']}; best first")
+    console.say(f"{shelf.name}: {len(advice.candidates)} tools, {advice.facts.passes}; best first")
     console.say()
     table = [
         [
@@ -110,14 +110,11 @@ def _shelf(job: Job) -> library.Library:
     return next(shelf for shelf in library.shipped() if shelf.name == ("milling" if milling else "forming"))
 
 
-def _part(facts: Document) -> list[tuple[str, str]]:
-    most = sorted(facts["walls"], key=lambda wall: -wall["share"])[:3]
-    walls = ", ".join(f"{100.0 * wall['share']:.0f} % near {wall['angle_deg']:.0f} deg" for wall in most)
-    hollow, fits = facts["smallest_concave_radius_mm"], facts["fitting_radius_mm"]
-    operations = [
-        (operation["id"], f"{operation['passes']}, on {_faces(operation['faces'])}")
-        for operation in facts["operations"]
-    ]
+def _part(facts: Facts) -> list[tuple[str, str]]:
+    most = sorted(facts.walls, key=lambda wall: -wall.share)[:3]
+    walls = ", ".join(f"{100.0 * wall.share:.0f} % near {wall.angle_deg:.0f} deg" for wall in most)
+    hollow, fits = facts.smallest_concave_radius_mm, facts.fitting_radius_mm
+    operations = [(each.id, f"{each.passes}, on {_faces(each.faces)}") for each in facts.operations]
     return [
         *operations,
         ("wall angles", walls),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from styluscam.types import Document
+from styluscam.judging.results import FaceCoverage
 from styluscam.words import place
 
 SHOWN = 6
@@ -29,15 +29,13 @@ class Totals:
     """What goes down flat with the passes around it, and needs none either."""
 
     @classmethod
-    def of(cls, faces: Sequence[Document]) -> Totals:
+    def of(cls, faces: Sequence[FaceCoverage]) -> Totals:
         """Sums up what ``Report.coverage`` gives."""
-        areas = [float(face["area"]) for face in faces]
-        formed = [to_form(face) for face in faces]
         return cls(
-            sum(formed),
-            sum(float(face["covered"]) * area for face, area in zip(faces, formed, strict=True)),
-            sum(float(face["flat"]) * area for face, area in zip(faces, areas, strict=True)),
-            sum(float(face["carried"]) * area for face, area in zip(faces, areas, strict=True)),
+            sum(face.to_form for face in faces),
+            sum(face.covered * face.to_form for face in faces),
+            sum(face.flat * face.area for face in faces),
+            sum(face.carried * face.area for face in faces),
         )
 
     @property
@@ -46,18 +44,13 @@ class Totals:
         return self.covered / self.formed if self.formed >= LEAST_AREA else None
 
 
-def to_form(face: Document) -> float:
-    """The area of a face that the tool must touch, mm^2."""
-    return float(face["area"]) * max(0.0, 1.0 - float(face["flat"]) - float(face["carried"]))
-
-
-def lines(faces: Sequence[Document]) -> list[str]:
+def lines(faces: Sequence[FaceCoverage]) -> list[str]:
     """All faces together, then one by one."""
-    told = [face for face in faces if to_form(face) >= LEAST_AREA]
+    told = [face for face in faces if face.to_form >= LEAST_AREA]
     if len(told) > SHOWN:
-        told = sorted(told, key=lambda face: (face["covered"] - 1.0) * to_form(face))[:SHOWN]
-        told.sort(key=lambda face: int(face["face"]))
-    hidden = sum(to_form(face) >= LEAST_AREA for face in faces) - len(told)
+        told = sorted(told, key=lambda face: (face.covered - 1.0) * face.to_form)[:SHOWN]
+        told.sort(key=lambda face: face.face)
+    hidden = sum(face.to_form >= LEAST_AREA for face in faces) - len(told)
     more = [f"and {hidden} more faces of which less is left: --json has them all"] if hidden else []
     return [_of_all(Totals.of(faces)), *(_of_face(face) for face in told), *more]
 
@@ -80,7 +73,9 @@ def unformed(totals: Totals) -> list[tuple[float, str]]:
     return [(area, why) for area, why in reasons if area >= LEAST_AREA]
 
 
-def _of_face(face: Document) -> str:
-    most = "nothing touches it" if face["left"] is None else f"most left {face['left']:.3f} mm at {place(face['at'])}"
-    scallop = f"scallop {face['scallop']:.4f} mm (mean {face['mean']:.4f}), " if face["covered"] > 0.0 else ""
-    return f"Face{face['face']}: {100 * face['covered']:.1f} % of {to_form(face):.1f} mm2, {scallop}{most}"
+def _of_face(face: FaceCoverage) -> str:
+    most = "nothing touches it"
+    if face.left is not None and face.at is not None:
+        most = f"most left {face.left:.3f} mm at {place(face.at)}"
+    scallop = f"scallop {face.scallop:.4f} mm (mean {face.mean:.4f}), " if face.covered > 0.0 else ""
+    return f"Face{face.face}: {100 * face.covered:.1f} % of {face.to_form:.1f} mm2, {scallop}{most}"

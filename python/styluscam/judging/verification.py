@@ -13,6 +13,7 @@ from styluscam.arguments import A_FILE, FileName, file_of, refused
 from styluscam.errors import GeometryError, JobError, PlanError, VerifyError
 from styluscam.files import read_gcode_text
 from styluscam.judging.brep import recheck
+from styluscam.judging.results import FaceCoverage, Finding, Group
 from styluscam.programs.job import Job, JobLike
 from styluscam.programs.machine import Machine, MachineLike
 from styluscam.programs.planning import Plan, TextLike, text_of
@@ -41,7 +42,7 @@ class Report:
         self.job, self.scene = job, scene
         self.machine = machine
         self.text = text
-        self._coverage: list[Document] | None = None
+        self._coverage: list[FaceCoverage] | None = None
 
     def __repr__(self) -> str:
         """The verdict and the worst figures."""
@@ -79,21 +80,15 @@ class Report:
         """Nothing was found that must not be."""
         return bool(self._document["ok"])
 
-    @property
-    def findings(self) -> list[Document]:
+    @cached_property
+    def findings(self) -> list[Finding]:
         """Each with kind, severity, line, position, value, limit, unit and a message."""
-        findings: list[Document] = self._document["findings"]
-        return findings
+        return [Finding(**finding) for finding in self._document["findings"]]
 
-    @property
-    def groups(self) -> list[Document]:
-        """The findings told together by kind, and by region of the part where these are clearly separate; errors first.
-
-        Each with kind, severity, count, the worst one's line, position, value, limit and unit, first and last line, a
-        message, and the indices of those that ``findings`` lists.
-        """
-        groups: list[Document] = self._document["groups"]
-        return groups
+    @cached_property
+    def groups(self) -> list[Group]:
+        """The findings by kind, and by region of the part where these are clearly separate; errors first."""
+        return [Group(**group) for group in self._document["groups"]]
 
     @property
     def gouge_max(self) -> float:
@@ -107,11 +102,8 @@ class Report:
 
     def coverage(
         self, *, progress: Progress | None = None, cancel: _engine.CancelToken | None = None
-    ) -> list[Document]:
+    ) -> list[FaceCoverage]:
         """What the program leaves on each face that the job is for.
-
-        Keys: face, area (mm2), flat and carried (shares of it that need no forming), covered (share of the rest), scallop,
-        mean, left (mm), at (where most is left), points (looked at).
 
         What is left at a point is its distance from all that tool and sheet sweep on moves that are meant to touch. A
         place is covered where that is at most a hundredth of the smallest used tool's diameter; the scallop is the most
@@ -121,7 +113,7 @@ class Report:
         """
         if self._coverage is None:
             found = self.judgement.coverage(self.job.engine, self.scene, progress=progress, cancel=cancel)
-            self._coverage = json.loads(found)
+            self._coverage = [FaceCoverage(**face) for face in json.loads(found)]
         return self._coverage
 
     def left(
@@ -169,7 +161,7 @@ class Report:
     @property
     def scallop(self) -> float:
         """Largest scallop on the faces that the job is for, mm: what :meth:`coverage` finds where it is covered."""
-        return max((float(face["scallop"]) for face in self.coverage()), default=0.0)
+        return max((face.scallop for face in self.coverage()), default=0.0)
 
     def to_dict(self) -> Document:
         """Everything, as plain data."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from styluscam.judging.results import Finding, Group
 from styluscam.judging.verification import Report
 from styluscam.types import Document, FloatArray, IntArray
 
@@ -36,7 +37,7 @@ def verdict_of(report: Report | None, traced: bool = False) -> Verdict:
         "The text was read back as the machine reads it; every move was held against the whole part, "
         f"{document['samples']} places measured{exact}."
     )
-    kinds = dict.fromkeys(str(group["kind"]) for group in report.groups)
+    kinds = dict.fromkeys(group.kind for group in report.groups)
     found = f"Found: {', '.join(f'{spoken(kind)} ({_extent(document, kind)})' for kind in kinds)}. {judged}"
     if not report.ok:
         return Verdict("faulty", "Must not run", found)
@@ -52,8 +53,8 @@ def grouped(report: Report | None) -> list[Document]:
     return [{**group, "worst": _worst(group, report.findings)} for group in report.groups]
 
 
-def _worst(group: Document, findings: Sequence[Document]) -> int:
-    listed: list[int] = group["findings"]
+def _worst(group: Group, findings: Sequence[Finding]) -> int:
+    listed = group.findings
     same = ("line", "position", "value")
     return next((index for index in listed if all(findings[index][key] == group[key] for key in same)), listed[0])
 
@@ -74,7 +75,7 @@ def measured(value: float, unit: str) -> str:
     return f"{value:.4f} mm" if unit == "mm" else f"{value:.6g} {unit}"
 
 
-def placed(findings: Sequence[Document], lines: IntArray, places: FloatArray, times: FloatArray) -> list[Document]:
+def placed(findings: Sequence[Finding], lines: IntArray, places: FloatArray, times: FloatArray) -> list[Document]:
     """The findings, each with its ``time`` in seconds (none where it has no moment).
 
     ``lines`` (N,), ``places`` (N, 3) and ``times`` (N,) are those along the path.
@@ -82,19 +83,19 @@ def placed(findings: Sequence[Document], lines: IntArray, places: FloatArray, ti
     return [{**finding, "time": _moment(finding, lines, places, times)} for finding in findings]
 
 
-def _moment(finding: Document, lines: IntArray, places: FloatArray, times: FloatArray) -> float | None:
+def _moment(finding: Finding, lines: IntArray, places: FloatArray, times: FloatArray) -> float | None:
     """When the tool is nearest to the finding's position on the finding's line."""
-    moves = np.flatnonzero(lines == finding["line"]) if finding["line"] else np.zeros(0, dtype=np.int64)
+    moves = np.flatnonzero(lines == finding.line) if finding.line else np.zeros(0, dtype=np.int64)
     if not len(moves):
         return None
-    if finding["position"] is None:
+    if finding.position is None:
         return float(times[moves[0]])
     before = np.maximum(moves - 1, 0)
     start, way = places[before], places[moves] - places[before]
     square = np.einsum("ij,ij->i", way, way)
-    along = np.einsum("ij,ij->i", np.asarray(finding["position"]) - start, way)
+    along = np.einsum("ij,ij->i", np.asarray(finding.position) - start, way)
     share = np.clip(np.divide(along, square, out=np.ones(len(moves)), where=square > 0.0), 0.0, 1.0)
-    off = np.linalg.norm(start + share[:, None] * way - np.asarray(finding["position"]), axis=1)
+    off = np.linalg.norm(start + share[:, None] * way - np.asarray(finding.position), axis=1)
     best = int(np.nanargmin(off)) if np.isfinite(off).any() else 0
     begins, ends = times[before[best]] if moves[best] > 0 else 0.0, times[moves[best]]
     return float(ends if share[best] >= 1.0 else begins + share[best] * (ends - begins))

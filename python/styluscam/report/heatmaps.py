@@ -84,7 +84,7 @@ def shown_plain(surface: Surface) -> Shown:
 def shown_judged(surface: Surface, report: Report, progress: Progress | None = None) -> Shown:
     """A part and what a judged program leaves on it, refined so that the passes show."""
     surface, merged = surface.coarsened(LIMIT)
-    wanted = np.isin(surface.faces, [face["face"] for face in report.coverage(progress=progress)]) & surface.looks_up
+    wanted = np.isin(surface.faces, [face.face for face in report.coverage(progress=progress)]) & surface.looks_up
     area = float(surface.areas[wanted].sum())
     between = area / max(report.program.length, 1e-9)
     spacing = max(between / PER_PASS, float(np.sqrt(2.0 * area / LIMIT)))

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from styluscam._engine import __version__
-from styluscam.judging.coverage import LEAST_AREA, Totals, to_form, unformed
+from styluscam.judging.coverage import LEAST_AREA, Totals, unformed
+from styluscam.judging.results import FaceCoverage
+from styluscam.records import Record
 from styluscam.report.subject import RAPIDS, Subject
 from styluscam.report.vendored import THREE_VERSION
 from styluscam.types import Document
@@ -21,26 +24,48 @@ LONGEST = 120
 Rows = list[tuple[str, str]]
 
 
-def figures(subject: Subject) -> Document:
-    """The program in numbers, as ``compare`` puts them side by side; mm, s, shares. None where there is none."""
+@dataclass(frozen=True, slots=True, eq=False)
+class Figures(Record):
+    """A program in numbers, as ``compare`` puts them side by side. None where there is no such number.
+
+    Attributes:
+        covered: share of what must be touched.
+        unformed_mm2: area that needs no forming.
+    """
+
+    time_s: float
+    length_mm: float
+    moves: int
+    blocks: int
+    lowest_z_mm: float | None
+    findings: int | None
+    gouge_mm: float | None
+    excess_mm: float | None
+    scallop_mm: float | None
+    covered: float | None
+    unformed_mm2: float | None
+
+
+def figures(subject: Subject) -> Figures:
+    """A program's numbers."""
     program, places = subject.program, subject.places
     at_feed = subject.kinds != RAPIDS
     report = subject.report
     faces = report.coverage() if report is not None else []
     done = Totals.of(faces)
-    return {
-        "time_s": float(subject.times[-1]) if len(subject.times) else 0.0,
-        "length_mm": program.length,
-        "moves": len(program.moves),
-        "blocks": len(np.unique(program.moves["line"])),
-        "lowest_z_mm": float(places[at_feed, 2].min()) if at_feed.any() else None,
-        "findings": sum(report.to_dict()["counts"].values()) if report is not None else None,
-        "gouge_mm": report.gouge_max if report is not None else None,
-        "excess_mm": report.excess_max if report is not None else None,
-        "scallop_mm": max((float(face["scallop"]) for face in faces), default=0.0) if report is not None else None,
-        "covered": done.share,
-        "unformed_mm2": sum(area for area, _ in unformed(done)) or None,
-    }
+    return Figures(
+        time_s=float(subject.times[-1]) if len(subject.times) else 0.0,
+        length_mm=program.length,
+        moves=len(program.moves),
+        blocks=len(np.unique(program.moves["line"])),
+        lowest_z_mm=float(places[at_feed, 2].min()) if at_feed.any() else None,
+        findings=sum(report.to_dict()["counts"].values()) if report is not None else None,
+        gouge_mm=report.gouge_max if report is not None else None,
+        excess_mm=report.excess_max if report is not None else None,
+        scallop_mm=max((face.scallop for face in faces), default=0.0) if report is not None else None,
+        covered=done.share,
+        unformed_mm2=sum(area for area, _ in unformed(done)) or None,
+    )
 
 
 SHOWN: dict[str, tuple[str, Callable[[Any], str]]] = {
@@ -59,7 +84,7 @@ SHOWN: dict[str, tuple[str, Callable[[Any], str]]] = {
 """How people get to see :func:`figures`."""
 
 
-def in_words(numbers: Document) -> Rows:
+def in_words(numbers: Figures) -> Rows:
     """:func:`figures` in words, without those that are not known."""
     return [(name, said(numbers[key])) for key, (name, said) in SHOWN.items() if numbers[key] is not None]
 
@@ -71,19 +96,19 @@ def faces(subject: Subject) -> list[tuple[str, ...]]:
     return [_face(face) for face in subject.report.coverage()]
 
 
-def _face(face: Document) -> tuple[str, ...]:
-    touched = to_form(face) >= LEAST_AREA
-    covered = touched and face["covered"] > 0.0
-    left = "nothing touches it" if face["left"] is None else f"{face['left']:.4f}"
+def _face(face: FaceCoverage) -> tuple[str, ...]:
+    touched = face.to_form >= LEAST_AREA
+    covered = touched and face.covered > 0.0
+    left = "nothing touches it" if face.left is None else f"{face.left:.4f}"
     return (
-        f"Face{face['face']}",
-        f"{face['area']:.1f}",
-        f"{100.0 * (face['flat'] + face['carried']):.1f}",
-        f"{100.0 * face['covered']:.1f}" if touched else "",
-        f"{face['scallop']:.4f}" if covered else "",
-        f"{face['mean']:.4f}" if covered else "",
+        f"Face{face.face}",
+        f"{face.area:.1f}",
+        f"{100.0 * (face.flat + face.carried):.1f}",
+        f"{100.0 * face.covered:.1f}" if touched else "",
+        f"{face.scallop:.4f}" if covered else "",
+        f"{face.mean:.4f}" if covered else "",
         left if touched else "stays flat",
-        "" if face["at"] is None or not touched else place(face["at"]),
+        "" if face.at is None or not touched else place(face.at),
     )
 
 
