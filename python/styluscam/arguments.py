@@ -1,6 +1,6 @@
-"""What the public calls take: texts and files told apart, and one sentence for what no argument can be.
+"""What the public calls take: texts and files distinguished, and one sentence for what no argument can be.
 
-The classes themselves say how they are made of a name, a file or a dict: :meth:`styluscam.Tool.of` and its like.
+The classes themselves state how they are made of a name, a file or a dict: :meth:`styluscam.Tool.of` and its like.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def file_of(value: object, argument: str, wanted: str, failure: type[StylusError
     """The file that a name or a path means.
 
     Raises:
-        StylusError: of class ``failure``: it is neither, or a text of several lines; ``hint`` says where those go.
+        StylusError: of class ``failure``: it is neither, or a text of several lines; ``hint`` names what takes those.
     """
     name = os.fspath(value) if isinstance(value, str | os.PathLike) else None
     is_name = isinstance(name, str) and bool(name.strip()) and not (isinstance(value, str) and _is_text(value))
@@ -84,8 +84,8 @@ def json_of(document: Document, argument: str, failure: type[StylusError]) -> st
     try:
         return json.dumps(document, default=_plain, allow_nan=False)
     except (TypeError, ValueError, RecursionError) as error:
-        place, value = next(_unfit(document, ""), ("", document))
-        raise refused(place or argument, value, "a text, a finite number, a list or a dict", failure) from error
+        key, value = next(_unfit(document, ""), ("", document))
+        raise refused(key or argument, value, "a text, a finite number, a list or a dict", failure) from error
 
 
 def _plain(value: object) -> object:
@@ -96,19 +96,19 @@ def _plain(value: object) -> object:
     raise TypeError(type(value).__name__)
 
 
-def _unfit(value: object, place: str) -> Iterator[tuple[str, object]]:
+def _unfit(value: object, key: str) -> Iterator[tuple[str, object]]:
     """Where a document holds what JSON cannot, and that."""
     if isinstance(value, Mapping):
-        for key, part in value.items():
-            yield from _unfit(part, f"{place}.{key}" if place else str(key))
+        for name, part in value.items():
+            yield from _unfit(part, f"{key}.{name}" if key else str(name))
     elif isinstance(value, list | tuple):
         for number, part in enumerate(value):
-            yield from _unfit(part, f"{place}[{number}]")
+            yield from _unfit(part, f"{key}[{number}]")
     else:
         try:
             json.dumps(value, default=_plain, allow_nan=False)
         except (TypeError, ValueError):
-            yield place, value
+            yield key, value
 
 
 def gcode_of(value: object, argument: str = "text") -> str:

@@ -1,4 +1,4 @@
-"""The errors that reach a user: one tree, each with a stable code, a place and a hint."""
+"""The errors that reach a user: one tree, each with a stable code, a position and a hint."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ class StylusError(Exception):
     """Base of all; the message is one line: what, where, what to do."""
 
     def __init__(self, message: str, *, code: str, where: str = "", hint: str = "") -> None:
-        """`code` is stable; `where` is a path in the job document or file:line; `hint` says what to do."""
+        """`code` is stable; `where` is a path in the job document or file:line; `hint` states what to do."""
         super().__init__(LONG.sub(lambda found: f"{float(found[0]):g}", message))
         self.code = code
         self.where = where

@@ -169,28 +169,28 @@ def require_writable(outputs: Iterable[Path], inputs: Iterable[Path] = ()) -> No
     """Asks before long work whether its outputs can be written; folders that do not exist will be made.
 
     Raises:
-        StylusError: a folder or a device stands in the way, permission is missing, or an output would replace one of
+        StylusError: a folder or a device has that name, permission is missing, or an output would replace one of
             ``inputs`` or another output.
     """
-    taken = {_place(path): "is read by this very job" for path in inputs}
+    taken = {_key(path): "is read by this very job" for path in inputs}
     for path in outputs:
         try:
             _look(path)
-            place = _place(path)
+            key = _key(path)
         except (OSError, ValueError) as error:
             raise _unwritable(path, error) from error
-        if place in taken:
+        if key in taken:
             raise StylusError(
-                f"{path}: cannot be written: it {taken[place]}",
+                f"{path}: cannot be written: it {taken[key]}",
                 code="unwritable",
                 where=str(path),
                 hint="give it another name",
             )
-        taken[place] = "is another output of this job"
+        taken[key] = "is another output of this job"
 
 
 def require_new(path: Path, force: bool, failure: type[StylusError], otherwise: str) -> None:
-    """Asks whether a file would be replaced that nobody said to replace; ``otherwise`` is what else can be done.
+    """Asks whether a file would be replaced without leave to replace it; ``otherwise`` is what else can be done.
 
     Raises:
         StylusError: of class ``failure``: it is there already.
@@ -208,7 +208,7 @@ def is_file(path: Path) -> bool:
         return False
 
 
-def _place(path: Path) -> str:
+def _key(path: Path) -> str:
     """The same for all names of a file."""
     return os.path.normcase(path.resolve())
 
@@ -230,9 +230,9 @@ def _look(path: Path) -> None:
 def _unwritable(path: Path, error: OSError | ValueError) -> StylusError:
     name = str(path).replace("\0", "?")
     message = f"{name}: cannot be written: {reason(error)}"
-    return StylusError(message, code="unwritable", where=name, hint="choose another place")
+    return StylusError(message, code="unwritable", where=name, hint="choose another folder or name")
 
 
 def reason(error: OSError | ValueError) -> str:
-    """What the system says, without the number and the name around it."""
+    """What the system reports, without the number and the name around it."""
     return str(getattr(error, "strerror", None) or error)

@@ -1,4 +1,4 @@
-"""Times and places as people read them."""
+"""Times, counts and positions as people read them."""
 
 from __future__ import annotations
 
@@ -27,6 +27,6 @@ def shortened(text: str, length: int = 60) -> str:
     return line if len(line) <= length else f"{line[: length - 3]}..."
 
 
-def place(point: Sequence[float]) -> str:
+def position(point: Sequence[float]) -> str:
     """Coordinates as G-code names them."""
     return " ".join(f"{axis}{value:.3f}" for axis, value in zip("XYZ", point, strict=True))

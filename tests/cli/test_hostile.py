@@ -68,7 +68,7 @@ def test_every_command_gives_json_errors_included(words, command, cli):
 def test_a_full_disk_behind_stdout_is_said_in_a_line(words):
     ran = styluscam(f"{words} >/dev/full")
     assert ran.returncode == 2, ran.stderr
-    assert ran.stderr.endswith("cannot be written: No space left on device; send it to another place\n")
+    assert ran.stderr.endswith("cannot be written: No space left on device; redirect it elsewhere\n")
     assert ran.stderr.count("\n") == 1
 
 

@@ -43,9 +43,9 @@ def foreign(tmp_path):
 def test_a_foreign_program_is_shown_beside_its_file(cli, foreign):
     ran = cli("view", foreign)
     assert ran.code == 0 and ran.err == ""
-    assert "as linuxcnc reads it; not judged" in ran.out and re.search(r"lowest Z +-2\.540 mm", ran.out)
+    assert "as linuxcnc reads it; not verified" in ran.out and re.search(r"lowest Z +-2\.540 mm", ran.out)
     page = foreign.with_suffix(".html").read_text()
-    assert "Not judged" in page and "foreign.ngc" in page
+    assert "Not verified" in page and "foreign.ngc" in page
 
 
 def test_a_page_of_somebody_elses_is_left_alone(cli, foreign):
@@ -63,7 +63,7 @@ def test_what_no_machine_reads_is_traced(cli, tmp_path):
     (tmp_path / "Slot.NGC").write_text(SLOT)
     ran = cli("view", program)
     assert ran.code == 0 and ran.err == ""
-    assert "read as RS-274NGC, traced; not judged" in ran.out and re.search(r"lowest Z +-6\.350 mm", ran.out)
+    assert "read as RS-274NGC, traced; not verified" in ran.out and re.search(r"lowest Z +-6\.350 mm", ran.out)
     assert "note: line 9: cutter compensation is not applied" in ran.out
     page = program.with_suffix(".html").read_text()
     assert "read as RS-274NGC, traced" in page and "#&lt;n&gt; has no value here: 0 is taken" in page

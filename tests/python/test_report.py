@@ -372,7 +372,7 @@ def test_two_programs_side_by_side(subjects: tuple[Subject, Subject]) -> None:
 def test_a_page_without_part_and_job(job: sc.Job) -> None:
     program = sc.read_gcode("G20 G90 G54\nG0 X0 Y0 Z1\nG1 Z0 F7\nX1.3333333\nG0 Z1\nM2\n", job.machine())
     page = report_page(Subject("a.ngc", "a.ngc", program, job.machine()))
-    assert "Not judged" in Page(page).text
+    assert "Not verified" in Page(page).text
     data = given(page)
     assert data["part"] is None and data["path"]["places"]["scale"] == 0
     assert np.array_equal(unpacked(data["path"]["places"]), program.positions)

@@ -125,7 +125,7 @@ def test_a_library_of_one_s_own(tmp_path: Path) -> None:
     [
         ("", "not a library", "JSON"),
         ("[1]", "JSON object", ""),
-        ('{"tools": [], "tools": []}', "'tools' stands twice", ""),
+        ('{"tools": [], "tools": []}', "'tools' is given twice", ""),
         ({"schema": 1}, "no list of tools", "ball-d10"),
         (shelf(), "no list of tools", ""),
         (shelf({"name": "a", "profile": BALL}, schema=2), "newer StylusCAM: schema 2", "update"),
@@ -429,7 +429,7 @@ def test_a_bit_keeps_the_tool_s_name_and_a_high_base(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("exact", "says"),
     [
-        ('{"profile": {"kind": "ball", "kind": "flat", "diameter": 6}}', "'kind' stands twice"),
+        ('{"profile": {"kind": "ball", "kind": "flat", "diameter": 6}}', "'kind' is given twice"),
         (json.dumps({"schema": 9, "profile": BALL}), "newer StylusCAM"),
     ],
 )

@@ -1,4 +1,4 @@
-"""What a plan will take, told before it is made: from areas, distances and the size of the facets."""
+"""What a plan will take, estimated before it is made: from areas, distances and the size of the facets."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from styluscam.programs.job import Job
 from styluscam.types import Progress
 
 LONG = 60.0
-"""Seconds from which a plan is said to take long."""
+"""Seconds from which a plan is reported to take long."""
 
 SECONDS_PER_POINT = {"zig-zag": 15e-6, "z-level": 80e-6}
 """On two threads of a machine of 2024, within a factor of three: levels look for each point, rows know where it is."""
@@ -59,14 +59,14 @@ def estimate(job: Job, progress: Progress | None = None) -> list[Estimate]:
     axis, sign = UP.get(str(job.document["setup"].get("up", "+z")), UP["+z"])
     upright = 0.5 * sign * double[:, axis]
     area = 0.5 * np.linalg.norm(double, axis=1)
-    places = np.delete(arrays.vertices, axis, axis=1)
-    box = float(np.prod(np.ptp(places, axis=0)))
+    flat = np.delete(arrays.vertices, axis, axis=1)
+    box = float(np.prod(np.ptp(flat, axis=0)))
     found = []
     for index, operation in enumerate(job.document["operations"]):
-        wanted = _wanted(operation.get("faces", job.document["part"]["faces"]), arrays.face_ids) & (
+        selected = _selected(operation.get("faces", job.document["part"]["faces"]), arrays.face_ids) & (
             upright > -1e-9 * area
         )
-        found.append(_of_operation(operation, index, upright[wanted], area[wanted], box))
+        found.append(_of_operation(operation, index, upright[selected], area[selected], box))
     return found
 
 
@@ -75,7 +75,7 @@ def too_long(job: Job, progress: Progress | None = None) -> list[str]:
     return [each.sentence() for each in estimate(job, progress) if each.seconds > LONG]
 
 
-def _wanted(selection: object, face_ids: npt.NDArray[np.int64]) -> npt.NDArray[np.bool_]:
+def _selected(selection: object, face_ids: npt.NDArray[np.int64]) -> npt.NDArray[np.bool_]:
     """The triangles of faces that are named; all of them where a rule chooses."""
     if not isinstance(selection, list):
         return np.ones(len(face_ids), dtype=bool)

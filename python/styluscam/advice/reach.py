@@ -2,8 +2,8 @@
 
 Look along a corner, at the section across it. The surface turns there from one plane to another, in an edge or over a
 fillet. A tool whose support function in that section (the distance of its tangent from a fixed point, by direction)
-less the fillet's radius is D stands free where t . n >= D for all normals n between the planes, t its place seen from the
-fillet's centre. The place n stays away from every free tool by the least t . n - D: by what the concave hull of D over
+less the fillet's radius is D stands free where t . n >= D for all normals n between the planes, t its position seen from the
+fillet's centre. The point n stays away from every free tool by the least t . n - D: by what the concave hull of D over
 the tangent of the angle rises above it. For a ball of radius R in an edge that is R / cos(half the turn) - R. In an edge
 the gap is taken along the planes' normals, as planning measures it, which is a little more.
 """

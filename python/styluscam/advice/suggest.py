@@ -3,7 +3,7 @@
 What a tool bridges by more than the job's tolerance is a defect, and comes before any scallop; what every tool leaves in
 sharp corners is none. Every tool follows the same passes, the job's: so the paths are equally long, and what differs is
 the surface that they leave. Scallops and what stays in corners are measured with one measure, the root mean square of
-what is left over the area, as a rough surface is: a deep place counts more than many shallow ones. It only ranks; the
+what is left over the area, as a rough surface is: a deep groove counts more than many shallow ones. It only ranks; the
 choice, and what the material and the machine stand, are the user's.
 """
 
@@ -93,7 +93,7 @@ class Candidate:
 
     @property
     def bridged_mm(self) -> float:
-        """Most that stays in a place: as planning found it, else as the profile has it."""
+        """Most that stays anywhere: as planning found it, else as the profile has it."""
         if self.bridged is None:
             return self.gap_mm
         return max((float(bridge["excess"]) for bridge in self.bridged), default=0.0)
@@ -171,7 +171,7 @@ def suggest(
     for number, document in enumerate(tools):
         if progress is not None and progress("comparing tools", number / len(tools)) is False:
             raise Cancelled("cancelled", code="cancelled")
-        found.append(_judged(Tool.from_dict(document), asked))
+        found.append(_compared(Tool.from_dict(document), asked))
     found.sort(key=lambda candidate: candidate.rank)
     for _ in range(PATIENCE * best):
         number = next((n for n, candidate in enumerate(found[:best]) if not candidate.asked), -1)
@@ -183,7 +183,7 @@ def suggest(
 
 
 def _names(document: Document) -> list[str]:
-    """Of the operations: their own, or as the engine makes them of kind and place."""
+    """Of the operations: their own, or as the engine makes them of kind and number."""
     return [
         operation["id"] or f"{operation['kind']}-{number}"
         for number, operation in enumerate(document["operations"], start=1)
@@ -292,8 +292,8 @@ def _radii(tool: Tool, slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
     return np.where(edge, 0.0, meridian), outer / np.sin(np.maximum(slopes, FLAT_RAD))
 
 
-def _judged(tool: Tool, asked: list[_Asked]) -> Candidate:
-    """What the profile says of a tool, over all operations by their area."""
+def _compared(tool: Tool, asked: list[_Asked]) -> Candidate:
+    """What the profile alone shows of a tool, over all operations by their area."""
     heights = np.concatenate([_heights(tool, each) for each in asked])
     angles = np.concatenate([each.classes.angles for each in asked])
     shares = np.concatenate([each.classes.areas for each in asked])
@@ -381,21 +381,23 @@ def _reasons(candidate: Candidate, hollow: float | None, corner: str, asked: lis
     most = max(asked, key=lambda each: float(each.classes.areas.max()))
     common = float(most.classes.angles[int(np.argmax(most.classes.areas))])
     radius = float(_radii(tool, np.radians([common]))[0][0])
-    said = [f"scallops of {micrometres(candidate.scallop_mm)} um on average"]
+    sentences = [f"scallops of {micrometres(candidate.scallop_mm)} um on average"]
     if over <= MARGIN:
         shape = "straight" if not math.isfinite(radius) else f"round with {radius:.3g} mm" if radius else "a sharp edge"
-        said.append(f"{shape} at {common:.3g} deg, where most of the walls are")
+        sentences.append(f"{shape} at {common:.3g} deg, where most of the walls are")
     else:
-        said.append(f"ends at {math.degrees(tool.max_slope):.3g} deg: its rim forms {100.0 * over:.2g} % of the walls")
+        sentences.append(
+            f"ends at {math.degrees(tool.max_slope):.3g} deg: its rim forms {100.0 * over:.2g} % of the walls"
+        )
     if hollow is not None and unreached > LEAST_SHARE:
-        said.append(f"too flat for {100.0 * unreached:.2g} % of the area, near {math.degrees(hollow):.2g} deg")
+        sentences.append(f"too flat for {100.0 * unreached:.2g} % of the area, near {math.degrees(hollow):.2g} deg")
     if tool.diameter > 2.0 * SNUG * most.fits:
-        said.append(f"wider than the part's narrow places: up to {2.0 * most.fits:.3g} mm fits nearly all")
+        sentences.append(f"wider than the part's narrow places: up to {2.0 * most.fits:.3g} mm fits nearly all")
     if candidate.gap_mm > LEAST_GAP:
-        said.append(f"its profile leaves {candidate.gap_mm:.3f} mm in {corner}")
+        sentences.append(f"its profile leaves {candidate.gap_mm:.3f} mm in {corner}")
     if radius < 2.0 * most.thickness:
-        said.append(f"sharper than two sheet thicknesses ({2.0 * most.thickness:g} mm): it may tear the sheet")
-    return tuple(said)
+        sentences.append(f"sharper than two sheet thicknesses ({2.0 * most.thickness:g} mm): it may tear the sheet")
+    return tuple(sentences)
 
 
 def micrometres(length_mm: float) -> str:
@@ -424,11 +426,11 @@ def _planned(candidate: Candidate, job: Job, asked: list[_Asked], progress: Prog
     faces = sorted({int(bridge["face"]) for bridge in bridged})
     worst = max(bridged, key=lambda bridge: float(bridge["excess"]), default=None)
     square = _square_of(candidate, 0.0 if worst is None else float(worst["excess"]), faces, asked)
-    said = "planned: it bridges nothing"
+    result = "planned: it bridges nothing"
     if worst is not None:
-        said = f"planned: it bridges up to {worst['excess']:.3f} mm in Face{worst['face']}"
-        said += f" ({len(faces)} faces in all)" if len(faces) > 1 else ""
-    return replace(candidate, bridged=tuple(bridged), gap_square=square, reasons=(*candidate.reasons, said))
+        result = f"planned: it bridges up to {worst['excess']:.3f} mm in Face{worst['face']}"
+        result += f" ({len(faces)} faces in all)" if len(faces) > 1 else ""
+    return replace(candidate, bridged=tuple(bridged), gap_square=square, reasons=(*candidate.reasons, result))
 
 
 def _square_of(candidate: Candidate, excess: float, faces: list[int], asked: list[_Asked]) -> float:
@@ -467,18 +469,20 @@ def _angles(asked: list[_Asked]) -> tuple[FloatArray, FloatArray]:
 
 
 def _notes(asked: list[_Asked], job: Job) -> tuple[str, ...]:
-    said = []
+    sentences = []
     for each in asked:
         walls, name = each.walls, f"{each.name}: " if len(asked) > 1 else ""
         if walls.floor_share > MARGIN and each.passes.rows_deg is None:
             share = 100.0 * walls.floor_share
-            said.append(f"{name}{share:.2g} % of the area is floor: levels leave it, and it does not count")
+            sentences.append(f"{name}{share:.2g} % of the area is floor: levels leave it, and it does not count")
         if walls.crease_mm > 0.0:
-            said.append(f"{name}{walls.crease_mm:.0f} mm of sharp concave edges: every tool leaves something in them")
+            sentences.append(
+                f"{name}{walls.crease_mm:.0f} mm of sharp concave edges: every tool leaves something in them"
+            )
     left_out = [name for name in _names(job.document) if name not in {each.name for each in asked}]
     if left_out:
-        said.append(f"upright walls or floors alone, where tools do not differ: {', '.join(left_out)}")
+        sentences.append(f"upright walls or floors alone, where tools do not differ: {', '.join(left_out)}")
     tools = {operation["tool"] for operation in job.document["operations"]}
     if len(tools) > 1:
-        said.append(f"each tool is asked to do the work of {len(tools)}: --operation ranks for one operation")
-    return tuple(said)
+        sentences.append(f"each tool is asked to do the work of {len(tools)}: --operation ranks for one operation")
+    return tuple(sentences)

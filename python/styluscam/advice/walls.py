@@ -16,7 +16,7 @@ from styluscam.programs.job import Job
 from styluscam.types import Document, FloatArray, IntArray, Progress
 
 FLOOR_DEG = 5.0
-"""Flatter places are floors: levels lie so far apart there that none of their scallops is a surface."""
+"""Flatter areas are floors: levels lie so far apart there that none of their scallops is a surface."""
 
 STEEP_DEG = 89.0
 """Steeper walls are vertical to levels."""
@@ -37,16 +37,16 @@ ALIKE_DEG = 2.0
 """Corners whose sides differ by less are one."""
 
 HOLLOWS = 12
-"""Places of each hollow face from which its fillet is followed to both ends."""
+"""Points of each hollow face from which its fillet is followed to both ends."""
 
 HOLLOW = 1e-6
-"""Curvature (1/mm) from which a place is hollow."""
+"""Curvature (1/mm) from which a point is hollow."""
 
 REACH = 2.6
 """Of the fillet's radius times the sine of half a turn: what lies farther off (2 on a circle) is another fillet."""
 
 ASIDE = 0.05
-"""Sine of the angle by which a normal may stray from the section in which a fillet is followed."""
+"""Sine of the angle by which a normal may deviate from the section in which a fillet is followed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +78,7 @@ class Classes(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Walls:
-    """The faces of an operation by place: N triangles, in the setup's frame, that look up."""
+    """The faces of an operation by position: N triangles, in the setup's frame, that face up."""
 
     slopes: FloatArray
     """(N,) rad."""
@@ -119,10 +119,10 @@ class Walls:
         return -1.0 / sharpest if sharpest < -HOLLOW else None
 
     def classes(self, rows_deg: float | None = None) -> Classes:
-        """Wall angles, turns, areas and curvatures, in classes of angles and turns, hollow, straight and round places apart.
+        """Wall angles, turns, areas and curvatures, in classes of angles and turns, hollow, straight and round areas apart.
 
         Levels (``rows_deg`` None) have no floors and no turns. For rows the turn is the angle in plan between the wall's
-        uphill direction and the way from row to row: 0 where rows run level along the wall, 90 where they climb it.
+        uphill direction and the direction from row to row: 0 where rows run level along the wall, 90 where they climb it.
         """
         angles, turns = np.degrees(self.slopes), np.zeros(len(self.slopes))
         if rows_deg is not None:
@@ -147,22 +147,22 @@ def walls_of(job: Job, index: int, progress: Progress | None = None) -> Walls:
 
     Raises:
         JobError: it names a face that the part does not have.
-        GeometryError: the part keeps no arrays, or nothing that is selected looks up.
+        GeometryError: the part keeps no arrays, or nothing that is selected faces up.
     """
     part = job.part(progress)
     if part.arrays is None:
         message = "a part made from arrays keeps none to look at: read it from a file"
         raise GeometryError(message, code="no-arrays", hint="use Part.read or Part.from_arrays")
     turn = np.array(_engine.Scene(job.engine, part.engine).frame)[:, :3]
-    chosen, place = _selected(part.arrays, job.document, index)
+    chosen, key = _selected(part.arrays, job.document, index)
     corners = part.arrays.vertices[part.arrays.triangles] @ turn.T
     normals = part.arrays.normals @ turn.T
     areas = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
     middle = _unit(normals.mean(axis=1))
     up = chosen & (areas > 0.0) & (middle[:, 2] > 0.0)
     if not up.any():
-        hint = f"check setup.up and {place}"
-        raise GeometryError("no selected face looks up", code="no-faces", where=place, hint=hint)
+        hint = f"check setup.up and {key}"
+        raise GeometryError("no selected face faces up", code="no-faces", where=key, hint=hint)
     bends = _bends(corners[up], normals[up], middle[up])
     ids = part.arrays.face_ids
     creases = _creases(part.arrays.triangles, corners, normals, up)
@@ -178,21 +178,21 @@ def walls_of(job: Job, index: int, progress: Progress | None = None) -> Walls:
 
 
 def _selected(arrays: PartArrays, document: Document, index: int) -> tuple[npt.NDArray[np.bool_], str]:
-    """Whether each triangle (T,) belongs to a face of the operation, and the key that says so."""
-    faces, place = document["operations"][index].get("faces"), f"operations[{index}].faces"
+    """Whether each triangle (T,) belongs to a face of the operation, and the key that selects it."""
+    faces, key = document["operations"][index].get("faces"), f"operations[{index}].faces"
     if faces is None:
-        faces, place = document["part"].get("faces", "all"), "part.faces"
+        faces, key = document["part"].get("faces", "all"), "part.faces"
     if isinstance(faces, str):
-        return np.ones(len(arrays.triangles), dtype=np.bool_), place
+        return np.ones(len(arrays.triangles), dtype=np.bool_), key
     known = np.unique(arrays.face_ids)
     numbers = []
     for number, name in enumerate(faces):
         found = re.fullmatch(r"(?:Face)?(\d+)", name)
         if found is None or int(found[1]) not in known:
             message, hint = f"the part has no face {name!r}", "see styluscam part show"
-            raise JobError(message, code="no-such-face", where=f"{place}[{number}]", hint=hint)
+            raise JobError(message, code="no-such-face", where=f"{key}[{number}]", hint=hint)
         numbers.append(int(found[1]))
-    return np.isin(arrays.face_ids, numbers), place
+    return np.isin(arrays.face_ids, numbers), key
 
 
 def _axes(middle: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -251,7 +251,7 @@ def _unit(vectors: FloatArray) -> FloatArray:
 def _fillets(
     mesh: tuple[FloatArray, FloatArray], middle: FloatArray, areas: FloatArray, bends: FloatArray, faces: IntArray
 ) -> list[_Corner]:
-    """Hollow faces as corners: from some places of each, as far as the face turns to both sides of them.
+    """Hollow faces as corners: from some points of each, as far as the face turns to both sides of them.
 
     ``mesh`` holds corners and normals, (N, 3, 3) each.
     """
@@ -261,14 +261,14 @@ def _fillets(
     bend, found = values[:, 0], []
     for face in np.unique(faces[bend < -HOLLOW]):
         own = np.flatnonzero((faces == face) & (bend < -HOLLOW))
-        places, looks = (array[own].reshape(-1, 3) for array in mesh)
+        centres, looks = (array[own].reshape(-1, 3) for array in mesh)
         picked = own[:: -(-len(own) // HOLLOWS)]
         for i in picked:
             radius = -1.0 / float(bend[i])
             turn = np.arctan2(looks @ across[i], looks @ middle[i])
             beside = np.abs(looks @ np.cross(middle[i], across[i])) < ASIDE
-            way = places - mesh[0][i].mean(axis=0)
-            along = np.hypot(way @ across[i], way @ middle[i])
+            offsets = centres - mesh[0][i].mean(axis=0)
+            along = np.hypot(offsets @ across[i], offsets @ middle[i])
             beside &= along < REACH * radius * np.abs(np.sin(0.5 * turn)) + 1e-3 * radius
             if not beside.any():
                 continue

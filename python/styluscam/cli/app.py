@@ -38,7 +38,7 @@ from styluscam.errors import StylusError
 app = typer.Typer(
     name="styluscam",
     help="Toolpaths for tools of any convex shape: from CAD faces to verified G-code.",
-    epilog="Exit codes: 0 done, 1 the judge found an error, 2 the input is wrong, 3 cancelled (130 by Ctrl-C), "
+    epilog="Exit codes: 0 done, 1 verification found an error, 2 the input is wrong, 3 cancelled (130 by Ctrl-C), "
     "4 a fault of ours.",
     add_completion=False,
     rich_markup_mode=None,
@@ -108,7 +108,7 @@ def invoke(arguments: Sequence[str]) -> int:
 
 def _dispatch(arguments: list[str]) -> int:
     code = app(arguments, prog_name="styluscam", standalone_mode=False)
-    if code == 130:  # newer typer's way to say Ctrl-C
+    if code == 130:  # Ctrl-C in newer typer
         raise KeyboardInterrupt
     return int(code or 0)
 

@@ -39,13 +39,13 @@ def compare(
 ) -> int:
     """Put two programs for one job side by side.
 
-    Time, length, depth, gouge, excess, scallop, coverage. Both are judged as `styluscam verify` does; exit code 1 says
+    Time, length, depth, gouge, excess, scallop, coverage. Both are verified as `styluscam verify` does; exit code 1 reports
     that one of them must not run.
     """
     with naming(job), progress.shown(not (json or quiet)) as shown:
         work = Job.read(job)
         pages.require(out, None, inputs=[first, second, *work.inputs()])
-        subjects = [_judged(file, work, shown) for file in (first, second)]
+        subjects = [_verified(file, work, shown) for file in (first, second)]
         if out is not None:
             write_whole(out, comparison_page(subjects))
     if json:
@@ -58,7 +58,7 @@ def compare(
     return 0 if all(subject.report is not None and subject.report.ok for subject in subjects) else FOUND
 
 
-def _judged(file: Path, job: Job, shown: Progress | None) -> Subject:
+def _verified(file: Path, job: Job, shown: Progress | None) -> Subject:
     with naming(file, VerifyError):
         report = verification.verify_file(file, job, progress=shown)
         report.coverage(progress=shown)

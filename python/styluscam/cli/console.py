@@ -1,4 +1,4 @@
-"""What the command line says: results on stdout, progress and errors on stderr.
+"""What the command line prints: results on stdout, progress and errors on stderr.
 
 The CAD kernel prints to the process's stdout when it likes. So that a script reading ``--json`` gets one
 document and nothing else, :func:`shielded` keeps the real stdout to itself while a command runs.
@@ -43,7 +43,7 @@ def shielded() -> Iterator[None]:
     finally:
         _stdout.remove(stream)
         _flush_c()
-        with contextlib.suppress(OSError):  # what could not be written was said where it was
+        with contextlib.suppress(OSError):  # reported where it could not be written
             stream.close()
         os.dup2(kept, 1)
         os.close(kept)
@@ -74,7 +74,7 @@ def _writing() -> Iterator[None]:
         pass
     except OSError as error:
         message = f"stdout: cannot be written: {error.strerror or error}"
-        raise StylusError(message, code="unwritable", where="stdout", hint="send it to another place") from error
+        raise StylusError(message, code="unwritable", where="stdout", hint="redirect it elsewhere") from error
 
 
 def say(text: str = "") -> None:
@@ -94,7 +94,7 @@ def say_json(document: object) -> None:
 def complain(text: str) -> None:
     """A line on stderr."""
     if sys.stderr is not None:
-        with contextlib.suppress(OSError):  # nobody is left to tell
+        with contextlib.suppress(OSError):  # nobody is left to report to
             sys.stderr.write(text + "\n")
             sys.stderr.flush()
 

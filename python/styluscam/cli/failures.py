@@ -13,7 +13,7 @@ import typer
 from styluscam.errors import StylusError
 
 FOUND, INPUT, CANCELLED, FAULT, INTERRUPTED = 1, 2, 3, 4, 130
-"""Exit codes besides 0: the judge found an error; wrong input; cancelled; a fault of ours; Ctrl-C."""
+"""Exit codes besides 0: verification found an error; wrong input; cancelled; a fault of ours; Ctrl-C."""
 
 USAGE_ERROR: type[Exception] = typer.BadParameter.__bases__[0]
 """What typer raises for a command line that it cannot use; it is click's, or typer's own copy of it."""
@@ -57,15 +57,15 @@ class Failure:
     message: str
     hint: str
     file: str = ""
-    """The job file, where ``where`` is a place in it."""
+    """The job file, where ``where`` is a key path in it."""
 
     @property
     def line(self) -> str:
         """One line for a terminal."""
-        places = [self.file, self.where if self.where not in self.message else ""]
-        place = "".join(f"{name}: " for name in places if name)
+        names = [self.file, self.where if self.where not in self.message else ""]
+        prefix = "".join(f"{name}: " for name in names if name)
         hint = f"; {self.hint}" if self.hint and self.hint not in self.message else ""
-        return " ".join(f"error: {place}{self.message}{hint}".split())
+        return " ".join(f"error: {prefix}{self.message}{hint}".split())
 
     def to_dict(self) -> dict[str, dict[str, str]]:
         """The document that ``--json`` prints."""
@@ -83,7 +83,7 @@ def naming(file: Path, failures: type[StylusError] = StylusError) -> Iterator[No
 
 
 def failure_of(error: BaseException) -> Failure:
-    """What to say of an error that came out of a command."""
+    """What is reported of an error that came out of a command."""
     if isinstance(error, JobFailedError) and error.__cause__ is not None:
         failure = failure_of(error.__cause__)
         in_document = failure.exit_code == INPUT and _top_key(failure.where) in _IN_DOCUMENT
@@ -103,7 +103,7 @@ def _of_the_machine(error: BaseException) -> Failure | None:
     """What a full disk behind stdout, or too little memory, is called; None for other errors."""
     if isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT):
         message = f"cannot be written: {error.strerror}"
-        return Failure(INPUT, "StylusError", "unwritable", "", message, "send it to another place")
+        return Failure(INPUT, "StylusError", "unwritable", "", message, "redirect it elsewhere")
     if isinstance(error, MemoryError):
         message = "not enough memory for this part at this tolerance"
         return Failure(INPUT, "GeometryError", "memory", "part.tolerance", message, "give a larger tolerance")
@@ -117,7 +117,7 @@ def _known(error: StylusError) -> Failure:
 
 
 def _top_key(where: str) -> str:
-    """The first key of a place in a document; ``line`` of ``line 3``."""
+    """The first key of a path in a document; ``line`` of ``line 3``."""
     return where.replace("[", ".").replace(" ", ".").partition(".")[0] if where.strip(".") else where
 
 

@@ -34,7 +34,7 @@ Keep = Annotated[
 ]
 
 EVIDENCE = {"read": "all read at the source", "partly": "not all confirmed", "unverified": "UNVERIFIED"}
-"""How a machine's evidence is shown in a list: where it was read, `show` says."""
+"""How a machine's evidence is shown in a list: `show` prints where it was read."""
 
 
 @app.callback(invoke_without_command=True)
@@ -76,7 +76,7 @@ def _show(machine: Machine) -> None:
             ("name", machine.name),
             ("what", machine.description),
             ("family", document["family"]),
-            ("last place", f"{machine.resolution_mm:g} mm"),
+            ("last digit", f"{machine.resolution_mm:g} mm"),
             ("work offsets", ", ".join(document["wcs"][:9]) + (", ..." if len(document["wcs"]) > 9 else "")),
             ("tool change", document["tool"]["change"]),
             ("longest line", f"{document['line']['max_chars']} characters"),
@@ -167,7 +167,7 @@ def _keep(trials: list[Trial], folder: Path) -> list[Path]:
 
 
 def _tell_failures(failed: list[Trial]) -> None:
-    """Every failure with its line; those that say the same once."""
+    """Every failure with its line; equal ones once."""
     alike: dict[tuple[str, str], list[Trial]] = {}
     for trial in failed:
         alike.setdefault((trial.message, trial.line), []).append(trial)

@@ -1,4 +1,4 @@
-"""``styluscam material list``: how steep a wall sheets of known materials bear, and where that is told."""
+"""``styluscam material list``: how steep a wall sheets of known materials withstand, with sources."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def _top(context: typer.Context) -> None:
 
 @app.command("list")
 def list_(json: Json = False, debug: Debug = False) -> int:
-    """List the shipped materials: the wall angle that each bears in one pass, by thickness, with its source."""
+    """List the shipped materials: the wall angle that each withstands in one pass, by thickness, with its source."""
     materials = [Material.of(document) for document in json_module.loads(_engine.materials())]
     if json:
         console.say_json(materials)

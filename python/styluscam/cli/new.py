@@ -47,7 +47,7 @@ def new(
 ) -> int:
     """Write a commented job file for a part.
 
-    It forms what a sheet can be formed to and mills the rest, with a tool that fits the part, and says why. It runs as
+    It forms what a sheet can be formed to and mills the rest, with a tool that fits the part, and states why. It runs as
     it stands.
     """
     require_part(part)
@@ -72,7 +72,7 @@ def new(
 
 
 def _looked_at(part: Path, units: str | None, report: Progress | None) -> PartArrays:
-    """The part; where its file has no units, the error says what size it would have."""
+    """The part; where its file has no units, the error states what size it would have."""
     try:
         arrays = read_part(part, LOOK, units, report)
         low, high = arrays.box
@@ -91,7 +91,7 @@ def _looked_at(part: Path, units: str | None, report: Progress | None) -> PartAr
 
 def _read_ahead(job: Path, report: Progress | None) -> None:
     """Read the part as its job wants it, while the CAD kernel is loaded: `run` finds it in the cache of parts."""
-    with contextlib.suppress(GeometryError, JobError, OSError):  # `run` says what is wrong
+    with contextlib.suppress(GeometryError, JobError, OSError):  # `run` reports what is wrong
         Job.read(job).part(report)
 
 

@@ -40,7 +40,7 @@ def show(
 ) -> int:
     """List a part's faces, and draw them.
 
-    Name, kind, area, centre, slopes against +Z (over 90: looks down).
+    Name, kind, area, centre, slopes against +Z (over 90: faces down).
     """
     if picture is not None:
         files.require_writable([picture], [part])
@@ -51,7 +51,7 @@ def show(
     if json:
         console.say_json(_document(arrays, picture))
     elif not quiet:
-        _tell(arrays, picture)
+        _print(arrays, picture)
     return 0
 
 
@@ -76,7 +76,7 @@ def _document(arrays: PartArrays, picture: Path | None) -> Document:
     }
 
 
-def _tell(arrays: PartArrays, picture: Path | None) -> None:
+def _print(arrays: PartArrays, picture: Path | None) -> None:
     headings = {"face": "left", "kind": "left", "area mm2": "right", "centre X": "right", "Y": "right", "Z": "right"}
     console.table(headings | {"slope deg": "right"}, [_row(face) for face in arrays.faces])
     low, high = arrays.box
@@ -97,6 +97,6 @@ def _row(face: FaceInfo) -> list[str]:
 
 
 def _slopes(face: FaceInfo) -> str:
-    """One figure for a plane, else the range; over 90 looks down."""
+    """One figure for a plane, else the range; over 90 faces down."""
     low, high = f"{face.slope_min_deg:.1f}", f"{face.slope_max_deg:.1f}"
     return low if low == high else f"{low} to {high}"

@@ -60,7 +60,7 @@ SupportMachine = Annotated[
 SupportOut = Annotated[
     Path | None, typer.Option("--support-out", metavar="FILE", help="The file for its text.", show_default=False)
 ]
-Cl = Annotated[bool, typer.Option("--cl", help="Write cutter locations (APT) in place of the machine's text.")]
+Cl = Annotated[bool, typer.Option("--cl", help="Write cutter locations (APT) instead of the machine's text.")]
 
 HIGHEST = 1000.0
 """mm: above the work there is no more air."""
@@ -87,7 +87,7 @@ def post(
 ) -> int:
     """Post a program for a machine.
 
-    The text is not judged: `styluscam verify` does that, and `styluscam run` writes nothing that it objects to.
+    The text is not verified: `styluscam verify` does that, and `styluscam run` writes nothing that it objects to.
     """
     if not 0.0 <= air <= HIGHEST:
         raise JobError(f"--air {air:g}", code="usage", where="--air", hint=f"a height of 0 to {HIGHEST:g} mm")
@@ -119,14 +119,13 @@ def post(
     if json:
         console.say_json({"written": [str(path) for path in outputs], "machine": target.name, "moves": len(work.moves)})
     elif not quiet:
-        console.say(
-            f"written: {', '.join(shown_path(path) for path in outputs)} ({len(work.moves)} moves for {target.name}; not judged)"
-        )
+        names = ", ".join(shown_path(path) for path in outputs)
+        console.say(f"written: {names} ({len(work.moves)} moves for {target.name}; not verified)")
     return 0
 
 
 def _options(words: list[str]) -> Document:
-    """``units=inch`` and the like; numbers and true or false are what they say."""
+    """``units=inch`` and the like; numbers, true and false are read as such."""
     options: Document = {}
     for word in words:
         name, equals, value = word.partition("=")

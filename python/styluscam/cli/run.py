@@ -16,7 +16,7 @@ from styluscam.programs.job import Job
 from styluscam.types import Document
 
 Despite = Annotated[
-    bool, typer.Option("--write-despite-findings", help="Write the files even where the judge found errors.")
+    bool, typer.Option("--write-despite-findings", help="Write the files even where verification found errors.")
 ]
 
 
@@ -33,7 +33,7 @@ def run(
 ) -> int:
     """Plan, post, verify, and write a job's program.
 
-    The posted text is read back and judged; it is written only if no error was found. A program that this job wrote before
+    The posted text is read back and verified; it is written only if no error was found. A program that this job wrote before
     is replaced, another file only with --force.
     """
     with naming(job), progress.shown(not (json or quiet)) as shown:
@@ -56,7 +56,7 @@ def run(
     if json:
         console.say_json(_document(result, written))
     else:
-        _tell(result, written, quiet, result.report.ok or write_despite_findings)
+        _print(result, written, quiet, result.report.ok or write_despite_findings)
     return 0 if result.report.ok else FOUND
 
 
@@ -82,7 +82,7 @@ def _notes(result: running.RunResult) -> list[str]:
     return [] if arrays is None else list(arrays.notes)
 
 
-def _tell(result: running.RunResult, written: list[Path], quiet: bool, has_program: bool) -> None:
+def _print(result: running.RunResult, written: list[Path], quiet: bool, has_program: bool) -> None:
     if not quiet or not result.report.ok:
         rows = [("note", note) for note in _notes(result)]
         rows += summary.lines_of(result.summary, result.plan.job.document)
@@ -92,12 +92,12 @@ def _tell(result: running.RunResult, written: list[Path], quiet: bool, has_progr
     if not result.report.findings:
         if quiet:
             return
-        console.say("verified: the written text was read back and judged, nothing was found")
+        console.say("verified: the written text was read back and checked, nothing was found")
         return
     for line in findings.lines(result.report):
         console.complain(line)
     if result.report.ok:
-        console.complain("verified: the written text was read back and judged; it may run, with these warnings")
+        console.complain("verified: the written text was read back and checked; it may run, with these warnings")
         return
     if not has_program:
         console.complain("no program was written (--write-despite-findings writes it all the same)")

@@ -83,8 +83,8 @@ def suggest(
     }  # fmt: skip
     console.table(headings, table)
     console.say()
-    said = [candidate for number, candidate in enumerate(candidates) if candidate.asked or number < 3]
-    console.fields([(candidate.tool.name, "; ".join(candidate.reasons)) for candidate in said])
+    shown = [candidate for number, candidate in enumerate(candidates) if candidate.asked or number < 3]
+    console.fields([(candidate.tool.name, "; ".join(candidate.reasons)) for candidate in shown])
     console.say()
     console.fields(_part(advice.facts) + [("note", note) for note in advice.notes])
     return 0

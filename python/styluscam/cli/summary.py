@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from styluscam.types import Document
-from styluscam.words import clock, counted, place
+from styluscam.words import clock, counted, position
 
 
 def lines_of(summary: Document, job: Document) -> list[tuple[str, str]]:
@@ -87,12 +87,12 @@ def _operation(operation: Document) -> list[tuple[str, str]]:
 
 
 def _worst(
-    name: str, faces: list[Any], lost: Callable[[Any], float], said: Callable[[Any], str]
+    name: str, faces: list[Any], lost: Callable[[Any], float], words: Callable[[Any], str]
 ) -> list[tuple[str, str]]:
     """A row for each face that loses something, in the order of their numbers; of many only the worst, and how many more."""
     losing = [face for face in faces if lost(face) > 0.0]
     shown = losing if len(losing) <= SHOWN + 1 else sorted(losing, key=lost, reverse=True)[:SHOWN]
-    rows = [(name, said(face)) for face in losing if face in shown]
+    rows = [(name, words(face)) for face in losing if face in shown]
     more = len(losing) - len(rows)
     return (
         [*rows, (name, f"and {counted(more, 'more face')}, none of them worse: --json has them all")] if more else rows
@@ -100,7 +100,7 @@ def _worst(
 
 
 def _bridged(bridge: Document) -> str:
-    return f"Face{bridge['face']} by up to {bridge['excess']:.3f} mm at {place(bridge['at'])}"
+    return f"Face{bridge['face']} by up to {bridge['excess']:.3f} mm at {position(bridge['at'])}"
 
 
 def _undercut(face: tuple[int, float]) -> str:
@@ -114,7 +114,7 @@ def _end(end: Document) -> str:
 
 
 LOST = {"bridged": "bridged", "interferes": "beside something in the way", "rim": "touched by the tool's rim alone"}
-"""What is said of a face that the tool does not touch wholly at its own slope, by key of the plan."""
+"""What is reported of a face that the tool does not touch wholly at its own slope, by key of the plan."""
 
 LEAST_AREA = 0.05
 """mm^2: areas are shown with one decimal."""
@@ -130,7 +130,7 @@ def _lost_area(face: Document) -> float:
 
 
 def _lost(face: Document) -> list[str]:
-    return [f"{face[key]:.1f} {said}" for key, said in LOST.items() if face[key] >= LEAST_AREA]
+    return [f"{face[key]:.1f} {words}" for key, words in LOST.items() if face[key] >= LEAST_AREA]
 
 
 def _reached(face: Document) -> str:

@@ -156,7 +156,7 @@ def plot(
 
 def find(name: str, own: Path | None) -> Tool:
     """A tool by file, or by its name in a library: one's own first, then the shipped ones."""
-    if toolfile.place_of(name)[0]:
+    if toolfile.file_and_name(name)[0]:
         return Tool.find(name)
     if files.is_file(Path(name)):
         return Tool.read(name)

@@ -1,4 +1,4 @@
-"""``styluscam verify``: judges a G-code file against a job's part."""
+"""``styluscam verify``: checks a G-code file against a job's part."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from styluscam.judging import coverage, simulation, verification
 from styluscam.programs.job import Job
 from styluscam.report.findings import verdict_of
 from styluscam.report.subject import Subject
-from styluscam.words import place
+from styluscam.words import position
 
 
 def verify(
@@ -26,7 +26,7 @@ def verify(
     quiet: Quiet = False,
     debug: Debug = False,
 ) -> int:
-    """Judge a G-code file against a job's part.
+    """Verify a G-code file against a job's part.
 
     The text is read as the job's machine reads it: gouges, excess, rapids, order; and what it leaves on each face.
     """
@@ -35,25 +35,25 @@ def verify(
         pages.require(report, picture, inputs=[file, *work.inputs()])
         if simulated is not None:
             simulation.require(simulated, inputs=[file, *work.inputs()])
-        judged = verification.verify_file(file, work, progress=shown)
-        covered = judged.coverage(progress=shown) if json or not quiet else []
-        written = pages.write(lambda: Subject.judged(judged, work.machine(), file.name), report, picture, shown)
+        checked = verification.verify_file(file, work, progress=shown)
+        covered = checked.coverage(progress=shown) if json or not quiet else []
+        written = pages.write(lambda: Subject.judged(checked, work.machine(), file.name), report, picture, shown)
         if simulated is not None:
-            simulation.simulate(judged, progress=shown).save(simulated)
+            simulation.simulate(checked, progress=shown).save(simulated)
             written.append(simulated)
     if json:
-        document = {"file": str(file), "job": str(job), **findings.document(judged), "coverage": covered}
+        document = {"file": str(file), "job": str(job), **findings.document(checked), "coverage": covered}
         console.say_json({**document, "written": [str(path) for path in written]})
-    elif quiet and judged.ok:
-        for line in findings.lines(judged):
+    elif quiet and checked.ok:
+        for line in findings.lines(checked):
             console.complain(line)
     else:
-        _tell(judged, file)
+        _print(checked, file)
         console.fields([("written", summary.shown_path(path)) for path in written])
-    return 0 if judged.ok else FOUND
+    return 0 if checked.ok else FOUND
 
 
-def _tell(report: verification.Report, file: Path) -> None:
+def _print(report: verification.Report, file: Path) -> None:
     document = report.to_dict()
     console.say(f"{file}: {verdict_of(report).headline.lower()}")
     for line in findings.lines(report):
@@ -62,7 +62,7 @@ def _tell(report: verification.Report, file: Path) -> None:
         [
             ("worst gouge", f"{report.gouge_max:.4f} mm{_at(document['gouge_at'])}"),
             ("worst excess", f"{report.excess_max:.4f} mm{_at(document['excess_at'])}"),
-            ("probed", f"{document['samples']} places, {document['brep_checked']} held against the exact model"),
+            ("probed", f"{document['samples']} points, {document['brep_checked']} held against the exact model"),
             *(("coverage", line) for line in coverage.lines(report.coverage())),
         ]
     )
@@ -71,4 +71,4 @@ def _tell(report: verification.Report, file: Path) -> None:
 def _at(where: dict[str, object] | None) -> str:
     if not where:
         return ""
-    return f" (line {where['line']}, {place(where['position'])})"  # type: ignore[arg-type]
+    return f" (line {where['line']}, {position(where['position'])})"  # type: ignore[arg-type]

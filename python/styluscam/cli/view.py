@@ -72,7 +72,7 @@ def view(
     """Show a G-code file as a page, ours or not.
 
     Path, tool and times, and a part if you name one. What no machine here reads is traced: loops, subroutines, cycles and
-    parameters are run as LinuxCNC does. Nothing is judged; `styluscam verify` does that.
+    parameters are run as LinuxCNC does. Nothing is verified; `styluscam verify` does that.
     """
     if job is not None and part is not None:
         raise JobError("--job and --part: a job has its part", code="usage", where="--part", hint="give one of them")
@@ -98,7 +98,7 @@ def view(
         console.say_json(document)
     elif not quiet:
         read = f"as {subject.reader} reads it" if subject.gaps is None else f"read as {subject.reader}"
-        console.say(f"{file}: {read}; not judged")
+        console.say(f"{file}: {read}; not verified")
         console.fields([*in_words(numbers), *(("written", summary.shown_path(path)) for path in written)])
         for gap in subject.gaps or ():
             console.say(f"note: {gap}")

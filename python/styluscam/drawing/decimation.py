@@ -54,8 +54,8 @@ def _error(points: FloatArray, alive: IntArray) -> float:
 
 
 def _from_chord(points: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
-    way = ends - starts
-    square = np.einsum("ij,ij->i", way, way)
-    along = np.einsum("ij,ij->i", points - starts, way)
+    chord = ends - starts
+    square = np.einsum("ij,ij->i", chord, chord)
+    along = np.einsum("ij,ij->i", points - starts, chord)
     share = np.clip(np.divide(along, square, out=np.zeros_like(along), where=square > 0.0), 0.0, 1.0)
-    return np.asarray(np.linalg.norm(points - starts - share[:, None] * way, axis=1))
+    return np.asarray(np.linalg.norm(points - starts - share[:, None] * chord, axis=1))

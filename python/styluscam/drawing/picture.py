@@ -222,9 +222,9 @@ def _figure() -> Figure:
     return figure
 
 
-def _pane(figure: Figure, place: tuple[int, int, int, int]) -> Axes:
-    """Axes whose data are pixels, right and down; ``place`` is left, bottom, width, height."""
-    left, bottom, width, height = place
+def _pane(figure: Figure, pane: tuple[int, int, int, int]) -> Axes:
+    """Axes whose data are pixels, right and down; ``pane`` is left, bottom, width, height."""
+    left, bottom, width, height = pane
     axes = figure.add_axes((left / SIZE[0], bottom / SIZE[1], width / SIZE[0], height / SIZE[1]))
     axes.set(xlim=(0, width), ylim=(height, 0))
     axes.set_axis_off()
@@ -316,7 +316,7 @@ def _name_faces(axes: Axes, raster: Raster, faces: IntArray, names: dict[int, st
         x, y, room = 4.0 * spot[0][0] + 2.0, 4.0 * spot[0][1] + 2.0, 4.0 * spot[1]
         half = (4.2 * len(names[face]) + 4.0, 10.0)
         taken.remove((x, y, 2.0, 2.0))
-        at = _free_place((x, y), room, half, taken, limits)
+        at = _free_spot((x, y), room, half, taken, limits)
         taken += [(x, y, 2.0, 2.0), (at[0], at[1], *half)]
         style = {"boxstyle": "round,pad=0.25", "facecolor": "white", "edgecolor": SOFT, "linewidth": 0.6, "alpha": 0.92}
         if at != (x, y):
@@ -340,14 +340,14 @@ def _spot(mask: npt.NDArray[np.bool_]) -> tuple[tuple[int, int], int] | None:
     return (int(columns[nearest]), int(rows[nearest])), depth
 
 
-def _free_place(
+def _free_spot(
     spot: tuple[float, float],
     room: float,
     half: tuple[float, float],
     taken: list[tuple[float, float, float, float]],
     limits: tuple[float, float],
 ) -> tuple[float, float]:
-    """The spot itself, or the nearest place around it that is free."""
+    """The spot itself, or the nearest spot around it that is free."""
 
     def free(x: float, y: float) -> bool:
         inside = half[0] < x < limits[0] - half[0] and half[1] < y < limits[1] - half[1]
@@ -434,9 +434,9 @@ def _corners(box: FloatArray) -> FloatArray:
 
 
 def _places(program: Program) -> tuple[FloatArray, npt.NDArray[np.uint8]]:
-    """Places along the path and the kind of the move that leads to each."""
-    places, moves = program.polyline
-    return places, program.moves["kind"][moves]
+    """Positions along the path and the kind of the move that leads to each."""
+    positions, moves = program.polyline
+    return positions, program.moves["kind"][moves]
 
 
 def _path(axes: Axes, view: View, raster: Raster, program: Program, box: FloatArray) -> LineCollection | None:
@@ -487,9 +487,9 @@ def _pieces(
     count = np.maximum(1, np.ceil(np.linalg.norm(np.diff(ends, axis=0), axis=1) / longest)).astype(np.int64)
     move = np.repeat(np.arange(len(count)), count)
     step = np.arange(len(move)) - np.repeat(np.cumsum(count) - count, count)
-    way = ends[move + 1] - ends[move]
+    step_to = ends[move + 1] - ends[move]
     share = count[move][:, None]
-    return ends[move] + way * step[:, None] / share, ends[move] + way * (step[:, None] + 1) / share, rapid[move]
+    return ends[move] + step_to * step[:, None] / share, ends[move] + step_to * (step[:, None] + 1) / share, rapid[move]
 
 
 def _rulers(axes: Axes, view: View, box: FloatArray) -> None:
@@ -510,7 +510,7 @@ def _rulers(axes: Axes, view: View, box: FloatArray) -> None:
         pixels = float(np.linalg.norm(b - a))
         steps = MaxNLocator(max(2, int(pixels / 70)), steps=[1, 2, 5, 10]).tick_values(low, high)
         ticks = [tick for tick in steps if low <= tick <= high]
-        if pixels < LABEL:  # a flat program: one number says it all
+        if pixels < LABEL:  # a flat program: one number is enough
             ticks = ticks[len(ticks) // 2 :][:1]
         for tick in ticks:
             at = a + (b - a) * (tick - low) / max(high - low, 1e-9)
@@ -524,8 +524,8 @@ def _rulers(axes: Axes, view: View, box: FloatArray) -> None:
 def _titles(figure: Figure, program: Program, title: str) -> None:
     tools = ", ".join(dict.fromkeys(str(tool["description"]) for tool in program.tools))
     strategies = ", ".join(dict.fromkeys(str(operation["kind"]) for operation in program.operations))
-    way = f"{program.length / 1000.0:.3g} m in {clock(program.duration)} at the ordered feeds"
-    facts = [strategies, tools, way]
+    extent = f"{program.length / 1000.0:.3g} m in {clock(program.duration)} at the ordered feeds"
+    facts = [strategies, tools, extent]
     title = title or str(program.setup.get("title", ""))
     _heading(figure, 0.955, title, 18.0, color=INK, weight="bold")
     _heading(figure, 0.912, ", ".join(fact for fact in facts if fact), 12.5, color=SOFT)

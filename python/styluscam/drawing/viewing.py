@@ -33,7 +33,7 @@ def viewed(
 ) -> Subject:
     """A text as a machine reads it; without a machine, as the first shipped one that understands it.
 
-    What none understands is traced: run as LinuxCNC's language says, with the subroutines that ``find`` gives. ``name``
+    What none understands is traced: run as LinuxCNC's language defines, with the subroutines that ``find`` gives. ``name``
     is the file's; a part stands in the program's coordinates as it is.
 
     Raises:
@@ -118,6 +118,6 @@ def shipped_by_use() -> list[str]:
 def _going(program: Program, name: str) -> Program:
     """The program, if it goes anywhere."""
     if not np.isfinite(program.positions).all(axis=1).any():
-        message = f"{name}: no move in it goes to a known place: there is nothing to see"
+        message = f"{name}: no move in it ends at a known position: there is nothing to see"
         raise VerifyError(message, code="no-moves", where=name, hint="check the file")
     return program

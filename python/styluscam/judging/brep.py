@@ -1,4 +1,4 @@
-"""Contacts held against the exact model: what triangles, planning and judging share could be wrong for all three."""
+"""Contacts held against the exact model: what triangles, planning and verification share could be wrong for all three."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import numpy as np
 from styluscam import _engine
 from styluscam.programs.job import Job
 from styluscam.types import Document
+from styluscam.words import position
 
 ROUNDING = 1e-6
 """What arithmetic may cost, mm."""
@@ -47,7 +48,6 @@ def _put_first(report: Document, finding: Document) -> None:
 
 def _finding(contact: Document, value: float, limit: float) -> Document:
     line, face = contact["line"], contact["face"]
-    place = " ".join(f"{axis}{value:.3f}" for axis, value in zip("XYZ", contact["tip"], strict=True))
     return {
         "kind": "model",
         "severity": "error",
@@ -61,6 +61,6 @@ def _finding(contact: Document, value: float, limit: float) -> Document:
         "value": value,
         "limit": limit,
         "unit": "mm",
-        "message": f"line {line}, {place}: the contact on Face{face} misses the model's surface by "
+        "message": f"line {line}, {position(contact['tip'])}: the contact on Face{face} misses the model's surface by "
         f"{value:.4f} mm: the part's triangles or its set-up are wrong",
     }

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from styluscam.judging.results import FaceCoverage
-from styluscam.words import place
+from styluscam.words import position
 
 SHOWN = 6
-"""Faces that are told one by one: of more, those of which most is not covered."""
+"""Faces that are listed one by one: of more, those of which most is not covered."""
 
 LEAST_AREA = 0.05
 """mm^2: areas are shown with one decimal."""
@@ -46,22 +46,22 @@ class Totals:
 
 def lines(faces: Sequence[FaceCoverage]) -> list[str]:
     """All faces together, then one by one."""
-    told = [face for face in faces if face.to_form >= LEAST_AREA]
-    if len(told) > SHOWN:
-        told = sorted(told, key=lambda face: (face.covered - 1.0) * face.to_form)[:SHOWN]
-        told.sort(key=lambda face: face.face)
-    hidden = sum(face.to_form >= LEAST_AREA for face in faces) - len(told)
+    listed = [face for face in faces if face.to_form >= LEAST_AREA]
+    if len(listed) > SHOWN:
+        listed = sorted(listed, key=lambda face: (face.covered - 1.0) * face.to_form)[:SHOWN]
+        listed.sort(key=lambda face: face.face)
+    hidden = sum(face.to_form >= LEAST_AREA for face in faces) - len(listed)
     more = [f"and {hidden} more faces of which less is left: --json has them all"] if hidden else []
-    return [_of_all(Totals.of(faces)), *(_of_face(face) for face in told), *more]
+    return [_of_all(Totals.of(faces)), *(_of_face(face) for face in listed), *more]
 
 
 def _of_all(totals: Totals) -> str:
     share = totals.share
     if share is None:
-        told = "nothing must be touched"
+        text = "nothing must be touched"
     else:
-        told = f"{100 * share:.1f} % of the {totals.formed:.1f} mm2 that the tool must touch"
-    return told + "".join(f"; {area:.1f} mm2 need no forming: {why}" for area, why in unformed(totals))
+        text = f"{100 * share:.1f} % of the {totals.formed:.1f} mm2 that the tool must touch"
+    return text + "".join(f"; {area:.1f} mm2 need no forming: {why}" for area, why in unformed(totals))
 
 
 def unformed(totals: Totals) -> list[tuple[float, str]]:
@@ -76,6 +76,6 @@ def unformed(totals: Totals) -> list[tuple[float, str]]:
 def _of_face(face: FaceCoverage) -> str:
     most = "nothing touches it"
     if face.left is not None and face.at is not None:
-        most = f"most left {face.left:.3f} mm at {place(face.at)}"
+        most = f"most left {face.left:.3f} mm at {position(face.at)}"
     scallop = f"scallop {face.scallop:.4f} mm (mean {face.mean:.4f}), " if face.covered > 0.0 else ""
     return f"Face{face.face}: {100 * face.covered:.1f} % of {face.to_form:.1f} mm2, {scallop}{most}"

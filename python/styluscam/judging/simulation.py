@@ -1,4 +1,4 @@
-"""The material as a judged program leaves it: heights over the plan, as a mesh, and held against the part."""
+"""The material as a verified program leaves it: heights over the plan, as a mesh, and held against the part."""
 
 from __future__ import annotations
 
@@ -169,7 +169,7 @@ class Simulation:
         """Writes :meth:`mesh` as ``.stl`` or ``.ply`` (extra ``mesh``).
 
         Raises:
-            StylusError: another ending, or a place that cannot be written to.
+            StylusError: another ending, or a path that cannot be written to.
         """
         file = file_of(path, "path", A_FILE, GeometryError)
         require(file)
@@ -197,7 +197,7 @@ def simulate(
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
 ) -> Simulation:
-    """What every move of a judged program, rapids as straight lines, makes of the stock; nodes at most ``spacing`` (mm) apart.
+    """What every move of a verified program, rapids as straight lines, makes of the stock; nodes at most ``spacing`` (mm) apart.
 
     Without one they are 0.05 mm apart, on parts larger than 200 x 200 mm as much farther as keeps their number.
 
@@ -210,7 +210,9 @@ def simulate(
         GeometryError: a spacing that is no length or asks for more than forty million nodes, a face that does not exist.
     """
     if not isinstance(report, Report):
-        raise refused("report", report, "the Report of a judged program", VerifyError, "sc.verify(text, job) makes one")
+        raise refused(
+            "report", report, "the Report of a verified program", VerifyError, "sc.verify(text, job) makes one"
+        )
     job, scene = report.job, report.scene
     if spacing is None:
         low, high = np.array(scene.bounds)
@@ -226,7 +228,7 @@ def require(file: Path, inputs: Iterable[Path] = ()) -> None:
     """Asks before long work whether a simulation can be written there.
 
     Raises:
-        StylusError: another ending than ``.stl`` and ``.ply``, trimesh is missing, a place that cannot be written to, or
+        StylusError: another ending than ``.stl`` and ``.ply``, trimesh is missing, a path that cannot be written to, or
             one of ``inputs``.
     """
     if file.suffix.lower() not in (".stl", ".ply"):

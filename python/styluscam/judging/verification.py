@@ -24,7 +24,7 @@ from styluscam.words import counted
 
 
 class Report:
-    """What the judge found in a text."""
+    """What verification found in a text."""
 
     def __init__(
         self,
@@ -58,7 +58,7 @@ class Report:
         return mine == theirs and self.job == other.job
 
     def __hash__(self) -> int:
-        """As equality says."""
+        """As equality compares."""
         return hash(self.text)
 
     def __getstate__(self) -> Document:
@@ -72,7 +72,7 @@ class Report:
 
     @cached_property
     def judgement(self) -> _engine.Judgement:
-        """The engine's judgement; a copy that went through pickle judges again where it is asked for."""
+        """The engine's results; a copy that went through pickle verifies again when they are needed."""
         return _engine.judge(self.job.engine, self.scene, self.machine.engine, self.text)
 
     @property
@@ -106,7 +106,7 @@ class Report:
         """What the program leaves on each face that the job is for.
 
         What is left at a point is its distance from all that tool and sheet sweep on moves that are meant to touch. A
-        place is covered where that is at most a hundredth of the smallest used tool's diameter; the scallop is the most
+        point is covered where that is at most a hundredth of the smallest used tool's diameter; the scallop is the most
         among these. Of a sheet, what stays flat by itself needs no forming: where the blank lies before (flat), and level
         floors inside closed passes as deep as they, which go down with them (carried). Whole faces count, whatever
         heights the operations stop at.
@@ -131,12 +131,12 @@ class Report:
             GeometryError: no array of points.
             Cancelled: by ``progress`` or ``cancel``.
         """
-        places = rows(points, 3)
-        odd = np.flatnonzero(~np.isfinite(places).all(axis=1))
+        positions = rows(points, 3)
+        odd = np.flatnonzero(~np.isfinite(positions).all(axis=1))
         if len(odd):
             message = f"points[{odd[0]}]: finite numbers expected"
             raise GeometryError(message, code="not-finite", where="points", hint="lengths are in mm")
-        return self.judgement.left(self.job.engine, self.scene, places, progress=progress, cancel=cancel)
+        return self.judgement.left(self.job.engine, self.scene, positions, progress=progress, cancel=cancel)
 
     def needs(
         self,
@@ -154,9 +154,9 @@ class Report:
             GeometryError: no arrays of points, or not as many of both.
             Cancelled: by ``progress`` or ``cancel``.
         """
-        places = rows(points, 3)
-        ups = shaped(rows(normals, 3, "normals"), places.shape, "normals")
-        return self.judgement.needs(self.job.engine, self.scene, places, ups, progress=progress, cancel=cancel)
+        positions = rows(points, 3)
+        ups = shaped(rows(normals, 3, "normals"), positions.shape, "normals")
+        return self.judgement.needs(self.job.engine, self.scene, positions, ups, progress=progress, cancel=cancel)
 
     @property
     def scallop(self) -> float:
@@ -171,8 +171,8 @@ class Report:
 def judge_plan(
     plan: Plan, text: str, progress: Progress | None = None, cancel: _engine.CancelToken | None = None
 ) -> Report:
-    """Judges ``text`` against a plan's part, and its contacts against the exact model."""
-    return _judge(plan.job, plan.scene, plan.machine, text, progress=progress, cancel=cancel)
+    """Checks ``text`` against a plan's part, and its contacts against the exact model."""
+    return _checked(plan.job, plan.scene, plan.machine, text, progress=progress, cancel=cancel)
 
 
 def verify(
@@ -183,7 +183,7 @@ def verify(
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
 ) -> Report:
-    """Judges posted text: gouge, excess, rapids, order; nothing of planning is used.
+    """Verifies posted text: gouge, excess, rapids, order; nothing of planning is used.
 
     ``text`` is G-code, what was posted, or the name of a file that holds it (see :func:`styluscam.read_gcode`); the job's
     machine reads it unless another is given.
@@ -204,7 +204,7 @@ def verify_file(
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
 ) -> Report:
-    """As :func:`verify`, for a file alone: what ``path`` says is never taken for G-code."""
+    """As :func:`verify`, for a file alone: ``path`` itself is never taken for G-code."""
     file = file_of(path, "path", A_FILE, VerifyError, "sc.verify(text, job) takes a text")
     work = Job.of(job)
     reader = work.machine() if machine is None else Machine.of(machine)
@@ -238,10 +238,10 @@ def check_program(
 def _verified(
     text: str, job: Job, machine: Machine, progress: Progress | None, cancel: _engine.CancelToken | None
 ) -> Report:
-    return _judge(job, job.scene(progress), machine, text, progress=progress, cancel=cancel)
+    return _checked(job, job.scene(progress), machine, text, progress=progress, cancel=cancel)
 
 
-def _judge(
+def _checked(
     job: Job,
     scene: _engine.Scene,
     machine: Machine,

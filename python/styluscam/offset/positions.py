@@ -23,7 +23,7 @@ REGULAR, RIM, UNDERCUT = 0, 1, 2
 
 
 class Offsets(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
-    """CL points (N, 3), mm. ``.flags`` (N,) says of each: regular, rim (steeper than the profile), undercut.
+    """CL points (N, 3), mm. ``.flags`` (N,) is for each: regular, rim (steeper than the profile), undercut.
 
     What is computed from it is a plain array again, with numpy's own ``flags``.
     """
@@ -117,7 +117,7 @@ def push_cutter(
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
 ) -> FloatArray:
-    """Ways (N,) mm that the tool, its tip at height ``z``, goes from ``xy`` (N, 2) in ``directions`` (N, 2) before it touches.
+    """Lengths (N,) mm that the tool, its tip at height ``z``, goes from ``xy`` (N, 2) in ``directions`` (N, 2) before it touches.
 
     Exact for the triangles, on vertical walls too, where :func:`drop_cutter` jumps; the part's checked inward
     deviation is added. Infinite where the tool meets nothing, NaN where it does not stand free at the beginning.

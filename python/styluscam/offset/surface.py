@@ -45,13 +45,13 @@ class OffsetRegion:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class OffsetSurface:
-    """Slope-matched positions of the tool over a part's triangles, each judged against the whole part. Lengths mm.
+    """Slope-matched positions of the tool over a part's triangles, each checked against the whole part. Lengths mm.
 
-    A flag (a number of :data:`FLAGS`) says what becomes of a position. *contact*: the tool enters nothing there deeper
+    A flag (a number of :data:`FLAGS`) states what becomes of a position. *contact*: the tool enters nothing there deeper
     than the tolerance. *bridged*: something of the same smooth patch of the part stops it first, because the part is
     more curved than the tool; a patch is what hangs together within faces and over edges without a crease (2 deg between
     the model's normals, 20 deg between facets where those are not known). *interferes*: something beyond a crease stops
-    it: a wall, a step, an island. *rim*: steeper than the profile, touched by the base's edge. *undercut*: looks down.
+    it: a wall, a step, an island. *rim*: steeper than the profile, touched by the base's edge. *undercut*: faces down.
     """
 
     points: FloatArray
@@ -101,7 +101,7 @@ class OffsetSurface:
         """Writes all arrays (``.npz``), or the mesh of the tips coloured by flag (``.ply``; extra ``mesh``).
 
         Raises:
-            StylusError: another ending, or a place that cannot be written to.
+            StylusError: another ending, or a path that cannot be written to.
         """
         file = Path(path)
         if file.suffix.lower() not in (".npz", ".ply"):
@@ -128,7 +128,7 @@ def offset_surface(
     """The slope-matched offset of a part's ``faces`` (numbers or names as "Face3"; all if None).
 
     Positions are exact for the part's normals: those of the surfaces of a STEP, IGES or BREP file, those given to
-    :meth:`Part.from_mesh`, else the facets'. They are judged against the triangles: a position is free if the tool,
+    :meth:`Part.from_mesh`, else the facets'. They are checked against the triangles: a position is free if the tool,
     lifted off along the normal by ``tolerance`` (mm), enters nothing. So it has to exceed the triangles' checked
     deviation, and it covers what facets are off. With a flat at the tip, or where the profile is straight, many positions
     touch a point; the surface holds the one with the axis over it, or with the contact at the straight part's outer end.

@@ -40,7 +40,7 @@ class FaceInfo:
 class PartArrays:
     """A part as the engine takes it. Lengths mm, float64 and int64, C order; the arrays are read-only.
 
-    The mesh is welded: corners at one place share one index. Triangles wind so that their normal leaves the material.
+    The mesh is welded: corners at one point share one index. Triangles wind so that their normal leaves the material.
     """
 
     vertices: Floats  # (V,3)

@@ -19,7 +19,7 @@ OVERLAP_SHARE = 0.25
 
 
 def outward(mesh: FaceMesh, surface: ExactSurface) -> FaceMesh:
-    """Return the mesh wound as its surface's normal says."""
+    """Return the mesh wound by its surface's normal."""
     centres = mesh.nodes[mesh.triangles].mean(axis=1)
     if isinstance(surface, Parametric) and mesh.uv is not None:
         normals = surface.normal_from(centres, mesh.uv[mesh.triangles].mean(axis=1))
@@ -58,13 +58,13 @@ def check_areas(
         if abs(meshed - area) <= AREA_SHARE * area + strip:
             continue
         exact = area if exact_area is None else exact_area(i)
-        place, figures = f"{file}:Face{i + 1}", f"{meshed:.4g} of {exact:.4g} mm^2"
+        name, figures = f"{file}:Face{i + 1}", f"{meshed:.4g} of {exact:.4g} mm^2"
         if meshed < exact * (1.0 - AREA_SHARE) - strip:
             why, cure = "a part of it would not be machined, and not be watched", "repair the face in the CAD system"
-            raise _wrongly_meshed(place, f"its triangles cover only {figures}: {why}", cure)
+            raise _wrongly_meshed(name, f"its triangles cover only {figures}: {why}", cure)
         if meshed > exact * (1.0 + OVERLAP_SHARE) + strip:
             cure = "repair the face in the CAD system (its outline crosses itself, or its surface folds)"
-            raise _wrongly_meshed(place, f"its triangles cover {figures}: they lie over each other", cure)
+            raise _wrongly_meshed(name, f"its triangles cover {figures}: they lie over each other", cure)
         if meshed > exact * (1.0 + AREA_SHARE) + strip:
             share = 100.0 * (meshed / exact - 1.0)
             notes.append(
@@ -81,8 +81,8 @@ def border_length(mesh: FaceMesh) -> float:
     return float(np.linalg.norm(border[:, 1] - border[:, 0], axis=1).sum())
 
 
-def _wrongly_meshed(place: str, what: str, cure: str) -> GeometryError:
-    return GeometryError(f"{place}: {what}: {cure}", code="part-face-not-meshed", where=place, hint=cure)
+def _wrongly_meshed(name: str, what: str, cure: str) -> GeometryError:
+    return GeometryError(f"{name}: {what}: {cure}", code="part-face-not-meshed", where=name, hint=cure)
 
 
 def gap_note(gaps: tuple[float, ...], tolerance: float) -> tuple[str, ...]:

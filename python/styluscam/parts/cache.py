@@ -2,7 +2,7 @@
 
 An entry is named by a hash of the file's bytes, the tolerance, the kernel's version and the reader's own code: it is
 right or absent, never old. It is written whole or not at all; one that cannot be read back is thrown away. Where the
-folder cannot be written to, nothing is kept and nothing is said.
+folder cannot be written to, nothing is kept and nothing is reported.
 """
 
 from __future__ import annotations
@@ -89,26 +89,26 @@ def kept(name: str | None, source: str) -> PartArrays | None:
 
 
 def keep(name: str | None, part: PartArrays) -> None:
-    """Keep a part under that name, if its surfaces can be written down and there is room."""
+    """Keep a part under that name, if its surfaces can be written down and there is space."""
     entries = None if name is None else _entries(part)
     if entries is None:
         return
     with contextlib.suppress(
         OSError, RuntimeError, StylusError
-    ):  # no home, no room, no right to write: it is read again then
-        place = folder()
-        place.mkdir(parents=True, exist_ok=True)
-        _make_room(place)
+    ):  # no home, no space, no right to write: it is read again then
+        directory = folder()
+        directory.mkdir(parents=True, exist_ok=True)
+        _free_space(directory)
         stream = io.BytesIO()
         np.savez(stream, **entries)
         if stream.tell() <= MOST_OF_ONE:
-            write_whole(place / f"{name}.npz", stream.getbuffer())
+            write_whole(directory / f"{name}.npz", stream.getbuffer())
 
 
-def _make_room(place: Path) -> None:
+def _free_space(directory: Path) -> None:
     """Remove the parts that were used least recently, until one more fits."""
     found = []
-    for path in place.iterdir():
+    for path in directory.iterdir():
         with contextlib.suppress(OSError):  # another process may remove it just now
             status = path.stat()
             found.append((status.st_mtime, status.st_size, path))

@@ -91,7 +91,7 @@ def _parametric(face: Kernel, outward: float) -> Parametric:
 
 
 def _is_offset(surface: Kernel) -> bool:
-    """Tell whether an offset is involved: the kernel converts those approximately only."""
+    """Return whether an offset is involved: the kernel converts those approximately only."""
     from OCP.Geom import Geom_OffsetSurface, Geom_SweptSurface, Geom_TrimmedCurve
 
     if isinstance(surface, Geom_SweptSurface):

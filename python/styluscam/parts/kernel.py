@@ -16,7 +16,7 @@ Kernel: TypeAlias = Any
 
 
 def ocp(file: Path) -> None:
-    """Import the CAD kernel, or say what to install."""
+    """Import the CAD kernel, or report what to install."""
     what = f"{file}: reading {file.suffix} files"
     require("step", what, failure=GeometryError, code="part-extra-step", where=str(file))
 

@@ -45,7 +45,7 @@ def _check_step_text(file: Path) -> None:
     """Refuse what is not a whole STEP file, before the kernel reads half of it without a word."""
     text = file.read_bytes()
     if re.match(rb"\s*solid\b", text, re.IGNORECASE) and b"facet" in text[:4096]:
-        raise _damaged(file, "STEP", "it is an STL file", "give it the ending .stl, and say its units")
+        raise _damaged(file, "STEP", "it is an STL file", "give it the ending .stl, and state its units")
     if b"ISO-10303-21" not in text[:4096]:
         raise _damaged(file, "STEP", "it does not begin with ISO-10303-21")
     if re.search(rb"END-ISO-10303-21\s*;", text[-4096:]) is None:
@@ -60,7 +60,7 @@ def _check_step_text(file: Path) -> None:
 
 
 def _foreign_byte(text: bytes) -> int | None:
-    """Return the place of the first byte outside quotes and comments that is not ASCII; None where there is none."""
+    """Return the index of the first byte outside quotes and comments that is not ASCII; None where there is none."""
     if text.isascii():
         return None
     names = re.compile(rb"'[^']*'|/\*.*?\*/", re.DOTALL)

@@ -19,11 +19,11 @@ from styluscam.parts.mending import Mending
 from styluscam.parts.progress import Progress, report
 from styluscam.parts.stl import read_stl
 from styluscam.parts.surfaces import Floats, unit
-from styluscam.words import place
+from styluscam.words import position
 
 FLAT = 1e-6
 """A closed mesh is no body where it is, across a plane through it, this share of its length thick: numbers in files have
-seven places."""
+seven digits."""
 
 
 def read_mesh(file: Path, tolerance: float, units: str | None, progress: Progress | None = None) -> PartArrays:
@@ -82,7 +82,7 @@ def _mended(file: Path, points: Floats, corners: Ints) -> tuple[Floats, Ints, In
     done = json.loads(text)
     mending = Mending(**done["mending"])
     if mending.unclear is not None:
-        point = place(mending.unclear)
+        point = position(mending.unclear)
         what = f"its triangles are wound inconsistently, some are inside out, and which side is out is not clear at {point}"
         cure = "make its normals consistent, all outward, in the program that made it"
         raise _error(file, what, cure, "part-inconsistent")
@@ -143,7 +143,7 @@ def _load(file: Path) -> tuple[Floats, Ints, tuple[float, str] | None, tuple[str
 
 
 def _meshes(file: Path) -> list[Any]:
-    """Return the file's meshes, each at its place, as trimesh reads them."""
+    """Return the file's meshes, each at its position, as trimesh reads them."""
     kind = file.suffix.lower()[1:].upper()
     # networkx and lxml are what trimesh reads 3MF with
     trimesh = require(

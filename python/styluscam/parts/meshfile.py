@@ -20,7 +20,7 @@ def write_triangles(
     """Writes vertices (V, 3), triangles (T, 3) and, where the format has them, the vertices' colours (V, 3), by the ending.
 
     Raises:
-        StylusError: trimesh is missing, or a place that cannot be written to.
+        StylusError: trimesh is missing, or a path that cannot be written to.
     """
     trimesh = writer(file)
     mesh = trimesh.Trimesh(vertices, triangles, vertex_colors=colours, process=False)

@@ -33,7 +33,7 @@ def tessellate(
     tolerance: float,
     progress: Progress | None,
 ) -> Tessellation:
-    """Mesh each face, checked; give the freeform surfaces their seeds on the way."""
+    """Mesh each face, checked; give the freeform surfaces their seeds as well."""
     steps = AttemptSteps(progress)
 
     def mesh_at(deflection: float) -> list[FaceMesh]:
@@ -101,16 +101,16 @@ def _face_meshes(file: Path, faces: list[Kernel]) -> list[FaceMesh]:
 
     builder, bare = BRep_Builder(), TopoDS_Compound()
     builder.MakeCompound(bare)
-    distinct = TopTools_IndexedMapOfShape()  # faces that are copies at another place share one triangulation
+    distinct = TopTools_IndexedMapOfShape()  # faces that are copies at another position share one triangulation
     numbers, placements = [], []
     for number, face in enumerate(faces, 1):
         triangulation, location = _triangulation(face)
         if triangulation is None:
-            place = f"{file}:Face{number}"
+            name = f"{file}:Face{number}"
             raise GeometryError(
-                f"{place}: the kernel cannot mesh this face: repair it in the CAD system",
+                f"{name}: the kernel cannot mesh this face: repair it in the CAD system",
                 code="part-face-not-meshed",
-                where=place,
+                where=name,
             )
         known = distinct.Size()
         index = distinct.Add(face.Located(TopLoc_Location()))
@@ -127,7 +127,7 @@ def _face_meshes(file: Path, faces: list[Kernel]) -> list[FaceMesh]:
 
 
 def _stored_triangulations(shape: Kernel) -> list[FaceMesh]:
-    """Return all triangulations of a shape, in order, by way of the kernel's binary format (BinTools, version 1).
+    """Return all triangulations of a shape, in order, through the kernel's binary format (BinTools, version 1).
 
     A section "Triangulations N" holds for each: node and triangle counts (int32), whether it has parameters (a byte),
     deflection, nodes, parameters (float64) and triangles (int32, from 1).
@@ -157,7 +157,7 @@ def _stored_triangulations(shape: Kernel) -> list[FaceMesh]:
 
 
 def _placement(location: Kernel) -> Floats | None:
-    """Return a face's placement as a 3 x 4 matrix; None where it stands at its own place."""
+    """Return a face's placement as a 3 x 4 matrix; None where it is not moved."""
     if location.IsIdentity():
         return None
     matrix = location.Transformation()

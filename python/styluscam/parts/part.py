@@ -67,7 +67,7 @@ class Part:
         return all(starmap(np.array_equal, zip(mine.arrays(), theirs.arrays(), strict=True)))
 
     def __hash__(self) -> int:
-        """As equality says, by size and count of the triangles."""
+        """As equality compares, by size and count of the triangles."""
         low, high = self.engine.bounds
         return hash((self.triangle_count, *low, *high))
 

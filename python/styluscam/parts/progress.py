@@ -11,7 +11,7 @@ Progress: TypeAlias = Callable[[str, float], bool | None]
 
 
 def report(progress: Progress | None, phase: str, fraction: float) -> None:
-    """Tell `progress` where we are; raises Cancelled when it answers False."""
+    """Report a phase to `progress`; raises Cancelled when it answers False."""
     if progress is not None and progress(phase, fraction) is False:
         raise Cancelled("cancelled while reading the part", code="cancelled", where="part")
 
@@ -19,7 +19,7 @@ def report(progress: Progress | None, phase: str, fraction: float) -> None:
 class AttemptSteps:
     """Progress of meshing and checking, which may take several attempts: it moves on, and never back."""
 
-    # Where the first attempt begins and the last would end; what an attempt leaves of the way; the mesher's part of it.
+    # Where the first attempt begins and the last would end; what an attempt leaves of that range; the mesher's part of it.
     BEGIN, END, LEFT, MESHER = 0.3, 0.9, 0.25, 1.0 / 3.0
     STEP = 0.005
 
@@ -27,21 +27,21 @@ class AttemptSteps:
         """Report to `progress`."""
         self.progress = progress
         self.attempt = -1
-        self.said = 0.0
+        self.reported = 0.0
 
     def begin(self) -> None:
         """The mesher starts once more."""
         self.attempt += 1
-        self._say("mesh", 0.0)
+        self._report("mesh", 0.0)
 
     def checked(self, share: float) -> None:
         """This share of the mesher's triangles is checked."""
-        self._say("check", self.MESHER + (1.0 - self.MESHER) * share)
+        self._report("check", self.MESHER + (1.0 - self.MESHER) * share)
 
-    def _say(self, phase: str, share: float) -> None:
-        way = self.END - self.BEGIN
-        start, end = (self.END - way * self.LEFT**k for k in (self.attempt, self.attempt + 1))
+    def _report(self, phase: str, share: float) -> None:
+        span = self.END - self.BEGIN
+        start, end = (self.END - span * self.LEFT**k for k in (self.attempt, self.attempt + 1))
         now = start + (end - start) * share
-        if now >= self.said + self.STEP or share == 0.0:
-            self.said = max(now, self.said)
-            report(self.progress, phase, self.said)
+        if now >= self.reported + self.STEP or share == 0.0:
+            self.reported = max(now, self.reported)
+            report(self.progress, phase, self.reported)

@@ -98,7 +98,7 @@ def _read_brep(file: Path, tolerance: float, units: str | None, progress: Progre
 
 
 def require_part(file: Path) -> None:
-    """Refuse a job file in a part's place: what to do with it is another command.
+    """Refuse a job file given as a part: it belongs to another command.
 
     Raises GeometryError.
     """

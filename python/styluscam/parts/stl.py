@@ -91,7 +91,7 @@ def _block(file: Path, data: bytes, start: int, end: int) -> Floats:
     loops = LOOP.findall(text)
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("error", DeprecationWarning)  # what older numpy says of text that is no number
+            warnings.simplefilter("error", DeprecationWarning)  # what older numpy reports for text that is no number
             numbers = np.fromstring(b" ".join(loops).replace(b"vertex", b"").decode("latin-1"), sep=" ")
         points = numbers.reshape(len(loops) * 3, 3)
     except (ValueError, DeprecationWarning) as error:
@@ -103,20 +103,20 @@ def _block(file: Path, data: bytes, start: int, end: int) -> Floats:
 
 def _bad_facet(file: Path, data: bytes, start: int, end: int) -> GeometryError:
     """Name the first facet that cannot be read."""
-    # names are blanked, not removed: places in the text stay
+    # names are blanked, not removed: positions in the text stay
     text = NAME.sub(lambda name: b" " * len(name[0]), data[start:end].lower())
     for facet in FACET.finditer(text):
         if WHOLE_FACET.match(text, facet.start()) is None:
-            place = facet.start()
-            line = data.count(b"\n", 0, start + place) + 1
+            start_of = facet.start()
+            line = data.count(b"\n", 0, start + start_of) + 1
             following = FACET.search(text, facet.end())
-            body = text[place : following.start() if following else len(text)]
+            body = text[start_of : following.start() if following else len(text)]
             if re.search(rb"\d,\d", body):
                 return _damaged(file, f"line {line}: a facet with decimal commas", "export it with decimal points")
             if following is None and b"endloop" not in body:
                 return _damaged(file, f"line {line}: the last facet is cut short")
             return _damaged(file, f"line {line}: a facet that has not three corners of three numbers each")
-    return _damaged(file, "its facets cannot be told apart")
+    return _damaged(file, "its facets cannot be distinguished")
 
 
 def _damaged(file: Path, why: str, cure: str = "export the part again") -> GeometryError:

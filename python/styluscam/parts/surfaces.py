@@ -228,7 +228,7 @@ class Parametric:
     OVERSHOOT = 0.01
     # A bound that is shorter than this part of the surface is a pole.
     POLE = 1e-7
-    # Ways off a pole that are tried.
+    # Directions off a pole that are tried.
     SIDES = 33
 
     def distance(self, points: Floats) -> Floats:
@@ -329,7 +329,7 @@ class Parametric:
     def _round_poles(self) -> list[tuple[int, float, float, Floats, Floats]]:
         """Return what is known of each bound that is a pole.
 
-        The parameter that is fixed there, its value, how near it is meant; values (K,) of the other one, and the unit ways
+        The parameter that is fixed there, its value, how near it is meant; values (K,) of the other one, and the unit directions
         (K,3) that lead off the pole at them.
         """
         ends = np.reshape(self.bounds, (2, 2))

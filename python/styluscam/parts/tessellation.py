@@ -25,7 +25,7 @@ ON_SIDES = np.array([np.roll((1.0 - share, share, 0.0), side) for side in range(
 INSIDE = np.array([(0.5, 0.25, 0.25), (0.25, 0.5, 0.25), (0.25, 0.25, 0.5), (1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0)])
 # A node's weight, and those of the samples along one side.
 ONE, ALONG = np.ones((1, 1)), np.array([(0.75, 0.25), (0.5, 0.5), (0.25, 0.75)])
-# What a distance to a freeform surface may be off (mm), see Parametric.STEP: a bound never says less than the samples.
+# What a distance to a freeform surface may be off (mm), see Parametric.STEP: a bound is never below the samples.
 FOOT = 2e-8
 # More triangles than this on one face are a mistake of units or tolerance.
 MOST_TRIANGLES = 10_000_000
@@ -38,7 +38,7 @@ GAP_SHARE, GAP_TIMES = 0.5, 1.25
 LARGEST_GAP = 0.1
 # Splitting a side quarters its deviation: 40 rounds are far more than a face that can be refined needs.
 REFINEMENTS = 40
-# A sample is as far from its foot as this part of the way to the nearest corner only where the foot is a wrong one: on a
+# A sample is as far from its foot as this part of the distance to the nearest corner only where the foot is a wrong one: on a
 # right angle's arc it is 0.41.
 LOST = 0.4
 ROUNDS = 4
@@ -70,7 +70,7 @@ class Deviation:
 class Tessellation:
     """Meshes of all faces that hold the tolerance, with each face's checked deviation.
 
-    `edge_gaps` says how far each face's edges lie off its surface, mm: the model's own looseness, which is allowed on
+    `edge_gaps` gives how far each face's edges lie off its surface, mm: the model's own looseness, which is allowed on
     top of the tolerance where it is larger than half of it.
     """
 
@@ -96,7 +96,7 @@ def refine_until(
     `mesh_at(deflection)` meshes the whole shape so that neighbouring faces share their border nodes, with borders
     within `deflection`; the insides may be coarser, they are refined here. Borders are never touched here (the mesh
     stays conforming): where they do not hold, the whole shape is meshed again with a smaller deflection.
-    `checked` is told which share of an attempt's triangles is done; it may raise.
+    `checked` gets the share of an attempt's triangles is done; it may raise.
     Raises GeometryError when the tolerance does not hold after ROUNDS attempts.
     """
     deflection = FIRST_SHARE * tolerance
@@ -115,18 +115,18 @@ def refine_until(
             return Tessellation(tuple(meshes), tuple(deviations), tuple(gaps), deflection, attempt)
         deflection *= min(0.5, max(0.25, 0.8 / worst))
     at = int(np.argmax([d.worst / bound for d, bound in zip(deviations, allowed, strict=True)]))
-    place = f"{where}:Face{at + 1}"
+    name = f"{where}:Face{at + 1}"
     raise GeometryError(
-        f"{place}: its mesh stays {deviations[at].worst:.2g} mm off the surface, the tolerance is {tolerance:g} mm: "
+        f"{name}: its mesh stays {deviations[at].worst:.2g} mm off the surface, the tolerance is {tolerance:g} mm: "
         "repair the face, or ask for a larger tolerance",
         code="part-tolerance-missed",
-        where=place,
+        where=name,
         hint="a larger tolerance",
     )
 
 
 def _within(checked: Callable[[float], None], start: float, end: float) -> Callable[[float], None]:
-    """Return what tells a part's share as that of the whole."""
+    """Return a callback that reports a part's share as that of the whole."""
     return lambda share: checked(start + share * (end - start))
 
 
@@ -145,12 +145,12 @@ def _check_gaps(gaps: Sequence[float], tolerance: float, where: str) -> None:
     """Refuse a model whose edges are nowhere near its surfaces; a tolerance that wide makes it usable all the same."""
     at = int(np.argmax(gaps))
     if gaps[at] > max(LARGEST_GAP, tolerance):
-        place, cure = f"{where}:Face{at + 1}", f"tolerance = {1.1 * gaps[at]:.2g}"
+        name, cure = f"{where}:Face{at + 1}", f"tolerance = {1.1 * gaps[at]:.2g}"
         raise GeometryError(
-            f"{place}: the face's edges lie up to {gaps[at]:.2g} mm off its surface, there is a gap to its neighbours: "
+            f"{name}: the face's edges lie up to {gaps[at]:.2g} mm off its surface, there is a gap to its neighbours: "
             f"repair the face in the CAD system, or ask for {cure} mm",
             code="part-inexact-edges",
-            where=place,
+            where=name,
             hint=cure,
         )
 
@@ -250,14 +250,14 @@ def _distance(mesh: FaceMesh, surface: ExactSurface, weights: Floats) -> Floats:
 
 
 def _lost(away: Floats, points: Floats, nodes: Floats, ends: Ints) -> NDArray[np.bool_]:
-    """Tell which points (N,3), so far `away` (N,) from their feet, hardly gained on the nearest of their `ends` (N,k).
+    """Return which points (N,3), so far `away` (N,) from their feet, hardly gained on the nearest of their `ends` (N,k).
 
     Round a pole, or across a seam, parameters between those of the ends may lead Newton to another part of the surface.
     """
     nearest = np.full(len(points), np.inf)
     for end in ends.T:
-        way = points - nodes[end]
-        np.minimum(nearest, np.einsum("ij,ij->i", way, way), out=nearest)
+        offset = points - nodes[end]
+        np.minimum(nearest, np.einsum("ij,ij->i", offset, offset), out=nearest)
     return np.asarray((away * away > LOST * LOST * nearest) & (nearest > 0.0))
 
 
@@ -304,14 +304,14 @@ def refine(
         triangles = np.concatenate([triangles[~touched], parts])
         bounds = np.concatenate([bounds[~touched], _bounds(FaceMesh(nodes, parts, uv), surface, hopeless=tolerance)])
     refined, left = FaceMesh(nodes, triangles, uv), _largest(bounds)
-    # Hopeless triangles were not sampled fully: what is said of a mesh that fails is found anew.
+    # Hopeless triangles were not sampled fully: what is reported of a mesh that fails is found anew.
     return refined, left if left.worst <= tolerance else deviation(refined, surface)
 
 
 def _sides_to_split(
     bow: Floats, inner: NDArray[np.bool_], length: Floats, corners_off: Floats, tolerance: float
 ) -> NDArray[np.bool_]:
-    """Tell which sides (F,3) of failing triangles to split: the one that bows most, and those that bow about as much.
+    """Return which sides (F,3) of failing triangles to split: the one that bows most, and those that bow about as much.
 
     `bow` (F,3) is how much farther each side is off the surface than its ends: what splitting removes. A side much
     longer than that one goes too when it bows half as much, or slivers would be cut into ever finer slivers.
@@ -407,16 +407,16 @@ def _turned(triangles: Ints, middles: Ints, first: Ints) -> tuple[Ints, Ints]:
 
 
 def weld(points: Floats, triangles: Ints, distance: float = 1e-9) -> tuple[Floats, Ints, Ints]:
-    """Merge points that share a place.
+    """Merge points that share a position.
 
     Returns the vertices, the triangles with new indexes, and which triangles (indexes) remain: those that collapse
     to an edge go. Points merge when their coordinates agree within about `distance` (mm).
     """
-    place = np.zeros(len(points), dtype=np.int64)
+    position = np.zeros(len(points), dtype=np.int64)
     for axis in range(3):
         along = _clusters(points[:, axis], distance)
-        _, place = np.unique(place * (along.max(initial=0) + 1) + along, return_inverse=True)
-    _, keep, index = np.unique(place, return_index=True, return_inverse=True)
+        _, position = np.unique(position * (along.max(initial=0) + 1) + along, return_inverse=True)
+    _, keep, index = np.unique(position, return_index=True, return_inverse=True)
     welded = index[triangles]
     remaining = np.flatnonzero(
         (welded[:, 0] != welded[:, 1]) & (welded[:, 1] != welded[:, 2]) & (welded[:, 2] != welded[:, 0])
@@ -433,7 +433,7 @@ def _clusters(values: Floats, distance: float) -> Ints:
 
 
 def is_closed(triangles: Ints) -> bool:
-    """Tell whether each edge is shared by exactly two triangles that run it in opposite directions."""
+    """Return whether each edge is shared by exactly two triangles that run it in opposite directions."""
     half = _half_edges(triangles)
     forward = half[:, 0] < half[:, 1]
     ahead, ahead_counts = np.unique(_keys(half[forward]), return_counts=True)

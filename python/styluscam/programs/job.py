@@ -80,7 +80,7 @@ class Job:
         return f"<Job {shortened(self.title, 30)!r}: {what}, for {shortened(machine, 20)}>"
 
     def __eq__(self, other: object) -> bool:
-        """Whether the documents say the same, of the same files or parts."""
+        """Whether the documents are equal, with the same files or parts."""
         if not isinstance(other, Job):
             return NotImplemented
         if self.engine.to_json() != other.engine.to_json() or (self._handed is None) != (other._handed is None):
@@ -88,7 +88,7 @@ class Job:
         return self._handed == other._handed and self.folder.resolve() == other.folder.resolve()
 
     def __hash__(self) -> int:
-        """As equality says."""
+        """As equality compares."""
         return hash(self.engine.to_json())
 
     def __getstate__(self) -> Document:
@@ -183,7 +183,7 @@ class Job:
         return [{**section, "id": section["id"] or f"{section['kind']}-{number}"} for number, section in sections]
 
     def _take_tools(self) -> None:
-        """Puts tools of libraries and files in the place of their names, and notes the files."""
+        """Puts tools of libraries and files instead of their names, and notes the files."""
         named = {name: tool["library"] for name, tool in self.document["tools"].items() if "library" in tool}
         if not named:
             return
@@ -229,12 +229,12 @@ PROGRAMS = (".ngc", ".nc", ".gcode", ".tap", ".cnc", ".mpf", ".h")
 
 
 def _require_no_other(path: Path) -> None:
-    """Says what a file is that is taken for a job, where its ending tells."""
+    """Reports what a file is that is taken for a job, where its ending shows it."""
     ending, name = path.suffix.lower(), shlex.quote(str(path))
     if ending in BREP_ENDINGS + MESH_ENDINGS:
         message, hint = "this is a part, not a job", f"styluscam new {name} writes a job for it"
     elif ending in PROGRAMS:
-        message, hint = "this is G-code, not a job", f"styluscam verify {name} --job JOB.toml judges it"
+        message, hint = "this is G-code, not a job", f"styluscam verify {name} --job JOB.toml checks it"
     else:
         return
     raise JobError(f"{path}: {message}", code="not-a-job", where=str(path), hint=hint)
@@ -249,7 +249,7 @@ def _tool(library: str, folder: Path, place: str) -> Tool:
 
 
 def _resolved(document: Document, folder: Path) -> tuple[Document, list[Path]]:
-    """The document with points in the place of the files that its tools' profiles name, and the files."""
+    """The document with points instead of the files that its tools' profiles name, and the files."""
     tools, files = document.get("tools"), list[Path]()
     if not isinstance(tools, dict):
         return document, files

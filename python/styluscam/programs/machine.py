@@ -24,7 +24,7 @@ class Trial:
 
     name: str
     outcome: str
-    """"passed"; "without" where the file says that the machine does not have it; "failed"."""
+    """"passed"; "without" where the file states that the machine does not have it; "failed"."""
     message: str
     code: str
     where: str
@@ -64,11 +64,11 @@ class Machine:
         return f"<Machine {self.name!r}: {shortened(self.description)}>"
 
     def __eq__(self, other: object) -> bool:
-        """Whether everything that their files say, options included, is the same."""
+        """Whether all that their files state, options included, is the same."""
         return self.document == other.document if isinstance(other, Machine) else NotImplemented
 
     def __hash__(self) -> int:
-        """As equality says."""
+        """As equality compares."""
         return hash(self.engine.to_json())
 
     def __getstate__(self) -> Document:
@@ -108,8 +108,8 @@ class Machine:
             MachineError: a key is unknown, missing or out of range.
         """
         document = document_of(document, "document", "a dict with what a machine file holds", MachineError)
-        said = {key: _said(value) for key, value in document.items() if value is not None}
-        text = json_of(said, "document", MachineError)
+        stated = {key: _stated(value) for key, value in document.items() if value is not None}
+        text = json_of(stated, "document", MachineError)
         return cls._built(_engine.Machine.from_json(text, str(folder)))
 
     @classmethod
@@ -121,8 +121,8 @@ class Machine:
             return cls._built(_engine.Machine.from_toml(text, str(path.parent)))
         except MachineError as error:
             place = f"{path}: {error.where}" if error.where else str(path)
-            said = str(error).removeprefix(f"{error.where}: ")
-            raise MachineError(f"{place}: {said}", code=error.code, where=place, hint=error.hint) from error
+            message = str(error).removeprefix(f"{error.where}: ")
+            raise MachineError(f"{place}: {message}", code=error.code, where=place, hint=error.hint) from error
 
     @classmethod
     def find(cls, name: str) -> Machine:
@@ -170,7 +170,7 @@ class Machine:
 
     @cached_property
     def document(self) -> Document:
-        """Everything that the file says."""
+        """Everything that the file states."""
         document: dict[str, Any] = json.loads(self.engine.to_json())
         return document
 
@@ -195,11 +195,11 @@ class Machine:
         return self.engine.resolution_mm
 
 
-def _said(value: object) -> object:
-    """A document without the keys that hold None: what is not said."""
+def _stated(value: object) -> object:
+    """A document without the keys that hold None: what is not stated."""
     if isinstance(value, Mapping):
-        return {key: _said(part) for key, part in value.items() if part is not None}
-    return [_said(part) for part in value] if isinstance(value, list | tuple) else value
+        return {key: _stated(part) for key, part in value.items() if part is not None}
+    return [_stated(part) for part in value] if isinstance(value, list | tuple) else value
 
 
 def starter(name: str, base: Machine, extends: str) -> str:

@@ -24,7 +24,7 @@ class Plan:
     """What planning made of a job.
 
     A copy of it that went through pickle holds the programs and the summary; it plans again only where the engine's own
-    plan is asked for, as for a summary with a judgement.
+    plan is asked for, as for a summary with a verification.
     """
 
     def __init__(self, job: Job, machine: Machine, scene: _engine.Scene, engine: _engine.Plan) -> None:
@@ -44,7 +44,7 @@ class Plan:
         return (self.job, self.machine, self.programs) == (other.job, other.machine, other.programs)
 
     def __hash__(self) -> int:
-        """As equality says."""
+        """As equality compares."""
         return hash(self.programs["main"])
 
     def __getstate__(self) -> Document:
@@ -67,7 +67,7 @@ class Plan:
         return {"main": Program(self.engine.program)}
 
     def summary(self, judgement: _engine.Judgement | None = None) -> tuple[Document, list[str]]:
-        """The job in numbers, and the lines that a program's header says of it."""
+        """The job in numbers, and the lines on it in a program's header."""
         document, notes = self._summary if judgement is None else self._summed(judgement)
         return json.loads(document), list(notes)
 
@@ -98,7 +98,7 @@ class Posted:
         return f"<Posted: {shortened('; '.join(sizes) or 'nothing', 120)}>"
 
     def __hash__(self) -> int:
-        """As equality says."""
+        """As equality compares."""
         return hash(tuple(self.files.items()))
 
     @property
@@ -175,7 +175,8 @@ def read_gcode(text: TextLike, machine: MachineLike) -> Program:
     """The program that ``machine`` would read; strict: what it would not understand raises ``VerifyError``.
 
     ``text`` is G-code, or the name of a file that holds it: a single line that is an existing file, or ends as file names do.
-    It is for looking at and measuring: ways to the machine's own places, and lines behind a ``/``, are no moves of it. To post a
-    text for another machine, where such things must not be lost, there is :func:`styluscam.programs.posting.read_program`.
+    It is for looking at and measuring: moves to the machine's own positions, and lines behind a ``/``, are no moves of it.
+    To post a text for another machine, where such moves must not be lost, there is
+    :func:`styluscam.programs.posting.read_program`.
     """
     return Program(_engine.read_gcode(text_of(text), Machine.of(machine).engine))

@@ -40,13 +40,13 @@ def read_program(path: Path, machine: Machine | None, target: Machine) -> Progra
             f"{path} is no program document (.json)",
             code="post-input",
             where=str(path),
-            hint="for G-code say with --as which machine it is for",
+            hint="for G-code name its machine with --as",
         )
     return Program(_engine.read_to_post(read_gcode_text(path), machine.engine, target.engine))
 
 
 def edited(program: Program, machine: Machine, edits: Edits) -> Program:
-    """The program with its edits; its header says so.
+    """The program with its edits; its header states them.
 
     Raises:
         JobError: there is no such line, operation or level, or the program cannot begin there.
@@ -72,7 +72,7 @@ def edited(program: Program, machine: Machine, edits: Edits) -> Program:
 
 
 def _not_judged(notes: list[str]) -> list[str]:
-    """The notes with what is true of a new text in the place of the verdict on another: lines are counted alike."""
+    """The notes with what is true of a new text instead of the verdict on another: lines are counted alike."""
     kept = [note.replace(VERDICT, ON_ANOTHER, 1) if note.startswith(VERDICT) else note for note in notes]
     return kept if kept != notes else [*kept, NOT_JUDGED]
 

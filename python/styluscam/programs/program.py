@@ -63,7 +63,7 @@ class Program:
         return self.engine.to_json() == other.engine.to_json() if isinstance(other, Program) else NotImplemented
 
     def __hash__(self) -> int:
-        """As equality says, by count and length of the moves."""
+        """As equality compares, by count and length of the moves."""
         return hash((self.engine.move_count, *self.engine.statistics()))
 
     def __getstate__(self) -> Document:
@@ -112,7 +112,7 @@ class Program:
     def times(self, machine: MachineLike) -> FloatArray:
         """The time at the end of every move on a machine, (N,), s, with its acceleration and its rate of blocks.
 
-        What the machine file does not say is taken for unlimited. Tool changes and the way to the first place count 0.
+        What the machine file does not state is taken for unlimited. Tool changes and the path to the first position count 0.
         """
         return self.engine.times(Machine.of(machine).engine)[0]
 

@@ -33,7 +33,7 @@ BLOCK_NUMBER = re.compile(r"^\s*N?\d+\s")
 
 @dataclass(frozen=True, repr=False)
 class RunResult:
-    """What a run made: the program is written unless the judge objected, a report in any case."""
+    """What a run made: the program is written unless verification found an error, a report in any case."""
 
     plan: Plan
     posted: Posted
@@ -50,7 +50,7 @@ class RunResult:
         )
 
     def __hash__(self) -> int:
-        """As equality says."""
+        """As equality compares."""
         return hash((self.posted, self.written))
 
 
@@ -64,12 +64,12 @@ def run(
     report: FileName | None = None,
     also: Sequence[FileName] = (),
 ) -> RunResult:
-    """Plans a job (object, dict or file), posts it, reads the text back, judges it, and writes it only if no error was found.
+    """Plans a job (object, dict or file), posts it, reads the text back, verifies it, and writes it only if no error was found.
 
     A program that another job wrote, or no job at all, is not replaced without ``force``; one of this job is. ``report``
     names the page to be written, the job's own when left out: whatever was found. ``also`` names files that the caller
     will write beside the program: asked about before the work begins.
-    The judge's figures go into the header: the text is posted again with them, and must hold the very same moves.
+    The verifier's figures go into the header: the text is posted again with them, and must hold the very same moves.
     """
     work = Job.of(job)
     page = _report_name(work) if report is None else file_of(report, "report", A_FILE, JobError)
@@ -81,19 +81,19 @@ def run(
     if page is not None:
         require_extra()
     planned = plan(work, progress=progress, cancel=cancel)
-    judged = judge_plan(planned, post(planned).text, progress, cancel)
-    summary, notes = planned.summary(judged.judgement)
+    verified = judge_plan(planned, post(planned).text, progress, cancel)
+    summary, notes = planned.summary(verified.judgement)
     posted = post(planned, notes=notes)
-    _require_same_moves(judged, planned, posted)
-    files = _outputs(work, planned, posted, notes) if judged.ok or write_despite_findings else {}
+    _require_same_moves(verified, planned, posted)
+    files = _outputs(work, planned, posted, notes) if verified.ok or write_despite_findings else {}
     if page is not None:
-        files[page] = report_page(Subject.judged(judged, planned.machine, _names(work)[0].name), progress)
+        files[page] = report_page(Subject.judged(verified, planned.machine, _names(work)[0].name), progress)
     write_all_whole(files)
-    return RunResult(planned, posted, judged, summary, tuple(files))
+    return RunResult(planned, posted, verified, summary, tuple(files))
 
 
 def _require_own(job: Job) -> None:
-    """Asks whether what the job would replace was written by it: its title, and the judge's remark in the program.
+    """Asks whether what the job would replace was written by it: its title, and the verifier's remark in the program.
 
     Raises:
         JobError: a file of another job, or of none, is in the way.
@@ -101,7 +101,7 @@ def _require_own(job: Job) -> None:
     gcode, program = _names(job)
     title = str(job.document["title"] or job.document["part"]["file"])  # as programs have it
     described = not is_file(program) or _title(program) == title
-    posted = not is_file(gcode) or _is_judged(gcode, title, is_file(program) and described)
+    posted = not is_file(gcode) or _is_verified(gcode, title, is_file(program) and described)
     for path, own in ((gcode, posted), (program, described)):
         if not own:
             message = f"{path}: the file is there already, and this job ({job.title}) did not write it"
@@ -117,16 +117,16 @@ def _title(program: Path) -> str | None:
         return None
 
 
-def _is_judged(gcode: Path, title: str, described: bool) -> bool:
-    """Whether a text holds the judge's remark, and belongs to a job of this title: by its header, or as ``described``."""
+def _is_verified(gcode: Path, title: str, described: bool) -> bool:
+    """Whether a text holds the verifier's remark, and belongs to a job of this title: by its header, or as ``described``."""
     try:
         with gcode.open("rb") as stream:
             head = stream.read(HEADER).decode("utf-8", errors="replace")
     except OSError:
         return False
-    said = _letters("".join(BLOCK_NUMBER.sub("", line) for line in head.splitlines()))
+    head_letters = _letters("".join(BLOCK_NUMBER.sub("", line) for line in head.splitlines()))
     own = _letters(title)
-    return _letters(VERDICT) in said and (described or (own != "" and own in said))
+    return _letters(VERDICT) in head_letters and (described or (own != "" and own in head_letters))
 
 
 def _letters(text: str) -> str:
@@ -136,7 +136,7 @@ def _letters(text: str) -> str:
 
 
 def _require_same_moves(report: Report, planned: Plan, posted: Posted) -> None:
-    """Comments differ between the judged text and the written one; nothing else may."""
+    """Comments differ between the verified text and the written one; nothing else may."""
     again = _engine.read_back(planned.job.engine, planned.machine.engine, posted.text)
     if not again.same_moves(report.judgement.program):
         raise VerifyError("the header changed the program's moves", code="internal", hint="please report this")

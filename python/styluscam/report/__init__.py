@@ -1,4 +1,4 @@
-"""Reports (extra ``report``): what was judged, as one HTML page that needs no network."""
+"""Reports (extra ``report``): what was verified, as one HTML page that needs no network."""
 
 from __future__ import annotations
 

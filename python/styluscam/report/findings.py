@@ -1,4 +1,4 @@
-"""What the judge found, in words and with its moment on the time axis."""
+"""What verification found, in words and with its moment on the time axis."""
 
 from __future__ import annotations
 
@@ -22,28 +22,28 @@ class Verdict:
 
 
 def verdict_of(report: Report | None, traced: bool = False) -> Verdict:
-    """What a person wants to know first; ``traced`` says that no machine has read the program."""
+    """What a person wants to know first; ``traced``: no machine has read the program."""
     if report is None:
         shown = (
-            "as the language RS-274NGC says it, not as one machine would run it"
+            "as the language RS-274NGC defines it, not as one machine would run it"
             if traced
             else "as the machine reads it"
         )
         explained = f"The program is shown {shown}. Nothing was held against a part."
-        return Verdict("unjudged", "Not judged", explained)
+        return Verdict("unjudged", "Not verified", explained)
     document = report.to_dict()
     exact = f", {document['brep_checked']} contacts against the exact model" if document["brep_checked"] else ""
-    judged = (
+    checked = (
         "The text was read back as the machine reads it; every move was held against the whole part, "
-        f"{document['samples']} places measured{exact}."
+        f"{document['samples']} points measured{exact}."
     )
     kinds = dict.fromkeys(group.kind for group in report.groups)
-    found = f"Found: {', '.join(f'{spoken(kind)} ({_extent(document, kind)})' for kind in kinds)}. {judged}"
+    found = f"Found: {', '.join(f'{spoken(kind)} ({_extent(document, kind)})' for kind in kinds)}. {checked}"
     if not report.ok:
         return Verdict("faulty", "Must not run", found)
     if report.findings:
         return Verdict("warned", "May run, with warnings", found)
-    return Verdict("sound", "Nothing was found", judged)
+    return Verdict("sound", "Nothing was found", checked)
 
 
 def grouped(report: Report | None) -> list[Document]:
@@ -75,15 +75,15 @@ def measured(value: float, unit: str) -> str:
     return f"{value:.4f} mm" if unit == "mm" else f"{value:.6g} {unit}"
 
 
-def placed(findings: Sequence[Finding], lines: IntArray, places: FloatArray, times: FloatArray) -> list[Document]:
+def placed(findings: Sequence[Finding], lines: IntArray, positions: FloatArray, times: FloatArray) -> list[Document]:
     """The findings, each with its ``time`` in seconds (none where it has no moment).
 
-    ``lines`` (N,), ``places`` (N, 3) and ``times`` (N,) are those along the path.
+    ``lines`` (N,), ``positions`` (N, 3) and ``times`` (N,) are those along the path.
     """
-    return [{**finding, "time": _moment(finding, lines, places, times)} for finding in findings]
+    return [{**finding, "time": _moment(finding, lines, positions, times)} for finding in findings]
 
 
-def _moment(finding: Finding, lines: IntArray, places: FloatArray, times: FloatArray) -> float | None:
+def _moment(finding: Finding, lines: IntArray, positions: FloatArray, times: FloatArray) -> float | None:
     """When the tool is nearest to the finding's position on the finding's line."""
     moves = np.flatnonzero(lines == finding.line) if finding.line else np.zeros(0, dtype=np.int64)
     if not len(moves):
@@ -91,11 +91,11 @@ def _moment(finding: Finding, lines: IntArray, places: FloatArray, times: FloatA
     if finding.position is None:
         return float(times[moves[0]])
     before = np.maximum(moves - 1, 0)
-    start, way = places[before], places[moves] - places[before]
-    square = np.einsum("ij,ij->i", way, way)
-    along = np.einsum("ij,ij->i", np.asarray(finding.position) - start, way)
+    start, segment = positions[before], positions[moves] - positions[before]
+    square = np.einsum("ij,ij->i", segment, segment)
+    along = np.einsum("ij,ij->i", np.asarray(finding.position) - start, segment)
     share = np.clip(np.divide(along, square, out=np.ones(len(moves)), where=square > 0.0), 0.0, 1.0)
-    off = np.linalg.norm(start + share[:, None] * way - np.asarray(finding.position), axis=1)
+    off = np.linalg.norm(start + share[:, None] * segment - np.asarray(finding.position), axis=1)
     best = int(np.nanargmin(off)) if np.isfinite(off).any() else 0
     begins, ends = times[before[best]] if moves[best] > 0 else 0.0, times[moves[best]]
     return float(ends if share[best] >= 1.0 else begins + share[best] * (ends - begins))

@@ -17,10 +17,10 @@ PER_PASS = 4.0
 """Sides of triangles for each mean distance between passes."""
 
 FLAT, CARRIED = 1, 2
-"""What ``Report.needs`` says of places that need no forming."""
+"""What ``Report.needs`` gives for points that need no forming."""
 
 COVERED = 0.01
-"""A place counts as covered when no more than this share of the diameter of the smallest tool used is left: as the judge
+"""A point counts as covered when no more than this share of the diameter of the smallest tool used is left: as the verifier
 has it."""
 
 SHOWN_SHARE = 0.99
@@ -33,7 +33,7 @@ LEAST_GOUGE = 0.01
 """mm: where the scale of gouges ends at least."""
 
 NOTHING, UNFORMED = -1.0, -2.0
-"""The values where a map has nothing to say, and where a sheet needs no forming; all others are 0 or more."""
+"""The values where a map shows nothing, and where a sheet needs no forming; all others are 0 or more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +44,7 @@ class HeatMap:
     title: str
     unit: str
     values: FloatArray
-    """(V,), 0 or more; :data:`NOTHING` where there is nothing to say, :data:`UNFORMED` where nothing is to be done."""
+    """(V,), 0 or more; :data:`NOTHING` where there is nothing to show, :data:`UNFORMED` where nothing is to be done."""
     low: float
     high: float
     limit: float | None = None
@@ -74,7 +74,7 @@ class Shown:
 
 
 def shown_plain(surface: Surface) -> Shown:
-    """A part that nothing was judged against: wall angles are all there is to say."""
+    """A part without a verification: only wall angles are shown."""
     surface, merged = surface.coarsened(LIMIT)
     vertices = vertices_of(surface)
     none = np.zeros(0)
@@ -82,29 +82,29 @@ def shown_plain(surface: Surface) -> Shown:
 
 
 def shown_judged(surface: Surface, report: Report, progress: Progress | None = None) -> Shown:
-    """A part and what a judged program leaves on it, refined so that the passes show."""
+    """A part and what a verified program leaves on it, refined so that the passes show."""
     surface, merged = surface.coarsened(LIMIT)
-    wanted = np.isin(surface.faces, [face.face for face in report.coverage(progress=progress)]) & surface.looks_up
-    area = float(surface.areas[wanted].sum())
+    selected = np.isin(surface.faces, [face.face for face in report.coverage(progress=progress)]) & surface.looks_up
+    area = float(surface.areas[selected].sum())
     between = area / max(report.program.length, 1e-9)
     spacing = max(between / PER_PASS, float(np.sqrt(2.0 * area / LIMIT)))
     borders = surface.borders()
-    surface, wanted = surface.refined(wanted, spacing, LIMIT)
+    surface, selected = surface.refined(selected, spacing, LIMIT)
     left = report.left(surface.points, progress=progress)
     vertices = vertices_of(surface)
     asked = np.zeros(len(vertices.at), dtype=bool)
-    asked[vertices.triangles[wanted]] = True
+    asked[vertices.triangles[selected]] = True
     used = {int(operation["tool"]) for operation in report.program.operations}
     diameters = (float(tool["diameter"]) for number, tool in enumerate(report.program.tools) if number in used)
     enough = COVERED * min(diameters, default=0.0)
     needs = report.needs(surface.points[vertices.at], vertices.normals, progress=progress)
     covered = asked & (needs != FLAT) & (left[vertices.at] <= enough)
     stays = asked & ((needs == FLAT) | (needs == CARRIED) & ~covered)
-    share = np.repeat(surface.areas[wanted] / 3.0, 3)
+    share = np.repeat(surface.areas[selected] / 3.0, 3)
     weights: FloatArray = np.asarray(
-        np.bincount(vertices.triangles[wanted].reshape(-1), share, len(vertices.at)), dtype=np.float64
+        np.bincount(vertices.triangles[selected].reshape(-1), share, len(vertices.at)), dtype=np.float64
     )
-    grid = f"{len(surface.points)} points, at most {surface.longest_side(wanted):.2g} mm apart where the job is"
+    grid = f"{len(surface.points)} points, at most {surface.longest_side(selected):.2g} mm apart where the job is"
     of_points = np.maximum(left, 0.0)[vertices.at]
     maps = [
         _left_over(np.where(stays, UNFORMED, np.where(asked, of_points, NOTHING)), covered, enough, grid),
@@ -134,7 +134,7 @@ def _gouge(values: FloatArray, grid: str) -> HeatMap:
 
 
 def _angles(vertices: Vertices) -> FloatArray:
-    """Wall angle at each vertex, rad; what looks down has that of its mirror image."""
+    """Wall angle at each vertex, rad; what faces down has that of its mirror image."""
     return np.asarray(np.arccos(np.clip(np.abs(vertices.normals[:, 2]), 0.0, 1.0)))
 
 

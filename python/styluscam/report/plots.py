@@ -1,4 +1,4 @@
-"""Plots as SVG for a page: over time with a place for a cursor, and histograms. Colours are the page's own."""
+"""Plots as SVG for a page: over time with room for a cursor, and histograms. Colours are the page's own."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 SIZE = (5.2, 2.3)
 """Inches."""
 
-PLACE = (0.135, 0.215, 0.835, 0.73)
+FRAME = (0.135, 0.215, 0.835, 0.73)
 """Left, bottom, width, height of the axes, shares of the figure."""
 
 BINS = 700
@@ -60,12 +60,12 @@ class Plot:
     @property
     def left(self) -> float:
         """Where the time axis begins, share of the width."""
-        return PLACE[0]
+        return FRAME[0]
 
     @property
     def width(self) -> float:
         """How long it is, share of the width."""
-        return PLACE[2]
+        return FRAME[2]
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,7 +175,7 @@ def _svg(draw: Draw) -> str:
         figure: Figure = Figure(figsize=SIZE)
         FigureCanvasSVG(figure)
         figure.patch.set_visible(False)
-        axes = figure.add_axes(PLACE)
+        axes = figure.add_axes(FRAME)
         axes.patch.set_visible(False)
         draw(axes)
         axes.grid(True, color=GRID, linewidth=0.8)
@@ -189,7 +189,7 @@ def _svg(draw: Draw) -> str:
 
 
 def element(svg: str) -> str:
-    """An SVG file's text as an element inside a page, as wide as its place."""
+    """An SVG file's text as an element inside a page, as wide as its container."""
     svg = re.sub(r"^.*?(?=<svg )", "", svg, flags=re.DOTALL)
     svg = re.sub(r'(<svg [^>]*?) width="[^"]*"', r"\1", svg, count=1)
     svg = re.sub(r'(<svg [^>]*?) height="[^"]*"', r"\1", svg, count=1)

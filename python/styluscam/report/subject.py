@@ -28,14 +28,14 @@ TRACED = "RS-274NGC, traced"
 """The reader of a text that is no machine's."""
 
 SAME = 1e-6
-"""mm: as the judge tells a plunge from a cut."""
+"""mm: as the verifier distinguishes a plunge from a cut."""
 
 
 @dataclass(frozen=True, eq=False)
 class Subject:
-    """A program read from a text, with the job, the part and the judgement where there are any.
+    """A program read from a text, with the job, the part and the report where there are any.
 
-    ``gaps`` says in sentences what is not shown of a text that no machine read but the language's tracer; times are
+    ``gaps`` states in sentences what is not shown of a text that no machine read but the language's tracer; times are
     those of ``machine`` then too. ``frame`` holds the rows (3, 4) from the part's coordinates to the program's.
     """
 
@@ -57,7 +57,7 @@ class Subject:
 
     @classmethod
     def judged(cls, report: Report, machine: Machine, file: str) -> Subject:
-        """A judged text; ``file`` is its name."""
+        """A verified text; ``file`` is its name."""
         job = report.job
         title = str(job.document["title"] or job.name)
         frame = np.array(report.scene.frame)
@@ -75,7 +75,7 @@ class Subject:
 
     @cached_property
     def _known(self) -> IntArray:
-        """The places of the program's polyline that are known, (N,)."""
+        """The points of the program's polyline that are known, (N,)."""
         return np.flatnonzero(np.isfinite(self.program.positions).all(axis=1))
 
     @cached_property
@@ -85,7 +85,7 @@ class Subject:
 
     @cached_property
     def owners(self) -> IntArray:
-        """The move that leads to each place, (N,): an index that rises."""
+        """The move that leads to each point, (N,): an index that rises."""
         return self.program.polyline[1][self._known].astype(np.int64)
 
     @cached_property
@@ -99,25 +99,25 @@ class Subject:
         if not len(self.places):
             return np.zeros(0)
         ends = np.append(0.0, self.program.times(self.machine))
-        way = np.cumsum(np.linalg.norm(np.diff(self.places, axis=0, prepend=self.places[:1]), axis=1))
+        length_to = np.cumsum(np.linalg.norm(np.diff(self.places, axis=0, prepend=self.places[:1]), axis=1))
         last = np.searchsorted(self.owners, self.owners, side="right") - 1
         first = np.searchsorted(self.owners, self.owners) - 1
-        begins = np.where(first >= 0, way[first], 0.0)
-        length = way[last] - begins
-        share = np.divide(way - begins, length, out=np.ones(len(way)), where=length > 0.0)
+        begins = np.where(first >= 0, length_to[first], 0.0)
+        length = length_to[last] - begins
+        share = np.divide(length_to - begins, length, out=np.ones(len(length_to)), where=length > 0.0)
         times = ends[self.owners] + share * (ends[self.owners + 1] - ends[self.owners])
         return np.asarray(np.rint(times * 1e6) / 1e6)
 
     @cached_property
     def kinds(self) -> IntArray:
         """What the move is for, (N,): :data:`RAPIDS`, :data:`UPRIGHT` or :data:`CUT`."""
-        way = np.diff(self.places, axis=0, prepend=self.places[:1])
-        upright = (np.abs(way[:, :2]) <= SAME).all(axis=1)
+        steps = np.diff(self.places, axis=0, prepend=self.places[:1])
+        upright = (np.abs(steps[:, :2]) <= SAME).all(axis=1)
         return np.where(self.moves["kind"] == RAPID, RAPIDS, np.where(upright, UPRIGHT, CUT))
 
     @cached_property
     def findings(self) -> list[Document]:
-        """What the judge found, each with its moment."""
+        """What verification found, each with its moment."""
         if self.report is None:
             return []
         return placed(self.report.findings, self.moves["line"], self.places, self.times)

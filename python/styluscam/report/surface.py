@@ -55,7 +55,7 @@ class Surface:
 
     @property
     def looks_up(self) -> Mask:
-        """The triangles (T,) that do not look down, as the engine's ``looking_up`` has it."""
+        """The triangles (T,) that do not face down, as the engine's ``looking_up`` has it."""
         doubled = self._doubled()
         return np.asarray(doubled[:, 2] >= -1e-4 * np.linalg.norm(doubled, axis=1))
 
@@ -75,19 +75,19 @@ class Surface:
         order = np.argsort(key, kind="stable")
         of, key = order // 3, key[order]
         twin = np.flatnonzero(key[1:] == key[:-1])
-        way = self._doubled()
-        way /= np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-300)
+        normals = self._doubled()
+        normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
         differ = self.faces[of[twin]] != self.faces[of[twin + 1]]
         if not self.smooth:
-            differ |= np.einsum("ij,ij->i", way[of[twin]], way[of[twin + 1]]) < SHARP
+            differ |= np.einsum("ij,ij->i", normals[of[twin]], normals[of[twin + 1]]) < SHARP
         single = np.ones(len(key), dtype=bool)
         single[twin] = single[twin + 1] = False
         borders: IntArray = ends[order[np.concatenate([np.flatnonzero(single), twin[differ]])]]
         return borders
 
-    def longest_side(self, wanted: Mask) -> float:
-        """Of the wanted triangles (T,), mm."""
-        return float(_sides(self.points, self.triangles[wanted]).max(initial=0.0))
+    def longest_side(self, selected: Mask) -> float:
+        """Of the selected triangles (T,), mm."""
+        return float(_sides(self.points, self.triangles[selected]).max(initial=0.0))
 
     def coarsened(self, limit: int) -> tuple[Surface, float]:
         """At most ``limit`` points, and the size of the cells in which those that were there became one, mm; 0: none did."""
@@ -99,8 +99,8 @@ class Surface:
 
     def _merged(self, cell: float) -> Surface:
         """With the points of each cell merged into the first of them; triangles without area are gone."""
-        place = np.floor((self.points - self.points.min(axis=0)) / cell).astype(np.int64)
-        _, first, owner = np.unique(place, axis=0, return_index=True, return_inverse=True)
+        cells = np.floor((self.points - self.points.min(axis=0)) / cell).astype(np.int64)
+        _, first, owner = np.unique(cells, axis=0, return_index=True, return_inverse=True)
         triangles = owner.reshape(-1)[self.triangles]
         a, b, c = triangles.T
         stays = (a != b) & (b != c) & (c != a)
@@ -109,25 +109,25 @@ class Surface:
 
     def _faceted(self) -> Surface:
         """With the normals of its facets."""
-        way = self._doubled()
-        way /= np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-300)
-        return Surface(self.points, self.triangles, np.repeat(way[:, None], 3, axis=1), self.faces, self.smooth)
+        normals = self._doubled()
+        normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+        return Surface(self.points, self.triangles, np.repeat(normals[:, None], 3, axis=1), self.faces, self.smooth)
 
-    def refined(self, wanted: Mask, spacing: float, limit: int) -> tuple[Surface, Mask]:
-        """Sides of wanted triangles (T,) are halved until none is longer than ``spacing`` mm, or ``limit`` is reached.
+    def refined(self, selected: Mask, spacing: float, limit: int) -> tuple[Surface, Mask]:
+        """Sides of selected triangles (T,) are halved until none is longer than ``spacing`` mm, or ``limit`` is reached.
 
-        Neighbours are divided with them: no gaps. The finer surface comes with what is wanted of it.
+        Neighbours are divided with them: no gaps. The finer surface comes with what is selected of it.
         """
         surface = self
         while True:
-            sides = np.where(wanted[:, None], _sides(surface.points, surface.triangles), 0.0)
+            sides = np.where(selected[:, None], _sides(surface.points, surface.triangles), 0.0)
             # the longest go first: what room there is serves all alike
             long = sides > max(spacing, sides.max(initial=0.0) / 2.0)
             room = limit - len(surface.points)
             if not long.any() or room <= 0:
-                return surface, wanted
+                return surface, selected
             surface, parent = surface._halved(long, room)
-            wanted = wanted[parent]
+            selected = selected[parent]
 
     def _halved(self, long: Mask, room: int) -> tuple[Surface, IntArray]:
         """With long sides (T, 3) halved, the longest of them where there is ``room`` for so many points.
@@ -140,10 +140,10 @@ class Surface:
         if len(halved) > room:
             lengths = _sides(self.points, self.triangles)[long][first]
             halved = np.sort(halved[np.argsort(-lengths, kind="stable")[:room]])
-        place = np.minimum(np.searchsorted(halved, key), len(halved) - 1)
-        marked = halved[place] == key
+        at = np.minimum(np.searchsorted(halved, key), len(halved) - 1)
+        marked = halved[at] == key
         middles = (self.points[halved // len(self.points)] + self.points[halved % len(self.points)]) / 2.0
-        nodes = np.concatenate([self.triangles, place + len(self.points)], axis=1)
+        nodes = np.concatenate([self.triangles, at + len(self.points)], axis=1)
         between = self.normals + np.roll(self.normals, -1, axis=1)
         between /= np.maximum(np.linalg.norm(between, axis=2, keepdims=True), 1e-12)
         normals = np.concatenate([self.normals, between], axis=1)

@@ -16,7 +16,7 @@ from styluscam.records import Record
 from styluscam.report.subject import RAPIDS, Subject
 from styluscam.report.vendored import THREE_VERSION
 from styluscam.types import Document
-from styluscam.words import clock, place
+from styluscam.words import clock, position
 
 LONGEST = 120
 """Characters of a value in the job's table."""
@@ -86,7 +86,7 @@ SHOWN: dict[str, tuple[str, Callable[[Any], str]]] = {
 
 def in_words(numbers: Figures) -> Rows:
     """:func:`figures` in words, without those that are not known."""
-    return [(name, said(numbers[key])) for key, (name, said) in SHOWN.items() if numbers[key] is not None]
+    return [(name, words(numbers[key])) for key, (name, words) in SHOWN.items() if numbers[key] is not None]
 
 
 def faces(subject: Subject) -> list[tuple[str, ...]]:
@@ -108,7 +108,7 @@ def _face(face: FaceCoverage) -> tuple[str, ...]:
         f"{face.scallop:.4f}" if covered else "",
         f"{face.mean:.4f}" if covered else "",
         left if touched else "stays flat",
-        "" if face.at is None or not touched else place(face.at),
+        "" if face.at is None or not touched else position(face.at),
     )
 
 
@@ -130,16 +130,16 @@ def _flat(value: object, path: str) -> Iterator[tuple[str, str]]:
         for number, inner in enumerate(value, start=1):
             yield from _flat(inner, f"{path}[{number}]" if path or len(value) > 1 else "")
     elif value not in (None, "", []):
-        yield path, _said(value)
+        yield path, _value(value)
 
 
-def _said(value: object) -> str:
+def _value(value: object) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float):
         return f"{value:g}"
     if isinstance(value, list):
-        text = ", ".join(_said(item) for item in value)
+        text = ", ".join(_value(item) for item in value)
         return text if len(text) <= LONGEST else f"{len(value)} entries"
     return str(value)
 
@@ -164,5 +164,5 @@ def side_by_side(subjects: Sequence[Subject]) -> list[tuple[str, ...]]:
     """:func:`figures` of several programs: what it is, and each one's; what none knows is left out."""
     numbers = [figures(subject) for subject in subjects]
     known = [key for key in SHOWN if any(each[key] is not None for each in numbers)]
-    said = [[SHOWN[key][1](each[key]) if each[key] is not None else "" for each in numbers] for key in known]
-    return [(SHOWN[key][0], *row) for key, row in zip(known, said, strict=True)]
+    rows = [[SHOWN[key][1](each[key]) if each[key] is not None else "" for each in numbers] for key in known]
+    return [(SHOWN[key][0], *row) for key, row in zip(known, rows, strict=True)]

@@ -23,7 +23,7 @@ def require_extra() -> None:
 
 
 def template(name: str) -> Template:
-    """One of them; what is put in is text, never markup, unless it says so."""
+    """One of them; what is put in is text, never markup, unless it is marked as such."""
     require_extra()
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 

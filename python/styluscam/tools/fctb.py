@@ -96,7 +96,7 @@ def document_of(exact: str, where: str) -> Document:
 
 
 def _usual(document: Document, diameter: float, height: float) -> dict[str, float]:
-    """What FreeCAD is told of a tool that leaves these open (mm)."""
+    """What FreeCAD gets for a tool that leaves these open (mm)."""
     base = document.get("base")
     above = base.get("height", 0.0) if isinstance(base, dict) else 0.0
     raised = height + (float(above) if _is_number(above) else 0.0)
@@ -104,7 +104,7 @@ def _usual(document: Document, diameter: float, height: float) -> dict[str, floa
 
 
 def _size(document: Document) -> tuple[float, float] | None:
-    """Diameter and height (mm) of the profile; None where it does not build, which is for others to say."""
+    """Diameter and height (mm) of the profile; None where it does not build, which others report."""
     try:
         tool = _engine.Tool(json.dumps({"profile": document["profile"]}))
     except (ToolError, KeyError, TypeError, ValueError):

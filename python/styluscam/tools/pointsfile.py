@@ -1,6 +1,6 @@
 """Measured profiles in text files: radius and height in two columns, as spreadsheets and measuring machines write them.
 
-A points profile may name such a file in the place of its list, ``"points": "measured.csv"``, relative to the document's
+A points profile may name such a file instead of its list, ``"points": "measured.csv"``, relative to the document's
 folder; the engine sees the list. Columns are separated by semicolons, tabs, commas or blanks; with the first two, and in
 quotes, a comma may be the decimal point. Lines that begin with # are comments, lines above the numbers are headings.
 """
@@ -55,7 +55,7 @@ def read_points(path: str | Path) -> list[list[float]]:
 
 
 def resolved(document: Document, folder: str | Path) -> tuple[Document, list[Path]]:
-    """A tool's document with its points in the place of the file that it names, and that file.
+    """A tool's document with its points instead of the file that it names, and that file.
 
     Raises:
         ToolError: as :func:`read_points`.
@@ -67,7 +67,7 @@ def resolved(document: Document, folder: str | Path) -> tuple[Document, list[Pat
     return {**document, "profile": {**profile, "points": read_points(file)}}, [file]
 
 
-def with_place(document: Document, folder: str | Path) -> Document:
+def with_folder(document: Document, folder: str | Path) -> Document:
     """A tool's document with its points' file named from anywhere."""
     profile = document.get("profile")
     if not isinstance(profile, dict) or not isinstance(profile.get("points"), str):

@@ -20,7 +20,7 @@ from styluscam.errors import ToolError
 from styluscam.types import FloatArray
 
 HALVINGS = 64
-"""Of a slope or a height: more than a double can tell apart."""
+"""Of a slope or a height: more than a double distinguishes."""
 
 THIRDS = 100
 """Steps of a search by thirds: each leaves two thirds of the interval."""
@@ -117,7 +117,7 @@ def _checked(wall_deg: npt.ArrayLike, spacing: npt.ArrayLike) -> tuple[FloatArra
         ("spacing", spacings, (spacings > 0.0) & np.isfinite(spacings)),
     ):
         if not good.all():
-            hint = "walls lie between 0 and 90 degrees, passes some way apart"
+            hint = "walls lie between 0 and 90 degrees, passes some distance apart"
             message = f"{name} = {values[~good].flat[0]:g}: out of range"
             raise ToolError(message, code="out-of-range", where=name, hint=hint)
     return walls, spacings

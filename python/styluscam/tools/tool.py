@@ -65,7 +65,7 @@ class Tool:
         return self._engine.to_json() == other._engine.to_json() if isinstance(other, Tool) else NotImplemented
 
     def __hash__(self) -> int:
-        """As equality says."""
+        """As equality compares."""
         return hash(self._engine.to_json())
 
     def __getstate__(self) -> Document:
@@ -97,7 +97,7 @@ class Tool:
         """From ``{"profile": {"kind": "clothoid", "diameter": 20.0}, "shank_diameter": .., "length": ..}``.
 
         ``schema``, ``name`` and ``title``, as tool files have them, may stand beside the profile. The file that a points
-        profile may name in the place of its list is looked for in ``folder``.
+        profile may name instead of its list is looked for in ``folder``.
 
         Raises:
             ToolError: a key is unknown, missing or out of range.
@@ -128,13 +128,13 @@ class Tool:
 
     @classmethod
     def find(cls, name: str, folder: str | Path = ".") -> Tool:
-        """By what a job's key ``library`` says: the name of a shipped tool, a tool file, or ``library.json:name``.
+        """By the value of a job's key ``library``: the name of a shipped tool, a tool file, or ``library.json:name``.
 
         Raises:
             ToolError: no such file or tool, or one that cannot be built.
         """
         name = word_of(name, "name", "the name of a shipped tool or of a tool file", ToolError)
-        file, tool = toolfile.place_of(name)
+        file, tool = toolfile.file_and_name(name)
         if not file and name not in library.names() and is_file(Path(folder) / name):
             file = name
         if not file:
@@ -214,7 +214,7 @@ class Tool:
         return {"schema": toolfile.SCHEMA} | {k: v for k, v in names.items() if v} | self.to_dict()
 
     def report(self) -> Document:
-        """What building it has to say: ``notes`` (sentences) and ``fit_deviation_mm`` (of points, else None)."""
+        """What building it reports: ``notes`` (sentences) and ``fit_deviation_mm`` (of points, else None)."""
         report: Document = json.loads(self._engine.report())
         return {**report, "notes": [*self.remarks, *report["notes"]]}
 

@@ -1,6 +1,6 @@
 """Tool files: the JSON document of one tool, with a name for people around what the engine takes.
 
-The engine judges a document; what it refuses is said here in the words of the file: which key, and what was meant.
+The engine checks a document; what it refuses is reported here in the words of the file: which key, and what was meant.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ NAMING = ("schema", "name", "title")
 TOOL = ("profile", "base", "shank_diameter", "length", "holder")
 """Keys of the tool itself."""
 
-PLACE = re.compile(r"(.+?\.(?:json|fctb))(?::(.+))?", re.IGNORECASE | re.DOTALL)
+REFERENCE = re.compile(r"(.+?\.(?:json|fctb))(?::(.+))?", re.IGNORECASE | re.DOTALL)
 """A tool file, or a library and a name in it."""
 
 NUMBERS = re.compile(r"\[\n[-+.\deE,\s]+\]")
@@ -36,7 +36,7 @@ NUMBERS = re.compile(r"\[\n[-+.\deE,\s]+\]")
 
 
 def read_json(path: str | Path, what: str) -> Document:
-    """The JSON object in a file; ``what`` it should have been is said when it is none.
+    """The JSON object in a file; ``what`` it should have been is named when it is none.
 
     Raises:
         ToolError: the file cannot be read or is no JSON object.
@@ -79,7 +79,7 @@ def _once(pairs: list[tuple[str, object]]) -> Document:
     if len(found) < len(pairs):
         keys = [key for key, _ in pairs]
         twice = next(key for key in keys if keys.count(key) > 1)
-        raise ValueError(f"the key {twice!r} stands twice in one object")
+        raise ValueError(f"the key {twice!r} is given twice in one object")
     return found
 
 
@@ -118,7 +118,7 @@ def check_text(document: Document, keys: Iterable[str], where: str) -> None:
 
 
 def check_tool(document: Document, where: str) -> None:
-    """Refuses keys that no tool has, at its top and in its profile; ranges are the engine's to judge."""
+    """Refuses keys that no tool has, at its top and in its profile; the engine checks ranges."""
     check_keys(document, NAMING + TOOL, where)
     check_text(document, ("name", "title"), where)
     if "profile" not in document:
@@ -170,9 +170,9 @@ def text_of(document: Document) -> str:
     return NUMBERS.sub(lambda found: f"[{' '.join(found[0][1:-1].split())}]", text) + "\n"
 
 
-def place_of(name: str) -> tuple[str, str]:
+def file_and_name(name: str) -> tuple[str, str]:
     """The file and the tool in it that a name means: ``shop.json:clothoid:small``; no file for a shipped tool's name."""
-    found = PLACE.fullmatch(name)
+    found = REFERENCE.fullmatch(name)
     return (found[1], found[2] or "") if found else ("", name)
 
 

@@ -1,4 +1,4 @@
-// Colours of maps and paths, and the legends that say what they mean.
+// Colours of maps and paths, and the legends that state what they mean.
 
 const PLAIN = [0xb9, 0xc2, 0xcc];
 const NOTHING = [0xd3, 0xd8, 0xde];

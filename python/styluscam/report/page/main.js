@@ -49,7 +49,7 @@ function wire(stage, part, lines, fixture) {
   const colour = document.getElementById("path-colour");
   colour.addEventListener("change", () => lines.show(colour.value));
   map?.addEventListener("change", () => {
-    // a path over a map hides what the map says
+    // a path over a map hides the map
     colour.value = map.value ? "" : "kind";
     lines.show(colour.value);
     part.show(map.value);
@@ -63,14 +63,14 @@ function wire(stage, part, lines, fixture) {
 
 function note(path) {
   const { drawnError, sag, unplaced, count } = given.path;
-  const said = [`${count} moves`];
-  if (sag) said.push(`arcs as chords, at most ${sag} mm off`);
+  const sentences = [`${count} moves`];
+  if (sag) sentences.push(`arcs as chords, at most ${sag} mm off`);
   if (path.drawn.length < path.known) {
-    said.push(`drawn through ${path.drawn.length} of ${path.known} places, at most ${short(drawnError)} mm off; the readout has them all`);
+    sentences.push(`drawn through ${path.drawn.length} of ${path.known} points, at most ${short(drawnError)} mm off; the readout has them all`);
   }
-  if (unplaced) said.push(`${unplaced} of them go to places that are not known`);
-  if (given.part?.merged) said.push(`the part is drawn coarser: its points are merged in cells of ${short(given.part.merged)} mm`);
-  document.getElementById("path-note").textContent = `${said.join("; ")}.`;
+  if (unplaced) sentences.push(`${unplaced} of them end at unknown positions`);
+  if (given.part?.merged) sentences.push(`the part is drawn coarser: its points are merged in cells of ${short(given.part.merged)} mm`);
+  document.getElementById("path-note").textContent = `${sentences.join("; ")}.`;
 }
 
 try {

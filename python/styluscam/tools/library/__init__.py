@@ -100,7 +100,7 @@ def read_library(path: str | Path) -> Library:
         hint = f"name the file alone: {path}"
         raise ToolError(f"{path}: one tool, not a library of tools", code="document", where=str(path), hint=hint)
     found = _library(document, str(path), Path(path).stem)
-    tools = {name: pointsfile.with_place(tool, Path(path).parent) for name, tool in found.tools.items()}
+    tools = {name: pointsfile.with_folder(tool, Path(path).parent) for name, tool in found.tools.items()}
     return replace(found, tools=tools, file=str(path))
 
 
@@ -129,34 +129,34 @@ def _library(document: Document, where: str, stem: str) -> Library:
 
 def _tools(entry: object, where: str, number: int) -> Iterator[Document]:
     """The tools of an entry: one, or one for each of its sizes."""
-    place = f"{where}: tool {number}"
+    where_in = f"{where}: tool {number}"
     if not isinstance(entry, dict):
-        raise ToolError(f"{place}: not an object with name and profile", code="document", where=where)
-    toolfile.check_text(entry, ("name", "title"), place)
+        raise ToolError(f"{where_in}: not an object with name and profile", code="document", where=where)
+    toolfile.check_text(entry, ("name", "title"), where_in)
     name = entry.get("name", "")
     if not name or name != name.strip() or SEPARATOR in name:
         hint = f"no {SEPARATOR!r} in it, and no blanks around it"
-        raise ToolError(f"{place}: needs a name, not {name!r}", code="document", where=where, hint=hint)
-    place = f"{where}: {name}"
-    toolfile.check_keys(entry, ENTRY, place)
+        raise ToolError(f"{where_in}: needs a name, not {name!r}", code="document", where=where, hint=hint)
+    where_in = f"{where}: {name}"
+    toolfile.check_keys(entry, ENTRY, where_in)
     if "sizes" not in entry:
-        toolfile.check_tool(entry, place)
+        toolfile.check_tool(entry, where_in)
         yield entry
         return
     if "profile" in entry:
-        raise ToolError(f"{place}: has both a profile and sizes", code="document", where=place, hint="keep one")
-    for size, own in _sizes(entry["sizes"], place):
+        raise ToolError(f"{where_in}: has both a profile and sizes", code="document", where=where_in, hint="keep one")
+    for size, own in _sizes(entry["sizes"], where_in):
         if isinstance(own, dict) and "profile" in own:
-            toolfile.check_keys(own, toolfile.TOOL, f"{place}: size {size}")
+            toolfile.check_keys(own, toolfile.TOOL, f"{where_in}: size {size}")
         tool = own if isinstance(own, dict) and "profile" in own else {"profile": own}
-        toolfile.check_profile(tool["profile"], f"{place}: size {size}")
+        toolfile.check_profile(tool["profile"], f"{where_in}: size {size}")
         rest = {key: value for key, value in entry.items() if key != "sizes"}
         title = f"{rest['title']}, {size}" if rest.get("title") else ""
         yield rest | tool | {"name": f"{name}{SEPARATOR}{size}"} | ({"title": title} if title else {})
 
 
-def _sizes(sizes: object, place: str) -> list[tuple[str, object]]:
+def _sizes(sizes: object, where_in: str) -> list[tuple[str, object]]:
     if not isinstance(sizes, dict) or not sizes or any(not size.strip() for size in sizes):
         hint = 'write "sizes": {"small": {"kind": "ball", "diameter": 6.0}, ...}'
-        raise ToolError(f"{place}: sizes are profiles by name", code="document", where=place, hint=hint)
+        raise ToolError(f"{where_in}: sizes are profiles by name", code="document", where=where_in, hint=hint)
     return list(sizes.items())
