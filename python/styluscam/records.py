@@ -17,7 +17,7 @@ class Record(Mapping[str, Any]):
 
     __slots__ = ()
 
-    def __getitem__(self, key: str) -> Any:  # noqa: ANN401  # as the field's type says
+    def __getitem__(self, key: str) -> Any:  # noqa: ANN401  # of the field's type
         """The field of that name."""
         if key in self._names():
             return getattr(self, key)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import tokenize
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -52,3 +54,29 @@ def test_the_list_is_that_of_contributing() -> None:
 
 def test_words_are_found() -> None:
     assert found("The Judge's `judge` is [told](judge.md).") == ["Judge", "told"]
+
+
+PACKAGE = CHECKOUT / "python" / "styluscam"
+KEPT = re.compile(
+    r"judging\.\w+|^\W*judgement\W*$|judged from this text|judged, not this text|what was judged is|was not judged"
+)
+"""Names, and remarks that programs carry."""
+
+
+def texts(file: Path) -> Iterator[tuple[int, str]]:
+    """Comments and strings of a file with their lines: messages, help texts, docstrings."""
+    with file.open("rb") as stream:
+        for token in tokenize.tokenize(stream.readline):
+            if token.type in (tokenize.COMMENT, tokenize.STRING):
+                yield token.start[0], KEPT.sub("", token.string)
+
+
+def test_the_package_uses_the_fields_words() -> None:
+    files = sorted(PACKAGE.rglob("*.py"))
+    left = {
+        f"{file.relative_to(PACKAGE)}:{line}": words
+        for file in files
+        for line, text in texts(file)
+        if (words := found(text))
+    }
+    assert len(files) > 80 and left == {}

@@ -44,7 +44,7 @@ LEAST_GAP = 5e-4
 """mm: less is no gap to speak of."""
 
 SNUG = 1.01
-"""What a tool may be wider than the narrow places: as the triangles know them."""
+"""What a tool may be wider than the narrow gaps: as the triangles know them."""
 
 FLAT_RAD = 1e-3
 """A floor's slope: tools are asked here instead of at 0, where a flat is a whole interval of radii."""

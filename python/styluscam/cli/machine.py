@@ -57,7 +57,7 @@ def list_(json: Json = False, debug: Debug = False) -> int:
 
 @app.command("show")
 def show(name: Name, toml: Toml = False, json: Json = False, debug: Debug = False) -> int:
-    """Say what a machine is and where its facts come from."""
+    """Describe a machine and where its facts come from."""
     machine = Machine.find(name)
     if json:
         console.say_json(machine.document)
@@ -192,7 +192,7 @@ def _row(trial: Trial) -> list[str]:
 
 @app.command("diff")
 def diff(name: Name, other: Other, json: Json = False, debug: Debug = False) -> int:
-    """Say in what two machines differ."""
+    """List the differences between two machines."""
     rows = differences(Machine.find(name).document, Machine.find(other).document)
     if json:
         console.say_json([{"key": key, "first": here, "second": there} for key, here, there in rows])

@@ -73,7 +73,7 @@ def list_(own: LibraryFile = None, json: Json = False, debug: Debug = False) -> 
 
 @app.command("show")
 def show(name: Name, own: LibraryFile = None, json: Json = False, debug: Debug = False) -> int:
-    """Say what a tool is: its profile's kind and numbers, its size, its slopes."""
+    """Describe a tool: its profile's kind and numbers, its size, its slopes."""
     tool = find(name, own)
     document = _document(tool)
     if json:

@@ -28,7 +28,7 @@ SIZE, DPI = (12.0, 6.0), 100
 
 INK, SOFT, GRID = "#1f2933", "#69758a", "#e4e8ee"
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#7a4ea3", "#1f2933")
-"""Told apart with any kind of colour vision (Okabe and Ito); as many tools fit in one picture."""
+"""Distinct with any kind of colour vision (Okabe and Ito); as many tools fit in one picture."""
 DASHES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (7, 2, 1.5, 2)))
 """Beside the colours, for prints without any."""
 

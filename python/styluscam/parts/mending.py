@@ -20,7 +20,7 @@ class Mending:
         duplicate: left out because the file has them more than once.
         back_to_back: left out between bodies that touch.
         double_sided: left out: the second side of a surface.
-        turned: turned over because their neighbours wind the other way.
+        turned: turned over because their neighbours wind oppositely.
         inside_out: turned over with their whole body.
         closed: whether each edge is shared by two triangles.
         unclear: a point where the triangles cannot be made to agree, mm; None where there is none.

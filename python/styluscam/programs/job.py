@@ -1,4 +1,4 @@
-"""The job document: the only way in."""
+"""The job document: everything that is planned comes from one."""
 
 from __future__ import annotations
 
@@ -240,12 +240,12 @@ def _require_no_other(path: Path) -> None:
     raise JobError(f"{path}: {message}", code="not-a-job", where=str(path), hint=hint)
 
 
-def _tool(library: str, folder: Path, place: str) -> Tool:
+def _tool(library: str, folder: Path, key: str) -> Tool:
     """A shipped tool, a tool file's, or one of a library in a file."""
     try:
         return Tool.find(library, folder)
     except ToolError as error:
-        raise ToolError(f"{place}: {error}", code=error.code, where=place, hint=error.hint) from error
+        raise ToolError(f"{key}: {error}", code=error.code, where=key, hint=error.hint) from error
 
 
 def _resolved(document: Document, folder: Path) -> tuple[Document, list[Path]]:
@@ -285,7 +285,7 @@ def job_schema() -> Document:
     schema: Document = json.loads(_engine.job_schema())
     for variant in schema["$defs"]["ProfileDocument"]["oneOf"]:
         if variant.get("properties", {}).get("kind", {}).get("const") == "points":
-            file = {"type": "string", "description": "A file with radius and height in two columns, in their place."}
+            file = {"type": "string", "description": "A file with radius and height in two columns, instead of them."}
             variant["properties"]["points"] = {"anyOf": [variant["properties"]["points"], file]}
     return schema
 

@@ -191,7 +191,7 @@ class Machine:
 
     @property
     def resolution_mm(self) -> float:
-        """One unit of the last posted place, mm."""
+        """One unit of the last posted digit, mm."""
         return self.engine.resolution_mm
 
 
@@ -208,7 +208,7 @@ def starter(name: str, base: Machine, extends: str) -> str:
     limits = document["limits"]
     decimals = document["number"]["mm"]["linear"]
     return f"""\
-# A machine file. What it does not say is as in "{extends}": `styluscam machine show {extends} --toml` prints all of that.
+# A machine file. What it does not state is as in "{extends}": `styluscam machine show {extends} --toml` prints all of that.
 # `styluscam machine check` posts a torture program by it and reads the text back.
 schema = 1
 extends = "{extends}"

@@ -13,9 +13,9 @@ from styluscam.programs.machine import Machine
 from styluscam.programs.program import Program
 
 VERDICT = "judged from this text"
-"""How the note begins that belongs to the text which was judged, and to no other."""
+"""How the note begins that belongs to the text which was verified, and to no other."""
 ON_ANOTHER = "judged, not this text"
-"""In its place, as long."""
+"""Replaces it, with as many letters."""
 NOT_JUDGED = "this text was not judged"
 
 

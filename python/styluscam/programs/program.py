@@ -88,7 +88,7 @@ class Program:
 
     @cached_property
     def polyline(self) -> tuple[FloatArray, npt.NDArray[np.uint32]]:
-        """Places along the program, (M, 3), mm, and the index of the move that each belongs to, (M,).
+        """Points along the program, (M, 3), mm, and the index of the move that each belongs to, (M,).
 
         The ends of all moves, and along arcs as many more as keep every chord within :data:`SAG` of them.
         """
@@ -96,7 +96,7 @@ class Program:
 
     @property
     def positions(self) -> FloatArray:
-        """The places of :attr:`polyline`, (M, 3), mm: without arcs the ends of all moves."""
+        """The points of :attr:`polyline`, (M, 3), mm: without arcs the ends of all moves."""
         return self.polyline[0]
 
     @property

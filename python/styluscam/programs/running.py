@@ -96,7 +96,7 @@ def _require_own(job: Job) -> None:
     """Asks whether what the job would replace was written by it: its title, and the verifier's remark in the program.
 
     Raises:
-        JobError: a file of another job, or of none, is in the way.
+        JobError: a file of another job, or of none, has that name.
     """
     gcode, program = _names(job)
     title = str(job.document["title"] or job.document["part"]["file"])  # as programs have it

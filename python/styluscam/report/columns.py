@@ -1,6 +1,6 @@
 """Columns of numbers as text for a page: whole numbers by differences, byte planes, gzip, base64.
 
-``decoded`` in ``page/data.js`` is the way back.
+``decoded`` in ``page/data.js`` reverses it.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy.typing as npt
 from styluscam.types import Document
 
 DECIMALS = 7
-"""Places behind the point that are looked for: controllers know no more than six."""
+"""Digits behind the point that are looked for: controllers know no more than six."""
 
 
 def packed(values: npt.ArrayLike, step: float | None = None) -> Document:
