@@ -42,6 +42,7 @@ __all__ = [
     "read_back",
     "read_gcode",
     "read_to_post",
+    "sheet_raise",
     "shipped_machines",
     "slope_matched_offset",
     "starter",
@@ -221,6 +222,7 @@ def mended(points: _F, triangles: _I) -> tuple[_F, _I, _I, str]: ...
 def slope_matched_offset(
     tool: Tool, points: _F, normals: _F, sheet: str | None = None
 ) -> tuple[_F, npt.NDArray[np.uint8]]: ...
+def sheet_raise(sheet: str) -> float: ...
 def drop_cutter(
     part: Part,
     tool: Tool,

@@ -12,6 +12,7 @@ import pytest
 
 import styluscam as sc
 from meridian import Floats, Profile
+from styluscam.offset.positions import sheet_raise
 
 THICKNESS = 1.2
 SHEETS = tuple(product(("constant", "sine"), (("tool", 0.0), ("mid", 0.5), ("back", 1.0))))
@@ -186,3 +187,15 @@ def test_the_sine_law_is_a_vertical_shift(
     sheet = {"thickness": THICKNESS, "law": "sine", "model_face": face}
     shift = sc.drop_cutter(part, tool, xy, sheet) - sc.drop_cutter(part, tool, xy)
     assert np.abs(shift - share * THICKNESS).max() < 1e-12
+
+
+@pytest.mark.parametrize(("law", "face"), SHEETS)
+def test_the_raise_is_what_the_tip_stands_over_a_flat_face(law: str, face: tuple[str, float]) -> None:
+    sheet = {"thickness": THICKNESS, "law": law, "model_face": face[0]}
+    tip = sc.slope_matched_offset(sc.Tool.from_dict({"profile": PROFILES[0]}), [[0, 0, 0]], [[0, 0, 1]], sheet)
+    assert sheet_raise(sheet) == tip[0][2] == face[1] * THICKNESS
+
+
+def test_a_sheet_without_a_thickness_has_no_raise() -> None:
+    with pytest.raises(sc.GeometryError, match="thickness is missing"):
+        sheet_raise({"model_face": "back"})

@@ -65,6 +65,15 @@ def _sheet(sheet: Document | None) -> str | None:
     return json_of(document, "sheet", GeometryError)
 
 
+def sheet_raise(sheet: Document) -> float:
+    """How far a sheet lifts the tool over a horizontal face of the model, mm; ``sheet`` as in :func:`slope_matched_offset`.
+
+    Raises:
+        GeometryError: keys or a thickness that no sheet has.
+    """
+    return _engine.sheet_raise(_sheet(sheet) or "{}")
+
+
 def slope_matched_offset(
     tool: ToolLike, points_: npt.ArrayLike, normals: npt.ArrayLike, sheet: Document | None = None
 ) -> Offsets:

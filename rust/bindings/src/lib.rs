@@ -30,7 +30,7 @@ mod _engine {
         read_to_post, shipped_machines, template_names, Machine,
     };
     #[pymodule_export]
-    use crate::offset::{drop_cutter, offset_surface, push_cutter, slope_matched_offset, waterlines};
+    use crate::offset::{drop_cutter, offset_surface, push_cutter, sheet_raise, slope_matched_offset, waterlines};
     #[pymodule_export]
     use crate::part::{mended, Part};
     #[pymodule_export]

@@ -30,6 +30,12 @@ fn sheet(document: Option<&str>) -> PyResult<Option<Sheet>> {
     sheet.checked().map(Some).map_err(|e| errors::of_geometry(&e))
 }
 
+/// How far a sheet lifts the tool over a horizontal face of the model, mm.
+#[pyfunction]
+pub fn sheet_raise(sheet: &str) -> PyResult<f64> {
+    Ok(self::sheet(Some(sheet))?.map_or(0.0, |sheet| sheet.raise()))
+}
+
 /// An error unless there are as many of the one as of the other.
 fn one_each(what: &str, count: usize, of: &str, expected: usize) -> PyResult<()> {
     if count == expected {

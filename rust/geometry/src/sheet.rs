@@ -78,4 +78,24 @@ impl Sheet {
             SheetLaw::Sine => self.share() * self.thickness,
         }
     }
+
+    /// How far the sheet lifts the tool over a horizontal face of the model, mm.
+    #[must_use]
+    pub fn raise(&self) -> f64 {
+        self.along_normal() + self.along_vertical()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_raise_is_the_sheet_between_model_and_tool_by_either_law() {
+        for law in [SheetLaw::Constant, SheetLaw::Sine] {
+            for (model_face, raise) in [(ModelFace::Tool, 0.0), (ModelFace::Mid, 0.75), (ModelFace::Back, 1.5)] {
+                assert_eq!(Sheet { thickness: 1.5, law, model_face }.raise().to_bits(), f64::to_bits(raise));
+            }
+        }
+    }
 }

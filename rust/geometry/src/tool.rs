@@ -176,7 +176,7 @@ impl Tool {
     /// Height of the tool's tip over the tip of [`cutter_with`](Self::cutter_with), mm.
     #[must_use]
     pub fn tip_above(sheet: Option<&Sheet>, margin: f64) -> f64 {
-        sheet.map_or(0.0, |s| s.along_normal() + s.along_vertical()) + margin
+        sheet.map_or(0.0, Sheet::raise) + margin
     }
 
     /// Height of the sphere's centre over the tip, mm; only a ball without a flat has one.

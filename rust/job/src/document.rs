@@ -306,6 +306,7 @@ impl Default for ProcessSection {
 pub enum Process {
     /// Single-point incremental forming: a sheet, no die.
     #[default]
+    #[schemars(extend("x-takes-sheet" = true))]
     Spif,
     /// Milling: no sheet.
     Milling,

@@ -167,7 +167,7 @@ pub fn simulate(
     let sheet = scene.sheet.map(|sheet| Sheet { model_face: face.unwrap_or(sheet.model_face), ..sheet });
     let subject = Subject { sheet, ..subject(job, scene, &tools, &judgement.unplaced) };
     let (low, high) = scene.mesh.bounds();
-    let under = sheet.map_or(0.0, |sheet| sheet.along_normal() + sheet.along_vertical());
+    let under = sheet.map_or(0.0, |sheet| sheet.raise());
     let grid = Grid::over([low.x, low.y], [high.x, high.y], spacing).map_err(JobError::geometry("spacing"))?;
     let top = scene.top - under;
     Ok(styluscam_verify::simulate(&judgement.program, &subject, &judgement.limits, grid, top, watch)?)

@@ -67,7 +67,7 @@ impl Scene {
     /// A sheet that is out of range.
     pub fn new(job: &JobDocument, part: &Part) -> Result<Self, JobError> {
         let sheet = sheet(job)?;
-        let raise = sheet.map_or(0.0, |s| s.along_normal() + s.along_vertical());
+        let raise = sheet.map_or(0.0, |s| s.raise());
         let turned = Frame::turning_up(job.setup.up.vector(), job.setup.rotation.to_radians());
         let (low, high) = part.mesh.placed(&turned).bounds();
         let chosen = job.setup.zero.unwrap_or(if sheet.is_some() { Zero::SheetTop } else { Zero::Model });

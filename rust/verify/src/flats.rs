@@ -45,7 +45,7 @@ pub(crate) struct Flats {
 impl Flats {
     /// Those of a program; a floor may be `enough` mm off the passes around it.
     pub fn of(segments: &[Segment], subject: &Subject, limits: &Limits, enough: f64) -> Self {
-        let under = subject.sheet.map_or(0.0, |sheet| sheet.along_normal() + sheet.along_vertical());
+        let under = subject.sheet.map_or(0.0, |sheet| sheet.raise());
         let blank = limits.forming.filter(|_| subject.sheet.is_some()).map(|forming| forming.top - under);
         let tolerance = limits.excess.unwrap_or(0.0) + subject.deviation_outward + SLACK;
         let bodies: Vec<Body> = subject.tools.iter().map(|tool| Body::new(tool, subject.sheet.as_ref())).collect();
