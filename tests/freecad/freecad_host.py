@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import importlib
 import subprocess
+import sys
 from dataclasses import dataclass
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import roots
@@ -18,6 +21,13 @@ INSIDE = Path(__file__).parent / "inside"
 
 COARSE = 5.0
 """Step and stepover (mm) where a test needs a path and not this job's: planning is then quick."""
+
+
+def addon_module(name: str) -> ModuleType:
+    """A module of the addon that imports nothing of FreeCAD's."""
+    if str(ADDON) not in sys.path:
+        sys.path.append(str(ADDON))
+    return importlib.import_module(f"freecad.styluscam_wb.{name}")
 
 
 @dataclass(frozen=True)

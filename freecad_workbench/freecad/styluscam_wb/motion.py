@@ -10,11 +10,14 @@ from typing import TYPE_CHECKING, Any
 import Path
 
 from . import engine, tools
+from .path_words import words_of
 
 if TYPE_CHECKING:
     from styluscam import Program
 
-RAPIDS, FEEDS = ("G0", "G00"), ("G1", "G01")
+MOTIONS = ("G0", "G00", "G1", "G01", "G2", "G02", "G3", "G03")
+"""Commands that move the tool."""
+
 COOLANTS = ("None", "Flood", "Mist")
 
 
@@ -30,15 +33,7 @@ def comment(text: str) -> str:
 
 def commands_of(program: Program) -> list[Any]:
     """A planned program's moves as path commands; what happens between them is the tool controller's and the post's."""
-    commands = []
-    for move in program.moves:
-        x, y, z = (float(value) for value in move["end"])
-        place = {"X": x, "Y": y, "Z": z}
-        if move["kind"] == 0:
-            commands.append(Path.Command("G0", place))
-        else:
-            commands.append(Path.Command("G1", {**place, "F": float(move["feed"]) / 60.0}))
-    return commands
+    return [Path.Command(name, words) for name, words in words_of(program)]
 
 
 @dataclass
@@ -79,7 +74,7 @@ class Builder:
 
         Raises:
             styluscam.JobError: commands that the engine does not read; it names their object.
-            MotionError: a tool that cannot be told from another.
+            MotionError: a tool controller without a tool.
         """
         records = [self._record(number, controller) for number, controller in sorted(self.controllers.items())]
         document = {"wcs": "G54", **setup}
@@ -87,7 +82,7 @@ class Builder:
 
     def _add(self, obj: Any, kind: str | None, coolant: str) -> None:
         text = obj.Path.toGCode()
-        title = f"{comment(obj.Label)}\n"  # the post's own line says it
+        title = f"{comment(obj.Label)}\n"  # the post writes it itself
         self.sections.append((obj.Label, kind, coolant, text.removeprefix(title) if kind else text))
 
     def _record(self, number: int, controller: Any) -> dict[str, Any]:

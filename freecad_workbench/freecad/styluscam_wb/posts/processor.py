@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""From a CAM job to a machine's text: FreeCAD's commands as a program, posted, and judged where all of it is ours."""
+"""From a CAM job to a machine's text: FreeCAD's commands as a program, posted, and verified where all of it is ours."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .. import documents, engine, machines, motion, ops
 
 
 class PostError(ValueError):
-    """A job that must not be posted as it stands; the message says why."""
+    """A job that must not be posted as it stands; the message states why."""
 
 
 def post_for(machine: str) -> type[PostProcessor]:
@@ -26,7 +26,7 @@ def post_for(machine: str) -> type[PostProcessor]:
 
         @property
         def tooltip(self) -> str:
-            return f"StylusCAM's post for the machine {machine}: judges what it posts where all of it is StylusCAM's."
+            return f"StylusCAM's post for the machine {machine}: verifies what it posts where all of it is StylusCAM's."
 
         @property
         def tooltipArgs(self) -> str:
@@ -73,7 +73,7 @@ def is_active(obj: Any) -> bool:
 
 def has_motion(obj: Any) -> bool:
     """Whether an operation's path moves the tool."""
-    return any(command.Name in motion.RAPIDS + motion.FEEDS for command in obj.Path.Commands)
+    return any(command.Name in motion.MOTIONS for command in obj.Path.Commands)
 
 
 def _reason(obj: Any) -> str:
@@ -103,10 +103,10 @@ def section_text(job: Any, items: list[Any], machine: str) -> str:
     if all(ops.is_ours(obj) for obj in operations):
         if any(event["kind"] == "work-offset" for event in program.events):
             raise PostError(
-                "several work offsets in one program cannot be judged: order the output by fixture and split it, "
+                "several work offsets in one program cannot be verified: order the output by fixture and split it, "
                 "or choose one work offset"
             )
-        return _judged_text(job, operations, program, machine, target)
+        return _verified_text(job, operations, program, machine, target)
     return engine.text_of(program, target, ["not judged: operations that are not StylusCAM's are in it"])
 
 
@@ -129,8 +129,8 @@ def _setup(job: Any, operations: list[Any]) -> dict[str, Any]:
     }
 
 
-def _judged_text(job: Any, operations: list[Any], program: Any, machine: str, target: Any) -> str:
-    """The text of a program that is all ours, after the engine's judge has read it against the model.
+def _verified_text(job: Any, operations: list[Any], program: Any, machine: str, target: Any) -> str:
+    """The text of a program that is all ours, after the engine's verifier has read it against the model.
 
     The figures go into the header, so it is posted again with them; nothing but comments differs then.
     """
