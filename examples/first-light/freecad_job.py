@@ -16,6 +16,9 @@ import tomllib
 
 JOB = Path(__file__).with_name("job.toml")
 
+OWN = {"stepover": "Stepover", "angle_deg": "Angle", "direction": "Direction", "tolerance": "Tolerance"}
+"""Properties by the job's keys; each kind of operation has its own."""
+
 
 def main(part: Path, out: Path) -> str:
     """Runs the job; returns the summary."""
@@ -85,11 +88,11 @@ def make_operation(job: Any, settings: dict[str, Any]) -> Any:
     operation.ModelTolerance = settings["part"]["tolerance"]
     operation.Base = [(job.Model.Group[0], tuple(settings["part"]["faces"]))]
     operation.Strategy = section["kind"]
-    operation.Step = section["step"]["height"]
-    operation.Stepover = section["stepover"]
-    operation.Angle = section["angle_deg"]
-    operation.Direction = section["direction"]
-    operation.Tolerance = section["tolerance"]
+    if "step" in section:
+        operation.Step = section["step"]["height"]
+    for key, name in OWN.items():
+        if key in section:
+            setattr(operation, name, section[key])
     operation.setExpression("ClearanceHeight", f"OpStartDepth + {setup['clearance']} mm")
     operation.setExpression("SafeHeight", f"OpStartDepth + {setup['retract']} mm")
     return operation

@@ -49,8 +49,8 @@ def _farthest(a: Points, b: Points, pieces: int = 8) -> float:
 
 
 def _distance(points: Points, line: Points) -> Points:
-    start, way = line[:-1], np.diff(line, axis=0)
-    square = np.maximum(np.einsum("ij,ij->i", way, way), 1e-30)
+    start, along_line = line[:-1], np.diff(line, axis=0)
+    square = np.maximum(np.einsum("ij,ij->i", along_line, along_line), 1e-30)
     away = points[:, None] - start
-    along = np.clip(np.einsum("pij,ij->pi", away, way) / square, 0.0, 1.0)
-    return np.linalg.norm(away - along[..., None] * way, axis=2).min(axis=1)
+    along = np.clip(np.einsum("pij,ij->pi", away, along_line) / square, 0.0, 1.0)
+    return np.linalg.norm(away - along[..., None] * along_line, axis=2).min(axis=1)

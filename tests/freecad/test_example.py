@@ -23,7 +23,7 @@ def read(text: str, machine: str) -> sc.Program:
 
 
 def lifted(reference: sc.RunResult) -> np.ndarray:
-    """The way from the command line's zero (the sheet's top) to FreeCAD's (the model's origin)."""
+    """The distance from the command line's zero (the sheet's top) to FreeCAD's (the model's origin)."""
     return np.array([0.0, 0.0, -reference.summary["part_max"][2]])  # the model's top is at Z 0 in the file
 
 
@@ -55,7 +55,7 @@ def test_linuxcnc_reads_the_text(example: Any, linuxcnc: Any) -> None:
     ends = np.array([move.mm for move in linuxcnc(example.text).moves])
     positions = read(example.text, "linuxcnc").positions
     assert len(ends) == len(positions) > 1000
-    assert np.abs(ends[1:] - positions[1:]).max() <= 5e-4  # the first goes up from a place that is not known
+    assert np.abs(ends[1:] - positions[1:]).max() <= 5e-4  # the first goes up from an unknown position
 
 
 def test_rows_for_grbl_are_the_command_lines(session: Any, reference: Any) -> None:

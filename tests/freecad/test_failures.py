@@ -10,7 +10,7 @@ pytestmark = [pytest.mark.world, pytest.mark.freecad]
 
 REASONS = {
     "no step": "needs a step",
-    "no faces": "no face is chosen",
+    "no faces": "no face is selected",
     "other model": "no Face2, Face3, Face4 any more",
     "no controller": "has no tool",
     "deleted controller": "has no tool",

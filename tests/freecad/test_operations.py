@@ -48,7 +48,7 @@ def test_without_the_engine_a_document_keeps_its_path(session: Any, bare_session
     assert "Traceback" not in opening
 
 
-def test_without_the_engine_computing_says_what_to_do(bare_session: Any) -> None:
+def test_without_the_engine_computing_reports_what_to_do(bare_session: Any) -> None:
     seen = bare_session["computed"]
     assert "Invalid" in seen["state"]
     assert len(seen["names"]) == 1
@@ -57,7 +57,7 @@ def test_without_the_engine_computing_says_what_to_do(bare_session: Any) -> None
 
 def test_without_the_engine_nothing_is_created(bare_session: Any) -> None:
     seen = bare_session["created"]
-    assert "pip install --target" in seen["said"]
+    assert "pip install --target" in seen["message"]
     assert seen["objects"][0] == seen["objects"][1]
 
 

@@ -28,7 +28,7 @@ def test_operations_of_two_sheets_are_no_program(session: Any) -> None:
     assert "differ in SheetThickness" in session["two tools"]["differ"]["refused"]
 
 
-def test_a_straight_native_operation_is_posted_and_said_not_to_be_judged(session: Any, linuxcnc: Any) -> None:
+def test_a_straight_native_operation_is_posted_and_stated_not_to_be_verified(session: Any, linuxcnc: Any) -> None:
     text = session["native straight"]["post"]["text"]
     assert "not judged" in text
     assert "X1 Y2" in text
@@ -56,7 +56,7 @@ def test_a_fourth_axis_is_refused_and_its_operation_named(session: Any) -> None:
 
 def test_work_offsets_go_to_files_of_their_own(session: Any, linuxcnc: Any) -> None:
     seen = session["two fixtures"]
-    assert "several work offsets in one program cannot be judged" in seen["together"]["refused"]
+    assert "several work offsets in one program cannot be verified" in seen["together"]["refused"]
     assert sorted(seen["apart"]) == ["G54", "G55"]
     for offset, text in seen["apart"].items():
         assert offset in text.splitlines()
@@ -71,10 +71,10 @@ def moves_of(text: str, linuxcnc: Any) -> list[Any]:
     for call in linuxcnc(text).calls:
         if call.kind not in ("STRAIGHT_TRAVERSE", "STRAIGHT_FEED", "ARC_FEED"):
             continue
-        place = (call.x, call.y, call.z)
-        if call.kind == "ARC_FEED" or place != at:
-            out.append((call.kind, place))
-        at = place
+        point = (call.x, call.y, call.z)
+        if call.kind == "ARC_FEED" or point != at:
+            out.append((call.kind, point))
+        at = point
     return out
 
 
@@ -114,8 +114,8 @@ def test_arguments_of_the_post(session: Any, linuxcnc: Any) -> None:
 def test_native_jobs_read_back_on_other_machines(session: Any, machine: str) -> None:
     text = session["native job"]["texts"][machine]
     program = sc.read_gcode(text, sc.Machine.shipped(machine))
-    wanted = sc.read_gcode(session["native job"]["texts"]["ours"], sc.Machine.shipped("linuxcnc"))
+    expected = sc.read_gcode(session["native job"]["texts"]["ours"], sc.Machine.shipped("linuxcnc"))
     for axis in range(3):
         for extreme in (min, max):
             found = extreme(program.positions[:, axis])
-            assert abs(found - extreme(wanted.positions[:, axis])) < 0.003
+            assert abs(found - extreme(expected.positions[:, axis])) < 0.003

@@ -28,7 +28,7 @@ def documents() -> dict[str, dict[str, Any]]:
 
 @pytest.fixture(scope="module")
 def loaded(freecad: FreeCad) -> dict[str, dict[str, Any]]:
-    """What FreeCAD says of the files, by name; `freecad` and `ours` hold the files that it and we wrote."""
+    """What FreeCAD reads in the files, by name; `freecad` and `ours` hold the files that it and we wrote."""
     folder = freecad.folder / "bits"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir()

@@ -1,28 +1,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Every difference between FreeCAD's versions, and nothing else of them anywhere."""
+"""Every difference between FreeCAD's versions; no other module tests for a version."""
 
 from __future__ import annotations
 
 import importlib.util
-import sys
-from pathlib import Path as FilePath
 from typing import Any
 
 import FreeCAD
 
-from . import machines
-
-POSTS = FilePath(__file__).parent / "posts"
-
-
-def package_dir() -> str:
-    """Where FreeCAD looks for Python packages that a user adds."""
-    version = f"py{sys.version_info.major}{sys.version_info.minor}"
-    return f"{FreeCAD.getUserAppDataDir()}AdditionalPythonPackages/{version}"
-
 
 def make_toolbit(document: Any, label: str, parameters: dict[str, Any]) -> Any:
-    """A stylus tool bit in the document; `parameters` are the properties of `tools.SHAPE_PROPERTIES`.
+    """A stylus tool bit in the document; `parameters` are the properties of `stylus.SHAPE_PROPERTIES`.
 
     FreeCAD 1.1 has classes for shapes and bits; 1.0 has one class of bits over shape files.
     """
@@ -63,20 +51,3 @@ def tool_kind(bit: Any) -> str:
         if kind:
             return str(kind).lower()
     return ""
-
-
-def register_posts() -> None:
-    """Makes FreeCAD look for posts in our directory too."""
-    from Path import Preferences
-
-    theirs = Preferences.searchPathsPost
-    if getattr(theirs, "styluscam", False):
-        return
-
-    machines.write_user_posts()
-
-    def search_paths() -> list[str]:
-        return [str(POSTS), str(machines.user_posts()), *theirs()]
-
-    search_paths.styluscam = True  # type: ignore[attr-defined]
-    Preferences.searchPathsPost = search_paths

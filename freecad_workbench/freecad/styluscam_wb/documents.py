@@ -3,14 +3,15 @@
 
 The program's zero is FreeCAD's: `setup.zero` is "model" and the part is given in the document's coordinates, so a
 height, a depth or a coordinate means the same in the operation, in its path and in the posted text. Where that origin
-lies on the machine is the work offset's business (the job's fixture, G54).
+lies on the machine is set by the work offset (the job's fixture, G54).
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from . import machines, tools
+from . import engine, machines, properties, tools
+from .fields import JOB, OPERATION, PART, PROCESS, SETUP, SHEET
 
 if TYPE_CHECKING:
     from styluscam import Part as EnginePart
@@ -18,14 +19,14 @@ if TYPE_CHECKING:
 Document = dict[str, Any]
 
 DEFAULT_MACHINE = "linuxcnc"
-"""The machine whose rounding planning reckons with when the job has no post of ours."""
+"""The machine whose rounding planning takes into account when the job has no post of ours."""
 
 AUTOMATIC = 1e-6
-"""Depths this near to FreeCAD's automatic ones (mm) leave the end of the path to the engine."""
+"""Depths that differ from FreeCAD's automatic ones by less (mm) are not sent: the engine finds both ends."""
 
 
 class DocumentError(ValueError):
-    """Operations that make no job; the message says why."""
+    """Operations that make no job; the message states why."""
 
 
 def machine_of(job: Any) -> str:
@@ -36,39 +37,43 @@ def machine_of(job: Any) -> str:
 
 
 def sheet_raise(obj: Any) -> float:
-    """How far the sheet lifts the tool over a horizontal face of the model, mm."""
-    share = {"back": 1.0, "mid": 0.5}.get(str(obj.ModelFace), 0.0)
-    return share * obj.SheetThickness.Value if obj.Process == "spif" else 0.0
+    """How far the sheet lifts the tool over a horizontal face of the model, mm; 0 until the sheet is described."""
+    if not properties.takes_sheet(obj):
+        return 0.0
+    sheet = properties.section(obj, SHEET) | properties.section(obj, PART, "model_face")
+    is_described = "model_face" in sheet and sheet["thickness"] > 0.0
+    return engine.sheet_raise(sheet) if is_described else 0.0
 
 
 def job_document(job: Any, operations: list[Any], part: EnginePart, machine: str, wcs: str | None = None) -> Document:
-    """The document of these operations of ours, in this order; they must agree on sheet, process and model.
+    """The document of these operations of ours, in this order; they must agree on all but the operation's own properties.
 
     `wcs` is the work offset, the job's first unless it is given.
 
     Raises:
-        DocumentError: they do not.
+        DocumentError, properties.PropertyError: they do not, or a value is not one.
         tools.ToolError: a tool bit that has no profile.
     """
     first = operations[0]
     for other in operations[1:]:
-        for name in ("Process", "SheetThickness", "SheetLaw", "ModelFace", "ModelTolerance", "AllowUndercuts"):
+        for name in properties.shared():
             if getattr(first, name) != getattr(other, name):
                 raise DocumentError(f"{first.Label} and {other.Label} differ in {name}: they cannot be one program")
     top = float(part.bounds[1][2]) + sheet_raise(first)
     return {
         "schema": 1,
         "title": job.Label,
-        "accept": sorted({risk for obj in operations for risk in obj.AcceptedRisks}),
-        "part": _part_section(first),
+        **_accepted(operations),
+        "part": {"file": model_of(first).Label, **properties.section(first, PART)},
         "setup": {
             "zero": "model",
             "wcs": wcs or str(job.Fixtures[0]),
             "clearance": min(obj.ClearanceHeight.Value for obj in operations) - top,
             "retract": min(obj.SafeHeight.Value for obj in operations) - top,
-            **_sheet_section(first),
+            **properties.section(first, SETUP),
+            **({"sheet": properties.section(first, SHEET)} if properties.takes_sheet(first) else {}),
         },
-        "process": {"kind": first.Process},
+        "process": properties.section(first, PROCESS),
         "tools": {tool_name(obj.ToolController): _tool_section(obj.ToolController) for obj in operations},
         "operations": [operation_section(obj) for obj in operations],
         "machine": machine_section(job, machine),
@@ -76,7 +81,7 @@ def job_document(job: Any, operations: list[Any], part: EnginePart, machine: str
 
 
 def machine_section(job: Any, machine: str) -> Document:
-    """The machine and its options: what the job says to its post, where that is ours.
+    """The machine and its options: the arguments of the job's post, where that is ours.
 
     Raises:
         machines.ArgumentError: an argument that is not known.
@@ -86,21 +91,13 @@ def machine_section(job: Any, machine: str) -> Document:
     return {**machines.section(machine), "options": machines.options(arguments)}
 
 
-def _part_section(obj: Any) -> Document:
-    section: Document = {
-        "file": model_of(obj).Label,
-        "tolerance": obj.ModelTolerance.Value,
-        "allow_undercuts": obj.AllowUndercuts,
-    }
-    if obj.Process == "spif" and obj.ModelFace:
-        section["model_face"] = obj.ModelFace
-    return section
-
-
-def _sheet_section(obj: Any) -> Document:
-    if obj.Process != "spif":
-        return {}
-    return {"sheet": {"thickness": obj.SheetThickness.Value, "law": obj.SheetLaw}}
+def _accepted(operations: list[Any]) -> Document:
+    """Keys of the job itself, lists: what any of the operations has in them."""
+    found: dict[str, set[str]] = {}
+    for obj in operations:
+        for key, words in properties.section(obj, JOB).items():
+            found.setdefault(key, set()).update(words)
+    return {key: sorted(words) for key, words in found.items()}
 
 
 def model_of(obj: Any) -> Any:
@@ -123,22 +120,14 @@ def operation_section(obj: Any) -> Document:
     """One [[operations]] entry from the operation's properties."""
     controller = obj.ToolController
     section: Document = {
+        **properties.section(obj, OPERATION),
         "id": obj.Label,
-        "kind": obj.Strategy,
         "tool": tool_name(controller),
         "faces": face_names(obj),
-        "angle_deg": obj.Angle.Value,
-        "direction": obj.Direction,
-        "tolerance": obj.Tolerance.Value,
-        "smallest_feature": obj.SmallestFeature.Value,
         "feeds": {"cut": controller.HorizFeed.Value * 60.0, "plunge": controller.VertFeed.Value * 60.0},
         "spindle": _spindle(controller),
         "coolant": {"None": "off"}.get(obj.CoolantMode, str(obj.CoolantMode).lower()),
     }
-    if obj.Step.Value > 0.0:
-        section["step"] = {"height": obj.Step.Value}
-    if obj.Stepover.Value > 0.0:
-        section["stepover"] = obj.Stepover.Value
     for key, depth, automatic in (
         ("z_top", obj.StartDepth.Value, obj.OpStartDepth.Value),
         ("z_bottom", obj.FinalDepth.Value, obj.OpFinalDepth.Value),
@@ -149,7 +138,7 @@ def operation_section(obj: Any) -> Document:
 
 
 def face_names(obj: Any) -> list[str] | str:
-    """The chosen faces, or "all" where the operation says the whole model."""
+    """The selected faces, or "all" where WholeModel is set."""
     if obj.WholeModel:
         return "all"
     return [name for _, names in obj.Base for name in names if name]

@@ -7,11 +7,11 @@ import sys
 from types import ModuleType
 from typing import Any
 
-from . import compat
+import FreeCAD
 
 
 class EngineMissingError(RuntimeError):
-    """The engine cannot be imported; the message says how to install it."""
+    """The engine cannot be imported; the message states how to install it."""
 
 
 def styluscam() -> ModuleType:
@@ -27,10 +27,33 @@ def styluscam() -> ModuleType:
     return styluscam
 
 
+def is_there() -> bool:
+    """Whether the engine can be imported."""
+    try:
+        styluscam()
+    except EngineMissingError:
+        return False
+    return True
+
+
+def package_dir() -> str:
+    """Where FreeCAD looks for Python packages that a user adds."""
+    version = f"py{sys.version_info.major}{sys.version_info.minor}"
+    return f"{FreeCAD.getUserAppDataDir()}AdditionalPythonPackages/{version}"
+
+
 def program_of_path(sections: list[tuple[str, str | None, str, str]], tools: str, setup: str) -> Any:
     """A styluscam.Program from paths as text; tools and set-up are JSON."""
     sc = styluscam()
     return sc.Program.from_path(sections, tools, setup)
+
+
+def sheet_raise(sheet: dict[str, Any]) -> float:
+    """How far a sheet (thickness, law, model_face) lifts the tool over a horizontal face of the model, mm."""
+    styluscam()
+    from styluscam.offset.positions import sheet_raise as raise_of
+
+    return raise_of(sheet)
 
 
 def text_of(program: Any, machine: Any, notes: list[str]) -> str:
@@ -41,5 +64,5 @@ def text_of(program: Any, machine: Any, notes: list[str]) -> str:
 
 def _missing(error: ImportError) -> str:
     python = f"python{sys.version_info.major}.{sys.version_info.minor}"
-    command = f'{python} -m pip install --target "{compat.package_dir()}" styluscam'
+    command = f'{python} -m pip install --target "{package_dir()}" styluscam'
     return f"the StylusCAM engine cannot be loaded ({error}); install it with: {command}"

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from importlib.abc import MetaPathFinder
 from typing import Any
 
-from . import compat
+from . import compat, post_list
 
 NEED_POSTS = ("Path.Main.Job", "Path.Post.Processor")
 """FreeCAD's modules that look for posts, and before which no job and no tool is read.
@@ -18,12 +18,12 @@ Importing CAM at every start would cost a quarter of a second.
 
 
 class _InTime(MetaPathFinder):
-    """Hears of imports; finds nothing itself, and leaves once it has done its work."""
+    """Is asked about imports; finds nothing itself, and removes itself once it has registered ours."""
 
     def find_spec(self, fullname: str, path: Sequence[str] | None, target: Any = None) -> None:
         if fullname in NEED_POSTS:
             sys.meta_path.remove(self)
-            compat.register_posts()
+            post_list.register()
             compat.register_toolbits()
 
 

@@ -56,14 +56,14 @@ def user_posts() -> FilePath:
 def write_user_posts() -> None:
     """One post for every machine file in the user's folder, and none for files that are gone."""
     files = {path.stem: path for path in user_folder().glob("*.toml")} if user_folder().is_dir() else {}
-    wanted = {f"{POST_PREFIX}{stem}_post.py": (stem, path) for stem, path in files.items()}
-    if not wanted and not user_posts().is_dir():
+    expected = {f"{POST_PREFIX}{stem}_post.py": (stem, path) for stem, path in files.items()}
+    if not expected and not user_posts().is_dir():
         return
     user_posts().mkdir(parents=True, exist_ok=True)
     for old in user_posts().glob(f"{POST_PREFIX}*_post.py"):
-        if old.name not in wanted:
+        if old.name not in expected:
             old.unlink()
-    for name, (stem, path) in wanted.items():
+    for name, (stem, path) in expected.items():
         text = POST_FILE.format(path=path.name, name=f"{POST_PREFIX}{stem}", machine=stem)
         target = user_posts() / name
         if not target.is_file() or target.read_text(encoding="utf-8") != text:

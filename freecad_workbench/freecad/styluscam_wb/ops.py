@@ -7,7 +7,6 @@ StartDepth and FinalDepth are heights of the tool's tip; at their automatic valu
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD
@@ -15,51 +14,22 @@ import Path
 import Path.Op.Base as PathOp
 from PathScripts import PathUtils
 
-from . import compat, documents, engine, motion, tools
+from . import documents, engine, motion, post_list, properties, tools
 from .part import part_of
 
 if TYPE_CHECKING:
     from styluscam import Part as EnginePart
 
-compat.register_posts()
+post_list.register()
 
-GROUP = "Stylus"
 NAME = "Stylus"
+
+WHOLE_MODEL = "All faces that face up, when no face is selected"
+"""Tool tip."""
 
 
 class OperationError(ValueError):
-    """An operation that cannot be computed; the message says why and what to do."""
-
-
-@dataclass(frozen=True)
-class Field:
-    """A property and the key of the job document that it fills."""
-
-    name: str
-    kind: str
-    section: str
-    key: str
-    default: Any = None  # only where the document has none
-
-
-LENGTH, ANGLE, CHOICE = "App::PropertyLength", "App::PropertyAngle", "App::PropertyEnumeration"
-
-FIELDS = (
-    Field("Strategy", CHOICE, "OperationSection", "kind"),
-    Field("Step", LENGTH, "OperationSection", "step", 0.5),
-    Field("Stepover", LENGTH, "OperationSection", "stepover", 0.5),
-    Field("Angle", ANGLE, "OperationSection", "angle_deg"),
-    Field("Direction", CHOICE, "OperationSection", "direction"),
-    Field("Tolerance", LENGTH, "OperationSection", "tolerance"),
-    Field("SmallestFeature", LENGTH, "OperationSection", "smallest_feature"),
-    Field("Process", CHOICE, "ProcessSection", "kind"),
-    Field("SheetThickness", LENGTH, "SheetSection", "thickness", 0.0),
-    Field("SheetLaw", CHOICE, "SheetSection", "law"),
-    Field("ModelFace", CHOICE, "PartSection", "model_face", ""),
-    Field("ModelTolerance", LENGTH, "PartSection", "tolerance"),
-    Field("AllowUndercuts", "App::PropertyBool", "PartSection", "allow_undercuts"),
-)
-"""Descriptions, defaults and choices come from the engine's schema."""
+    """An operation that cannot be computed; the message states why and what to do."""
 
 
 class ObjectStylus(PathOp.ObjectOp):
@@ -70,7 +40,7 @@ class ObjectStylus(PathOp.ObjectOp):
 
     def __init__(self, obj: Any, name: str, parentJob: Any = None) -> None:
         # Without a window nobody can be asked, and FreeCAD's search fails over two suitable tools (its issue 31849):
-        # while the operation is made it hears of the first one only.
+        # while the operation is made only the first one is offered.
         self._choosing = not FreeCAD.GuiUp
         super().__init__(obj, name, parentJob)
         self._choosing = False
@@ -92,24 +62,19 @@ class ObjectStylus(PathOp.ObjectOp):
         update_properties(obj)
 
     def opSetDefaultValues(self, obj: Any, job: Any) -> None:
-        """What the document's schema says."""
-        definitions = engine.styluscam().job_schema()["$defs"]
-        for field in FIELDS:
-            value = _default(field, definitions)
-            if value is not None:
-                setattr(obj, field.name, value)
+        """Selected faces alone; the other properties begin with the engine's defaults when they are added."""
         obj.WholeModel = False
 
     def isToolSupported(self, obj: Any, tool: Any) -> bool:
         """Whether there is a profile for the tool."""
-        supported = hasattr(tool, tools.PROFILE) or compat.tool_kind(tool) in tools.NATIVE
+        supported = tools.is_supported(tool)
         if not (supported and self._choosing):
             return supported
         self._chosen = self._chosen or tool
         return bool(tool == self._chosen)
 
     def sanitizeBase(self, obj: Any) -> bool:
-        """Keeps a Base whose faces are gone: computing says so, instead of planning something else."""
+        """Keeps a Base whose faces are gone: computing reports it, instead of planning something else."""
         return False
 
     def updateDepths(self, obj: Any, ignoreErrors: bool = False) -> Any:
@@ -117,11 +82,11 @@ class ObjectStylus(PathOp.ObjectOp):
         return None if stale_faces(obj) else super().updateDepths(obj, ignoreErrors)
 
     def opUpdateDepths(self, obj: Any) -> None:
-        """The automatic depths: where the tool's tip stands on the highest and on the lowest place of the faces."""
-        boxes = [face.BoundBox for face in _chosen_faces(obj)]
-        if not boxes:
+        """The automatic depths: where the tool's tip stands on the highest and on the lowest point of the faces."""
+        boxes = [face.BoundBox for face in _selected_faces(obj)]
+        if not boxes or not engine.is_there() or not properties.are_complete(obj):
             return
-        lift = documents.sheet_raise(obj) if hasattr(obj, "ModelFace") else 0.0
+        lift = documents.sheet_raise(obj)
         top, bottom = max(box.ZMax for box in boxes) + lift, min(box.ZMin for box in boxes) + lift
         if abs(obj.OpStartDepth.Value - top) > documents.AUTOMATIC:
             obj.OpStartDepth = top
@@ -129,8 +94,12 @@ class ObjectStylus(PathOp.ObjectOp):
             obj.OpFinalDepth = bottom
 
     def opOnChanged(self, obj: Any, prop: str) -> None:
-        """A change of the sheet moves the automatic depths."""
-        if prop in ("Process", "SheetThickness", "ModelFace", "WholeModel") and "Restore" not in obj.State:
+        """A change of the sheet moves the automatic depths; one of a kind, which properties apply."""
+        if "Restore" in obj.State or obj.getGroupOfProperty(prop) != properties.GROUP or not engine.is_there():
+            return
+        if prop in properties.kind_properties():
+            properties.show_owned(obj)
+        if prop == "WholeModel" or prop in properties.shared():
             self.updateDepths(obj, True)
 
     def execute(self, obj: Any) -> Any:
@@ -155,7 +124,7 @@ class ObjectStylus(PathOp.ObjectOp):
         document = documents.job_document(self.job, [obj], part, documents.machine_of(self.job))
         plan = sc.plan(sc.Job.from_dict(document, part=part))
         self.commandlist.extend(motion.commands_of(plan.programs["main"]))
-        obj.Notes = plan.summary()[1][:-1]  # the last line is for a judged text
+        obj.Notes = plan.summary()[1][:-1]  # the last line is for a verified text
 
 
 def engine_part(obj: Any) -> EnginePart:
@@ -169,57 +138,22 @@ def engine_part(obj: Any) -> EnginePart:
 
 def update_properties(obj: Any) -> None:
     """Adds what is missing and brings choices up to date with the engine; values stay."""
-    definitions = engine.styluscam().job_schema()["$defs"]
-    for field in FIELDS:
-        if not hasattr(obj, field.name):
-            obj.addProperty(field.kind, field.name, GROUP, _entry(field, definitions).get("description", ""))
-        if field.kind == CHOICE:
-            _set_choices(obj, field, definitions)
+    properties.update(obj)
     if not hasattr(obj, "WholeModel"):
-        obj.addProperty("App::PropertyBool", "WholeModel", GROUP, "All faces that look up, when no face is chosen")
-    if not hasattr(obj, "AcceptedRisks"):
-        risks = "Risks that are taken, by name: what the judge would refuse for them becomes a warning"
-        obj.addProperty("App::PropertyStringList", "AcceptedRisks", GROUP, risks)
+        obj.addProperty("App::PropertyBool", "WholeModel", properties.GROUP, WHOLE_MODEL)
     if not hasattr(obj, "Notes"):
-        obj.addProperty("App::PropertyStringList", "Notes", GROUP, "What planning has to say")
+        obj.addProperty("App::PropertyStringList", "Notes", properties.GROUP, "Summary and warnings of planning")
         obj.setEditorMode("Notes", 1)
-
-
-def _entry(field: Field, definitions: dict[str, Any]) -> dict[str, Any]:
-    entry: dict[str, Any] = definitions[field.section]["properties"][field.key]
-    return entry
-
-
-def _default(field: Field, definitions: dict[str, Any]) -> Any:
-    return _entry(field, definitions).get("default", field.default)
-
-
-def _set_choices(obj: Any, field: Field, definitions: dict[str, Any]) -> None:
-    choices = _choices(_entry(field, definitions), definitions)
-    if field.default is not None:
-        choices.insert(0, field.default)
-    if obj.getEnumerationsOfProperty(field.name) != choices:
-        value = getattr(obj, field.name) if obj.getEnumerationsOfProperty(field.name) else None
-        setattr(obj, field.name, choices)
-        if value in choices:
-            setattr(obj, field.name, value)
-
-
-def _choices(entry: dict[str, Any], definitions: dict[str, Any]) -> list[str]:
-    """The words that a key of the document allows."""
-    references = [entry, *entry.get("anyOf", ())]
-    name = next(r["$ref"] for r in references if "$ref" in r).rpartition("/")[2]
-    return [str(choice["const"]) for choice in definitions[name]["oneOf"]]
 
 
 # --- checks ------------------------------------------------------------------------------------------------------
 
 
 def check(obj: Any) -> None:
-    """Refuses what FreeCAD would pass over in silence.
+    """Refuses what FreeCAD would ignore in silence.
 
     Raises:
-        OperationError: no job, no model, no tool, no face, or a face that the model has no more.
+        OperationError: no job, no model, no tool, no face, or a face that the model no longer has.
     """
     job = PathUtils.findParentJob(obj)
     if job is None:
@@ -231,15 +165,15 @@ def check(obj: Any) -> None:
         )
     _check_tool(obj)
     if not obj.WholeModel and not documents.face_names(obj):
-        raise OperationError("no face is chosen: choose faces of the model, or set WholeModel")
+        raise OperationError("no face is selected: select faces of the model, or set WholeModel")
     for base, _ in obj.Base:
         if base != models[0]:
-            raise OperationError(f"the chosen faces are of {base.Label}, not of the job's model {models[0].Label}")
+            raise OperationError(f"the selected faces are of {base.Label}, not of the job's model {models[0].Label}")
     missing = stale_faces(obj)
     if missing:
         raise OperationError(
             f"the model has no {', '.join(missing)} any more (it has Face1 to Face{len(models[0].Shape.Faces)}): "
-            "choose the faces again"
+            "select the faces again"
         )
 
 
@@ -253,7 +187,7 @@ def _check_tool(obj: Any) -> None:
 
 
 def stale_faces(obj: Any) -> list[str]:
-    """Chosen names that the model's shape does not have."""
+    """Selected faces that the model's shape does not have."""
     missing = []
     for base, names in getattr(obj, "Base", None) or ():
         count = len(base.Shape.Faces)
@@ -264,19 +198,19 @@ def stale_faces(obj: Any) -> list[str]:
     return missing
 
 
-def _chosen_faces(obj: Any) -> list[Any]:
+def _selected_faces(obj: Any) -> list[Any]:
     """The faces behind Base, or the whole model's shape."""
-    chosen = [base.Shape.getElement(name) for base, names in obj.Base or () for name in names if name]
-    if not chosen and getattr(obj, "WholeModel", False):
+    selected = [base.Shape.getElement(name) for base, names in obj.Base or () for name in names if name]
+    if not selected and getattr(obj, "WholeModel", False):
         return [documents.model_of(obj).Shape]
-    return chosen
+    return selected
 
 
 def reason(error: BaseException) -> str:
-    """What an error says, and what its hint says to do."""
+    """An error's message, and its hint what to do."""
     hint = getattr(error, "hint", "")
-    said = str(error) or type(error).__name__
-    return f"{said}: {hint}" if hint and hint not in said else said
+    message = str(error) or type(error).__name__
+    return f"{message}: {hint}" if hint and hint not in message else message
 
 
 def _only_comment(text: str) -> Any:
@@ -287,8 +221,12 @@ def _only_comment(text: str) -> Any:
 
 
 def SetupProperties() -> list[str]:
-    """Properties that a job's setup sheet may set for new operations."""
-    return [field.name for field in FIELDS]
+    """Properties that a job's setup sheet may set for new operations.
+
+    Raises:
+        EngineMissingError: there is no engine.
+    """
+    return [field.name for field in properties.fields()]
 
 
 def Create(name: str = NAME, obj: Any = None, parentJob: Any = None) -> Any:

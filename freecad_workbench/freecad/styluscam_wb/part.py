@@ -101,14 +101,14 @@ def _meshes(shape: Any, faces: list[Any], deflection: float, name: str) -> list[
     return [_face_mesh(face, f"{name}:Face{number}") for number, face in enumerate(faces, 1)]
 
 
-def _face_mesh(face: Any, place: str) -> FaceMesh:
+def _face_mesh(face: Any, name: str) -> FaceMesh:
     from styluscam import GeometryError
     from styluscam.parts.tessellation import FaceMesh
 
     points, triangles = face.tessellate(ANY_DEFLECTION) if _is_meshed(face) else ([], [])
     if not triangles:
-        message = f"{place}: the kernel cannot mesh this face: repair it in the CAD system"
-        raise GeometryError(message, code="part-face-not-meshed", where=place)
+        message = f"{name}: the kernel cannot mesh this face: repair it in the CAD system"
+        raise GeometryError(message, code="part-face-not-meshed", where=name)
     return FaceMesh(np.array([(p.x, p.y, p.z) for p in points]), np.array(triangles, dtype=np.int64))
 
 

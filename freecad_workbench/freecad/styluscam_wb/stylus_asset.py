@@ -11,9 +11,9 @@ from Path.Tool.shape import ToolBitShape
 from Path.Tool.toolbit import ToolBit
 from Path.Tool.toolbit.mixins import RotaryToolBitMixin
 
-from . import compat, tools
+from . import post_list, stylus
 
-compat.register_posts()
+post_list.register()
 
 
 class ToolBitShapeStylus(ToolBitShape):
@@ -25,7 +25,7 @@ class ToolBitShapeStylus(ToolBitShape):
     @classmethod
     def schema(cls) -> Mapping[str, tuple[str, str]]:
         """Description and property type of each parameter."""
-        return {name: (text, kind) for name, (kind, text) in tools.SHAPE_PROPERTIES.items()}
+        return {name: (text, kind) for name, (kind, text) in stylus.SHAPE_PROPERTIES.items()}
 
     @property
     def label(self) -> str:
@@ -37,7 +37,7 @@ class ToolBitShapeStylus(ToolBitShape):
         body = doc.addObject("Part::FeaturePython", "StylusBody")
         body.addExtension("App::GroupExtensionPython")
         values = {name: getattr(value, "Value", value) for name, value in self.get_parameters().items()}
-        body.Shape = tools.solid_of(values)
+        body.Shape = stylus.solid_of(values)
         body.purgeTouched()
         return body
 
@@ -59,8 +59,8 @@ class ToolBitStylus(ToolBit, RotaryToolBitMixin):
     def onChanged(self, obj: Any, prop: str) -> None:
         """The lengths that follow from the profile follow it."""
         updating = getattr(self, "_suppress_visual_update", False) or getattr(self, "_in_update", False)
-        if prop == tools.PROFILE and not updating and "Restore" not in obj.State:
-            for name, value in tools.derived_lengths(obj.Profile).items():
+        if prop == stylus.PROFILE and not updating and "Restore" not in obj.State:
+            for name, value in stylus.derived_lengths(obj.Profile).items():
                 setattr(obj, name, FreeCAD.Units.Quantity(value, FreeCAD.Units.Length))
         super().onChanged(obj, prop)
 
@@ -68,7 +68,7 @@ class ToolBitStylus(ToolBit, RotaryToolBitMixin):
 def create(document: Any, label: str, parameters: dict[str, Any]) -> Any:
     """A stylus in the document."""
     lengths = {
-        name: FreeCAD.Units.Quantity(value, FreeCAD.Units.Length) if name != tools.PROFILE else value
+        name: FreeCAD.Units.Quantity(value, FreeCAD.Units.Length) if name != stylus.PROFILE else value
         for name, value in parameters.items()
     }
     return ToolBitStylus(ToolBitShapeStylus("stylus", **lengths)).attach_to_doc(document, label)

@@ -9,27 +9,27 @@ from typing import Any
 import FreeCAD
 from Path.Tool.Bit import Factory, ToolBit
 
-from . import compat, tools
+from . import post_list, stylus
 
-compat.register_posts()
+post_list.register()
 
 
 class StylusBit(ToolBit):
     """A bit whose properties are set up here; a shape file is neither looked for nor needed."""
 
     def _setupBitShape(self, obj: Any, path: Any = None) -> None:
-        for name, (kind, text) in tools.SHAPE_PROPERTIES.items():
+        for name, (kind, text) in stylus.SHAPE_PROPERTIES.items():
             if not hasattr(obj, name):
                 obj.addProperty(kind, name, "Shape", text)
         if not hasattr(obj, "SpindlePower"):
             obj.addProperty("App::PropertyBool", "SpindlePower", "Attributes", "A stylus slides: the spindle stays off")
             obj.SpindlePower = False
         obj.ShapeName = "stylus"
-        obj.BitPropertyNames = [*tools.SHAPE_PROPERTIES, "SpindlePower"]
+        obj.BitPropertyNames = [*stylus.SHAPE_PROPERTIES, "SpindlePower"]
 
     def _updateBitShape(self, obj: Any, properties: Any = None) -> None:
-        values = {name: getattr(obj, name) for name in tools.SHAPE_PROPERTIES}
-        obj.Shape = tools.solid_of({name: getattr(value, "Value", value) for name, value in values.items()})
+        values = {name: getattr(obj, name) for name in stylus.SHAPE_PROPERTIES}
+        obj.Shape = stylus.solid_of({name: getattr(value, "Value", value) for name, value in values.items()})
 
     def loadBitBody(self, obj: Any, force: bool = False) -> None:
         """There is no body beside the bit."""
@@ -38,10 +38,10 @@ class StylusBit(ToolBit):
         """The lengths that follow from the profile follow it, and the solid all of them."""
         if "Restore" in obj.State or prop not in getattr(obj, "BitPropertyNames", ()) or prop == "SpindlePower":
             return
-        if prop == tools.PROFILE:
-            for name, value in tools.derived_lengths(obj.Profile).items():
+        if prop == stylus.PROFILE:
+            for name, value in stylus.derived_lengths(obj.Profile).items():
                 setattr(obj, name, value)
-        if all(getattr(obj, name) for name in tools.SHAPE_PROPERTIES):
+        if all(getattr(obj, name) for name in stylus.SHAPE_PROPERTIES):
             self._updateBitShape(obj)
 
 

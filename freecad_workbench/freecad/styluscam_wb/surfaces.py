@@ -11,8 +11,8 @@ if TYPE_CHECKING:
     from styluscam.parts.surfaces import ExactSurface, Floats, Parametric
     from styluscam.parts.tessellation import FaceMesh
 
-SAME_PLACE = 1e-5
-"""Nodes and seeds this near to each other (mm) are one."""
+SAME_POINT = 1e-5
+"""Nodes and seeds nearer to each other than this (mm) are one point."""
 
 
 def surface_of(face: Any) -> ExactSurface:
@@ -79,14 +79,14 @@ def _evaluator(face: Any) -> tuple[Any, tuple[float, float, float, float]]:
     """What evaluates the face's surface, and the parameters' range."""
     import Part
 
-    surface, wanted = face.Surface, face.ParameterRange
+    surface, needed = face.Surface, face.ParameterRange
     if isinstance(surface, Part.BSplineSurface):
         nurbs = _nurbs(surface)
         u0, u1, v0, v1 = nurbs.bounds
         slack = 1e-9 * (u1 - u0 + v1 - v0)
-        if wanted[0] >= u0 - slack and wanted[1] <= u1 + slack and wanted[2] >= v0 - slack and wanted[3] <= v1 + slack:
+        if needed[0] >= u0 - slack and needed[1] <= u1 + slack and needed[2] >= v0 - slack and needed[3] <= v1 + slack:
             return nurbs, nurbs.bounds
-    return _by_kernel(surface), wanted
+    return _by_kernel(surface), needed
 
 
 def _nurbs(surface: Any) -> Any:
@@ -144,10 +144,10 @@ def with_uv(face: Any, surface: Parametric, mesh: FaceMesh) -> tuple[Parametric,
 
 
 def _nearest(surface: Parametric, nodes: Floats) -> Floats:
-    """The seed's parameters nearest to each node (N,2): the seed at the same place, for nearly all; else by search."""
+    """The seed's parameters nearest to each node (N,2): the seed at the same point, for nearly all; else by search."""
     count = len(surface.seed_points)
-    places = np.rint(np.concatenate([surface.seed_points, nodes]) / SAME_PLACE).astype(np.int64)
-    _, index = np.unique(places, axis=0, return_inverse=True)
+    cells = np.rint(np.concatenate([surface.seed_points, nodes]) / SAME_POINT).astype(np.int64)
+    _, index = np.unique(cells, axis=0, return_inverse=True)
     index = index.reshape(-1)
     seed_at = np.full(index.max() + 1, -1)
     seed_at[index[:count]] = np.arange(count)
@@ -178,7 +178,7 @@ def _in_one_piece(values: Floats, free: Any, low: float, period: float) -> Float
 
 
 def _split(mesh: FaceMesh, corners: Floats) -> tuple[Floats, Any, Floats]:
-    """Nodes, triangles and the nodes' parameters, a node for each pair of place and parameters (corners: (T,3,2))."""
+    """Nodes, triangles and the nodes' parameters, a node for each pair of point and parameters (corners: (T,3,2))."""
     flat = corners.reshape(-1, 2)
     steps = np.rint(flat / (1e-9 * np.maximum(np.ptp(flat, axis=0), 1e-300))).astype(np.int64)
     rows = np.column_stack([mesh.triangles.reshape(-1), steps])

@@ -1,4 +1,7 @@
-"""Inside FreeCAD: operations that work and operations that fail, each told as one line of JSON."""
+"""Inside FreeCAD: operations that work and operations that fail, each reported as one line of JSON.
+
+Names of scenarios after the other arguments choose among them.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +17,7 @@ from typing import Any
 
 import tomllib
 
-EXAMPLE, STEP, FOLDER, COARSE = sys.argv[sys.argv.index("--") + 1 :]
+EXAMPLE, STEP, FOLDER, COARSE, *CHOSEN = sys.argv[sys.argv.index("--") + 1 :]
 
 Scenario = Callable[[], dict[str, Any]]
 
@@ -34,6 +37,16 @@ def example() -> Any:
 
 def native_job() -> dict[str, Any]:
     return module_of("native", Path(__file__).with_name("native_job.py")).native_job()
+
+
+def own(name: str, *needs: Callable[[], Any]) -> Scenario:
+    """A function of `properties.py` beside this file, with what it needs."""
+
+    def scenario() -> dict[str, Any]:
+        module = module_of("stylus_properties", Path(__file__).with_name("properties.py"))
+        return getattr(module, name)(*[need() for need in needs])
+
+    return scenario
 
 
 def settings(machine: str = "linuxcnc", **changes: Any) -> dict[str, Any]:
@@ -75,7 +88,7 @@ class Stage:
         return sum(c.Name in ("G0", "G1", "G2", "G3") for c in self.operation.Path.Commands)
 
     def seen(self) -> dict[str, Any]:
-        """State, path and what posting says."""
+        """State, path and what posting returns."""
         commands = self.operation.Path.Commands
         return {
             "state": list(self.operation.State),
@@ -327,7 +340,7 @@ def tool_bit() -> dict[str, Any]:
 
 
 def shapes() -> dict[str, Any]:
-    """Parts of each kind of surface: what the mesh says of itself and what the exact shape says of it."""
+    """Parts of each kind of surface: the mesh's own figures and the exact shape's."""
     import Part
     from FreeCAD import Placement, Rotation
     from FreeCAD import Vector as At
@@ -515,11 +528,17 @@ SCENARIOS: dict[str, Scenario] = {
     "native axis": with_native("G0 X0 Y0 Z20 A10"),
     "two fixtures": two_fixtures,
     "native job": native_job,
+    "earlier document": own("earlier_document"),
+    "new kind": own("new_kind", Stage),
+    "arcs": own("arcs"),
+    "native tool": own("native_tool"),
 }
 
 
 def main() -> None:
     for name, scenario in SCENARIOS.items():
+        if CHOSEN and name not in CHOSEN:
+            continue
         try:
             result = scenario()
         except BaseException:

@@ -1,4 +1,4 @@
-"""Inside FreeCAD, where there is no engine: a saved document opens, keeps its paths, and says what is missing."""
+"""Inside FreeCAD, where there is no engine: a saved document opens, keeps its paths, and reports what is missing."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 (DOCUMENT,) = sys.argv[sys.argv.index("--") + 1 :]
 
 
-def tell(name: str, result: dict[str, Any]) -> None:
+def report(name: str, result: dict[str, Any]) -> None:
     print("\nRESULT " + json.dumps([name, result]), flush=True)
 
 
@@ -22,10 +22,10 @@ def main() -> None:
     import Path.Main.Job
     import Path.Preferences
 
-    tell("started", {"early": early, "posts": Path.Preferences.allAvailablePostProcessors()})
+    report("started", {"early": early, "posts": Path.Preferences.allAvailablePostProcessors()})
     document = FreeCAD.openDocument(DOCUMENT)
     operation = next(o for o in document.Objects if o.Label == "cup")
-    tell(
+    report(
         "opened",
         {
             "commands": [[c.Name, c.Parameters] for c in operation.Path.Commands],
@@ -38,22 +38,22 @@ def main() -> None:
     operation.touch()
     document.recompute()
     commands = operation.Path.Commands
-    tell("computed", {"state": list(operation.State), "names": [c.Name for c in commands]})
+    report("computed", {"state": list(operation.State), "names": [c.Name for c in commands]})
     from freecad.styluscam_wb import ops
 
     count = len(document.Objects)
     try:
         ops.Create("Another", parentJob=next(o for o in document.Objects if o.Name == "Job"))
-        said = "nothing"
+        message = "nothing"
     except Exception as error:
-        said = str(error)
-    tell("created", {"said": said, "objects": [count, len(document.Objects)]})
+        message = str(error)
+    report("created", {"message": message, "objects": [count, len(document.Objects)]})
 
 
 try:
     main()
 except BaseException:
-    tell("broke", {"broke": traceback.format_exc()})
+    report("broke", {"broke": traceback.format_exc()})
 finally:
     sys.stdout.flush()
     sys.stderr.flush()

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The engine's fields as properties of a FreeCAD operation: added, kept up to date, shown where they apply, read."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from types import ModuleType
+from typing import Any
+
+from . import engine
+from .fields import CHOICE, JOB, OPERATION, PART, PATHS, PROCESS, SHEET, Field, FieldError, fields_of, kind_field
+from .schema import KIND, JobSchema
+
+GROUP = "Stylus"
+"""The group of the property editor."""
+
+SHOWN, HIDDEN = (0, []), (2, ["Hidden"])
+"""FreeCAD's modes of the property editor: as they are set, and as they are read."""
+
+TAKES_SHEET = "x-takes-sheet"
+"""What the schema states of a process that works on a sheet."""
+
+
+class PropertyError(ValueError):
+    """A property that cannot be added or read; the message names operation and property."""
+
+
+def schema() -> JobSchema:
+    """The engine's job schema.
+
+    Raises:
+        EngineMissingError: there is no engine.
+    """
+    return _read(engine.styluscam())[0]
+
+
+def fields() -> tuple[Field, ...]:
+    """All fields.
+
+    Raises:
+        EngineMissingError: there is no engine.
+    """
+    return _read(engine.styluscam())[1]
+
+
+@lru_cache(maxsize=1)
+def _read(styluscam: ModuleType) -> tuple[JobSchema, tuple[Field, ...]]:
+    """Schema and fields of an engine: read once a session."""
+    found = JobSchema(styluscam.job_schema())
+    return found, fields_of(found)
+
+
+def update(obj: Any) -> None:
+    """Adds what is missing, with the engine's defaults, and brings choices up to date; values stay.
+
+    Raises:
+        PropertyError: FreeCAD has a property of that name itself.
+    """
+    for field in fields():
+        is_new = not hasattr(obj, field.name)
+        if is_new:
+            obj.addProperty(field.type, field.name, GROUP, field.text)
+        elif obj.getGroupOfProperty(field.name) != GROUP:
+            raise PropertyError(f"{obj.Label}: the engine's key {field.key} needs a name of its own in the addon")
+        if field.type == CHOICE:
+            _set_choices(obj, field)
+        if is_new and field.default is not None:
+            setattr(obj, field.name, field.property_value(field.default))
+    show_owned(obj)
+
+
+def _set_choices(obj: Any, field: Field) -> None:
+    known = obj.getEnumerationsOfProperty(field.name)
+    choices = list(field.choices)
+    if known == choices:
+        return
+    value = getattr(obj, field.name) if known else None
+    setattr(obj, field.name, choices)
+    if value in choices:
+        setattr(obj, field.name, value)
+
+
+def show_owned(obj: Any) -> None:
+    """Hides the properties of other kinds, and the sheet's where the process takes none."""
+    if not engine.is_there():
+        return
+    if not are_complete(obj):
+        return  # its properties are being added
+    known = fields()
+    kinds = _kinds_of(obj, known)
+    sheet = takes_sheet(obj)
+    for field in known:
+        shown = field.is_of(kinds.get(field.section, "")) and (sheet or not _is_of_sheet(field))
+        mode, words = SHOWN if shown else HIDDEN
+        if list(obj.getEditorMode(field.name)) != words:
+            obj.setEditorMode(field.name, mode)
+
+
+def are_complete(obj: Any) -> bool:
+    """Whether the operation has all of the engine's properties yet."""
+    return all(hasattr(obj, field.name) for field in fields())
+
+
+def _is_of_sheet(field: Field) -> bool:
+    return field.section == SHEET or (field.section, field.key) == (PART, "model_face")
+
+
+def kind_properties() -> tuple[str, ...]:
+    """Names of the properties that decide which others apply."""
+    return tuple(field.name for field in fields() if field.key == KIND)
+
+
+def _kinds_of(obj: Any, known: tuple[Field, ...]) -> dict[str, str]:
+    """The chosen kind of each section that has kinds."""
+    return {field.section: str(getattr(obj, field.name)) for field in known if field.key == KIND}
+
+
+def takes_sheet(obj: Any) -> bool:
+    """Whether the operation's process works on a sheet.
+
+    Raises:
+        EngineMissingError: there is no engine.
+    """
+    process = getattr(obj, kind_field(fields(), PROCESS).name)
+    kinds = schema().table(*PATHS[PROCESS]).kinds
+    return any(kind.word == process and bool(kind.stated.get(TAKES_SHEET)) for kind in kinds)
+
+
+def section(obj: Any, name: str, *keys: str) -> dict[str, Any]:
+    """A section of the document, or these keys of it: what its kind owns and is not left out.
+
+    Raises:
+        PropertyError: a value that is none.
+    """
+    known = fields()
+    kind = _kinds_of(obj, known).get(name, "")
+    without_sheet = not takes_sheet(obj)
+    found: dict[str, Any] = {}
+    for field in known:
+        if field.section != name or not field.is_of(kind) or (keys and field.key not in keys):
+            continue
+        if without_sheet and _is_of_sheet(field):
+            continue
+        try:
+            value = field.document_value(getattr(obj, field.name))
+        except FieldError as error:
+            raise PropertyError(f"{obj.Label}: {error}") from error
+        if value is not None:
+            found[field.key] = {**found[field.key], **value} if field.variant and field.key in found else value
+    return found
+
+
+def shared() -> tuple[str, ...]:
+    """Names of the properties that all operations of one program must agree on."""
+    return tuple(field.name for field in fields() if field.section not in (OPERATION, JOB))

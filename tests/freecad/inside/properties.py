@@ -1,0 +1,166 @@
+"""Inside FreeCAD: properties from the engine's schema, a document of an earlier version, and arcs in paths."""
+
+from __future__ import annotations
+
+import copy
+import json
+from pathlib import Path
+from typing import Any
+
+import FreeCAD
+
+SAVED = Path(__file__).parents[1] / "saved" / "operation_of_0.1.FCStd"
+
+
+def commands_of(operation: Any) -> list[Any]:
+    return [[command.Name, command.Parameters] for command in operation.Path.Commands]
+
+
+def properties_of(operation: Any) -> dict[str, Any]:
+    """Value and editor mode of each property of ours."""
+    names = [name for name in operation.PropertiesList if operation.getGroupOfProperty(name) == "Stylus"]
+    values = {name: getattr(operation, name) for name in names}
+    return {
+        name: [getattr(value, "Value", value), "Hidden" in operation.getEditorMode(name)]
+        for name, value in values.items()
+    }
+
+
+def earlier_document() -> dict[str, Any]:
+    """A document that an earlier version of the addon saved in FreeCAD 1.0: opened, then computed again."""
+    document = FreeCAD.openDocument(str(SAVED))
+    operation = next(o for o in document.Objects if o.Label == "cup")
+    opened = commands_of(operation)
+    before = properties_of(operation)
+    operation.touch()
+    document.recompute()
+    result = {
+        "opened": opened,
+        "before": before,
+        "computed": commands_of(operation),
+        "after": properties_of(operation),
+        "state": list(operation.State),
+    }
+    FreeCAD.closeDocument(document.Name)
+    return result
+
+
+def new_kind(stage: Any) -> dict[str, Any]:
+    """A kind and a key that the engine has and the addon has never heard of."""
+    import styluscam
+    from freecad.styluscam_wb import documents, properties
+
+    real = styluscam.job_schema
+    schema = with_kind(copy.deepcopy(real()))
+    styluscam.job_schema = lambda: schema
+    properties._read.cache_clear()
+    try:
+        operation = stage.operation
+        properties.update(operation)
+        result = {"before": [operation.Strategy, properties_of(operation)]}
+        operation.Strategy = "wobble"
+        operation.Amplitude = 2.5
+        result["after"] = [properties_of(operation), documents.operation_section(operation)]
+        operation.Process = "milling"
+        part = properties.section(operation, "part")
+        result["milling"] = [properties_of(operation), part]
+    finally:
+        styluscam.job_schema = real
+        properties._read.cache_clear()
+    stage.close()
+    return result
+
+
+def with_kind(schema: dict[str, Any]) -> dict[str, Any]:
+    """The schema with a kind `wobble`, alternatives by kind in any case."""
+    definitions = schema["$defs"]
+    name = schema["properties"]["operations"]["items"]["$ref"].rpartition("/")[2]
+    section = definitions[name]
+    own = {"amplitude": {"type": "number", "x-unit": "mm", "x-example": "1.5", "description": "Half the width."}}
+    if "oneOf" not in section:
+        owned = {"z-level": ["step"], "zig-zag": ["stepover", "angle_deg"]}
+        section = {"oneOf": [alternative(section, kind, keys, owned) for kind, keys in owned.items()]}
+        definitions[name] = section
+    common = section["oneOf"][0]
+    foreign = {"step"} | set(own)
+    keys = {key: entry for key, entry in common["properties"].items() if key not in foreign}
+    kind = {"kind": {"type": "string", "const": "wobble"}}
+    section["oneOf"].append(
+        {
+            "type": "object",
+            "description": "To and fro.",
+            "properties": keys | kind | own,
+            "required": ["kind", "amplitude"],
+        }
+    )
+    return schema
+
+
+def alternative(section: dict[str, Any], kind: str, keys: list[str], owned: dict[str, list[str]]) -> dict[str, Any]:
+    foreign = {key for others in owned.values() for key in others} - set(keys)
+    entries = {key: entry for key, entry in section["properties"].items() if key not in foreign}
+    return {"type": "object", "properties": entries | {"kind": {"type": "string", "const": kind}}, "required": ["kind"]}
+
+
+LINES = {
+    "xy": ["G1 X10 F600", "G3 X0 Y10 I-10 J0", "G2 X10 Y0 I0 J-10", "G3 X10 Y0 I-4 J3"],
+    "zx": ["G1 X10 F600", "G18", "G2 X0 Z-10 I-10 K0", "G3 X10 Z0 I0 K10", "G1 X20"],
+    "yz": ["G1 Y10 F600", "G19", "G3 Y0 Z-10 J-10 K0", "G2 Y10 Z0 J0 K10"],
+    "helix": ["G1 X10 F600", "G3 X0 Y10 Z-9 I-10 J0 P3", "G1 X1"],
+}
+
+
+TOOL = {
+    "name": "T1",
+    "number": 1,
+    "length_offset": 1,
+    "description": "any",
+    "reference": "tip",
+    "reference_height": 0.0,
+    "diameter": 6.0,
+}
+
+
+def arcs() -> dict[str, Any]:
+    """Arcs of programs as FreeCAD's path: its own box around them, and the program that is read back."""
+    import Path as CamPath
+
+    import styluscam
+    from freecad.styluscam_wb import engine, motion
+
+    linuxcnc = styluscam.Machine.shipped("linuxcnc")
+    result = {}
+    for name, lines in LINES.items():
+        text = "\n".join(["G21 G90 G94 G17 G54", "G0 X0 Y0 Z5", "G0 Z0", *lines, "M2", ""])
+        program = styluscam.read_gcode(text, linuxcnc)
+        path = CamPath.Path(motion.commands_of(program))
+        setup = {**program.setup, "wcs": "G54"}
+        sections = [("tool", None, "None", "M6 T1\n"), ("arcs", "arcs", "None", path.toGCode())]
+        again = engine.program_of_path(sections, json.dumps([TOOL]), json.dumps(setup))
+        box, points = path.BoundBox, program.positions
+        result[name] = {
+            "names": [command.Name for command in path.Commands],
+            "box": [box.XMin, box.YMin, box.ZMin, box.XMax, box.YMax, box.ZMax],
+            "expected": [*points.min(axis=0), *points.max(axis=0)],
+            "length": [again.length, program.length],
+            "ends": [again.moves["end"][-1].tolist(), program.moves["end"][-1].tolist()],
+        }
+    return result
+
+
+def native_tool() -> dict[str, Any]:
+    """An operation in a job whose only tool is FreeCAD's end mill."""
+    import Part
+    import Path.Main.Job as PathJob
+
+    from freecad.styluscam_wb import ops
+
+    document = FreeCAD.newDocument("Native")
+    body = document.addObject("Part::Feature", "Body")
+    body.Shape = Part.makeBox(20, 20, 10)
+    document.recompute()
+    job = PathJob.Create("Job", [body])
+    operation = ops.Create("First", parentJob=job)
+    result = {"tool": operation.ToolController is not None and operation.ToolController == job.Tools.Group[0]}
+    FreeCAD.closeDocument(document.Name)
+    return result

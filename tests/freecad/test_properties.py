@@ -1,0 +1,72 @@
+"""Properties from the engine's schema inside FreeCAD, documents of earlier versions, and arcs."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+pytestmark = [pytest.mark.world, pytest.mark.freecad]
+
+ROUNDED = 1e-6
+"""FreeCAD saves paths with six decimals."""
+
+
+def test_a_document_of_an_earlier_version_opens_as_it_was(session: Any) -> None:
+    seen = session["earlier document"]
+    before, after = seen["before"], seen["after"]
+    assert before["Strategy"][0] == "z-level" and before["Step"][0] == 5.0 and before["ModelFace"][0] == "back"
+    for name, (value, _) in before.items():
+        assert after[name][0] == value or name == "Notes", name
+    assert set(before) < set(after)
+    assert after["MaxUnreached"][0] == 0.1, "a property that is new begins with the engine's default"
+
+
+def test_it_computes_to_the_same_path(session: Any) -> None:
+    seen = session["earlier document"]
+    assert seen["state"] == ["Up-to-date"]
+    opened, computed = seen["opened"], seen["computed"]
+    assert [name for name, _ in opened] == [name for name, _ in computed]
+    for (_, one), (_, other) in zip(opened, computed, strict=True):
+        assert one == pytest.approx(other, abs=ROUNDED)
+
+
+def test_a_new_kind_needs_no_line_of_the_addon(session: Any) -> None:
+    seen = session["new kind"]
+    strategy, before = seen["before"]
+    assert strategy == "z-level" and before["Amplitude"] == [1.5, True] and before["Step"] == [5.0, False]
+    after, section = seen["after"]
+    assert after["Amplitude"] == [2.5, False] and after["Step"] == [5.0, True]
+    assert (section["kind"], section["amplitude"]) == ("wobble", 2.5)
+    assert not {"step", "stepover", "angle_deg"} & set(section), "keys of other kinds are not sent"
+
+
+def test_without_a_sheet_its_properties_are_hidden_and_not_sent(session: Any) -> None:
+    properties, part = session["new kind"]["milling"]
+    hidden = {name for name, (_, is_hidden) in properties.items() if is_hidden}
+    assert {"SheetThickness", "SheetLaw", "ModelFace"} <= hidden
+    assert "model_face" not in part
+
+
+def test_freecads_own_bits_are_supported(session: Any) -> None:
+    assert session["native tool"]["tool"]
+
+
+@pytest.mark.parametrize(
+    ("name", "codes"),
+    [
+        ("xy", ["G3", "G2", "G3"]),
+        ("zx", ["G18", "G2", "G3", "G1", "G17"]),
+        ("yz", ["G19", "G3", "G2", "G17"]),
+        ("helix", ["G3", "G3", "G3", "G1"]),
+    ],
+)
+def test_arcs_are_arcs_for_freecad(session: Any, name: str, codes: list[str]) -> None:
+    """FreeCAD's own box holds them, but for its chords; what it writes is read back as the same arcs."""
+    seen = session["arcs"][name]
+    assert seen["names"] == ["G0", "G0", "G1", *codes]
+    assert seen["box"] == pytest.approx(seen["expected"], abs=0.02)
+    ours, theirs = seen["length"]
+    assert ours == pytest.approx(theirs, abs=1e-4)
+    ours, theirs = seen["ends"]
+    assert ours == pytest.approx(theirs, abs=ROUNDED)
