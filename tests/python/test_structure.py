@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 CHECKOUT = Path(__file__).resolve().parents[2]
-ROOTS = {"styluscam": "python/styluscam"}
+ROOTS = {"styluscam": "python/styluscam", "freecad.styluscam_wb": "freecad_workbench/freecad/styluscam_wb"}
 """Packages and their folders."""
 
 MOST_LINES, MOST_LINES_OF_FUNCTION = 600, 60
