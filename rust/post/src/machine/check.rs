@@ -45,7 +45,7 @@ fn check_names(machine: &Machine) -> Result<(), MachineError> {
     require(!machine.name.trim().is_empty(), "name", "it is empty")?;
     require(!machine.wcs.is_empty(), "wcs", "list at least one work offset")?;
     for (index, wcs) in machine.wcs.iter().enumerate() {
-        let words = wcs.split(' ').filter_map(crate::reader::code).count();
+        let words = wcs.split(' ').filter_map(crate::block::code).count();
         let written = wcs.split(' ').count();
         let holds = words == written && words <= 2;
         require(holds, &format!("wcs[{index}]"), "write one word or two, as in G54 or G54.1 P1")?;
@@ -68,7 +68,7 @@ fn check_names(machine: &Machine) -> Result<(), MachineError> {
 
 /// A single word, a letter and a number: `G54`, `G59.1`, `M2`.
 fn check_code(key: &str, code: &str) -> Result<(), MachineError> {
-    require(crate::reader::code(code).is_some(), key, "write one word: a capital letter and a number, as in G54")
+    require(crate::block::code(code).is_some(), key, "write one word: a capital letter and a number, as in G54")
 }
 
 fn check_numbers(machine: &Machine) -> Result<(), MachineError> {

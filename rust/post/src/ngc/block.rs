@@ -1,7 +1,9 @@
 //! The words of a block, with their values.
 
+use super::codes::known_g;
 use super::expression::{natural, Cursor, Key, Values};
 use super::fault::TraceFault;
+use crate::block::Code;
 
 /// A block with its values worked out.
 #[derive(Clone, Debug, Default)]
@@ -67,6 +69,11 @@ impl Block {
 
     pub(super) fn has_m(&self, code: u32) -> bool {
         self.m.contains(&code)
+    }
+
+    /// What its G words ask for, as far as they are known.
+    pub(super) fn codes(&self) -> impl Iterator<Item = Code> + '_ {
+        self.g.iter().filter_map(|code| known_g(*code))
     }
 
     /// The last of its G words that is one of these.

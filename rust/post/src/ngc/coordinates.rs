@@ -225,7 +225,7 @@ impl Tracer<'_> {
             return Ok(self.offsets.of_machine(end));
         }
         let mut end = [0, 1, 2].map(|axis| match words[axis] {
-            Some(word) if self.modes.incremental => place[axis] + word,
+            Some(word) if self.modes.common.incremental => place[axis] + word,
             word => word.unwrap_or(place[axis]),
         });
         if block.distance.is_some() || block.angle.is_some() {
@@ -242,7 +242,7 @@ impl Tracer<'_> {
     fn polar_target(&self, block: &Block) -> [f64; 2] {
         let (distance, angle) = super::path::polar(self.place);
         let word = block.distance.map(|word| word * self.modes.unit());
-        if self.modes.incremental {
+        if self.modes.common.incremental {
             return super::path::cartesian(distance + word.unwrap_or(0.0), angle + block.angle.unwrap_or(0.0));
         }
         super::path::cartesian(word.unwrap_or(distance), block.angle.unwrap_or(angle))

@@ -32,7 +32,7 @@ struct Heights {
 
 impl Tracer<'_> {
     pub(super) fn drill(&mut self, block: &Block, code: u32) -> Result<(), TraceFault> {
-        let along = self.modes.plane.axes()[2];
+        let along = self.modes.common.plane.axes()[2];
         let heights = self.heights(block, along)?;
         if heights.begin < heights.retract {
             self.rapid_along(along, heights.retract)?;
@@ -60,11 +60,11 @@ impl Tracer<'_> {
         let retract = unit * sticky.retract.ok_or(TraceFault::WordMissing { what: "R of a cycle" })?;
         let bottom = unit * sticky.bottom.ok_or(TraceFault::WordMissing { what: "the depth of a cycle" })?;
         let (retract, bottom) =
-            if self.modes.incremental { (begin + retract, begin + retract + bottom) } else { (retract, bottom) };
+            if self.modes.common.incremental { (begin + retract, begin + retract + bottom) } else { (retract, bottom) };
         if bottom > retract {
             return Err(TraceFault::CycleDepths);
         }
-        let clear = if self.modes.back_to_begin { begin.max(retract) } else { retract };
+        let clear = if self.modes.common.low_return { retract } else { begin.max(retract) };
         Ok(Heights { begin, retract, bottom, clear })
     }
 

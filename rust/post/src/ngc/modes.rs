@@ -1,6 +1,7 @@
 //! What stays in force from block to block.
 
-use styluscam_motion::{Plane, SpindleDirection};
+use crate::block;
+use crate::machine::LengthUnit;
 
 /// G80: no motion in force. Codes are in tenths.
 pub(super) const NO_MOTION: u32 = 800;
@@ -10,40 +11,16 @@ pub(super) const NO_MOTION: u32 = 800;
 pub(super) struct Modes {
     /// The motion code in tenths.
     pub(super) motion: u32,
-    pub(super) plane: Plane,
-    pub(super) inch: bool,
-    pub(super) incremental: bool,
-    /// G90.1.
-    pub(super) absolute_centre: bool,
+    pub(super) common: block::Modes,
     /// G7: words of X are diameters.
     pub(super) diameter: bool,
-    pub(super) feed_mode: FeedMode,
-    /// mm/min, mm per revolution, or moves per minute; 0 when it is not known.
-    pub(super) feed: f64,
-    /// S: rev/min, or the surface speed of G96.
-    pub(super) speed: f64,
     /// G96, with its limit in rev/min.
     pub(super) surface_speed: Option<f64>,
-    pub(super) direction: Option<SpindleDirection>,
-    /// G98, not G99: cycles go back to where they began.
-    pub(super) back_to_begin: bool,
     /// Index of the coordinate system.
     pub(super) system: usize,
     /// The code of the cutter compensation in tenths, 400 when off.
     pub(super) compensation: u32,
     pub(super) flood: bool,
-    pub(super) mist: bool,
-}
-
-/// What an F word counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum FeedMode {
-    /// G94.
-    PerMinute,
-    /// G95.
-    PerRevolution,
-    /// G93.
-    InverseTime,
 }
 
 impl Default for Modes {
@@ -51,21 +28,12 @@ impl Default for Modes {
     fn default() -> Self {
         Self {
             motion: NO_MOTION,
-            plane: Plane::Xy,
-            inch: false,
-            incremental: false,
-            absolute_centre: false,
+            common: block::Modes::new(Some(LengthUnit::Mm), true),
             diameter: false,
-            feed_mode: FeedMode::PerMinute,
-            feed: 0.0,
-            speed: 0.0,
             surface_speed: None,
-            direction: None,
-            back_to_begin: false,
             system: 0,
             compensation: 400,
             flood: false,
-            mist: false,
         }
     }
 }
@@ -73,15 +41,16 @@ impl Default for Modes {
 impl Modes {
     /// mm in the unit in force.
     pub(super) fn unit(&self) -> f64 {
-        if self.inch {
-            25.4
-        } else {
-            1.0
-        }
+        self.common.unit.map_or(1.0, LengthUnit::in_mm)
+    }
+
+    /// The feed as written, for the mode in force, mm; 0 when it is not known.
+    pub(super) fn feed(&self) -> f64 {
+        self.common.feed.value.unwrap_or_default()
     }
 
     /// rev/min, as far as it is known.
     pub(super) fn revolutions(&self) -> f64 {
-        self.surface_speed.filter(|limit| *limit > 0.0).unwrap_or(self.speed)
+        self.surface_speed.filter(|limit| *limit > 0.0).unwrap_or(self.common.speed)
     }
 }

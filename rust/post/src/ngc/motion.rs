@@ -1,26 +1,28 @@
 //! Codes that move: lines, arcs, probing, and the choice of the cycles and curves.
 
-use styluscam_motion::{Arc, MoveKind};
+use styluscam_motion::MoveKind;
 
 use super::block::Block;
 use super::codes;
 use super::cycles::Sticky;
 use super::fault::TraceFault;
-use super::modes::{FeedMode, NO_MOTION};
+use super::modes::NO_MOTION;
 use super::note::Gap;
 use super::path::Pace;
 use super::tracer::{Next, Tracer};
 use super::FEED_UNKNOWN;
+use crate::block::arc::{centre_by_offsets, ArcFault, Ends, Least, Slack, MOST_TURNS};
+use crate::block::Feed;
+use crate::machine::FeedMode;
 
-/// mm: ends of an arc may differ so much in their distance from its centre, and by a thousandth of it, unmentioned.
-const ROUNDED: f64 = 0.005;
+/// Ends of an arc may differ so much in their distance from its centre unmentioned.
+const SLACK: Slack = Slack { absolute: 0.005, relative: 1e-3 };
+/// Any arc is shown that has a radius.
+const LEAST: Least = Least { radius: 0.0, angle: 0.0 };
 
 /// mm/min: a feed beyond them is none.
 const SLOWEST: f64 = 1e-3;
 const FASTEST: f64 = 1e7;
-
-/// Turns of one arc: each takes its chords.
-const TURNS: u32 = 1000;
 
 /// The parameters that hold where a probe tripped, and whether it did.
 const PROBED: usize = 5061;
@@ -88,12 +90,10 @@ impl Tracer<'_> {
 
     /// A feed move's pace, for a length in mm.
     pub(super) fn pace(&mut self, length: f64) -> Pace {
-        let feed = match self.modes.feed_mode {
-            FeedMode::PerMinute => self.modes.feed,
-            FeedMode::PerRevolution => self.modes.feed * self.modes.revolutions(),
-            // a move of no length takes its time, which no feed can say
-            FeedMode::InverseTime if length > 0.0 => self.modes.feed * length,
-            FeedMode::InverseTime => FEED_UNKNOWN,
+        let feed = match self.modes.common.feed {
+            // a move of no length takes its time, which no feed can state
+            Feed { mode: FeedMode::InverseTime, .. } if length <= 0.0 => FEED_UNKNOWN,
+            feed => feed.per_minute(length, Some(self.modes.revolutions())).unwrap_or_default(),
         };
         self.pace_of(feed)
     }
@@ -121,64 +121,42 @@ impl Tracer<'_> {
     fn arc(&mut self, block: &Block, clockwise: bool) -> Result<(), TraceFault> {
         self.begin()?;
         let (start, end) = (self.place, self.target(block, false)?);
+        let ends = Ends { start, end, plane: self.modes.common.plane, clockwise };
         let centre = match block.word(b'r') {
             Some(_) if names_centre(block) => return Err(TraceFault::ArcForm),
-            Some(radius) => self.centre_by_radius(start, end, radius * self.modes.unit(), clockwise)?,
+            Some(radius) => ends.centre_by_radius(radius * self.modes.unit(), SLACK).map_err(trace_fault)?,
             None => self.centre_by_words(start, block)?,
         };
         let turns = block.count(b'p', "P of an arc")?.unwrap_or(1).saturating_sub(1);
-        if turns > TURNS {
+        if turns > MOST_TURNS {
             return Err(TraceFault::TooLarge);
         }
-        let arc = Arc { centre, plane: self.modes.plane, clockwise, turns };
-        let way = arc.way(start, end);
-        if way.radius() <= 0.0 {
-            return Err(TraceFault::ArcRadius);
-        }
-        if way.mismatch() > ROUNDED + 1e-3 * way.radius() {
+        let arc = ends.about(centre, turns);
+        let path = ends.path(&arc, LEAST).map_err(trace_fault)?;
+        if path.mismatch() > SLACK.of(path.radius()) {
             self.note(Gap::ArcEnds);
         }
-        let pace = self.pace(way.length());
+        let pace = self.pace(path.length());
         self.path.arc(&self.offsets, [start, end], arc, pace)?;
         self.place = end;
         Ok(())
     }
 
     fn centre_by_words(&self, start: [f64; 3], block: &Block) -> Result<[f64; 3], TraceFault> {
-        let axes = self.modes.plane.axes();
+        let axes = self.modes.common.plane.axes();
         let words = [b'i', b'j', b'k'].map(|letter| block.word(letter).map(|word| word * self.modes.unit()));
         if axes.iter().take(2).all(|axis| words[*axis].is_none()) {
             return Err(TraceFault::ArcForm);
         }
-        let zero = if self.modes.absolute_centre { [0.0; 3] } else { start };
-        Ok([0, 1, 2].map(|axis| zero[axis] + words[axis].unwrap_or(0.0)))
+        let zero = if self.modes.common.absolute_centre { [0.0; 3] } else { start };
+        Ok(centre_by_offsets(zero, zero, words))
     }
+}
 
-    /// The centre of the arc of this radius, the shorter one if it is positive.
-    fn centre_by_radius(
-        &self,
-        start: [f64; 3],
-        end: [f64; 3],
-        radius: f64,
-        clockwise: bool,
-    ) -> Result<[f64; 3], TraceFault> {
-        let [first, second, _] = self.modes.plane.axes();
-        let way = [end[first] - start[first], end[second] - start[second]];
-        let length = libm::hypot(way[0], way[1]);
-        if length <= 0.0 {
-            return Err(TraceFault::ArcForm);
-        }
-        let half = 0.5 * length;
-        if half > radius.abs() + ROUNDED + 1e-3 * radius.abs() {
-            return Err(TraceFault::ArcRadius);
-        }
-        let height = (radius * radius - half * half).max(0.0).sqrt();
-        // to the left of the way for the shorter arc counterclockwise
-        let side = if clockwise == (radius > 0.0) { -height } else { height };
-        let mut centre = start;
-        centre[first] = start[first] + 0.5 * way[0] - side * way[1] / length;
-        centre[second] = start[second] + 0.5 * way[1] + side * way[0] / length;
-        Ok(centre)
+fn trace_fault(fault: ArcFault) -> TraceFault {
+    match fault {
+        ArcFault::FullByRadius => TraceFault::ArcForm,
+        ArcFault::ShortRadius | ArcFault::NoRadius | ArcFault::NoAngle => TraceFault::ArcRadius,
     }
 }
 

@@ -6,9 +6,9 @@ use styluscam_motion::{Plane, SpindleDirection};
 
 use super::expression::{Key, Values};
 use super::fault::TraceFault;
-use super::modes::FeedMode;
 use super::offsets::SYSTEMS;
 use super::tracer::Tracer;
+use crate::machine::{FeedMode, LengthUnit};
 
 /// The largest number of a parameter.
 const LARGEST: usize = 5602;
@@ -115,6 +115,8 @@ impl Tracer<'_> {
     /// A parameter that tells the state.
     fn told(&self, name: &str) -> Option<f64> {
         let modes = &self.modes;
+        let common = &modes.common;
+        let inch = common.unit == Some(LengthUnit::Inch);
         let truth = |value: bool| f64::from(u8::from(value));
         let code = |tenths: u32| f64::from(tenths);
         Some(match name {
@@ -122,39 +124,39 @@ impl Tracer<'_> {
             "_vminor" => 4.0,
             "_line" => self.line as f64 + 1.0,
             "_motion_mode" => code(modes.motion),
-            "_plane" => match modes.plane {
+            "_plane" => match common.plane {
                 Plane::Xy => 170.0,
                 Plane::Zx => 180.0,
                 Plane::Yz => 190.0,
             },
             "_ccomp" => code(modes.compensation),
-            "_metric" => truth(!modes.inch),
-            "_imperial" => truth(modes.inch),
+            "_metric" => truth(!inch),
+            "_imperial" => truth(inch),
             "_metric_machine" => 1.0,
             "_imperial_machine" => 0.0,
-            "_absolute" => truth(!modes.incremental),
-            "_incremental" => truth(modes.incremental),
-            "_inverse_time" => truth(modes.feed_mode == FeedMode::InverseTime),
-            "_units_per_minute" => truth(modes.feed_mode == FeedMode::PerMinute),
-            "_units_per_rev" => truth(modes.feed_mode == FeedMode::PerRevolution),
+            "_absolute" => truth(!common.incremental),
+            "_incremental" => truth(common.incremental),
+            "_inverse_time" => truth(common.feed.mode == FeedMode::InverseTime),
+            "_units_per_minute" => truth(common.feed.mode == FeedMode::PerMinute),
+            "_units_per_rev" => truth(common.feed.mode == FeedMode::PerRevolution),
             "_coord_system" => self.coordinate_system_code(),
             "_tool_offset" => truth(self.offsets.tool.iter().any(|offset| offset.abs() > 0.0)),
-            "_retract_r_plane" => truth(!modes.back_to_begin),
-            "_retract_old_z" => truth(modes.back_to_begin),
+            "_retract_r_plane" => truth(common.low_return),
+            "_retract_old_z" => truth(!common.low_return),
             "_spindle_rpm_mode" => truth(modes.surface_speed.is_none()),
             "_spindle_css_mode" => truth(modes.surface_speed.is_some()),
-            "_ijk_absolute_mode" => truth(modes.absolute_centre),
+            "_ijk_absolute_mode" => truth(common.absolute_centre),
             "_lathe_diameter_mode" => truth(modes.diameter),
             "_lathe_radius_mode" => truth(!modes.diameter),
-            "_spindle_on" => truth(modes.direction.is_some()),
-            "_spindle_cw" => truth(modes.direction == Some(SpindleDirection::Clockwise)),
-            "_mist" => truth(modes.mist),
+            "_spindle_on" => truth(common.direction.is_some()),
+            "_spindle_cw" => truth(common.direction == Some(SpindleDirection::Clockwise)),
+            "_mist" => truth(common.mist),
             "_flood" => truth(modes.flood),
             "_speed_override" | "_feed_override" => 1.0,
             "_adaptive_feed" | "_feed_hold" | "_task" | "_remap_level" => 0.0,
-            "_feed" if modes.feed_mode == FeedMode::InverseTime => modes.feed,
-            "_feed" => modes.feed / modes.unit(),
-            "_rpm" => modes.speed,
+            "_feed" if common.feed.mode == FeedMode::InverseTime => modes.feed(),
+            "_feed" => modes.feed() / modes.unit(),
+            "_rpm" => common.speed,
             "_x" => self.place_in_unit(0),
             "_y" => self.place_in_unit(1),
             "_z" => self.place_in_unit(2),

@@ -1,13 +1,15 @@
 //! Codes that change what is in force: feed, speed, tool, spindle, coolant, units, planes, distances.
 
-use styluscam_motion::{EventKind, Plane, SpindleDirection};
+use styluscam_motion::EventKind;
 
 use super::block::Block;
 use super::codes;
 use super::fault::TraceFault;
-use super::modes::{FeedMode, Modes};
+use super::modes::Modes;
 use super::note::Gap;
 use super::tracer::Tracer;
+use crate::block::{m_code, Code};
+use crate::machine::FeedMode;
 
 /// s: more than a month is no wait.
 const LONGEST_WAIT: f64 = 3e6;
@@ -17,27 +19,20 @@ impl Tracer<'_> {
         if block.turns() {
             self.note(Gap::OtherAxes);
         }
-        for code in block.g.iter().filter(|code| !codes::known_g(**code)) {
+        for code in block.g.iter().filter(|code| codes::known_g(**code).is_none()) {
             self.note(Gap::Code { code: codes::name_g(*code) });
         }
-        for code in block.m.iter().filter(|code| !codes::known_m(**code)) {
+        for code in block.m.iter().filter(|code| !codes::knows_m(**code)) {
             self.note(Gap::Code { code: format!("M{code}") });
         }
     }
 
     pub(super) fn set_feed(&mut self, block: &Block) {
-        let mode = match block.any_g(&[930, 940, 950]) {
-            Some(930) => FeedMode::InverseTime,
-            Some(950) => FeedMode::PerRevolution,
-            Some(_) => FeedMode::PerMinute,
-            None => self.modes.feed_mode,
-        };
-        if mode != self.modes.feed_mode {
-            self.modes.feed_mode = mode;
-            self.modes.feed = 0.0;
-        }
+        let mode = block.codes().filter(|code| matches!(code, Code::FeedMode(_))).last();
+        mode.into_iter().for_each(|mode| self.modes.common.take(mode));
         if let Some(feed) = block.word(b'f') {
-            self.modes.feed = if mode == FeedMode::InverseTime { feed } else { feed * self.modes.unit() };
+            let unit = if self.modes.common.feed.mode == FeedMode::InverseTime { 1.0 } else { self.modes.unit() };
+            self.modes.common.feed.value = Some(feed * unit);
         }
     }
 
@@ -50,7 +45,7 @@ impl Tracer<'_> {
             self.modes.surface_speed = None;
         }
         if let Some(speed) = block.word(b's').filter(|_| block.first_spindle()) {
-            self.modes.speed = speed.abs();
+            self.modes.common.speed = speed.abs();
         }
     }
 
@@ -81,15 +76,11 @@ impl Tracer<'_> {
 
     pub(super) fn turn_spindle(&mut self, block: &Block) -> Result<(), TraceFault> {
         for code in block.m.iter().filter(|_| block.first_spindle()) {
-            self.modes.direction = match code {
-                3 => Some(SpindleDirection::Clockwise),
-                4 => Some(SpindleDirection::Counterclockwise),
-                5 => None,
-                _ => continue,
-            };
+            let Some(Code::Spindle(direction)) = m_code(*code) else { continue };
+            self.modes.common.direction = direction;
             let rpm = self.modes.revolutions();
             let turned = |direction| EventKind::SpindleOn { rpm, direction };
-            self.path.event(self.modes.direction.map_or(EventKind::SpindleOff, turned))?;
+            self.path.event(direction.map_or(EventKind::SpindleOff, turned))?;
         }
         Ok(())
     }
@@ -127,12 +118,12 @@ impl Tracer<'_> {
         for code in &block.m {
             match code {
                 7 => {
-                    self.modes.mist = true;
+                    self.modes.common.mist = true;
                     self.path.event(EventKind::Mist { on: true })?;
                 }
                 8 | 9 => {
                     self.modes.flood = *code == 8;
-                    self.modes.mist &= *code == 8;
+                    self.modes.common.mist &= *code == 8;
                     self.path.event(EventKind::Flood { on: *code == 8 })?;
                 }
                 _ => {}
@@ -157,21 +148,19 @@ impl Tracer<'_> {
     }
 
     pub(super) fn set_modes(&mut self, block: &Block) {
-        for code in &block.g {
-            match code {
-                70 => self.modes.diameter = true,
-                80 => self.modes.diameter = false,
-                170 => self.modes.plane = Plane::Xy,
-                180 => self.modes.plane = Plane::Zx,
-                190 => self.modes.plane = Plane::Yz,
-                200 | 210 => {
-                    self.modes.inch = *code == 200;
-                    self.unit_said = true;
+        for tenths in &block.g {
+            match (*tenths, codes::known_g(*tenths)) {
+                (70 | 80, _) => self.modes.diameter = *tenths == 70,
+                (_, Some(code @ Code::Plane(_))) => self.modes.common.take(code),
+                (_, Some(code @ Code::Unit(_))) => {
+                    self.modes.common.take(code);
+                    self.unit_stated = true;
                 }
-                400 => self.modes.compensation = 400,
-                410 | 411 | 420 | 421 => {
-                    self.modes.compensation = *code;
-                    self.note(Gap::Compensation);
+                (_, Some(Code::Compensation(on))) => {
+                    self.modes.compensation = *tenths;
+                    if on {
+                        self.note(Gap::Compensation);
+                    }
                 }
                 _ => {}
             }
@@ -179,16 +168,8 @@ impl Tracer<'_> {
     }
 
     pub(super) fn set_distance_modes(&mut self, block: &Block) {
-        for code in &block.g {
-            match code {
-                900 => self.modes.incremental = false,
-                910 => self.modes.incremental = true,
-                901 => self.modes.absolute_centre = true,
-                911 => self.modes.absolute_centre = false,
-                980 => self.modes.back_to_begin = true,
-                990 => self.modes.back_to_begin = false,
-                _ => {}
-            }
-        }
+        let distance =
+            |code: &Code| matches!(code, Code::Incremental(_) | Code::AbsoluteCentre(_) | Code::LowReturn(_));
+        block.codes().filter(distance).for_each(|code| self.modes.common.take(code));
     }
 }

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::fault::TraceFault;
+use crate::block::Comments;
 
 /// A file: the program, or one that a subroutine was called from.
 #[derive(Debug)]
@@ -172,21 +173,17 @@ fn read_line(text: &str) -> Line {
 /// The code in lower case without blanks, and the comments as they are.
 fn without_comments(text: &str) -> Result<(String, Vec<String>), TraceFault> {
     let (mut code, mut comments) = (String::new(), Vec::new());
-    let mut rest = text.chars();
-    while let Some(character) = rest.next() {
-        match character {
-            ';' => {
-                comments.push(rest.as_str().trim().to_string());
-                break;
-            }
-            '(' => {
-                let (comment, after) = rest.as_str().split_once(')').ok_or(TraceFault::UnclosedComment)?;
-                comments.push(comment.trim().to_string());
-                rest = after.chars();
-            }
-            // tabs, carriage returns, and the marks and filling bytes that editors and punched tapes leave
-            _ if character.is_whitespace() || matches!(character, '\u{feff}' | '\0') => {}
-            _ => code.push(character.to_ascii_lowercase()),
+    let mut at = 0;
+    while let Some(character) = text.get(at..).and_then(|rest| rest.chars().next()) {
+        if let Some((comment, end)) = Comments::NGC.at(text, at, false).map_err(|_| TraceFault::UnclosedComment)? {
+            comments.push(comment.to_string());
+            at = end;
+            continue;
+        }
+        at += character.len_utf8();
+        // tabs, carriage returns, and the marks and filling bytes that editors and punched tapes leave
+        if !character.is_whitespace() && !matches!(character, '\u{feff}' | '\0') {
+            code.push(character.to_ascii_lowercase());
         }
     }
     Ok((code, comments))

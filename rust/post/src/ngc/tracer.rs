@@ -42,7 +42,7 @@ pub(super) struct Tracer<'f> {
     /// Where the tip stands, in the program's coordinates, mm.
     pub(super) place: [f64; 3],
     /// Whether G20 or G21 came, or it was noted that none did.
-    pub(super) unit_said: bool,
+    pub(super) unit_stated: bool,
     /// Which axes have been placed.
     pub(super) placed: [bool; 3],
     /// T.
@@ -89,7 +89,7 @@ impl<'f> Tracer<'f> {
             modes: Modes::default(),
             offsets: Offsets::default(),
             place: [0.0; 3],
-            unit_said: false,
+            unit_stated: false,
             placed: [false; 3],
             selected: None,
             loaded: 0,
@@ -215,7 +215,7 @@ impl<'f> Tracer<'f> {
     }
 
     fn move_axes(&mut self, block: &Block) -> Result<Next, TraceFault> {
-        if block.axes().iter().any(Option::is_some) && !std::mem::replace(&mut self.unit_said, true) {
+        if block.axes().iter().any(Option::is_some) && !std::mem::replace(&mut self.unit_stated, true) {
             self.note(Gap::Unit);
         }
         let mut users = block.g.iter().filter(|code| codes::takes_axes(**code));
@@ -231,7 +231,7 @@ impl<'f> Tracer<'f> {
             Some(code) if codes::moves(code) => self.motion(block, code),
             Some(code) => self.place_offsets(block, code).map(|()| Next::Line),
             None if self.unknown_motion(block) => Ok(Next::Line),
-            None if block.m.iter().any(|code| !codes::known_m(*code)) => Ok(Next::Line),
+            None if block.m.iter().any(|code| !codes::knows_m(*code)) => Ok(Next::Line),
             None if self.goes_on(block) => self.motion(block, self.modes.motion),
             None => Ok(Next::Line),
         }
@@ -239,7 +239,7 @@ impl<'f> Tracer<'f> {
 
     /// A code that is not known takes the axis words, of this block and of those that go on with it.
     fn unknown_motion(&mut self, block: &Block) -> bool {
-        let unknown = block.g.iter().copied().find(|code| !codes::known_g(*code));
+        let unknown = block.g.iter().copied().find(|code| codes::known_g(*code).is_none());
         self.modes.motion = unknown.unwrap_or(self.modes.motion);
         unknown.is_some()
     }

@@ -1,39 +1,12 @@
 //! One block of G-code: its words sorted into what they ask for, each modal group at most once.
 
-use styluscam_motion::Plane;
+use styluscam_motion::{Plane, SpindleDirection};
 
 use super::codes::{Codes, Meaning};
-use super::lexer::Word;
+use super::lexer::{Word, TURN};
+use crate::block::{g_code, m_code, Code, Length, Motion, Number, Stop};
 use crate::machine::{FeedMode, LengthUnit};
 use crate::read_error::ReadFault;
-
-/// What G0, G1, G2, G3 or G80 ask for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Motion {
-    Rapid,
-    Feed,
-    /// Clockwise or not.
-    Arc(bool),
-    /// G73 to G89, by its number.
-    Cycle(u16),
-    Cancel,
-}
-
-/// What M3, M4 or M5 ask for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Spindle {
-    Clockwise,
-    Counterclockwise,
-    Off,
-}
-
-/// What M0, M1, M2 or M30 ask for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Stop {
-    Pause,
-    OptionalPause,
-    End,
-}
 
 /// The words of one block.
 #[derive(Debug, Default)]
@@ -77,7 +50,7 @@ pub(crate) struct Block {
     pub(crate) machine_coordinates: Option<Word>,
     pub(crate) smoothing: Option<Word>,
     pub(crate) change: Option<Word>,
-    pub(crate) spindle: Option<(Spindle, Word)>,
+    pub(crate) spindle: Option<(Option<SpindleDirection>, Word)>,
     pub(crate) mist: Option<Word>,
     pub(crate) flood: Option<Word>,
     pub(crate) coolant_off: Option<Word>,
@@ -92,19 +65,9 @@ pub(crate) struct Block {
 impl Block {
     /// Sorts one word in, by a machine's codes and then by those that all share.
     pub(crate) fn take(&mut self, word: Word, codes: &Codes, radius_word: u8) -> Result<(), ReadFault> {
-        let group = ReadFault::SameGroup;
         match codes.meaning(word) {
-            Some(Meaning::Units(units)) => return once(&mut self.units, units, group),
-            Some(Meaning::Feed(mode)) => return once(&mut self.feed_mode, (mode, word), group),
-            Some(Meaning::Length(on)) => return once(&mut self.length, (on, word), group),
-            Some(Meaning::Wcs) => return once(&mut self.wcs, word, group),
-            Some(Meaning::Probe(must)) => return once(&mut self.probe, (must, word), group),
-            Some(Meaning::Stop(optional)) => {
-                let stop = if optional { Stop::OptionalPause } else { Stop::Pause };
-                return once(&mut self.stop, (stop, word), group);
-            }
-            Some(Meaning::Home) => return once(&mut self.home, word, group),
-            Some(Meaning::Passed) => return once(&mut self.passed, word, group),
+            Some(Meaning::Code(code)) => return self.take_code(code, word, ReadFault::SameGroup),
+            Some(Meaning::Passed) => return once(&mut self.passed, word, ReadFault::SameGroup),
             Some(Meaning::Refused) | None => {}
         }
         if word.letter == radius_word {
@@ -117,13 +80,13 @@ impl Block {
             b'Y' => y,
             b'Z' => z,
             b'F' => &mut self.feed,
-            b'G' => return self.take_g(word),
+            b'G' => return self.take_code(shared_g(word.number)?, word, ReadFault::SameGroup),
             b'M' => return self.take_m(word),
             b'S' => &mut self.speed,
             b'T' => &mut self.tool,
             b'H' => &mut self.h,
             b'D' => &mut self.d,
-            super::lexer::TURN => &mut self.turns,
+            TURN => &mut self.turns,
             b'P' => &mut self.p,
             b'Q' => &mut self.q,
             b'N' => &mut self.line_number,
@@ -136,61 +99,48 @@ impl Block {
         once(slot, word, ReadFault::WordTwice)
     }
 
-    fn take_g(&mut self, word: Word) -> Result<(), ReadFault> {
-        let group = ReadFault::SameGroup;
-        match word.number.tenths().ok_or(ReadFault::UnknownCode)? {
-            0 => once(&mut self.motion, (Motion::Rapid, word), group),
-            10 => once(&mut self.motion, (Motion::Feed, word), group),
-            800 => once(&mut self.motion, (Motion::Cancel, word), group),
-            20 => once(&mut self.motion, (Motion::Arc(true), word), group),
-            30 => once(&mut self.motion, (Motion::Arc(false), word), group),
-            40 => once(&mut self.dwell, word, group),
-            170 => once(&mut self.plane, (Plane::Xy, word), group),
-            180 => once(&mut self.plane, (Plane::Zx, word), group),
-            190 => once(&mut self.plane, (Plane::Yz, word), group),
-            400 => once(&mut self.compensation, word, group),
-            410 | 411 | 420 | 421 => Err(ReadFault::NotRead { what: "radius compensations" }),
-            430 => once(&mut self.length, (true, word), group),
-            490 => once(&mut self.length, (false, word), group),
-            431 | 432 => Err(ReadFault::NotRead { what: "length offsets other than G43 H" }),
-            530 => once(&mut self.machine_coordinates, word, group),
-            540 | 550 | 560 | 570 | 580 | 590..=593 => Err(ReadFault::Wcs),
-            980 => once(&mut self.low_return, false, group),
-            990 => once(&mut self.low_return, true, group),
-            610 | 611 | 640 => once(&mut self.smoothing, word, group),
-            900 => once(&mut self.incremental, false, group),
-            910 => once(&mut self.incremental, true, group),
-            901 => once(&mut self.absolute_centre, true, group),
-            911 => once(&mut self.absolute_centre, false, group),
-            930 | 940 | 950 => Err(ReadFault::NotRead { what: "feeds other than those of the machine's file" }),
-            380..=389 => Err(ReadFault::NotRead { what: "probing moves other than those of the machine's file" }),
-            code @ (730 | 740 | 810 | 820 | 830 | 840 | 850 | 860 | 890) => {
-                let number = u16::try_from(code / 10).unwrap_or_default();
-                once(&mut self.motion, (Motion::Cycle(number), word), group)
-            }
-            760 | 870 | 880 => Err(ReadFault::NotRead { what: "cycles of this kind" }),
-            280 | 300 => Err(ReadFault::NotRead { what: "returns to stored points" }),
-            100 | 520 | 920..=923 => Err(ReadFault::NotRead { what: "shifts of the zero point" }),
-            _ => Err(ReadFault::UnknownCode),
+    fn take_m(&mut self, word: Word) -> Result<(), ReadFault> {
+        let code = word.number.natural().and_then(m_code).ok_or(ReadFault::UnknownCode)?;
+        let both = match code {
+            Code::Mist | Code::Flood => self.coolant_off.is_some(),
+            Code::CoolantOff => self.mist.is_some() || self.flood.is_some(),
+            Code::Subroutine => return Err(ReadFault::NotRead { what: "subroutines" }),
+            _ => false,
+        };
+        if both {
+            return Err(ReadFault::SameGroup);
         }
+        self.take_code(code, word, ReadFault::SameGroup)
     }
 
-    fn take_m(&mut self, word: Word) -> Result<(), ReadFault> {
-        let group = ReadFault::SameGroup;
-        match word.number.natural().ok_or(ReadFault::UnknownCode)? {
-            0 => once(&mut self.stop, (Stop::Pause, word), group),
-            1 => once(&mut self.stop, (Stop::OptionalPause, word), group),
-            2 | 30 => once(&mut self.stop, (Stop::End, word), group),
-            3 => once(&mut self.spindle, (Spindle::Clockwise, word), group),
-            4 => once(&mut self.spindle, (Spindle::Counterclockwise, word), group),
-            5 => once(&mut self.spindle, (Spindle::Off, word), group),
-            6 => once(&mut self.change, word, group),
-            7 if self.coolant_off.is_none() => once(&mut self.mist, word, group),
-            8 if self.coolant_off.is_none() => once(&mut self.flood, word, group),
-            9 if self.mist.is_none() && self.flood.is_none() => once(&mut self.coolant_off, word, group),
-            7..=9 => Err(group),
-            98 | 99 => Err(ReadFault::NotRead { what: "subroutines" }),
-            _ => Err(ReadFault::UnknownCode),
+    /// Sorts in what a code asks for; `twice` is the fault of a second one of its modal group.
+    pub(crate) fn take_code(&mut self, code: Code, word: Word, twice: ReadFault) -> Result<(), ReadFault> {
+        match code {
+            Code::Motion(motion) => once(&mut self.motion, (motion, word), twice),
+            Code::Probe(must_touch) => once(&mut self.probe, (must_touch, word), twice),
+            Code::Dwell => once(&mut self.dwell, word, twice),
+            Code::Plane(plane) => once(&mut self.plane, (plane, word), twice),
+            Code::Unit(unit) => once(&mut self.units, unit, twice),
+            Code::Incremental(on) => once(&mut self.incremental, on, twice),
+            Code::AbsoluteCentre(on) => once(&mut self.absolute_centre, on, twice),
+            Code::FeedMode(mode) => once(&mut self.feed_mode, (mode, word), twice),
+            Code::LowReturn(on) => once(&mut self.low_return, on, twice),
+            Code::Compensation(_) => once(&mut self.compensation, word, twice),
+            Code::Length(length) => once(&mut self.length, (length == Length::Table, word), twice),
+            Code::MachineCoordinates => once(&mut self.machine_coordinates, word, twice),
+            Code::WorkOffset => once(&mut self.wcs, word, twice),
+            Code::PathMode => once(&mut self.smoothing, word, twice),
+            Code::Home => once(&mut self.home, word, twice),
+            Code::Stop(stop) => once(&mut self.stop, (stop, word), twice),
+            Code::Spindle(direction) => once(&mut self.spindle, (direction, word), twice),
+            Code::ToolChange => once(&mut self.change, word, twice),
+            Code::Mist => once(&mut self.mist, word, twice),
+            Code::Flood => once(&mut self.flood, word, twice),
+            Code::CoolantOff => once(&mut self.coolant_off, word, twice),
+            Code::OtherMotion | Code::BackBore | Code::SetHome | Code::Shift | Code::ShiftOff => {
+                Err(ReadFault::UnknownCode)
+            }
+            Code::Subroutine | Code::Other => Err(ReadFault::UnknownCode),
         }
     }
 
@@ -291,4 +241,22 @@ fn once<T>(slot: &mut Option<T>, value: T, fault: ReadFault) -> Result<(), ReadF
     }
     *slot = Some(value);
     Ok(())
+}
+
+/// A G code as all machines have it. Units, feeds, work offsets, probing and stored points are those of the machine's file.
+fn shared_g(number: Number) -> Result<Code, ReadFault> {
+    let not_read = |what| Err(ReadFault::NotRead { what });
+    let tenths = number.tenths().and_then(|tenths| u32::try_from(tenths).ok()).ok_or(ReadFault::UnknownCode)?;
+    match g_code(tenths) {
+        _ if (380..=389).contains(&tenths) => not_read("probing moves other than those of the machine's file"),
+        Some(Code::Compensation(true)) => not_read("radius compensations"),
+        Some(Code::Length(Length::Words | Length::Added)) => not_read("length offsets other than G43 H"),
+        Some(Code::FeedMode(_)) => not_read("feeds other than those of the machine's file"),
+        Some(Code::Motion(Motion::Cycle(76 | 88)) | Code::BackBore) => not_read("cycles of this kind"),
+        Some(Code::Home) => not_read("returns to stored points"),
+        Some(Code::Shift | Code::ShiftOff) => not_read("shifts of the zero point"),
+        Some(Code::WorkOffset) => Err(ReadFault::Wcs),
+        Some(Code::Unit(_)) | None => Err(ReadFault::UnknownCode),
+        Some(code) => Ok(code),
+    }
 }

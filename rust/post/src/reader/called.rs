@@ -2,7 +2,7 @@
 
 use styluscam_motion::CycleKind;
 
-use super::lexer::{cut_number, Number};
+use crate::block::{cut_number, Number};
 use crate::read_error::ReadFault;
 
 /// A cycle that was defined. Heights are those of the point that the text moves, mm.

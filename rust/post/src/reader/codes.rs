@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::lexer::{code, Word};
+use super::lexer::Word;
+use crate::block::{code, Code, Length, Stop};
 use crate::machine::{FeedMode, LengthUnit, Machine, MachineError};
 use crate::template::Templater;
 
@@ -12,17 +13,7 @@ pub(super) enum Meaning {
     Refused,
     /// It moves nothing; its block is handed on as it stands.
     Passed,
-    Units(LengthUnit),
-    Feed(FeedMode),
-    /// A tool's length is applied, or taken back.
-    Length(bool),
-    Wcs,
-    /// Whether the probe must touch.
-    Probe(bool),
-    /// The machine's own stored place.
-    Home,
-    /// Whether the operator's switch decides.
-    Stop(bool),
+    Code(Code),
 }
 
 /// A work offset's words: the code, the number's letter and ten times the number.
@@ -40,37 +31,33 @@ impl Codes {
     pub fn new(machine: &Machine) -> Result<Self, MachineError> {
         let words: Vec<WcsWords> = machine.wcs.iter().filter_map(|wcs| wcs_words(machine.wcs_words_of(wcs)?)).collect();
         let mut meanings = BTreeMap::new();
-        let mut say = |word: Option<&str>, meaning| {
+        let Machine { units, feed, tool, probe, reader, stop, .. } = machine;
+        let mut mean = |word: Option<&str>, meaning| {
             if let Some(code) = word.and_then(code) {
                 meanings.insert(code, meaning);
             }
         };
-        let Machine { units, feed, tool, probe, reader, .. } = machine;
-        say(units.mm.as_deref(), Meaning::Units(LengthUnit::Mm));
-        say(units.inch.as_deref(), Meaning::Units(LengthUnit::Inch));
-        say(feed.per_minute.as_deref(), Meaning::Feed(FeedMode::PerMinute));
-        say(feed.per_revolution.as_deref(), Meaning::Feed(FeedMode::PerRevolution));
-        say(feed.inverse_time.as_deref(), Meaning::Feed(FeedMode::InverseTime));
-        if let Some(length) = &tool.length {
-            say(Some(&length.code), Meaning::Length(true));
-            say(length.cancel.as_deref(), Meaning::Length(false));
+        let length = tool.length.as_ref();
+        for (word, code) in [
+            (units.mm.as_deref(), Code::Unit(LengthUnit::Mm)),
+            (units.inch.as_deref(), Code::Unit(LengthUnit::Inch)),
+            (feed.per_minute.as_deref(), Code::FeedMode(FeedMode::PerMinute)),
+            (feed.per_revolution.as_deref(), Code::FeedMode(FeedMode::PerRevolution)),
+            (feed.inverse_time.as_deref(), Code::FeedMode(FeedMode::InverseTime)),
+            (length.map(|length| length.code.as_str()), Code::Length(Length::Table)),
+            (length.and_then(|length| length.cancel.as_deref()), Code::Length(Length::Off)),
+            (probe.as_ref().map(|probe| probe.must_touch.as_str()), Code::Probe(true)),
+            (probe.as_ref().and_then(|probe| probe.may_touch.as_deref()), Code::Probe(false)),
+            (reader.home.map(|_| "G28"), Code::Home),
+        ] {
+            mean(word, Meaning::Code(code));
         }
-        if let Some(probe) = probe {
-            say(Some(&probe.must_touch), Meaning::Probe(true));
-            say(probe.may_touch.as_deref(), Meaning::Probe(false));
-        }
-        if reader.home.is_some() {
-            say(Some("G28"), Meaning::Home);
-        }
-        reader.passed.iter().for_each(|word| say(Some(word), Meaning::Passed));
-        say(machine.stop.always.as_deref(), Meaning::Stop(false));
-        say(machine.stop.optional.as_deref(), Meaning::Stop(true));
-        words.iter().for_each(|(code, _)| _ = meanings.insert(*code, Meaning::Wcs));
-        reader
-            .refused
-            .iter()
-            .filter_map(|word| code(word))
-            .for_each(|code| _ = meanings.insert(code, Meaning::Refused));
+        reader.passed.iter().for_each(|word| mean(Some(word), Meaning::Passed));
+        mean(stop.always.as_deref(), Meaning::Code(Code::Stop(Stop::Pause)));
+        mean(stop.optional.as_deref(), Meaning::Code(Code::Stop(Stop::OptionalPause)));
+        words.iter().for_each(|(code, _)| _ = meanings.insert(*code, Meaning::Code(Code::WorkOffset)));
+        let refused = reader.refused.iter().filter_map(|word| code(word));
+        refused.for_each(|code| _ = meanings.insert(code, Meaning::Refused));
         Ok(Self { meanings, wcs: words, smoothing: smoothing(machine)? })
     }
 

@@ -11,11 +11,11 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use styluscam_motion::{
-    Arc, Event, EventKind, MachineMove, Move, MoveKind, OperationRecord, Plane, Program, SetupRecord, SpindleDirection,
-    ToolRecord, ToolReference,
+    Arc, Event, EventKind, MachineMove, Move, MoveKind, OperationRecord, Plane, Program, SetupRecord, ToolRecord,
+    ToolReference,
 };
 
-use super::block::{Block, Motion};
+use super::block::Block;
 use super::called::Called;
 use super::circle::Circle;
 use super::codes::Codes;
@@ -23,7 +23,9 @@ use super::drilling::Series;
 use super::lexer::Word;
 use super::standing::Standing;
 use super::Reading;
-use crate::machine::{FeedMode, LengthUnit, Machine};
+use crate::block::arc::Ends;
+use crate::block::{Modes, Motion};
+use crate::machine::Machine;
 use crate::read_error::ReadFault;
 
 const AXES: [char; 3] = ['X', 'Y', 'Z'];
@@ -48,13 +50,11 @@ struct Axis {
 /// The controller's state.
 pub(crate) struct Interpreter<'m> {
     machine: &'m Machine,
-    units: Option<LengthUnit>,
-    incremental: bool,
+    modes: Modes,
     distance_said: bool,
     /// Codes that the first move relies on and that no block has said.
     unsaid: Vec<&'static str>,
     motion: Option<Motion>,
-    plane: Plane,
     /// Since which move another plane than G17 is in force and no arc has used it.
     stray_plane_since: Option<usize>,
     stray_planes: Vec<Range<usize>>,
@@ -63,18 +63,8 @@ pub(crate) struct Interpreter<'m> {
     blind: Vec<Range<usize>>,
     machine_moves: Vec<MachineMove>,
     stops: Vec<usize>,
-    absolute_centre: bool,
-    /// As written, for the mode in force.
-    feed: Option<f64>,
-    feed_mode: FeedMode,
-    /// rev/min.
-    speed: f64,
-    direction: Option<SpindleDirection>,
     /// Whether a stop has stopped the spindle, which turned, and nothing has started it since.
     halted: bool,
-    mist: bool,
-    /// Whether a cycle ends at its R, not where it came from.
-    low_return: bool,
     series: Option<Series>,
     /// The cycle that is called at places.
     called: Option<Called>,
@@ -108,26 +98,17 @@ impl<'m> Interpreter<'m> {
     pub(crate) fn new(machine: &'m Machine, tools: &[ToolRecord], typical_moves: usize) -> Self {
         Self {
             machine,
-            units: machine.reader.default_units,
-            incremental: false,
+            modes: Modes::new(machine.reader.default_units, false),
             distance_said: false,
             unsaid: Vec::new(),
             motion: None,
-            plane: Plane::Xy,
             stray_plane_since: None,
             stray_planes: Vec::new(),
             blind_since: Some(0),
             blind: Vec::new(),
             machine_moves: Vec::new(),
             stops: Vec::new(),
-            absolute_centre: false,
-            feed: None,
-            feed_mode: FeedMode::PerMinute,
-            speed: 0.0,
-            direction: None,
             halted: false,
-            mist: false,
-            low_return: false,
             series: None,
             called: None,
             selected: None,
@@ -183,7 +164,9 @@ impl<'m> Interpreter<'m> {
     /// Carries out a block, in the order in which controllers do; says whether it ended the program.
     pub(crate) fn run(&mut self, block: &Block, codes: &Codes, line: u32) -> Result<bool, Flaw> {
         self.set_units(block)?;
-        self.set_feed_mode(block);
+        if let Some((mode, _)) = block.feed_mode {
+            self.modes.feed.set_mode(mode);
+        }
         self.set_feed(block)?;
         self.set_tool(block)?;
         self.set_speed(block)?;
@@ -197,13 +180,13 @@ impl<'m> Interpreter<'m> {
         self.set_path(block)?;
         self.set_edge(block)?;
         self.set_wcs(block, codes)?;
-        self.incremental = block.incremental.unwrap_or(self.incremental);
+        self.modes.incremental = block.incremental.unwrap_or(self.modes.incremental);
         self.distance_said |= block.incremental.is_some();
         if let Some((plane, _)) = block.plane {
             self.set_plane(plane);
         }
-        self.absolute_centre = block.absolute_centre.unwrap_or(self.absolute_centre);
-        self.low_return = block.low_return.unwrap_or(self.low_return);
+        self.modes.absolute_centre = block.absolute_centre.unwrap_or(self.modes.absolute_centre);
+        self.modes.low_return = block.low_return.unwrap_or(self.modes.low_return);
         self.go(block, line)?;
         if late {
             self.stop_spindle(block);
@@ -258,7 +241,7 @@ impl<'m> Interpreter<'m> {
 
     fn set_plane(&mut self, plane: Plane) {
         self.close_stray_plane();
-        self.plane = plane;
+        self.modes.plane = plane;
         self.stray_plane_since = (plane != Plane::Xy).then_some(self.program.moves.len());
     }
 
@@ -354,16 +337,13 @@ impl<'m> Interpreter<'m> {
 
     fn arc(&self, block: &Block, start: [f64; 3], clockwise: bool, code: Word) -> Result<Arc, Flaw> {
         let Some(rules) = &self.machine.arc else { return Err((self.refusal(), Some(code))) };
-        let [first, second, _] = self.plane.axes();
+        let [first, second, _] = self.modes.plane.axes();
         if rules.needs_axis && [first, second].iter().all(|axis| block.axes.get(*axis).is_none_or(Option::is_none)) {
             return Err((ReadFault::ArcNeedsAxis, Some(code)));
         }
         let circle = Circle {
-            start,
-            end: self.tip(),
-            plane: self.plane,
-            clockwise,
-            absolute: self.absolute_centre,
+            ends: Ends { start, end: self.tip(), plane: self.modes.plane, clockwise },
+            absolute: self.modes.absolute_centre,
             height: self.height,
         };
         circle.arc(block, rules, code, |word| self.mm(word))

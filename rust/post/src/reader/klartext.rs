@@ -5,12 +5,13 @@
 
 use styluscam_motion::{Plane, ToolRecord};
 
-use super::block::{Block, Motion, Spindle, Stop};
+use super::block::Block;
 use super::called::{number, Called, Parameters};
 use super::codes::Codes;
 use super::interpreter::{Flaw, Interpreter};
-use super::lexer::{cut_number, Misfit, Number, Word};
+use super::lexer::Word;
 use super::{flaw_at, misfit_at, whole_line, whole_text, Reading};
+use crate::block::{cut_number, m_code, Code, Misfit, Motion, Number, Stop};
 use crate::machine::{LengthUnit, Machine};
 use crate::read_error::{ReadError, ReadFault};
 
@@ -340,24 +341,18 @@ fn take_common(block: &mut Block, token: &Token) -> Result<(), Misfit> {
 fn take_function(block: &mut Block, token: &Token) -> Result<(), Misfit> {
     let word = token.word("M", b'M')?;
     let number = word.number.natural().ok_or_else(|| token.misfit(ReadFault::UnknownCode))?;
+    let mut take = |number| {
+        let code = m_code(number).filter(|code| *code != Code::ToolChange).ok_or(ReadFault::UnknownCode);
+        code.and_then(|code| block.take_code(code, word, ReadFault::WordTwice)).map_err(|fault| token.misfit(fault))
+    };
     match number {
-        0 => once(&mut block.stop, (Stop::Pause, word), token),
-        1 => once(&mut block.stop, (Stop::OptionalPause, word), token),
-        2 | 30 => once(&mut block.stop, (Stop::End, word), token),
-        3 => once(&mut block.spindle, (Spindle::Clockwise, word), token),
-        4 => once(&mut block.spindle, (Spindle::Counterclockwise, word), token),
-        5 => once(&mut block.spindle, (Spindle::Off, word), token),
-        7 => once(&mut block.mist, word, token),
-        8 => once(&mut block.flood, word, token),
-        9 => once(&mut block.coolant_off, word, token),
         13 | 14 => {
-            let sense = if number == 13 { Spindle::Clockwise } else { Spindle::Counterclockwise };
-            once(&mut block.spindle, (sense, word), token)?;
-            once(&mut block.flood, word, token)
+            take(number - 10)?;
+            take(8)
         }
         91 => once(&mut block.machine_coordinates, word, token),
         99 => once(&mut block.call, word, token),
-        _ => Err(token.misfit(ReadFault::UnknownCode)),
+        _ => take(number),
     }
 }
 

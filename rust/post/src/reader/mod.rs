@@ -15,6 +15,7 @@ use std::ops::Range;
 
 use styluscam_motion::{EventKind, MachineMove, Program, ToolRecord};
 
+use crate::block::{Comments, Misfit, Number};
 use crate::machine::{AfterEnd, BlockDelete, Family, Machine, Turns};
 use crate::read_error::{ReadError, ReadFault};
 use crate::writer::counted_length;
@@ -23,8 +24,7 @@ use called::{Arguments, Called};
 use codes::{Codes, Meaning};
 pub(crate) use interpreter::bare_tool;
 use interpreter::{Flaw, Interpreter};
-pub(crate) use lexer::code;
-use lexer::{Call, Line, Misfit, Number, Remarks, Word};
+use lexer::{Call, Line, Word};
 
 /// A program read from text.
 #[derive(Clone, Debug, PartialEq)]
@@ -150,7 +150,7 @@ enum Stage {
 struct Reader<'t> {
     machine: &'t Machine,
     codes: Codes,
-    remarks: Remarks,
+    comments: Comments,
     radius_word: u8,
     dwell_word: char,
     line: Line<'t>,
@@ -171,7 +171,7 @@ impl<'t> Reader<'t> {
         Ok(Self {
             machine,
             codes: Codes::new(machine)?,
-            remarks: Remarks::of(machine),
+            comments: Comments::of(machine),
             radius_word: radius_word.bytes().next().unwrap_or(NO_RADIUS),
             dwell_word: machine.dwell.as_ref().map_or('P', |d| d.word),
             line: Line::default(),
@@ -284,8 +284,8 @@ impl<'t> Reader<'t> {
 
     fn cut(&mut self, text: &'t str) -> Result<(), Misfit> {
         match self.machine.family {
-            Family::Siemens => self.line.cut_siemens(text, self.remarks),
-            _ => self.line.cut(text, self.remarks),
+            Family::Siemens => self.line.cut_siemens(text, self.comments),
+            _ => self.line.cut(text, self.comments),
         }
     }
 

@@ -1,12 +1,13 @@
 //! Sinumerik's lines cut into words: addresses of several letters become the words that mean the same elsewhere.
 
-use super::lexer::{cut_number, Call, Line, Misfit, Number, Remarks, Word, TURN};
+use super::lexer::{Call, Line, Word, TURN};
+use crate::block::{cut_number, Comments, Misfit, Number};
 use crate::read_error::ReadFault;
 
 impl<'t> Line<'t> {
     /// Cuts `text`, one line without its end mark (programming manual Fundamentals, "Structure of an NC program").
-    pub(super) fn cut_siemens(&mut self, text: &'t str, remarks: Remarks) -> Result<(), Misfit> {
-        self.cut_by(text, remarks, Self::cut_address)
+    pub(super) fn cut_siemens(&mut self, text: &'t str, taken: Comments) -> Result<(), Misfit> {
+        self.cut_by(text, taken, Self::cut_address)
     }
 
     fn cut_address(&mut self, text: &'t str, start: usize) -> Result<usize, Misfit> {

@@ -3,14 +3,15 @@
 use styluscam_motion::{EventKind, MachineMove};
 
 use super::{Flaw, Interpreter, AXES, Z};
+use crate::block::Motion;
 use crate::read_error::ReadFault;
-use crate::reader::block::{Block, Motion};
+use crate::reader::block::Block;
 use crate::reader::lexer::Word;
 
 impl Interpreter<'_> {
     /// A way until the probe touches: where it ends is not known.
     pub(super) fn probe(&mut self, block: &Block, must_touch: bool, code: Word) -> Result<(), Flaw> {
-        if self.incremental {
+        if self.modes.incremental {
             return Err((ReadFault::NotRead { what: "probing moves with G91" }, Some(code)));
         }
         self.load_only_tool(code)?;
@@ -33,7 +34,7 @@ impl Interpreter<'_> {
     /// G28 by way of where the axis stands: `G91 G28 Z0`. Over any other place it may cut through the work.
     pub(super) fn go_home(&mut self, block: &Block, code: Word, line: u32) -> Result<(), Flaw> {
         let home = self.machine.reader.home.unwrap_or_default();
-        let straight = self.incremental && block.axes.iter().flatten().all(|word| word.number.value() == 0.0);
+        let straight = self.modes.incremental && block.axes.iter().flatten().all(|word| word.number.value() == 0.0);
         if !straight || block.any_axis().is_none() {
             return Err((ReadFault::HomeByWay, Some(code)));
         }
@@ -46,7 +47,7 @@ impl Interpreter<'_> {
     /// A move in the machine's own coordinates ends at a place that the work's zero says nothing about.
     pub(super) fn go_to_machine_place(&mut self, block: &Block, code: Word, line: u32) -> Result<(), Flaw> {
         let moves = matches!(self.motion, Some(Motion::Rapid | Motion::Feed));
-        if !moves || self.incremental {
+        if !moves || self.modes.incremental {
             return Err((ReadFault::MachineCoordinates, Some(code)));
         }
         if block.any_axis().is_none() {

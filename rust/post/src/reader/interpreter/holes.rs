@@ -3,9 +3,10 @@
 use styluscam_motion::{Cycle, CycleKind, CycleStart, CycleStep, MoveKind, Plane};
 
 use super::{Flaw, Interpreter, Z};
+use crate::block::Motion;
 use crate::machine::CycleRules;
 use crate::read_error::ReadFault;
-use crate::reader::block::{Block, Motion};
+use crate::reader::block::Block;
 use crate::reader::called::{Called, Pace};
 use crate::reader::drilling::Series;
 use crate::reader::lexer::Word;
@@ -17,10 +18,10 @@ impl Interpreter<'_> {
         let [x, y, z] = block.axes;
         let Some(first) = x.or(y).or(z).or(said) else { return Ok(()) };
         let Some(rules) = &self.machine.cycle else { return Err((self.refusal(), Some(first))) };
-        if self.incremental {
+        if self.modes.incremental {
             return Err((ReadFault::NotRead { what: "canned cycles with G91" }, Some(first)));
         }
-        if self.plane != Plane::Xy {
+        if self.modes.plane != Plane::Xy {
             return Err((ReadFault::NotRead { what: "canned cycles outside G17" }, Some(first)));
         }
         self.load_only_tool(first)?;
@@ -36,7 +37,8 @@ impl Interpreter<'_> {
         self.require_places(first)?;
         let feed = self.feed_of(block, 1.0, first)?;
         let [x, y, _] = self.axes;
-        let cycle = series.hole([x.place, y.place], feed, self.low_return).map_err(|fault| (fault, Some(first)))?;
+        let cycle =
+            series.hole([x.place, y.place], feed, self.modes.low_return).map_err(|fault| (fault, Some(first)))?;
         if !rules.kinds.contains(&cycle.kind) {
             return Err((self.refusal(), said.or(Some(first))));
         }
@@ -67,7 +69,7 @@ impl Interpreter<'_> {
         let called = called.ok_or(flaw(ReadFault::MissingWord { what: "the cycle to call" }))?;
         let [x, y, z] = block.axes;
         let elsewhere = block.machine_coordinates.or(block.home).or(block.probe.map(|(_, word)| word));
-        let across = z.is_none() && elsewhere.is_none() && !self.incremental && self.plane == Plane::Xy;
+        let across = z.is_none() && elsewhere.is_none() && !self.modes.incremental && self.modes.plane == Plane::Xy;
         let rapid = self.motion == Some(Motion::Rapid) || x.or(y).is_none();
         if !across || !rapid {
             return Err(flaw(ReadFault::NotRead { what: "cycles called by other moves than rapids across" }));
@@ -96,13 +98,15 @@ impl Interpreter<'_> {
     fn hole_of(&self, called: &Called, block: &Block, word: Word) -> Result<Cycle, Flaw> {
         let feed = match called.pace {
             Pace::Standing => self.feed_of(block, 1.0, word)?,
-            Pace::Feed(number) => self.mm(Word { number, ..word })? / self.machine.feed_scale_of(self.units),
+            Pace::Feed(number) => self.mm(Word { number, ..word })? / self.machine.feed_scale_of(self.modes.unit),
             Pace::Pitch(pitch, speed) => {
-                let turns = self.direction.is_some() && self.speed > 0.0 && speed.is_none_or(|s| s == self.speed);
+                let turns = self.modes.direction.is_some()
+                    && self.modes.speed > 0.0
+                    && speed.is_none_or(|s| s == self.modes.speed);
                 if !turns {
                     return Err((ReadFault::NoRevolutions, Some(word)));
                 }
-                pitch * self.speed
+                pitch * self.modes.speed
             }
         };
         let (retract, bottom, leave) =
@@ -143,7 +147,7 @@ impl Interpreter<'_> {
         if self.halted {
             return Err(ReadFault::Halted);
         }
-        let spindle = self.direction.map(|direction| (self.speed, direction));
+        let spindle = self.modes.direction.map(|direction| (self.modes.speed, direction));
         let steps = cycle.steps(&CycleStart { place: start, spindle }).ok_or(ReadFault::TooManyPecks)?;
         cycle.first = self.program.moves.len();
         for step in steps {

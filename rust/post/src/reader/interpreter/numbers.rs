@@ -1,29 +1,30 @@
 //! Units, numbers and feeds.
 
 use super::{Flaw, Interpreter};
+use crate::block::{FeedFault, Motion};
 use crate::machine::{FeedMode, LengthUnit, Point, TimeUnit};
 use crate::read_error::ReadFault;
-use crate::reader::block::{Block, Motion};
+use crate::reader::block::Block;
 use crate::reader::lexer::Word;
 
 impl Interpreter<'_> {
     pub(super) fn set_units(&mut self, block: &Block) -> Result<(), Flaw> {
         let Some(units) = block.units else { return Ok(()) };
-        let changes = self.units.is_some_and(|u| u != units);
+        let changes = self.modes.unit.is_some_and(|u| u != units);
         if changes && block.feed.is_some() {
             return Err((ReadFault::FeedWithUnits, block.feed));
         }
-        self.units = Some(units);
+        self.modes.unit = Some(units);
         Ok(())
     }
 
     /// The unit in force, mm.
     pub(crate) fn unit_mm(&self) -> Option<f64> {
-        self.units.map(LengthUnit::in_mm)
+        self.modes.unit.map(LengthUnit::in_mm)
     }
 
     pub(super) fn mm(&self, word: Word) -> Result<f64, Flaw> {
-        let units = self.units.ok_or((ReadFault::NoUnits, Some(word)))?;
+        let units = self.modes.unit.ok_or((ReadFault::NoUnits, Some(word)))?;
         Ok(self.real(word)? * units.in_mm())
     }
 
@@ -49,41 +50,34 @@ impl Interpreter<'_> {
 
     pub(super) fn set_feed(&mut self, block: &Block) -> Result<(), Flaw> {
         let Some(word) = block.feed else { return Ok(()) };
-        let feed = match self.feed_mode {
+        let feed = match self.modes.feed.mode {
             FeedMode::InverseTime => self.real(word)?,
-            _ => self.mm(word)? / self.machine.feed_scale_of(self.units),
+            _ => self.mm(word)? / self.machine.feed_scale_of(self.modes.unit),
         };
         let motion = block.motion.map(|(motion, _)| motion).or(self.motion);
         let rapid = motion == Some(Motion::Rapid) && block.probe.is_none();
         if self.loose && (rapid || feed <= 0.0) {
-            self.feed = self.feed.filter(|_| rapid); // a feed of 0 is none, not the one before
+            self.modes.feed.value = self.modes.feed.value.filter(|_| rapid); // a feed of 0 is none, not the one before
             return Ok(());
         }
         if feed <= 0.0 {
             return Err((ReadFault::ZeroFeed, Some(word)));
         }
-        self.feed = Some(feed);
+        self.modes.feed.value = Some(feed);
         Ok(())
     }
 
-    /// A feed of one mode means nothing in another.
-    pub(super) fn set_feed_mode(&mut self, block: &Block) {
-        let Some((mode, _)) = block.feed_mode else { return };
-        if mode != self.feed_mode {
-            self.feed = None;
-        }
-        self.feed_mode = mode;
-    }
-
-    /// The feed of a block whose way is so long, mm/min.
+    /// The feed of a block whose path is so long, mm/min.
     pub(super) fn feed_of(&self, block: &Block, length: f64, word: Word) -> Result<f64, Flaw> {
-        let feed = self.feed.ok_or((ReadFault::NoFeed, Some(word)))?;
-        match self.feed_mode {
-            FeedMode::PerMinute => Ok(feed),
-            FeedMode::PerRevolution if self.direction.is_some() && self.speed > 0.0 => Ok(feed * self.speed),
-            FeedMode::PerRevolution => Err((ReadFault::NoRevolutions, Some(word))),
-            FeedMode::InverseTime if block.feed.is_some() => Ok(feed * length),
-            FeedMode::InverseTime => Err((ReadFault::NoFeed, Some(word))),
+        let modes = &self.modes;
+        if modes.feed.mode == FeedMode::InverseTime && block.feed.is_none() {
+            return Err((ReadFault::NoFeed, Some(word)));
         }
+        let revolutions = modes.direction.map(|_| modes.speed).filter(|speed| *speed > 0.0);
+        let fault = |fault| match fault {
+            FeedFault::NoFeed => (ReadFault::NoFeed, Some(word)),
+            FeedFault::NoRevolutions => (ReadFault::NoRevolutions, Some(word)),
+        };
+        modes.feed.per_minute(length, revolutions).map_err(fault)
     }
 }

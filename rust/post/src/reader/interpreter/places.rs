@@ -27,10 +27,10 @@ impl Interpreter<'_> {
             let Some(word) = *word else { continue };
             let value = self.mm(word)? / self.scale(index);
             let axis = self.axes.get(index).copied().unwrap_or_default();
-            if self.incremental && !axis.known {
+            if self.modes.incremental && !axis.known {
                 return Err((ReadFault::IncrementalFromUnknown, Some(word)));
             }
-            self.place(index, if self.incremental { axis.place + value } else { value });
+            self.place(index, if self.modes.incremental { axis.place + value } else { value });
         }
         Ok(())
     }

@@ -1,11 +1,12 @@
 //! Spindle, coolant, waits and stops.
 
-use styluscam_motion::{EventKind, SpindleDirection};
+use styluscam_motion::EventKind;
 
 use super::{Flaw, Interpreter};
+use crate::block::Stop;
 use crate::machine::SpeedUnit;
 use crate::read_error::ReadFault;
-use crate::reader::block::{Block, Spindle, Stop};
+use crate::reader::block::Block;
 
 impl Interpreter<'_> {
     pub(super) fn set_speed(&mut self, block: &Block) -> Result<(), Flaw> {
@@ -17,8 +18,8 @@ impl Interpreter<'_> {
         if rpm < 0.0 {
             return Err((ReadFault::Negative, Some(word)));
         }
-        self.speed = rpm;
-        if let (Some(direction), None) = (self.direction, block.spindle) {
+        self.modes.speed = rpm;
+        if let (Some(direction), None) = (self.modes.direction, block.spindle) {
             self.event(EventKind::SpindleOn { rpm, direction });
         }
         Ok(())
@@ -27,19 +28,18 @@ impl Interpreter<'_> {
     /// Starts, and stops where those come first.
     pub(super) fn set_spindle(&mut self, block: &Block, stops: bool) {
         let direction = match block.spindle {
-            Some((Spindle::Clockwise, _)) => SpindleDirection::Clockwise,
-            Some((Spindle::Counterclockwise, _)) => SpindleDirection::Counterclockwise,
-            Some((Spindle::Off, _)) if stops => return self.stop_spindle(block),
+            Some((Some(direction), _)) => direction,
+            Some((None, _)) if stops => return self.stop_spindle(block),
             _ => return,
         };
-        self.direction = Some(direction);
+        self.modes.direction = Some(direction);
         self.halted = false;
-        self.event(EventKind::SpindleOn { rpm: self.speed, direction });
+        self.event(EventKind::SpindleOn { rpm: self.modes.speed, direction });
     }
 
     pub(super) fn stop_spindle(&mut self, block: &Block) {
-        if matches!(block.spindle, Some((Spindle::Off, _))) {
-            self.direction = None;
+        if matches!(block.spindle, Some((None, _))) {
+            self.modes.direction = None;
             self.halted = false;
             self.event(EventKind::SpindleOff);
         }
@@ -48,7 +48,7 @@ impl Interpreter<'_> {
     /// Mist and flood on, and both off where that comes first.
     pub(super) fn set_coolant(&mut self, block: &Block, stops: bool) {
         if block.mist.is_some() {
-            self.mist = true;
+            self.modes.mist = true;
             self.event(EventKind::Mist { on: true });
         }
         if block.flood.is_some() {
@@ -61,7 +61,7 @@ impl Interpreter<'_> {
 
     pub(super) fn stop_coolant(&mut self, block: &Block) {
         if block.coolant_off.is_some() {
-            if std::mem::take(&mut self.mist) {
+            if std::mem::take(&mut self.modes.mist) {
                 self.event(EventKind::Mist { on: false });
             }
             self.event(EventKind::Flood { on: false });
@@ -87,7 +87,7 @@ impl Interpreter<'_> {
         let Some((stop, _)) = block.stop else { return false };
         if stop != Stop::End {
             self.stops.push(self.program.moves.len());
-            self.halted = self.machine.stop.stops_spindle && self.direction.is_some();
+            self.halted = self.machine.stop.stops_spindle && self.modes.direction.is_some();
         }
         match stop {
             Stop::Pause => self.event(EventKind::Stop { optional: false }),

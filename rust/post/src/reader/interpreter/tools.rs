@@ -21,7 +21,7 @@ impl Interpreter<'_> {
         let index =
             self.tool_of_number(number).ok_or((ReadFault::UnknownTool { number }, block.tool.or(Some(word))))?;
         self.load(index);
-        self.direction = None; // the spindle stops before a change
+        self.modes.direction = None; // the spindle stops before a change
         self.halted = false;
         self.event(EventKind::ToolChange { tool: index });
         Ok(())

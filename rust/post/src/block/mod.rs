@@ -1,0 +1,15 @@
+//! What all who interpret blocks share: numbers and words, comments, the table of codes, modal state, arcs.
+//!
+//! The [`reader`](crate::reader) is strict, because verification stands on it; the [tracer](crate::ngc) shows what it
+//! can. Where they differ on purpose, the difference is a value here: [`Comments`], [`Slack`](arc::Slack), [`Least`](arc::Least).
+
+pub(crate) mod arc;
+mod codes;
+mod comments;
+mod modes;
+mod number;
+
+pub(crate) use codes::{g_code, m_code, Code, Length, Motion, Stop};
+pub(crate) use comments::{CommentFault, Comments};
+pub(crate) use modes::{Feed, FeedFault, Modes};
+pub(crate) use number::{code, cut_number, Misfit, Number};
