@@ -1,6 +1,6 @@
 //! Remarks made fit for a controller: its characters, its length, its marks.
 
-use crate::machine::{CommentForm, CommentRules, Machine, Numbered};
+use crate::machine::{ranges, CommentForm, CommentRules, Machine, Numbered};
 
 /// What stands for characters that no controller takes.
 const ASCII: [(char, &str); 19] = [
@@ -121,26 +121,6 @@ fn allowed_characters(machine: &Machine) -> [bool; 128] {
         *slot = inside && !"();".contains(c) && !machine.line.forbidden.contains(c);
     }
     allowed
-}
-
-/// The ranges of a set: `A-Z0-9 .,-`, where a `-` at an end is itself.
-pub(crate) fn ranges(set: &str) -> Vec<(char, char)> {
-    let characters: Vec<char> = set.chars().collect();
-    let mut rest = characters.as_slice();
-    let mut out = Vec::new();
-    loop {
-        match rest {
-            [a, '-', b, tail @ ..] => {
-                out.push((*a, *b));
-                rest = tail;
-            }
-            [a, tail @ ..] => {
-                out.push((*a, *a));
-                rest = tail;
-            }
-            [] => return out,
-        }
-    }
 }
 
 /// Lines of at most `width` characters, broken at spaces, or inside a word that is longer.

@@ -8,6 +8,7 @@
 mod block;
 mod cl;
 mod comment;
+mod faults;
 mod freecad;
 mod inspect;
 pub mod machine;

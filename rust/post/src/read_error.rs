@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::faults::codes_and_hints;
 use crate::machine::MachineError;
 
 /// Text that could not be read, and where.
@@ -75,10 +76,10 @@ pub enum ReadFault {
     /// A `/` where the machine takes none. Remove the mark, or the block.
     #[error("the machine takes no / before a block")]
     BlockDelete,
-    /// A letter that means nothing on three axes: A, B, C, U, V, W are further axes. Take the word out.
+    /// A letter that means nothing on three axes: A, B, C, U, V, W are further axes. Remove the word.
     #[error("no such word on a machine with three axes")]
     UnknownWord,
-    /// A G or M code that this reader does not know. Take it out, or post the program again.
+    /// A G or M code that this reader does not know. Remove it, or post the program again.
     #[error("this code is not known")]
     UnknownCode,
     /// Something that this release does not read: canned cycles, parameters. Post the program without it.
@@ -87,7 +88,7 @@ pub enum ReadFault {
         /// What it is, in the plural.
         what: &'static str,
     },
-    /// A code that this controller refuses. Take it out, or take the machine file of the controller that it is for.
+    /// A code that this controller refuses. Remove it, or take the machine file of the controller that it is for.
     #[error("{machine} refuses this code")]
     Refused {
         /// The machine.
@@ -99,10 +100,10 @@ pub enum ReadFault {
     /// One letter twice in a block. Put them in two blocks.
     #[error("the same word twice in one block")]
     WordTwice,
-    /// A P, Q or H that belongs to no code of its block. Take it out.
+    /// A P, Q or H that belongs to no code of its block. Remove it.
     #[error("no code of this block takes this word")]
     StrayWord,
-    /// A code lacks a word: P of G4, axes of G53. Write the word.
+    /// A code needs a word: P of G4, axes of G53. Write the word.
     #[error("{what} is missing")]
     MissingWord {
         /// The word.
@@ -155,7 +156,7 @@ pub enum ReadFault {
         /// The tool's H.
         expected: u32,
     },
-    /// A move while the controller may round the path off by more than the machine's tolerance, or says nothing about it.
+    /// A move while the controller may round the path off by more than the machine's tolerance, or no tolerance is stated.
     #[error("a move with no path tolerance of {limit} mm or less in force")]
     PathTolerance {
         /// What the machine allows, mm.
@@ -170,7 +171,7 @@ pub enum ReadFault {
     /// A radius of zero, or smaller than the machine takes. Write the centre's offset from the arc's start, or a line.
     #[error("the arc has no radius, or one that the machine does not take")]
     ArcOfNoRadius,
-    /// R is less than half the way between the ends. Correct R or the end.
+    /// R is less than half the distance of the ends. Correct R or the end.
     #[error("the arc's ends are farther apart than its diameter")]
     ArcOfShortRadius,
     /// The ends are not equally far from the centre, by more than the machine takes. Correct the end or the centre.
@@ -197,11 +198,11 @@ pub enum ReadFault {
     /// The work offset changes between moves: one program has one zero point here. Split the program.
     #[error("the work offset changes between moves")]
     WcsChanged,
-    /// G91 on an axis whose place is not known: at the start, after a tool change or G53. Give it a place with G90 first.
-    #[error("an incremental move of an axis whose place is not known")]
+    /// G91 on an axis whose position is not known: at the start, after a tool change or G53. Move it with G90 first.
+    #[error("an incremental move of an axis whose position is not known")]
     IncrementalFromUnknown,
-    /// A feed move while the place of an axis is not known: at the start, after a tool change (Z) or G53. Place it with G0 first.
-    #[error("a feed move while the place of {axis} is not known")]
+    /// A feed move while the position of an axis is not known: at the start, after a tool change (Z) or G53. Move it with G0 first.
+    #[error("a feed move while the position of {axis} is not known")]
     FeedFromUnknown {
         /// The axis.
         axis: char,
@@ -209,8 +210,8 @@ pub enum ReadFault {
     /// G53 without G0 or G1, or with G91. Write `G53 G0` with G90 active.
     #[error("G53 needs G0 or G1 and G90")]
     MachineCoordinates,
-    /// The program moves and never gives a place to this axis. Place it with G0.
-    #[error("the program never places {axis}")]
+    /// The program moves and never gives a position of this axis. Move it with G0.
+    #[error("the program never gives a position of {axis}")]
     NeverPlaced {
         /// The axis.
         axis: char,
@@ -218,7 +219,7 @@ pub enum ReadFault {
     /// The text ends and the machine asks for M2 or M30 (or a closing %): it may be cut off. Write the end, or get the whole file.
     #[error("the program has no end")]
     NoEnd,
-    /// A cut behind a stop that has stopped the spindle too. Start it again.
+    /// A cut after a stop that has stopped the spindle too. Start it again.
     #[error("the stop before has stopped the spindle, and this move is at feed")]
     Halted,
     /// A feed per revolution while the spindle stands. Turn it on before.
@@ -227,8 +228,8 @@ pub enum ReadFault {
     /// A second G or M on a line, and the machine takes one. Put it on a line of its own.
     #[error("a second code on one line")]
     SecondCommand,
-    /// G28 by way of another place than where the axis stands. Write `G91 G28 Z0`.
-    #[error("G28 goes by way of the place that is written, at rapid")]
+    /// G28 through another position than where the axis stands. Write `G91 G28 Z0`.
+    #[error("G28 moves at rapid through the position that is written")]
     HomeByWay,
     /// A canned cycle whose bottom is above its retract plane. Correct Z or R.
     #[error("the cycle's bottom is above its retract plane")]
@@ -236,11 +237,11 @@ pub enum ReadFault {
     /// More pecks than are read. Correct Q.
     #[error("the hole takes too many pecks")]
     TooManyPecks,
-    /// Words that this reader does not know. Take them out, or post the program again.
+    /// Words that this reader does not know. Remove them, or post the program again.
     #[error("these words are not known")]
     UnknownWords,
-    /// Code after the end, which the machine would run. Remove it.
-    #[error("code after the program's end, which the machine would run")]
+    /// Text after M2 or M30, which the machine would run. Delete it, or delete the earlier end.
+    #[error("text after M2 or M30, which the machine would run")]
     AfterEnd,
 }
 
@@ -268,138 +269,63 @@ impl ReadError {
     }
 }
 
-impl ReadFault {
-    /// A stable name for scripts.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Machine(error) => error.code(),
-            Self::Character => "read-character",
-            Self::NumberExpected => "read-number-expected",
-            Self::NumberTooLong => "read-number-too-long",
-            Self::SpaceInNumber => "read-space-in-number",
-            Self::NoPoint => "read-no-point",
-            Self::PointInTime => "read-point-in-time",
-            Self::UnclosedComment => "read-unclosed-comment",
-            Self::NestedComment => "read-nested-comment",
-            Self::LineTooLong { .. } => "read-line-too-long",
-            Self::TooManyLines => "read-too-many-lines",
-            Self::Percent => "read-percent",
-            Self::BlockDelete => "read-block-delete",
-            Self::UnknownWord => "read-unknown-word",
-            Self::UnknownCode => "read-unknown-code",
-            Self::NotRead { .. } => "read-not-read",
-            Self::Refused { .. } => "read-refused",
-            Self::SameGroup => "read-same-group",
-            Self::WordTwice => "read-word-twice",
-            Self::StrayWord => "read-stray-word",
-            Self::MissingWord { .. } => "read-missing-word",
-            Self::NotNatural => "read-not-natural",
-            Self::Negative => "read-negative",
-            Self::ZeroFeed => "read-zero-feed",
-            Self::NoUnits => "read-no-units",
-            Self::FeedWithUnits => "read-feed-with-units",
-            Self::NoFeed => "read-no-feed",
-            Self::NoMotionMode => "read-no-motion-mode",
-            Self::NoToolSelected => "read-no-tool-selected",
-            Self::NoToolLoaded => "read-no-tool-loaded",
-            Self::UnknownTool { .. } => "read-unknown-tool",
-            Self::LengthOffset { .. } => "read-length-offset",
-            Self::NoLengthOffset { .. } => "read-no-length-offset",
-            Self::PathTolerance { .. } => "read-path-tolerance",
-            Self::ArcPlane => "read-arc-plane",
-            Self::ArcForm => "read-arc-form",
-            Self::ArcOfNoRadius => "read-arc-of-no-radius",
-            Self::ArcOfShortRadius => "read-arc-of-short-radius",
-            Self::ArcEnds { .. } => "read-arc-ends",
-            Self::ArcTurns { .. } => "read-arc-turns",
-            Self::ArcOfNoAngle => "read-arc-of-no-angle",
-            Self::ArcNeedsAxis => "read-arc-needs-axis",
-            Self::Wcs => "read-wcs",
-            Self::WcsChanged => "read-wcs-changed",
-            Self::IncrementalFromUnknown => "read-incremental-from-unknown",
-            Self::FeedFromUnknown { .. } => "read-feed-from-unknown",
-            Self::MachineCoordinates => "read-machine-coordinates",
-            Self::NeverPlaced { .. } => "read-never-placed",
-            Self::Halted => "read-halted",
-            Self::NoRevolutions => "read-no-revolutions",
-            Self::SecondCommand => "read-second-command",
-            Self::HomeByWay => "read-home-by-way",
-            Self::CycleUpwards => "read-cycle-upwards",
-            Self::TooManyPecks => "read-too-many-pecks",
-            Self::UnknownWords => "read-unknown-words",
-            Self::NoEnd => "read-no-end",
-            Self::AfterEnd => "read-after-end",
-        }
-    }
-
-    /// What to do, in a sentence.
-    #[must_use]
-    pub fn hint(&self) -> String {
-        let hint = match self {
-            Self::Machine(error) => return error.hint(),
-            Self::Character => "remove the character",
-            Self::NumberExpected => "write a number after the letter",
-            Self::NumberTooLong => "shorten the number to 15 digits",
-            Self::SpaceInNumber => "close the number up, or put a letter before the second one",
-            Self::NoPoint => "write a decimal point: 10. in place of 10",
-            Self::PointInTime => "write whole milliseconds, without a point",
-            Self::UnclosedComment => "close the comment on its line",
-            Self::NestedComment => "replace the inner parentheses",
-            Self::LineTooLong { .. } => "break or shorten the line",
-            Self::TooManyLines => "split the program",
-            Self::Percent => "remove the %, or take the machine file of the controller that the program is for",
-            Self::BlockDelete => "remove the / or the block",
-            Self::UnknownWord => {
-                "say in other words what it does: repeats, and axes other than X, Y and Z, are not read"
-            }
-            Self::UnknownCode => "say in other codes what it does, or post the program again for this machine",
-            Self::NotRead { .. } => "post the program with lines, arcs and plain numbers only",
-            Self::Refused { .. } => {
-                "take the code out, or take the machine file of the controller that the program is for"
-            }
-            Self::SameGroup | Self::WordTwice => "put them in two blocks",
-            Self::StrayWord => "take the word out, or write the code that it belongs to",
-            Self::MissingWord { .. } => "write the missing word",
-            Self::NotNatural => "write a whole number of 0 or more",
-            Self::Negative => "write a number of 0 or more",
-            Self::ZeroFeed => "write a feed above zero",
-            Self::NoUnits | Self::FeedWithUnits => "write G21 (mm) or G20 (inch) in a block before",
-            Self::NoFeed => "write a feed (F) with the first feed move",
-            Self::NoMotionMode => "write G0, G1, G2 or G3",
-            Self::NoToolSelected => "write T and the tool's number",
-            Self::NoToolLoaded => "write the tool change before the first move",
-            Self::UnknownTool { .. } => "correct the tool number, or add the tool to the job",
-            Self::NoLengthOffset { expected } => {
-                return format!("write G43 H{expected} after the tool change, or take a machine without length offsets")
-            }
-            Self::PathTolerance { limit } => {
-                return format!("write G64 P{limit} (or G61) before, or set the machine's option smoothing_tolerance")
-            }
-            Self::LengthOffset { .. } => "correct H, or the tool's length_offset in the job",
-            Self::ArcPlane => "write the plane's code (G17 for I and J), or its two letters",
-            Self::ArcForm => "write the centre by I, J, K, without R",
-            Self::ArcOfNoRadius => "write the centre's offset from the arc's start",
-            Self::ArcOfShortRadius => "correct R, or the arc's end",
-            Self::ArcEnds { .. } => "correct the arc's end, or its centre",
-            Self::ArcTurns { .. } => "split the arc",
-            Self::ArcOfNoAngle => "write a line, or exactly the start as the end for a full circle",
-            Self::ArcNeedsAxis => "write the end's X, Y or Z",
-            Self::Wcs => "take a work offset that the machine has",
-            Self::WcsChanged => "split the program: one zero point each",
-            Self::IncrementalFromUnknown => "place the axis with G90 G0 first",
-            Self::FeedFromUnknown { .. } | Self::NeverPlaced { .. } => "place the axis with G0 first",
-            Self::MachineCoordinates => "write G53 G0 and an axis, with G90 active",
-            Self::Halted => "write M3 or M4 behind the stop",
-            Self::NoRevolutions => "turn the spindle on before, or write feeds per minute (G94)",
-            Self::SecondCommand => "put each code on a line of its own",
-            Self::HomeByWay => "write G91 G28 Z0, or G53 G0 Z0",
-            Self::CycleUpwards => "correct Z or R of the cycle",
-            Self::TooManyPecks => "correct Q of the cycle",
-            Self::UnknownWords => "say in other words what they do, or post the program again for this machine",
-            Self::NoEnd => "the file may be cut off: get the whole file, or write M2 at its end",
-            Self::AfterEnd => "remove what follows the end, or the end before it",
-        };
-        hint.into()
-    }
+codes_and_hints! {
+    ReadFault, String;
+    Self::Machine(error) => error.code(), error.hint();
+    Self::Character => "read-character", "remove the character";
+    Self::NumberExpected => "read-number-expected", "write a number after the letter";
+    Self::NumberTooLong => "read-number-too-long", "shorten the number to 15 digits";
+    Self::SpaceInNumber => "read-space-in-number", "close the number up, or put a letter before the second one";
+    Self::NoPoint => "read-no-point", "write a decimal point: 10. in place of 10";
+    Self::PointInTime => "read-point-in-time", "write whole milliseconds, without a point";
+    Self::UnclosedComment => "read-unclosed-comment", "close the comment on its line";
+    Self::NestedComment => "read-nested-comment", "replace the inner parentheses";
+    Self::LineTooLong { .. } => "read-line-too-long", "break or shorten the line";
+    Self::TooManyLines => "read-too-many-lines", "split the program";
+    Self::Percent => "read-percent", "remove the %, or take the machine file of the controller that the program is for";
+    Self::BlockDelete => "read-block-delete", "remove the / or the block";
+    Self::UnknownWord => "read-unknown-word", "remove the word: repeats, and axes other than X, Y and Z, are not read";
+    Self::UnknownCode => "read-unknown-code", "remove the code, or post the program again for this machine";
+    Self::NotRead { .. } => "read-not-read", "post the program with lines, arcs and plain numbers only";
+    Self::Refused { .. } => "read-refused", "remove the code, or take the machine file of the controller that the program is for";
+    Self::SameGroup => "read-same-group", "put them in two blocks";
+    Self::WordTwice => "read-word-twice", "put them in two blocks";
+    Self::StrayWord => "read-stray-word", "remove the word, or write the code that it belongs to";
+    Self::MissingWord { .. } => "read-missing-word", "write the missing word";
+    Self::NotNatural => "read-not-natural", "write a whole number of 0 or more";
+    Self::Negative => "read-negative", "write a number of 0 or more";
+    Self::ZeroFeed => "read-zero-feed", "write a feed above zero";
+    Self::NoUnits => "read-no-units", "write G21 (mm) or G20 (inch) in a block before";
+    Self::FeedWithUnits => "read-feed-with-units", "write G21 (mm) or G20 (inch) in a block before";
+    Self::NoFeed => "read-no-feed", "write a feed (F) with the first feed move";
+    Self::NoMotionMode => "read-no-motion-mode", "write G0, G1, G2 or G3";
+    Self::NoToolSelected => "read-no-tool-selected", "write T and the tool's number";
+    Self::NoToolLoaded => "read-no-tool-loaded", "write the tool change before the first move";
+    Self::UnknownTool { .. } => "read-unknown-tool", "correct the tool number, or add the tool to the job";
+    Self::LengthOffset { .. } => "read-length-offset", "correct H, or the tool's length_offset in the job";
+    Self::NoLengthOffset { expected } => "read-no-length-offset", format!("write G43 H{expected} after the tool change, or take a machine without length offsets");
+    Self::PathTolerance { limit } => "read-path-tolerance", format!("write G64 P{limit} (or G61) before, or set the machine's option smoothing_tolerance");
+    Self::ArcPlane => "read-arc-plane", "write the plane's code (G17 for I and J), or its two letters";
+    Self::ArcForm => "read-arc-form", "write the centre by I, J, K, without R";
+    Self::ArcOfNoRadius => "read-arc-of-no-radius", "write the centre's offset from the arc's start";
+    Self::ArcOfShortRadius => "read-arc-of-short-radius", "correct R, or the arc's end";
+    Self::ArcEnds { .. } => "read-arc-ends", "correct the arc's end, or its centre";
+    Self::ArcTurns { .. } => "read-arc-turns", "split the arc";
+    Self::ArcOfNoAngle => "read-arc-of-no-angle", "write a line, or exactly the start as the end for a full circle";
+    Self::ArcNeedsAxis => "read-arc-needs-axis", "write the end's X, Y or Z";
+    Self::Wcs => "read-wcs", "take a work offset that the machine has";
+    Self::WcsChanged => "read-wcs-changed", "split the program: one zero point each";
+    Self::IncrementalFromUnknown => "read-incremental-from-unknown", "move the axis with G90 G0 first";
+    Self::FeedFromUnknown { .. } => "read-feed-from-unknown", "move the axis with G0 first";
+    Self::MachineCoordinates => "read-machine-coordinates", "write G53 G0 and an axis, with G90 active";
+    Self::NeverPlaced { .. } => "read-never-placed", "move the axis with G0 first";
+    Self::Halted => "read-halted", "write M3 or M4 after the stop";
+    Self::NoRevolutions => "read-no-revolutions", "turn the spindle on before, or write feeds per minute (G94)";
+    Self::SecondCommand => "read-second-command", "put each code on a line of its own";
+    Self::HomeByWay => "read-home-by-way", "write G91 G28 Z0, or G53 G0 Z0";
+    Self::CycleUpwards => "read-cycle-upwards", "correct Z or R of the cycle";
+    Self::TooManyPecks => "read-too-many-pecks", "correct Q of the cycle";
+    Self::UnknownWords => "read-unknown-words", "remove the words, or post the program again for this machine";
+    Self::NoEnd => "read-no-end", "the file may be cut off: get the whole file, or write M2 at its end";
+    Self::AfterEnd => "read-after-end", "delete it, or delete the earlier M2 or M30";
 }

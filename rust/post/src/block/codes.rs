@@ -100,7 +100,7 @@ pub(crate) fn g_code(tenths: u32) -> Option<Code> {
         }
         870 => Code::BackBore,
         50..=53 | 330 | 331 | 700 | 710..=712 | 720..=722 => Code::OtherMotion,
-        382..=385 => Code::Probe(tenths % 2 == 0),
+        382..=385 => Code::Probe(tenths.is_multiple_of(2)),
         40 => Code::Dwell,
         170 => Code::Plane(Plane::Xy),
         180 => Code::Plane(Plane::Zx),

@@ -8,8 +8,10 @@ mod codes;
 mod comments;
 mod modes;
 mod number;
+mod words;
 
 pub(crate) use codes::{g_code, m_code, Code, Length, Motion, Stop};
 pub(crate) use comments::{CommentFault, Comments};
 pub(crate) use modes::{Feed, FeedFault, Modes};
 pub(crate) use number::{code, cut_number, Misfit, Number};
+pub(crate) use words::{Twice, Words};

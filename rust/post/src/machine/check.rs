@@ -1,12 +1,25 @@
 //! Checks on a machine file that its types do not make.
 
-use super::{Machine, MachineError, ToolChange, MACHINE_SCHEMA};
-use crate::comment::{ranges, CommentFormat};
+use super::error::MachineError;
+use super::rules::ranges;
+use super::rules::{CommentForm, SpeedUnit, ToolChange};
+use super::values::{Machine, MACHINE_SCHEMA};
+use crate::comment::CommentFormat;
 use crate::number::MAX_DECIMALS;
 use crate::template::Templater;
 
+impl Machine {
+    /// Checks every value and compiles every template.
+    ///
+    /// # Errors
+    /// [`MachineError`] for the first thing that is wrong.
+    pub fn check(&self) -> Result<(), MachineError> {
+        check(self)
+    }
+}
+
 /// Finds the first thing that is wrong.
-pub(super) fn check(machine: &Machine) -> Result<(), MachineError> {
+fn check(machine: &Machine) -> Result<(), MachineError> {
     check_schema(machine.schema)?;
     check_names(machine)?;
     check_numbers(machine)?;
@@ -100,7 +113,7 @@ fn check_lines(machine: &Machine) -> Result<(), MachineError> {
     let set = machine.comment.charset.as_deref().unwrap_or(" -~");
     require(ranges(set).iter().all(|(a, b)| a <= b), "comment.charset", "a range runs backwards")?;
     let probe = CommentFormat::new(machine).lines("A 0");
-    let silent = machine.comment.form == super::CommentForm::None;
+    let silent = machine.comment.form == CommentForm::None;
     require(silent || !probe.is_empty(), "comment.charset", "neither letters nor digits are left")?;
     let Some(number) = &machine.block_number else { return Ok(()) };
     require(number.step >= 1, "block_number.step", "at least 1; leave the table out for none")?;
@@ -137,7 +150,7 @@ fn check_words(machine: &Machine) -> Result<(), MachineError> {
     let start = machine.spindle.start_dwell;
     require((0.0..=600.0).contains(&start), "spindle.start_dwell", "0 to 600 s")?;
     require(start <= 0.0 || machine.dwell.is_some(), "spindle.start_dwell", "a wait needs the words of [dwell]")?;
-    let percent = machine.spindle.unit == super::SpeedUnit::Percent;
+    let percent = machine.spindle.unit == SpeedUnit::Percent;
     require(!percent || machine.limits.max_rpm.is_some(), "limits.max_rpm", "percent of what: name the largest speed")
 }
 

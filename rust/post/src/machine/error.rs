@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use super::shipped::shipped;
+
 /// A machine that cannot be used.
 ///
 /// Each variant says when it occurs and what to do about it; [`code`](Self::code) is stable.
@@ -102,10 +104,7 @@ impl MachineError {
     pub fn hint(&self) -> String {
         let advice = match self {
             Self::UnknownMachine { .. } => {
-                format!(
-                    "shipped machines: {}; anything else is the path of a machine file",
-                    super::shipped().join(", ")
-                )
+                format!("shipped machines: {}; anything else is the path of a machine file", shipped().join(", "))
             }
             Self::Document { .. } => "correct the machine file at this place".into(),
             Self::Schema { .. } => "update StylusCAM, or write the file for this release".into(),

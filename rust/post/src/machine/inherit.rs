@@ -3,7 +3,8 @@
 use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
 
-use super::{most_similar, Machine, MachineError};
+use super::error::{most_similar, MachineError};
+use super::values::Machine;
 
 /// The key that names what a file extends.
 const EXTENDS: &str = "extends";

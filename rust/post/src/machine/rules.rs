@@ -1,11 +1,13 @@
 //! The tables of a machine file: plain data, one struct per table.
 
+mod charset;
 mod functions;
 mod motion;
 mod reading;
 mod source;
 mod text;
 
+pub(crate) use charset::ranges;
 pub use functions::{
     CoolantRules, DwellRules, LengthRules, RetractRules, SpeedUnit, SpindleRules, StopRules, TimeUnit, ToolChange,
     ToolRules,

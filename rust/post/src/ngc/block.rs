@@ -3,13 +3,13 @@
 use super::codes::known_g;
 use super::expression::{natural, Cursor, Key, Values};
 use super::fault::TraceFault;
-use crate::block::Code;
+use crate::block::{Code, Twice, Words};
 
 /// A block with its values worked out.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Block {
     /// By letter, but for G, M, N and O.
-    words: [Option<f64>; 26],
+    words: Words<f64>,
     /// `@`.
     pub(super) distance: Option<f64>,
     /// `^`, degrees.
@@ -41,26 +41,26 @@ impl Block {
                 b'@' => once(&mut block.distance, cursor.value()?, '@')?,
                 b'$' => once(&mut block.spindle, cursor.value()?, '$')?,
                 b'^' => once(&mut block.angle, cursor.value()?, '^')?,
-                _ => {
-                    let slot = block.slot(byte);
-                    let slot = slot.ok_or_else(|| TraceFault::Character { character: character_at(code, byte) })?;
-                    once(slot, cursor.value()?, char::from(byte.to_ascii_uppercase()))?;
+                b'a'..=b'z' if !matches!(byte, b'n' | b'o') => {
+                    let letter = char::from(byte.to_ascii_uppercase());
+                    let value = cursor.value()?;
+                    block.words.put(byte, value).map_err(|Twice| TraceFault::WordTwice { letter })?;
                 }
+                _ => return Err(TraceFault::Character { character: character_at(code, byte) }),
             }
         }
         block.unset = cursor.unset;
         Ok(block)
     }
 
-    /// Where the value of a word goes; nothing for what is no letter, N and O.
-    fn slot(&mut self, letter: u8) -> Option<&mut Option<f64>> {
-        let index = usize::from(letter.checked_sub(b'a')?);
-        self.words.get_mut(index).filter(|_| !matches!(letter, b'n' | b'o'))
-    }
-
     /// The value of a word, by its small letter.
     pub(super) fn word(&self, letter: u8) -> Option<f64> {
-        self.words.get(usize::from(letter.wrapping_sub(b'a'))).copied().flatten()
+        self.words.get(letter)
+    }
+
+    /// I, J and K.
+    pub(super) fn offsets(&self) -> [Option<f64>; 3] {
+        self.words.offsets()
     }
 
     pub(super) fn has_g(&self, code: u32) -> bool {
@@ -83,7 +83,7 @@ impl Block {
 
     /// X, Y and Z.
     pub(super) fn axes(&self) -> [Option<f64>; 3] {
-        [b'x', b'y', b'z'].map(|letter| self.word(letter))
+        self.words.axes()
     }
 
     /// Whether its words for a spindle are for the first one, the only one that is shown.

@@ -7,19 +7,6 @@ use super::tracer::Tracer;
 /// mm: how far a peck goes back to break the chip, and how far above the last depth the next one begins.
 const BACK: f64 = 0.254;
 
-/// What cycles keep from block to block.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Sticky {
-    /// Where the first of the cycles in a row began, along the drilling axis.
-    begin: Option<f64>,
-    /// As written, in the unit in force.
-    bottom: Option<f64>,
-    retract: Option<f64>,
-    peck: Option<f64>,
-    /// s.
-    wait: Option<f64>,
-}
-
 /// The heights of a cycle along the drilling axis, mm.
 #[derive(Clone, Copy)]
 struct Heights {

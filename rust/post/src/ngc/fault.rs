@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::faults::codes_and_hints;
+
 /// A program that could not be traced, and where.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{}{fault}", heading(.file, *.line))]
@@ -14,7 +16,7 @@ pub struct TraceError {
     pub fault: TraceFault,
 }
 
-/// A place before what is said of it.
+/// The file and the line, before a message.
 pub(super) fn heading(file: &str, line: u32) -> String {
     match (file, line) {
         (_, 0) => String::new(),
@@ -80,7 +82,7 @@ pub enum TraceFault {
     /// A `(` without its `)`. Close the comment on its line.
     #[error("the comment is not closed")]
     UnclosedComment,
-    /// Expressions in expressions, or signs in a row, past any use. Split the expression.
+    /// Expressions in expressions, or signs in a row, too many to make sense. Split the expression.
     #[error("the expression is nested too deep")]
     TooDeep,
     /// A division by zero. Guard it.
@@ -92,7 +94,7 @@ pub enum TraceFault {
         /// The function.
         function: &'static str,
     },
-    /// A number past what a computer holds, or past any use: turns of an arc, a wait. Correct it.
+    /// A number past what a computer holds, or too many to make sense: turns of an arc, a wait. Correct it.
     #[error("the number is too large")]
     TooLarge,
     /// A parameter of a number that there is not. The language has #1 to #5602.
@@ -128,7 +130,7 @@ pub enum TraceFault {
     /// An arc with neither R nor a centre, or with both, or R for a full circle. Write the centre.
     #[error("an arc needs either its centre or R, and a full circle its centre")]
     ArcForm,
-    /// An arc around the place where it starts, or with an R of less than half the way. Correct it.
+    /// An arc around the place where it starts, or with an R of less than half the chord. Correct it.
     #[error("there is no such arc: its radius is too small")]
     ArcRadius,
     /// A drilling cycle whose bottom is above its retract plane, or a peck of no depth. Correct R, Z or Q.
@@ -164,7 +166,7 @@ pub enum TraceFault {
         limit: usize,
     },
     /// A coordinate that no machine reaches: a kilometre and more. Correct it, or the unit.
-    #[error("a move to more than a kilometre away")]
+    #[error("a coordinate beyond 1e6 mm")]
     TooFar,
     /// The program defines subroutines and calls none: a library. Look at a program that calls them.
     #[error("it only defines subroutines ({names}): nothing moves until a program calls them")]
@@ -183,75 +185,36 @@ pub enum TraceFault {
     Cancelled,
 }
 
-impl TraceFault {
-    /// A stable name for scripts.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Character { .. } => "trace-character",
-            Self::NumberExpected => "trace-number-expected",
-            Self::Expected { .. } => "trace-expected",
-            Self::Function { .. } => "trace-function",
-            Self::UnclosedComment => "trace-unclosed-comment",
-            Self::TooDeep => "trace-too-deep",
-            Self::DivisionByZero => "trace-division-by-zero",
-            Self::Domain { .. } => "trace-domain",
-            Self::TooLarge => "trace-too-large",
-            Self::ParameterNumber => "trace-parameter-number",
-            Self::NotNatural { .. } => "trace-not-natural",
-            Self::WordTwice { .. } => "trace-word-twice",
-            Self::SameGroup => "trace-same-group",
-            Self::WordMissing { .. } => "trace-word-missing",
-            Self::NoMotionMode => "trace-no-motion-mode",
-            Self::PolarWithCartesian => "trace-polar-with-cartesian",
-            Self::ArcForm => "trace-arc-form",
-            Self::ArcRadius => "trace-arc-radius",
-            Self::CycleDepths => "trace-cycle-depths",
-            Self::Thread => "trace-thread",
-            Self::FlowWord => "trace-flow-word",
-            Self::Unmatched { .. } => "trace-unmatched",
-            Self::CallDepth => "trace-call-depth",
-            Self::TooManyBlocks { .. } => "trace-too-many-blocks",
-            Self::TooManyMoves { .. } => "trace-too-many-moves",
-            Self::TooFar => "trace-too-far",
-            Self::OnlySubroutines { .. } => "trace-only-subroutines",
-            Self::NoMoves { .. } => "trace-no-moves",
-            Self::Cancelled => "cancelled",
-        }
-    }
-
-    /// What to do, in a sentence.
-    #[must_use]
-    pub fn hint(&self) -> &'static str {
-        match self {
-            Self::Character { .. } => "remove the character",
-            Self::NumberExpected => "write a number, a parameter or an expression in brackets",
-            Self::Expected { .. } => "write it",
-            Self::Function { .. } => "correct its name",
-            Self::UnclosedComment => "close the comment on its line",
-            Self::TooDeep => "split the expression",
-            Self::DivisionByZero => "ask before whether the divisor is 0",
-            Self::Domain { .. } => "ask before whether the value is in its range",
-            Self::TooLarge => "correct the number",
-            Self::ParameterNumber => "take #1 to #5602",
-            Self::NotNatural { .. } => "write a whole number of 0 or more",
-            Self::WordTwice { .. } | Self::SameGroup => "put them in two blocks",
-            Self::WordMissing { .. } => "write the missing word",
-            Self::NoMotionMode => "write the motion code: G0, G1, G2, G3 or a cycle",
-            Self::PolarWithCartesian => "write either @ and ^, or X and Y",
-            Self::ArcForm => "write I, J, K of the plane, or R",
-            Self::ArcRadius => "correct R, the centre, or the end",
-            Self::CycleDepths => "correct R, Z or Q",
-            Self::Thread => "correct P, J, K, R",
-            Self::FlowWord => "write sub, endsub, return, call, if, elseif, else, endif, while, endwhile, do, repeat, endrepeat, break or continue",
-            Self::Unmatched { .. } => "write its other half, with the same number or name",
-            Self::CallDepth => "let the recursion end",
-            Self::TooManyBlocks { .. } => "correct the loop's condition",
-            Self::TooManyMoves { .. } => "split the program",
-            Self::TooFar => "correct the coordinate, or the unit (G20, G21)",
-            Self::OnlySubroutines { .. } => "look at a program that calls them",
-            Self::NoMoves { .. } => "check the file; the folders of its subroutines can be named",
-            Self::Cancelled => "",
-        }
-    }
+codes_and_hints! {
+    TraceFault, &'static str;
+    Self::Character { .. } => "trace-character", "remove the character";
+    Self::NumberExpected => "trace-number-expected", "write a number, a parameter or an expression in brackets";
+    Self::Expected { .. } => "trace-expected", "write it";
+    Self::Function { .. } => "trace-function", "correct its name";
+    Self::UnclosedComment => "trace-unclosed-comment", "close the comment on its line";
+    Self::TooDeep => "trace-too-deep", "split the expression";
+    Self::DivisionByZero => "trace-division-by-zero", "check before that the divisor is not 0";
+    Self::Domain { .. } => "trace-domain", "check before that the value is in its range";
+    Self::TooLarge => "trace-too-large", "correct the number";
+    Self::ParameterNumber => "trace-parameter-number", "take #1 to #5602";
+    Self::NotNatural { .. } => "trace-not-natural", "write a whole number of 0 or more";
+    Self::WordTwice { .. } => "trace-word-twice", "put them in two blocks";
+    Self::SameGroup => "trace-same-group", "put them in two blocks";
+    Self::WordMissing { .. } => "trace-word-missing", "write the missing word";
+    Self::NoMotionMode => "trace-no-motion-mode", "write the motion code: G0, G1, G2, G3 or a cycle";
+    Self::PolarWithCartesian => "trace-polar-with-cartesian", "write either @ and ^, or X and Y";
+    Self::ArcForm => "trace-arc-form", "write I, J, K of the plane, or R";
+    Self::ArcRadius => "trace-arc-radius", "correct R, the centre, or the end";
+    Self::CycleDepths => "trace-cycle-depths", "correct R, Z or Q";
+    Self::Thread => "trace-thread", "correct P, J, K, R";
+    Self::FlowWord => "trace-flow-word",
+        "write sub, endsub, return, call, if, elseif, else, endif, while, endwhile, do, repeat, endrepeat, break or continue";
+    Self::Unmatched { .. } => "trace-unmatched", "write its other half, with the same number or name";
+    Self::CallDepth => "trace-call-depth", "let the recursion end";
+    Self::TooManyBlocks { .. } => "trace-too-many-blocks", "correct the loop's condition";
+    Self::TooManyMoves { .. } => "trace-too-many-moves", "split the program";
+    Self::TooFar => "trace-too-far", "correct the coordinate, or the unit (G20, G21)";
+    Self::OnlySubroutines { .. } => "trace-only-subroutines", "look at a program that calls them";
+    Self::NoMoves { .. } => "trace-no-moves", "check the file; the folders of its subroutines can be named";
+    Self::Cancelled => "cancelled", "";
 }

@@ -1,12 +1,11 @@
 //! O-words: branches, loops, and subroutines with their own parameters.
 
-use std::collections::HashMap;
 use std::rc::Rc;
 
 use super::block::Block;
 use super::expression::{natural, Cursor};
 use super::fault::TraceFault;
-use super::modes::Modes;
+use super::frame::{Back, Frame};
 use super::note::Gap;
 use super::parameters::LOCALS;
 use super::source::{Content, Flow, Label, Source};
@@ -17,31 +16,6 @@ const DEPTH: usize = 100;
 
 /// Names that were looked for in vain and are remembered.
 const REMEMBERED: usize = 1000;
-
-/// What belongs to a subroutine that runs, or to the program.
-#[derive(Debug, Default)]
-pub(super) struct Frame {
-    /// Where it was called from; nothing for the program.
-    back: Option<Back>,
-    /// Named parameters without a leading `_`.
-    names: HashMap<String, f64>,
-    /// How often each loop, by its line, is still to be run.
-    repeats: HashMap<usize, usize>,
-    /// What M70 has stored.
-    pub(super) stored: Option<Modes>,
-    /// Whether its end brings that back: M73.
-    pub(super) restores: bool,
-}
-
-#[derive(Debug)]
-struct Back {
-    file: usize,
-    line: usize,
-    locals: [f64; LOCALS],
-    /// The line to begin again at, and how often: L of M98.
-    entry: usize,
-    again: u32,
-}
 
 impl Tracer<'_> {
     /// How many subroutines are running.

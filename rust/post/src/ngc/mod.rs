@@ -12,6 +12,7 @@ mod cycles;
 mod expression;
 mod fault;
 mod flow;
+mod frame;
 mod modes;
 mod motion;
 mod note;
@@ -20,38 +21,17 @@ mod parameters;
 mod path;
 mod settings;
 mod source;
+mod sticky;
 mod threads;
+mod trace;
 mod tracer;
+mod values;
 
 pub use fault::{TraceError, TraceFault};
 pub use note::{Gap, Note};
+pub use trace::Trace;
 
-use styluscam_motion::{Program, Watch};
-
-/// What a program may need before it is given up.
-#[derive(Clone, Copy)]
-struct Limits {
-    /// Lines that are run: more of them are an endless loop.
-    blocks: u64,
-    /// Moves and events that are kept.
-    moves: usize,
-}
-
-/// The moves take half a gigabyte.
-const LIMITS: Limits = Limits { blocks: 20_000_000, moves: 5_000_000 };
-
-/// mm/min: of feed moves whose feed is not known.
-const FEED_UNKNOWN: f64 = 1000.0;
-
-/// A program as far as it can be shown.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Trace {
-    /// Its moves and events. Places are those of the tips, in the coordinates in force at the first move: where work
-    /// offsets change later, what follows is shown where it lies in space.
-    pub program: Program,
-    /// What is left out or taken for granted.
-    pub notes: Vec<Note>,
-}
+use styluscam_motion::Watch;
 
 /// Runs a program and records its moves.
 ///
@@ -61,7 +41,7 @@ pub struct Trace {
 /// # Errors
 /// [`TraceError`] for the first line that cannot be understood, a program without end, and one that moves nothing.
 pub fn trace(text: &str, find: &dyn Fn(&str) -> Option<String>, watch: &Watch) -> Result<Trace, TraceError> {
-    tracer::Tracer::new(text, find, watch, LIMITS).run()
+    tracer::Tracer::new(text, find, watch, trace::LIMITS).run()
 }
 
 #[cfg(test)]

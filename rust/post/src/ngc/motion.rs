@@ -4,13 +4,12 @@ use styluscam_motion::MoveKind;
 
 use super::block::Block;
 use super::codes;
-use super::cycles::Sticky;
 use super::fault::TraceFault;
 use super::modes::NO_MOTION;
-use super::note::Gap;
+use super::note::{Gap, FEED_UNKNOWN};
 use super::path::Pace;
+use super::sticky::Sticky;
 use super::tracer::{Next, Tracer};
-use super::FEED_UNKNOWN;
 use crate::block::arc::{centre_by_offsets, ArcFault, Ends, Least, Slack, MOST_TURNS};
 use crate::block::Feed;
 use crate::machine::FeedMode;
@@ -144,7 +143,7 @@ impl Tracer<'_> {
 
     fn centre_by_words(&self, start: [f64; 3], block: &Block) -> Result<[f64; 3], TraceFault> {
         let axes = self.modes.common.plane.axes();
-        let words = [b'i', b'j', b'k'].map(|letter| block.word(letter).map(|word| word * self.modes.unit()));
+        let words = block.offsets().map(|word| word.map(|word| word * self.modes.unit()));
         if axes.iter().take(2).all(|axis| words[*axis].is_none()) {
             return Err(TraceFault::ArcForm);
         }
@@ -166,7 +165,7 @@ fn names_place(block: &Block) -> bool {
 }
 
 fn names_centre(block: &Block) -> bool {
-    b"ijk".iter().any(|letter| block.word(*letter).is_some())
+    block.offsets().iter().any(Option::is_some)
 }
 
 fn is_cycle(code: u32) -> bool {

@@ -6,6 +6,9 @@ use thiserror::Error;
 
 use super::fault::heading;
 
+/// mm/min: of feed moves whose feed is not known.
+pub(super) const FEED_UNKNOWN: f64 = 1000.0;
+
 /// So many different notes are kept.
 const KEPT: usize = 200;
 
@@ -58,7 +61,7 @@ pub enum Gap {
     #[error("threading is shown as a feed of pitch times S")]
     Threading,
     /// A feed move and no feed, or a feed per revolution and no speed.
-    #[error("no feed is known: {} mm/min are taken", super::FEED_UNKNOWN)]
+    #[error("no feed is known: {} mm/min are taken", FEED_UNKNOWN)]
     Feed,
     /// G96.
     #[error("surface speed (G96): the spindle is taken to turn at D, or at S where there is no D")]

@@ -3,8 +3,9 @@
 use proptest::prelude::*;
 use styluscam_motion::{EventKind, Move, MoveKind, Watch};
 
+use super::trace::Limits;
 use super::tracer::Tracer;
-use super::{Gap, Limits, Trace, TraceError, TraceFault};
+use super::{Gap, Trace, TraceError, TraceFault};
 
 fn traced(text: &str) -> Result<Trace, TraceError> {
     super::trace(text, &|_| None, &Watch::default())
@@ -219,7 +220,7 @@ fn feeds_follow_their_mode() {
         feeds(text).iter().map(|feed| (feed * 1e9).round() / 1e9).collect::<Vec<_>>(),
         [0.0, 254.0, 20.0, 10.0, 5.0]
     );
-    assert_eq!(feeds("G0 X0 Y0 Z0\nG1 X1\nM2"), [0.0, super::FEED_UNKNOWN]);
+    assert_eq!(feeds("G0 X0 Y0 Z0\nG1 X1\nM2"), [0.0, super::note::FEED_UNKNOWN]);
     assert_eq!(gaps("G0 X0 Y0 Z0\nG1 X1\nM2"), [Gap::Feed]);
 }
 

@@ -7,16 +7,16 @@ use styluscam_motion::{Cancelled, EventKind, Watch};
 
 use super::block::Block;
 use super::codes;
-use super::cycles::Sticky;
 use super::fault::{TraceError, TraceFault};
-use super::flow::Frame;
+use super::frame::Frame;
 use super::modes::{Modes, NO_MOTION};
 use super::note::{Gap, Notes};
 use super::offsets::Offsets;
 use super::parameters::Parameters;
 use super::path::Path;
 use super::source::{Content, Line, Source};
-use super::{Limits, Trace};
+use super::sticky::Sticky;
+use super::trace::{Limits, Trace};
 
 /// A subroutine's text by its name.
 pub(super) type Find<'f> = &'f dyn Fn(&str) -> Option<String>;
@@ -247,7 +247,7 @@ impl<'f> Tracer<'f> {
     /// Whether a block without a motion code moves by the one in force.
     fn goes_on(&self, block: &Block) -> bool {
         let arc = matches!(self.modes.motion, 20 | 30);
-        block.places() || arc && b"ijk".iter().any(|letter| block.word(*letter).is_some())
+        block.places() || arc && block.offsets().iter().any(Option::is_some)
     }
 
     fn stop(&mut self, block: &Block, next: Next) -> Result<Next, TraceFault> {

@@ -3,8 +3,7 @@
 use styluscam_motion::Arc;
 
 use super::block::Block;
-use super::interpreter::Flaw;
-use super::lexer::Word;
+use super::lexer::{Flaw, Word};
 use crate::block::arc::{centre_by_offsets, ArcFault, Ends, Least, Slack, MOST_TURNS};
 use crate::machine::ArcRules;
 use crate::read_error::ReadFault;
@@ -33,11 +32,11 @@ impl Circle {
         mm: impl Fn(Word) -> Result<f64, Flaw>,
     ) -> Result<Arc, Flaw> {
         let [_, _, across] = self.ends.plane.axes();
-        if let Some(word) = block.offsets.get(across).copied().flatten() {
+        if let Some(word) = block.offsets().get(across).copied().flatten() {
             return Err((ReadFault::ArcPlane, Some(word)));
         }
-        let centre = match block.radius {
-            Some(word) if block.offsets.iter().any(Option::is_some) => return Err((ReadFault::ArcForm, Some(word))),
+        let centre = match block.words.get(b'R') {
+            Some(word) if block.offsets().iter().any(Option::is_some) => return Err((ReadFault::ArcForm, Some(word))),
             Some(word) => {
                 let centre = self.ends.centre_by_radius(mm(word)?, SLACK);
                 centre.map_err(|fault| (read_fault(fault), Some(word)))?
@@ -60,15 +59,15 @@ impl Circle {
         code: Word,
         mm: impl Fn(Word) -> Result<f64, Flaw>,
     ) -> Result<[f64; 3], Flaw> {
-        if block.offsets.iter().all(Option::is_none) {
+        if block.offsets().iter().all(Option::is_none) {
             return Err((ReadFault::MissingWord { what: "the arc's centre (I, J, K) or R" }, Some(code)));
         }
         let [first, second, _] = self.ends.plane.axes();
-        if self.absolute && [first, second].iter().any(|axis| block.offsets[*axis].is_none()) {
+        if self.absolute && [first, second].iter().any(|axis| block.offsets()[*axis].is_none()) {
             return Err((ReadFault::MissingWord { what: "one of the centre's two places (G90.1)" }, Some(code)));
         }
         let mut offsets = [None; 3];
-        for (offset, word) in offsets.iter_mut().zip(block.offsets) {
+        for (offset, word) in offsets.iter_mut().zip(block.offsets()) {
             *offset = word.map(&mm).transpose()?;
         }
         let start = self.ends.start;
@@ -104,7 +103,7 @@ fn turns(block: &Block) -> Result<u32, Flaw> {
             Err((ReadFault::ArcTurns { most: MOST_TURNS }, Some(word)))
         };
     }
-    let Some(word) = block.p else { return Ok(0) };
+    let Some(word) = block.words.get(b'P') else { return Ok(0) };
     let arrivals = word.number.natural().filter(|p| *p > 0).ok_or((ReadFault::NotNatural, Some(word)))?;
     if arrivals > MOST_TURNS {
         return Err((ReadFault::ArcTurns { most: MOST_TURNS }, Some(word)));

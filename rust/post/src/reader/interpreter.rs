@@ -20,19 +20,19 @@ use super::called::Called;
 use super::circle::Circle;
 use super::codes::Codes;
 use super::drilling::Series;
-use super::lexer::Word;
+use super::lexer::{Flaw, Word};
+use super::reading::Reading;
 use super::standing::Standing;
-use super::Reading;
 use crate::block::arc::Ends;
-use crate::block::{Modes, Motion};
+use crate::block::{Code, Modes, Motion};
 use crate::machine::Machine;
 use crate::read_error::ReadFault;
 
 const AXES: [char; 3] = ['X', 'Y', 'Z'];
 const Z: usize = 2;
 
-/// A fault and the word that has it.
-pub(crate) type Flaw = (ReadFault, Option<Word>);
+/// Typical length of a line, to reserve memory.
+const TYPICAL_LINE: usize = 20;
 
 /// One axis: where the posted point stands, in mm.
 #[derive(Clone, Copy, Debug, Default)]
@@ -95,7 +95,7 @@ pub(crate) struct Interpreter<'m> {
 }
 
 impl<'m> Interpreter<'m> {
-    pub(crate) fn new(machine: &'m Machine, tools: &[ToolRecord], typical_moves: usize) -> Self {
+    pub(crate) fn new(machine: &'m Machine, tools: &[ToolRecord], text_length: usize) -> Self {
         Self {
             machine,
             modes: Modes::new(machine.reader.default_units, false),
@@ -127,7 +127,7 @@ impl<'m> Interpreter<'m> {
             wcs_now: None,
             label: None,
             operation_due: true,
-            program: empty_program(tools, typical_moves),
+            program: empty_program(tools, text_length / TYPICAL_LINE),
         }
     }
 
@@ -164,9 +164,7 @@ impl<'m> Interpreter<'m> {
     /// Carries out a block, in the order in which controllers do; says whether it ended the program.
     pub(crate) fn run(&mut self, block: &Block, codes: &Codes, line: u32) -> Result<bool, Flaw> {
         self.set_units(block)?;
-        if let Some((mode, _)) = block.feed_mode {
-            self.modes.feed.set_mode(mode);
-        }
+        self.take_modes(block, |code| matches!(code, Code::FeedMode(_)));
         self.set_feed(block)?;
         self.set_tool(block)?;
         self.set_speed(block)?;
@@ -180,19 +178,21 @@ impl<'m> Interpreter<'m> {
         self.set_path(block)?;
         self.set_edge(block)?;
         self.set_wcs(block, codes)?;
-        self.modes.incremental = block.incremental.unwrap_or(self.modes.incremental);
-        self.distance_said |= block.incremental.is_some();
-        if let Some((plane, _)) = block.plane {
+        self.distance_said |= block.incremental().is_some();
+        if let Some((plane, _)) = block.plane() {
             self.set_plane(plane);
         }
-        self.modes.absolute_centre = block.absolute_centre.unwrap_or(self.modes.absolute_centre);
-        self.modes.low_return = block.low_return.unwrap_or(self.modes.low_return);
+        self.take_modes(block, |code| !matches!(code, Code::Unit(_)));
         self.go(block, line)?;
         if late {
             self.stop_spindle(block);
             self.stop_coolant(block);
         }
         Ok(self.stop(block))
+    }
+
+    fn take_modes(&mut self, block: &Block, which: impl Fn(Code) -> bool) {
+        block.codes().filter(|code| which(*code)).for_each(|code| self.modes.take(code));
     }
 
     fn event(&mut self, kind: EventKind) {
@@ -203,7 +203,7 @@ impl<'m> Interpreter<'m> {
         let mut standing = self.standing;
         standing.take_path(block, |word| self.mm(word))?;
         self.standing = standing;
-        if let Some(code) = block.smoothing.filter(|_| self.loose) {
+        if let Some(code) = block.smoothing().filter(|_| self.loose) {
             let text = format!("G{} left out, the machine's file says how the path is kept", code.number.value());
             self.event(EventKind::Comment { text });
         }
@@ -215,8 +215,9 @@ impl<'m> Interpreter<'m> {
     }
 
     fn set_wcs(&mut self, block: &Block, codes: &Codes) -> Result<(), Flaw> {
-        let Some(word) = block.wcs else { return Ok(()) };
-        let index = codes.wcs(word, block.p, block.h).ok_or((ReadFault::Wcs, Some(word)))?;
+        let Some(word) = block.wcs() else { return Ok(()) };
+        let index =
+            codes.wcs(word, block.words.get(b'P'), block.words.get(b'H')).ok_or((ReadFault::Wcs, Some(word)))?;
         self.choose_wcs(index).map_err(|fault| (fault, Some(word)))
     }
 
@@ -251,25 +252,30 @@ impl<'m> Interpreter<'m> {
     }
 
     fn go(&mut self, block: &Block, line: u32) -> Result<(), Flaw> {
-        if let Some((motion, _)) = block.motion {
+        if let Some((motion, _)) = block.motion() {
             self.motion = Some(motion);
         }
         if let Some((called, word)) = self.calls(block) {
             return self.drill_here(block, called, word, line);
         }
-        if let Some(code) = block.machine_coordinates {
+        if let Some(code) = block.machine_coordinates() {
             return self.go_to_machine_place(block, code, line);
         }
-        if let Some(code) = block.home {
+        if let Some(code) = block.home() {
             return self.go_home(block, code, line);
         }
-        if let Some((must_touch, code)) = block.probe {
+        if let Some((must_touch, code)) = block.probe() {
             return self.probe(block, must_touch, code);
         }
         if let Some(Motion::Cycle(number)) = self.motion {
             return self.drill(block, number, line);
         }
         self.series = None;
+        self.travel(block, line)
+    }
+
+    /// A line or an arc.
+    fn travel(&mut self, block: &Block, line: u32) -> Result<(), Flaw> {
         let arc_words = matches!(self.motion, Some(Motion::Arc(_))).then(|| block.arc_words().next()).flatten();
         let Some(first) = block.any_axis().or(arc_words) else { return Ok(()) };
         let kind = match self.motion {
@@ -327,18 +333,18 @@ impl<'m> Interpreter<'m> {
 
     /// Whether a canned cycle is in force once a block has said its word.
     pub(crate) fn cycle_after(&self, block: &Block) -> bool {
-        matches!(block.motion.map(|(motion, _)| motion).or(self.motion), Some(Motion::Cycle(_)))
+        matches!(block.motion().map(|(motion, _)| motion).or(self.motion), Some(Motion::Cycle(_)))
     }
 
     /// Whether an arc is in force once a block has said its word.
     pub(crate) fn arc_after(&self, block: &Block) -> bool {
-        matches!(block.motion.map(|(motion, _)| motion).or(self.motion), Some(Motion::Arc(_)))
+        matches!(block.motion().map(|(motion, _)| motion).or(self.motion), Some(Motion::Arc(_)))
     }
 
     fn arc(&self, block: &Block, start: [f64; 3], clockwise: bool, code: Word) -> Result<Arc, Flaw> {
         let Some(rules) = &self.machine.arc else { return Err((self.refusal(), Some(code))) };
         let [first, second, _] = self.modes.plane.axes();
-        if rules.needs_axis && [first, second].iter().all(|axis| block.axes.get(*axis).is_none_or(Option::is_none)) {
+        if rules.needs_axis && [first, second].iter().all(|axis| block.axes().get(*axis).is_none_or(Option::is_none)) {
             return Err((ReadFault::ArcNeedsAxis, Some(code)));
         }
         let circle = Circle {

@@ -8,15 +8,13 @@ use styluscam_motion::{Plane, ToolRecord};
 use super::block::Block;
 use super::called::{number, Called, Parameters};
 use super::codes::Codes;
-use super::interpreter::{Flaw, Interpreter};
-use super::lexer::Word;
-use super::{flaw_at, misfit_at, whole_line, whole_text, Reading};
+use super::errors::{flaw_at, misfit_at, whole_line, whole_text};
+use super::interpreter::Interpreter;
+use super::lexer::{Flaw, Word};
+use super::reading::Reading;
 use crate::block::{cut_number, m_code, Code, Misfit, Motion, Number, Stop};
 use crate::machine::{LengthUnit, Machine};
 use crate::read_error::{ReadError, ReadFault};
-
-/// Typical length of a line, to reserve memory.
-const TYPICAL_LINE: usize = 20;
 
 /// Reads `text` as `machine` would.
 pub(super) fn read(text: &str, machine: &Machine, tools: &[ToolRecord]) -> Result<Reading, ReadError> {
@@ -24,7 +22,7 @@ pub(super) fn read(text: &str, machine: &Machine, tools: &[ToolRecord]) -> Resul
     let mut reader = Reader {
         machine,
         codes,
-        interpreter: Interpreter::new(machine, tools, text.len() / TYPICAL_LINE),
+        interpreter: Interpreter::new(machine, tools, text.len()),
         units: None,
         centre: [None; 2],
         cycle: None,
@@ -76,9 +74,13 @@ impl Token<'_> {
         Misfit { fault, start: self.start, end: self.end() }
     }
 
-    /// The number behind an address; `letter` is what the word becomes.
-    fn word(&self, address: &str, letter: u8) -> Result<Word, Misfit> {
-        let from = address.len();
+    /// The word of a code that has no number of its own.
+    fn code(&self, letter: u8) -> Word {
+        Word { letter, number: Number::whole(0), start: self.start, end: self.end() }
+    }
+
+    /// The number behind an address of so many letters; `letter` is what the word becomes.
+    fn word(&self, from: usize, letter: u8) -> Result<Word, Misfit> {
         let (number, end) = cut_number(self.text.as_bytes(), from).map_err(|m| self.misfit(m.fault))?;
         if end != self.text.len() {
             return Err(self.misfit(ReadFault::UnknownWord));
@@ -140,8 +142,7 @@ impl Reader<'_> {
             ["TOOL", "CALL", ..] => tool_call(&tokens[2..]).map(Some).map_err(misfit),
             ["CYCL", "DEF", ..] => self.cycle(&tokens[2..]).map_err(misfit),
             ["CYCL", "CALL"] => {
-                let word =
-                    Word { letter: b'M', number: Number::whole(99), start: tokens[0].start, end: tokens[1].end() };
+                let word = Word { end: tokens[1].end(), ..tokens[0].code(b'M') };
                 Ok(Some(Block { call: Some(word), ..Block::default() }))
             }
             ["CC"] => Err(misfit(tokens[0].misfit(ReadFault::MissingWord { what: "the centre (X and Y)" }))),
@@ -164,7 +165,8 @@ impl Reader<'_> {
             return Err(tokens[0].misfit(ReadFault::SameGroup));
         }
         self.units = Some(units);
-        Ok(Block { units: Some(units), incremental: Some(false), absolute_centre: Some(true), ..Block::default() })
+        let word = tokens[0].code(b'U');
+        Ok(Block::of(&[Code::Unit(units), Code::Incremental(false), Code::AbsoluteCentre(true)], word))
     }
 
     /// X, Y and Z of a block, and what else may stand in it: R0, F, M.
@@ -179,26 +181,22 @@ impl Reader<'_> {
                 "FMAX" => rapid = Some(*token),
                 "F" if tokens.get(index + 1).is_some_and(|next| next.text == "MAX") => rapid = Some(*token),
                 "MAX" if rapid.is_some() => {}
-                text if text.starts_with('F') => once(&mut block.feed, token.word("F", b'F')?, token)?,
+                text if text.starts_with('F') => take_word(&mut block, token, b'F')?,
                 _ => take_common(&mut block, token)?,
             }
         }
-        let code = tokens.first().map_or(Word { letter: b'L', number: Number::whole(0), start: 0, end: 0 }, |t| Word {
-            letter: b'L',
-            number: Number::whole(0),
-            start: t.start,
-            end: t.end(),
-        });
+        let nothing = Word { letter: b'L', number: Number::whole(0), start: 0, end: 0 };
+        let code = tokens.first().map_or(nothing, |token| token.code(b'L'));
         let motion = if rapid.is_some() { Motion::Rapid } else { Motion::Feed };
-        block.motion = Some((motion, code));
+        block.set_code(Code::Motion(motion), code);
         Ok(block)
     }
 
     fn set_centre(&mut self, tokens: &[Token]) -> Result<(), Misfit> {
         for token in tokens {
             match token.text.as_bytes().first() {
-                Some(b'X') => self.centre[0] = Some(token.word("X", b'I')?),
-                Some(b'Y') => self.centre[1] = Some(token.word("Y", b'J')?),
+                Some(b'X') => self.centre[0] = Some(token.word(1, b'I')?),
+                Some(b'Y') => self.centre[1] = Some(token.word(1, b'J')?),
                 _ => return Err(token.misfit(ReadFault::NotRead { what: "centres other than by X and Y" })),
             }
         }
@@ -214,15 +212,15 @@ impl Reader<'_> {
                 "DR+" => clockwise = Some(false),
                 "DR-" => clockwise = Some(true),
                 text if text.starts_with("IPA") && head.text == "CP" => {
-                    once(&mut block.polar, token.word("IPA", b'P')?, token)?;
+                    once(&mut block.polar, token.word(3, b'P')?, token)?;
                 }
                 text if text.starts_with("IZ") && head.text == "CP" => {
-                    once(&mut block.rise, token.word("IZ", b'Z')?, token)?;
+                    once(&mut block.rise, token.word(2, b'Z')?, token)?;
                 }
                 text if text.starts_with("R") && head.text == "CR" => {
-                    once(&mut block.radius, token.word("R", b'R')?, token)?;
+                    take_word(&mut block, token, b'R')?;
                 }
-                text if text.starts_with('F') => once(&mut block.feed, token.word("F", b'F')?, token)?,
+                text if text.starts_with('F') => take_word(&mut block, token, b'F')?,
                 _ => take_common(&mut block, token)?,
             }
         }
@@ -238,14 +236,14 @@ impl Reader<'_> {
             }
         }
         if head.text == "CR" {
-            block.radius.ok_or(missing("the radius of the arc (R)"))?;
+            block.words.get(b'R').ok_or(missing("the radius of the arc (R)"))?;
         } else {
             let [Some(x), Some(y)] = self.centre else { return Err(missing("the arc's centre (CC)")) };
-            block.offsets = [Some(x), Some(y), None];
+            block.words.set(b'I', x);
+            block.words.set(b'J', y);
         }
-        let code = Word { letter: b'C', number: Number::whole(0), start: head.start, end: head.end() };
-        block.motion = Some((Motion::Arc(clockwise), code));
-        block.plane = Some((Plane::Xy, code));
+        block.set_code(Code::Motion(Motion::Arc(clockwise)), head.code(b'C'));
+        block.set_code(Code::Plane(Plane::Xy), head.code(b'C'));
         Ok(block)
     }
 
@@ -259,7 +257,7 @@ impl Reader<'_> {
                 .iter()
                 .rev()
                 .find(|t| t.text.starts_with(address))
-                .map(|t| t.word(address, letter))
+                .map(|t| t.word(address.len(), letter))
         };
         match first.text {
             "9.0" | "32.0" | "32.2" => Ok(None),
@@ -267,13 +265,15 @@ impl Reader<'_> {
                 let last = tokens
                     .get(2)
                     .ok_or_else(|| first.misfit(ReadFault::MissingWord { what: "the time of cycle 9" }))?;
-                let time = last.word("", b'P')?;
-                Ok(Some(Block { dwell: Some(time), time: Some(time), ..Block::default() }))
+                let time = last.word(0, b'P')?;
+                Ok(Some(Block { time: Some(time), ..Block::of(&[Code::Dwell], time) }))
             }
             "32.1" => {
-                let code = Word { letter: b'G', number: Number::whole(64), start: first.start, end: first.end() };
-                let p = value("T", b'P').transpose()?;
-                Ok(Some(Block { smoothing: Some(code), p, ..Block::default() }))
+                let mut block = Block::of(&[Code::PathMode], Word { number: Number::whole(64), ..first.code(b'G') });
+                if let Some(tolerance) = value("T", b'P') {
+                    block.words.set(b'P', tolerance?);
+                }
+                Ok(Some(block))
             }
             "200" | "203" | "207" | "247" if self.continues => {
                 self.cycle = first.text.parse().ok().map(|number| (number, Parameters::default()));
@@ -318,18 +318,16 @@ impl Reader<'_> {
 
 /// The way along the tool to the end of its axis, which is at or over the machine's zero.
 fn away(token: &Token) -> Block {
-    let word = Word { letter: b'M', number: Number::whole(0), start: token.start, end: token.end() };
-    let axes = [None, None, Some(word)];
-    Block { axes, machine_coordinates: Some(word), motion: Some((Motion::Rapid, word)), ..Block::default() }
+    let word = token.code(b'M');
+    let mut block = Block::of(&[Code::MachineCoordinates, Code::Motion(Motion::Rapid)], word);
+    block.words.set(b'Z', word);
+    block
 }
 
 /// X, Y, Z, R0 and M words of any block.
 fn take_common(block: &mut Block, token: &Token) -> Result<(), Misfit> {
-    let [x, y, z] = &mut block.axes;
     match token.text.as_bytes() {
-        [b'X', ..] => once(x, token.word("X", b'X')?, token),
-        [b'Y', ..] => once(y, token.word("Y", b'Y')?, token),
-        [b'Z', ..] => once(z, token.word("Z", b'Z')?, token),
+        [letter @ (b'X' | b'Y' | b'Z'), ..] => take_word(block, token, *letter),
         b"R0" => Ok(()),
         [b'R', b'L' | b'R', ..] => Err(token.misfit(ReadFault::NotRead { what: "radius compensations" })),
         [b'M', ..] => take_function(block, token),
@@ -339,18 +337,18 @@ fn take_common(block: &mut Block, token: &Token) -> Result<(), Misfit> {
 }
 
 fn take_function(block: &mut Block, token: &Token) -> Result<(), Misfit> {
-    let word = token.word("M", b'M')?;
+    let word = token.word(1, b'M')?;
     let number = word.number.natural().ok_or_else(|| token.misfit(ReadFault::UnknownCode))?;
-    let mut take = |number| {
-        let code = m_code(number).filter(|code| *code != Code::ToolChange).ok_or(ReadFault::UnknownCode);
-        code.and_then(|code| block.take_code(code, word, ReadFault::WordTwice)).map_err(|fault| token.misfit(fault))
+    let mut take = |number| match m_code(number) {
+        None | Some(Code::ToolChange) => Err(token.misfit(ReadFault::UnknownCode)),
+        Some(code) => take_code(block, code, word, token),
     };
     match number {
         13 | 14 => {
             take(number - 10)?;
             take(8)
         }
-        91 => once(&mut block.machine_coordinates, word, token),
+        91 => take_code(block, Code::MachineCoordinates, word, token),
         99 => once(&mut block.call, word, token),
         _ => take(number),
     }
@@ -362,9 +360,8 @@ fn functions(tokens: &[Token], skip: usize) -> Result<Block, Misfit> {
     for token in tokens.get(skip..).unwrap_or_default() {
         take_function(&mut block, token)?;
     }
-    if skip > 0 && block.stop.is_none() {
-        let word = Word { letter: b'M', number: Number::whole(0), start: tokens[0].start, end: tokens[0].end() };
-        block.stop = Some((Stop::Pause, word));
+    if skip > 0 && block.stop().is_none() {
+        block.set_code(Code::Stop(Stop::Pause), tokens[0].code(b'M'));
     }
     Ok(block)
 }
@@ -375,13 +372,13 @@ fn tool_call(tokens: &[Token]) -> Result<Block, Misfit> {
     for token in tokens {
         match token.text.as_bytes() {
             [b'0'..=b'9', ..] => {
-                let word = token.word("", b'T')?;
-                block.tool = Some(word);
-                block.change = Some(word);
+                let word = token.word(0, b'T')?;
+                block.words.set(b'T', word);
+                block.set_code(Code::ToolChange, word);
             }
             b"Z" => {}
-            [b'S', ..] => once(&mut block.speed, token.word("S", b'S')?, token)?,
-            [b'F', ..] => once(&mut block.feed, token.word("F", b'F')?, token)?,
+            [b'S', ..] => take_word(&mut block, token, b'S')?,
+            [b'F', ..] => take_word(&mut block, token, b'F')?,
             [b'D', b'L' | b'R', ..] => {
                 return Err(token.misfit(ReadFault::NotRead { what: "oversizes of tools" }));
             }
@@ -389,6 +386,14 @@ fn tool_call(tokens: &[Token]) -> Result<Block, Misfit> {
         }
     }
     Ok(block)
+}
+
+fn take_word(block: &mut Block, token: &Token, letter: u8) -> Result<(), Misfit> {
+    block.take_word(letter, token.word(1, letter)?).map_err(|fault| token.misfit(fault))
+}
+
+fn take_code(block: &mut Block, code: Code, word: Word, token: &Token) -> Result<(), Misfit> {
+    block.take_code(code, word, ReadFault::WordTwice).map_err(|fault| token.misfit(fault))
 }
 
 fn once<T>(slot: &mut Option<T>, value: T, token: &Token) -> Result<(), Misfit> {

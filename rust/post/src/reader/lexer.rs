@@ -17,6 +17,9 @@ pub(crate) struct Word {
     pub(crate) end: usize,
 }
 
+/// A fault and the word that has it.
+pub(crate) type Flaw = (ReadFault, Option<Word>);
+
 /// What one line holds; used again for the next one.
 #[derive(Debug, Default)]
 pub(crate) struct Line<'t> {

@@ -5,15 +5,15 @@ mod called;
 mod circle;
 mod codes;
 mod drilling;
+mod errors;
 mod interpreter;
 mod klartext;
 mod lexer;
+mod reading;
 mod siemens;
 mod standing;
 
-use std::ops::Range;
-
-use styluscam_motion::{EventKind, MachineMove, Program, ToolRecord};
+use styluscam_motion::{EventKind, ToolRecord};
 
 use crate::block::{Comments, Misfit, Number};
 use crate::machine::{AfterEnd, BlockDelete, Family, Machine, Turns};
@@ -22,46 +22,14 @@ use crate::writer::counted_length;
 use block::{Block, Force};
 use called::{Arguments, Called};
 use codes::{Codes, Meaning};
+use errors::{flaw_at, misfit_at, whole_line, whole_text};
 pub(crate) use interpreter::bare_tool;
-use interpreter::{Flaw, Interpreter};
-use lexer::{Call, Line, Word};
-
-/// A program read from text.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Reading {
-    /// The program; places are those of the tips, mm. The set-up holds the work offset only.
-    pub program: Program,
-    /// Index of the first move at whose end all three axes have been commanded; the number of moves when none is.
-    pub first_placed_move: usize,
-    /// Moves at whose end the place of Z is not known, in runs.
-    pub blind: Vec<Range<usize>>,
-    /// Moves in the machine's own coordinates.
-    pub machine_moves: Vec<MachineMove>,
-    /// Lines that were passed over and that run where the operator's switch for optional blocks says so.
-    pub optional_lines: Vec<u32>,
-    /// The line of the first feed move with no length offset in force, on machines that have them.
-    pub bare_line: Option<u32>,
-    /// Moves at whose end the place of some axis is not known, in runs: at the start, after a tool change (Z), after G53.
-    ///
-    /// There the axis stands at the next place commanded, or at the last one when none follows.
-    pub unplaced: Vec<Range<usize>>,
-    /// Modal codes that the first move relies on and that the text does not say: G90, G54.
-    pub unsaid: Vec<&'static str>,
-    /// Moves made while G18 or G19 was in force and no arc used it, in runs.
-    pub stray_planes: Vec<Range<usize>>,
-    /// Moves before which M0 or M1 stops the program.
-    pub stops: Vec<usize>,
-    /// Lines of the text, up to its end.
-    pub lines: u32,
-    /// Whether the text came to M2 or M30.
-    pub ended: bool,
-}
+use interpreter::Interpreter;
+use lexer::{Call, Flaw, Line, Word};
+pub use reading::Reading;
 
 /// In place of a radius's letter, where the machine reads none.
 const NO_RADIUS: u8 = 0;
-
-/// Typical length of a line, to reserve memory.
-const TYPICAL_LINE: usize = 20;
 
 /// Reads `text` as `machine` would, strictly: what is not understood is an error, never skipped.
 ///
@@ -175,7 +143,7 @@ impl<'t> Reader<'t> {
             radius_word: radius_word.bytes().next().unwrap_or(NO_RADIUS),
             dwell_word: machine.dwell.as_ref().map_or('P', |d| d.word),
             line: Line::default(),
-            interpreter: Interpreter::new(machine, tools, length / TYPICAL_LINE),
+            interpreter: Interpreter::new(machine, tools, length),
             stage: Stage::Start,
             framed: false,
             by_code: false,
@@ -318,7 +286,7 @@ impl<'t> Reader<'t> {
             cycle: self.interpreter.cycle_after(&block),
         };
         block.settle(&force).map_err(|(fault, word)| (fault, Some(word)))?;
-        if let (Some(word), None, false) = (block.any_axis(), block.motion, self.machine.reader.modal_motion) {
+        if let (Some(word), None, false) = (block.any_axis(), block.motion(), self.machine.reader.modal_motion) {
             return Err((ReadFault::NoMotionMode, Some(word)));
         }
         self.interpreter.run(&block, &self.codes, number)
@@ -383,27 +351,5 @@ impl<'t> Reader<'t> {
         }
         let (program, ended) = (self.interpreter, self.by_code);
         program.finish(ended, lines, self.optional_lines).map_err(whole_text)
-    }
-}
-
-fn whole_text(fault: ReadFault) -> ReadError {
-    ReadError { line: 0, column: 0, word: String::new(), fault }
-}
-
-fn whole_line(line: u32, fault: ReadFault) -> ReadError {
-    ReadError { line, column: 0, word: String::new(), fault }
-}
-
-fn misfit_at(text: &str, line: u32, misfit: Misfit) -> ReadError {
-    let before = text.get(..misfit.start).unwrap_or_default().chars().count() + 1;
-    let column = u32::try_from(before).unwrap_or(u32::MAX);
-    let word = text.get(misfit.start..misfit.end).unwrap_or_default().chars().take(40).collect();
-    ReadError { line, column, word, fault: misfit.fault }
-}
-
-fn flaw_at(text: &str, line: u32, fault: ReadFault, word: Option<Word>) -> ReadError {
-    match word {
-        Some(Word { start, end, .. }) => misfit_at(text, line, Misfit { fault, start, end }),
-        None => whole_line(line, fault),
     }
 }

@@ -3,8 +3,7 @@
 use styluscam_motion::ToolRecord;
 
 use super::block::Block;
-use super::interpreter::Flaw;
-use super::lexer::Word;
+use super::lexer::{Flaw, Word};
 use crate::machine::Machine;
 use crate::read_error::ReadFault;
 
@@ -29,7 +28,7 @@ impl Standing {
 
     /// G43 and G49; a bare G43 takes `loaded`, the loaded tool's offset. The number's letter is `letter`.
     pub(crate) fn take_length(&mut self, block: &Block, loaded: Option<u32>, letter: u8) -> Result<(), Flaw> {
-        match (block.length, block.length_number(letter)) {
+        match (block.length(), block.length_number(letter)) {
             (Some((true, _)), Some(h)) => {
                 let found = h.number.natural().ok_or((ReadFault::NotNatural, Some(h)))?;
                 if let Some(expected) = loaded.filter(|expected| *expected != found) {
@@ -56,9 +55,9 @@ impl Standing {
 
     /// G61, G64; `mm` gives a word's length.
     pub(crate) fn take_path(&mut self, block: &Block, mm: impl Fn(Word) -> Result<f64, Flaw>) -> Result<(), Flaw> {
-        let Some(code) = block.smoothing else { return Ok(()) };
+        let Some(code) = block.smoothing() else { return Ok(()) };
         let exact = code.number.tenths().is_some_and(|tenths| EXACT.contains(&tenths));
-        self.path = match (block.p, block.q) {
+        self.path = match (block.words.get(b'P'), block.words.get(b'Q')) {
             _ if exact => 0.0,
             // Q is what lines near to one another may be joined by; left out, it is P
             (Some(p), q) => q.map_or(Ok(0.0), &mm)?.max(mm(p)?),

@@ -2,11 +2,11 @@
 
 use styluscam_motion::{EventKind, MachineMove};
 
-use super::{Flaw, Interpreter, AXES, Z};
+use super::{Interpreter, AXES, Z};
 use crate::block::Motion;
 use crate::read_error::ReadFault;
 use crate::reader::block::Block;
-use crate::reader::lexer::Word;
+use crate::reader::lexer::{Flaw, Word};
 
 impl Interpreter<'_> {
     /// A way until the probe touches: where it ends is not known.
@@ -18,7 +18,7 @@ impl Interpreter<'_> {
         self.series = None;
         let feed = self.feed_of(block, 1.0, code)?;
         let mut end = [None; 3];
-        for (axis, word) in block.axes.iter().enumerate() {
+        for (axis, word) in block.axes().iter().enumerate() {
             let Some(word) = *word else { continue };
             end[axis] = Some(self.mm(word)? - if axis == Z { self.height } else { 0.0 });
             self.forget(axis);
@@ -34,11 +34,11 @@ impl Interpreter<'_> {
     /// G28 by way of where the axis stands: `G91 G28 Z0`. Over any other place it may cut through the work.
     pub(super) fn go_home(&mut self, block: &Block, code: Word, line: u32) -> Result<(), Flaw> {
         let home = self.machine.reader.home.unwrap_or_default();
-        let straight = self.modes.incremental && block.axes.iter().flatten().all(|word| word.number.value() == 0.0);
+        let straight = self.modes.incremental && block.axes().iter().flatten().all(|word| word.number.value() == 0.0);
         if !straight || block.any_axis().is_none() {
             return Err((ReadFault::HomeByWay, Some(code)));
         }
-        let places = std::array::from_fn(|axis| block.axes[axis].map(|_| home[axis]));
+        let places = std::array::from_fn(|axis| block.axes()[axis].map(|_| home[axis]));
         self.series = None;
         self.leave_work("G28, place in the work unknown".into(), places, line);
         Ok(())
@@ -55,7 +55,7 @@ impl Interpreter<'_> {
         }
         let mut text = String::from("G53, place in the work unknown:");
         let mut places = [None; 3];
-        for (index, (word, name)) in block.axes.iter().zip(AXES).enumerate() {
+        for (index, (word, name)) in block.axes().iter().zip(AXES).enumerate() {
             let Some(word) = *word else { continue };
             let place = self.mm(word)?;
             text.push_str(&format!(" {name}{place} mm"));

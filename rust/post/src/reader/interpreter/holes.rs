@@ -2,20 +2,20 @@
 
 use styluscam_motion::{Cycle, CycleKind, CycleStart, CycleStep, MoveKind, Plane};
 
-use super::{Flaw, Interpreter, Z};
+use super::{Interpreter, Z};
 use crate::block::Motion;
 use crate::machine::CycleRules;
 use crate::read_error::ReadFault;
 use crate::reader::block::Block;
 use crate::reader::called::{Called, Pace};
 use crate::reader::drilling::Series;
-use crate::reader::lexer::Word;
+use crate::reader::lexer::{Flaw, Word};
 
 impl Interpreter<'_> {
     /// One hole of a canned cycle; nothing where a block says no place and no cycle.
     pub(super) fn drill(&mut self, block: &Block, number: u16, line: u32) -> Result<(), Flaw> {
-        let said = block.motion.map(|(_, word)| word);
-        let [x, y, z] = block.axes;
+        let said = block.motion().map(|(_, word)| word);
+        let [x, y, z] = block.axes();
         let Some(first) = x.or(y).or(z).or(said) else { return Ok(()) };
         let Some(rules) = &self.machine.cycle else { return Err((self.refusal(), Some(first))) };
         if self.modes.incremental {
@@ -42,7 +42,7 @@ impl Interpreter<'_> {
         if !rules.kinds.contains(&cycle.kind) {
             return Err((self.refusal(), said.or(Some(first))));
         }
-        self.make(cycle, start, line).map_err(|fault| (fault, block.q.or(Some(first))))?;
+        self.make(cycle, start, line).map_err(|fault| (fault, block.words.get(b'Q').or(Some(first))))?;
         self.series = Some(series);
         Ok(())
     }
@@ -67,8 +67,8 @@ impl Interpreter<'_> {
     ) -> Result<(), Flaw> {
         let flaw = |fault| (fault, Some(word));
         let called = called.ok_or(flaw(ReadFault::MissingWord { what: "the cycle to call" }))?;
-        let [x, y, z] = block.axes;
-        let elsewhere = block.machine_coordinates.or(block.home).or(block.probe.map(|(_, word)| word));
+        let [x, y, z] = block.axes();
+        let elsewhere = block.machine_coordinates().or(block.home()).or(block.probe().map(|(_, word)| word));
         let across = z.is_none() && elsewhere.is_none() && !self.modes.incremental && self.modes.plane == Plane::Xy;
         let rapid = self.motion == Some(Motion::Rapid) || x.or(y).is_none();
         if !across || !rapid {
@@ -128,15 +128,15 @@ impl Interpreter<'_> {
 
     /// The series in force, or a new one, with what a block says of it.
     fn series_with(&mut self, block: &Block, number: u16, height: f64, rules: &CycleRules) -> Result<Series, Flaw> {
-        let [_, _, z] = block.axes;
+        let [_, _, z] = block.axes();
         let mut series = Series::next(self.series.take(), number, height);
         let tip = |word: Word| Ok::<_, Flaw>(self.mm(word)? - self.height);
         series.bottom = z.map(tip).transpose()?.or(series.bottom);
-        series.retract = block.radius.map(tip).transpose()?.or(series.retract);
-        if let Some(word) = block.q {
+        series.retract = block.words.get(b'R').map(tip).transpose()?.or(series.retract);
+        if let Some(word) = block.words.get(b'Q') {
             series.peck = self.mm(word)?;
         }
-        if let Some(word) = block.p {
+        if let Some(word) = block.words.get(b'P') {
             series.dwell = self.seconds(word, rules.dwell_unit)?;
         }
         Ok(series)

@@ -1,18 +1,18 @@
 //! Units, numbers and feeds.
 
-use super::{Flaw, Interpreter};
+use super::Interpreter;
 use crate::block::{FeedFault, Motion};
 use crate::machine::{FeedMode, LengthUnit, Point, TimeUnit};
 use crate::read_error::ReadFault;
 use crate::reader::block::Block;
-use crate::reader::lexer::Word;
+use crate::reader::lexer::{Flaw, Word};
 
 impl Interpreter<'_> {
     pub(super) fn set_units(&mut self, block: &Block) -> Result<(), Flaw> {
-        let Some(units) = block.units else { return Ok(()) };
+        let Some(units) = block.unit().map(|(unit, _)| unit) else { return Ok(()) };
         let changes = self.modes.unit.is_some_and(|u| u != units);
-        if changes && block.feed.is_some() {
-            return Err((ReadFault::FeedWithUnits, block.feed));
+        if changes && block.words.get(b'F').is_some() {
+            return Err((ReadFault::FeedWithUnits, block.words.get(b'F')));
         }
         self.modes.unit = Some(units);
         Ok(())
@@ -49,13 +49,13 @@ impl Interpreter<'_> {
     }
 
     pub(super) fn set_feed(&mut self, block: &Block) -> Result<(), Flaw> {
-        let Some(word) = block.feed else { return Ok(()) };
+        let Some(word) = block.words.get(b'F') else { return Ok(()) };
         let feed = match self.modes.feed.mode {
             FeedMode::InverseTime => self.real(word)?,
             _ => self.mm(word)? / self.machine.feed_scale_of(self.modes.unit),
         };
-        let motion = block.motion.map(|(motion, _)| motion).or(self.motion);
-        let rapid = motion == Some(Motion::Rapid) && block.probe.is_none();
+        let motion = block.motion().map(|(motion, _)| motion).or(self.motion);
+        let rapid = motion == Some(Motion::Rapid) && block.probe().is_none();
         if self.loose && (rapid || feed <= 0.0) {
             self.modes.feed.value = self.modes.feed.value.filter(|_| rapid); // a feed of 0 is none, not the one before
             return Ok(());
@@ -70,7 +70,7 @@ impl Interpreter<'_> {
     /// The feed of a block whose path is so long, mm/min.
     pub(super) fn feed_of(&self, block: &Block, length: f64, word: Word) -> Result<f64, Flaw> {
         let modes = &self.modes;
-        if modes.feed.mode == FeedMode::InverseTime && block.feed.is_none() {
+        if modes.feed.mode == FeedMode::InverseTime && block.words.get(b'F').is_none() {
             return Err((ReadFault::NoFeed, Some(word)));
         }
         let revolutions = modes.direction.map(|_| modes.speed).filter(|speed| *speed > 0.0);

@@ -1,10 +1,10 @@
 //! Where the tool stands, and since when that is not known.
 
-use super::{Axis, Flaw, Interpreter, AXES, Z};
+use super::{Axis, Interpreter, AXES, Z};
 use crate::machine::Lathe;
 use crate::read_error::ReadFault;
 use crate::reader::block::Block;
-use crate::reader::lexer::Word;
+use crate::reader::lexer::{Flaw, Word};
 
 impl Interpreter<'_> {
     /// Where the tip stands, as far as it is known.
@@ -23,7 +23,7 @@ impl Interpreter<'_> {
     }
 
     pub(super) fn place_axes(&mut self, block: &Block) -> Result<(), Flaw> {
-        for (index, word) in block.axes.iter().enumerate() {
+        for (index, word) in block.axes().iter().enumerate() {
             let Some(word) = *word else { continue };
             let value = self.mm(word)? / self.scale(index);
             let axis = self.axes.get(index).copied().unwrap_or_default();
@@ -37,7 +37,7 @@ impl Interpreter<'_> {
 
     /// The end of an arc that is given by an angle about its centre.
     pub(super) fn turn_axes(&mut self, block: &Block) -> Result<(), Flaw> {
-        let (Some(angle), [Some(x), Some(y), _]) = (block.polar, block.offsets) else { return Ok(()) };
+        let (Some(angle), [Some(x), Some(y), _]) = (block.polar, block.offsets()) else { return Ok(()) };
         let centre = [self.mm(x)?, self.mm(y)?];
         let degrees = angle.number.value();
         let (sin, cos) = libm::sincos(degrees.rem_euclid(360.0).to_radians());

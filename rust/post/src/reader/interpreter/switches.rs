@@ -2,15 +2,16 @@
 
 use styluscam_motion::EventKind;
 
-use super::{Flaw, Interpreter};
+use super::Interpreter;
 use crate::block::Stop;
 use crate::machine::SpeedUnit;
 use crate::read_error::ReadFault;
 use crate::reader::block::Block;
+use crate::reader::lexer::Flaw;
 
 impl Interpreter<'_> {
     pub(super) fn set_speed(&mut self, block: &Block) -> Result<(), Flaw> {
-        let Some(word) = block.speed else { return Ok(()) };
+        let Some(word) = block.words.get(b'S') else { return Ok(()) };
         let rpm = match (self.machine.spindle.unit, self.machine.limits.max_rpm) {
             (SpeedUnit::Percent, Some(most)) => word.number.value() / 100.0 * most,
             _ => word.number.value(),
@@ -19,7 +20,7 @@ impl Interpreter<'_> {
             return Err((ReadFault::Negative, Some(word)));
         }
         self.modes.speed = rpm;
-        if let (Some(direction), None) = (self.modes.direction, block.spindle) {
+        if let (Some(direction), None) = (self.modes.direction, block.spindle()) {
             self.event(EventKind::SpindleOn { rpm, direction });
         }
         Ok(())
@@ -27,7 +28,7 @@ impl Interpreter<'_> {
 
     /// Starts, and stops where those come first.
     pub(super) fn set_spindle(&mut self, block: &Block, stops: bool) {
-        let direction = match block.spindle {
+        let direction = match block.spindle() {
             Some((Some(direction), _)) => direction,
             Some((None, _)) if stops => return self.stop_spindle(block),
             _ => return,
@@ -38,7 +39,7 @@ impl Interpreter<'_> {
     }
 
     pub(super) fn stop_spindle(&mut self, block: &Block) {
-        if matches!(block.spindle, Some((None, _))) {
+        if matches!(block.spindle(), Some((None, _))) {
             self.modes.direction = None;
             self.halted = false;
             self.event(EventKind::SpindleOff);
@@ -47,11 +48,11 @@ impl Interpreter<'_> {
 
     /// Mist and flood on, and both off where that comes first.
     pub(super) fn set_coolant(&mut self, block: &Block, stops: bool) {
-        if block.mist.is_some() {
+        if block.mist().is_some() {
             self.modes.mist = true;
             self.event(EventKind::Mist { on: true });
         }
-        if block.flood.is_some() {
+        if block.flood().is_some() {
             self.event(EventKind::Flood { on: true });
         }
         if stops {
@@ -60,7 +61,7 @@ impl Interpreter<'_> {
     }
 
     pub(super) fn stop_coolant(&mut self, block: &Block) {
-        if block.coolant_off.is_some() {
+        if block.coolant_off().is_some() {
             if std::mem::take(&mut self.modes.mist) {
                 self.event(EventKind::Mist { on: false });
             }
@@ -69,7 +70,7 @@ impl Interpreter<'_> {
     }
 
     pub(super) fn dwell(&mut self, block: &Block) -> Result<(), Flaw> {
-        let Some(code) = block.dwell else { return Ok(()) };
+        let Some(code) = block.dwell() else { return Ok(()) };
         let Some(rules) = &self.machine.dwell else { return Err((self.refusal(), Some(code))) };
         let word = block.time.ok_or((
             ReadFault::MissingWord { what: "the time of G4, with the letter that [dwell] names," },
@@ -84,7 +85,7 @@ impl Interpreter<'_> {
     }
 
     pub(super) fn stop(&mut self, block: &Block) -> bool {
-        let Some((stop, _)) = block.stop else { return false };
+        let Some((stop, _)) = block.stop() else { return false };
         if stop != Stop::End {
             self.stops.push(self.program.moves.len());
             self.halted = self.machine.stop.stops_spindle && self.modes.direction.is_some();

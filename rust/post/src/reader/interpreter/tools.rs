@@ -2,24 +2,25 @@
 
 use styluscam_motion::{EventKind, ToolRecord};
 
-use super::{bare_tool, Flaw, Interpreter, Z};
+use super::{bare_tool, Interpreter, Z};
 use crate::machine::{Family, ToolChange};
 use crate::read_error::ReadFault;
 use crate::reader::block::Block;
-use crate::reader::lexer::Word;
+use crate::reader::lexer::{Flaw, Word};
 
 impl Interpreter<'_> {
     pub(super) fn set_tool(&mut self, block: &Block) -> Result<(), Flaw> {
-        if let Some(word) = block.tool {
+        if let Some(word) = block.words.get(b'T') {
             self.selected = Some(word.number.natural().ok_or((ReadFault::NotNatural, Some(word)))?);
         }
         // Without M6 the T word is all that the text says about a change.
         let by_code = matches!(self.machine.tool.change, ToolChange::M6 | ToolChange::ToolCall | ToolChange::Unsaid);
-        let by_word = if by_code { None } else { block.tool };
-        let Some(word) = block.change.or(by_word) else { return Ok(()) };
+        let by_word = if by_code { None } else { block.words.get(b'T') };
+        let Some(word) = block.change().or(by_word) else { return Ok(()) };
         let number = self.selected.ok_or((ReadFault::NoToolSelected, Some(word)))?;
-        let index =
-            self.tool_of_number(number).ok_or((ReadFault::UnknownTool { number }, block.tool.or(Some(word))))?;
+        let index = self
+            .tool_of_number(number)
+            .ok_or((ReadFault::UnknownTool { number }, block.words.get(b'T').or(Some(word))))?;
         self.load(index);
         self.modes.direction = None; // the spindle stops before a change
         self.halted = false;
@@ -65,7 +66,9 @@ impl Interpreter<'_> {
 
     /// D0 takes a tool's length away, D1 gives it back; other edges are not read (Sinumerik).
     pub(super) fn set_edge(&mut self, block: &Block) -> Result<(), Flaw> {
-        let Some(word) = block.d.filter(|_| self.machine.family == Family::Siemens) else { return Ok(()) };
+        let Some(word) = block.words.get(b'D').filter(|_| self.machine.family == Family::Siemens) else {
+            return Ok(());
+        };
         match word.number.natural() {
             Some(0) => self.without_edge = true,
             Some(1) => self.without_edge = false,
@@ -77,7 +80,7 @@ impl Interpreter<'_> {
     /// Without the job's tools, the text's own words say which length offset a tool has; it has one.
     pub(super) fn learn_length(&mut self, block: &Block) -> Result<(), Flaw> {
         let Some(word) = block.length_number(self.length_word()).filter(|_| !self.tools_given) else { return Ok(()) };
-        let (Some((true, _)), Some(index)) = (block.length, self.tool) else { return Ok(()) };
+        let (Some((true, _)), Some(index)) = (block.length(), self.tool) else { return Ok(()) };
         let number = word.number.natural().ok_or((ReadFault::NotNatural, Some(word)))?;
         let known = self.learned.insert(index, number);
         if known.is_some_and(|known| known != number) {
