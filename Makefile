@@ -11,6 +11,8 @@ VENV := .venv
 BIN := $(VENV)/bin
 WHEELS := target/wheels
 PYTEST := $(BIN)/python -m pytest
+# All, since cargo fmt skips the files whose `mod` stands in a macro.
+RUST_FILES = $(shell git ls-files "rust/*.rs")
 # The roots with FreeCAD and LinuxCNC are built while cargo is busy; this is where their log goes.
 ROOTS_LOG := target/roots.log
 
@@ -112,7 +114,7 @@ test-freecad: wheel ## FreeCAD tests: V=1.1 K=name
 
 .PHONY: lint
 lint: $(VENV)/.ready ## All linters
-	cargo fmt --all --check
+	rustfmt --check $(RUST_FILES)
 	cargo clippy --workspace --all-targets --locked --quiet -- -D warnings
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
@@ -122,7 +124,7 @@ lint: $(VENV)/.ready ## All linters
 
 .PHONY: fmt
 fmt: $(VENV)/.ready ## Formats everything
-	cargo fmt --all
+	rustfmt $(RUST_FILES)
 	$(BIN)/ruff check --fix-only
 	$(BIN)/ruff format
 	$(BIN)/taplo fmt

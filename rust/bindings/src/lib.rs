@@ -38,7 +38,7 @@ mod _engine {
     #[pymodule_export]
     use crate::simulation::Simulation;
     #[pymodule_export]
-    use crate::tool::Tool;
+    use crate::tool::{profile_starters, Tool};
     #[pymodule_export]
     use crate::waiting::CancelToken;
 

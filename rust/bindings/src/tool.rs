@@ -5,6 +5,12 @@ use pyo3::prelude::*;
 
 use crate::{arrays::mapped, errors};
 
+/// A profile document of each kind with sensible numbers, as JSON.
+#[pyfunction]
+pub fn profile_starters() -> Vec<&'static str> {
+    styluscam_geometry::ProfileDocument::starters()
+}
+
 /// A checked tool; see `styluscam.Tool`.
 #[pyclass(frozen, module = "styluscam._engine")]
 pub struct Tool {

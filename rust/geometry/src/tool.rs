@@ -197,10 +197,8 @@ impl Tool {
         let profile = &self.document.profile;
         let (kind, millionths) = (profile.kind(), |x: f64| (x * 1e6).round() / 1e6);
         let name = format!("{kind} D{}", millionths(self.diameter()));
-        match profile.tip_flat() {
-            flat if flat > 0.0 && !matches!(profile, ProfileDocument::Flat { .. }) => {
-                format!("{name} tip flat D{}", millionths(2.0 * flat))
-            }
+        match profile.added_flat() {
+            flat if flat > 0.0 => format!("{name} tip flat D{}", millionths(2.0 * flat)),
             _ => name,
         }
     }

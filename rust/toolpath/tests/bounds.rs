@@ -3,7 +3,7 @@
 #![allow(clippy::disallowed_methods, clippy::unwrap_used)] // a test that panics fails
 
 use proptest::prelude::*;
-use styluscam_geometry::{Mesh, ProfileDocument, Tool, ToolDocument, Vector};
+use styluscam_geometry::{kinds, Mesh, ProfileDocument, Tool, ToolDocument, Vector};
 use styluscam_motion::Watch;
 use styluscam_toolpath::offset::{Envelope, Index, Verdict};
 use styluscam_toolpath::Lattice;
@@ -14,11 +14,16 @@ fn any_tool() -> impl Strategy<Value = Tool> {
     (0..5_u8, 0.1..0.9_f64).prop_map(|(kind, a)| {
         let (diameter, tip_flat) = (DIAMETER, 0.0);
         let profile = match kind {
-            0 => ProfileDocument::Ball { diameter, radius: None, tip_flat },
-            1 => ProfileDocument::Clothoid { diameter: Some(diameter), scale: None, end_slope_deg: None, tip_flat },
-            2 => ProfileDocument::BullNose { diameter, corner_radius: 3.0 * a, tip_flat },
-            3 => ProfileDocument::Cone { tip_radius: 0.0, half_angle_deg: 80.0 * a, diameter, tip_flat },
-            _ => ProfileDocument::Flat { diameter, tip_flat },
+            0 => ProfileDocument::from(kinds::Ball { diameter, radius: None, tip_flat }),
+            1 => ProfileDocument::from(kinds::Clothoid {
+                diameter: Some(diameter),
+                scale: None,
+                end_slope_deg: None,
+                tip_flat,
+            }),
+            2 => ProfileDocument::from(kinds::BullNose { diameter, corner_radius: 3.0 * a, tip_flat }),
+            3 => ProfileDocument::from(kinds::Cone { tip_radius: 0.0, half_angle_deg: 80.0 * a, diameter, tip_flat }),
+            _ => ProfileDocument::from(kinds::Flat { diameter, tip_flat }),
         };
         Tool::new(ToolDocument::of(profile)).unwrap()
     })

@@ -5,7 +5,7 @@
 mod common;
 
 use common::plates::{plate, Boss};
-use styluscam_geometry::{Mesh, ProfileDocument, Tool, ToolDocument, Vector};
+use styluscam_geometry::{kinds, Mesh, ProfileDocument, Tool, ToolDocument, Vector};
 use styluscam_motion::Watch;
 use styluscam_toolpath::forming::{left_out, z_levels, z_levels_beside, Grid};
 use styluscam_toolpath::offset::{Envelope, Index};
@@ -29,8 +29,8 @@ fn over_walls<T>(mesh: &Mesh, profile: ProfileDocument, act: impl Fn(&Surface<'_
 /// Facets of a pin that lie 8 to 60 degrees apart, of which only the upright ones are selected.
 #[test]
 fn the_wall_of_a_faceted_pin_is_one_closed_pass() {
-    let flat = ProfileDocument::Flat { diameter: 3.0, tip_flat: 0.0 };
-    let ball = ProfileDocument::Ball { diameter: 3.0, radius: None, tip_flat: 0.0 };
+    let flat = ProfileDocument::from(kinds::Flat { diameter: 3.0, tip_flat: 0.0 });
+    let ball = ProfileDocument::from(kinds::Ball { diameter: 3.0, radius: None, tip_flat: 0.0 });
     for (profile, sides) in [(flat.clone(), 6), (flat.clone(), 13), (flat, 45), (ball.clone(), 6), (ball, 45)] {
         let mesh = plate([40.0, 40.0], &[Boss { centre: [20.0, 20.0], radius: 2.0, sides, height: 10.0 }]);
         let heights = [8.0, 5.0, 2.0];
@@ -101,7 +101,7 @@ fn a_wall_that_ends_on_a_ledge_has_a_level_there() {
 fn levels_that_are_added_are_those_of_one_plan() {
     let boss = |x: f64, height: f64| Boss { centre: [x, 20.0], radius: 4.0, sides: 16, height };
     let mesh = plate([60.0, 40.0], &[boss(10.0, 0.5), boss(30.0, 0.8), boss(50.0, 3.0)]);
-    let profile = ProfileDocument::Flat { diameter: 3.0, tip_flat: 0.0 };
+    let profile = ProfileDocument::from(kinds::Flat { diameter: 3.0, tip_flat: 0.0 });
     over_walls(&mesh, profile, |surface, grid| {
         let at = |heights: &[f64]| z_levels(surface, grid, heights, 0.01, &Watch::default()).unwrap();
         let (known, wanted) = ([2.0, 1.0, 0.3], [2.0, 1.5, 0.6, 0.3, 0.1]);
@@ -112,7 +112,7 @@ fn levels_that_are_added_are_those_of_one_plan() {
 }
 
 fn bands_without(mesh: &Mesh, heights: &[f64]) -> Vec<(f64, f64)> {
-    over_walls(mesh, ProfileDocument::Flat { diameter: 3.0, tip_flat: 0.0 }, |surface, grid| {
+    over_walls(mesh, ProfileDocument::from(kinds::Flat { diameter: 3.0, tip_flat: 0.0 }), |surface, grid| {
         let passes = z_levels(surface, grid, heights, 0.01, &Watch::default()).unwrap();
         left_out(surface, (heights, &passes), 0.7, &Watch::default()).unwrap()
     })

@@ -3,7 +3,7 @@
 #![allow(clippy::disallowed_methods, clippy::unwrap_used)] // a test that panics fails
 
 use proptest::prelude::*;
-use styluscam_geometry::{Cutter, Mesh, ProfileDocument, Tool, ToolDocument, Vector};
+use styluscam_geometry::{kinds, Cutter, Mesh, ProfileDocument, Tool, ToolDocument, Vector};
 use styluscam_toolpath::offset::{Envelope, Index, Line};
 
 /// What a contact may be off, as a distance, mm.
@@ -17,15 +17,22 @@ fn any_tool() -> impl Strategy<Value = Tool> {
         let (diameter, beyond) = (DIAMETER, 0.5 * DIAMETER - tip_flat);
         let half_angle_deg = 10.0 + 75.0 * a;
         let profile = match kind {
-            0 => ProfileDocument::Ball { diameter, radius: None, tip_flat },
-            1 => ProfileDocument::Ball { diameter, radius: Some(beyond / a), tip_flat },
-            2 => ProfileDocument::Clothoid { diameter: Some(diameter), scale: None, end_slope_deg: None, tip_flat },
-            3 => ProfileDocument::Parabola { apex_radius: 12.0 * a, diameter, tip_flat },
-            4 => ProfileDocument::Ellipse { radial: 6.0, axial: 12.0 * b, diameter: None, tip_flat },
-            5 => ProfileDocument::BullNose { diameter, corner_radius: beyond * a, tip_flat },
-            6 => ProfileDocument::Cone { tip_radius: 0.0, half_angle_deg, diameter, tip_flat },
-            7 => ProfileDocument::TaperedBall { tip_radius: beyond * b, half_angle_deg, diameter, tip_flat },
-            _ => ProfileDocument::Flat { diameter, tip_flat: 0.0 },
+            0 => ProfileDocument::from(kinds::Ball { diameter, radius: None, tip_flat }),
+            1 => ProfileDocument::from(kinds::Ball { diameter, radius: Some(beyond / a), tip_flat }),
+            2 => ProfileDocument::from(kinds::Clothoid {
+                diameter: Some(diameter),
+                scale: None,
+                end_slope_deg: None,
+                tip_flat,
+            }),
+            3 => ProfileDocument::from(kinds::Parabola { apex_radius: 12.0 * a, diameter, tip_flat }),
+            4 => ProfileDocument::from(kinds::Ellipse { radial: 6.0, axial: 12.0 * b, diameter: None, tip_flat }),
+            5 => ProfileDocument::from(kinds::BullNose { diameter, corner_radius: beyond * a, tip_flat }),
+            6 => ProfileDocument::from(kinds::Cone { tip_radius: 0.0, half_angle_deg, diameter, tip_flat }),
+            7 => {
+                ProfileDocument::from(kinds::TaperedBall { tip_radius: beyond * b, half_angle_deg, diameter, tip_flat })
+            }
+            _ => ProfileDocument::from(kinds::Flat { diameter, tip_flat: 0.0 }),
         };
         Tool::new(ToolDocument::of(profile)).unwrap()
     })

@@ -6,7 +6,7 @@ mod common;
 
 use common::plates::{plate, Boss};
 use proptest::prelude::*;
-use styluscam_geometry::{Mesh, ProfileDocument, Tool, ToolDocument, Vector};
+use styluscam_geometry::{kinds, Mesh, ProfileDocument, Tool, ToolDocument, Vector};
 use styluscam_motion::Watch;
 use styluscam_toolpath::offset::{Envelope, Index, OffsetSurface};
 
@@ -17,7 +17,7 @@ const MOST: usize = 1 << 16;
 const FINE: f64 = 0.25;
 
 fn flat(diameter: f64) -> Tool {
-    Tool::new(ToolDocument::of(ProfileDocument::Flat { diameter, tip_flat: 0.0 })).unwrap()
+    Tool::new(ToolDocument::of(ProfileDocument::from(kinds::Flat { diameter, tip_flat: 0.0 }))).unwrap()
 }
 
 fn refined(mesh: &Mesh, tool: &Tool) -> OffsetSurface {

@@ -6,7 +6,7 @@ mod common;
 
 use common::plates::{plate, Boss};
 use proptest::prelude::*;
-use styluscam_geometry::{Mesh, ProfileDocument, Tool, ToolDocument, Vector};
+use styluscam_geometry::{kinds, Mesh, ProfileDocument, Tool, ToolDocument, Vector};
 use styluscam_motion::Watch;
 use styluscam_toolpath::forming::{zig_zag, Rows};
 use styluscam_toolpath::offset::{Envelope, Index};
@@ -48,7 +48,7 @@ fn assert_clear(passes: &[Pass], envelope: &Envelope<'_>, spacing: f64) {
 fn a_row_over_a_plane_of_ten_metres_has_two_points_a_stretch() {
     let boss = Boss { centre: [5000.0, 500.0], radius: 300.0, sides: 64, height: 20.0 };
     let mesh = plate([10_000.0, 1000.0], &[boss]);
-    let (index, tool) = (Index::new(&mesh), tool(ProfileDocument::Flat { diameter: 20.0, tip_flat: 0.0 }));
+    let (index, tool) = (Index::new(&mesh), tool(ProfileDocument::from(kinds::Flat { diameter: 20.0, tip_flat: 0.0 })));
     let envelope = Envelope::new(&mesh, &index, &tool, None, 0.001);
     let passes = rows(&envelope, 0.0, 40.0);
     let points: Vec<usize> = passes.iter().map(|pass| pass.points.len()).collect();
@@ -66,9 +66,9 @@ fn rows_aslant_over_facets_are_fitted_closely() {
     let mesh = plate([90.0, 30.0], &bosses);
     let index = Index::new(&mesh);
     for profile in [
-        ProfileDocument::Ball { diameter: 6.0, radius: None, tip_flat: 0.0 },
-        ProfileDocument::Clothoid { diameter: Some(6.0), scale: None, end_slope_deg: None, tip_flat: 0.0 },
-        ProfileDocument::BullNose { diameter: 6.0, corner_radius: 1.0, tip_flat: 0.0 },
+        ProfileDocument::from(kinds::Ball { diameter: 6.0, radius: None, tip_flat: 0.0 }),
+        ProfileDocument::from(kinds::Clothoid { diameter: Some(6.0), scale: None, end_slope_deg: None, tip_flat: 0.0 }),
+        ProfileDocument::from(kinds::BullNose { diameter: 6.0, corner_radius: 1.0, tip_flat: 0.0 }),
     ] {
         let envelope = Envelope::new(&mesh, &index, &tool(profile), None, 0.002);
         assert_clear(&rows(&envelope, 0.4, 3.0), &envelope, 0.02);
@@ -104,8 +104,8 @@ proptest! {
             places.iter().map(|(x, inside, left, height)| ([*x, side(*left) * (3.0 - inside)], *height)).collect();
         let mesh = needles(&places);
         let profile = match corner {
-            Some(corner_radius) => ProfileDocument::BullNose { diameter: 6.0, corner_radius, tip_flat: 0.0 },
-            None => ProfileDocument::Flat { diameter: 6.0, tip_flat: 0.0 },
+            Some(corner_radius) => ProfileDocument::from(kinds::BullNose { diameter: 6.0, corner_radius, tip_flat: 0.0 }),
+            None => ProfileDocument::from(kinds::Flat { diameter: 6.0, tip_flat: 0.0 }),
         };
         let (index, tool) = (Index::new(&mesh), tool(profile));
         let envelope = Envelope::new(&mesh, &index, &tool, None, 0.0);
@@ -124,7 +124,7 @@ fn strips(edges: &[[f64; 2]]) -> Mesh {
 
 #[test]
 fn a_groove_between_two_rows_gets_one_of_its_own() {
-    let tool = tool(ProfileDocument::Flat { diameter: 2.0, tip_flat: 0.0 });
+    let tool = tool(ProfileDocument::from(kinds::Flat { diameter: 2.0, tip_flat: 0.0 }));
     for tenths in (0..50).step_by(5) {
         // a floor, a land that is not selected, a groove 3 mm wide, and land again
         let at = 13.0 + 0.1 * f64::from(tenths);

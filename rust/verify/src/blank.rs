@@ -202,7 +202,7 @@ impl Eq for Cell {}
 mod tests {
     use super::*;
     use crate::body::tests::tool;
-    use styluscam_geometry::ProfileDocument;
+    use styluscam_geometry::{kinds, ProfileDocument};
 
     /// A plate of 40 mm with a flat flange and a square pit in the middle, 20 mm wide.
     fn plate() -> Mesh {
@@ -221,7 +221,7 @@ mod tests {
     }
 
     fn ball(diameter: f64) -> Cutter {
-        tool(ProfileDocument::Ball { diameter, radius: None, tip_flat: 0.0 }).cutter()
+        tool(ProfileDocument::from(kinds::Ball { diameter, radius: None, tip_flat: 0.0 })).cutter()
     }
 
     #[test]

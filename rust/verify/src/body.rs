@@ -390,14 +390,14 @@ fn support_at(cutter: &Cutter, i: usize) -> f64 {
 pub(crate) mod tests {
     use super::*;
     use proptest::prelude::*;
-    use styluscam_geometry::{ModelFace, ProfileDocument, SheetLaw, ToolDocument};
+    use styluscam_geometry::{kinds, ModelFace, ProfileDocument, SheetLaw, ToolDocument};
 
     pub fn tool(profile: ProfileDocument) -> Tool {
         Tool::new(ToolDocument::of(profile)).unwrap()
     }
 
     pub fn ball(diameter: f64) -> Body {
-        Body::new(&tool(ProfileDocument::Ball { diameter, radius: None, tip_flat: 0.0 }), None)
+        Body::new(&tool(ProfileDocument::from(kinds::Ball { diameter, radius: None, tip_flat: 0.0 })), None)
     }
 
     /// Curves, kinks, cones and flats, with a sheet.
@@ -408,24 +408,41 @@ pub(crate) mod tests {
             |(kind, diameter, a, b, flat, sheet)| {
                 let tip_flat = flat * diameter;
                 let beyond = 0.5 * diameter - tip_flat;
-                let clothoid = |end_slope_deg| ProfileDocument::Clothoid {
-                    diameter: Some(diameter),
-                    scale: None,
-                    end_slope_deg,
-                    tip_flat,
+                let clothoid = |end_slope_deg| {
+                    ProfileDocument::from(kinds::Clothoid {
+                        diameter: Some(diameter),
+                        scale: None,
+                        end_slope_deg,
+                        tip_flat,
+                    })
                 };
                 let profile = match kind {
-                    0 => ProfileDocument::Ball { diameter, radius: None, tip_flat },
+                    0 => ProfileDocument::from(kinds::Ball { diameter, radius: None, tip_flat }),
                     1 => clothoid(None),
                     2 => clothoid(Some(30.0 + 60.0 * a)),
-                    3 => ProfileDocument::Power { coefficient: 0.1 * a, exponent: 1.2 + 2.0 * b, diameter, tip_flat },
-                    4 => ProfileDocument::BullNose { diameter, corner_radius: beyond * a, tip_flat },
-                    5 => ProfileDocument::Cone { tip_radius: 0.0, half_angle_deg: 80.0 * a, diameter, tip_flat },
+                    3 => ProfileDocument::from(kinds::Power {
+                        coefficient: 0.1 * a,
+                        exponent: 1.2 + 2.0 * b,
+                        diameter,
+                        tip_flat,
+                    }),
+                    4 => ProfileDocument::from(kinds::BullNose { diameter, corner_radius: beyond * a, tip_flat }),
+                    5 => ProfileDocument::from(kinds::Cone {
+                        tip_radius: 0.0,
+                        half_angle_deg: 80.0 * a,
+                        diameter,
+                        tip_flat,
+                    }),
                     6 => {
                         let tip_radius = beyond * a;
-                        ProfileDocument::TaperedBall { tip_radius, half_angle_deg: 80.0 * b, diameter, tip_flat }
+                        ProfileDocument::from(kinds::TaperedBall {
+                            tip_radius,
+                            half_angle_deg: 80.0 * b,
+                            diameter,
+                            tip_flat,
+                        })
                     }
-                    _ => ProfileDocument::Flat { diameter, tip_flat: 0.0 },
+                    _ => ProfileDocument::from(kinds::Flat { diameter, tip_flat: 0.0 }),
                 };
                 let sheet =
                     sheet.map(|thickness| Sheet { thickness, law: SheetLaw::Constant, model_face: ModelFace::Back });
@@ -443,8 +460,12 @@ pub(crate) mod tests {
 
     #[test]
     fn deep_inside_the_nearest_way_out_counts() {
-        let profile =
-            ProfileDocument::Clothoid { diameter: Some(20.0), scale: None, end_slope_deg: None, tip_flat: 3.0 };
+        let profile = ProfileDocument::from(kinds::Clothoid {
+            diameter: Some(20.0),
+            scale: None,
+            end_slope_deg: None,
+            tip_flat: 3.0,
+        });
         let body = Body::new(&tool(profile), None);
         for radius in [0.0, 0.5, 2.0, 4.0, 6.0, 8.0, 9.5] {
             for height in [0.1, 1.0, 2.5, 4.0, 6.0, 8.0, 10.0, 14.0, 40.0] {

@@ -1,6 +1,6 @@
 //! What may collide: what of a tool is above its profile with the part, and all of it with what stands around.
 
-use styluscam_geometry::{Base, Bvh, Mesh, ProfileDocument, Sheet, Tool, ToolDocument};
+use styluscam_geometry::{kinds, Base, Bvh, Mesh, ProfileDocument, Sheet, Tool, ToolDocument};
 
 use crate::body::Body;
 use crate::clearance::Prober;
@@ -81,11 +81,13 @@ fn of(tool: &Tool, sheet: Option<&Sheet>) -> Vec<Holding> {
             Some(Base::Chamfer { height }) => (rim, Some(height)),
             Some(Base::Tangent { height }) => (rim, Some(TANGENT_HULL * height)),
         };
-        let profile = cone.map_or(cylinder(diameter), |rise| ProfileDocument::V {
-            tip_diameter: 2.0 * radius,
-            angle_deg: 2.0 * libm::atan((0.5 * diameter - radius) / rise).to_degrees(),
-            diameter,
-            tip_flat: 0.0,
+        let profile = cone.map_or(cylinder(diameter), |rise| {
+            ProfileDocument::from(kinds::V {
+                tip_diameter: 2.0 * radius,
+                angle_deg: 2.0 * libm::atan((0.5 * diameter - radius) / rise).to_degrees(),
+                diameter,
+                tip_flat: 0.0,
+            })
         });
         holdings.extend(holding(&faults::SHANK, profile, height, sheet));
     }
@@ -96,7 +98,7 @@ fn of(tool: &Tool, sheet: Option<&Sheet>) -> Vec<Holding> {
 }
 
 fn cylinder(diameter: f64) -> ProfileDocument {
-    ProfileDocument::Flat { diameter, tip_flat: 0.0 }
+    ProfileDocument::from(kinds::Flat { diameter, tip_flat: 0.0 })
 }
 
 /// None where the numbers make no body: a tool's own checks have passed them.

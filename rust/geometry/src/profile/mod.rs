@@ -4,8 +4,8 @@
 //! between the surface's outward normal and -Z on the tool, +Z on the part: 0 at the tip, a right
 //! angle where the wall is vertical. By slope everything is finite, also where dz/dr is not.
 //!
-//! A new smooth curve is one file with an `impl Meridian` and an arm in [`Curve`]; a new kind is an arm in
-//! [`ProfileDocument`] that puts curves, kinks and straight parts together.
+//! A new smooth curve is one file with an `impl Meridian` and an arm in [`Curve`]; a new kind is one file in [`kinds`] that
+//! puts curves, kinks and straight parts together.
 
 mod arc;
 mod chain;
@@ -14,10 +14,14 @@ mod conic;
 mod curve;
 mod cycloid;
 mod distance;
-mod document;
 mod fitted;
 mod formula;
 mod involute;
+mod kind;
+pub mod kinds;
+#[cfg(test)]
+mod numbers;
+mod parts;
 mod points;
 mod power;
 mod proof;
@@ -26,8 +30,8 @@ pub(crate) mod samples;
 mod solve;
 
 pub use chain::{Profile, Straight};
-pub use document::{ProfileDocument, ProfileReport};
-pub use formula::FormulaDocument;
+pub use kind::ProfileReport;
+pub use kinds::ProfileDocument;
 
 use arc::Arc;
 use chain::Builder;

@@ -1,6 +1,6 @@
 //! Tools and distances between passes: from what the part has, in the sizes that a shop has.
 
-use styluscam_geometry::{Bvh, Mesh, ProfileDocument, Tool, ToolDocument};
+use styluscam_geometry::{kinds, Bvh, Mesh, ProfileDocument, Tool, ToolDocument};
 
 use super::choice::worth;
 use crate::body::{Body, FaceLook, Hollows};
@@ -42,8 +42,8 @@ impl Cutter {
     pub fn made(&self) -> Option<Tool> {
         let diameter = self.diameter;
         let profile = match self.shape {
-            Shape::Ball => ProfileDocument::Ball { diameter, radius: None, tip_flat: 0.0 },
-            Shape::Flat => ProfileDocument::Flat { diameter, tip_flat: 0.0 },
+            Shape::Ball => ProfileDocument::from(kinds::Ball { diameter, radius: None, tip_flat: 0.0 }),
+            Shape::Flat => ProfileDocument::from(kinds::Flat { diameter, tip_flat: 0.0 }),
         };
         Tool::new(ToolDocument::of(profile)).ok()
     }

@@ -342,13 +342,13 @@ mod tests {
     use super::*;
     use crate::offset::Index;
     use proptest::prelude::*;
-    use styluscam_geometry::{ProfileDocument, ToolDocument};
+    use styluscam_geometry::{kinds, ProfileDocument, ToolDocument};
 
     const TOLERANCE: f64 = 0.001;
     const MOST: usize = 1 << 20;
 
     fn ball(diameter: f64) -> Tool {
-        tool(ProfileDocument::Ball { diameter, radius: None, tip_flat: 0.0 })
+        tool(ProfileDocument::from(kinds::Ball { diameter, radius: None, tip_flat: 0.0 }))
     }
 
     fn tool(profile: ProfileDocument) -> Tool {
@@ -484,12 +484,12 @@ mod tests {
 
     #[test]
     fn steeper_than_the_profile_is_rim_and_what_looks_down_is_undercut() {
-        let shallow = tool(ProfileDocument::Clothoid {
+        let shallow = tool(ProfileDocument::from(kinds::Clothoid {
             diameter: None,
             scale: Some(30.0),
             end_slope_deg: Some(40.0),
             tip_flat: 0.0,
-        });
+        }));
         let found = surface(&drawn_out(&[[-30.0, 30.0], [0.0, 0.0], [-5.0, -20.0]], true), &shallow);
         assert_eq!(flags(&found), [SurfaceFlag::Rim, SurfaceFlag::Undercut]);
         for point in &found.points {
@@ -545,7 +545,7 @@ mod tests {
     #[test]
     fn the_base_enters_a_steep_wall_however_it_is_cut_into_triangles() {
         // the rim touches the wall high up first, in one of its triangles, and would enter it deepest in the other
-        let tool = tool(ProfileDocument::Ball { diameter: 6.0, radius: Some(3.1), tip_flat: 0.0 });
+        let tool = tool(ProfileDocument::from(kinds::Ball { diameter: 6.0, radius: Some(3.1), tip_flat: 0.0 }));
         let found = surface(&drawn_out(&[[0.0, 10.0], [9.0, 10.0], [10.8, 0.0], [40.0, 0.0]], true), &tool);
         let rim = tool.point_at(tool.profile().max_slope());
         let normal = Vector::new(10.0, 0.0, 1.8).normalize();
@@ -593,13 +593,13 @@ mod tests {
             margin in prop_oneof![Just(0.0), 0.0..0.5_f64],
         ) {
             let tool = match kind {
-                0 => tool(ProfileDocument::Clothoid {
+                0 => tool(ProfileDocument::from(kinds::Clothoid {
                     diameter: Some(3.0),
                     scale: None,
                     end_slope_deg: None,
                     tip_flat: 0.1,
-                }),
-                1 => tool(ProfileDocument::Parabola { apex_radius: 2.0, diameter: 2.4, tip_flat: 0.0 }),
+                })),
+                1 => tool(ProfileDocument::from(kinds::Parabola { apex_radius: 2.0, diameter: 2.4, tip_flat: 0.0 })),
                 _ => ball(2.0),
             };
             let mesh = terrain(&heights, 7);

@@ -3,7 +3,7 @@
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 
-use styluscam_geometry::{Bvh, Cutter, Mesh, ProfileDocument, Sheet, Tool, ToolDocument, Vector};
+use styluscam_geometry::{kinds, Bvh, Cutter, Mesh, ProfileDocument, Sheet, Tool, ToolDocument, Vector};
 use styluscam_motion::{
     Event, EventKind, Move, MoveKind, OperationRecord, Program, SetupRecord, ToolRecord, ToolReference,
 };
@@ -69,11 +69,16 @@ impl Part {
 }
 
 pub fn ball(diameter: f64) -> Tool {
-    tool(ProfileDocument::Ball { diameter, radius: None, tip_flat: 0.0 })
+    tool(ProfileDocument::from(kinds::Ball { diameter, radius: None, tip_flat: 0.0 }))
 }
 
 pub fn clothoid(diameter: f64) -> Tool {
-    tool(ProfileDocument::Clothoid { diameter: Some(diameter), scale: None, end_slope_deg: None, tip_flat: 0.0 })
+    tool(ProfileDocument::from(kinds::Clothoid {
+        diameter: Some(diameter),
+        scale: None,
+        end_slope_deg: None,
+        tip_flat: 0.0,
+    }))
 }
 
 pub fn tool(profile: ProfileDocument) -> Tool {

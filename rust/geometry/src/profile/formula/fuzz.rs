@@ -8,7 +8,7 @@ use proptest::test_runner::TestRunner;
 
 use super::tests::awkward;
 use super::*;
-use crate::profile::ProfileDocument;
+use crate::profile::{kinds, ProfileDocument};
 
 /// Slowest that a profile may be built or refused in the release build.
 const SLOWEST: Duration = Duration::from_secs(2);
@@ -55,7 +55,7 @@ fn points() -> impl Strategy<Value = ProfileDocument> {
             let index = index.index(points.len());
             points[index][index % 2] = odd;
         }
-        ProfileDocument::Points { points, fit_tolerance, tip_flat: 0.0 }
+        ProfileDocument::from(kinds::Points { points, fit_tolerance, tip_flat: 0.0 })
     })
 }
 

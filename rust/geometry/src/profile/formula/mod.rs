@@ -48,6 +48,7 @@ const STRAIGHT: f64 = 1e-13;
 /// sqrt exp ln log10 sin cos tan asin acos atan sinh cosh tanh, and the parameters.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(description = "A curve by formula: explicit, parametric or implicit.")]
 pub struct FormulaDocument {
     /// Height: of r when it stands alone, of t beside `r`.
     #[serde(default, skip_serializing_if = "Option::is_none")]

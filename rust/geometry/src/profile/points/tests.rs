@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use proptest::prelude::*;
 
 use super::*;
-use crate::profile::ProfileDocument;
+use crate::profile::{kinds, ProfileDocument};
 
 fn of_circle(count: usize, radius: f64) -> Vec<[f64; 2]> {
     (0..=count)
@@ -465,7 +465,7 @@ proptest! {
 
     #[test]
     fn lists_survive_json(points in any_rubbish(), fit_tolerance in any_tolerance(), tip_flat in 0.0..3.0_f64) {
-        let document = ProfileDocument::Points { points, fit_tolerance, tip_flat };
+        let document = ProfileDocument::from(kinds::Points { points, fit_tolerance, tip_flat });
         let again: ProfileDocument = serde_json::from_str(&serde_json::to_string(&document).unwrap()).unwrap();
         prop_assert_eq!(&again, &document);
         match (document.build(), again.build()) {

@@ -7,16 +7,16 @@ use common::dice::Dice;
 use common::surfaces::{Surface, MIDDLE, SURFACES};
 use common::tools::{Kind, KINDS};
 use proptest::prelude::*;
-use styluscam_geometry::{ModelFace, ProfileDocument, SheetLaw, ToolDocument};
+use styluscam_geometry::{kinds, ModelFace, ProfileDocument, SheetLaw, ToolDocument};
 
 use super::super::search::Eight;
 use super::*;
 
 fn tool(clothoid: bool, diameter: f64, tip_flat: f64) -> Tool {
     of(if clothoid {
-        ProfileDocument::Clothoid { diameter: Some(diameter), scale: None, end_slope_deg: None, tip_flat }
+        ProfileDocument::from(kinds::Clothoid { diameter: Some(diameter), scale: None, end_slope_deg: None, tip_flat })
     } else {
-        ProfileDocument::Ball { diameter, radius: None, tip_flat }
+        ProfileDocument::from(kinds::Ball { diameter, radius: None, tip_flat })
     })
 }
 
@@ -103,7 +103,7 @@ fn a_contact_near_the_rim_is_not_lost_to_a_higher_one() {
     let corners = [plate([0.86, 1.65], [1.16, 1.98], 30.0), plate([1.07, 1.62], [2.56, 3.26], 1.0)].concat();
     let triangles: Vec<[i64; 3]> = (0..4).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     let mesh = Mesh::new(corners, &triangles, &[]).unwrap();
-    let tool = of(ProfileDocument::V { tip_diameter: 0.0, angle_deg: 7.0, diameter: 1.0, tip_flat: 0.0 });
+    let tool = of(ProfileDocument::from(kinds::V { tip_diameter: 0.0, angle_deg: 7.0, diameter: 1.0, tip_flat: 0.0 }));
     let index = Index::new(&mesh);
     let envelope = Envelope::new(&mesh, &index, &tool, None, 0.0);
     let along = |i: usize| -0.6 + 0.22 * i as f64;
@@ -122,15 +122,15 @@ fn tiles_lose_nothing_beside_cliffs() {
         let mesh = Surface::Plates.mesh(&mut dice);
         let angle_deg = dice.within(5.0, 60.0);
         let tool = of(match dice.below(4) {
-            0 => ProfileDocument::V { tip_diameter: 0.0, angle_deg, diameter: 1.0, tip_flat: 0.0 },
-            1 => ProfileDocument::TaperedBall {
+            0 => ProfileDocument::from(kinds::V { tip_diameter: 0.0, angle_deg, diameter: 1.0, tip_flat: 0.0 }),
+            1 => ProfileDocument::from(kinds::TaperedBall {
                 tip_radius: 0.1,
                 half_angle_deg: angle_deg,
                 diameter: 1.0,
                 tip_flat: 0.0,
-            },
-            2 => ProfileDocument::Flat { diameter: 1.0, tip_flat: 0.0 },
-            _ => ProfileDocument::Ball { diameter: 1.0, radius: None, tip_flat: 0.0 },
+            }),
+            2 => ProfileDocument::from(kinds::Flat { diameter: 1.0, tip_flat: 0.0 }),
+            _ => ProfileDocument::from(kinds::Ball { diameter: 1.0, radius: None, tip_flat: 0.0 }),
         });
         let index = Index::new(&mesh);
         let envelope = Envelope::new(&mesh, &index, &tool, None, 0.0);
