@@ -4,6 +4,7 @@ use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 use styluscam_geometry::{Mesh, Sheet};
 use styluscam_toolpath::{
+    budget::{Budget, LOOPS_EACH_SIDE},
     forming::{z_levels, Floors, Grid},
     offset::{Envelope, Line, OffsetPoint, OffsetSurface, Region},
     Surface,
@@ -16,8 +17,6 @@ use crate::{
     waiting::{watched, CancelToken},
 };
 
-/// Share of what the tolerance leaves that a chord may stray to either side of the surface in its middle.
-const EACH_SIDE: f64 = 0.4;
 /// Spacing of the grid that finds loops, as a share of the diameter.
 const SPACING_SHARE: f64 = 0.08;
 /// Largest tolerance of waterlines, as a share of the tool's diameter.
@@ -170,14 +169,14 @@ pub fn waterlines<'py>(
         );
         return Err(errors::raise("PlanError", &message, "tolerance-budget", "tolerance", "0.005 mm is usual"));
     }
+    let budget = Budget::sharing(left, part.inward, LOOPS_EACH_SIDE);
     let passes = watched(py, progress, cancel, |watch| {
-        let envelope =
-            Envelope::new(&part.mesh, whole.index(watch)?, &tool.tool, sheet.as_ref(), part.inward + 0.5 * left);
+        let envelope = Envelope::new(&part.mesh, whole.index(watch)?, &tool.tool, sheet.as_ref(), budget.margin);
         let floors = Floors::of(&envelope);
         let heights: Vec<f64> = heights.iter().map(|z| floors.raised(*z)).collect();
         let surface = Surface::whole(&envelope);
         let grid = Grid::sample(&surface, SPACING_SHARE * tool.tool.diameter(), watch)?;
-        grid.map_or(Ok(Vec::new()), |grid| z_levels(&surface, &grid, &heights, EACH_SIDE * left, watch))
+        grid.map_or(Ok(Vec::new()), |grid| z_levels(&surface, &grid, &heights, budget.deviation, watch))
     })?;
     let passes = passes.map_err(|e| errors::raise("PlanError", &e.to_string(), e.code(), "", ""))?;
     let mut loops: Vec<Loops<'py>> = heights.iter().map(|_| Vec::new()).collect();

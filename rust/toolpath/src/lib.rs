@@ -2,6 +2,7 @@
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // what tests expect may come from std
 
+pub mod budget;
 mod error;
 mod fitting;
 pub mod forming;
