@@ -1,9 +1,9 @@
 //! How what is left of a path's tolerance is shared between the surface's distance and the chords' deviation.
 
-/// Share of what the tolerance leaves that a chord of a posted path may deviate to either side of the planned surface: the
-/// surface lies in the middle of what is left, and 0.02 on each side stay for rounding of this arithmetic.
+/// Share of what is left that a chord may deviate to either side. The planned surface lies in the middle; the rest is a
+/// reserve on both sides.
 pub const POSTED_EACH_SIDE: f64 = 0.48;
-/// The same for loops that nobody posts, which are asked for point by point and tested in their chords' middles only.
+/// The same for waterlines asked for by height, which no machine posts.
 pub const LOOPS_EACH_SIDE: f64 = 0.4;
 
 /// Where the planned surface lies, and how far chords may deviate from it.
