@@ -108,6 +108,10 @@ quick: dev ## Cargo and Python tests that need nothing from outside
 machines: dev ## The pages of machines and their golden programs, written again
 	$(BIN)/python docs/machine_pages.py
 
+.PHONY: operations
+operations: dev ## The page of operations and processes, written again
+	$(BIN)/python docs/operation_pages.py
+
 .PHONY: test-freecad
 test-freecad: wheel ## FreeCAD tests: V=1.1 K=name
 	$(PYTEST) tests/freecad $(if $(V)$(K),-k "$(V) $(K)")

@@ -48,8 +48,6 @@ id = "cup"
 kind = "z-level"
 tool = "stylus"
 step = {{ height = 4.0 }}
-stepover = 10.0
-angle_deg = 30.0
 tolerance = 0.005
 smallest_feature = 4.0
 

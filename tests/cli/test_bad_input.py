@@ -30,7 +30,6 @@ profile = { kind = "ball", diameter = 6.0 }
 [[operations]]
 kind = "zig-zag"
 tool = "stylus"
-step = { height = 5.0 }
 stepover = 5.0
 
 [machine]
@@ -40,25 +39,30 @@ name = "linuxcnc"
 file = "out.ngc"
 """
 STEP = "step = { height = 5.0 }"
+LEVELS = (('"zig-zag"', '"z-level"'), ("stepover = 5.0", STEP))
 TOOL = '[tools.stylus]\nnumber = 1\nprofile = { kind = "ball", diameter = 6.0 }'
 
 IN_THE_DOCUMENT = {
     "step 0": (
-        [("height = 5.0", "height = 0")],
+        [*LEVELS, ("height = 5.0", "height = 0")],
         ["operations[0].step.height", "height = 0", "above 0 and up to 100 mm"],
     ),
-    "step -1": ([("height = 5.0", "height = -1")], ["operations[0].step.height", "height = -1", "above 0"]),
+    "step -1": ([*LEVELS, ("height = 5.0", "height = -1")], ["operations[0].step.height", "height = -1", "above 0"]),
     "step abc": (
-        [("height = 5.0", 'height = "abc"')],
+        [*LEVELS, ("height = 5.0", 'height = "abc"')],
         ["operations[0].step.height", "abc", "above 0 and up to 100 mm"],
     ),
-    "step nan": ([("height = 5.0", "height = nan")], ["operations[0].step.height", "NaN", "above 0"]),
-    "step inf": ([("height = 5.0", "height = inf")], ["operations[0].step.height", "inf", "above 0"]),
+    "step nan": ([*LEVELS, ("height = 5.0", "height = nan")], ["operations[0].step.height", "NaN is not a number"]),
+    "step inf": ([*LEVELS, ("height = 5.0", "height = inf")], ["operations[0].step.height", "inf is not a number"]),
     "step of another kind": (
-        [("height = 5.0", "heihgt = 5.0")],
+        [*LEVELS, ("height = 5.0", "heihgt = 5.0")],
         ["operations[0].step", "heihgt", 'did you mean "height"'],
     ),
-    "no step": ([(STEP, ""), ("zig-zag", "z-level")], ["operations[0].step", "add step = { height = 0.5 }"]),
+    "key of another kind": (
+        [("stepover = 5.0", f"stepover = 5.0\n{STEP}")],
+        ["operations[0].step", "step is a key of z-level", "this operation is zig-zag", "remove step"],
+    ),
+    "no step": ([*LEVELS, (STEP, "")], ["operations[0].step", "add step = { height = 0.5 }"]),
     "no stepover": ([("stepover = 5.0", "")], ["operations[0].stepover", "add stepover"]),
     "unknown key": ([("stepover", "stepovr")], ["operations[0]", "stepovr", 'did you mean "stepover"']),
     "unknown section": ([("[setup]", "[stup]")], ["stup", 'did you mean "setup"']),
@@ -137,7 +141,7 @@ IN_THE_DOCUMENT = {
     "array for a table": ([(STEP, STEP + "\nfeeds = [1500.0, 300.0]")], ["operations[0].feeds", "table"]),
     "number for a word": ([("[setup]", "[setup]\nup = 1")], ["setup.up", "word in quotes", '"+z"']),
     "date for a word": ([("[part]", "title = 1979-05-27\n[part]")], ["title", "string"]),
-    "absurd number": ([("height = 5.0", "height = 1e308")], ["operations[0].step.height", "1e308", "100 mm"]),
+    "absurd number": ([*LEVELS, ("height = 5.0", "height = 1e308")], ["operations[0].step.height", "1e308", "100 mm"]),
     "no length offset": (
         [("number = 1", "number = 1\nlength_offset = 0")],
         ["tools.stylus.length_offset", "leave it out"],

@@ -21,7 +21,11 @@ from .conftest import CHECKOUT, COARSE_CUP, changed
 HALF_OF_THE_LAST_PLACE = 0.0005  # mm: shipped machines post three decimals
 PRINTED = 0.00005  # mm: rs274 prints four
 
-ZIG_ZAG = ('kind = "z-level"', 'kind = "zig-zag"')
+OPERATION = 'kind = "{}"\ntool = "stylus"\n{}\n'
+ZIG_ZAG = (
+    OPERATION.format("z-level", "step = { height = 4.0 }"),
+    OPERATION.format("zig-zag", "stepover = 10.0\nangle_deg = 30.0"),
+)
 INTO_FLAT_SHEET = ("schema = 1", 'schema = 1\naccept = ["punch"]')
 """Rows finish what levels form; alone they are for trying out."""
 ROWS = (ZIG_ZAG, INTO_FLAT_SHEET)
@@ -213,7 +217,7 @@ def test_plan_writes_nothing_but_what_is_asked_for(tmp_path, cli):
     assert ran.code == 0 and "planned only" in ran.out and "worst gouge" not in ran.out
     assert list(tmp_path.iterdir()) == [job]
     ran = cli("plan", job, "--program", tmp_path / "p.json", "--json")
-    assert ran.code == 0 and ran.json["summary"]["operations"][0]["groups"] > 4
+    assert ran.code == 0 and ran.json["summary"]["operations"][0]["facts"][0]["value"] > 4
     assert sc.Program.load(tmp_path / "p.json").length == pytest.approx(ran.json["summary"]["length"])
 
 

@@ -371,9 +371,12 @@ def test_suggest_puts_last_what_cannot_be_planned(cli: Any, mine: Path, tmp_path
     assert tools[0]["bridged"] == []
 
 
+ROWS = (('"z-level"', '"zig-zag"'), ("step = { height = 4.0 }", "stepover = 10.0\nangle_deg = 30.0"))
+
+
 def test_suggest_says_what_a_zig_zag_leaves(cli: Any, mine: Path, tmp_path: Path) -> None:
     job = tmp_path / "job.toml"
-    job.write_text(changed(COARSE_CUP, ('"z-level"', '"zig-zag"'), ("tolerance = 0.001", "tolerance = 0.01")))
+    job.write_text(changed(COARSE_CUP, *ROWS, ("tolerance = 0.001", "tolerance = 0.01")))
     document = cli("tool", "suggest", job, "--library", mine, "--plan", "0", "--json").json
     assert document["part"]["passes"] == "rows 10 mm apart at 30 deg"
     assert all(tool["bridged"] is None for tool in document["tools"])

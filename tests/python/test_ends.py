@@ -101,7 +101,8 @@ def test_walls_alone_are_levels_too() -> None:
     assert report.ok
     assert not report.findings
     assert summary["faces"] == [4]
-    assert summary["passes"] == summary["groups"]
+    facts = {fact["fact"]: fact["value"] for fact in summary["facts"]}
+    assert facts["loops"] == facts["levels"]
 
 
 def test_a_floor_far_below_the_walls_wants_no_level() -> None:

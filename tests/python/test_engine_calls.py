@@ -51,7 +51,7 @@ arrays = np.load(sys.argv[1])
 part = sc.Part(_engine.Part(arrays["vertices"], arrays["triangles"], arrays["faces"], 0.0005, 0.001))
 for document in json.loads(sys.argv[2]):
     plan = sc.plan(sc.Job.from_dict(document, part=part))
-    program = plan.engine.program.to_json()
+    program = plan.engine.programs["main"].to_json()
     for text in (program, sc.post(plan).text):
         print(len(text), hashlib.sha256(text.encode()).hexdigest())
 tool = sc.Tool.from_dict({"profile": {"kind": "clothoid", "diameter": 10.0}})

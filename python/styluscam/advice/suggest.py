@@ -10,6 +10,7 @@ choice, and what the material and the machine stand, are the user's.
 from __future__ import annotations
 
 import copy
+import json
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
@@ -182,17 +183,9 @@ def suggest(
     return Advice(tuple(found), _facts(asked), _notes(asked, job))
 
 
-def _names(document: Document) -> list[str]:
-    """Of the operations: their own, or as the engine makes them of kind and number."""
-    return [
-        operation["id"] or f"{operation['kind']}-{number}"
-        for number, operation in enumerate(document["operations"], start=1)
-    ]
-
-
 def _with_one(job: Job, operation: str) -> Job:
     """The job with one operation only."""
-    document, names = copy.deepcopy(job.document), _names(job.document)
+    document, names = copy.deepcopy(job.document), job.engine.operation_ids()
     if operation not in names:
         hint = f"the job has {', '.join(names)}"
         raise JobError(f"no operation {operation!r}", code="no-such-operation", where="operations", hint=hint)
@@ -203,14 +196,9 @@ def _with_one(job: Job, operation: str) -> Job:
 class _Passes:
     """How far an operation's passes lie apart, and which scallops that leaves."""
 
-    def __init__(self, operation: Document) -> None:
-        self.rows_deg: float | None = None
-        if operation["kind"] == "z-level":
-            self.pitch = float(operation["step"]["height"])
-            self.words = f"levels {self.pitch:g} mm apart"
-        else:
-            self.pitch, self.rows_deg = float(operation["stepover"]), float(operation["angle_deg"])
-            self.words = f"rows {self.pitch:g} mm apart at {self.rows_deg:g} deg"
+    def __init__(self, spacing: Document) -> None:
+        self.pitch, self.words = float(spacing["pitch"]), str(spacing["words"])
+        self.rows_deg: float | None = spacing.get("direction_deg")
 
     def scallops(self, tool: Tool, walls: Classes) -> FloatArray:
         """Scallop height (mm) by class of walls: on the plane, and by what the part's curvature adds or takes."""
@@ -264,14 +252,17 @@ def _asked_by(job: Job, progress: Progress | None) -> list[_Asked]:
     ball = share * thickness if sheet.get("law", "constant") == "constant" else 0.0
     bound = _engine.Scene(job.engine, job.part(progress).engine).fitting_radius
     fits = math.inf if bound is None else bound
-    for index, name in enumerate(_names(document)):
+    for index, name in enumerate(job.engine.operation_ids()):
+        spacing = job.engine.spacing(index)
+        if spacing is None:
+            continue  # its passes do not lie in step: no scallop follows from the profile alone
         try:
             walls = walls_of(job, index, progress)
         except GeometryError as error:
             if error.code != "no-faces":
                 raise
             continue  # upright walls alone: no profile leaves more there than another
-        passes = _Passes(document["operations"][index])
+        passes = _Passes(json.loads(spacing))
         classes = walls.classes(passes.rows_deg)
         if len(classes.areas):
             tolerance = float(document["operations"][index]["tolerance"])

@@ -65,14 +65,12 @@ def _tool(tool: Document) -> str:
 
 
 def _operation(operation: Document) -> list[tuple[str, str]]:
-    level = operation["kind"] == "z-level"
-    what = f"{counted(operation['passes'], 'loop')} on {counted(operation['groups'], 'level')}"
-    if not level:
-        what = f"{counted(operation['passes'], 'pass', 'passes')} on {counted(operation['groups'], 'row')}"
+    rows = [("operation", f"{operation['id']}: {operation['kind']}, {operation['words']}")]
+    if "faces" not in operation:
+        return rows  # it follows no faces
     faces = ", ".join(f"Face{number}" for number in operation["faces"][:12])
     more = len(operation["faces"]) - 12
-    rows = [
-        ("operation", f"{operation['id']}: {operation['kind']}, {what}"),
+    rows += [
         ("faces", f"{faces} and {more} more" if more > 0 else faces),
         ("wall angle", f"{operation['wall_angle_max_deg']:.1f} deg at most"),
     ]

@@ -18,7 +18,7 @@ from styluscam.extras import require
 from styluscam.files import drawn_whole
 from styluscam.parts.arrays import PartArrays
 from styluscam.parts.part import Part
-from styluscam.programs.planning import Plan
+from styluscam.programs.planning import MAIN_CHANNEL, Plan
 from styluscam.programs.program import RAPID, Program
 from styluscam.tools.tool import Tool
 from styluscam.types import FloatArray, IntArray
@@ -190,7 +190,7 @@ def _program_figure(
 
 def plan_picture(plan: Plan, path: str | Path) -> None:
     """As :func:`program_picture`, for a plan's part and program."""
-    program = plan.programs["main"]
+    program = plan.programs[MAIN_CHANNEL]
     tools = plan.job.tools()
     tool = tools[program.tools[0]["name"]] if program.tools else None
     program_picture(plan.job.part(), program, path, plan.scene.frame, tool)

@@ -16,7 +16,7 @@ from styluscam.judging.brep import recheck
 from styluscam.judging.results import FaceCoverage, Finding, Group
 from styluscam.programs.job import Job, JobLike
 from styluscam.programs.machine import Machine, MachineLike
-from styluscam.programs.planning import Plan, TextLike, text_of
+from styluscam.programs.planning import MAIN_CHANNEL, Plan, TextLike, text_of
 from styluscam.programs.program import Program
 from styluscam.types import Document, FloatArray, Progress, shaped
 from styluscam.types import points as rows
@@ -232,7 +232,7 @@ def check_program(
         return _verified(_engine.post(plan.engine, machine.engine), work, machine, progress, cancel)
     if not isinstance(plan, Plan):
         raise refused("plan", plan, "a Plan or a Program", PlanError, "sc.plan(job) makes one")
-    return judge_plan(plan, _engine.post(plan.engine.program, plan.machine.engine), progress, cancel)
+    return judge_plan(plan, _engine.post(plan.engine.programs[MAIN_CHANNEL], plan.machine.engine), progress, cancel)
 
 
 def _verified(

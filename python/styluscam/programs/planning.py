@@ -19,6 +19,9 @@ from styluscam.words import counted, shortened
 
 NEWLINE = "\n"
 
+MAIN_CHANNEL = "main"
+"""The channel that every plan has."""
+
 
 class Plan:
     """What planning made of a job.
@@ -35,7 +38,7 @@ class Plan:
 
     def __repr__(self) -> str:
         """Of which job, and how long its program is."""
-        return f"<Plan of {shortened(self.job.title, 30)!r}: {self.programs['main'].extent}, for {self.machine.name}>"
+        return f"<Plan of {shortened(self.job.title, 30)!r}: {self.programs[MAIN_CHANNEL].extent}, for {self.machine.name}>"
 
     def __eq__(self, other: object) -> bool:
         """Whether job, machine and programs are the same."""
@@ -45,7 +48,7 @@ class Plan:
 
     def __hash__(self) -> int:
         """As equality compares."""
-        return hash(self.programs["main"])
+        return hash(self.programs[MAIN_CHANNEL])
 
     def __getstate__(self) -> Document:
         """For pickle and copy."""
@@ -64,7 +67,7 @@ class Plan:
     @cached_property
     def programs(self) -> dict[str, Program]:
         """Programs by channel; ``"main"`` is always there."""
-        return {"main": Program(self.engine.program)}
+        return {channel: Program(program) for channel, program in self.engine.programs.items()}
 
     def summary(self, judgement: _engine.Judgement | None = None) -> tuple[Document, list[str]]:
         """The job in numbers, and the lines on it in a program's header."""
@@ -76,7 +79,7 @@ class Plan:
         return self._summed(None)
 
     def _summed(self, judgement: _engine.Judgement | None) -> tuple[str, list[str]]:
-        return self.engine.summary(self.scene, self.machine.engine, judgement)
+        return self.engine.summary(MAIN_CHANNEL, self.scene, self.machine.engine, judgement)
 
 
 @dataclass(frozen=True, repr=False)
@@ -149,7 +152,7 @@ def post(plan: Plan | Program, machine: MachineLike | None = None, notes: list[s
     if not isinstance(plan, Plan):
         raise refused("plan", plan, "a Plan or a Program", PlanError, "sc.plan(job) makes one")
     lines = plan.summary()[1] if notes is None else notes
-    program = plan.programs["main"].with_notes(lines)
+    program = plan.programs[MAIN_CHANNEL].with_notes(lines)
     return Posted({output_name(plan.job): _engine.post(program.engine, (target or plan.machine).engine)})
 
 

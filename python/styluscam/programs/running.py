@@ -15,7 +15,7 @@ from styluscam.errors import JobError, StylusError, VerifyError
 from styluscam.files import is_file, require_writable, write_all_whole
 from styluscam.judging.verification import Report, judge_plan
 from styluscam.programs.job import Job, JobLike
-from styluscam.programs.planning import Plan, Posted, output_name, plan, post
+from styluscam.programs.planning import MAIN_CHANNEL, Plan, Posted, output_name, plan, post
 from styluscam.programs.posting import VERDICT
 from styluscam.programs.program import Program
 from styluscam.report.page import report_page
@@ -144,7 +144,7 @@ def _require_same_moves(report: Report, planned: Plan, posted: Posted) -> None:
 
 def _outputs(job: Job, planned: Plan, posted: Posted, notes: list[str]) -> dict[Path, str]:
     gcode, program = _names(job)
-    return {gcode: posted.text, program: planned.engine.program.with_notes(notes).to_json()}
+    return {gcode: posted.text, program: planned.engine.programs[MAIN_CHANNEL].with_notes(notes).to_json()}
 
 
 def _names(job: Job) -> tuple[Path, Path]:

@@ -1,6 +1,7 @@
 //! Jobs: documents, scenes, plans, posted text and its judgement.
 
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 
 use numpy::{PyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -46,6 +47,29 @@ impl Job {
     /// The document with all defaults, as JSON.
     fn to_json(&self) -> PyResult<String> {
         json(&self.document)
+    }
+
+    /// The names of its operations.
+    fn operation_ids(&self) -> Vec<String> {
+        self.document.operations.iter().enumerate().map(|(index, section)| section.id(index)).collect()
+    }
+
+    /// How far the passes of an operation lie apart, as JSON: in height, or in plan across straight rows; None where they do
+    /// not lie in step.
+    fn spacing(&self, index: usize) -> PyResult<Option<String>> {
+        let section = self.document.operations.get(index);
+        section.and_then(|section| section.kind().spacing()).map(|spacing| json(&spacing.described())).transpose()
+    }
+
+    /// Whether its process forms a sheet; else it cuts.
+    #[getter]
+    fn forms(&self) -> bool {
+        self.document.process.process.as_kind().forms()
+    }
+
+    /// What planning each operation will take, as JSON.
+    fn estimates(&self, py: Python<'_>, part: &Part) -> PyResult<String> {
+        json(&py.detach(|| styluscam_job::estimates(&self.document, &part.part)))
     }
 }
 
@@ -106,20 +130,28 @@ pub struct Plan {
 
 #[pymethods]
 impl Plan {
+    /// The programs by channel; "main" is always there.
     #[getter]
-    fn program(&self) -> Program {
-        Program { program: self.plan.program.clone() }
+    fn programs(&self) -> BTreeMap<&'static str, Program> {
+        let programs = self.plan.channels.iter();
+        programs.map(|(name, channel)| (*name, Program { program: channel.program.clone() })).collect()
     }
 
-    /// The summary as JSON and the lines for the header; with the judgement of the text where there is one.
-    #[pyo3(signature = (scene, machine, judgement=None))]
+    /// The summary of a channel as JSON and the lines for its header; with the judgement of its text where there is one.
+    #[pyo3(signature = (channel, scene, machine, judgement=None))]
     fn summary(
         &self,
+        channel: &str,
         scene: &Scene,
         machine: &Machine,
         judgement: Option<&Judgement>,
     ) -> PyResult<(String, Vec<String>)> {
-        let summary = Summary::new(&self.plan, &scene.scene, &machine.machine, judgement.map(|j| &j.judgement));
+        let planned = self.plan.channels.get(channel).ok_or_else(|| {
+            let known: Vec<&str> = self.plan.channels.keys().copied().collect();
+            let message = format!("no channel is called {channel:?}");
+            errors::raise("StylusError", &message, "argument", "channel", &format!("the plan has {}", known.join(", ")))
+        })?;
+        let summary = Summary::new(planned, &scene.scene, &machine.machine, judgement.map(|j| &j.judgement));
         Ok((json(&summary)?, summary.notes()))
     }
 }

@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use styluscam_geometry::{Base, Holder, ModelFace, ProfileDocument, SheetLaw};
-use styluscam_motion::{SpindleDirection, ToolReference};
+use styluscam_motion::ToolReference;
 
-use crate::{FixtureSection, Risk};
+use crate::{FixtureSection, OperationSection, ProcessSection, Risk};
 
 /// A whole job: from a part's faces to a machine's program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -76,7 +76,7 @@ pub struct PartSection {
     pub model_face: Option<ModelFace>,
     /// Largest deviation of the triangles from the model's surfaces, mm; checked by sampling.
     #[serde(default = "part_tolerance")]
-    #[schemars(extend("x-unit" = "mm"))]
+    #[schemars(extend("x-unit" = "mm", "minimum" = 0.0001, "maximum" = 1.0))]
     pub tolerance: f64,
     /// Plan what can be reached of named faces that partly look down.
     #[serde(default)]
@@ -150,25 +150,27 @@ pub struct SetupSection {
     /// Axis of the model that points to the spindle.
     pub up: UpAxis,
     /// Turn about the machine's Z after that, degrees.
-    #[schemars(extend("x-unit" = "deg"))]
+    #[schemars(extend("x-unit" = "deg", "minimum" = -360.0, "maximum" = 360.0))]
     pub rotation: f64,
     /// Where the program's zero is; "sheet-top" with a sheet, else "model", when left out.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "mm"))]
+    #[schemars(extend("x-unit" = "mm", "minimum" = -100000.0, "maximum" = 100000.0))]
     pub zero: Option<Zero>,
     /// Work offset.
     pub wcs: String,
     /// Height above the part's (or the sheet's) highest point at which rapids cross it, mm.
-    #[schemars(extend("x-unit" = "mm"))]
+    #[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
     pub clearance: f64,
     /// Height above that point down to which rapids go before a plunge, mm.
-    #[schemars(extend("x-unit" = "mm"))]
+    #[schemars(extend("x-unit" = "mm", "minimum" = 0.1, "maximum" = 1000.0))]
     pub retract: f64,
     /// The blank.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-example" = "{ thickness = 1.0 }"))]
     pub sheet: Option<SheetSection>,
     /// What holds it.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-example" = "{ clamp = { opening = [200.0, 150.0], height = 8.0 } }"))]
     pub fixture: Option<FixtureSection>,
 }
 
@@ -260,56 +262,19 @@ impl From<Zero> for ZeroText {
 #[serde(deny_unknown_fields)]
 pub struct SheetSection {
     /// Thickness, mm.
-    #[schemars(extend("x-unit" = "mm"))]
+    #[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 50.0))]
     pub thickness: f64,
     /// How the thickness behaves as the sheet is formed.
     #[serde(default)]
     pub law: SheetLaw,
     /// Thinnest that the sheet may become, by the sine law, mm; not judged when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "mm"))]
+    #[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 50.0))]
     pub min_thickness: Option<f64>,
     /// Steepest wall that may be formed, degrees; when left out, what is known of `process.material`, or of any sheet, judges.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "deg"))]
+    #[schemars(extend("x-unit" = "deg", "minimum" = 1.0, "maximum" = 90.0))]
     pub max_wall_angle_deg: Option<f64>,
-}
-
-/// What is done to the part.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct ProcessSection {
-    /// Forming a sheet, or milling.
-    pub kind: Process,
-    /// What the sheet is made of, by the name of a shipped material: says how steep a wall it bears.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub material: Option<String>,
-    /// Most that may be left on the faces where the tool cannot get, mm; 1 mm of a sheet, and not judged in milling, when left
-    /// out.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "mm"))]
-    pub max_bridged: Option<f64>,
-    /// Share of the faces, 0 to 1, that the tool may be unable to get to.
-    #[schemars(extend("x-unit" = "1"))]
-    pub max_unreached: f64,
-}
-
-impl Default for ProcessSection {
-    fn default() -> Self {
-        Self { kind: Process::default(), material: None, max_bridged: None, max_unreached: 0.1 }
-    }
-}
-
-/// Processes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Process {
-    /// Single-point incremental forming: a sheet, no die.
-    #[default]
-    #[schemars(extend("x-takes-sheet" = true))]
-    Spif,
-    /// Milling: no sheet.
-    Milling,
 }
 
 /// A tool of the job.
@@ -327,6 +292,7 @@ pub struct ToolSection {
     pub reference: ToolReference,
     /// The curve from tip to base; this or `library`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-example" = "{ kind = \"ball\", diameter = 10.0 }"))]
     pub profile: Option<ProfileDocument>,
     /// A shipped tool by its name ("clothoid:medium"), or a tool file (.json, .fctb); the other keys go before its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -345,149 +311,6 @@ pub struct ToolSection {
     /// The holder above it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub holder: Option<Holder>,
-}
-
-/// One operation.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct OperationSection {
-    /// A name, unique in the job; made from kind and place when left out.
-    #[serde(default)]
-    pub id: String,
-    /// The strategy.
-    pub kind: OperationKind,
-    /// Name of the tool.
-    pub tool: String,
-    /// Faces of this operation alone; the part's when left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub faces: Option<Selection>,
-    /// Height from which levels are counted, mm in work coordinates; the selected faces' top when left out. Rows (zig-zag) end there.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "mm"))]
-    pub z_top: Option<f64>,
-    /// Lowest level, mm in work coordinates; as deep as the tool reaches when left out. Rows (zig-zag) end there.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "mm"))]
-    pub z_bottom: Option<f64>,
-    /// Distance between levels (z-level).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub step: Option<Step>,
-    /// Distance between rows in plan, mm (zig-zag).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "mm"))]
-    pub stepover: Option<f64>,
-    /// Direction of rows from +X, degrees (zig-zag).
-    #[serde(default)]
-    #[schemars(extend("x-unit" = "deg"))]
-    pub angle_deg: f64,
-    /// Whether every other level or row is run the other way.
-    #[serde(default)]
-    pub direction: Direction,
-    /// How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
-    #[serde(default = "path_tolerance")]
-    #[schemars(extend("x-unit" = "mm"))]
-    pub tolerance: f64,
-    /// No loop is missed whose inside or surroundings hold a disc of this diameter, mm.
-    #[serde(default = "smallest_feature")]
-    #[schemars(extend("x-unit" = "mm"))]
-    pub smallest_feature: f64,
-    /// Feeds.
-    #[serde(default)]
-    pub feeds: Feeds,
-    /// The spindle.
-    #[serde(default)]
-    pub spindle: Spindle,
-    /// Coolant or lubricant.
-    #[serde(default)]
-    pub coolant: Coolant,
-}
-
-/// Strategies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum OperationKind {
-    /// Loops at constant heights, from the top down.
-    ZLevel,
-    /// Parallel rows over the surface.
-    ZigZag,
-}
-
-impl OperationKind {
-    /// Its name as the document writes it.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::ZLevel => "z-level",
-            Self::ZigZag => "zig-zag",
-        }
-    }
-}
-
-/// What sets the distance between levels.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Step {
-    /// This distance, mm.
-    #[schemars(extend("x-unit" = "mm"))]
-    Height(f64),
-}
-
-/// The sense of levels and rows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Direction {
-    /// Every other one the other way: counters the twist of a formed sheet.
-    #[default]
-    Alternate,
-    /// All the same way: the higher ground on the right of levels, rows along `angle_deg`.
-    Same,
-}
-
-/// Feeds, mm/min.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Feeds {
-    /// Along the path.
-    #[schemars(extend("x-unit" = "mm/min"))]
-    pub cut: f64,
-    /// Straight down onto it.
-    #[schemars(extend("x-unit" = "mm/min"))]
-    pub plunge: f64,
-}
-
-impl Default for Feeds {
-    fn default() -> Self {
-        Self { cut: 1500.0, plunge: 300.0 }
-    }
-}
-
-/// What the spindle does.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "mode", rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Spindle {
-    /// It stands: a stylus slides.
-    #[default]
-    Off,
-    /// It turns.
-    Fixed {
-        /// Speed, rev/min.
-        #[schemars(extend("x-unit" = "rev/min"))]
-        rpm: f64,
-        /// Sense, seen from above.
-        #[serde(default = "clockwise")]
-        direction: SpindleDirection,
-    },
-}
-
-/// Coolant or lubricant.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Coolant {
-    /// None.
-    #[default]
-    Off,
-    /// Flood.
-    Flood,
 }
 
 /// The machine: shipped, or a file.
@@ -523,16 +346,4 @@ fn one() -> u32 {
 
 fn part_tolerance() -> f64 {
     0.001
-}
-
-fn path_tolerance() -> f64 {
-    0.005
-}
-
-fn smallest_feature() -> f64 {
-    1.0
-}
-
-fn clockwise() -> SpindleDirection {
-    SpindleDirection::Clockwise
 }

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use styluscam_geometry::{Mesh, Vector};
 
-use crate::{JobDocument, JobError, OperationKind, OperationSection, Process, Scene, Selection};
+use crate::{JobDocument, JobError, OperationSection, Scene, Selection};
 
 /// Normals whose Z is above this look up; a wall of 89.9 degrees still does.
 pub(crate) const UP: f64 = 1e-3;
@@ -88,15 +88,14 @@ pub fn of_operation(
     section: &OperationSection,
     index: usize,
 ) -> Result<Vec<u32>, JobError> {
-    let (selection, place) = match &section.faces {
+    let (selection, place) = match &section.common.faces {
         Some(selection) => (selection, format!("operations[{index}].faces")),
         None => (&job.part.faces, "part.faces".to_owned()),
     };
-    let all = match (section.kind, job.process.kind) {
-        (OperationKind::ZLevel, Process::Milling) => Look::UpOrAside,
-        (_, Process::Spif) => Look::UpButRims,
-        // rows pass walls at one height only
-        (OperationKind::ZigZag, Process::Milling) => Look::Up,
+    let all = match (job.process.process.as_kind().forms(), section.kind().cuts_upright_walls()) {
+        (true, _) => Look::UpButRims,
+        (false, true) => Look::UpOrAside,
+        (false, false) => Look::Up,
     };
     chosen(selection, &scene.views, all, job.part.allow_undercuts, &place)
 }

@@ -20,17 +20,19 @@ const DEEP: f64 = 1000.0;
 pub struct FixtureSection {
     /// Middle of the openings in plan, work coordinates, mm; the middle of the part's box when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "mm"))]
+    #[schemars(extend("x-unit" = "mm", "minimum" = -100000.0, "maximum" = 100000.0))]
     pub center: Option<[f64; 2]>,
     /// What is kept clear of clamp and backing, mm.
     #[serde(default = "margin")]
-    #[schemars(extend("x-unit" = "mm"))]
+    #[schemars(extend("x-unit" = "mm", "minimum" = 0.0, "maximum" = 100.0))]
     pub margin: f64,
     /// The frame on the sheet.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-example" = "{ opening = [200.0, 150.0], height = 8.0 }"))]
     pub clamp: Option<ClampSection>,
     /// The plate under the sheet.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-example" = "{ opening = 160.0 }"))]
     pub backing: Option<BackingSection>,
 }
 
@@ -39,10 +41,10 @@ pub struct FixtureSection {
 #[serde(deny_unknown_fields)]
 pub struct ClampSection {
     /// Where the sheet is free.
-    #[schemars(extend("x-unit" = "mm"))]
+    #[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 10000.0))]
     pub opening: Opening,
     /// Height above the sheet, mm.
-    #[schemars(extend("x-unit" = "mm"))]
+    #[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 500.0))]
     pub height: f64,
 }
 
@@ -51,7 +53,7 @@ pub struct ClampSection {
 #[serde(deny_unknown_fields)]
 pub struct BackingSection {
     /// Where the sheet may go down.
-    #[schemars(extend("x-unit" = "mm"))]
+    #[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 10000.0))]
     pub opening: Opening,
 }
 

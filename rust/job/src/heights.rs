@@ -2,7 +2,7 @@
 
 use styluscam_geometry::Tool;
 
-use crate::{JobDocument, OperationSection, Process, Scene};
+use crate::{JobDocument, OperationSection, Scene};
 
 /// Heights of the tip, work coordinates, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,11 +16,10 @@ pub(crate) struct TipHeights {
 impl TipHeights {
     /// Those of an operation: its own, and in milling no lower than the part's foot, on which it stands, unless it says so.
     pub fn of(job: &JobDocument, scene: &Scene, section: &OperationSection) -> Self {
-        let foot = match job.process.kind {
-            Process::Milling => scene.foot(),
-            Process::Spif => f64::NEG_INFINITY, // the sheet hangs free: it is formed as low as it goes
-        };
-        Self { bottom: section.z_bottom.unwrap_or(foot), top: section.z_top }
+        // a sheet hangs free: it is formed as low as it goes
+        let foot = if job.process.process.as_kind().rests_on_table() { scene.foot() } else { f64::NEG_INFINITY };
+        let common = &section.common;
+        Self { bottom: common.z_bottom.unwrap_or(foot), top: common.z_top }
     }
 
     /// What selected triangles keep below their lowest touch where the tip stops at `bottom`: the most, mm; none where

@@ -1,7 +1,6 @@
 //! Posted text, judged: read back, put against the part, limits taken from the job.
 
 use std::ops::Range;
-use std::sync::Arc;
 
 use serde::Serialize;
 use styluscam_geometry::{ModelFace, Sheet, Tool, Vector};
@@ -9,15 +8,14 @@ use styluscam_motion::{Program, ToolRecord, Watch};
 use styluscam_post::machine::ToolChange;
 use styluscam_post::{read, Machine, Reading};
 use styluscam_verify::{
-    Across, Contact, Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Height, Limits, Need, OrderedPasses,
-    Passes, Reach, Report, Scalar, Simulation, Subject, TextFacts, ToolCalls,
+    Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Limits, Need, Reach, Report, Simulation, Subject,
+    TextFacts, ToolCalls,
 };
 
 use crate::heights::TipHeights;
-use crate::plan::operation_id;
 use crate::{
-    faces, fixture, materials, model, scene, Coolant, JobDocument, JobError, OperationKind, OperationSection, Process,
-    Scene, SheetSection, Spindle, Step,
+    faces, fixture, materials, model, scene, Coolant, JobDocument, JobError, OperationSection, Scene, SheetSection,
+    Spindle,
 };
 
 /// Deepest gouge allowed, mm: the posted path may lie this far inside the exact envelope, and not more.
@@ -192,16 +190,17 @@ fn subject<'a>(job: &'a JobDocument, scene: &'a Scene, tools: &'a [Tool], unplac
 /// What the job states for each of its operations.
 fn expected(job: &JobDocument, scene: &Scene, records: &[ToolRecord]) -> Result<Vec<ExpectedOperation>, JobError> {
     let operation = |(index, section): (usize, &OperationSection)| {
+        let common = &section.common;
         Ok(ExpectedOperation {
-            id: operation_id(section, index),
-            tool: records.iter().position(|record| record.name == section.tool).unwrap_or(usize::MAX),
-            cut: section.feeds.cut,
-            plunge: section.feeds.plunge,
-            spindle: match section.spindle {
+            id: section.id(index),
+            tool: records.iter().position(|record| record.name == common.tool).unwrap_or(usize::MAX),
+            cut: common.feeds.cut,
+            plunge: common.feeds.plunge,
+            spindle: match common.spindle {
                 Spindle::Off => None,
                 Spindle::Fixed { rpm, direction } => Some((rpm, direction)),
             },
-            flood: section.coolant == Coolant::Flood,
+            flood: common.coolant == Coolant::Flood,
             expectation: expectation(job, scene, section, index)?,
         })
     };
@@ -217,34 +216,21 @@ fn expectation(
 ) -> Result<Expectation, JobError> {
     let heights = TipHeights::of(job, scene, section);
     Ok(Expectation {
-        contact: Contact::Touch,
+        contact: section.kind().contact(),
         selected: scene.looking_up(&faces::of_operation(job, scene, section, index)?),
         heights: [heights.bottom, heights.top.unwrap_or(f64::INFINITY)],
-        passes: passes(section),
-        forms: job.process.kind == Process::Spif && job.setup.sheet.is_some(),
+        passes: section.kind().passes(section.common.smallest_feature),
+        forms: job.process.process.as_kind().forms(),
     })
-}
-
-/// How an operation's passes are to lie.
-fn passes(section: &OperationSection) -> Passes {
-    let (scalar, step): (Arc<dyn Scalar>, f64) = match (section.kind, section.step, section.stepover) {
-        (OperationKind::ZLevel, Some(Step::Height(step)), _) => (Arc::new(Height), step),
-        (OperationKind::ZigZag, _, Some(stepover)) => {
-            (Arc::new(Across { direction_rad: section.angle_deg.to_radians() }), stepover)
-        }
-        (OperationKind::ZLevel, None, _) => return Passes::Unordered { reason: "for the job has no step" },
-        (OperationKind::ZigZag, _, None) => return Passes::Unordered { reason: "for the job has no stepover" },
-    };
-    Passes::Ordered(OrderedPasses { scalar, step, continuous: false, smallest_feature: section.smallest_feature })
 }
 
 /// The tolerance of each of the text's operations, by the ids in its remarks; the widest of the job where it names none.
 fn excess(job: &JobDocument, program: &Program) -> Vec<Option<f64>> {
     let tolerance = |id: &str| {
         let mut sections = job.operations.iter().enumerate();
-        sections.find(|(index, section)| operation_id(section, *index) == id).map(|(_, section)| section.tolerance)
+        sections.find(|(index, section)| section.id(*index) == id).map(|(_, section)| section.common.tolerance)
     };
-    let widest = job.operations.iter().map(|operation| operation.tolerance).reduce(f64::max);
+    let widest = job.operations.iter().map(|operation| operation.common.tolerance).reduce(f64::max);
     program.operations.iter().map(|operation| tolerance(&operation.id).or(widest)).collect()
 }
 
@@ -260,15 +246,15 @@ pub fn read_back(job: &JobDocument, machine: &Machine, text: &str) -> Result<Pro
 /// The job's tools in the order of their first use: the order in which planning lists them.
 fn tools_in_order(job: &JobDocument) -> Result<(Vec<Tool>, Vec<ToolRecord>), JobError> {
     let mut known = scene::tools(job)?;
-    Ok(job.operations.iter().filter_map(|operation| known.remove(&operation.tool)).unzip())
+    Ok(job.operations.iter().filter_map(|operation| known.remove(&operation.common.tool)).unzip())
 }
 
 /// Text is rounded: what stands at the clearance height may be half a unit of the machine below it.
 fn limits(job: &JobDocument, scene: &Scene, tools: &[Tool], machine: &Machine) -> Limits {
     let clearance = scene.clearance(job) - 0.5 * machine.resolution_mm();
-    let excess = job.operations.iter().map(|operation| operation.tolerance);
+    let excess = job.operations.iter().map(|operation| operation.common.tolerance);
     let sheet_bridged = job.setup.sheet.map_or(f64::INFINITY, |_| BRIDGED);
-    let bridged = job.process.max_bridged.unwrap_or(sheet_bridged);
+    let bridged = job.process.common.max_bridged.unwrap_or(sheet_bridged);
     let narrowest = tools.iter().map(|tool| 0.5 * tool.diameter()).fold(f64::INFINITY, f64::min);
     Limits {
         gouge: GOUGE,
@@ -278,7 +264,7 @@ fn limits(job: &JobDocument, scene: &Scene, tools: &[Tool], machine: &Machine) -
         reach: reach(machine),
         forming: job.setup.sheet.map(|sheet| forming(job, &sheet, scene.top)),
         bridged,
-        unreached: job.process.max_unreached,
+        unreached: job.process.common.max_unreached,
         unreached_from: if bridged.is_finite() { bridged } else { NO_ROOM * narrowest },
         accepted: job.accept.iter().map(|risk| risk.finding()).collect(),
         ..Limits::new(clearance)

@@ -12,29 +12,38 @@ mod heights;
 mod judge;
 mod materials;
 mod model;
+mod operations;
 mod parse;
 mod plan;
+mod process;
 mod risk;
 mod scene;
+mod schema;
 mod starter;
 mod stopped;
 mod summary;
+mod tagged;
 mod units;
 
 pub use body::{Body, Border, FaceLook, Heights, Hollows, Shell, Side, Thickness, Unformable, SIDES};
 pub use document::{
-    Coolant, Direction, Feeds, JobDocument, LengthUnit, MachineSection, OperationKind, OperationSection, OutputSection,
-    PartSection, Process, ProcessSection, Selection, SetupSection, SheetSection, Spindle, Step, ToolSection, Units,
-    UpAxis, Zero,
+    JobDocument, LengthUnit, MachineSection, OutputSection, PartSection, Selection, SetupSection, SheetSection,
+    ToolSection, Units, UpAxis, Zero,
 };
 pub use error::JobError;
 pub use fixture::{plates, BackingSection, ClampSection, FixtureSection, Holder, Opening, Plate};
 pub use judge::{coverage, judge, left, needs, read_back, simulate, Judgement};
 pub use materials::{materials, Angle, Material};
-pub use parse::{from_json, from_toml, schema, tool_from_json};
-pub use plan::{plan, OperationSummary, Plan};
+pub use operations::{
+    estimates, BridgedFace, Context, Coolant, Direction, Effort, End, Estimate, Fact, Feeds, Operation, OperationKeys,
+    OperationKind, OperationSection, PassSpacing, Planned, ReachedFace, Spindle, SurfaceFacts, ZLevel, ZigZag,
+};
+pub use parse::{from_json, from_toml, tool_from_json};
+pub use plan::{plan, Channel, OperationSummary, Plan};
+pub use process::{Process, ProcessKeys, ProcessKind, ProcessSection, MAIN_CHANNEL};
 pub use risk::Risk;
 pub use scene::{Part, Scene};
+pub use schema::schema;
 pub use starter::{fitting_radius, starter, Starter, StarterFace, StarterPart};
 pub use summary::Summary;
 

@@ -45,7 +45,7 @@ pub fn mismatches(job: &JobDocument, scene: &Scene) -> Vec<(FindingKind, String)
 
 /// Whether no face is chosen: all that looks up is to be formed.
 fn takes_all(job: &JobDocument) -> bool {
-    let mut chosen = job.operations.iter().map(|operation| operation.faces.as_ref().unwrap_or(&job.part.faces));
+    let mut chosen = job.operations.iter().map(|operation| operation.common.faces.as_ref().unwrap_or(&job.part.faces));
     chosen.any(|selection| *selection == Selection::All)
 }
 

@@ -4,7 +4,7 @@ use serde::Serialize;
 use styluscam_motion::{Statistics, ToolReference};
 use styluscam_post::{machine::LengthUnit, Machine};
 
-use crate::{plan::OperationSummary, Judgement, Plan, Scene};
+use crate::{plan::OperationSummary, Channel, Judgement, Scene};
 
 /// Faces that the program's header lists one by one.
 const SHOWN: usize = 8;
@@ -60,10 +60,10 @@ pub struct ToolLine {
 }
 
 impl Summary {
-    /// Sums up a plan for a machine, with the judgement of its text once there is one.
+    /// Sums up a channel's plan for its machine, with the judgement of its text once there is one.
     #[must_use]
-    pub fn new(plan: &Plan, scene: &Scene, machine: &Machine, judgement: Option<&Judgement>) -> Self {
-        let program = &plan.program;
+    pub fn new(channel: &Channel, scene: &Scene, machine: &Machine, judgement: Option<&Judgement>) -> Self {
+        let program = &channel.program;
         let statistics = Statistics::of(program, &machine.dynamics());
         let tools = program.tools.iter().map(|tool| ToolLine {
             number: tool.number,
@@ -85,7 +85,7 @@ impl Summary {
             machine: machine.name.clone(),
             units: if machine.units.output == LengthUnit::Mm { "mm" } else { "inch" }.to_owned(),
             tools: tools.collect(),
-            operations: plan.operations.clone(),
+            operations: channel.operations.clone(),
             length: statistics.feed_length,
             duration: statistics.duration,
             accelerates: machine.limits.acceleration.is_some(),
@@ -101,29 +101,7 @@ impl Summary {
     pub fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
         for operation in &self.operations {
-            notes.push(format!(
-                "{}: {} {}, {} passes, largest wall angle {:.1} deg",
-                operation.id,
-                operation.groups,
-                if operation.kind == "z-level" { "levels" } else { "rows" },
-                operation.passes,
-                operation.wall_angle_max_deg
-            ));
-            notes.extend(operation.ends.map(|end| {
-                let which = if end.at_foot { "the part's foot" } else { "z_bottom" };
-                format!(
-                    "ends at Z{:.3}, {which}: {:.3} of the walls are touched only from lower down",
-                    end.z, end.untouched
-                )
-            }));
-            notes.extend(operation.bridged.iter().take(SHOWN).map(|bridge| {
-                let [x, y, z] = bridge.at;
-                format!("bridged: Face{} by up to {:.3} at X{x:.2} Y{y:.2} Z{z:.2}", bridge.face, bridge.excess)
-            }));
-            notes.extend(more("bridged", operation.bridged.len()));
-            let undercut = operation.undercut.iter().take(SHOWN);
-            notes.extend(undercut.map(|(face, area)| format!("undercut: Face{face}, {area:.1} mm2")));
-            notes.extend(more("undercut", operation.undercut.len()));
+            notes.extend(operation.notes());
         }
         let counted = if self.accelerates { "" } else { " without acceleration" };
         notes.push(format!("length {:.0} mm, time {}{counted}", self.length, clock(self.duration)));
@@ -139,6 +117,31 @@ impl Summary {
         let [gouge, excess] = [self.gouge_max, self.excess_max].map(figure);
         let verdict = self.ok.map_or("------", |ok| if ok { "passed" } else { "FAILED" });
         format!("judged from this text: {verdict}, worst gouge {gouge} mm, worst excess {excess} mm")
+    }
+}
+
+impl OperationSummary {
+    /// Its lines of the program's header.
+    fn notes(&self) -> Vec<String> {
+        let Some(surface) = &self.surface else { return vec![format!("{}: {}", self.id, self.note)] };
+        let mut notes =
+            vec![format!("{}: {}, largest wall angle {:.1} deg", self.id, self.note, surface.wall_angle_max_deg)];
+        notes.extend(surface.ends.map(|end| {
+            let which = if end.at_foot { "the part's foot" } else { "z_bottom" };
+            format!(
+                "ends at Z{:.3}, {which}: {:.3} of the walls are touched only from lower down",
+                end.z, end.untouched
+            )
+        }));
+        notes.extend(surface.bridged.iter().take(SHOWN).map(|bridge| {
+            let [x, y, z] = bridge.at;
+            format!("bridged: Face{} by up to {:.3} at X{x:.2} Y{y:.2} Z{z:.2}", bridge.face, bridge.excess)
+        }));
+        notes.extend(more("bridged", surface.bridged.len()));
+        let undercut = surface.undercut.iter().take(SHOWN);
+        notes.extend(undercut.map(|(face, area)| format!("undercut: Face{face}, {area:.1} mm2")));
+        notes.extend(more("undercut", surface.undercut.len()));
+        notes
     }
 }
 

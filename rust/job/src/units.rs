@@ -1,11 +1,14 @@
-//! Documents in inches: every length becomes mm once, before anything else reads it.
+//! Documents in inches, and ranges: every length becomes mm once, before anything else reads it, and every number is in the
+//! range that its key states.
 //!
-//! Which numbers are lengths, and of what power, the schema says at each key (`x-unit`).
+//! Which numbers are lengths, of what power, and between what they must lie, the schema says at each key (`x-unit`,
+//! `minimum`, `exclusiveMinimum`, `maximum`).
 
 use serde_json::{Map, Number, Value};
 
 use crate::document::LengthUnit;
-use crate::{check, JobError};
+use crate::schema::{shown, Allowed, Range};
+use crate::JobError;
 
 impl LengthUnit {
     /// Its name as documents write it.
@@ -32,8 +35,8 @@ impl LengthUnit {
     /// A length in mm as this unit's users write it.
     pub(crate) fn shown(self, mm: f64) -> String {
         match self {
-            Self::Mm => check::shown(mm),
-            Self::Inch => check::shown(rounded(self.of_mm(mm))),
+            Self::Mm => shown(mm),
+            Self::Inch => shown(rounded(self.of_mm(mm))),
         }
     }
 }
@@ -49,47 +52,57 @@ pub fn stated(document: &Value) -> LengthUnit {
     stated.and_then(|unit| serde_json::from_value(unit).ok()).unwrap_or_default()
 }
 
-/// Turns a document's lengths into mm, in place; ranges are judged, and shown, in the unit that the document is in.
+/// Turns a document's lengths into mm, in place, and checks every number's range and that tables are tables.
 ///
 /// # Errors
-/// A length out of range, or a formula: what its numbers are cannot be known.
-pub fn to_mm(document: &mut Value, schema: &Value, unit: LengthUnit) -> Result<(), JobError> {
-    match unit {
-        LengthUnit::Mm => Ok(()),
-        LengthUnit::Inch => Walk { schema, unit }.value(document, &[schema], None, ""),
+/// A number out of range, in the unit that the document is in; an array where a table is expected, whose values serde would
+/// take in order; in inches a formula: what its numbers are cannot be known.
+pub fn to_mm(document: &mut Value) -> Result<(), JobError> {
+    let unit = stated(document);
+    Walk { unit }.value(document, &Allowed::document(), Key::default(), "")
+}
+
+/// What a key states for the numbers below it.
+#[derive(Clone, Copy, Default)]
+struct Key {
+    /// `x-unit`.
+    unit: &'static str,
+    range: Option<Range>,
+}
+
+impl Key {
+    fn within(self, allowed: &Allowed) -> Self {
+        let unit = allowed.stated("x-unit").and_then(Value::as_str).unwrap_or(self.unit);
+        Self { unit, range: Range::of(allowed).or(self.range) }
     }
 }
 
-struct Walk<'a> {
-    schema: &'a Value,
+struct Walk {
     unit: LengthUnit,
 }
 
-impl<'a> Walk<'a> {
-    /// A value by the schemas that may be its own; `unit` is that of the table or list around it.
-    fn value(
-        &self,
-        value: &mut Value,
-        schemas: &[&'a Value],
-        unit: Option<&'a str>,
-        place: &str,
-    ) -> Result<(), JobError> {
-        let schemas: Vec<&Value> = schemas.iter().flat_map(|schema| self.alternatives(schema, value)).collect();
-        let unit = schemas.iter().find_map(|schema| schema.get("x-unit")?.as_str()).or(unit);
-        if unit == Some("formula") && !value.is_null() {
-            return Err(formula(place, self.unit));
+impl Walk {
+    /// A value by the schemas that may be its own; `around` is what the list or table around it states.
+    fn value(&self, value: &mut Value, allowed: &Allowed, around: Key, path: &str) -> Result<(), JobError> {
+        let allowed = allowed.resolved(value.get("kind").and_then(Value::as_str));
+        let key = around.within(&allowed);
+        if key.unit == "formula" && !value.is_null() && !self.unit.is_mm() {
+            return Err(formula(path, self.unit));
         }
         match value {
-            Value::Number(number) => self.number(number, unit.unwrap_or_default(), 1.0, place),
+            Value::Number(number) => self.number(number, key, 1.0, path),
+            Value::Array(_) if allowed.is_table() => {
+                Err(JobError::document("type", path, "an array, where a table is expected", "write keys and values"))
+            }
             Value::Array(items) => {
-                let of_items: Vec<&Value> = schemas.iter().filter_map(|schema| schema.get("items")).collect();
+                let of_items = allowed.items();
                 items.iter_mut().enumerate().try_for_each(|(i, item)| {
                     // pairs and points have one range: that of their key
-                    let place = if item.is_object() { format!("{place}[{i}]") } else { place.to_owned() };
-                    self.value(item, &of_items, unit, &place)
+                    let path = if item.is_number() { path.to_owned() } else { format!("{path}[{i}]") };
+                    self.value(item, &of_items, key, &path)
                 })
             }
-            Value::Object(entries) => self.entries(entries, &schemas, unit, place),
+            Value::Object(entries) => self.entries(entries, &allowed, key.unit, path),
             Value::Null | Value::Bool(_) | Value::String(_) => Ok(()),
         }
     }
@@ -97,67 +110,51 @@ impl<'a> Walk<'a> {
     fn entries(
         &self,
         entries: &mut Map<String, Value>,
-        schemas: &[&'a Value],
-        unit: Option<&'a str>,
-        place: &str,
+        allowed: &Allowed,
+        unit: &'static str,
+        path: &str,
     ) -> Result<(), JobError> {
         let exponent = entries.get("exponent").and_then(Value::as_f64).unwrap_or(1.0);
         for (key, value) in entries {
-            let place = if place.is_empty() { key.clone() } else { format!("{place}.{key}") };
-            let known: Vec<&Value> =
-                schemas.iter().filter_map(|schema| schema.get("properties")?.get(key.as_str())).collect();
-            let others = || schemas.iter().filter_map(|schema| schema.get("additionalProperties")).collect();
-            let known = if known.is_empty() { others() } else { known };
-            let power = known.iter().any(|schema| schema.get("x-unit").and_then(Value::as_str) == Some("mm^(1-p)"));
+            let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+            let known = allowed.key(key);
+            let power = known.stated("x-unit").and_then(Value::as_str) == Some("mm^(1-p)");
             match value {
-                Value::Number(number) if power => self.number(number, "mm^(1-p)", 1.0 - exponent, &place)?,
-                _ => self.value(value, &known, unit, &place)?,
+                Value::Number(number) if power => {
+                    self.number(number, Key::default().within(&known), 1.0 - exponent, &path)?;
+                }
+                _ => self.value(value, &known, Key { unit, range: None }, &path)?,
             }
         }
         Ok(())
     }
 
     /// A number of the document; `power` is that of a coefficient whose dimension depends on another key.
-    fn number(&self, number: &mut Number, unit: &str, power: f64, place: &str) -> Result<(), JobError> {
+    fn number(&self, number: &mut Number, key: Key, power: f64, path: &str) -> Result<(), JobError> {
         let Some(written) = number.as_f64() else { return Ok(()) };
         // 254 / 10: 3 inches are 76.2 mm, and not 76.19999999999999
-        let mm = match unit {
-            "mm" | "mm/min" => written * 254.0 / 10.0,
-            "mm^2" => written * 64516.0 / 100.0,
-            "mm^(1-p)" => written * libm::pow(25.4, power),
-            _ => return Ok(()),
+        let mm = match (self.unit, key.unit) {
+            (LengthUnit::Inch, "mm" | "mm/min") => Some(written * 254.0 / 10.0),
+            (LengthUnit::Inch, "mm^2") => Some(written * 64516.0 / 100.0),
+            (LengthUnit::Inch, "mm^(1-p)") => Some(written * libm::pow(25.4, power)),
+            (LengthUnit::Inch | LengthUnit::Mm, _) => None,
         };
-        check::in_range(place, mm, written, self.unit)?;
-        if let Some(found) = Number::from_f64(mm) {
+        if let Some(range) = key.range.filter(|range| !range.holds(mm.unwrap_or(written))) {
+            let name = path.rsplit('.').next().unwrap_or(path);
+            let message = format!("{name} = {}: allowed is {}", shown(written), range.in_words(key.unit, self.unit));
+            return Err(JobError::document("out-of-range", path, message, "correct the value"));
+        }
+        if let Some(found) = mm.and_then(Number::from_f64) {
             *number = found;
         }
         Ok(())
     }
-
-    /// The schemas behind a schema: references followed, of tables with a kind that kind's alone.
-    fn alternatives(&self, schema: &'a Value, value: &Value) -> Vec<&'a Value> {
-        let kind = value.get("kind").and_then(Value::as_str);
-        let mut found = Vec::new();
-        let mut open = vec![schema];
-        while let Some(schema) = open.pop() {
-            let constant = |schema: &Value| Some(schema.pointer("/properties/kind/const")?.as_str()?.to_owned());
-            if kind.is_some() && constant(schema).is_some_and(|constant| Some(constant.as_str()) != kind) {
-                continue;
-            }
-            found.push(schema);
-            let name = schema.get("$ref").and_then(Value::as_str).and_then(|path| path.strip_prefix("#/$defs/"));
-            open.extend(name.and_then(|name| self.schema.get("$defs")?.get(name)));
-            let choices = ["allOf", "oneOf", "anyOf"].iter().filter_map(|key| schema.get(*key)?.as_array());
-            open.extend(choices.flatten());
-        }
-        found
-    }
 }
 
-fn formula(place: &str, unit: LengthUnit) -> JobError {
+fn formula(path: &str, unit: LengthUnit) -> JobError {
     JobError::document(
         "units",
-        place,
+        path,
         format!("units = {:?}: what the numbers of a formula are cannot be known, and they stay mm", unit.name()),
         "put the tool into a file of its own (library = \"tool.json\", always mm), or write the job in mm",
     )
@@ -195,12 +192,16 @@ mod tests {
         kind = "z-level"
         tool = "a"
         step = { height = 0.02 }
-        angle_deg = 30.0
         z_bottom = -1.5
         tolerance = 0.0004
         smallest_feature = 0.05
         feeds = { cut = 60.0, plunge = 12.0 }
         spindle = { mode = "fixed", rpm = 400.0 }
+        [[operations]]
+        kind = "zig-zag"
+        tool = "b"
+        stepover = 0.02
+        angle_deg = 30.0
     "#;
 
     fn read(text: &str) -> Result<Value, JobError> {
@@ -233,7 +234,8 @@ mod tests {
             ("/tools/c/profile/points/2/0", 5.08),
             ("/tools/c/profile/fit_tolerance", 0.0254),
             ("/operations/0/step/height", 0.508),
-            ("/operations/0/angle_deg", 30.0),
+            ("/operations/1/stepover", 0.508),
+            ("/operations/1/angle_deg", 30.0),
             ("/operations/0/z_bottom", -38.1),
             ("/operations/0/tolerance", 0.01016),
             ("/operations/0/smallest_feature", 1.27),
@@ -306,6 +308,40 @@ mod tests {
         let error = error.unwrap_err();
         assert_eq!(error.place(), "tools.b.profile.z");
         assert!(error.hint().contains("library"), "{}", error.hint());
+    }
+
+    #[test]
+    fn every_number_of_the_job_states_its_range() {
+        // numbers of the job's own tables; the geometry of tools checks its own, and a machine's options are its own
+        const OTHERS: [&str; 6] = ["ProfileDocument", "Base", "Holder", "ToolSection", "OptionValue", "Opening"];
+        fn look(schema: &Value, has_range: bool, path: &str, missing: &mut Vec<String>) {
+            let has = |key: &str| schema.get(key).is_some();
+            let has_range = has_range || ((has("minimum") || has("exclusiveMinimum")) && has("maximum"));
+            let is_number =
+                |kind: &Value| kind == "number" || kind.as_array().is_some_and(|k| k.contains(&"number".into()));
+            if schema.get("type").is_some_and(is_number) && !has_range {
+                missing.push(path.to_owned());
+            }
+            match schema {
+                Value::Object(entries) => {
+                    entries.iter().for_each(|(key, part)| look(part, has_range, &format!("{path}/{key}"), missing));
+                }
+                Value::Array(items) => {
+                    items
+                        .iter()
+                        .enumerate()
+                        .for_each(|(i, part)| look(part, has_range, &format!("{path}/{i}"), missing));
+                }
+                Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) => {}
+            }
+        }
+        let mut missing = Vec::new();
+        let mut schema = crate::schema();
+        let definitions = schema["$defs"].as_object_mut().unwrap();
+        // Zero and Opening take theirs from the keys that refer to them
+        definitions.retain(|name, _| name != "Zero" && !OTHERS.contains(&name.as_str()));
+        look(&schema, false, "", &mut missing);
+        assert_eq!(missing, Vec::<String>::new());
     }
 
     #[test]

@@ -51,7 +51,10 @@ def own(name: str, *needs: Callable[[], Any]) -> Scenario:
 
 def settings(machine: str = "linuxcnc", **changes: Any) -> dict[str, Any]:
     found = tomllib.loads(Path(EXAMPLE).with_name("job.toml").read_text(encoding="utf-8"))
-    found["operations"][0] |= {"step": {"height": float(COARSE)}, "stepover": float(COARSE), **changes}
+    operation = found["operations"][0] | changes
+    del operation["step"]
+    operation |= {"stepover": float(COARSE)} if operation["kind"] == "zig-zag" else {"step": {"height": float(COARSE)}}
+    found["operations"][0] = operation | changes
     found["machine"]["name"] = machine
     return found
 

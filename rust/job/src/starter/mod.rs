@@ -8,7 +8,8 @@ use std::path::Path;
 
 use styluscam_geometry::Mesh;
 
-use crate::{OperationKind, UpAxis};
+use crate::operations::{About, Operation, StarterPasses};
+use crate::{Process, UpAxis};
 use choice::{choose, Choice};
 use operations::Work;
 pub use sizes::fitting_radius;
@@ -201,11 +202,11 @@ law = "constant"            # or "sine"
 }
 
 fn process(choice: &Choice) -> String {
-    let kind = if choice.sheet.is_some() {
-        "kind = \"spif\"               # single-point incremental forming\n"
-    } else {
-        "kind = \"milling\"\n"
-    };
+    let known = Process::ABOUT.iter().find(|(_, about)| about.for_sheets == choice.sheet.is_some());
+    let kind = known.map_or(String::new(), |(name, about)| match about.words {
+        "" => format!("kind = {name:?}\n"),
+        words => format!("kind = {name:?}               # {words}\n"),
+    });
     let unreached = choice.max_unreached.map_or(String::new(), |share| {
         format!("max_unreached = {}        # share of the faces that the tool may be unable to get to\n", number(share))
     });
@@ -230,14 +231,10 @@ fn shape(choice: &Choice) -> &'static str {
 fn operation(work: &Work, choice: &Choice, tolerance: f64) -> String {
     let diameter = choice.tool.diameter;
     let faces = work.faces.as_ref().map_or(String::new(), |faces| format!("faces = {}\n", names(faces)));
-    let pitch = number(work.pitch);
-    let distance = match work.kind {
-        OperationKind::ZLevel => format!("step = {{ height = {pitch} }}    # distance between levels\n"),
-        OperationKind::ZigZag => format!(
-            "stepover = {pitch}              # distance between rows\nangle_deg = {}             # their direction\n",
-            number(work.angle_deg)
-        ),
+    let Some((kind, about)) = Operation::ABOUT.iter().find(|(_, about)| about.serves == work.serves) else {
+        return String::new(); // no kind serves that: a test holds the table to it
     };
+    let distance = (about.starter)(StarterPasses { pitch: work.pitch, angle_deg: work.angle_deg });
     let (feeds, spindle) = if choice.sheet.is_some() {
         ([1500.0, 300.0], String::new())
     } else {
@@ -254,7 +251,7 @@ fn operation(work: &Work, choice: &Choice, tolerance: f64) -> String {
     format!(
         r#"[[operations]]
 id = "{}"
-kind = "{}"            # "z-level" for walls, "zig-zag" for floors
+kind = "{kind}"            # {kinds}
 {faces}tool = "{}"
 {distance}direction = "alternate"     # or "same"
 tolerance = {}           # the posted path lies at most this far above the exact one
@@ -262,11 +259,17 @@ smallest_feature = {}     # no loop is missed that holds a disc of this diameter
 feeds = {{ cut = {cut}, plunge = {plunge} }}
 {spindle}"#,
         work.id,
-        work.kind.name(),
         tool_name(choice),
         number(tolerance),
         number(smallest_feature(choice)),
+        kinds = kinds(),
     )
+}
+
+/// All kinds of operations and what they are for: "z-level" for walls, ...
+fn kinds() -> String {
+    let one = |(name, about): &(&str, About)| format!("{name:?} {}", about.purpose);
+    Operation::ABOUT.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 
 /// A tenth of the tool, but no more nodes over the part's plan than anybody waits for.

@@ -8,10 +8,10 @@ use styluscam_verify::ToolReach;
 use super::choice::{covered, worth};
 use super::sizes::{self, round, Cutter, Shape};
 use crate::body::{Body, FaceLook, Hollows};
-use crate::document::ProcessSection;
 use crate::faces::UP;
 use crate::judge::NO_ROOM;
-use crate::OperationKind;
+use crate::operations::Serves;
+use crate::ProcessKeys;
 
 /// Share of the seen area that is worth an operation of its own.
 const WORTH: f64 = 0.01;
@@ -53,7 +53,8 @@ const LEVELS: f64 = 250.0;
 #[derive(Clone, Debug)]
 pub struct Work {
     pub id: &'static str,
-    pub kind: OperationKind,
+    /// What its kind is for.
+    pub serves: Serves,
     /// Numbers of the faces; none: the part's.
     pub faces: Option<Vec<u32>>,
     /// Between levels or rows, mm.
@@ -93,7 +94,7 @@ impl Milled {
 pub fn forming(mesh: &Mesh, looks: &Hollows, tool: &Cutter) -> Work {
     let faces: Vec<&FaceLook> = worth(looks).collect();
     let pitch = levels_apart(mesh, &faces, tool);
-    Work { id: "walls", kind: OperationKind::ZLevel, faces: None, pitch, angle_deg: 0.0 }
+    Work { id: "walls", serves: Serves::Walls, faces: None, pitch, angle_deg: 0.0 }
 }
 
 /// Rows, levels, or both, with a tool that gets to the faces.
@@ -104,7 +105,7 @@ pub fn milling(body: &Body<'_>, looks: &Hollows) -> Milled {
     let drilled = |face: &&FaceLook| face.hole.is_some();
     let (fitting, words) = sizes::cutter(body.mesh(), seen.iter().copied().filter(|face| !drilled(face)), shape);
     let by_face = ByFace::of(body);
-    let allowed = ProcessSection::default().max_unreached;
+    let allowed = ProcessKeys::default().max_unreached;
     let mut milled = worked(&by_face, &seen, fitting, words);
     let mut left = by_face.share_left(&milled);
     let (mut diameter, mut in_vain) = (fitting.diameter, 0);
@@ -155,15 +156,9 @@ fn worked(by_face: &ByFace<'_>, seen: &[&FaceLook], tool: Cutter, words: String)
     let with_levels = area(&open) >= WORTH * whole && few;
     let with_rows = area(&floors) >= WORTH * whole || !with_levels;
     let angle_deg = if size(mesh)[0] >= size(mesh)[1] { 0.0 } else { 90.0 };
-    let rows =
-        |faces| Work { id: "floors", kind: OperationKind::ZigZag, faces, pitch: rows_apart(seen, &tool), angle_deg };
-    let levels = |faces| Work {
-        id: "walls",
-        kind: OperationKind::ZLevel,
-        faces,
-        pitch: levels_apart(mesh, &open, &tool),
-        angle_deg,
-    };
+    let rows = |faces| Work { id: "floors", serves: Serves::Floors, faces, pitch: rows_apart(seen, &tool), angle_deg };
+    let levels =
+        |faces| Work { id: "walls", serves: Serves::Walls, faces, pitch: levels_apart(mesh, &open, &tool), angle_deg };
     let numbers = |faces: &[&FaceLook]| Some(faces.iter().map(|face| face.face).collect::<Vec<u32>>());
     let (works, words) = match (with_levels, with_rows) {
         (true, true) => (

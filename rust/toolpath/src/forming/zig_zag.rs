@@ -61,14 +61,15 @@ pub(super) struct Row {
     pub range: [f64; 2],
 }
 
-/// The envelope over a row.
-struct RowCourse<'a> {
-    surface: &'a Surface<'a>,
-    hint: Option<u32>,
-    watch: &'a Watch,
+/// The envelope over a line in plan.
+pub(super) struct SurfaceCourse<'a> {
+    pub surface: &'a Surface<'a>,
+    /// The triangle that was touched last.
+    pub hint: Option<u32>,
+    pub watch: &'a Watch,
 }
 
-impl Course for RowCourse<'_> {
+impl Course for SurfaceCourse<'_> {
     fn between(&mut self, a: &PathPoint, b: &PathPoint) -> Option<PathPoint> {
         // a cancelled row ends at once, whatever is left of it
         if self.watch.is_cancelled() {
@@ -140,7 +141,7 @@ impl Lines {
 
     /// The passes of a row; when `watch` is cancelled, some of them.
     fn slice(&self, surface: &Surface<'_>, row: &Row, facets: &[[f64; 2]], deviation: f64, watch: &Watch) -> Vec<Pass> {
-        let mut course = RowCourse { surface, hint: None, watch };
+        let mut course = SurfaceCourse { surface, hint: None, watch };
         let plain = |a: &PathPoint, b: &PathPoint| {
             let most = fitting::PROVEN * deviation;
             !watch.is_cancelled() && fitting::may_keep_to(a, b, most) && surface.keeps_to_selected(a, b, most)

@@ -1,0 +1,121 @@
+//! The keys that every operation takes, whatever its kind.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use styluscam_motion::SpindleDirection;
+
+use crate::Selection;
+
+/// One operation: what is common to all kinds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OperationKeys {
+    /// A name, unique in the job; made from kind and number when left out.
+    #[serde(default)]
+    pub id: String,
+    /// Name of the tool.
+    pub tool: String,
+    /// Faces of this operation alone; the part's when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub faces: Option<Selection>,
+    /// Height at which the operation begins, mm in work coordinates; the selected faces' top when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm", "minimum" = -10000.0, "maximum" = 10000.0))]
+    pub z_top: Option<f64>,
+    /// Lowest height of the tip, mm in work coordinates; as deep as the tool reaches when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm", "minimum" = -10000.0, "maximum" = 10000.0))]
+    pub z_bottom: Option<f64>,
+    /// Whether every other level or row is run the other way.
+    #[serde(default)]
+    pub direction: Direction,
+    /// How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
+    #[serde(default = "path_tolerance")]
+    #[schemars(extend("x-unit" = "mm", "minimum" = 0.0001, "maximum" = 1.0))]
+    pub tolerance: f64,
+    /// No loop is missed whose inside or surroundings hold a disc of this diameter, mm.
+    #[serde(default = "smallest_feature")]
+    #[schemars(extend("x-unit" = "mm", "minimum" = 0.01, "maximum" = 100.0))]
+    pub smallest_feature: f64,
+    /// Feeds.
+    #[serde(default)]
+    #[schemars(extend("x-example" = "{ cut = 1500.0, plunge = 300.0 }"))]
+    pub feeds: Feeds,
+    /// The spindle.
+    #[serde(default)]
+    #[schemars(extend("x-example" = "{ mode = \"off\" }"))]
+    pub spindle: Spindle,
+    /// Coolant or lubricant.
+    #[serde(default)]
+    pub coolant: Coolant,
+}
+
+/// The sense of levels and rows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Direction {
+    /// Every other one the other way: counters the twist of a formed sheet.
+    #[default]
+    Alternate,
+    /// All the same way: the higher ground on the right of levels, rows along `angle_deg`.
+    Same,
+}
+
+/// Feeds, mm/min.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Feeds {
+    /// Along the path.
+    #[schemars(extend("x-unit" = "mm/min", "minimum" = 0.1, "maximum" = 100000.0))]
+    pub cut: f64,
+    /// Straight down onto it.
+    #[schemars(extend("x-unit" = "mm/min", "minimum" = 0.1, "maximum" = 100000.0))]
+    pub plunge: f64,
+}
+
+impl Default for Feeds {
+    fn default() -> Self {
+        Self { cut: 1500.0, plunge: 300.0 }
+    }
+}
+
+/// What the spindle does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "mode", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Spindle {
+    /// It stands: a stylus slides.
+    #[default]
+    Off,
+    /// It turns.
+    Fixed {
+        /// Speed, rev/min.
+        #[schemars(extend("x-unit" = "rev/min", "exclusiveMinimum" = 0.0, "maximum" = 1000000.0))]
+        rpm: f64,
+        /// Sense, seen from above.
+        #[serde(default = "clockwise")]
+        direction: SpindleDirection,
+    },
+}
+
+/// Coolant or lubricant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Coolant {
+    /// None.
+    #[default]
+    Off,
+    /// Flood.
+    Flood,
+}
+
+fn path_tolerance() -> f64 {
+    0.005
+}
+
+fn smallest_feature() -> f64 {
+    1.0
+}
+
+fn clockwise() -> SpindleDirection {
+    SpindleDirection::Clockwise
+}

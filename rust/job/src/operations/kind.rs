@@ -1,0 +1,163 @@
+//! What a kind of operation answers: the interface between the kinds and the rest of the job.
+
+use serde::Serialize;
+use styluscam_motion::Move;
+use styluscam_verify::{Contact, Passes};
+
+use super::{Areas, Context, Effort, SurfaceFacts};
+use crate::schema::shown;
+use crate::{JobError, OperationKeys};
+
+/// A kind of operation, with its own keys.
+pub trait OperationKind {
+    /// Checks its own keys and their relation to the common ones, beyond types and ranges; `path` is the operation's.
+    ///
+    /// # Errors
+    /// Keys that contradict each other.
+    fn check(&self, common: &OperationKeys, path: &str) -> Result<(), JobError>;
+
+    /// Whether faces = "all" means upright walls too, where material is cut.
+    fn cuts_upright_walls(&self) -> bool;
+
+    /// Plans its moves.
+    ///
+    /// # Errors
+    /// Nothing is reached, the tolerance is used up, `Cancelled`.
+    fn plan(&self, context: &Context<'_>) -> Result<Planned, JobError>;
+
+    /// What its lateral feeds owe the part.
+    fn contact(&self) -> Contact;
+
+    /// How its passes lie, for the verifier; `smallest_feature` in mm, below which none is missed.
+    fn passes(&self, smallest_feature: f64) -> Passes;
+
+    /// How far its passes lie apart, where they lie in step.
+    fn spacing(&self) -> Option<PassSpacing>;
+
+    /// What planning it takes, from the areas of its faces; none where nothing is known.
+    fn effort(&self, areas: &Areas) -> Option<Effort>;
+}
+
+/// What is known of a kind without its keys.
+#[derive(Clone, Copy, Debug)]
+pub struct About {
+    /// What it is for, in a few words that follow its name: "for walls".
+    pub purpose: &'static str,
+    /// What a starter job takes it for.
+    pub serves: Serves,
+    /// Its own keys as lines of a starter job, each with its comment.
+    pub starter: fn(StarterPasses) -> String,
+}
+
+/// What a starter job takes a kind for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Serves {
+    /// Walls of solids, and sheets.
+    Walls,
+    /// Floors and gentle slopes of solids.
+    Floors,
+    /// Nothing: it is there for who asks for it.
+    OnRequest,
+}
+
+/// How a starter job's passes lie.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StarterPasses {
+    /// Distance between passes, mm.
+    pub pitch: f64,
+    /// Direction of straight passes from X, degrees.
+    pub angle_deg: f64,
+}
+
+/// A planned operation.
+#[derive(Clone, Debug)]
+pub struct Planned {
+    /// Its moves.
+    pub moves: Vec<Move>,
+    /// Its extent for the summary: "30 loops on 12 levels".
+    pub words: String,
+    /// Its extent for the program's header: "12 levels, 30 passes".
+    pub note: String,
+    /// Its figures.
+    pub facts: Vec<Fact>,
+    /// What becomes of the faces, where it follows faces.
+    pub surface: Option<SurfaceFacts>,
+}
+
+/// A figure of a planned operation.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Fact {
+    /// What it is: "levels".
+    pub fact: &'static str,
+    /// How many, or how much.
+    pub value: f64,
+    /// Its unit; empty for counts.
+    pub unit: &'static str,
+    /// In words.
+    pub words: String,
+}
+
+impl Fact {
+    /// So many things, called `one` or `many`.
+    #[must_use]
+    pub fn count(count: usize, one: &str, many: &'static str) -> Self {
+        Self { fact: many, value: count as f64, unit: "", words: counted(count, one, many) }
+    }
+
+    /// A length in mm.
+    #[must_use]
+    pub fn length(fact: &'static str, mm: f64, words: &str) -> Self {
+        Self { fact, value: mm, unit: "mm", words: format!("{words} {mm:.3} mm") }
+    }
+}
+
+/// "1 level", "2 levels", "12,000 levels".
+pub(super) fn counted(count: usize, one: &str, many: &str) -> String {
+    let digits = count.to_string();
+    let mut grouped = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i) % 3 == 0 {
+            grouped.push(',');
+        }
+        grouped.push(digit);
+    }
+    format!("{grouped} {}", if count == 1 { one } else { many })
+}
+
+/// The distance between neighbouring passes, and in what.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(tag = "in", rename_all = "kebab-case")]
+pub enum PassSpacing {
+    /// In height.
+    Height {
+        /// mm.
+        pitch: f64,
+    },
+    /// In plan, across straight rows.
+    Across {
+        /// mm.
+        pitch: f64,
+        /// Direction of the rows from X, degrees.
+        direction_deg: f64,
+    },
+}
+
+impl PassSpacing {
+    /// The same with its words: "levels 0.5 mm apart".
+    #[must_use]
+    pub fn described(&self) -> impl Serialize {
+        #[derive(Serialize)]
+        struct Described {
+            #[serde(flatten)]
+            spacing: PassSpacing,
+            words: String,
+        }
+        let words = match *self {
+            Self::Height { pitch } => format!("levels {} mm apart", shown(pitch)),
+            Self::Across { pitch, direction_deg } => {
+                format!("rows {} mm apart at {} deg", shown(pitch), shown(direction_deg))
+            }
+        };
+        Described { spacing: *self, words }
+    }
+}

@@ -1,0 +1,100 @@
+//! The operations of a job: one file a kind, with its own keys, its check, its plan, what the verifier is to expect of it,
+//! its words and its starter text.
+//!
+//! A further kind is one file here and one line in the table below; nothing else names a kind.
+
+use std::sync::LazyLock;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::{Deserialize, Serialize};
+
+use crate::tagged::{self, kinds, Family};
+
+mod budget;
+mod context;
+mod effort;
+mod keys;
+mod kind;
+mod reached;
+mod surface;
+#[cfg(test)]
+mod tests;
+
+pub use context::Context;
+pub use effort::{estimates, Areas, Effort, Estimate};
+pub use keys::{Coolant, Direction, Feeds, OperationKeys, Spindle};
+pub use kind::{About, Fact, OperationKind, PassSpacing, Planned, Serves, StarterPasses};
+pub use reached::{BridgedFace, ReachedFace};
+pub use surface::{End, SurfaceFacts};
+
+kinds! {
+    /// The kinds of operations, each with its own keys.
+    Operation: OperationKind, About {
+        z_level::ZLevel = "z-level",
+        zig_zag::ZigZag = "zig-zag",
+    }
+}
+
+/// One operation.
+///
+/// Read from its parted form and written flat: see [`crate::tagged`].
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct OperationSection {
+    /// Keys that every kind takes.
+    #[serde(rename = "$common")]
+    pub common: OperationKeys,
+    /// The kind, with its own keys.
+    #[serde(rename = "$own")]
+    pub operation: Operation,
+}
+
+impl OperationSection {
+    /// What its kind can do.
+    #[must_use]
+    pub fn kind(&self) -> &dyn OperationKind {
+        self.operation.as_kind()
+    }
+
+    /// Its name: its own, or one made of its kind and its number in the job, `index` + 1.
+    #[must_use]
+    pub fn id(&self, index: usize) -> String {
+        match self.common.id.as_str() {
+            "" => format!("{}-{}", self.operation.name(), index + 1),
+            id => id.to_owned(),
+        }
+    }
+}
+
+impl Serialize for OperationSection {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Flat<'a> {
+            #[serde(flatten)]
+            operation: &'a Operation,
+            #[serde(flatten)]
+            common: &'a OperationKeys,
+        }
+        Flat { operation: &self.operation, common: &self.common }.serialize(serializer)
+    }
+}
+
+impl JsonSchema for OperationSection {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "OperationSection".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let kinds = Operation::schemas(generator);
+        tagged::schema_of(&OperationKeys::json_schema(generator), kinds, None)
+    }
+}
+
+/// What an item of `[[operations]]` may hold.
+pub fn family() -> &'static Family {
+    static FAMILY: LazyLock<Family> = LazyLock::new(|| {
+        let mut generator = SchemaGenerator::default();
+        let kinds = Operation::schemas(&mut generator);
+        Family::of("operation", &OperationKeys::json_schema(&mut generator), &kinds, None)
+    });
+    &FAMILY
+}

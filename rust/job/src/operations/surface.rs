@@ -1,0 +1,195 @@
+//! What all operations share whose tool follows the selected faces: the envelope is prepared, the kind traces its passes on it,
+//! and they are linked; what becomes of the faces is measured beside.
+
+use serde::Serialize;
+use styluscam_geometry::Tool;
+use styluscam_toolpath::{link, offset::Envelope, Heights, Links, Pass, PlanError, Rates, Surface};
+
+use super::budget::Budget;
+use super::reached::{self, BridgedFace, ReachedFace};
+use super::{Context, Direction, Fact, Planned};
+use crate::heights::TipHeights;
+use crate::{JobError, Scene};
+
+/// What links along the surface and rows look for, as a share of the distance between the grid's nodes: the tool's rim and its
+/// tip meet ridges that are narrower than any feature.
+const NARROW: f64 = 0.2;
+/// Passes are linked along the surface up to so many steps or stepovers.
+const LINKED_ALONG: f64 = 4.0;
+/// Area of a face that is worth a word, mm^2: it is shown with one decimal.
+const LEAST_AREA: f64 = 0.05;
+
+/// A kind whose tool follows the selected faces.
+pub trait FollowsSurface {
+    /// Heights between which the tip stays on the surface, mm.
+    fn tip_range(&self, task: &Task<'_>) -> [f64; 2];
+
+    /// Distance between neighbouring passes, mm.
+    fn pitch(&self) -> f64;
+
+    /// How far above the lowest allowed height the last pass may lie by the kind's own rule, mm.
+    fn lowest_rest(&self) -> f64;
+
+    /// Its passes.
+    ///
+    /// # Errors
+    /// Nothing is reached, `Cancelled`.
+    fn trace(&self, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError>;
+
+    /// Its extent for the summary.
+    fn words(&self, groups: usize, passes: usize) -> String;
+
+    /// Its figures.
+    fn facts(&self, groups: usize, traced: &Traced) -> Vec<Fact>;
+
+    /// Its extent for the program's header.
+    fn note(&self, groups: usize, passes: usize) -> String;
+}
+
+/// Traced passes.
+#[derive(Clone, Debug)]
+pub struct Traced {
+    /// In the order in which they were found.
+    pub passes: Vec<Pass>,
+    /// Smallest disc that a loop must hold to be sure of being found, mm.
+    pub smallest_feature: f64,
+}
+
+/// What passes are traced with.
+#[derive(Clone, Copy)]
+pub struct Task<'a> {
+    /// The operation.
+    pub context: &'a Context<'a>,
+    /// Between which heights its tip stays.
+    pub(crate) heights: TipHeights,
+    /// What is left of the tolerance.
+    pub budget: Budget,
+}
+
+impl Task<'_> {
+    /// What is narrower may be passed over, mm.
+    pub fn narrow(&self) -> f64 {
+        NARROW * self.context.node_spacing()
+    }
+
+    /// A hint for a plan that reaches nothing.
+    pub fn why_nothing(&self) -> String {
+        let (low, high) = self.context.scene.mesh.bounds();
+        let size = high - low;
+        format!(
+            " (part {:.3} x {:.3} x {:.3} mm): check its units, the tool's size and the selection",
+            size.x, size.y, size.z
+        )
+    }
+
+    fn links(&self, pitch: f64) -> Links {
+        let (job, scene, common) = (self.context.job, self.context.scene, &self.context.section.common);
+        Links {
+            alternate: common.direction == Direction::Alternate,
+            ride: LINKED_ALONG * pitch,
+            deviation: self.budget.deviation,
+            narrow: self.narrow(),
+            heights: Heights { clearance: scene.clearance(job), retract: scene.top + job.setup.retract },
+            rates: Rates { cut: common.feeds.cut, plunge: common.feeds.plunge },
+            operation: self.context.index as u32,
+        }
+    }
+}
+
+/// What becomes of the faces that an operation follows.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SurfaceFacts {
+    /// Faces planned.
+    pub faces: Vec<u32>,
+    /// Largest wall angle of those faces, degrees.
+    pub wall_angle_max_deg: f64,
+    /// Where it ends though the tool could touch the faces farther down.
+    pub ends: Option<End>,
+    /// What becomes of the planned faces, in the order of their numbers.
+    pub reached: Vec<ReachedFace>,
+    /// How large the triangles are from which that is known where something stops the tool, mm, if larger than meant:
+    /// there is more of it than is worth the time.
+    pub reached_coarsely: Option<f64>,
+    /// Faces with positions that the tool cannot touch, worst first.
+    pub bridged: Vec<BridgedFace>,
+    /// Faces with area that faces down, mm^2: not reached.
+    pub undercut: Vec<(u32, f64)>,
+}
+
+/// Where an operation ends though the tool could touch its faces farther down; mm.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct End {
+    /// Lowest tip.
+    pub z: f64,
+    /// Whether that is the part's foot, and nothing that the job states.
+    pub at_foot: bool,
+    /// Most of the faces' lowest parts that is touched only from lower down.
+    pub untouched: f64,
+}
+
+/// Plans an operation whose tool follows the selected faces.
+///
+/// # Errors
+/// The tolerance is used up, nothing is reached, `Cancelled`.
+pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned, JobError> {
+    let (scene, tool, watch) = (context.scene, context.tool, context.watch);
+    let tolerance = context.section.common.tolerance;
+    let faces = context.faces()?;
+    let selected = scene.looking_up(&faces);
+    let budget = Budget::of(tolerance, scene, context.machine).map_err(|error| context.error(error))?;
+    watch.begin("preparing", 1);
+    let envelope = Envelope::new(&scene.mesh, &scene.index, tool, scene.sheet.as_ref(), budget.margin);
+    let task = Task { context, heights: context.heights(), budget };
+    let surface = Surface::new(&envelope, &selected).between_heights(kind.tip_range(&task));
+    let surface = if scene.sheet.is_some() { surface.from_above() } else { surface };
+    let traced = kind.trace(&task, &surface).map_err(|error| context.error(error))?;
+    let offset = reached::offset_of(scene, tool, &envelope, &faces, tolerance, watch)?;
+    let bridges = reached::bridges_of(scene, tool, &envelope, &offset, tolerance, watch)?;
+    let (groups, passes) = (count_groups(&traced.passes), traced.passes.len());
+    let facts = SurfaceFacts {
+        wall_angle_max_deg: steepest(scene, &selected).to_degrees(),
+        ends: ends(&task, kind.lowest_rest(), tool, &traced.passes, &selected),
+        reached: reached::reached(scene, &offset, &bridges),
+        reached_coarsely: offset.is_coarse.then_some(offset.fine),
+        bridged: reached::bridged(&bridges),
+        undercut: undercut(scene, &faces),
+        faces,
+    };
+    Ok(Planned {
+        words: kind.words(groups, passes),
+        note: kind.note(groups, passes),
+        facts: kind.facts(groups, &traced),
+        surface: Some(facts),
+        moves: link(&surface, &traced.passes, &task.links(kind.pitch()), watch)?,
+    })
+}
+
+/// The end that the heights are to an operation, if the tool would go on below.
+fn ends(task: &Task<'_>, lowest_rest: f64, tool: &Tool, passes: &[Pass], selected: &[bool]) -> Option<End> {
+    let (scene, common) = (task.context.scene, &task.context.section.common);
+    let lowest = passes.iter().flat_map(|pass| &pass.points).map(|point| point.tip.z).fold(f64::INFINITY, f64::min);
+    let stopped = lowest - task.heights.bottom <= lowest_rest;
+    let untouched = task.heights.untouched(scene, tool, selected, common.tolerance).filter(|_| stopped)?;
+    Some(End { z: lowest, at_foot: common.z_bottom.is_none(), untouched })
+}
+
+/// Faces of which a part faces down, with its area.
+fn undercut(scene: &Scene, faces: &[u32]) -> Vec<(u32, f64)> {
+    let area = |face: &u32| scene.views.get(face).map(|view| view.down).filter(|area| *area >= LEAST_AREA);
+    faces.iter().filter_map(|face| Some((*face, area(face)?))).collect()
+}
+
+fn steepest(scene: &Scene, selected: &[bool]) -> f64 {
+    // facets lean by their deviation: where the model's normals are known, those tell
+    let slope = |t: usize| {
+        let normals = scene.mesh.corner_normals(t);
+        normals.map(|n| libm::acos(n.z.clamp(-1.0, 1.0))).into_iter().fold(0.0, f64::max)
+    };
+    (0..selected.len()).filter(|t| selected[*t]).map(slope).fold(0.0, f64::max)
+}
+
+fn count_groups(passes: &[Pass]) -> usize {
+    let mut groups: Vec<usize> = passes.iter().map(|p| p.group).collect();
+    groups.dedup();
+    groups.len()
+}

@@ -1,0 +1,132 @@
+//! Every kind of the registry, held to what the rest of the job relies on.
+
+use serde_json::Value;
+use styluscam_geometry::{Mesh, Vector};
+use styluscam_motion::Watch;
+use styluscam_post::Machine;
+use styluscam_verify::Passes;
+
+use super::{Operation, Serves, StarterPasses};
+use crate::{JobDocument, Part, Scene};
+
+/// A pyramid frustum of 20 x 20 mm, 4 mm high, walls of 45 degrees.
+fn part() -> Part {
+    let square = |half: f64, z: f64| {
+        [[-half, -half], [half, -half], [half, half], [-half, half]].map(|[x, y]| Vector::new(x, y, z))
+    };
+    let vertices: Vec<Vector> = square(10.0, 0.0).into_iter().chain(square(6.0, 4.0)).collect();
+    let mut triangles = vec![[4, 5, 6], [4, 6, 7], [0, 2, 1], [0, 3, 2]];
+    for i in 0..4_i64 {
+        let j = (i + 1) % 4;
+        triangles.extend([[i, j, j + 4], [i, j + 4, i + 4]]);
+    }
+    let faces: Vec<u32> = vec![1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6];
+    let mesh = Mesh::new(vertices, &triangles, &faces).unwrap();
+    Part { mesh, inward: 0.0, outward: 0.0 }
+}
+
+/// A milling job of one operation of a kind, with the lines that a starter job gives it.
+fn job(kind: usize) -> Result<JobDocument, crate::JobError> {
+    let (name, about) = Operation::ABOUT[kind];
+    let keys = (about.starter)(StarterPasses { pitch: 1.0, angle_deg: 0.0 });
+    crate::from_toml(&format!(
+        r#"
+        schema = 1
+        part = {{ file = "a.stl", units = "mm" }}
+        process = {{ kind = "milling" }}
+        machine = {{ name = "linuxcnc" }}
+        [tools.a]
+        profile = {{ kind = "ball", diameter = 3.0 }}
+        [[operations]]
+        kind = "{name}"
+        tool = "a"
+        tolerance = 0.01
+        {keys}
+        "#
+    ))
+}
+
+fn kinds() -> std::ops::Range<usize> {
+    assert_eq!(Operation::ABOUT.len(), Operation::NAMES.len());
+    0..Operation::ABOUT.len()
+}
+
+#[test]
+fn the_starter_lines_of_every_kind_make_a_job() {
+    for kind in kinds() {
+        let (name, about) = Operation::ABOUT[kind];
+        let job = job(kind).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!(job.operations[0].operation.name(), name);
+        assert!(!about.purpose.is_empty(), "{name} does not say what it is for");
+        let lines = (about.starter)(StarterPasses { pitch: 1.0, angle_deg: 0.0 });
+        assert!(lines.lines().all(|line| line.contains('#')), "{name}: a line of the starter job has no comment");
+    }
+}
+
+#[test]
+fn one_kind_serves_walls_and_one_serves_floors() {
+    for serves in [Serves::Walls, Serves::Floors] {
+        assert_eq!(Operation::ABOUT.iter().filter(|(_, about)| about.serves == serves).count(), 1, "{serves:?}");
+    }
+}
+
+#[test]
+fn every_key_of_every_kind_has_a_help_text() {
+    let schema = crate::schema();
+    let alternatives = schema.pointer("/$defs/OperationSection/oneOf").and_then(Value::as_array).unwrap();
+    assert_eq!(alternatives.len(), Operation::NAMES.len());
+    for (alternative, name) in alternatives.iter().zip(Operation::NAMES) {
+        assert_eq!(alternative.pointer("/properties/kind/const").unwrap(), name);
+        let has_text =
+            |value: &Value| value.get("description").and_then(Value::as_str).is_some_and(|text| !text.is_empty());
+        assert!(has_text(alternative), "{name} has no description");
+        for (key, value) in alternative["properties"].as_object().unwrap().iter().filter(|(key, _)| *key != "kind") {
+            assert!(has_text(value), "{name}.{key} has no help text");
+        }
+    }
+}
+
+#[test]
+fn every_kind_plans_and_says_what_it_planned() {
+    let (part, watch) = (part(), Watch::default());
+    let machine = Machine::shipped("linuxcnc").unwrap();
+    for kind in kinds() {
+        let job = job(kind).unwrap();
+        let scene = Scene::new(&job, &part).unwrap();
+        let plan = crate::plan(&job, &scene, &machine, &watch).unwrap();
+        let channel = &plan.channels[crate::MAIN_CHANNEL];
+        let (name, summary): (&str, _) = (Operation::NAMES[kind], &channel.operations[0]);
+        assert_eq!(summary.kind, name);
+        assert!(channel.program.moves.len() > 10, "{name} plans nothing");
+        assert!(!summary.words.is_empty() && !summary.note.is_empty(), "{name} has no words for what it planned");
+        assert!(summary.facts.iter().all(|fact| fact.value > 0.0 && !fact.words.is_empty()), "{name}");
+        assert!(!summary.facts.is_empty(), "{name} has no figures");
+        match job.operations[0].kind().passes(1.0) {
+            Passes::Ordered(passes) => assert!(passes.step > 0.0, "{name}"),
+            Passes::Unordered { reason } => {
+                assert!(!reason.is_empty(), "{name} does not say why its passes are not checked")
+            }
+        }
+    }
+}
+
+#[test]
+fn what_one_kind_owns_no_other_takes() {
+    for family in [super::family(), crate::process::family()] {
+        for kind in &family.kinds {
+            for key in &kind.keys {
+                assert!(!family.common.contains(key), "{key} of {} is a common key too", kind.kind);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_job_is_written_as_it_was_read() {
+    for kind in kinds() {
+        let job = job(kind).unwrap();
+        let text = serde_json::to_string(&job).unwrap();
+        assert!(!text.contains('$'), "the parted form is written: {text}");
+        assert_eq!(crate::from_json(&text).unwrap(), job);
+    }
+}

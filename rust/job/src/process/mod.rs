@@ -1,0 +1,132 @@
+//! What is done to the part: one file a process, each with its own keys and its answers to what the rest of the job asks.
+//!
+//! A further process is one file here and one line in the table below.
+
+use std::sync::LazyLock;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::{Deserialize, Serialize};
+
+use crate::tagged::{self, kinds, Family};
+
+/// The channel of a program that needs no second one.
+pub const MAIN_CHANNEL: &str = "main";
+
+/// What a process answers.
+pub trait ProcessKind {
+    /// Whether its tools push a sheet into its shape; else they cut.
+    fn forms(&self) -> bool;
+
+    /// Whether it works on a sheet: `setup.sheet` is required then, and refused otherwise.
+    fn takes_sheet(&self) -> bool {
+        self.forms()
+    }
+
+    /// Whether the part rests on a table, below which no tip goes unless the job says so; else it hangs free.
+    fn rests_on_table(&self) -> bool {
+        !self.forms()
+    }
+
+    /// The programs that run side by side, by name.
+    fn channels(&self) -> &'static [&'static str] {
+        &[MAIN_CHANNEL]
+    }
+
+    /// Name of the shipped material of the sheet, if stated.
+    fn material(&self) -> Option<&str> {
+        None
+    }
+}
+
+/// What a starter job says of a process.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct About {
+    /// What it is, in a few words; empty where its name says it all.
+    pub words: &'static str,
+    /// Whether a starter job takes it for a sheet; for solid parts otherwise.
+    pub for_sheets: bool,
+}
+
+kinds! {
+    /// Processes.
+    Process: ProcessKind, About {
+        spif::Spif = "spif",
+        milling::Milling = "milling",
+    }
+}
+
+/// Keys of `[process]` that every process takes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ProcessKeys {
+    /// Most that may be left on the faces where the tool cannot get, mm; 1 mm of a sheet, and not checked in milling, when left
+    /// out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm", "minimum" = 0.0, "maximum" = 1000.0))]
+    pub max_bridged: Option<f64>,
+    /// Share of the faces, 0 to 1, that the tool may be unable to get to.
+    #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 1.0))]
+    pub max_unreached: f64,
+}
+
+impl Default for ProcessKeys {
+    fn default() -> Self {
+        Self { max_bridged: None, max_unreached: 0.1 }
+    }
+}
+
+/// What is done to the part: forming a sheet, or milling.
+///
+/// Read from its parted form and written flat: see [`crate::tagged`].
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct ProcessSection {
+    /// Keys that every process takes.
+    #[serde(rename = "$common")]
+    pub common: ProcessKeys,
+    /// The process, with its own keys.
+    #[serde(rename = "$own")]
+    pub process: Process,
+}
+
+impl Default for ProcessSection {
+    fn default() -> Self {
+        Self { common: ProcessKeys::default(), process: Process::Spif(Spif::default()) }
+    }
+}
+
+impl Serialize for ProcessSection {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Flat<'a> {
+            #[serde(flatten)]
+            process: &'a Process,
+            #[serde(flatten)]
+            common: &'a ProcessKeys,
+        }
+        Flat { process: &self.process, common: &self.common }.serialize(serializer)
+    }
+}
+
+impl JsonSchema for ProcessSection {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "ProcessSection".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let kinds = Process::schemas(generator);
+        tagged::schema_of(&ProcessKeys::json_schema(generator), kinds, Some(DEFAULT))
+    }
+}
+
+/// The process of a job that states none.
+const DEFAULT: &str = "spif";
+
+/// What `[process]` may hold.
+pub fn family() -> &'static Family {
+    static FAMILY: LazyLock<Family> = LazyLock::new(|| {
+        let mut generator = SchemaGenerator::default();
+        let kinds = Process::schemas(&mut generator);
+        Family::of("process", &ProcessKeys::json_schema(&mut generator), &kinds, Some(DEFAULT))
+    });
+    &FAMILY
+}
