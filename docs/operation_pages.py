@@ -1,6 +1,6 @@
 """Writes docs/operations.md: every kind of operation and process with its keys, from the job's schema.
 
-    python docs/operation_pages.py
+python docs/operation_pages.py
 """
 
 from __future__ import annotations

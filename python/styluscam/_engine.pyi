@@ -177,7 +177,9 @@ class Scene:
 class Plan:
     @property
     def programs(self) -> dict[str, Program]: ...
-    def summary(self, channel: str, scene: Scene, machine: Machine, judgement: Judgement | None = None) -> tuple[str, list[str]]: ...
+    def summary(
+        self, channel: str, scene: Scene, machine: Machine, judgement: Judgement | None = None
+    ) -> tuple[str, list[str]]: ...
 
 @final
 class Judgement:

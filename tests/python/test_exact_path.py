@@ -102,7 +102,9 @@ def test_a_run_writes_the_text_that_was_judged(
         assert clearance.max() < HIGHEST
     # the judge looked at the same path: its figures are those of these probes
     assert result.summary["excess_max"] < HIGHEST
-    assert sc.Program.load(next(p for p in result.written if p != gcode)).engine.same_moves(result.plan.engine.programs["main"])
+    assert sc.Program.load(next(p for p in result.written if p != gcode)).engine.same_moves(
+        result.plan.engine.programs["main"]
+    )
 
 
 # --- bridged places ---------------------------------------------------------------------------------------------

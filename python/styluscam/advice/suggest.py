@@ -470,7 +470,7 @@ def _notes(asked: list[_Asked], job: Job) -> tuple[str, ...]:
             sentences.append(
                 f"{name}{walls.crease_mm:.0f} mm of sharp concave edges: every tool leaves something in them"
             )
-    left_out = [name for name in _names(job.document) if name not in {each.name for each in asked}]
+    left_out = [name for name in job.engine.operation_ids() if name not in {each.name for each in asked}]
     if left_out:
         sentences.append(f"upright walls or floors alone, where tools do not differ: {', '.join(left_out)}")
     tools = {operation["tool"] for operation in job.document["operations"]}

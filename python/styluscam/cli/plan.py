@@ -43,7 +43,7 @@ def plan(
         planned = planning.plan(work, progress=report)
         figures, notes = planned.summary()
         if program is not None:
-            files.write_whole(program, planned.engine.program.with_notes(notes).to_json())
+            files.write_whole(program, planned.engine.programs[planning.MAIN_CHANNEL].with_notes(notes).to_json())
         if picture is not None:
             _draw(planned, picture)
     if json:

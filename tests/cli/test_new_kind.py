@@ -1,0 +1,135 @@
+"""A kind of operation is one file and one line: the one of docs/howto/add-an-operation.md is found wherever kinds are named."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from .conftest import CHECKOUT
+from .test_docs import change_of
+
+PAGE = "docs/howto/add-an-operation.md"
+
+LOOK = r"""
+import json, sys
+from pathlib import Path
+import styluscam as sc
+from styluscam import _engine
+
+sys.path.insert(0, sys.argv[1])
+from operation_pages import page
+
+found = {"schema": sc.job_schema(), "page": page(sc.job_schema())}
+job = sc.Job.read("job.toml")
+result = sc.run(job, report="report.html")
+found["summary"] = result.summary["operations"][0]
+found["findings"] = result.report.findings
+found["text"] = next(iter(result.posted.files.values()))
+found["report"] = Path("report.html").read_text(encoding="utf-8")
+found["starter"] = sc.starter_job(job.part().arrays, "part.stl", "mm").text
+found["estimates"] = json.loads(job.engine.estimates(job.part().engine))
+document = job.to_dict()
+document["operations"][0]["stepover"] = 1.0
+try:
+    sc.Job.from_dict(document, job.folder)
+except sc.JobError as error:
+    found["foreign"] = [error.code, error.where, str(error)]
+print(json.dumps(found))
+"""
+
+JOB = """
+schema = 1
+part = { file = "part.stl", units = "mm", tolerance = 0.001 }
+process = { kind = "milling" }
+machine = { name = "linuxcnc" }
+output = { file = "dish.ngc" }
+setup = { zero = "model" }
+
+[tools.ball]
+profile = { kind = "ball", diameter = 4.0 }
+
+[[operations]]
+kind = "rings"
+tool = "ball"
+ring_distance = 1.0
+tolerance = 0.01
+"""
+
+
+@pytest.fixture(scope="module")
+def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The package with an engine that has the page's kind."""
+    change = change_of(PAGE)
+    assert sorted(change.files) == ["rust/job/src/operations/mod.rs", "rust/job/src/operations/rings.rs"]
+    folder = change.copy()
+    command = ["cargo", "build", "--quiet", "--offline", "--target-dir", str(CHECKOUT / "target")]
+    command += ["--package", "styluscam-bindings"]
+    subprocess.run(command, cwd=folder, check=True)
+    package = tmp_path_factory.mktemp("new-kind")
+    shutil.copytree(
+        CHECKOUT / "python" / "styluscam", package / "styluscam", ignore=shutil.ignore_patterns("*.so", "__pycache__")
+    )
+    shutil.copy(CHECKOUT / "target" / "debug" / "lib_engine.so", package / "styluscam" / "_engine.abi3.so")
+    return package
+
+
+def test_a_new_kind_is_one_file_and_one_line_and_is_found_everywhere(package: Path, tmp_path: Path) -> None:
+    import trimesh
+
+    trimesh.creation.icosphere(subdivisions=3, radius=6.0).export(tmp_path / "part.stl")
+    (tmp_path / "job.toml").write_text(JOB, encoding="utf-8")
+    environment = os.environ | {"PYTHONPATH": str(package)}
+    run = subprocess.run(
+        [sys.executable, "-c", LOOK, str(CHECKOUT / "docs")],
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert run.returncode == 0, run.stderr
+    found = json.loads(run.stdout)
+    kinds = {kind["title"]: kind for kind in found["schema"]["$defs"]["OperationSection"]["oneOf"]}
+    assert kinds["rings"]["properties"]["ring_distance"]["maximum"] == 100.0
+    assert "ring_distance" not in kinds["z-level"]["properties"]
+    assert "## `rings`" in found["page"] and "`ring_distance`" in found["page"]
+    assert found["summary"]["kind"] == "rings" and " rings" in found["summary"]["words"]
+    assert {fact["fact"] for fact in found["summary"]["facts"]} == {"rings", "passes"}
+    (note,) = [finding for finding in found["findings"] if finding["kind"] == "not-checked"]
+    assert note["severity"] == "note" and "its passes are not checked" in note["message"]
+    assert "rings-1" in found["text"] and "rings" in found["report"]
+    assert '"rings" for dishes' in found["starter"]
+    assert found["estimates"][0]["key"] == "ring_distance"
+    code, where, message = found["foreign"]
+    assert (code, where) == ("foreign-key", "operations[0].stepover")
+    assert "stepover is a key of zig-zag" in message and "rings" in message
+
+    shown = subprocess.run(
+        [sys.executable, "-m", "styluscam", "run", "job.toml", "--force"],
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert shown.returncode == 0, shown.stderr
+    assert "rings-1: rings, " in shown.stdout and "passes are not checked" in shown.stdout
+
+
+def test_the_page_of_operations_is_the_schema() -> None:
+    import importlib.util
+
+    import styluscam as sc
+
+    file = CHECKOUT / "docs" / "operation_pages.py"
+    specification = importlib.util.spec_from_file_location("operation_pages", file)
+    assert specification is not None and specification.loader is not None
+    pages = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(pages)
+    assert (CHECKOUT / "docs" / "operations.md").read_text(encoding="utf-8") == pages.page(sc.job_schema())
