@@ -215,14 +215,17 @@ fn alternative(common: &Schema, kind: &str, own: Schema, default: Option<&str>) 
     all.extend(required(&own));
     all.extend(required(common));
     let description = own.get("description").cloned().unwrap_or_default();
-    serde_json::json!({
+    let mut schema = serde_json::json!({
         "type": "object",
         "title": kind,
         "description": description,
         "properties": properties,
         "required": all,
         "additionalProperties": false,
-    })
+    });
+    let stated = own.as_object().into_iter().flatten().filter(|(key, _)| key.starts_with("x-"));
+    stated.for_each(|(key, value)| schema[key] = value.clone());
+    schema
 }
 
 #[cfg(test)]

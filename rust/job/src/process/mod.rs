@@ -130,3 +130,28 @@ pub fn family() -> &'static Family {
     });
     &FAMILY
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_schema_states_which_process_takes_a_sheet() {
+        let schema = crate::schema();
+        let alternatives = schema.pointer("/$defs/ProcessSection/oneOf").and_then(|all| all.as_array()).unwrap();
+        let processes = [Process::Spif(Spif::default()), Process::Milling(Milling {})];
+        assert_eq!(alternatives.len(), processes.len());
+        for (alternative, process) in alternatives.iter().zip(&processes) {
+            assert_eq!(alternative["title"], process.name());
+            let stated = alternative.get("x-takes-sheet") == Some(&true.into());
+            assert_eq!(stated, process.as_kind().takes_sheet(), "{}", process.name());
+        }
+    }
+
+    #[test]
+    fn every_process_has_the_main_channel() {
+        for process in [Process::Spif(Spif::default()), Process::Milling(Milling {})] {
+            assert_eq!(process.as_kind().channels()[0], MAIN_CHANNEL);
+        }
+    }
+}
