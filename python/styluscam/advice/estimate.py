@@ -12,7 +12,6 @@ LONG = 60.0
 """Seconds from which a plan is reported to take long."""
 
 
-
 @dataclass(frozen=True)
 class Estimate:
     """What planning an operation will take, roughly. Lengths mm."""
