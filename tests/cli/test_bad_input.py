@@ -39,7 +39,8 @@ name = "linuxcnc"
 file = "out.ngc"
 """
 STEP = "step = { height = 5.0 }"
-LEVELS = (('"zig-zag"', '"z-level"'), ("stepover = 5.0", STEP))
+ROW = "stepover = 5.0"
+LEVELS = (('"zig-zag"', '"z-level"'), (ROW, STEP))
 TOOL = '[tools.stylus]\nnumber = 1\nprofile = { kind = "ball", diameter = 6.0 }'
 
 IN_THE_DOCUMENT = {
@@ -95,7 +96,7 @@ IN_THE_DOCUMENT = {
     "bad TOML": ([("[setup.sheet]", "[setup.sheet")], ["line 12"]),
     "key twice": ([("number = 1", "number = 1\nnumber = 2")], ["line 1", "duplicate"]),
     "z_bottom above z_top": (
-        [(STEP, STEP + "\nz_top = -5.0\nz_bottom = -2.0")],
+        [(ROW, ROW + "\nz_top = -5.0\nz_bottom = -2.0")],
         ["operations[0].z_bottom", "-2", "-5"],
     ),
     "no operation": ([("[[operations]]", "[[operation]]")], ["operation", 'did you mean "operations"']),
@@ -116,9 +117,9 @@ IN_THE_DOCUMENT = {
         [('"ball"', '"clothoid"'), ("number = 1", 'number = 1\nreference = "center"')],
         ["tools.stylus.reference", "center", "tip"],
     ),
-    "step as a number": ([(STEP, "step = 0.5")], ["operations[0].step", "height"]),
+    "step as a number": ([*LEVELS, (STEP, "step = 0.5")], ["operations[0].step", "height"]),
     "empty faces list": ([('["Face6"]', "[]")], ["part.faces", "no face is named"]),
-    "empty faces list of an operation": ([(STEP, STEP + "\nfaces = []")], ["operations[0].faces", "no face is named"]),
+    "empty faces list of an operation": ([(ROW, ROW + "\nfaces = []")], ["operations[0].faces", "no face is named"]),
     "face that does not exist": ([("Face6", "Face99")], ["part.faces[0]", "Face99", "Face1 to Face6"]),
     "face that looks down": ([("Face6", "Face5")], ["part.faces[0]", "Face5", "down", "setup.up"]),
     "no such part": ([("box.step", "bx.step")], ["bx.step", "no such file"]),
@@ -138,7 +139,7 @@ IN_THE_DOCUMENT = {
     "output over the part by another way": ([("out.ngc", "folder/../box.step")], ["read by this very job"]),
     "output over the job": ([("out.ngc", "job.toml")], ["job.toml", "read by this very job"]),
     "output of no file name": ([("out.ngc", "\\u0000")], ["no file name"]),
-    "array for a table": ([(STEP, STEP + "\nfeeds = [1500.0, 300.0]")], ["operations[0].feeds", "table"]),
+    "array for a table": ([(ROW, ROW + "\nfeeds = [1500.0, 300.0]")], ["operations[0].feeds", "table"]),
     "number for a word": ([("[setup]", "[setup]\nup = 1")], ["setup.up", "word in quotes", '"+z"']),
     "date for a word": ([("[part]", "title = 1979-05-27\n[part]")], ["title", "string"]),
     "absurd number": ([*LEVELS, ("height = 5.0", "height = 1e308")], ["operations[0].step.height", "1e308", "100 mm"]),
@@ -149,7 +150,7 @@ IN_THE_DOCUMENT = {
     "retract that the judge refuses": ([('zero = "sheet-top"', "retract = 0.04")], ["setup.retract", "0.1 to 1000 mm"]),
     "two operations of one name": (
         [
-            (STEP, STEP + '\nid = "a"'),
+            (ROW, ROW + '\nid = "a"'),
             ("[machine]", '[[operations]]\nkind = "zig-zag"\nid = "a"\ntool = "stylus"\nstepover = 5.0\n[machine]'),
         ],
         ["operations[1].id", "operations[0]"],

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from conftest import Floats, Mesh, box, milling_document, together
@@ -14,7 +16,8 @@ UP = {"+x": (1, 0, 0), "-x": (-1, 0, 0), "+y": (0, 1, 0), "-y": (0, -1, 0), "+z"
 
 
 def job(mesh: Mesh, kind: str = "z-level", **setup: object) -> sc.Job:
-    document = milling_document(kind, BALL, stepover=0.7, step={"height": 0.5})
+    keys: dict[str, Any] = {"step": {"height": 0.5}} if kind == "z-level" else {"stepover": 0.7}
+    document = milling_document(kind, BALL, **keys)
     document["setup"] = setup
     return sc.Job.from_dict(document, part=sc.Part.from_mesh(*mesh))
 

@@ -150,7 +150,7 @@ def test_tools_that_cannot_be_are_refused(profile: dict[str, object]) -> None:
         ({"profile": {"kind": "ball", "diameter": None}}, "profile.diameter", "a number is expected"),
         ({"profile": {"kind": "points", "points": [[0, 0], [1]]}}, "profile.points", "length"),
         ({"profile": {"kind": "formula", "r": "t", "z": "t", "t": ["a", 1]}}, "profile.t", "a number is expected"),
-        ({"profile": {"kind": "cone", "diameter": 3.0}}, "profile", "half_angle_deg is missing"),
+        ({"profile": {"kind": "cone", "diameter": 3.0}}, "profile.half_angle_deg", "half_angle_deg is missing"),
         ({"profile": {"kind": "ball", "diameter": 3.0}, "holder": "x"}, "holder", "a table is expected"),
         ({"profile": {"kind": "ball", "diameter": 3.0}, "base": {"kind": "chamfered"}}, "base.kind", "chamfered"),
     ],

@@ -17,7 +17,7 @@ pub fn from_toml(text: &str) -> Result<JobDocument, JobError> {
         let line = error.span().map_or(0, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
         JobError::document("toml", format!("line {line}"), error.message().to_owned(), "correct the TOML there")
     })?;
-    of_plain(plain("", value)?)
+    of_plain(&plain("", value)?)
 }
 
 /// Reads a tool's document written as JSON; the tool's shape is not checked.
@@ -34,7 +34,7 @@ pub fn tool_from_json(text: &str) -> Result<ToolDocument, JobError> {
 /// # Errors
 /// [`JobError::Document`] with the key, its value, what is allowed.
 pub fn from_json(text: &str) -> Result<JobDocument, JobError> {
-    of_plain(json(text)?)
+    of_plain(&json(text)?)
 }
 
 fn json(text: &str) -> Result<Value, JobError> {
@@ -70,11 +70,11 @@ fn plain(path: &str, value: toml::Value) -> Result<Value, JobError> {
 }
 
 /// A document in whatever unit it states.
-fn of_plain(written: Value) -> Result<JobDocument, JobError> {
+fn of_plain(written: &Value) -> Result<JobDocument, JobError> {
     let mut in_mm = written.clone();
     units::to_mm(&mut in_mm)?;
     part_keys(&mut in_mm)?;
-    checked(deserialize(&in_mm, &written)?)
+    checked(deserialize(&in_mm, written)?)
 }
 
 /// Parts the tables whose kind decides which keys they take.

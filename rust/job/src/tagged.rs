@@ -194,7 +194,7 @@ pub(crate) use kinds;
 /// The schema of a family's tables: one alternative a kind, each with the common keys, its own keys and its name.
 pub fn schema_of(common: &Schema, kinds: Vec<(&'static str, Schema)>, default: Option<&str>) -> Schema {
     let alternatives: Vec<Value> =
-        kinds.into_iter().map(|(kind, own)| alternative(common, kind, own, default)).collect();
+        kinds.into_iter().map(|(kind, own)| alternative(common, kind, &own, default)).collect();
     let description = common.get("description").cloned().unwrap_or_default();
     schemars::json_schema!({ "description": description, "oneOf": alternatives })
 }
@@ -203,16 +203,16 @@ fn entries(schema: &Schema, key: &str) -> Map<String, Value> {
     schema.get(key).and_then(Value::as_object).cloned().unwrap_or_default()
 }
 
-fn alternative(common: &Schema, kind: &str, own: Schema, default: Option<&str>) -> Value {
+fn alternative(common: &Schema, kind: &str, own: &Schema, default: Option<&str>) -> Value {
     let required = |schema: &Schema| schema.get("required").and_then(Value::as_array).cloned().unwrap_or_default();
     let mut properties = Map::from_iter([("kind".to_owned(), serde_json::json!({ "type": "string", "const": kind }))]);
     if default == Some(kind) {
         properties["kind"]["default"] = kind.into();
     }
-    properties.extend(entries(&own, "properties"));
+    properties.extend(entries(own, "properties"));
     properties.extend(entries(common, "properties"));
     let mut all = if default == Some(kind) { vec![] } else { vec![Value::from("kind")] };
-    all.extend(required(&own));
+    all.extend(required(own));
     all.extend(required(common));
     let description = own.get("description").cloned().unwrap_or_default();
     let mut schema = serde_json::json!({
@@ -242,7 +242,7 @@ mod tests {
         }
     }
 
-    fn parted(table: Value) -> Result<Value, JobError> {
+    fn parted(table: &Value) -> Result<Value, JobError> {
         let mut table = table.as_object().unwrap().clone();
         family().part(&mut table, "operations[3]").map(|()| Value::Object(table))
     }
@@ -251,16 +251,16 @@ mod tests {
     fn keys_go_to_their_owners() {
         let table = serde_json::json!({ "kind": "rows", "tool": "a", "apart": 2.0 });
         let expected = serde_json::json!({ "$common": { "tool": "a" }, "$own": { "rows": { "apart": 2.0 } } });
-        assert_eq!(parted(table).unwrap(), expected);
+        assert_eq!(parted(&table).unwrap(), expected);
     }
 
     #[test]
     fn a_key_of_another_kind_is_refused_with_its_owner() {
-        let error = parted(serde_json::json!({ "kind": "levels", "apart": 2.0 })).unwrap_err();
+        let error = parted(&serde_json::json!({ "kind": "levels", "apart": 2.0 })).unwrap_err();
         assert_eq!((error.code(), error.place().as_str()), ("foreign-key", "operations[3].apart"));
         assert_eq!(error.to_string(), "apart is a key of rows, and this operation is levels");
         assert_eq!(error.hint(), "remove apart (levels takes step), or write kind = \"rows\"");
-        let error = parted(serde_json::json!({ "kind": "drill", "apart": 2.0 })).unwrap_err();
+        let error = parted(&serde_json::json!({ "kind": "drill", "apart": 2.0 })).unwrap_err();
         assert_eq!(error.hint(), "remove apart, or write kind = \"rows\"");
     }
 
@@ -298,7 +298,7 @@ mod tests {
                 "add kind, one of \"rows\", \"levels\", \"drill\"",
             ),
         ] {
-            let error = parted(table).unwrap_err();
+            let error = parted(&table).unwrap_err();
             assert_eq!(
                 (error.place().as_str(), error.to_string().as_str(), error.hint().as_str()),
                 (path, message, hint)

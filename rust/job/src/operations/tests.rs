@@ -104,7 +104,7 @@ fn every_kind_plans_and_says_what_it_planned() {
         match job.operations[0].kind().passes(1.0) {
             Passes::Ordered(passes) => assert!(passes.step > 0.0, "{name}"),
             Passes::Unordered { reason } => {
-                assert!(!reason.is_empty(), "{name} does not say why its passes are not checked")
+                assert!(!reason.is_empty(), "{name} does not say why its passes are not checked");
             }
         }
     }
