@@ -1,6 +1,7 @@
-//! How the tolerance of a path is spent.
+//! What tessellation and rounding leave of a path's tolerance.
 
 use styluscam_post::{Machine, OptionValue};
+use styluscam_toolpath::budget::{Budget, POSTED_EACH_SIDE};
 use styluscam_toolpath::PlanError;
 
 use crate::judge::GOUGE;
@@ -10,43 +11,26 @@ use crate::Scene;
 const MOST_DECIMALS: u32 = 6;
 /// What is left for fitting must be at least this, mm, or paths would have millions of points.
 const LEAST_DEVIATION: f64 = 2e-4;
-/// Share of what is left that a chord may deviate to either side. The planned surface lies in the middle; the rest is a
-/// reserve on both sides.
-const EACH_SIDE: f64 = 0.48;
-
-/// What tessellation and rounding leave goes to fitting, to either side.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Budget {
-    /// Chords deviate by at most this to either side of the planned surface, mm.
-    pub deviation: f64,
-    /// The planned surface lies this far outside the part's triangles, mm.
-    pub margin: f64,
+/// The budget of a path's `tolerance`, mm, on a part and a machine.
+///
+/// # Errors
+/// [`PlanError::Budget`]: too little is left to fit a path with.
+pub fn of(tolerance: f64, scene: &Scene, machine: &Machine) -> Result<Budget, PlanError> {
+    let tessellation = scene.inward + scene.outward;
+    let rounding = rounding(machine);
+    left(tolerance, tessellation, rounding, scene.inward).ok_or_else(|| {
+        let enough = |machine: &Machine| left(tolerance, tessellation, self::rounding(machine), scene.inward).is_some();
+        PlanError::Budget { tolerance, tessellation, rounding, decimals: fewest_decimals(machine, enough) }
+    })
 }
 
-impl Budget {
-    /// That of a path's `tolerance`, mm, on a part and a machine.
-    ///
-    /// # Errors
-    /// [`PlanError::Budget`]: nothing is left.
-    pub fn of(tolerance: f64, scene: &Scene, machine: &Machine) -> Result<Self, PlanError> {
-        let tessellation = scene.inward + scene.outward;
-        let rounding = rounding(machine);
-        Self::left(tolerance, tessellation, rounding, scene.inward).ok_or_else(|| {
-            let enough = |machine: &Machine| {
-                Self::left(tolerance, tessellation, self::rounding(machine), scene.inward).is_some()
-            };
-            PlanError::Budget { tolerance, tessellation, rounding, decimals: fewest_decimals(machine, enough) }
-        })
-    }
-
-    /// What tessellation and rounding leave, if that is enough to fit a path with.
-    fn left(tolerance: f64, tessellation: f64, rounding: f64, inward: f64) -> Option<Self> {
-        // rounding may also go inwards: beyond what a gouge is allowed, that takes room too
-        let inwards = (rounding - 0.9 * GOUGE).max(0.0);
-        let left = tolerance - tessellation - rounding - inwards;
-        let deviation = EACH_SIDE * left;
-        (deviation >= LEAST_DEVIATION).then_some(Self { deviation, margin: inward + inwards + 0.5 * left })
-    }
+/// What tessellation and rounding leave, if that is enough to fit a path with.
+fn left(tolerance: f64, tessellation: f64, rounding: f64, inward: f64) -> Option<Budget> {
+    // rounding may also go inwards: beyond what a gouge is allowed, that takes room too
+    let inwards = (rounding - 0.9 * GOUGE).max(0.0);
+    let left = tolerance - tessellation - rounding - inwards;
+    let budget = Budget::sharing(left, inward + inwards, POSTED_EACH_SIDE);
+    (budget.deviation >= LEAST_DEVIATION).then_some(budget)
 }
 
 /// What a machine's last decimal place takes: half a unit in each of three axes, mm.
@@ -68,14 +52,14 @@ mod tests {
 
     #[test]
     fn what_is_left_is_spent_to_both_sides_of_a_surface_in_the_middle() {
-        let budget = Budget::left(0.005, 0.001, 0.0005, 0.0004).unwrap();
+        let budget = left(0.005, 0.001, 0.0005, 0.0004).unwrap();
         assert!((budget.deviation - 0.48 * 0.0035).abs() < 1e-15);
         assert!((budget.margin - (0.0004 + 0.5 * 0.0035)).abs() < 1e-15);
     }
 
     #[test]
     fn coarse_rounding_is_kept_out_of_the_part_too() {
-        let [fine, coarse] = [0.0009, 0.0029].map(|rounding| Budget::left(0.01, 0.0, rounding, 0.0).unwrap());
+        let [fine, coarse] = [0.0009, 0.0029].map(|rounding| left(0.01, 0.0, rounding, 0.0).unwrap());
         // 0.0009 may go inwards as a gouge that is allowed; of 0.0029 another 0.002 is kept outside
         assert!((fine.margin - 0.5 * 0.0091).abs() < 1e-15);
         assert!((coarse.margin - (0.002 + 0.5 * 0.0051)).abs() < 1e-15);
@@ -83,6 +67,6 @@ mod tests {
 
     #[test]
     fn too_little_left_is_nothing() {
-        assert_eq!(Budget::left(0.001, 0.0005, 0.0002, 0.0), None);
+        assert_eq!(left(0.001, 0.0005, 0.0002, 0.0), None);
     }
 }

@@ -3,9 +3,9 @@
 
 use serde::Serialize;
 use styluscam_geometry::Tool;
-use styluscam_toolpath::{link, offset::Envelope, Heights, Links, Pass, PlanError, Rates, Surface};
+use styluscam_toolpath::{budget::Budget, link, offset::Envelope, Heights, Links, Pass, PlanError, Rates, Surface};
 
-use super::budget::Budget;
+use super::budget;
 use super::reached::{self, BridgedFace, ReachedFace};
 use super::{Context, Direction, Fact, Planned};
 use crate::heights::TipHeights;
@@ -136,7 +136,7 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
     let tolerance = context.section.common.tolerance;
     let faces = context.faces()?;
     let selected = scene.looking_up(&faces);
-    let budget = Budget::of(tolerance, scene, context.machine).map_err(|error| context.error(error))?;
+    let budget = budget::of(tolerance, scene, context.machine).map_err(|error| context.error(error))?;
     watch.begin("preparing", 1);
     let envelope = Envelope::new(&scene.mesh, &scene.index, tool, scene.sheet.as_ref(), budget.margin);
     let task = Task { context, heights: context.heights(), budget };
