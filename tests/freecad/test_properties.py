@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from freecad_host import FreeCad
 
 pytestmark = [pytest.mark.world, pytest.mark.freecad]
 
@@ -22,6 +23,16 @@ def test_a_document_of_an_earlier_version_opens_as_it_was(session: Any) -> None:
     assert after["MaxUnreached"][0] == 0.1, "a property that is new begins with the engine's default"
 
 
+def test_its_stylus_is_one_of_this_freecad(session: Any, freecad: FreeCad) -> None:
+    """FreeCAD reports what it cannot restore, and goes on."""
+    seen = session["earlier document"]
+    assert "Traceback" not in seen["printed"], seen["printed"]
+    kind, profile, diameter, volume = seen["bit"]
+    assert kind == {"1.0": "StylusBit", "1.1": "ToolBitStylus"}[freecad.version]
+    assert (profile, diameter) == ('{"kind": "clothoid", "diameter": 10.0}', 10.0) and volume > 1000.0
+    assert seen["edited bit"] == 6.0, "its lengths follow its profile"
+
+
 def test_it_computes_to_the_same_path(session: Any) -> None:
     seen = session["earlier document"]
     assert seen["state"] == ["Up-to-date"]
@@ -34,10 +45,11 @@ def test_it_computes_to_the_same_path(session: Any) -> None:
 def test_a_new_kind_needs_no_line_of_the_addon(session: Any) -> None:
     seen = session["new kind"]
     strategy, before = seen["before"]
-    assert strategy == "z-level" and before["Amplitude"] == [1.5, True] and before["Step"] == [5.0, False]
+    assert strategy == "z-level" and before["RingDistance"] == [1.5, True] and before["Step"] == [5.0, False]
+    assert seen["text"] == "Distance between rings in plan.\nRange: above 0 to 100 mm"
     after, section = seen["after"]
-    assert after["Amplitude"] == [2.5, False] and after["Step"] == [5.0, True]
-    assert (section["kind"], section["amplitude"]) == ("wobble", 2.5)
+    assert after["RingDistance"] == [2.5, False] and after["Step"] == [5.0, True]
+    assert (section["kind"], section["ring_distance"]) == ("rings", 2.5)
     assert not {"step", "stepover", "angle_deg"} & set(section), "keys of other kinds are not sent"
 
 

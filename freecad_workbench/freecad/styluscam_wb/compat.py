@@ -14,27 +14,38 @@ def make_toolbit(document: Any, label: str, parameters: dict[str, Any]) -> Any:
 
     FreeCAD 1.1 has classes for shapes and bits; 1.0 has one class of bits over shape files.
     """
-    if importlib.util.find_spec("Path.Tool.toolbit") is not None:
+    if _has_tool_assets():
         from .stylus_asset import create
     else:
-        from .stylus_bit import create
+        from .stylus_bit_of_1_0 import create
     return create(document, label, parameters)
+
+
+def toolbit_class() -> Any:
+    """The class of a stylus tool bit."""
+    if _has_tool_assets():
+        from .stylus_asset import ToolBitStylus
+
+        return ToolBitStylus
+    from .stylus_bit_of_1_0 import StylusBit
+
+    return StylusBit
 
 
 def register_toolbits() -> None:
     """Makes FreeCAD know the stylus among its tool bits, so that its own readers of files build ours."""
-    if importlib.util.find_spec("Path.Tool.toolbit") is not None:
+    if _has_tool_assets():
         from . import stylus_asset  # noqa: F401  (its classes are found once they exist)
     else:
-        from . import stylus_bit
+        from . import stylus_bit_of_1_0
 
-        stylus_bit.register()
+        stylus_bit_of_1_0.register()
 
 
 def load_toolbit(document: Any, path: str) -> Any:
     """The tool bit of a file (`.fctb`) in the document: a stylus, or one of FreeCAD's own."""
     register_toolbits()
-    if importlib.util.find_spec("Path.Tool.toolbit") is not None:
+    if _has_tool_assets():
         from Path.Tool.toolbit import ToolBit
 
         return ToolBit.from_file(path).attach_to_doc(document)
@@ -51,3 +62,8 @@ def tool_kind(bit: Any) -> str:
         if kind:
             return str(kind).lower()
     return ""
+
+
+def _has_tool_assets() -> bool:
+    """Whether tools are assets, as from FreeCAD 1.1 on."""
+    return importlib.util.find_spec("Path.Tool.toolbit") is not None

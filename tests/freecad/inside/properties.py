@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import copy
 import json
+import os
+import sys
+import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -26,15 +31,43 @@ def properties_of(operation: Any) -> dict[str, Any]:
     }
 
 
+@contextlib.contextmanager
+def output() -> Iterator[list[str]]:
+    """What FreeCAD itself prints meanwhile, which Python's streams do not see."""
+    printed: list[str] = []
+    with tempfile.TemporaryFile("w+", encoding="utf-8") as file:
+        streams = (1, 2)
+        kept = [os.dup(stream) for stream in streams]
+        sys.stdout.flush()
+        for stream in streams:
+            os.dup2(file.fileno(), stream)
+        try:
+            yield printed
+        finally:
+            sys.stdout.flush()
+            for stream, real in zip(streams, kept, strict=True):
+                os.dup2(real, stream)
+                os.close(real)
+            file.seek(0)
+            printed.append(file.read())
+
+
 def earlier_document() -> dict[str, Any]:
     """A document that an earlier version of the addon saved in FreeCAD 1.0: opened, then computed again."""
-    document = FreeCAD.openDocument(str(SAVED))
+    with output() as printed:
+        document = FreeCAD.openDocument(str(SAVED))
     operation = next(o for o in document.Objects if o.Label == "cup")
     opened = commands_of(operation)
     before = properties_of(operation)
+    bit = operation.ToolController.Tool
+    restored = [type(bit.Proxy).__name__, bit.Profile, bit.Diameter.Value, bit.Shape.Volume]
     operation.touch()
     document.recompute()
+    bit.Profile = json.dumps({"kind": "ball", "diameter": 6.0})
     result = {
+        "printed": "".join(printed),
+        "bit": restored,
+        "edited bit": bit.Diameter.Value,
         "opened": opened,
         "before": before,
         "computed": commands_of(operation),
@@ -57,9 +90,10 @@ def new_kind(stage: Any) -> dict[str, Any]:
     try:
         operation = stage.operation
         properties.update(operation)
-        result = {"before": [operation.Strategy, properties_of(operation)]}
-        operation.Strategy = "wobble"
-        operation.Amplitude = 2.5
+        text = operation.getDocumentationOfProperty("RingDistance")
+        result = {"before": [operation.Strategy, properties_of(operation)], "text": text}
+        operation.Strategy = "rings"
+        operation.RingDistance = 2.5
         result["after"] = [properties_of(operation), documents.operation_section(operation)]
         operation.Process = "milling"
         part = properties.section(operation, "part")
@@ -72,34 +106,23 @@ def new_kind(stage: Any) -> dict[str, Any]:
 
 
 def with_kind(schema: dict[str, Any]) -> dict[str, Any]:
-    """The schema with a kind `wobble`, alternatives by kind in any case."""
-    definitions = schema["$defs"]
-    name = schema["properties"]["operations"]["items"]["$ref"].rpartition("/")[2]
-    section = definitions[name]
-    own = {"amplitude": {"type": "number", "x-unit": "mm", "x-example": "1.5", "description": "Half the width."}}
-    if "oneOf" not in section:
-        owned = {"z-level": ["step"], "zig-zag": ["stepover", "angle_deg"]}
-        section = {"oneOf": [alternative(section, kind, keys, owned) for kind, keys in owned.items()]}
-        definitions[name] = section
-    common = section["oneOf"][0]
-    foreign = {"step"} | set(own)
-    keys = {key: entry for key, entry in common["properties"].items() if key not in foreign}
-    kind = {"kind": {"type": "string", "const": "wobble"}}
-    section["oneOf"].append(
+    """The schema with the kind of `docs/howto/add-an-operation.md`: the keys that all kinds take, and its own."""
+    kinds = schema["$defs"][schema["properties"]["operations"]["items"]["$ref"].rpartition("/")[2]]["oneOf"]
+    common = set.intersection(*[set(kind["properties"]) for kind in kinds])
+    distance = {"type": "number", "x-unit": "mm", "x-example": "1.5", "exclusiveMinimum": 0.0, "maximum": 100.0}
+    kinds.append(
         {
-            "type": "object",
-            "description": "To and fro.",
-            "properties": keys | kind | own,
-            "required": ["kind", "amplitude"],
+            **kinds[0],
+            "description": "Concentric circles.",
+            "properties": {
+                **{key: entry for key, entry in kinds[0]["properties"].items() if key in common},
+                "kind": {"type": "string", "const": "rings"},
+                "ring_distance": {**distance, "description": "Distance between rings in plan."},
+            },
+            "required": ["kind", "ring_distance"],
         }
     )
     return schema
-
-
-def alternative(section: dict[str, Any], kind: str, keys: list[str], owned: dict[str, list[str]]) -> dict[str, Any]:
-    foreign = {key for others in owned.values() for key in others} - set(keys)
-    entries = {key: entry for key, entry in section["properties"].items() if key not in foreign}
-    return {"type": "object", "properties": entries | {"kind": {"type": "string", "const": kind}}, "required": ["kind"]}
 
 
 LINES = {
