@@ -230,9 +230,9 @@ pub fn read_to_post(py: Python<'_>, text: &str, machine: &Machine, target: &Mach
     }
     // after a tool change the post goes away first and then across
     let lost = |run: &&std::ops::Range<usize>| run.start > 0 && run.start < count && !changes(run.start);
-    if let Some(run) = reading.blind.iter().chain(&reading.unplaced).find(lost) {
+    if let Some(run) = reading.unknown_heights.iter().chain(&reading.unknown_positions).find(lost) {
         let line = program.moves.get(run.start).map_or(0, |step| step.line);
-        return Err(refuse(line, "a move while the place of an axis is not known, as after a probe"));
+        return Err(refuse(line, "a move while the position of an axis is not known, as after a probe"));
     }
     if let Some(line) = reading.optional_lines.first() {
         return Err(refuse(*line, "a line that runs or not by a switch of the machine cannot be posted"));

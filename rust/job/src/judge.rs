@@ -59,12 +59,12 @@ pub fn judge(
     let reading = read(text, machine, &records)?;
     let Reading {
         program,
-        unplaced,
-        blind,
+        unknown_positions: unplaced,
+        unknown_heights,
         machine_moves,
         optional_lines,
-        unsaid,
-        stray_planes,
+        not_stated,
+        planes_not_needed,
         stops,
         lines,
         ended,
@@ -77,11 +77,11 @@ pub fn judge(
     };
     let ended = ended || machine.end.is_empty(); // some controllers have no word for it
     let text = TextFacts {
-        unknown_heights: blind,
+        unknown_heights,
         machine_moves,
         optional_lines,
-        not_stated: unsaid,
-        planes_not_needed: stray_planes,
+        not_stated,
+        planes_not_needed,
         stops,
         lines,
         ended,

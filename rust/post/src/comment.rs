@@ -25,7 +25,7 @@ const ASCII: [(char, &str); 19] = [
     ('%', " percent"),
 ];
 
-/// The way remarks are written for one machine.
+/// How comments are written for one machine.
 #[derive(Clone, Debug)]
 pub(crate) struct CommentFormat {
     rules: CommentRules,

@@ -59,7 +59,7 @@ pub fn read_path(sections: &[PathSection], tools: &[ToolRecord], setup: SetupRec
         error: Box::new(error),
     })?;
     let mut program = reading.program;
-    let wcs = if reading.unsaid.contains(&"G54") { setup.wcs.clone() } else { program.setup.wcs.clone() };
+    let wcs = if reading.not_stated.contains(&"G54") { setup.wcs.clone() } else { program.setup.wcs.clone() };
     program.setup = SetupRecord { wcs, ..setup };
     stop_spindle(&mut program);
     Ok(program)

@@ -68,7 +68,7 @@ impl<'a> Inspector<'a> {
         let lowest = moves.iter().map(|m| m.end[2]).fold(f64::INFINITY, f64::min);
         let Some(last) = moves.last().map(|m| m.end) else { return false };
         let pairs = [(lowest, hole.bottom), (last[2], hole.leave), (last[0], hole.at[0]), (last[1], hole.at[1])];
-        pairs.iter().all(|(found, said)| (found - said).abs() <= self.machine.resolution_mm())
+        pairs.iter().all(|(found, stated)| (found - stated).abs() <= self.machine.resolution_mm())
             && hole.retract >= hole.bottom
     }
 
@@ -94,7 +94,7 @@ impl<'a> Inspector<'a> {
         }
     }
 
-    /// A probe goes where it is told at most.
+    /// A probe goes no farther than commanded.
     fn inspect_probe(&self, end: [Option<f64>; 3], feed: f64) -> Result<(), PostError> {
         if !feed.is_finite() || feed <= 0.0 {
             return Err(PostError::Feed { index: self.moves, feed });
@@ -108,7 +108,7 @@ impl<'a> Inspector<'a> {
         Ok(())
     }
 
-    /// Looks at a move from `start`: its operation, its feed, its way in the machine.
+    /// Looks at a move from `start`: its operation, its feed, its path in the machine.
     pub fn step(&mut self, index: usize, start: Option<[f64; 3]>, step: &Move) -> Result<(), PostError> {
         self.moves += 1;
         if step.operation as usize >= self.head.operations.len() {

@@ -13,7 +13,7 @@ pub(crate) const PITCH_PLACES: u8 = 6;
 /// Largest count of last places that is taken: every whole number up to here is exact in an f64.
 const LARGEST: f64 = 9.0e15;
 
-/// The way one kind of number is written.
+/// How one kind of number is written.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NumberFormat {
     decimals: u8,

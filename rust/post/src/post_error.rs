@@ -3,11 +3,12 @@
 use styluscam_motion::SpindleDirection;
 use thiserror::Error;
 
+use crate::faults::codes_and_hints;
 use crate::machine::MachineError;
 
 /// A program that this machine cannot be given. Nothing is written then.
 ///
-/// Moves and events count from 0, as in the program. Each variant says when it occurs and what to do about it.
+/// Moves and events count from 0, as in the program. Each variant states when it occurs and what to do about it.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum PostError {
     /// The machine's own values or templates are at fault. Correct the machine file.
@@ -24,7 +25,7 @@ pub enum PostError {
         /// What the machine has, in words.
         allowed: String,
     },
-    /// A coordinate, feed, speed or time is NaN, infinite or beyond what numbers in a program can say. Planning is at fault.
+    /// A coordinate, feed, speed or time is NaN, infinite or beyond what numbers in a program can hold. Planning is at fault.
     #[error("{what} of {place} cannot be written as a number: {value}")]
     Number {
         /// X, feed, ...
@@ -99,7 +100,7 @@ pub enum PostError {
         index: usize,
     },
     /// The first move, or the first after a tool change, is not a rapid: where it starts is not known. Begin with a rapid.
-    #[error("move {index} is at feed, from a place that is not known")]
+    #[error("move {index} is at feed, from a position that is not known")]
     FeedFromUnknown {
         /// The move.
         index: usize,
@@ -112,7 +113,7 @@ pub enum PostError {
         /// The machine's largest.
         max: u32,
     },
-    /// Two tools that differ have one number: the text could not tell them apart. Renumber one.
+    /// Two tools that differ have one number: the text could not distinguish them. Renumber one.
     #[error("tools {first:?} and {second:?} both have number {number}")]
     ToolNumberTwice {
         /// The number.
@@ -146,7 +147,7 @@ pub enum PostError {
         /// The first move of the cycle.
         index: usize,
     },
-    /// The machine's spindle does not turn this way. Take the other direction, or correct `[spindle]`.
+    /// The machine's spindle does not turn in this direction. Take the other direction, or correct `[spindle]`.
     #[error("the machine's spindle does not turn {direction:?}")]
     SpindleDirection {
         /// The direction asked for.
@@ -221,47 +222,12 @@ pub enum PostError {
     /// The text could not be written where it goes. Look at the disk.
     #[error("the text cannot be written: {message}")]
     Output {
-        /// What the system says.
+        /// The system's message.
         message: String,
     },
 }
 
 impl PostError {
-    /// A stable name for scripts.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Machine(error) => error.code(),
-            Self::Empty => "post-empty",
-            Self::Wcs { .. } => "post-wcs",
-            Self::Number { .. } => "post-number",
-            Self::Feed { .. } => "post-feed",
-            Self::FeedTooHigh { .. } => "post-feed-too-high",
-            Self::AxisLimit { .. } => "post-axis-limit",
-            Self::Travel { .. } => "post-travel",
-            Self::EventOrder { .. } => "post-event-order",
-            Self::NoSuchRecord { .. } => "post-no-such-record",
-            Self::NoTool { .. } => "post-no-tool",
-            Self::FeedFromUnknown { .. } => "post-feed-from-unknown",
-            Self::ToolNumber { .. } => "post-tool-number",
-            Self::ToolNumberTwice { .. } => "post-tool-number-twice",
-            Self::ToolChange { .. } => "post-tool-change",
-            Self::SpindleSpeed { .. } => "post-spindle-speed",
-            Self::TapMoves { .. } => "post-tap-moves",
-            Self::SpindleDirection { .. } => "post-spindle-direction",
-            Self::Unsupported { .. } => "post-unsupported",
-            Self::Dwell { .. } => "post-dwell",
-            Self::LineTooLong { .. } => "post-line-too-long",
-            Self::Character { .. } => "post-character",
-            Self::CycleOrder { .. } => "post-cycle-order",
-            Self::CycleMoves { .. } => "post-cycle-moves",
-            Self::ToolAxis { .. } => "post-tool-axis",
-            Self::NoSuchAxis { .. } => "post-no-such-axis",
-            Self::NoRevolutions { .. } => "post-no-revolutions",
-            Self::Output { .. } => "post-output",
-        }
-    }
-
     /// Where: a move, event or record of the program, a key of the job or the machine, or a line of the text.
     #[must_use]
     pub fn place(&self) -> String {
@@ -291,39 +257,36 @@ impl PostError {
             Self::LineTooLong { line, .. } | Self::Character { line, .. } => format!("line {line}"),
         }
     }
+}
 
-    /// What to do, in a sentence.
-    #[must_use]
-    pub fn hint(&self) -> String {
-        let hint = match self {
-            Self::Machine(error) => return error.hint(),
-            Self::Empty => "look at why planning found nothing to do",
-            Self::Wcs { .. } => "take a work offset that the machine has",
-            Self::Number { .. } | Self::EventOrder { .. } | Self::CycleOrder { .. } | Self::CycleMoves { .. } | Self::NoSuchRecord { .. } => {
-                "whoever built the program is at fault: report it"
-            }
-            Self::Feed { .. } => "give the operation a feed above zero",
-            Self::FeedTooHigh { .. } => "lower the feed, or correct limits.max_feed of the machine",
-            Self::AxisLimit { .. } => "move the zero point or the part, or correct limits of the machine",
-            Self::Travel { .. } => "turn the part, or take a larger machine",
-            Self::NoTool { .. } => "put a tool change before the first move",
-            Self::FeedFromUnknown { .. } => "begin with a rapid, and begin with one again after a tool change",
-            Self::ToolNumber { .. } | Self::ToolNumberTwice { .. } => "renumber the tool",
-            Self::ToolChange { .. } => {
-                "post one program per tool; or, where all tools have the same length, take a machine file with tool.change = \"pause\""
-            }
-            Self::TapMoves { .. } => "make the hole anew, without anything between the moves of its cycle",
-            Self::SpindleSpeed { .. } => "take a speed that the machine has, or correct limits.min_rpm and limits.max_rpm",
-            Self::SpindleDirection { .. } => "take the other direction, or correct [spindle] of the machine",
-            Self::Unsupported { .. } => "leave it out of the job, or correct the machine file",
-            Self::Dwell { .. } => "give a time of 0 s or more",
-            Self::ToolAxis { .. } => "post it for a machine that turns the tool",
-            Self::NoSuchAxis { .. } => "turn the part into the machine's plane, or take another machine",
-            Self::NoRevolutions { .. } => "turn the spindle on first, or take feed_mode = \"per-minute\"",
-            Self::Output { .. } => "look at the disk that it goes to",
-            Self::LineTooLong { .. } => "shorten the line in the machine's template",
-            Self::Character { .. } => "take the character out of the template, or put the text through comment()",
-        };
-        hint.into()
-    }
+codes_and_hints! {
+    PostError, String;
+    Self::Machine(error) => error.code(), error.hint();
+    Self::Empty => "post-empty", "look at why planning found nothing to do";
+    Self::Wcs { .. } => "post-wcs", "take a work offset that the machine has";
+    Self::Number { .. } => "post-number", "whoever built the program is at fault: report it";
+    Self::Feed { .. } => "post-feed", "give the operation a feed above zero";
+    Self::FeedTooHigh { .. } => "post-feed-too-high", "lower the feed, or correct limits.max_feed of the machine";
+    Self::AxisLimit { .. } => "post-axis-limit", "move the zero point or the part, or correct limits of the machine";
+    Self::Travel { .. } => "post-travel", "turn the part, or take a larger machine";
+    Self::EventOrder { .. } => "post-event-order", "whoever built the program is at fault: report it";
+    Self::NoSuchRecord { .. } => "post-no-such-record", "whoever built the program is at fault: report it";
+    Self::NoTool { .. } => "post-no-tool", "put a tool change before the first move";
+    Self::FeedFromUnknown { .. } => "post-feed-from-unknown", "begin with a rapid, and begin with one again after a tool change";
+    Self::ToolNumber { .. } => "post-tool-number", "renumber the tool";
+    Self::ToolNumberTwice { .. } => "post-tool-number-twice", "renumber the tool";
+    Self::ToolChange { .. } => "post-tool-change", "post one program per tool; or, where all tools have the same length, take a machine file with tool.change = \"pause\"";
+    Self::SpindleSpeed { .. } => "post-spindle-speed", "take a speed that the machine has, or correct limits.min_rpm and limits.max_rpm";
+    Self::TapMoves { .. } => "post-tap-moves", "make the hole anew, without anything between the moves of its cycle";
+    Self::SpindleDirection { .. } => "post-spindle-direction", "take the other direction, or correct [spindle] of the machine";
+    Self::Unsupported { .. } => "post-unsupported", "leave it out of the job, or correct the machine file";
+    Self::Dwell { .. } => "post-dwell", "give a time of 0 s or more";
+    Self::LineTooLong { .. } => "post-line-too-long", "shorten the line in the machine's template";
+    Self::Character { .. } => "post-character", "take the character out of the template, or put the text through comment()";
+    Self::CycleOrder { .. } => "post-cycle-order", "whoever built the program is at fault: report it";
+    Self::CycleMoves { .. } => "post-cycle-moves", "whoever built the program is at fault: report it";
+    Self::ToolAxis { .. } => "post-tool-axis", "post it for a machine that turns the tool";
+    Self::NoSuchAxis { .. } => "post-no-such-axis", "turn the part into the machine's plane, or take another machine";
+    Self::NoRevolutions { .. } => "post-no-revolutions", "turn the spindle on first, or take feed_mode = \"per-minute\"";
+    Self::Output { .. } => "post-output", "look at the disk that it goes to";
 }

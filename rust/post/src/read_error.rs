@@ -29,7 +29,7 @@ fn shown(word: &str) -> String {
 
 /// What is wrong with a line.
 ///
-/// Each variant says when it occurs and what to do about it.
+/// Each variant states when it occurs and what to do about it.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ReadFault {
     /// The machine's own values are at fault. Correct the machine file.

@@ -39,10 +39,10 @@ impl RoundedArc {
         [0, 1, 2].map(|axis| self.from[axis] + self.offset[axis])
     }
 
-    /// Whether a controller takes it for the way that is meant; `unit` is the last place, mm.
+    /// Whether a controller takes it for the path that is meant; `unit` is the last place, mm.
     ///
-    /// A way too short for its ends to differ once rounded would be taken for a full circle.
-    pub fn stands_for(&self, way: &ArcWay, rules: &ArcRules, unit: f64) -> bool {
+    /// A path too short for its ends to differ once rounded would be taken for a full circle.
+    pub fn stands_for(&self, path: &ArcWay, rules: &ArcRules, unit: f64) -> bool {
         let [_, _, third] = self.arc.plane.axes();
         if !rules.planes.contains(&self.arc.plane) || !(rules.helix || self.from[third] == self.to[third]) {
             return false;
@@ -52,7 +52,7 @@ impl RoundedArc {
         let start = place(self.from);
         let centre = [0, 1, 2].map(|axis| start[axis] + self.offset[axis] as f64 * unit);
         let posted = Arc { centre, ..self.arc }.way(start, place(self.to));
-        let as_meant = (posted.sweep() - way.sweep()).abs() < 1.0 && posted.sweep().abs() > LEAST;
+        let as_meant = (posted.sweep() - path.sweep()).abs() < 1.0 && posted.sweep().abs() > LEAST;
         let radius = posted.radius();
         let in_range =
             radius > rules.min_radius.max(LEAST_PLACES * unit) && rules.max_radius.is_none_or(|most| radius <= most);

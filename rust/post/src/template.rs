@@ -22,9 +22,9 @@ const CHANGE_PAUSE: &str = include_str!("../templates/change_pause.jinja");
 const CHANGE_T: &str = include_str!("../templates/change_t.jinja");
 const CHANGE_TOOL_CALL: &str = include_str!("../templates/change_tool_call.jinja");
 const CHANGE_LOADED: &str = include_str!("../templates/change_loaded.jinja");
-const CHANGE_UNSAID: &str = include_str!("../templates/change_unsaid.jinja");
+const CHANGE_NOT_STATED: &str = include_str!("../templates/change_unsaid.jinja");
 
-/// What the templates say about a program as a whole, over and above its records.
+/// What the templates state about a program as a whole, over and above its records.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Facts {
     /// Lowest Z of a tip at feed, mm.
@@ -115,7 +115,7 @@ impl<'m> Templater<'m> {
             ToolChange::ToolCall => CHANGE_TOOL_CALL,
             ToolChange::Pause => CHANGE_PAUSE,
             ToolChange::LoadBeforeStart => CHANGE_LOADED,
-            ToolChange::Unsaid => CHANGE_UNSAID,
+            ToolChange::Unsaid => CHANGE_NOT_STATED,
         })
     }
 
@@ -152,7 +152,7 @@ impl<'m> Templater<'m> {
         Ok(names)
     }
 
-    /// The block that says how closely the path is kept.
+    /// The block that states how closely the path is kept.
     pub(crate) fn smoothing(&self) -> Result<String, MachineError> {
         let smoothing = &self.machine.smoothing;
         match (&smoothing.on, tolerance_words(self.machine)) {

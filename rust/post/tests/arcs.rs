@@ -1,4 +1,4 @@
-//! Arcs: read as controllers read them, posted so that they take them, and the same way after both.
+//! Arcs: read as controllers read them, posted so that they take them, and the same path after both.
 
 #![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::float_cmp)]
 
@@ -67,7 +67,7 @@ fn program(start: [f64; 3], step: Move) -> Program {
     support::program(vec![rapid(start[0], start[1], start[2]), step], vec![change(0, 0)], vec![stylus(1)])
 }
 
-/// How far the posted way is from the one that is meant, at places between the blocks' ends.
+/// How far the posted path is from the one that is meant, at positions between the blocks' ends.
 fn off(posted: &Program, start: [f64; 3], meant: &ArcWay) -> f64 {
     let mut worst: f64 = 0.0;
     let mut from = start;
@@ -83,7 +83,7 @@ fn off(posted: &Program, start: [f64; 3], meant: &ArcWay) -> f64 {
     worst
 }
 
-/// Distance of a place to a way: coarse, then fine.
+/// Distance of a position to a path: coarse, then fine.
 fn distance_to(way: &ArcWay, place: [f64; 3]) -> f64 {
     let gap = |share: f64| {
         let at = way.at(share.clamp(0.0, 1.0));

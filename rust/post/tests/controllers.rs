@@ -1,4 +1,4 @@
-//! What one controller says in its own way: holes that are called, times, points, ends.
+//! What one controller writes in its own path: holes that are called, times, points, ends.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::float_cmp)]
 

@@ -1,4 +1,4 @@
-//! Every shipped machine: random programs of all that its file says it has come back as they were.
+//! Every shipped machine: random programs of all that its file states it has come back as they were.
 
 #![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::panic)]
 

@@ -18,7 +18,7 @@ use support::{cone, event};
 /// Longest that any single text may take.
 const MOST: Duration = Duration::from_secs(5);
 
-/// Runs `body` on values of a strategy, for as many as `count` or for as long as the environment says.
+/// Runs `body` on values of a strategy, for as many as `count` or for as long as the environment states.
 fn fuzz<S: Strategy>(count: u32, strategy: &S, mut body: impl FnMut(S::Value)) {
     let seconds = std::env::var("FUZZ_SECONDS").ok().and_then(|text| text.parse().ok()).map(Duration::from_secs);
     let mut runner = TestRunner::new(Config::default());

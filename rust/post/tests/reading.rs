@@ -65,7 +65,7 @@ fn a_program_by_hand() {
         (MoveKind::Rapid, [20.0, -2.0, 5.0], 0.0, 11),
     ];
     assert_eq!(moves, expected);
-    assert_eq!((reading.first_placed_move, reading.unplaced.clone()), (1, vec![0..1]));
+    assert_eq!((reading.first_known_move, reading.unknown_positions.clone()), (1, vec![0..1]));
     let events: Vec<_> = program.events.iter().map(|e| (e.before, e.kind.clone())).collect();
     let comment = |text: &str| EventKind::Comment { text: text.into() };
     let expected = [
@@ -137,7 +137,7 @@ fn tips_below_their_centers() {
     let reading = read(text, &linuxcnc(), &tools).unwrap();
     let ends: Vec<_> = reading.program.moves.iter().map(|m| m.end).collect();
     assert_eq!(ends, [[0.0, 0.0, 10.0], [5.0, 0.0, 7.0], [5.0, 0.0, 7.0]]);
-    assert_eq!((reading.first_placed_move, reading.unplaced), (0, vec![1..2]));
+    assert_eq!((reading.first_known_move, reading.unknown_positions), (0, vec![1..2]));
     let operations: Vec<_> = reading.program.moves.iter().map(|m| m.operation).collect();
     assert_eq!(operations, [0, 1, 1]);
     assert_eq!(reading.program.operations[1].tool, 1);
@@ -170,7 +170,7 @@ fn places_that_are_not_known() {
     let reading = reads(text, &linuxcnc());
     let ends: Vec<_> = reading.program.moves.iter().map(|m| m.end).collect();
     assert_eq!(ends, [[1.0, 2.0, 5.0], [1.0, 2.0, 5.0], [1.0, 2.0, -1.0], [0.0, 0.0, -1.0]]);
-    assert_eq!((reading.first_placed_move, reading.unplaced), (1, vec![0..1, 3..4]));
+    assert_eq!((reading.first_known_move, reading.unknown_positions), (1, vec![0..1, 3..4]));
     let remarks = reading
         .program
         .events
@@ -179,7 +179,7 @@ fn places_that_are_not_known() {
     assert_eq!(remarks.count(), 2);
     let again = reads("G21\nG0 X1 Y2 Z5\nG53 G0 Z0\nX9\nG0 Z7\nM2", &linuxcnc());
     assert_eq!(again.program.moves[1].end, [9.0, 2.0, 7.0]);
-    assert_eq!(again.unplaced, [1..2]);
+    assert_eq!(again.unknown_positions, [1..2]);
 }
 
 #[test]
@@ -306,7 +306,7 @@ fn motion_that_starts_nowhere() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
-    /// Whatever the text, there is a program or an error, and the program's places are finite.
+    /// Whatever the text, there is a program or an error, and the program's positions are finite.
     #[test]
     fn any_text_is_read_or_refused(text in "([GMXYZFSTHPQN]{0,1}[-+]?[0-9]{0,3}[.]?[0-9]{0,2}[ ]{0,1}|[(;)%/\n]|\\PC){0,60}") {
         for machine in [linuxcnc(), grbl()] {
@@ -333,9 +333,9 @@ proptest! {
             let program = &reading.program;
             prop_assert!(program.moves.iter().all(|m| (m.operation as usize) < program.operations.len()));
             prop_assert!(program.events.windows(2).all(|w| w[0].before <= w[1].before));
-            prop_assert!(reading.unplaced.iter().all(|run| run.start < run.end && run.end <= program.moves.len()));
-            let placed: Vec<_> = program.moves.iter().enumerate().filter(|(i, _)| !reading.unplaced.iter().any(|r| r.contains(i))).collect();
-            prop_assert!(placed.first().is_none_or(|(i, _)| *i >= reading.first_placed_move));
+            prop_assert!(reading.unknown_positions.iter().all(|run| run.start < run.end && run.end <= program.moves.len()));
+            let placed: Vec<_> = program.moves.iter().enumerate().filter(|(i, _)| !reading.unknown_positions.iter().any(|r| r.contains(i))).collect();
+            prop_assert!(placed.first().is_none_or(|(i, _)| *i >= reading.first_known_move));
         }
     }
 }

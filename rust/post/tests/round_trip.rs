@@ -12,7 +12,7 @@ use styluscam_post::machine::{
 use styluscam_post::{post, read, Machine, Posted, Reading};
 use support::{ball_by_center, grbl, grbl_with_pauses, linuxcnc, program, stylus};
 
-/// What the text says, in order: events, and moves that move.
+/// What the text states, in order: events, and moves that move.
 #[derive(Clone, Debug, PartialEq)]
 enum Item {
     Event(EventKind),
@@ -48,7 +48,7 @@ impl Grid {
     }
 }
 
-/// What the text of `program` should say, found without the writer.
+/// What the text of `program` should state, found without the writer.
 fn expected(program: &Program, machine: &Machine) -> Vec<Item> {
     let grid = Grid::of(machine);
     let mut items = Vec::new();
@@ -113,7 +113,7 @@ fn found(reading: &Reading) -> Vec<Item> {
     without_repeats(items)
 }
 
-/// Leaves out moves to the place where the tip stands.
+/// Leaves out moves to the position where the tip stands.
 fn without_repeats(items: Vec<Item>) -> Vec<Item> {
     let mut at: Option<[f64; 3]> = None;
     items
@@ -202,7 +202,7 @@ fn check_round_trip(program: &Program, machine: &Machine) {
 // Random programs
 
 fn coordinate() -> impl Strategy<Value = f64> {
-    // Few values often: places meet, and rounding makes motion vanish.
+    // Few values often: positions meet, and rounding makes motion vanish.
     prop_oneof![
         3 => -200.0..200.0_f64,
         2 => (-3_i32..3).prop_map(f64::from),

@@ -38,7 +38,7 @@ impl Comments {
         }
     }
 
-    /// The comment that begins at a byte, and where the code goes on; none where no comment begins. `alone` says that no
+    /// The comment that begins at a byte, and where the code goes on; none where no comment begins. `alone` is set when no
     /// word stands before it.
     pub fn at(self, text: &str, start: usize, alone: bool) -> Result<Option<(&str, usize)>, CommentFault> {
         let inside = || text.get(start + 1..).unwrap_or_default();

@@ -91,8 +91,8 @@ impl Block {
         self.spindle.is_none_or(|number| number <= 0.0)
     }
 
-    /// Whether any word names a place.
-    pub(super) fn places(&self) -> bool {
+    /// Whether any word names a position.
+    pub(super) fn positions(&self) -> bool {
         self.axes().iter().any(Option::is_some) || self.distance.is_some() || self.angle.is_some() || self.turns()
     }
 

@@ -8,7 +8,7 @@ use super::path::Pace;
 use super::tracer::Tracer;
 use styluscam_motion::MoveKind;
 
-/// The first parameters of the places that G28 and G30 go to, and of G92's offset.
+/// The first parameters of the positions that G28 and G30 go to, and of G92's offset.
 const HOMES: [usize; 2] = [5161, 5181];
 const LOCAL: usize = 5211;
 const LOCAL_IN_FORCE: usize = 5210;
@@ -23,11 +23,11 @@ impl Tracer<'_> {
         [if self.modes.diameter { x.map(|x| x / 2.0) } else { x }, y, z]
     }
 
-    /// Changes the offsets; the machine stands still, and its place gets other coordinates.
+    /// Changes the offsets; the machine stands still, and its position gets other coordinates.
     fn offset(&mut self, change: impl FnOnce(&mut Self)) {
-        let machine = self.offsets.in_machine(self.place);
+        let machine = self.offsets.in_machine(self.position);
         change(self);
-        self.place = self.offsets.of_machine(machine);
+        self.position = self.offsets.of_machine(machine);
     }
 
     pub(super) fn call_system(&mut self, index: usize) {
@@ -77,12 +77,12 @@ impl Tracer<'_> {
         })
     }
 
-    pub(super) fn place_offsets(&mut self, block: &Block, code: u32) -> Result<(), TraceFault> {
+    pub(super) fn set_offsets(&mut self, block: &Block, code: u32) -> Result<(), TraceFault> {
         match code {
             100 => self.set_data(block)?,
             280 | 300 => self.go_home(block, code)?,
-            281 => self.parameters.set_run(HOMES[0], self.offsets.in_machine(self.place)),
-            301 => self.parameters.set_run(HOMES[1], self.offsets.in_machine(self.place)),
+            281 => self.parameters.set_run(HOMES[0], self.offsets.in_machine(self.position)),
+            301 => self.parameters.set_run(HOMES[1], self.offsets.in_machine(self.position)),
             520 => {
                 let words = self.lengths(block);
                 let local = [0, 1, 2].map(|axis| words[axis].unwrap_or(self.offsets.local[axis]));
@@ -90,8 +90,8 @@ impl Tracer<'_> {
             }
             920 => {
                 let words = self.lengths(block);
-                let (place, local) = (self.place, self.offsets.local);
-                let moved = [0, 1, 2].map(|axis| words[axis].map_or(0.0, |word| place[axis] - word));
+                let (position, local) = (self.position, self.offsets.local);
+                let moved = [0, 1, 2].map(|axis| words[axis].map_or(0.0, |word| position[axis] - word));
                 self.set_local_offset([0, 1, 2].map(|axis| local[axis] + moved[axis]));
             }
             // G43.1, G43.2: done with the tool's length
@@ -123,7 +123,7 @@ impl Tracer<'_> {
         self.offset(|tracer| tracer.offsets.local = local);
     }
 
-    /// G28 and G30: over the place that is named, if any, to the stored one; then only along the axes that are named.
+    /// G28 and G30: over the position that is named, if any, to the stored one; then only along the axes that are named.
     fn go_home(&mut self, block: &Block, code: u32) -> Result<(), TraceFault> {
         let named = self.lengths(block).map(|word| word.is_some());
         let any = named.contains(&true) || block.turns();
@@ -132,15 +132,15 @@ impl Tracer<'_> {
             self.rapid(end)?;
         }
         let home = self.offsets.of_machine(self.parameters.run(HOMES[usize::from(code == 300)]));
-        let place = self.place;
-        self.placed = [0, 1, 2].map(|axis| self.placed[axis] || !any || named[axis]);
-        self.rapid([0, 1, 2].map(|axis| if named[axis] || !any { home[axis] } else { place[axis] }))
+        let position = self.position;
+        self.positioned = [0, 1, 2].map(|axis| self.positioned[axis] || !any || named[axis]);
+        self.rapid([0, 1, 2].map(|axis| if named[axis] || !any { home[axis] } else { position[axis] }))
     }
 
     pub(super) fn rapid(&mut self, end: [f64; 3]) -> Result<(), TraceFault> {
         let pace = Pace { kind: MoveKind::Rapid, feed: 0.0, line: self.line_of_program() };
         self.path.line(&self.offsets, end, pace)?;
-        self.place = end;
+        self.position = end;
         Ok(())
     }
 
@@ -175,19 +175,19 @@ impl Tracer<'_> {
         self.keep_length(number, [0, 1, 2].map(|axis| words[axis].unwrap_or(known[axis])));
     }
 
-    /// L10, L11: the length with which the place where the machine stands has the coordinates of the block.
+    /// L10, L11: the length with which the position where the machine stands has the coordinates of the block.
     fn measure(&mut self, block: &Block, number: u32, system: usize) {
         let words = self.lengths(block);
         let known = self.lengths.get(&number).copied().unwrap_or_default();
-        let machine = self.offsets.in_machine(self.place);
+        let machine = self.offsets.in_machine(self.position);
         let mut there = self.offsets;
         there.tool = [0.0; 3];
         if system != self.offsets.index {
             there.call(system);
             there.local = [0.0; 3];
         }
-        let place = there.of_machine(machine);
-        self.keep_length(number, [0, 1, 2].map(|axis| words[axis].map_or(known[axis], |word| place[axis] - word)));
+        let position = there.of_machine(machine);
+        self.keep_length(number, [0, 1, 2].map(|axis| words[axis].map_or(known[axis], |word| position[axis] - word)));
     }
 
     fn keep_length(&mut self, number: u32, length: [f64; 3]) {
@@ -200,7 +200,7 @@ impl Tracer<'_> {
     /// L2 and L20: the zero of a coordinate system.
     fn set_zero(&mut self, block: &Block, index: usize, from_place: bool) {
         let words = self.lengths(block);
-        let machine = self.offsets.in_machine(self.place);
+        let machine = self.offsets.in_machine(self.position);
         let turn = block.word(b'r').filter(|_| !from_place);
         let measured = self.offsets.origin_for(machine, words, index);
         let Some(stored) = self.offsets.stored.get_mut(index) else { return };
@@ -215,24 +215,24 @@ impl Tracer<'_> {
     /// The end that a block's words name, in the program's coordinates, mm.
     pub(super) fn target(&mut self, block: &Block, of_machine: bool) -> Result<[f64; 3], TraceFault> {
         let words = self.lengths(block);
-        for (placed, word) in self.placed.iter_mut().zip(words) {
-            *placed |= word.is_some();
+        for (positioned, word) in self.positioned.iter_mut().zip(words) {
+            *positioned |= word.is_some();
         }
-        let place = self.place;
+        let position = self.position;
         if of_machine {
-            let machine = self.offsets.in_machine(place);
+            let machine = self.offsets.in_machine(position);
             let end = [0, 1, 2].map(|axis| words[axis].unwrap_or(machine[axis]));
             return Ok(self.offsets.of_machine(end));
         }
         let mut end = [0, 1, 2].map(|axis| match words[axis] {
-            Some(word) if self.modes.common.incremental => place[axis] + word,
-            word => word.unwrap_or(place[axis]),
+            Some(word) if self.modes.common.incremental => position[axis] + word,
+            word => word.unwrap_or(position[axis]),
         });
         if block.distance.is_some() || block.angle.is_some() {
             if words[0].is_some() || words[1].is_some() {
                 return Err(TraceFault::PolarWithCartesian);
             }
-            self.placed = [true, true, self.placed[2]];
+            self.positioned = [true, true, self.positioned[2]];
             [end[0], end[1]] = self.polar_target(block);
         }
         Ok(end)
@@ -240,7 +240,7 @@ impl Tracer<'_> {
 
     /// `@` and `^`: distance from the program's zero and angle, or what is added to them.
     fn polar_target(&self, block: &Block) -> [f64; 2] {
-        let (distance, angle) = super::path::polar(self.place);
+        let (distance, angle) = super::path::polar(self.position);
         let word = block.distance.map(|word| word * self.modes.unit());
         if self.modes.common.incremental {
             return super::path::cartesian(distance + word.unwrap_or(0.0), angle + block.angle.unwrap_or(0.0));
@@ -249,8 +249,8 @@ impl Tracer<'_> {
     }
 
     /// How far the tip would go, mm.
-    pub(super) fn way_to(&self, end: [f64; 3]) -> f64 {
-        let [x, y, z] = less(end, self.place);
+    pub(super) fn distance_to(&self, end: [f64; 3]) -> f64 {
+        let [x, y, z] = less(end, self.position);
         libm::sqrt(x * x + y * y + z * z)
     }
 }

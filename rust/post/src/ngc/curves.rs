@@ -12,7 +12,7 @@ const CHORDS: f64 = 10_000.0;
 impl Tracer<'_> {
     pub(super) fn curve(&mut self, block: &Block, code: u32) -> Result<(), TraceFault> {
         self.begin()?;
-        let start = self.place;
+        let start = self.position;
         let end = self.target(block, false)?;
         let unit = self.modes.unit();
         let length = |letter| block.word(letter).map(|word| word * unit);
@@ -31,7 +31,7 @@ impl Tracer<'_> {
     /// Along the curve of these control points; the third axis rises evenly.
     fn chords(&mut self, points: &[[f64; 3]]) -> Result<(), TraceFault> {
         let count = chord_count(points);
-        let (first, last) = (self.place, points.last().copied().unwrap_or(self.place));
+        let (first, last) = (self.position, points.last().copied().unwrap_or(self.position));
         for i in 1..count {
             let share = f64::from(i) / f64::from(count);
             let [x, y] = [0, 1].map(|axis| bezier(points.iter().map(|point| point[axis]).collect(), share));

@@ -26,7 +26,7 @@ impl Tracer<'_> {
         }
         for _ in 0..block.count(b'l', "L of a cycle")?.unwrap_or(1) {
             let mut over = self.target(block, false)?;
-            over[along] = self.place[along].max(heights.retract);
+            over[along] = self.position[along].max(heights.retract);
             self.rapid(over)?;
             self.rapid_along(along, heights.retract)?;
             self.begin()?;
@@ -36,7 +36,7 @@ impl Tracer<'_> {
     }
 
     fn heights(&mut self, block: &Block, along: usize) -> Result<Heights, TraceFault> {
-        let begin = *self.cycle.begin.get_or_insert(self.place[along]);
+        let begin = *self.cycle.begin.get_or_insert(self.position[along]);
         let unit = self.modes.unit();
         let bottom = self.lengths(block)[along].map(|length| length / unit);
         let sticky = &mut self.cycle;
@@ -91,16 +91,16 @@ impl Tracer<'_> {
     }
 
     fn rapid_along(&mut self, along: usize, height: f64) -> Result<(), TraceFault> {
-        let mut end = self.place;
+        let mut end = self.position;
         end[along] = height;
-        if (height - self.place[along]).abs() > 0.0 {
+        if (height - self.position[along]).abs() > 0.0 {
             self.rapid(end)?;
         }
         Ok(())
     }
 
     fn feed_along(&mut self, along: usize, height: f64) -> Result<(), TraceFault> {
-        let mut end = self.place;
+        let mut end = self.position;
         end[along] = height;
         self.feed_to(end)
     }

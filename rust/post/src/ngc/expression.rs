@@ -22,7 +22,7 @@ pub(super) trait Values {
     fn named(&self, name: &str) -> Option<f64>;
 }
 
-/// A place in a line's code: lower case, without blanks and comments.
+/// A position in a line's code: lower case, without blanks and comments.
 pub(super) struct Cursor<'a> {
     text: &'a [u8],
     at: usize,

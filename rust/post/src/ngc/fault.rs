@@ -55,7 +55,7 @@ fn without(left_out: &str) -> String {
 
 /// What is wrong with a line, or with the whole program.
 ///
-/// Each variant says when it occurs and what to do about it.
+/// Each variant states when it occurs and what to do about it.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum TraceFault {
     /// A character that starts no word. Remove it.
@@ -130,7 +130,7 @@ pub enum TraceFault {
     /// An arc with neither R nor a centre, or with both, or R for a full circle. Write the centre.
     #[error("an arc needs either its centre or R, and a full circle its centre")]
     ArcForm,
-    /// An arc around the place where it starts, or with an R of less than half the chord. Correct it.
+    /// An arc around its start, or with an R of less than half the chord. Correct it.
     #[error("there is no such arc: its radius is too small")]
     ArcRadius,
     /// A drilling cycle whose bottom is above its retract plane, or a peck of no depth. Correct R, Z or Q.

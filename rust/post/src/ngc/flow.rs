@@ -227,7 +227,7 @@ impl Tracer<'_> {
         self.parameters.set_global("_value_returned", f64::from(u8::from(value.is_some())));
     }
 
-    /// M99, or the end of a file: begins the subroutine again, or goes back; says whether there is something to go back to.
+    /// M99, or the end of a file: begins the subroutine again, or goes back; returns whether there is something to go back to.
     pub(super) fn end_of_subroutine(&mut self) -> bool {
         if let Some(back) = self.frames.last_mut().and_then(|frame| frame.back.as_mut()) {
             if back.again > 0 {

@@ -40,13 +40,13 @@ impl Tracer<'_> {
         match code {
             NO_MOTION => return Err(TraceFault::NoMotionMode),
             _ if !codes::moves(code) => self.note(Gap::Code { code: codes::name_g(code) }),
-            0 | 10 if !names_place(block) => {}
+            0 | 10 if !names_position(block) => {}
             0 => {
                 let end = self.target(block, block.has_g(530))?;
                 self.rapid(end)?;
             }
             10 => self.straight(block)?,
-            20 | 30 if !names_place(block) && !names_centre(block) => {}
+            20 | 30 if !names_position(block) && !names_centre(block) => {}
             20 | 30 => self.arc(block, code == 20)?,
             50 | 51 => self.curve(block, code)?,
             52 | 53 => self.control_point(block)?,
@@ -67,23 +67,23 @@ impl Tracer<'_> {
         self.feed_to(end)
     }
 
-    /// Makes sure that the path stands where the tip does, and tells which axes were never placed.
+    /// Makes sure that the path stands where the tip does, and notes which axes never had a position.
     pub(super) fn begin(&mut self) -> Result<(), TraceFault> {
         for (index, axis) in ['X', 'Y', 'Z'].into_iter().enumerate() {
-            if !std::mem::replace(&mut self.placed[index], true) {
+            if !std::mem::replace(&mut self.positioned[index], true) {
                 self.note(Gap::Start { axis });
             }
         }
-        if self.path.stands_at(&self.offsets, self.place) {
+        if self.path.stands_at(&self.offsets, self.position) {
             return Ok(());
         }
-        self.rapid(self.place)
+        self.rapid(self.position)
     }
 
     pub(super) fn feed_to(&mut self, end: [f64; 3]) -> Result<(), TraceFault> {
-        let pace = self.pace(self.way_to(end));
+        let pace = self.pace(self.distance_to(end));
         self.path.line(&self.offsets, end, pace)?;
-        self.place = end;
+        self.position = end;
         Ok(())
     }
 
@@ -110,7 +110,7 @@ impl Tracer<'_> {
         self.note(Gap::Probe);
         self.straight(block)?;
         let unit = self.modes.unit();
-        self.parameters.set_run(PROBED, self.place.map(|length| length / unit));
+        self.parameters.set_run(PROBED, self.position.map(|length| length / unit));
         self.parameters.set_number(PROBE_TRIPPED, if matches!(code, 382 | 384) { 1.0 } else { 0.0 });
         Ok(())
     }
@@ -119,7 +119,7 @@ impl Tracer<'_> {
 
     fn arc(&mut self, block: &Block, clockwise: bool) -> Result<(), TraceFault> {
         self.begin()?;
-        let (start, end) = (self.place, self.target(block, false)?);
+        let (start, end) = (self.position, self.target(block, false)?);
         let ends = Ends { start, end, plane: self.modes.common.plane, clockwise };
         let centre = match block.word(b'r') {
             Some(_) if names_centre(block) => return Err(TraceFault::ArcForm),
@@ -137,7 +137,7 @@ impl Tracer<'_> {
         }
         let pace = self.pace(path.length());
         self.path.arc(&self.offsets, [start, end], arc, pace)?;
-        self.place = end;
+        self.position = end;
         Ok(())
     }
 
@@ -159,8 +159,8 @@ fn trace_fault(fault: ArcFault) -> TraceFault {
     }
 }
 
-/// Whether a block says where to go.
-fn names_place(block: &Block) -> bool {
+/// Whether a block names a position.
+fn names_position(block: &Block) -> bool {
     block.axes().iter().any(Option::is_some) || block.distance.is_some() || block.angle.is_some()
 }
 

@@ -1,4 +1,4 @@
-//! What a trace leaves out or takes for granted, said once each.
+//! What a trace leaves out or takes for granted, noted once each.
 
 use std::fmt;
 
@@ -96,8 +96,8 @@ pub enum Gap {
     /// The ends of an arc are not equally far from its centre.
     #[error("the arc's ends differ in their distance from its centre")]
     ArcEnds,
-    /// A feed move before an axis was placed.
-    #[error("{axis} is not placed before the first feed move: it is taken to start at the machine's zero")]
+    /// A feed move before an axis had a position.
+    #[error("{axis} has no position before the first feed move: it is taken to start at the machine's zero")]
     Start {
         /// The axis.
         axis: char,

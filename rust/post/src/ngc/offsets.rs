@@ -12,7 +12,7 @@ pub(super) struct System {
 /// How many there are.
 pub(super) const SYSTEMS: usize = 9;
 
-/// What lies between the program's coordinates and the place of the tip.
+/// What lies between the program's coordinates and the position of the tip.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Offsets {
     /// As they are stored, G54 first; one that is in force takes a change when it is called again.
@@ -28,28 +28,28 @@ pub(super) struct Offsets {
 }
 
 impl Offsets {
-    /// The tip's place in space, in the machine's coordinates less the tool's length, mm.
-    pub(super) fn in_space(&self, place: [f64; 3]) -> [f64; 3] {
-        let [x, y, z] = add(place, self.local);
+    /// The tip's position in space, in the machine's coordinates less the tool's length, mm.
+    pub(super) fn in_space(&self, position: [f64; 3]) -> [f64; 3] {
+        let [x, y, z] = add(position, self.local);
         let [x, y] = turned([x, y], self.system.turn_deg);
         add([x, y, z], self.system.origin)
     }
 
-    /// The program's coordinates of a place of the tip.
-    pub(super) fn of_space(&self, place: [f64; 3]) -> [f64; 3] {
-        let [x, y, z] = less(place, self.system.origin);
+    /// The program's coordinates of a position of the tip.
+    pub(super) fn of_space(&self, position: [f64; 3]) -> [f64; 3] {
+        let [x, y, z] = less(position, self.system.origin);
         let [x, y] = turned([x, y], -self.system.turn_deg);
         less([x, y, z], self.local)
     }
 
-    /// Where the machine stands when the tip is at a place in program coordinates, mm.
-    pub(super) fn in_machine(&self, place: [f64; 3]) -> [f64; 3] {
-        add(self.in_space(place), self.tool)
+    /// Where the machine stands when the tip is at a position in program coordinates, mm.
+    pub(super) fn in_machine(&self, position: [f64; 3]) -> [f64; 3] {
+        add(self.in_space(position), self.tool)
     }
 
     /// The program's coordinates of the tip where the machine stands.
-    pub(super) fn of_machine(&self, place: [f64; 3]) -> [f64; 3] {
-        self.of_space(less(place, self.tool))
+    pub(super) fn of_machine(&self, position: [f64; 3]) -> [f64; 3] {
+        self.of_space(less(position, self.tool))
     }
 
     /// Takes a system into force as it is stored.
@@ -58,7 +58,7 @@ impl Offsets {
         self.system = self.stored.get(index).copied().unwrap_or_default();
     }
 
-    /// Where the zero of a system has to be that a machine place has these coordinates in it, and else those it has.
+    /// Where the zero of a system has to be that a machine position has these coordinates in it, and else those it has.
     pub(super) fn origin_for(&self, machine: [f64; 3], words: [Option<f64>; 3], index: usize) -> [f64; 3] {
         let system = self.stored.get(index).copied().unwrap_or_default();
         let there = Self { system, ..*self };

@@ -1,4 +1,4 @@
-//! Parameters: those that a program sets, and those that tell the state of the machine.
+//! Parameters: those that a program sets, and those that report the state of the machine.
 
 use std::collections::HashMap;
 

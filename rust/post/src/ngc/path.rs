@@ -15,7 +15,7 @@ const FAR: f64 = 1e6;
 /// mm: how far chords may be from an arc that is in none of the machine's planes.
 pub(super) const SAG: f64 = 0.005;
 
-/// mm: places that differ less are one.
+/// mm: positions that differ less are one.
 const SAME: f64 = 1e-6;
 
 /// Moves in the coordinates that were in force at the first one.
@@ -52,11 +52,11 @@ impl Path {
         self.program.moves.is_empty()
     }
 
-    /// Whether it has come to a place in the program's coordinates.
-    pub(super) fn stands_at(&mut self, offsets: &Offsets, place: [f64; 3]) -> bool {
+    /// Whether it has come to a position in the program's coordinates.
+    pub(super) fn stands_at(&mut self, offsets: &Offsets, position: [f64; 3]) -> bool {
         let Some(end) = self.program.moves.last().map(|last| last.end) else { return false };
-        let place = self.shown(offsets, place);
-        end.iter().zip(place).all(|(a, b)| (a - b).abs() <= SAME)
+        let position = self.shown(offsets, position);
+        end.iter().zip(position).all(|(a, b)| (a - b).abs() <= SAME)
     }
 
     /// The program, in the work coordinates of its first move.
@@ -97,13 +97,13 @@ impl Path {
         })
     }
 
-    /// A straight move to a place in the program's coordinates.
+    /// A straight move to a position in the program's coordinates.
     pub(super) fn line(&mut self, offsets: &Offsets, end: [f64; 3], pace: Pace) -> Result<(), TraceFault> {
         let end = self.shown(offsets, end);
         self.push(end, None, pace)
     }
 
-    /// An arc from one place in the program's coordinates to another.
+    /// An arc from one position in the program's coordinates to another.
     pub(super) fn arc(
         &mut self,
         offsets: &Offsets,
@@ -117,22 +117,22 @@ impl Path {
             let end = self.shown(offsets, end);
             return self.push(end, Some(Arc { centre, ..arc }), pace);
         }
-        let way = arc.way(start, end);
-        let count = way.chords(SAG);
-        (1..=count).try_for_each(|i| self.line(offsets, way.at(i as f64 / count as f64), pace))
+        let path = arc.way(start, end);
+        let count = path.chords(SAG);
+        (1..=count).try_for_each(|i| self.line(offsets, path.at(i as f64 / count as f64), pace))
     }
 
     fn anchor(&mut self, offsets: &Offsets) -> Offsets {
         *self.anchor.get_or_insert(*offsets)
     }
 
-    /// A place as the path shows it: as called by the offsets of the first move.
-    fn shown(&mut self, offsets: &Offsets, place: [f64; 3]) -> [f64; 3] {
+    /// A position as the path shows it: as called by the offsets of the first move.
+    fn shown(&mut self, offsets: &Offsets, position: [f64; 3]) -> [f64; 3] {
         let anchor = self.anchor(offsets);
         if (anchor.system, anchor.local) == (offsets.system, offsets.local) {
-            return place;
+            return position;
         }
-        anchor.of_space(offsets.in_space(place))
+        anchor.of_space(offsets.in_space(position))
     }
 
     fn push(&mut self, end: [f64; 3], arc: Option<Arc>, pace: Pace) -> Result<(), TraceFault> {
@@ -161,12 +161,12 @@ impl Path {
     }
 }
 
-/// The distance of a place from zero and its angle, degrees.
+/// The distance of a position from zero and its angle, degrees.
 pub(super) fn polar([x, y, _]: [f64; 3]) -> (f64, f64) {
     (libm::hypot(x, y), libm::atan2(y, x).to_degrees())
 }
 
-/// The place at a distance and an angle.
+/// The position at a distance and an angle.
 pub(super) fn cartesian(distance: f64, degrees: f64) -> [f64; 2] {
     turned([distance, 0.0], degrees)
 }

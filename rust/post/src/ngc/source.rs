@@ -28,7 +28,7 @@ pub(super) struct Line {
 pub(super) enum Content {
     #[default]
     Nothing,
-    /// The `%` that ends the file; one that opens it says nothing.
+    /// The `%` that ends the file; one that opens it states nothing.
     Percent,
     /// Words, in lower case without blanks.
     Words(String),
@@ -102,7 +102,7 @@ impl Source {
         source
     }
 
-    /// Notes where each label stands, and tells the `while` that ends a `do` from the one that begins a loop.
+    /// Notes where each label stands, and separates the `while` that ends a `do` from the one that begins a loop.
     fn collect_labels(&mut self) {
         for (index, line) in self.lines.iter_mut().enumerate() {
             let Content::Flow(Label::Fixed(label), flow, _) = &mut line.content else { continue };

@@ -20,7 +20,7 @@ fn ends(text: &str) -> Vec<[f64; 3]> {
 }
 
 /// Where X stands after each move.
-fn places(text: &str) -> Vec<f64> {
+fn positions(text: &str) -> Vec<f64> {
     ends(text).iter().map(|end| end[0]).collect()
 }
 
@@ -39,24 +39,24 @@ fn fault(text: &str) -> (u32, TraceFault) {
 
 #[test]
 fn parameters_of_a_line_are_set_after_it_is_read() {
-    assert_eq!(places("#1=5 #2=#1\nG0 X#1\nG0 X[#2+1]\n#1=7 G0 X#1\nG0 X#1\nM2"), [5.0, 1.0, 5.0, 7.0]);
-    assert_eq!(places("#<_Far Away>=2 #<near>=3\nG0 X[#<_faraway>*#<NEAR>]\nM2"), [6.0]);
+    assert_eq!(positions("#1=5 #2=#1\nG0 X#1\nG0 X[#2+1]\n#1=7 G0 X#1\nG0 X#1\nM2"), [5.0, 1.0, 5.0, 7.0]);
+    assert_eq!(positions("#<_Far Away>=2 #<near>=3\nG0 X[#<_faraway>*#<NEAR>]\nM2"), [6.0]);
 }
 
 #[test]
 fn the_machine_tells_its_state() {
     assert_eq!(
-        places("G20 G0 X2\nG91 G0 X[#5420+#<_x>]\nG0 X[#<_incremental>+#<_imperial>]\nM2"),
+        positions("G20 G0 X2\nG91 G0 X[#5420+#<_x>]\nG0 X[#<_incremental>+#<_imperial>]\nM2"),
         [50.8, 152.4, 203.2]
     );
-    assert_eq!(places("T7 M6\nG55\nG0 X[#5400+#5220+#<_coord_system>]\nM2"), [559.0]);
-    assert_eq!(places("G10 L2 P3 Y4\nG0 X#5262\nM2"), [4.0]);
+    assert_eq!(positions("T7 M6\nG55\nG0 X[#5400+#5220+#<_coord_system>]\nM2"), [559.0]);
+    assert_eq!(positions("G10 L2 P3 Y4\nG0 X#5262\nM2"), [4.0]);
 }
 
 #[test]
 fn what_has_no_value_is_zero_and_noted() {
     let text = "G0 X[1+#<_hal[a.pin]>]\nG0 X[2+#<_hal[a.pin]>]\nM2";
-    assert_eq!(places(text), [1.0, 2.0]);
+    assert_eq!(positions(text), [1.0, 2.0]);
     let trace = traced(&format!("G21\n{text}")).unwrap();
     assert_eq!(trace.notes.len(), 1);
     assert_eq!(trace.notes[0].to_string(), "line 2: #<_hal[a.pin]> has no value here: 0 is taken (twice)");
@@ -69,20 +69,20 @@ fn branches_take_one_way() {
     let text = |n: u32| {
         format!("#1={n}\no1 if [#1 eq 1]\nG0 X1\no1 elseif [#1 eq 2]\nG0 X2\no1 else\nG0 X3\no1 endif\nG0 X9\nM2")
     };
-    for (n, way) in [(1, 1.0), (2, 2.0), (5, 3.0)] {
-        assert_eq!(places(&text(n)), [way, 9.0]);
+    for (n, path) in [(1, 1.0), (2, 2.0), (5, 3.0)] {
+        assert_eq!(positions(&text(n)), [path, 9.0]);
     }
 }
 
 #[test]
 fn loops_run_as_often_as_they_say() {
-    assert_eq!(places("#1=0\no1 while [#1 lt 3]\n#1=[#1+1]\nG0 X#1\no1 endwhile\nM2"), [1.0, 2.0, 3.0]);
-    assert_eq!(places("#1=0\no1 do\n#1=[#1+1]\nG0 X#1\no1 while [#1 lt 2]\nM2"), [1.0, 2.0]);
+    assert_eq!(positions("#1=0\no1 while [#1 lt 3]\n#1=[#1+1]\nG0 X#1\no1 endwhile\nM2"), [1.0, 2.0, 3.0]);
+    assert_eq!(positions("#1=0\no1 do\n#1=[#1+1]\nG0 X#1\no1 while [#1 lt 2]\nM2"), [1.0, 2.0]);
     assert_eq!(
-        places("G91\no1 repeat [2]\no2 repeat [2]\nG0 X1\no2 endrepeat\no1 endrepeat\nM2"),
+        positions("G91\no1 repeat [2]\no2 repeat [2]\nG0 X1\no2 endrepeat\no1 endrepeat\nM2"),
         [1.0, 2.0, 3.0, 4.0]
     );
-    assert_eq!(places("G91\no1 repeat [0]\nG0 X1\no1 endrepeat\nG0 X5\nM2"), [5.0]);
+    assert_eq!(positions("G91\no1 repeat [0]\nG0 X1\no1 endrepeat\nG0 X5\nM2"), [5.0]);
 }
 
 #[test]
@@ -91,7 +91,7 @@ fn loops_are_left_and_gone_on_with() {
     for (begin, end) in [("o1 while [1]", "o1 endwhile"), ("o1 do", "o1 while [1]"), ("o1 repeat [9]", "o1 endrepeat")]
     {
         let text = format!("#1=0\n{begin}\n#1=[#1+1]\n{skip}{end}\nM2");
-        assert_eq!(places(&text), [1.0, 3.0], "{begin}");
+        assert_eq!(positions(&text), [1.0, 3.0], "{begin}");
     }
 }
 
@@ -99,21 +99,21 @@ fn loops_are_left_and_gone_on_with() {
 fn subroutines_have_parameters_of_their_own() {
     let text = "o<a> sub\n#2=[#1*2] #<mine>=4\nG0 X[#1+#2]\no<a> endsub [#2]\n#1=1 #2=100\no<a> call [5]\n\
                 G0 X[#1+#2+#<_value>]\nG0 X[exists[#<mine>]+#<_value_returned>]\nM2";
-    assert_eq!(places(text), [15.0, 111.0, 1.0]);
+    assert_eq!(positions(text), [15.0, 111.0, 1.0]);
 }
 
 #[test]
 fn a_return_ends_a_subroutine_early() {
     let text = "o1 sub\no2 if [#1 gt 1]\no1 return [7]\no2 endif\nG0 X#1\no1 endsub\no1 call [1]\no1 call [2]\n\
                 G0 X#<_value>\nM2";
-    assert_eq!(places(text), [1.0, 7.0]);
+    assert_eq!(positions(text), [1.0, 7.0]);
 }
 
 #[test]
 fn recursion_works_and_ends() {
     let text = "o1 sub\no2 if [#1 le 1]\no1 return [1]\no2 endif\no1 call [#1-1]\no1 endsub [#1*#<_value>]\n\
                 o1 call [5]\nG0 X#<_value>\nM2";
-    assert_eq!(places(text), [120.0]);
+    assert_eq!(positions(text), [120.0]);
     assert_eq!(fault("o1 sub\no1 call\no1 endsub\no1 call\nM2"), (2, TraceFault::CallDepth));
 }
 
@@ -124,7 +124,7 @@ fn subroutines_come_from_files_and_computed_numbers() {
     let shown: Vec<_> = trace.program.moves.iter().map(|one| (one.end[0], one.line)).collect();
     assert_eq!(shown, [(3.0, 1), (9.0, 1), (1.0, 2)]);
     assert_eq!(trace.notes[0].to_string(), "line 2 of hop: neither G20 nor G21 came before: lengths are taken as mm");
-    assert_eq!(places("o101 sub\nG0 X1\no101 endsub\no[100+1] call\nM2"), [1.0]);
+    assert_eq!(positions("o101 sub\nG0 X1\no101 endsub\no[100+1] call\nM2"), [1.0]);
     let text = "o<gone> call\nG0 X1\no<gone> call\nM2";
     assert_eq!(
         traced(text).unwrap().notes[0].to_string(),
@@ -134,7 +134,7 @@ fn subroutines_come_from_files_and_computed_numbers() {
 
 #[test]
 fn numbers_of_other_controls_are_called_by_m98() {
-    assert_eq!(places("G91 M98 P7 L3\nG0 X10\nM30\nO7\nG0 X1\nM99\n"), [1.0, 2.0, 3.0, 13.0]);
+    assert_eq!(positions("G91 M98 P7 L3\nG0 X10\nM30\nO7\nG0 X1\nM99\n"), [1.0, 2.0, 3.0, 13.0]);
     assert_eq!(gaps("G0 X1\nM99\n"), [Gap::Forever]);
 }
 
@@ -169,17 +169,17 @@ fn work_is_stopped_from_outside() {
 
 #[test]
 fn percent_signs_frame_a_program() {
-    assert_eq!(places("%\nG0 X1\n%\nG0 X2\n"), [1.0]);
+    assert_eq!(positions("%\nG0 X1\n%\nG0 X2\n"), [1.0]);
     assert_eq!(gaps("G0 X1\n"), [Gap::NoEnd]);
-    assert_eq!(places("/G0 X1\nN1.5 g0 x 1 2 ; X3\nM2"), [1.0, 12.0]);
+    assert_eq!(positions("/G0 X1\nN1.5 g0 x 1 2 ; X3\nM2"), [1.0, 12.0]);
 }
 
 #[test]
 fn what_the_operator_is_told_is_an_event() {
     let trace = traced("(MSG, Mind the clamp)\n(only a comment)\nG0 X1\n(print,done)\nM2").unwrap();
-    let said: Vec<_> = trace.program.events.iter().map(|event| (event.before, event.kind.clone())).collect();
+    let stated: Vec<_> = trace.program.events.iter().map(|event| (event.before, event.kind.clone())).collect();
     let comment = |text: &str| EventKind::Comment { text: text.into() };
-    assert_eq!(said, [(0, comment("Mind the clamp")), (1, comment("done"))]);
+    assert_eq!(stated, [(0, comment("Mind the clamp")), (1, comment("done"))]);
 }
 
 // Motion
@@ -226,7 +226,7 @@ fn feeds_follow_their_mode() {
 
 #[test]
 fn polar_words_turn_about_the_zero() {
-    // LinuxCNC 2.9.4 prints these places
+    // LinuxCNC 2.9.4 prints these positions
     let found = ends("G90 G0 X2 Y1\n@1 ^90\n@2\n^30\nG91 @1\n^15\n@1 ^10\nM2");
     let printed =
         [[2.0, 1.0], [0.0, 1.0], [0.0, 2.0], [1.7321, 1.0], [2.5981, 1.5], [2.1213, 2.1213], [2.2943, 3.2766]];
@@ -277,7 +277,7 @@ fn holes_are_drilled_from_the_retract_plane() {
     // LinuxCNC 2.9.4: where the series began below R, that is gone to first, from above too
     let found = ends("F100 G0 X0 Y0 Z0\nG99 G81 X1 Z-3 R5\nX2 R2\nM2");
     assert_eq!(found[4..6], [[1.0, 0.0, 5.0], [1.0, 0.0, 2.0]]);
-    // what is not said again is kept as it was written
+    // what is not stated again is kept as it was written
     assert_eq!(ends("F100 G0 X0 Y0 Z9\nG99 G81 X1 Z-1 R1\nG20 X2\nM2").last(), Some(&[50.8, 0.0, 25.4]));
 }
 
@@ -310,13 +310,13 @@ fn cycles_that_do_not_fit_are_refused() {
     assert_eq!(fault("G0 Z5\nG83 X1 Z0 R1\nM2").1, TraceFault::CycleDepths);
     assert_eq!(fault("G0 Z5\nG81 X1 Z0\nM2").1, TraceFault::WordMissing { what: "R of a cycle" });
     assert_eq!(fault("G0 X1\nG80 X1\nM2"), (2, TraceFault::NoMotionMode));
-    assert_eq!(places("G80 G0 X1\nX2\nG80 G28 X3\nM2"), [1.0, 2.0, 3.0, 0.0]);
+    assert_eq!(positions("G80 G0 X1\nX2\nG80 G28 X3\nM2"), [1.0, 2.0, 3.0, 0.0]);
     assert_eq!(fault("G0 X1\nG0 X1 G1\nM2"), (2, TraceFault::SameGroup));
 }
 
 #[test]
 fn threads_go_deeper_pass_by_pass() {
-    // LinuxCNC 2.9.4 prints these places
+    // LinuxCNC 2.9.4 prints these positions
     let found = ends("G18 S300 M3 G0 X10 Y0 Z5\nG76 P1.5 Z-10 I-2 J0.4 R1.5 K1.2 Q29.5 H1 E1 L2\nM2");
     let printed = [[10.8, 4.7737], [7.6, 4.7737], [7.6, -8.5474], [8.8, -9.5474], [10.8, -9.5474], [10.565, 4.6408]];
     let near = |a: &[f64; 3], b: [f64; 2]| (a[0] - b[0]).abs() < 5.1e-5 && (a[2] - b[1]).abs() < 5.1e-5;
@@ -329,10 +329,10 @@ fn threads_go_deeper_pass_by_pass() {
 
 #[test]
 fn what_follows_a_change_of_offsets_lies_where_it_is_in_space() {
-    assert_eq!(places("G10 L2 P1 X100\nG0 X1\nM2"), [1.0]);
-    assert_eq!(places("G0 X1\nG10 L2 P1 X100\nG0 X1\nG55 G0 X1\nM2"), [1.0, 101.0, 1.0]);
-    assert_eq!(places("G0 X5\nG92 X0\nG0 X1\nG92.1 G0 X1\nG52 X3\nG0 X1\nM2"), [5.0, 6.0, 1.0, 4.0]);
-    assert_eq!(places("G0 X5\nG10 L20 P1 X0\nG0 X1\nG53 G0 X1\nM2"), [5.0, 6.0, 1.0]);
+    assert_eq!(positions("G10 L2 P1 X100\nG0 X1\nM2"), [1.0]);
+    assert_eq!(positions("G0 X1\nG10 L2 P1 X100\nG0 X1\nG55 G0 X1\nM2"), [1.0, 101.0, 1.0]);
+    assert_eq!(positions("G0 X5\nG92 X0\nG0 X1\nG92.1 G0 X1\nG52 X3\nG0 X1\nM2"), [5.0, 6.0, 1.0, 4.0]);
+    assert_eq!(positions("G0 X5\nG10 L20 P1 X0\nG0 X1\nG53 G0 X1\nM2"), [5.0, 6.0, 1.0]);
     // LinuxCNC 2.9.4 puts the zero to X1.5981 Y-1.5
     let turned = ends("G0 X0 Y0\nG10 L2 P1 X-1 Y-3 R30\nG0 X7 Y-13\nG10 L20 P1 X4\nG0 X0 Y0\nM2");
     assert!((turned[2][0] - 1.5981).abs() < 5e-5 && (turned[2][1] + 1.5).abs() < 5e-5, "{turned:?}");
@@ -351,7 +351,7 @@ fn the_work_offset_is_that_of_the_first_move() {
 #[test]
 fn homes_are_gone_to_over_a_place() {
     assert_eq!(ends("G0 X5 Y5 Z5\nG28.1\nG0 X9 Y9 Z9\nG91 G28 Z1\nM2")[2..], [[9.0, 9.0, 10.0], [9.0, 9.0, 5.0]]);
-    assert_eq!(places("G0 X5\nG28 U0\nG28\nM2"), [5.0, 5.0, 5.0, 0.0]);
+    assert_eq!(positions("G0 X5\nG28 U0\nG28\nM2"), [5.0, 5.0, 5.0, 0.0]);
 }
 
 #[test]
@@ -363,26 +363,26 @@ fn tool_lengths_are_those_that_the_program_sets() {
 
 #[test]
 fn diameters_are_halved() {
-    assert_eq!(places("G7 G0 X10\nG91 X4\nG90 G8 X10\nM2"), [5.0, 7.0, 10.0]);
+    assert_eq!(positions("G7 G0 X10\nG91 X4\nG90 G8 X10\nM2"), [5.0, 7.0, 10.0]);
 }
 
 #[test]
 fn modes_are_stored_and_brought_back() {
     let text = "o1 sub\nM73\nG20 G91 G0 X1\no1 endsub\nG0 X5\no1 call\nG0 X1\nM70\nG20\nM72\nG0 X2\nM2";
-    assert_eq!(places(text), [5.0, 30.4, 1.0, 2.0]);
+    assert_eq!(positions(text), [5.0, 30.4, 1.0, 2.0]);
 }
 
 #[test]
 fn probes_come_to_their_end() {
     let text = "F10 G0 X0 Y0 Z5\nG38.2 Z-5\nG0 X[#5063*-1+#5070]\nG38.3 X9\nG0 X#5070\nM2";
-    assert_eq!(places(text), [0.0, 0.0, 6.0, 9.0, 0.0]);
+    assert_eq!(positions(text), [0.0, 0.0, 6.0, 9.0, 0.0]);
     assert_eq!(gaps(text), [Gap::Probe]);
 }
 
 #[test]
 fn codes_of_one_machine_are_left_out_with_their_axes() {
     let text = "G0 X1\nM428 X5\nG88.1 X7\nX8\nG0 X2\nM2";
-    assert_eq!(places(text), [1.0, 2.0]);
+    assert_eq!(positions(text), [1.0, 2.0]);
     assert_eq!(gaps(text), ["M428", "G88.1"].map(|code| Gap::Code { code: code.into() }));
 }
 

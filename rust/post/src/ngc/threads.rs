@@ -11,7 +11,7 @@ const Z: usize = 2;
 /// Passes of one thread: more are no thread.
 const PASSES: u32 = 100_000;
 
-/// What G76 is told, mm.
+/// The words of G76, mm.
 struct Thread {
     pitch: f64,
     /// From the drive line to the thread's crest: I.
@@ -47,7 +47,7 @@ impl Tracer<'_> {
     pub(super) fn tap(&mut self, block: &Block) -> Result<(), TraceFault> {
         self.begin()?;
         let pitch = self.pitch(block, b'k', "K of G33.1")?;
-        let (start, end) = (self.place, self.target(block, false)?);
+        let (start, end) = (self.position, self.target(block, false)?);
         self.turned_feed(end, pitch)?;
         self.turned_feed(start, pitch)
     }
@@ -61,7 +61,7 @@ impl Tracer<'_> {
     fn turned_feed(&mut self, end: [f64; 3], pitch: f64) -> Result<(), TraceFault> {
         let pace = self.pace_of(pitch * self.modes.revolutions());
         self.path.line(&self.offsets, end, pace)?;
-        self.place = end;
+        self.position = end;
         Ok(())
     }
 
@@ -96,7 +96,7 @@ impl Tracer<'_> {
             2 => [false, true],
             _ => [true, true],
         };
-        let start = self.place;
+        let start = self.position;
         let halved = if self.modes.diameter { 0.5 } else { 1.0 };
         let thread = Thread {
             pitch,
@@ -119,7 +119,7 @@ impl Tracer<'_> {
         }
     }
 
-    /// One pass and the way to it; it ends beside the thread.
+    /// One pass and the path to it; it ends beside the thread.
     fn pass(&mut self, thread: &Thread, depth: f64) -> Result<(), TraceFault> {
         let inward = if thread.crest < 0.0 { -1.0 } else { 1.0 };
         let [x, y, z] = thread.start;
@@ -145,14 +145,14 @@ impl Tracer<'_> {
         self.rapid([beside, y, end])
     }
 
-    /// G70 to G72: to the place that is named, and along the contour.
+    /// G70 to G72: to the position that is named, and along the contour.
     pub(super) fn contour(&mut self, block: &Block) -> Result<Next, TraceFault> {
         self.note(Gap::Contour);
         let label = block.count(b'q', "Q of a contour")?.ok_or(TraceFault::WordMissing { what: "Q of a contour" })?;
         let words = self.lengths(block);
-        let place = self.place;
+        let position = self.position;
         if words[X].is_some() || words[Z].is_some() {
-            self.rapid([words[X].unwrap_or(place[X]), place[1], words[Z].unwrap_or(place[Z])])?;
+            self.rapid([words[X].unwrap_or(position[X]), position[1], words[Z].unwrap_or(position[Z])])?;
         }
         self.call_contour(&label.to_string())
     }

@@ -40,11 +40,11 @@ pub(super) struct Tracer<'f> {
     pub(super) modes: Modes,
     pub(super) offsets: Offsets,
     /// Where the tip stands, in the program's coordinates, mm.
-    pub(super) place: [f64; 3],
+    pub(super) position: [f64; 3],
     /// Whether G20 or G21 came, or it was noted that none did.
     pub(super) unit_stated: bool,
-    /// Which axes have been placed.
-    pub(super) placed: [bool; 3],
+    /// Which axes have had a position.
+    pub(super) positioned: [bool; 3],
     /// T.
     pub(super) selected: Option<u32>,
     /// The tool in the spindle.
@@ -88,9 +88,9 @@ impl<'f> Tracer<'f> {
             parameters: Parameters::new(),
             modes: Modes::default(),
             offsets: Offsets::default(),
-            place: [0.0; 3],
+            position: [0.0; 3],
             unit_stated: false,
-            placed: [false; 3],
+            positioned: [false; 3],
             selected: None,
             loaded: 0,
             lengths: HashMap::new(),
@@ -171,7 +171,7 @@ impl<'f> Tracer<'f> {
         Next::End
     }
 
-    /// What the program says to the operator: `(MSG, ...)`, `(PRINT, ...)`, `(DEBUG, ...)`.
+    /// What the program states to the operator: `(MSG, ...)`, `(PRINT, ...)`, `(DEBUG, ...)`.
     fn remarks(&mut self, line: &Line) -> Result<(), TraceFault> {
         for comment in &line.comments {
             let Some((kind, text)) = comment.split_once(',') else { continue };
@@ -229,7 +229,7 @@ impl<'f> Tracer<'f> {
         }
         match user {
             Some(code) if codes::moves(code) => self.motion(block, code),
-            Some(code) => self.place_offsets(block, code).map(|()| Next::Line),
+            Some(code) => self.set_offsets(block, code).map(|()| Next::Line),
             None if self.unknown_motion(block) => Ok(Next::Line),
             None if block.m.iter().any(|code| !codes::knows_m(*code)) => Ok(Next::Line),
             None if self.goes_on(block) => self.motion(block, self.modes.motion),
@@ -247,7 +247,7 @@ impl<'f> Tracer<'f> {
     /// Whether a block without a motion code moves by the one in force.
     fn goes_on(&self, block: &Block) -> bool {
         let arc = matches!(self.modes.motion, 20 | 30);
-        block.places() || arc && block.offsets().iter().any(Option::is_some)
+        block.positions() || arc && block.offsets().iter().any(Option::is_some)
     }
 
     fn stop(&mut self, block: &Block, next: Next) -> Result<Next, TraceFault> {

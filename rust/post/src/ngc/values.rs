@@ -37,17 +37,17 @@ impl Tracer<'_> {
         system.origin.get(item).copied().unwrap_or(system.turn_deg)
     }
 
-    /// The place in the unit in force.
-    fn place_in_unit(&self, axis: usize) -> f64 {
-        self.place.get(axis).copied().unwrap_or_default() / self.modes.unit()
+    /// The position in the unit in force.
+    fn position_in_unit(&self, axis: usize) -> f64 {
+        self.position.get(axis).copied().unwrap_or_default() / self.modes.unit()
     }
 
     fn machine_in_unit(&self, axis: usize) -> f64 {
-        self.offsets.in_machine(self.place).get(axis).copied().unwrap_or_default() / self.modes.unit()
+        self.offsets.in_machine(self.position).get(axis).copied().unwrap_or_default() / self.modes.unit()
     }
 
-    /// A parameter that tells the state.
-    fn told(&self, name: &str) -> Option<f64> {
+    /// A parameter that reports the state.
+    fn state_of(&self, name: &str) -> Option<f64> {
         let modes = &self.modes;
         let common = &modes.common;
         let inch = common.unit == Some(LengthUnit::Inch);
@@ -91,9 +91,9 @@ impl Tracer<'_> {
             "_feed" if common.feed.mode == FeedMode::InverseTime => modes.feed(),
             "_feed" => modes.feed() / modes.unit(),
             "_rpm" => common.speed,
-            "_x" => self.place_in_unit(0),
-            "_y" => self.place_in_unit(1),
-            "_z" => self.place_in_unit(2),
+            "_x" => self.position_in_unit(0),
+            "_y" => self.position_in_unit(1),
+            "_z" => self.position_in_unit(2),
             "_abs_x" => self.machine_in_unit(0),
             "_abs_y" => self.machine_in_unit(1),
             "_abs_z" => self.machine_in_unit(2),
@@ -126,7 +126,7 @@ impl Values for Tracer<'_> {
             5220 => Some(self.offsets.index as f64 + 1.0),
             5400 => Some(f64::from(self.loaded)),
             5401..=5403 => self.offsets.tool.get(number - 5401).map(|offset| offset / self.modes.unit()),
-            5420..=5422 => Some(self.place_in_unit(number - 5420)),
+            5420..=5422 => Some(self.position_in_unit(number - 5420)),
             _ => self.parameters.number(number),
         }
     }
@@ -135,6 +135,6 @@ impl Values for Tracer<'_> {
         if !name.starts_with('_') {
             return self.local(name);
         }
-        self.told(name).or_else(|| self.parameters.global(name))
+        self.state_of(name).or_else(|| self.parameters.global(name))
     }
 }

@@ -148,7 +148,7 @@ impl Block {
         self.words.offsets()
     }
 
-    /// Leaves out an arc's offsets of 0 where there are others: FreeCAD says all three.
+    /// Leaves out an arc's offsets of 0 where there are others: FreeCAD writes all three.
     pub(crate) fn drop_idle_offsets(&mut self) {
         let offsets = self.offsets().into_iter().flatten();
         for word in offsets.clone().filter(|word| offsets.clone().count() > 2 && word.number.value() == 0.0) {

@@ -1,4 +1,4 @@
-//! Cycles that are defined once and called at places: Sinumerik's MCALL, Heidenhain's CYCL DEF.
+//! Cycles that are defined once and called at positions: Sinumerik's MCALL, Heidenhain's CYCL DEF.
 
 use styluscam_motion::CycleKind;
 
@@ -24,10 +24,10 @@ pub(super) struct Called {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Pace {
     /// By the feed in force.
-    Standing,
-    /// As the words of a block would say it.
+    InForce,
+    /// As the words of a block would state it.
     Feed(Number),
-    /// mm in a revolution, and the speed where the cycle says it, rev/min.
+    /// mm in a revolution, and the speed where the cycle states it, rev/min.
     Pitch(f64, Option<f64>),
 }
 
@@ -51,7 +51,7 @@ impl Arguments {
         std::array::from_fn(|index| self.0.get(first + index).copied().flatten())
     }
 
-    /// Whether those from an index on say nothing.
+    /// Whether those from an index on state nothing.
     fn end_at(&self, index: usize) -> bool {
         self.0.iter().skip(index).flatten().all(|value| *value == 0.0)
     }
@@ -87,7 +87,7 @@ impl Called {
             leave: return_plane.ok_or(MISSING)?,
             peck: 0.0,
             dwell: 0.0,
-            pace: Pace::Standing,
+            pace: Pace::InForce,
             modal: true,
         };
         let none = |value: Option<f64>| value.is_none_or(|value| value == 0.0);
@@ -128,7 +128,7 @@ impl Called {
 
     /// Cycles 200, 203 and 207 (TNC 320 user's manual 7/2008 p. 238, Autodesk Heidenhain post); `unit` is that of the program, mm.
     pub fn heidenhain(cycle: u32, parameters: &Parameters, unit: f64) -> Result<Self, ReadFault> {
-        let said = |q: u32| parameters.value(q).unwrap_or(0.0);
+        let stated = |q: u32| parameters.value(q).unwrap_or(0.0);
         let length = |q: u32| parameters.value(q).map(|value| value * unit).ok_or(MISSING);
         let (surface, clearance, depth) = (length(203)?, length(200)?, length(201)?);
         if depth >= 0.0 || clearance < 0.0 {
@@ -142,8 +142,8 @@ impl Called {
             bottom: surface + depth,
             leave: retract.max(surface + length(204)?),
             peck: 0.0,
-            dwell: said(211),
-            pace: Pace::Standing,
+            dwell: stated(211),
+            pace: Pace::InForce,
             modal: false,
         };
         let known: &[u32] = match cycle {
@@ -151,7 +151,7 @@ impl Called {
             203 => &[200, 201, 202, 203, 204, 206, 208, 211, 213, 256],
             _ => &[200, 201, 203, 204, 239],
         };
-        if !parameters.others_say_nothing(known) {
+        if !parameters.others_are_idle(known) {
             return Err(OTHER);
         }
         match cycle {
@@ -161,7 +161,7 @@ impl Called {
                 let kind = if whole { CycleKind::Drill } else { CycleKind::Peck };
                 Ok(Self { kind, peck: if whole { 0.0 } else { peck }, pace: pace(parameters.feed(206))?, ..base })
             }
-            203 if said(213) > 0.0 && parameters.is_max(208) => {
+            203 if stated(213) > 0.0 && parameters.is_max(208) => {
                 Ok(Self { kind: CycleKind::ChipBreak, peck: length(202)?, pace: pace(parameters.feed(206))?, ..base })
             }
             207 => {
@@ -208,7 +208,7 @@ impl Parameters {
         self.0.iter().any(|(known, number)| *known == q && number.is_none())
     }
 
-    fn others_say_nothing(&self, known: &[u32]) -> bool {
+    fn others_are_idle(&self, known: &[u32]) -> bool {
         let idle = |number: &Option<Number>| number.is_some_and(|number| number.value() == 0.0);
         self.0.iter().all(|(q, number)| known.contains(q) || idle(number))
     }

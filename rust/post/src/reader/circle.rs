@@ -16,7 +16,7 @@ const SLACK: Slack = Slack { absolute: 0.0025, relative: 0.0 };
 /// Where an arc starts and ends and how its words are to be taken.
 pub(crate) struct Circle {
     pub ends: Ends,
-    /// Whether I, J and K are places, not steps from the start.
+    /// Whether I, J and K are positions, not steps from the start.
     pub absolute: bool,
     /// Height of the posted point above the tip, mm.
     pub height: f64,
@@ -64,7 +64,7 @@ impl Circle {
         }
         let [first, second, _] = self.ends.plane.axes();
         if self.absolute && [first, second].iter().any(|axis| block.offsets()[*axis].is_none()) {
-            return Err((ReadFault::MissingWord { what: "one of the centre's two places (G90.1)" }, Some(code)));
+            return Err((ReadFault::MissingWord { what: "one of the centre's two coordinates (G90.1)" }, Some(code)));
         }
         let mut offsets = [None; 3];
         for (offset, word) in offsets.iter_mut().zip(block.offsets()) {

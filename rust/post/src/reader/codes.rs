@@ -1,4 +1,4 @@
-//! What a machine's file says about codes that differ from controller to controller.
+//! What a machine's file states about codes that differ from controller to controller.
 
 use std::collections::BTreeMap;
 
@@ -72,13 +72,13 @@ impl Codes {
     pub fn wcs(&self, word: Word, p: Option<Word>, h: Option<Word>) -> Option<usize> {
         let found = (word.letter, word.number.tenths()?);
         self.wcs.iter().position(|(code, number)| {
-            let said = match number {
+            let stated = match number {
                 Some((b'P', tenths)) => p.is_some_and(|w| w.number.tenths() == Some(*tenths)),
                 Some((b'H', tenths)) => h.is_some_and(|w| w.number.tenths() == Some(*tenths)),
                 Some(_) => false,
                 None => true,
             };
-            *code == found && said
+            *code == found && stated
         })
     }
 

@@ -4,7 +4,7 @@ use styluscam_motion::{Cycle, CycleKind};
 
 use crate::read_error::ReadFault;
 
-/// What was said since the cycle's code.
+/// What was stated since the cycle's code.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Series {
     /// G81 to G89, G73, G74.
@@ -29,7 +29,7 @@ impl Series {
         before.filter(|series| series.number == number).unwrap_or(new)
     }
 
-    /// The hole at a place; `low` says that it ends at the retract plane.
+    /// The hole at a position; `low` is set when it ends at the retract plane.
     pub fn hole(&self, at: [f64; 2], feed: f64, low: bool) -> Result<Cycle, ReadFault> {
         let missing = |what| ReadFault::MissingWord { what };
         let bottom = self.bottom.ok_or(missing("the depth (Z) of the cycle"))?;

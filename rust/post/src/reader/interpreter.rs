@@ -1,9 +1,9 @@
 //! The controller's state while a program is read, and the motion that its blocks make.
 
-mod elsewhere;
 mod holes;
+mod machine_frame;
 mod numbers;
-mod places;
+mod positions;
 mod switches;
 mod tools;
 
@@ -20,9 +20,9 @@ use super::called::Called;
 use super::circle::Circle;
 use super::codes::Codes;
 use super::drilling::Series;
+use super::in_force::InForce;
 use super::lexer::{Flaw, Word};
 use super::reading::Reading;
-use super::standing::Standing;
 use crate::block::arc::Ends;
 use crate::block::{Code, Modes, Motion};
 use crate::machine::Machine;
@@ -38,12 +38,12 @@ const TYPICAL_LINE: usize = 20;
 #[derive(Clone, Copy, Debug, Default)]
 struct Axis {
     /// The last place commanded.
-    place: f64,
+    position: f64,
     /// Whether it stands there still.
     known: bool,
-    /// Whether it was ever placed.
+    /// Whether it ever had a position.
     ever: bool,
-    /// The first move since it is not known; that move and the following ones take the next place commanded.
+    /// The first move since it is not known; that move and the following ones take the next position commanded.
     pending: usize,
 }
 
@@ -51,22 +51,22 @@ struct Axis {
 pub(crate) struct Interpreter<'m> {
     machine: &'m Machine,
     modes: Modes,
-    distance_said: bool,
-    /// Codes that the first move relies on and that no block has said.
-    unsaid: Vec<&'static str>,
+    distance_stated: bool,
+    /// Codes that the first move relies on and that no block has stated.
+    not_stated: Vec<&'static str>,
     motion: Option<Motion>,
     /// Since which move another plane than G17 is in force and no arc has used it.
-    stray_plane_since: Option<usize>,
-    stray_planes: Vec<Range<usize>>,
+    plane_not_needed_since: Option<usize>,
+    planes_not_needed: Vec<Range<usize>>,
     /// Since which move Z is not known.
-    blind_since: Option<usize>,
-    blind: Vec<Range<usize>>,
+    unknown_height_since: Option<usize>,
+    unknown_heights: Vec<Range<usize>>,
     machine_moves: Vec<MachineMove>,
     stops: Vec<usize>,
     /// Whether a stop has stopped the spindle, which turned, and nothing has started it since.
     halted: bool,
     series: Option<Series>,
-    /// The cycle that is called at places.
+    /// The cycle that is called at positions.
     called: Option<Called>,
     selected: Option<u32>,
     tool: Option<u32>,
@@ -77,17 +77,17 @@ pub(crate) struct Interpreter<'m> {
     learned: BTreeMap<u32, u32>,
     /// The line of the first feed move without a length offset.
     bare_line: Option<u32>,
-    /// Whether these are FreeCAD's commands: rapids before the first tool are left out (the way to the work is told after it
+    /// Whether these are FreeCAD's commands: rapids before the first tool are left out (the path to the work is stated after it
     /// again), and so are the feeds of rapids and those of 0.
     loose: bool,
-    standing: Standing,
+    in_force: InForce,
     /// Whether D0 is in force.
     without_edge: bool,
     axes: [Axis; 3],
-    unplaced_since: Option<usize>,
-    unplaced: Vec<Range<usize>>,
+    unknown_since: Option<usize>,
+    unknown_positions: Vec<Range<usize>>,
     wcs: Option<String>,
-    /// The work offset in force, where one was called on the way.
+    /// The work offset in force, where one was called between moves.
     wcs_now: Option<String>,
     label: Option<(String, String)>,
     operation_due: bool,
@@ -99,13 +99,13 @@ impl<'m> Interpreter<'m> {
         Self {
             machine,
             modes: Modes::new(machine.reader.default_units, false),
-            distance_said: false,
-            unsaid: Vec::new(),
+            distance_stated: false,
+            not_stated: Vec::new(),
             motion: None,
-            stray_plane_since: None,
-            stray_planes: Vec::new(),
-            blind_since: Some(0),
-            blind: Vec::new(),
+            plane_not_needed_since: None,
+            planes_not_needed: Vec::new(),
+            unknown_height_since: Some(0),
+            unknown_heights: Vec::new(),
             machine_moves: Vec::new(),
             stops: Vec::new(),
             halted: false,
@@ -118,11 +118,11 @@ impl<'m> Interpreter<'m> {
             learned: BTreeMap::new(),
             bare_line: None,
             loose: false,
-            standing: Standing::new(),
+            in_force: InForce::new(),
             without_edge: false,
             axes: [Axis::default(); 3],
-            unplaced_since: Some(0),
-            unplaced: Vec::new(),
+            unknown_since: Some(0),
+            unknown_positions: Vec::new(),
             wcs: None,
             wcs_now: None,
             label: None,
@@ -140,12 +140,12 @@ impl<'m> Interpreter<'m> {
         self.event(EventKind::Comment { text: text.into() });
     }
 
-    /// FreeCAD's commands are read; the work offset may change on the way, as in a program that no job is known of.
+    /// FreeCAD's commands are read; the work offset may change between moves, as in a program that no job is known of.
     pub(crate) fn loosen(&mut self) {
         self.loose = true;
     }
 
-    /// A cycle is defined for the places that call it, or none.
+    /// A cycle is defined for the positions that call it, or none.
     pub(super) fn define(&mut self, called: Option<Called>) {
         self.called = called;
     }
@@ -161,7 +161,7 @@ impl<'m> Interpreter<'m> {
         kind.into_iter().for_each(|kind| self.event(kind.clone()));
     }
 
-    /// Carries out a block, in the order in which controllers do; says whether it ended the program.
+    /// Carries out a block, in the order in which controllers do; returns whether it ended the program.
     pub(crate) fn run(&mut self, block: &Block, codes: &Codes, line: u32) -> Result<bool, Flaw> {
         self.set_units(block)?;
         self.take_modes(block, |code| matches!(code, Code::FeedMode(_)));
@@ -173,12 +173,12 @@ impl<'m> Interpreter<'m> {
         self.set_coolant(block, !late);
         self.dwell(block)?;
         let letter = self.length_word();
-        self.standing.take_length(block, self.job_tool().map(|tool| tool.length_offset), letter)?;
+        self.in_force.take_length(block, self.job_tool().map(|tool| tool.length_offset), letter)?;
         self.learn_length(block)?;
         self.set_path(block)?;
         self.set_edge(block)?;
         self.set_wcs(block, codes)?;
-        self.distance_said |= block.incremental().is_some();
+        self.distance_stated |= block.incremental().is_some();
         if let Some((plane, _)) = block.plane() {
             self.set_plane(plane);
         }
@@ -200,9 +200,9 @@ impl<'m> Interpreter<'m> {
     }
 
     fn set_path(&mut self, block: &Block) -> Result<(), Flaw> {
-        let mut standing = self.standing;
-        standing.take_path(block, |word| self.mm(word))?;
-        self.standing = standing;
+        let mut in_force = self.in_force;
+        in_force.take_path(block, |word| self.mm(word))?;
+        self.in_force = in_force;
         if let Some(code) = block.smoothing().filter(|_| self.loose) {
             let text = format!("G{} left out, the machine's file says how the path is kept", code.number.value());
             self.event(EventKind::Comment { text });
@@ -241,14 +241,15 @@ impl<'m> Interpreter<'m> {
     }
 
     fn set_plane(&mut self, plane: Plane) {
-        self.close_stray_plane();
+        self.close_plane_not_needed();
         self.modes.plane = plane;
-        self.stray_plane_since = (plane != Plane::Xy).then_some(self.program.moves.len());
+        self.plane_not_needed_since = (plane != Plane::Xy).then_some(self.program.moves.len());
     }
 
-    fn close_stray_plane(&mut self) {
+    fn close_plane_not_needed(&mut self) {
         let moves = self.program.moves.len();
-        self.stray_planes.extend(self.stray_plane_since.take().map(|since| since..moves).filter(|run| !run.is_empty()));
+        self.planes_not_needed
+            .extend(self.plane_not_needed_since.take().map(|since| since..moves).filter(|run| !run.is_empty()));
     }
 
     fn go(&mut self, block: &Block, line: u32) -> Result<(), Flaw> {
@@ -259,7 +260,7 @@ impl<'m> Interpreter<'m> {
             return self.drill_here(block, called, word, line);
         }
         if let Some(code) = block.machine_coordinates() {
-            return self.go_to_machine_place(block, code, line);
+            return self.go_to_machine_position(block, code, line);
         }
         if let Some(code) = block.home() {
             return self.go_home(block, code, line);
@@ -293,21 +294,21 @@ impl<'m> Interpreter<'m> {
         }
         let start = self.tip();
         if let Some(Motion::Arc(_)) = self.motion {
-            self.require_places(first)?;
+            self.require_positions(first)?;
         }
-        self.place_axes(block)?;
+        self.position_axes(block)?;
         self.turn_axes(block)?;
         if kind == MoveKind::Feed {
-            self.require_places(first)?;
+            self.require_positions(first)?;
             if self.halted {
                 return Err((ReadFault::Halted, Some(first)));
             }
-            let bare = self.machine.tool.length.is_some() && !self.standing.has_length();
+            let bare = self.machine.tool.length.is_some() && !self.in_force.has_length();
             self.bare_line = self.bare_line.or(bare.then_some(line));
         }
         let arc = match self.motion {
             Some(Motion::Arc(clockwise)) => {
-                self.stray_plane_since = None;
+                self.plane_not_needed_since = None;
                 Some(self.arc(block, start, clockwise, first)?)
             }
             _ => None,
@@ -326,17 +327,17 @@ impl<'m> Interpreter<'m> {
     /// A block of the machine's own, which moves nothing; `tolerance` is what it sets the path's to, mm.
     pub(crate) fn pass(&mut self, text: &str, tolerance: Option<f64>) {
         if let Some(tolerance) = tolerance {
-            self.standing.keep_path(tolerance);
+            self.in_force.keep_path(tolerance);
         }
         self.event(EventKind::Raw { text: text.trim().into() });
     }
 
-    /// Whether a canned cycle is in force once a block has said its word.
+    /// Whether a canned cycle is in force after a block.
     pub(crate) fn cycle_after(&self, block: &Block) -> bool {
         matches!(block.motion().map(|(motion, _)| motion).or(self.motion), Some(Motion::Cycle(_)))
     }
 
-    /// Whether an arc is in force once a block has said its word.
+    /// Whether an arc is in force after a block.
     pub(crate) fn arc_after(&self, block: &Block) -> bool {
         matches!(block.motion().map(|(motion, _)| motion).or(self.motion), Some(Motion::Arc(_)))
     }
@@ -360,11 +361,11 @@ impl<'m> Interpreter<'m> {
     }
 
     fn push_move_to(&mut self, end: [f64; 3], kind: MoveKind, arc: Option<Arc>, feed: f64, line: u32) {
-        self.close_unplaced();
+        self.close_unknown();
         if self.program.moves.is_empty() {
-            self.unsaid.extend((!self.distance_said).then_some("G90"));
+            self.not_stated.extend((!self.distance_stated).then_some("G90"));
             let choice = self.machine.wcs.len() > 1;
-            self.unsaid.extend((choice && self.wcs.is_none()).then_some("G54"));
+            self.not_stated.extend((choice && self.wcs.is_none()).then_some("G54"));
         }
         let operation = self.operation();
         self.program.moves.push(Move { kind, end, arc, feed, operation, line });
@@ -383,13 +384,13 @@ impl<'m> Interpreter<'m> {
         u32::try_from(self.program.operations.len().saturating_sub(1)).unwrap_or(u32::MAX)
     }
 
-    /// What was read; whether the program ended is the reader's to say.
+    /// What was read; whether the program ended is the reader's to decide.
     pub(crate) fn finish(mut self, ended: bool, lines: u32, optional_lines: Vec<u32>) -> Result<Reading, ReadFault> {
-        if let Some(since) = self.unplaced_since {
-            self.note_unplaced(since);
+        if let Some(since) = self.unknown_since {
+            self.note_unknown(since);
         }
-        self.end_blindness();
-        self.close_stray_plane();
+        self.end_unknown_height();
+        self.close_plane_not_needed();
         if !self.program.moves.is_empty() {
             if let Some((_, axis)) = self.axes.iter().zip(AXES).find(|(axis, _)| !axis.ever) {
                 return Err(ReadFault::NeverPlaced { axis });
@@ -397,16 +398,16 @@ impl<'m> Interpreter<'m> {
         }
         let first = self.machine.wcs.first().cloned().unwrap_or_default();
         self.program.setup.wcs = self.wcs.unwrap_or(first);
-        let first_placed_move = self.unplaced.first().filter(|run| run.start == 0).map_or(0, |run| run.end);
+        let first_known_move = self.unknown_positions.first().filter(|run| run.start == 0).map_or(0, |run| run.end);
         Ok(Reading {
-            first_placed_move,
-            blind: self.blind,
+            first_known_move,
+            unknown_heights: self.unknown_heights,
             machine_moves: self.machine_moves,
             optional_lines,
             bare_line: self.bare_line,
-            unsaid: self.unsaid,
-            unplaced: self.unplaced,
-            stray_planes: self.stray_planes,
+            not_stated: self.not_stated,
+            unknown_positions: self.unknown_positions,
+            planes_not_needed: self.planes_not_needed,
             stops: self.stops,
             lines,
             ended,

@@ -247,7 +247,7 @@ impl Reader<'_> {
         Ok(block)
     }
 
-    /// CYCL DEF: 9 waits, 32 says how far the path may be left, 247 chooses a datum, 200, 203 and 207 drill where they are called.
+    /// CYCL DEF: 9 waits, 32 states how far the path may be left, 247 chooses a datum, 200, 203 and 207 drill where they are called.
     fn cycle(&mut self, tokens: &[Token]) -> Result<Option<Block>, Misfit> {
         let Some(first) = tokens.first() else { return Ok(None) };
         let value = |address: &str, letter| {
@@ -291,8 +291,8 @@ impl Reader<'_> {
         let (Some((cycle, mut parameters)), [first]) = (self.cycle.take(), tokens) else {
             return Err(tokens[0].misfit(ReadFault::UnknownWords));
         };
-        let said = first.text.strip_prefix('Q').and_then(|said| said.split_once('='));
-        let (q, value) = said.ok_or_else(|| first.misfit(ReadFault::UnknownWord))?;
+        let stated = first.text.strip_prefix('Q').and_then(|stated| stated.split_once('='));
+        let (q, value) = stated.ok_or_else(|| first.misfit(ReadFault::UnknownWord))?;
         let q = q.parse().map_err(|_| first.misfit(ReadFault::UnknownWord))?;
         let value = if value == "MAX" { None } else { Some(number(value).map_err(|fault| first.misfit(fault))?) };
         parameters.push(q, value).map_err(|fault| first.misfit(fault))?;
@@ -316,7 +316,7 @@ impl Reader<'_> {
     }
 }
 
-/// The way along the tool to the end of its axis, which is at or over the machine's zero.
+/// The path along the tool to the end of its axis, which is at or over the machine's zero.
 fn away(token: &Token) -> Block {
     let word = token.code(b'M');
     let mut block = Block::of(&[Code::MachineCoordinates, Code::Motion(Motion::Rapid)], word);

@@ -48,7 +48,7 @@ impl<'t> Line<'t> {
         self.cut_by(text, taken, Self::cut_word)
     }
 
-    /// The same for words that are cut in another way.
+    /// The same for words that are cut otherwise.
     pub(super) fn cut_by(&mut self, text: &'t str, taken: Comments, cut_address: CutAddress<'t>) -> Result<(), Misfit> {
         self.words.clear();
         self.comments.clear();
@@ -76,7 +76,7 @@ impl<'t> Line<'t> {
             CommentFault::Nested(end) => Misfit { fault: ReadFault::NestedComment, start, end },
         };
         let comment = taken.at(text, start, self.words.is_empty()).map_err(misfit)?;
-        let (comment, end) = comment.ok_or_else(|| stranger(text, start))?;
+        let (comment, end) = comment.ok_or_else(|| unexpected(text, start))?;
         self.comments.push(comment);
         Ok(end)
     }
@@ -90,7 +90,7 @@ impl<'t> Line<'t> {
     }
 }
 
-fn stranger(text: &str, start: usize) -> Misfit {
+fn unexpected(text: &str, start: usize) -> Misfit {
     let character = text.get(start..).and_then(|t| t.chars().next()).unwrap_or('?');
     let fault = match character {
         '#' | '[' | '=' | '<' => ReadFault::NotRead { what: "parameters and expressions" },

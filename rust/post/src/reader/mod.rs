@@ -6,12 +6,12 @@ mod circle;
 mod codes;
 mod drilling;
 mod errors;
+mod in_force;
 mod interpreter;
 mod klartext;
 mod lexer;
 mod reading;
 mod siemens;
-mod standing;
 
 use styluscam_motion::{EventKind, ToolRecord};
 
@@ -33,10 +33,10 @@ const NO_RADIUS: u8 = 0;
 
 /// Reads `text` as `machine` would, strictly: what is not understood is an error, never skipped.
 ///
-/// `tools` are the job's: places are those of the active tool's tip, `reference_height` below the coordinates. Without
+/// `tools` are the job's: positions are those of the active tool's tip, `reference_height` below the coordinates. Without
 /// any, tools are made up from their numbers and coordinates are taken for the tip's. A job's only tool need not be
-/// called. An axis that has not been commanded takes the first place commanded for it; feed moves are refused until all
-/// three have a place. After a tool change that holds for Z, after G53 for its axes: its move is a remark only.
+/// called. An axis that has not been commanded takes the first position commanded for it; feed moves are refused until all
+/// three have a position. After a tool change that holds for Z, after G53 for its axes: its move is a remark only.
 /// M0 and M1 become remarks too. On machines without M6 a T word is the tool change.
 ///
 /// # Errors
@@ -292,7 +292,7 @@ impl<'t> Reader<'t> {
         self.interpreter.run(&block, &self.codes, number)
     }
 
-    /// Sinumerik's cycles are called at every place from here on, or at none.
+    /// Sinumerik's cycles are called at every position from here on, or at none.
     fn call(&mut self, call: Call) -> Result<(), ReadFault> {
         let Some((name, arguments)) = call.cycle else {
             self.interpreter.define(None);
@@ -327,8 +327,8 @@ impl<'t> Reader<'t> {
         if !self.line.words.iter().any(passed) {
             return Ok(false);
         }
-        let strange = |word: &&Word| b"GMXYZIJKRABCUVWFST".contains(&word.letter) && !passed(word);
-        match self.line.words.iter().find(strange) {
+        let foreign = |word: &&Word| b"GMXYZIJKRABCUVWFST".contains(&word.letter) && !passed(word);
+        match self.line.words.iter().find(foreign) {
             Some(word) => Err((ReadFault::StrayWord, Some(*word))),
             None => Ok(true),
         }

@@ -71,8 +71,8 @@ impl<'t> Line<'t> {
         Ok(end)
     }
 
-    /// `CYCLE832(0.01,1,1)` says how far the path may be left, in the program's units; without numbers, or with a second
-    /// one of 0, that nothing says so (NC programming 12/2019 p. 1108).
+    /// `CYCLE832(0.01,1,1)` states how far the path may be left, in the program's units; without numbers, or with a second
+    /// one of 0, that nothing states it (NC programming 12/2019 p. 1108).
     fn cut_tolerance(&mut self, text: &'t str, start: usize) -> Result<usize, Misfit> {
         let open = start + "CYCLE832(".len();
         let rest = text.get(open..).unwrap_or_default();

@@ -19,7 +19,7 @@ pub(super) struct Case {
 }
 
 impl Case {
-    /// The tools that the reader is told.
+    /// The tools that the reader is given.
     pub fn tools(&self) -> &[ToolRecord] {
         if self.foreign {
             &[]
@@ -134,12 +134,12 @@ impl Bench {
         }
     }
 
-    /// A place; -1 to 1 is the room along each axis.
+    /// A position; -1 to 1 is the room along each axis.
     fn at(&self, share: [f64; 3]) -> [f64; 3] {
         [0, 1, 2].map(|axis| self.centre[axis] + share[axis] * self.size[axis])
     }
 
-    /// A place so many mm from the middle.
+    /// A position so many mm from the middle.
     fn off(&self, mm: [f64; 3]) -> [f64; 3] {
         [0, 1, 2].map(|axis| self.centre[axis] + if self.lathe && axis == 1 { 0.0 } else { mm[axis] })
     }
@@ -257,7 +257,7 @@ fn operations(bench: &Bench, machine: &Machine) -> Draft {
     draft
 }
 
-/// Steps about the last place, halves of it, places that round to where the tool stands, and back over zero.
+/// Steps about the last place, halves of it, positions that round to where the tool stands, and back over zero.
 fn edges(bench: &Bench) -> Draft {
     let mut draft = Draft::start(bench);
     for step in
@@ -346,7 +346,7 @@ fn tiny_arcs(bench: &Bench) -> Draft {
     draft
 }
 
-/// Short ways on circles of 1 to 1000 m.
+/// Short paths on circles of 1 to 1000 m.
 fn large_arcs(bench: &Bench) -> Draft {
     let mut draft = Draft::start(bench);
     let plane = if bench.lathe { Plane::Zx } else { Plane::Xy };
@@ -413,7 +413,7 @@ fn spindle(bench: &Bench, direction: SpindleDirection) -> Draft {
 fn coolant(bench: &Bench, kind: fn(bool) -> EventKind) -> Draft {
     let mut draft = Draft::start(bench);
     for on in [true, false] {
-        // all coolant goes off by one word, which says so of flood too
+        // all coolant goes off by one word, which switches flood off too
         draft.event(kind(on));
         draft.feed(bench.off([bench.fits(if on { 1.0 } else { 2.0 }), 0.0, 0.0]), bench.feed);
     }
@@ -443,7 +443,7 @@ fn waits(bench: &Bench) -> Draft {
     draft
 }
 
-/// Five holes: two alike, one deeper, one that ends lower, one at another place.
+/// Five holes: two alike, one deeper, one that ends lower, one at another position.
 fn holes(bench: &Bench, kind: CycleKind, peck: f64, dwell: f64) -> Draft {
     let mut draft = Draft::start(bench);
     let direction =
@@ -567,7 +567,7 @@ fn feed_modes(bench: &Bench, machine: &Machine) -> Vec<Case> {
     out
 }
 
-/// A place beyond each end of each axis must be refused.
+/// A position beyond each end of each axis must be refused.
 fn outside(bench: &Bench, machine: &Machine) -> Vec<Case> {
     let limits = &machine.limits;
     let mut out = Vec::new();

@@ -10,10 +10,10 @@ use crate::writer::Posted;
 const FEED_SLACK: f64 = 1e-9;
 /// Places are compared with this slack over and above their rounding, mm.
 const SLACK: f64 = 1e-9;
-/// An arc's centre is rounded too: its way may leave the planned one by so many last places.
+/// An arc's centre is rounded too: its path may leave the planned one by so many last places.
 const ARC_PLACES: f64 = 3.0;
 
-/// A way whose ends are rounded may be longer or shorter by so many last places.
+/// A path whose ends are rounded may be longer or shorter by so many last places.
 const PLACES_OF_A_WAY: f64 = 4.0;
 
 /// An arc of a few last places may turn so much farther once rounded, rad.
@@ -77,7 +77,7 @@ fn event_difference(program: &Program, posted: &Posted, reading: &Reading, machi
         match came.get(index) {
             Some((there, found)) if same_event(kind, found, machine) => {
                 if there != line {
-                    return Some((*there, format!("{kind:?} comes at another place, not behind line {line}")));
+                    return Some((*there, format!("{kind:?} comes elsewhere, not after line {line}")));
                 }
             }
             Some((_, found)) => return Some((*line, format!("{kind:?} became {found:?}"))),
@@ -87,7 +87,7 @@ fn event_difference(program: &Program, posted: &Posted, reading: &Reading, machi
     came.get(sent.len()).map(|(line, kind)| (*line, format!("{kind:?} was not posted")))
 }
 
-/// The events that the text must say, each with the line of the move before it, without those that say nothing new; a
+/// The events that the text must state, each with the line of the move before it, without those that state nothing new; a
 /// cycle's own are its moves'.
 fn states(program: &Program, machine: &Machine, line_of_move: impl Fn(usize) -> Option<u32>) -> Vec<(u32, EventKind)> {
     let mut out: Vec<(u32, EventKind)> = Vec::new();
@@ -109,7 +109,7 @@ fn states(program: &Program, machine: &Machine, line_of_move: impl Fn(usize) -> 
         };
         let line = event.before.checked_sub(1).and_then(&line_of_move).unwrap_or(0);
         let last = out.last().filter(|(before, _)| *before == line).map(|(_, kind)| kind.clone());
-        // of several states of the spindle at one place the last one counts; it stops before a tool change by itself
+        // of several states of the spindle at one position the last one counts; it stops before a tool change by itself
         let change = matches!(kind, EventKind::ToolChange { .. });
         if last.as_ref().is_some_and(turns) && (change || turns(&kind)) {
             out.pop();
@@ -133,7 +133,7 @@ fn states(program: &Program, machine: &Machine, line_of_move: impl Fn(usize) -> 
     out
 }
 
-/// What every program ends with, whether it says so or not.
+/// What every program ends with, whether it states it or not.
 fn all_off(moves: usize) -> [Event; 3] {
     [EventKind::Flood { on: false }, EventKind::Mist { on: false }, EventKind::SpindleOff]
         .map(|kind| Event { before: moves, kind })
@@ -149,7 +149,7 @@ fn coolant_said((mist, flood): (bool, bool)) -> EventKind {
     EventKind::Raw { text: format!("mist {mist}, flood {flood}") }
 }
 
-/// What the text need not say.
+/// What the text need not state.
 fn is_silent(kind: &EventKind, machine: &Machine) -> bool {
     match kind {
         EventKind::Comment { .. } | EventKind::Raw { .. } | EventKind::Sync { .. } => true,
@@ -201,11 +201,11 @@ fn move_difference(program: &Program, posted: &Posted, reading: &Reading, machin
         let mut arrived = None;
         let ends_cycle = |c: &&Cycle| machine.takes_cycle(c) && c.first + c.count == index + 1;
         while let Some((from, found)) = read.next_if(|(_, m)| m.line <= *line) {
-            let strays = || match cycle_at(program, index, machine) {
+            let deviation = || match cycle_at(program, index, machine) {
                 Some(cycle) => low_crossing(program, cycle, from, found, machine),
                 None => detour(start, step, found, *line, machine),
             };
-            if let Some(what) = way_difference(start, step, from, found, machine).or_else(strays) {
+            if let Some(what) = path_difference(start, step, from, found, machine).or_else(deviation) {
                 return Some((found.line, what));
             }
             arrived = Some((from, found));
@@ -231,9 +231,9 @@ fn move_difference(program: &Program, posted: &Posted, reading: &Reading, machin
             return Some((*line, format!("its feed is {} instead of {} mm/min", found.feed, step.feed)));
         }
     }
-    let stray = reading.stray_planes.iter().find_map(|run| reading.program.moves.get(run.start));
+    let unneeded = reading.planes_not_needed.iter().find_map(|run| reading.program.moves.get(run.start));
     let more = read.next().map(|(_, found)| (found.line, format!("a move to {:?} was not posted", found.end)));
-    more.or(stray.map(|found| (found.line, "another plane than G17 is in force and no arc uses it".into())))
+    more.or(unneeded.map(|found| (found.line, "another plane than G17 is in force and no arc uses it".into())))
 }
 
 /// The canned cycle that a move belongs to.
@@ -242,7 +242,7 @@ fn cycle_at<'p>(program: &'p Program, index: usize, machine: &Machine) -> Option
     machine.takes_cycle(cycle).then_some(cycle)
 }
 
-/// Whether the way across to a hole is lower than planned.
+/// Whether the path across to a hole is lower than planned.
 fn low_crossing(
     program: &Program,
     cycle: &Cycle,
@@ -254,10 +254,10 @@ fn low_crossing(
     let height = before.map_or(cycle.retract, |step| step.end[2].max(cycle.retract));
     let across = from.is_some_and(|from| (0..2).any(|axis| (from[axis] - found.end[axis]).abs() > SLACK));
     let low = across && found.end[2] < height - machine.resolution_mm() / 2.0 - SLACK;
-    low.then(|| format!("it goes to {:?} mm on the way to a hole", found.end))
+    low.then(|| format!("it goes to {:?} mm before a hole", found.end))
 }
 
-/// Whether a move that was read goes to a place that its step has no business with: templates must not move an axis.
+/// Whether a move that was read goes to a position that its step has no business with: templates must not move an axis.
 fn detour(start: Option<[f64; 3]>, step: &Move, found: &Move, line: u32, machine: &Machine) -> Option<String> {
     if found.line == line || step.arc.is_some() {
         return None;
@@ -280,13 +280,13 @@ fn end_difference(step: &Move, found: &Move, machine: &Machine) -> Option<String
     None
 }
 
-/// How far the feed of a way so long, mm, may come back from the planned one, mm/min: numbers are rounded.
+/// How far the feed of a path so long, mm, may come back from the planned one, mm/min: numbers are rounded.
 fn feed_slack(machine: &Machine, feed: f64, length: f64, rpm: f64) -> f64 {
     let unit = machine.feed_resolution_mm() / 2.0;
     let rounded = match machine.feed.mode {
         FeedMode::PerMinute => unit,
         FeedMode::PerRevolution => unit * rpm + feed * machine.speed_resolution() / rpm,
-        // F times the way, and both are rounded
+        // F times the path, and both are rounded
         FeedMode::InverseTime => {
             let unit = machine.feed_resolution_mm() * machine.feed_scale() / machine.units.output.in_mm() / 2.0;
             unit * length + feed * PLACES_OF_A_WAY * machine.resolution_mm() / length
@@ -308,7 +308,7 @@ fn rpm_at(program: &Program, index: usize) -> f64 {
 }
 
 /// Whether a posted move leaves an arc that it stands for.
-fn way_difference(
+fn path_difference(
     start: Option<[f64; 3]>,
     step: &Move,
     from: Option<[f64; 3]>,
@@ -316,8 +316,8 @@ fn way_difference(
     machine: &Machine,
 ) -> Option<String> {
     let (Some(arc), Some(start), Some(from)) = (step.arc, start, from) else { return None };
-    let way = arc.way(start, step.end);
-    let slack = ARC_PLACES * machine.resolution_mm() + way.mismatch();
+    let path = arc.way(start, step.end);
+    let slack = ARC_PLACES * machine.resolution_mm() + path.mismatch();
     let [first, second, _] = arc.plane.axes();
     let count = found.way(from).map_or(1, |w| w.chords(machine.resolution_mm()));
     let places = (1..=count).map(|i| match found.way(from) {
@@ -326,11 +326,11 @@ fn way_difference(
     });
     let off = |place: [f64; 3]| {
         let radius = libm::hypot(place[first] - arc.centre[first], place[second] - arc.centre[second]);
-        (radius - way.radius()).abs()
+        (radius - path.radius()).abs()
     };
     let worst = places.map(off).fold(0.0, f64::max);
     let sweep = found.way(from).map_or(0.0, |w| w.sweep().abs());
-    let too_far = sweep > way.sweep().abs() + TINY_SWEEP;
+    let too_far = sweep > path.sweep().abs() + TINY_SWEEP;
     (worst > slack || too_far)
         .then(|| format!("it leaves the arc by {worst:.4} mm, over {:.0} degrees", sweep.to_degrees()))
 }

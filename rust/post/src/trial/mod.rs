@@ -17,7 +17,7 @@ use cases::{cases, Case};
 /// A machine file whose own text does not read back.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum TrialError {
-    /// A program could not be posted. Correct the machine file at the place that the error names.
+    /// A program could not be posted. Correct the key of the machine file that the error names.
     #[error("{error}")]
     Post {
         /// What is wrong.
@@ -115,9 +115,9 @@ pub struct Trial {
 pub enum Outcome {
     /// The program came back as it was.
     Passed,
-    /// The machine says in its file that it does not have this, and refuses it.
+    /// The machine states in its file that it does not have this, and refuses it.
     Without {
-        /// What the refusal says.
+        /// The refusal's message.
         reason: String,
     },
     /// The program did not come back.
@@ -188,7 +188,7 @@ pub fn try_out(machine: &Machine) -> Result<(), TrialError> {
 fn tried(case: &Case) -> (Outcome, String) {
     let posted = match post(&case.program, &case.machine) {
         Ok(posted) if case.must_fail => {
-            return (Outcome::Failed(TrialError::Allowed { what: "a place outside the limits" }), posted.text);
+            return (Outcome::Failed(TrialError::Allowed { what: "a position outside the limits" }), posted.text);
         }
         Ok(posted) => posted,
         Err(error) if case.must_fail || lacks(&error) => {
@@ -204,7 +204,7 @@ fn tried(case: &Case) -> (Outcome, String) {
     (failure.map_or(Outcome::Passed, Outcome::Failed), posted.text)
 }
 
-/// Whether the machine refuses what its file says that it does not have.
+/// Whether the machine refuses what its file states that it does not have.
 fn lacks(error: &PostError) -> bool {
     matches!(
         error,

@@ -11,17 +11,17 @@ impl Poster<'_> {
     /// An arc in as many blocks as the machine needs; as lines where it would not take the rounded numbers.
     pub(super) fn arc(&mut self, index: usize, step: &Move, arc: Arc) -> Result<(), PostError> {
         self.position(index)?;
-        let way = arc.way(self.tip.unwrap_or(step.end), step.end);
+        let path = arc.way(self.tip.unwrap_or(step.end), step.end);
         let rules = self.machine.arc.as_ref();
         let (pieces, turns) = match rules {
             Some(rules) if rules.turns != Turns::None && rules.max_sweep_deg >= 360.0 => (1, arc.turns),
-            Some(rules) => ((way.sweep().abs().to_degrees() / rules.max_sweep_deg - 1e-9).ceil().max(1.0) as u32, 0),
+            Some(rules) => ((path.sweep().abs().to_degrees() / rules.max_sweep_deg - 1e-9).ceil().max(1.0) as u32, 0),
             None => (1, 0),
         };
         let arc = Arc { turns, ..arc };
         let share = |i: u32| f64::from(i) / f64::from(pieces);
         for piece in 0..pieces {
-            let part = way.part(share(piece), share(piece + 1));
+            let part = path.part(share(piece), share(piece + 1));
             let rounded = self.rounded(index, arc, &part)?;
             match rules.filter(|rules| rounded.stands_for(&part, rules, self.machine.resolution_mm())) {
                 Some(_) => self.circle(index, step.feed, &rounded, part.length())?,
@@ -31,9 +31,9 @@ impl Poster<'_> {
         Ok(())
     }
 
-    fn rounded(&self, index: usize, arc: Arc, way: &ArcWay) -> Result<RoundedArc, PostError> {
+    fn rounded(&self, index: usize, arc: Arc, path: &ArcWay) -> Result<RoundedArc, PostError> {
         let from = self.position(index)?;
-        let to = self.target(index, way.at(1.0))?;
+        let to = self.target(index, path.at(1.0))?;
         let mut arc_centre = [0; 3];
         let height = self.tool.map_or(0.0, |tool| tool.reference_height);
         for axis in arc.plane.axes().into_iter().take(2) {
@@ -52,11 +52,11 @@ impl Poster<'_> {
         Ok(())
     }
 
-    fn chords(&mut self, index: usize, feed: f64, way: &ArcWay) -> Result<(), PostError> {
-        let count = way.chords(self.machine.resolution_mm());
+    fn chords(&mut self, index: usize, feed: f64, path: &ArcWay) -> Result<(), PostError> {
+        let count = path.chords(self.machine.resolution_mm());
         for chord in 1..=count {
-            let target = self.target(index, way.at(chord as f64 / count as f64))?;
-            self.feed(index, target, feed, way.length() / count as f64)?;
+            let target = self.target(index, path.at(chord as f64 / count as f64))?;
+            self.feed(index, target, feed, path.length() / count as f64)?;
         }
         Ok(())
     }

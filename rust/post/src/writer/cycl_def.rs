@@ -1,4 +1,4 @@
-//! Heidenhain's drilling cycles: `CYCL DEF 200`, then places with M99.
+//! Heidenhain's drilling cycles: `CYCL DEF 200`, then positions with M99.
 //!
 //! Sources: TNC 320 user's manual 7/2008 p. 238 (cycle 207 and what its heights are measured from), Autodesk Heidenhain post
 //! revision 42300 (order of the parameters of 200, 203 and 207).
@@ -17,7 +17,7 @@ const BREAKS: &str = "99";
 
 /// The lines that define a cycle, without block numbers; boring is no cycle here. `per_mm` is last places in a mm.
 ///
-/// Heights are measured from a surface just under the place where the hole begins.
+/// Heights are measured from a surface just under the position where the hole begins.
 pub(super) fn definition(hole: &Hole, linear: &NumberFormat, feed: &NumberFormat, per_mm: f64) -> String {
     #[allow(clippy::cast_possible_truncation)] // a few thousand at most
     let quarter = (CLEARANCE * per_mm).round() as i64;

@@ -1,4 +1,4 @@
-//! What a family of controllers must be able to say; who walks through the program decides when.
+//! What a family of controllers must be able to write; who walks through the program decides when.
 
 use styluscam_motion::CycleKind;
 
@@ -44,7 +44,7 @@ impl Hole {
         self.leave > self.retract
     }
 
-    /// Whether nothing but the place differs.
+    /// Whether nothing but the position differs.
     pub fn is_like(&self, other: &Self) -> bool {
         Self { at: other.at, ..*self } == *other
     }
@@ -52,13 +52,13 @@ impl Hole {
 
 /// The blocks of one family.
 pub(super) trait Dialect {
-    /// Text of templates may have changed modes: say them again.
+    /// Text of templates may have changed modes: write them again.
     fn forget(&mut self);
 
     /// Another tool is in the spindle; its length offset has this number.
     fn tool_changed(&mut self, length_offset: u32);
 
-    /// What was begun and must end before anything else is said: a canned cycle.
+    /// What was begun and must end before anything else is written: a canned cycle.
     fn close(&mut self, lines: &mut Lines) -> Result<(), PostError>;
 
     /// A rapid; axes at `from` already are left out unless every axis is repeated.
@@ -79,6 +79,6 @@ pub(super) trait Dialect {
     /// A wait, s; false when it cannot be written as a number.
     fn dwell(&mut self, lines: &mut Lines, seconds: f64) -> Result<bool, PostError>;
 
-    /// A way to a place until the probe touches, by this word.
+    /// A path to a position until the probe touches, by this word.
     fn probe(&mut self, lines: &mut Lines, word: &str, to: Place, feed: Feed) -> Result<(), PostError>;
 }

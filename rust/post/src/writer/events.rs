@@ -61,7 +61,7 @@ impl Poster<'_> {
         Ok(())
     }
 
-    /// The number of the tool after this one, where the head of the program says so.
+    /// The number of the tool after this one, where the head of the program states it.
     fn next_tool(&mut self) -> Option<u32> {
         self.calls.pop_front();
         let next = self.calls.front()?;
@@ -103,7 +103,7 @@ impl Poster<'_> {
         self.block_of(self.machine.spindle.off.as_deref(), "the spindle's stop")
     }
 
-    /// One word switches all coolant off: what is to stay on is said again.
+    /// One word switches all coolant off: what is to stay on is written again.
     fn switch_coolant(&mut self, on: bool, word: fn(&CoolantRules) -> Option<&str>) -> Result<(), PostError> {
         let words = &self.machine.coolant;
         if !on && words.mist.is_none() && words.flood.is_none() {
@@ -187,7 +187,7 @@ impl Poster<'_> {
             let Some(place) = place else { continue };
             let place = place + if axis == 2 { height } else { 0.0 };
             let count = self.linear.count(place * self.per_mm);
-            let at = || PostError::Number { what: "a place", place: format!("events[{event}]"), value: place };
+            let at = || PostError::Number { what: "a position", place: format!("events[{event}]"), value: place };
             to[axis] = Some(count.ok_or_else(at)?);
         }
         if self.machine.feed.mode == FeedMode::InverseTime {

@@ -35,7 +35,7 @@ impl Poster<'_> {
         let leave = self.target(index, [x, y, cycle.leave])?;
         let lifts = leave[2] > high[2];
         let across = self.rise_to(high, leave)?;
-        // a return to where a series began ends too high after a way across from farther up: a rapid does the rest
+        // a return to where a series began ends too high after a path across from farther up: a rapid does the rest
         let by_rapid = lifts && across > leave[2] && self.machine.family == Family::Gcode;
         let hole = Hole {
             kind: cycle.kind,
@@ -60,7 +60,7 @@ impl Poster<'_> {
         Ok(())
     }
 
-    /// Up to where the way across to a hole may begin; gives that height. From an unknown place: to the hole, high up.
+    /// Up to where the path across to a hole may begin; gives that height. From an unknown position: to the hole, high up.
     fn rise_to(&mut self, high: [i64; 3], leave: [i64; 3]) -> Result<i64, PostError> {
         let [Some(x_now), Some(y_now), Some(z_now)] = self.position else {
             self.dialect.close(&mut self.lines)?;
@@ -94,16 +94,16 @@ impl Poster<'_> {
 
 /// How many events of a program are a cycle's own, if its moves and events are the steps that the cycle makes.
 ///
-/// How it gets to the retract plane over the hole is the program's to say: by rapids, none below that plane.
+/// How it gets to the retract plane over the hole is the program's to decide: by rapids, none below that plane.
 fn made_by(program: &Program, cycle: &Cycle, steps: &[CycleStep], machine: &Machine) -> Option<usize> {
     let unit = machine.resolution_mm();
     let end = cycle.first + cycle.count;
     let moves = program.moves.get(cycle.first..end)?;
     let lead = moves.iter().position(|step| step.kind == MoveKind::Feed)?;
-    let (way, made) = moves.split_at(lead);
+    let (path, made) = moves.split_at(lead);
     let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= unit);
-    let from = way.last().or(cycle.first.checked_sub(1).and_then(|before| program.moves.get(before)))?;
-    let above = way.iter().all(|step| step.end[2] >= cycle.retract - unit);
+    let from = path.last().or(cycle.first.checked_sub(1).and_then(|before| program.moves.get(before)))?;
+    let above = path.iter().all(|step| step.end[2] >= cycle.retract - unit);
     if !above || !near(from.end, [cycle.at[0], cycle.at[1], cycle.retract]) {
         return None;
     }

@@ -86,7 +86,7 @@ impl Dialect for Klartext<'_> {
         lines.end()
     }
 
-    /// The centre in a block of its own, then the way to the end. Arcs lie in the plane across the tool's axis.
+    /// The centre in a block of its own, then the path to the end. Arcs lie in the plane across the tool's axis.
     fn arc(&mut self, lines: &mut Lines, arc: &RoundedArc, feed: Feed) -> Result<(), PostError> {
         debug_assert_eq!(arc.arc.plane, Plane::Xy);
         let centre = arc.centre();

@@ -1,4 +1,4 @@
-//! Sinumerik's drilling cycles: `MCALL CYCLE81(...)`, places, `MCALL`.
+//! Sinumerik's drilling cycles: `MCALL CYCLE81(...)`, positions, `MCALL`.
 //!
 //! Sources: programming guide Cycles 11.02 p. 2-86, Autodesk siemens-840d.cps (order and meaning of the arguments).
 
@@ -10,7 +10,7 @@ use crate::number::{NumberFormat, DWELL_PLACES, PITCH_PLACES};
 /// What ends the calls.
 pub(super) const END: &str = "MCALL";
 
-/// The block that calls a cycle at every place from here on; boring is no cycle here.
+/// The block that calls a cycle at every position from here on; boring is no cycle here.
 ///
 /// All heights are absolute: return plane, reference plane (the clearance is 0), depth.
 pub(super) fn call(hole: &Hole, linear: &NumberFormat, rpm: &NumberFormat) -> String {

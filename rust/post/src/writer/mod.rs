@@ -1,4 +1,4 @@
-//! Motion to text: who walks through a program and decides what is said next.
+//! Motion to text: who walks through a program and decides what is written next.
 
 mod arcs;
 mod cycl_def;
@@ -42,7 +42,7 @@ const TYPICAL_BLOCK: usize = 24;
 /// Coordinates are rounded to the machine's decimals, and moves that round to no motion are left out. Z is that of the
 /// active tool's reference point (`reference_height` above the tip). The first move, and the first after a tool change,
 /// goes to its height first and then across. Any other rapid that goes across and down, or up and across, becomes two
-/// blocks, the higher way: rapids of many machines do not follow a straight line. The spindle stops before a tool change.
+/// blocks, the higher path: rapids of many machines do not follow a straight line. The spindle stops before a tool change.
 ///
 /// # Errors
 /// [`PostError`], and no text: a program that the machine cannot be given, or a machine file that is at fault.
@@ -257,7 +257,7 @@ impl<'a> Poster<'a> {
         Ok(())
     }
 
-    /// A tip's place as the active tool's reference point, in last places.
+    /// A tip's position as the active tool's reference point, in last places.
     fn target(&self, index: usize, tip: [f64; 3]) -> Result<[i64; 3], PostError> {
         let height = self.tool.ok_or(PostError::NoTool { index })?.reference_height;
         let [x, y, z] = [tip[0], tip[1], tip[2] + height];
@@ -285,7 +285,7 @@ impl<'a> Poster<'a> {
         Ok(())
     }
 
-    /// The place on the way, if any, and the goal. From a place that is not known: away from the work first, then across.
+    /// The position between, if any, and the goal. From a position that is not known: away from the work first, then across.
     fn rapids_to(&self, target: [i64; 3]) -> [Option<Place>; 2] {
         let away = if self.machine.motion.lathe.is_some() { 0 } else { 2 };
         let goal = target.map(Some);
@@ -318,10 +318,10 @@ impl<'a> Poster<'a> {
         Ok([x, y, z])
     }
 
-    /// A feed, mm/min, as the mode in force says it, in last places; `length` is that of the block's way, mm.
+    /// A feed, mm/min, as the mode in force states it, in last places; `length` is that of the block's path, mm.
     fn feed_count(&self, index: usize, feed: f64, length: f64) -> Result<i64, PostError> {
         let per_mm = self.per_mm * self.machine.feed_scale();
-        let said = match self.machine.feed.mode {
+        let stated = match self.machine.feed.mode {
             FeedMode::PerMinute => feed * per_mm,
             FeedMode::PerRevolution => {
                 let rpm = self.spindle.map(|(rpm, _)| rpm).filter(|rpm| *rpm > 0.0);
@@ -330,7 +330,7 @@ impl<'a> Poster<'a> {
             }
             FeedMode::InverseTime => feed / length,
         };
-        self.feed_format.count(said).filter(|c| *c > 0).ok_or(PostError::Feed { index, feed })
+        self.feed_format.count(stated).filter(|c| *c > 0).ok_or(PostError::Feed { index, feed })
     }
 }
 

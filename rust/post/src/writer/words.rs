@@ -20,9 +20,9 @@ const AXES: [&str; 3] = ["X", "Y", "Z"];
 const OFFSETS: [&str; 3] = ["I", "J", "K"];
 const Z: usize = 2;
 
-/// What was said last and holds until something else is said.
+/// What was written last and holds until something else is written.
 #[derive(Default)]
-struct Said {
+struct Stated {
     motion: Option<&'static str>,
     plane: Option<Plane>,
     feed: Option<Feed>,
@@ -35,7 +35,7 @@ pub(super) struct Words<'m> {
     feed_format: NumberFormat,
     /// The feed of rapids, where they need one.
     rapid_feed: Option<Feed>,
-    said: Said,
+    stated: Stated,
     /// A length offset to be named in the next block that moves Z.
     length: Option<(&'m LengthRules, u32)>,
 }
@@ -49,16 +49,16 @@ impl<'m> Words<'m> {
             linear: machine.linear_format(),
             feed_format,
             rapid_feed: feed_format.count(rate).filter(|_| machine.motion.rapid_feed),
-            said: Said::default(),
+            stated: Stated::default(),
             length: None,
         }
     }
 
     fn begin_motion(&mut self, lines: &mut Lines, word: &'static str) {
         lines.begin();
-        if self.said.motion != Some(word) || self.machine.words.repeat_g == Repeat::Always {
+        if self.stated.motion != Some(word) || self.machine.words.repeat_g == Repeat::Always {
             lines.word(word);
-            self.said.motion = Some(word);
+            self.stated.motion = Some(word);
         }
     }
 
@@ -94,19 +94,19 @@ impl<'m> Words<'m> {
 
     /// F, where it changes; with inverse time in every block.
     fn changed_feed(&mut self, lines: &mut Lines, feed: Feed) {
-        if self.said.feed == Some(feed) && self.machine.feed.mode != FeedMode::InverseTime {
+        if self.stated.feed == Some(feed) && self.machine.feed.mode != FeedMode::InverseTime {
             return;
         }
         lines.number("F", &self.feed_format, feed);
-        self.said.feed = Some(feed);
+        self.stated.feed = Some(feed);
     }
 
     fn plane(&mut self, lines: &mut Lines, plane: Plane) -> Result<(), PostError> {
         let only = self.machine.arc.as_ref().is_some_and(|rules| rules.planes.len() < 2);
-        if only || self.said.plane == Some(plane) {
+        if only || self.stated.plane == Some(plane) {
             return Ok(());
         }
-        self.said.plane = Some(plane);
+        self.stated.plane = Some(plane);
         lines.block(match plane {
             Plane::Xy => "G17",
             Plane::Zx => "G18",
@@ -124,7 +124,7 @@ impl<'m> Words<'m> {
         }
     }
 
-    /// P of a cycle that waits, and of one that must say that it does not.
+    /// P of a cycle that waits, and of one that must state that it does not.
     fn hole_dwell(&self, lines: &mut Lines, hole: &Hole) {
         let Some(rules) = &self.machine.cycle else { return };
         let must = hole.kind == CycleKind::StopBore && rules.stop_bore_dwell;
@@ -134,26 +134,26 @@ impl<'m> Words<'m> {
         }
     }
 
-    /// Whether cycles are called at places, not said with them.
+    /// Whether cycles are called at positions, not stated with them.
     fn calls_cycles(&self) -> bool {
         self.machine.family == Family::Siemens
     }
 
-    /// The feed and the call in blocks of their own, then the place by a rapid.
+    /// The feed and the call in blocks of their own, then the position by a rapid.
     fn called_hole(&mut self, lines: &mut Lines, hole: &Hole, goes_on: bool) -> Result<(), PostError> {
         if !goes_on {
-            if hole.thread.is_none() && self.said.feed != Some(hole.feed) {
+            if hole.thread.is_none() && self.stated.feed != Some(hole.feed) {
                 lines.begin();
                 self.changed_feed(lines, hole.feed);
                 lines.end()?;
             }
-            self.said.motion = None;
+            self.stated.motion = None;
             lines.block(&mcall::call(hole, &self.linear, &NumberFormat::plain(self.machine.number.rpm)))?;
         }
         self.begin_motion(lines, RAPID);
         lines.number("X", &self.linear, hole.at[0]);
         lines.number("Y", &self.linear, hole.at[1]);
-        self.said.hole = Some(*hole);
+        self.stated.hole = Some(*hole);
         lines.end()
     }
 
@@ -168,7 +168,7 @@ impl<'m> Words<'m> {
 
 impl Dialect for Words<'_> {
     fn forget(&mut self) {
-        self.said = Said::default();
+        self.stated = Stated::default();
     }
 
     fn tool_changed(&mut self, length_offset: u32) {
@@ -177,10 +177,10 @@ impl Dialect for Words<'_> {
     }
 
     fn close(&mut self, lines: &mut Lines) -> Result<(), PostError> {
-        if self.said.hole.take().is_none() {
+        if self.stated.hole.take().is_none() {
             return Ok(());
         }
-        self.said = Said { plane: self.said.plane, ..Said::default() };
+        self.stated = Stated { plane: self.stated.plane, ..Stated::default() };
         lines.block(if self.calls_cycles() { mcall::END } else { CANCEL })
     }
 
@@ -220,7 +220,7 @@ impl Dialect for Words<'_> {
     }
 
     fn hole(&mut self, lines: &mut Lines, hole: &Hole) -> Result<(), PostError> {
-        let goes_on = self.said.hole.is_some_and(|last| last.is_like(hole));
+        let goes_on = self.stated.hole.is_some_and(|last| last.is_like(hole));
         if !goes_on {
             self.close(lines)?;
             self.plane(lines, Plane::Xy)?;
@@ -245,7 +245,7 @@ impl Dialect for Words<'_> {
             self.hole_dwell(lines, hole);
             lines.number("F", &self.feed_format, hole.feed);
         }
-        self.said = Said { hole: Some(*hole), plane: self.said.plane, ..Said::default() };
+        self.stated = Stated { hole: Some(*hole), plane: self.stated.plane, ..Stated::default() };
         lines.end()
     }
 
@@ -274,12 +274,12 @@ impl Dialect for Words<'_> {
         before.iter().for_each(|word| lines.word(word));
         lines.word("G4");
         if *word == 'F' {
-            self.said.feed = None;
+            self.stated.feed = None;
         }
         lines.number(word.encode_utf8(&mut [0; 4]), &format, time);
         lines.end()?;
         if before.is_some() {
-            self.said.feed = None;
+            self.stated.feed = None;
             lines.block(self.machine.feed.word().unwrap_or_default())?;
         }
         Ok(true)

@@ -12,11 +12,11 @@ use crate::reader::drilling::Series;
 use crate::reader::lexer::{Flaw, Word};
 
 impl Interpreter<'_> {
-    /// One hole of a canned cycle; nothing where a block says no place and no cycle.
+    /// One hole of a canned cycle; nothing where a block states no position and no cycle.
     pub(super) fn drill(&mut self, block: &Block, number: u16, line: u32) -> Result<(), Flaw> {
-        let said = block.motion().map(|(_, word)| word);
+        let stated = block.motion().map(|(_, word)| word);
         let [x, y, z] = block.axes();
-        let Some(first) = x.or(y).or(z).or(said) else { return Ok(()) };
+        let Some(first) = x.or(y).or(z).or(stated) else { return Ok(()) };
         let Some(rules) = &self.machine.cycle else { return Err((self.refusal(), Some(first))) };
         if self.modes.incremental {
             return Err((ReadFault::NotRead { what: "canned cycles with G91" }, Some(first)));
@@ -30,17 +30,17 @@ impl Interpreter<'_> {
         let series = self.series_with(block, number, start[2], rules)?;
         for (axis, word) in [x, y].into_iter().enumerate() {
             if let Some(word) = word {
-                let place = self.mm(word)?;
-                self.place(axis, place);
+                let position = self.mm(word)?;
+                self.set_position(axis, position);
             }
         }
-        self.require_places(first)?;
+        self.require_positions(first)?;
         let feed = self.feed_of(block, 1.0, first)?;
         let [x, y, _] = self.axes;
         let cycle =
-            series.hole([x.place, y.place], feed, self.modes.low_return).map_err(|fault| (fault, Some(first)))?;
+            series.hole([x.position, y.position], feed, self.modes.low_return).map_err(|fault| (fault, Some(first)))?;
         if !rules.kinds.contains(&cycle.kind) {
-            return Err((self.refusal(), said.or(Some(first))));
+            return Err((self.refusal(), stated.or(Some(first))));
         }
         self.make(cycle, start, line).map_err(|fault| (fault, block.words.get(b'Q').or(Some(first))))?;
         self.series = Some(series);
@@ -57,7 +57,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// A hole where a block's rapid ends. The way there is at the height where the tool stands.
+    /// A hole where a block's rapid ends. The path there is at the height where the tool stands.
     pub(super) fn drill_here(
         &mut self,
         block: &Block,
@@ -84,8 +84,8 @@ impl Interpreter<'_> {
             return Err(flaw(ReadFault::NoLengthOffset { expected: 1 }));
         }
         let mut start = self.tip();
-        self.place_axes(block)?;
-        self.require_places(word)?;
+        self.position_axes(block)?;
+        self.require_positions(word)?;
         let cycle = self.hole_of(&called, block, word)?;
         if start[2] < cycle.retract && x.or(y).is_some() {
             self.push_move(MoveKind::Rapid, None, 0.0, line);
@@ -97,7 +97,7 @@ impl Interpreter<'_> {
     #[allow(clippy::float_cmp)] // numbers as written
     fn hole_of(&self, called: &Called, block: &Block, word: Word) -> Result<Cycle, Flaw> {
         let feed = match called.pace {
-            Pace::Standing => self.feed_of(block, 1.0, word)?,
+            Pace::InForce => self.feed_of(block, 1.0, word)?,
             Pace::Feed(number) => self.mm(Word { number, ..word })? / self.machine.feed_scale_of(self.modes.unit),
             Pace::Pitch(pitch, speed) => {
                 let turns = self.modes.direction.is_some()
@@ -126,7 +126,7 @@ impl Interpreter<'_> {
         Ok(Cycle { first: 0, count: 0, kind, at: [x, y], retract, bottom, leave, feed, dwell, peck })
     }
 
-    /// The series in force, or a new one, with what a block says of it.
+    /// The series in force, or a new one, with what a block states of it.
     fn series_with(&mut self, block: &Block, number: u16, height: f64, rules: &CycleRules) -> Result<Series, Flaw> {
         let [_, _, z] = block.axes();
         let mut series = Series::next(self.series.take(), number, height);
@@ -152,10 +152,10 @@ impl Interpreter<'_> {
         cycle.first = self.program.moves.len();
         for step in steps {
             match step {
-                CycleStep::Move(kind, place) => {
-                    self.axes[Z].place = place[2] + self.height;
+                CycleStep::Move(kind, position) => {
+                    self.axes[Z].position = position[2] + self.height;
                     let feed = if kind == MoveKind::Feed { cycle.feed } else { 0.0 };
-                    self.push_move_to(place, kind, None, feed, line);
+                    self.push_move_to(position, kind, None, feed, line);
                 }
                 CycleStep::Event(kind) => self.event(kind),
             }

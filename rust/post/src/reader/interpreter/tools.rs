@@ -13,7 +13,7 @@ impl Interpreter<'_> {
         if let Some(word) = block.words.get(b'T') {
             self.selected = Some(word.number.natural().ok_or((ReadFault::NotNatural, Some(word)))?);
         }
-        // Without M6 the T word is all that the text says about a change.
+        // Without M6 the T word is all that the text states about a change.
         let by_code = matches!(self.machine.tool.change, ToolChange::M6 | ToolChange::ToolCall | ToolChange::Unsaid);
         let by_word = if by_code { None } else { block.words.get(b'T') };
         let Some(word) = block.change().or(by_word) else { return Ok(()) };
@@ -28,7 +28,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// The index of a tool; without tools from the job, a record that says nothing but the number is added.
+    /// The index of a tool; without tools from the job, a record that states nothing but the number is added.
     pub(super) fn tool_of_number(&mut self, number: u32) -> Option<u32> {
         let known = self.program.tools.iter().position(|t| t.number == number);
         if let Some(index) = known {
@@ -77,7 +77,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Without the job's tools, the text's own words say which length offset a tool has; it has one.
+    /// Without the job's tools, the text's own words state which length offset a tool has; it has one.
     pub(super) fn learn_length(&mut self, block: &Block) -> Result<(), Flaw> {
         let Some(word) = block.length_number(self.length_word()).filter(|_| !self.tools_given) else { return Ok(()) };
         let (Some((true, _)), Some(index)) = (block.length(), self.tool) else { return Ok(()) };
@@ -94,7 +94,7 @@ impl Interpreter<'_> {
 
     /// For a job, every move needs its tool's length offset and the machine's path tolerance.
     pub(super) fn allow_motion(&self, word: Word) -> Result<(), Flaw> {
-        self.job_tool().map_or(Ok(()), |tool| self.standing.allows(self.machine, tool, word))
+        self.job_tool().map_or(Ok(()), |tool| self.in_force.allows(self.machine, tool, word))
     }
 
     /// The loaded tool, where the job's tools are known.

@@ -14,14 +14,14 @@ const ROUNDED: f64 = 1e-9;
 
 /// The controller's modal states that decide where the tip really goes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Standing {
+pub(crate) struct InForce {
     /// H of the G43 in force.
     length: Option<u32>,
-    /// How far the controller may round the path off, mm; infinite where nothing was said.
+    /// How far the controller may round the path off, mm; infinite where nothing was stated.
     path: f64,
 }
 
-impl Standing {
+impl InForce {
     pub(crate) fn new() -> Self {
         Self { length: None, path: f64::INFINITY }
     }

@@ -10,7 +10,7 @@ impl Interpreter<'_> {
     /// Where the tip stands, as far as it is known.
     pub(super) fn tip(&self) -> [f64; 3] {
         let [x, y, z] = self.axes;
-        [x.place, y.place, z.place - self.height]
+        [x.position, y.position, z.position - self.height]
     }
 
     /// How often X is counted: twice where it is a diameter.
@@ -22,7 +22,7 @@ impl Interpreter<'_> {
         }
     }
 
-    pub(super) fn place_axes(&mut self, block: &Block) -> Result<(), Flaw> {
+    pub(super) fn position_axes(&mut self, block: &Block) -> Result<(), Flaw> {
         for (index, word) in block.axes().iter().enumerate() {
             let Some(word) = *word else { continue };
             let value = self.mm(word)? / self.scale(index);
@@ -30,7 +30,7 @@ impl Interpreter<'_> {
             if self.modes.incremental && !axis.known {
                 return Err((ReadFault::IncrementalFromUnknown, Some(word)));
             }
-            self.place(index, if self.modes.incremental { axis.place + value } else { value });
+            self.set_position(index, if self.modes.incremental { axis.position + value } else { value });
         }
         Ok(())
     }
@@ -41,33 +41,33 @@ impl Interpreter<'_> {
         let centre = [self.mm(x)?, self.mm(y)?];
         let degrees = angle.number.value();
         let (sin, cos) = libm::sincos(degrees.rem_euclid(360.0).to_radians());
-        let [from_x, from_y] = [0, 1].map(|axis| self.axes[axis].place - centre[axis]);
+        let [from_x, from_y] = [0, 1].map(|axis| self.axes[axis].position - centre[axis]);
         if degrees.rem_euclid(360.0) != 0.0 {
-            self.place(0, centre[0] + cos * from_x - sin * from_y);
-            self.place(1, centre[1] + sin * from_x + cos * from_y);
+            self.set_position(0, centre[0] + cos * from_x - sin * from_y);
+            self.set_position(1, centre[1] + sin * from_x + cos * from_y);
         }
         if let Some(rise) = block.rise {
             let rise = self.mm(rise)?;
-            self.place(Z, self.axes[Z].place + rise);
+            self.set_position(Z, self.axes[Z].position + rise);
         }
         Ok(())
     }
 
-    pub(super) fn place(&mut self, index: usize, place: f64) {
+    pub(super) fn set_position(&mut self, index: usize, position: f64) {
         let moves = self.program.moves.len();
-        let tip = place - if index == Z { self.height } else { 0.0 };
+        let tip = position - if index == Z { self.height } else { 0.0 };
         let Some(axis) = self.axes.get_mut(index) else { return };
         if !axis.known {
             let since = axis.pending.min(moves);
             self.program.moves.iter_mut().skip(since).for_each(|m| m.end[index] = tip);
         }
-        *axis = Axis { place, known: true, ever: true, pending: moves };
+        *axis = Axis { position, known: true, ever: true, pending: moves };
         if index == Z {
-            self.end_blindness();
+            self.end_unknown_height();
         }
     }
 
-    /// The place of this axis is not known from the next move on.
+    /// The position of this axis is not known from the next move on.
     pub(super) fn forget(&mut self, index: usize) {
         let moves = self.program.moves.len();
         let Some(axis) = self.axes.get_mut(index) else { return };
@@ -75,37 +75,38 @@ impl Interpreter<'_> {
             axis.known = false;
             axis.pending = moves;
         }
-        self.unplaced_since = self.unplaced_since.or(Some(moves));
+        self.unknown_since = self.unknown_since.or(Some(moves));
         if index == Z {
-            self.blind_since = self.blind_since.or(Some(moves));
+            self.unknown_height_since = self.unknown_height_since.or(Some(moves));
         }
     }
 
-    pub(super) fn end_blindness(&mut self) {
+    pub(super) fn end_unknown_height(&mut self) {
         let moves = self.program.moves.len();
-        self.blind.extend(self.blind_since.take().map(|since| since..moves).filter(|run| !run.is_empty()));
+        self.unknown_heights
+            .extend(self.unknown_height_since.take().map(|since| since..moves).filter(|run| !run.is_empty()));
     }
 
-    pub(super) fn require_places(&self, word: Word) -> Result<(), Flaw> {
+    pub(super) fn require_positions(&self, word: Word) -> Result<(), Flaw> {
         match self.axes.iter().zip(AXES).find(|(axis, _)| !axis.known) {
             Some((_, axis)) => Err((ReadFault::FeedFromUnknown { axis }, Some(word))),
             None => Ok(()),
         }
     }
 
-    /// Ends the run of moves that lack a place, once every axis has one.
-    pub(super) fn close_unplaced(&mut self) {
-        let Some(since) = self.unplaced_since else { return };
+    /// Ends the run of moves that lack a position, once every axis has one.
+    pub(super) fn close_unknown(&mut self) {
+        let Some(since) = self.unknown_since else { return };
         if self.axes.iter().all(|a| a.known) {
-            self.note_unplaced(since);
+            self.note_unknown(since);
         }
     }
 
-    pub(super) fn note_unplaced(&mut self, since: usize) {
-        self.unplaced_since = None;
+    pub(super) fn note_unknown(&mut self, since: usize) {
+        self.unknown_since = None;
         let moves = self.program.moves.len();
         if since < moves {
-            self.unplaced.push(since..moves);
+            self.unknown_positions.push(since..moves);
         }
     }
 }

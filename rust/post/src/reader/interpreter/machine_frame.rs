@@ -1,4 +1,4 @@
-//! Ways to places that the work's zero says nothing about: the machine's own, and where a probe touches.
+//! Paths to positions that the work's zero states nothing about: the machine's own, and where a probe touches.
 
 use styluscam_motion::{EventKind, MachineMove};
 
@@ -9,7 +9,7 @@ use crate::reader::block::Block;
 use crate::reader::lexer::{Flaw, Word};
 
 impl Interpreter<'_> {
-    /// A way until the probe touches: where it ends is not known.
+    /// A path until the probe touches: where it ends is not known.
     pub(super) fn probe(&mut self, block: &Block, must_touch: bool, code: Word) -> Result<(), Flaw> {
         if self.modes.incremental {
             return Err((ReadFault::NotRead { what: "probing moves with G91" }, Some(code)));
@@ -31,7 +31,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// G28 by way of where the axis stands: `G91 G28 Z0`. Over any other place it may cut through the work.
+    /// G28 through where the axis stands: `G91 G28 Z0`. Over any other position it may cut through the work.
     pub(super) fn go_home(&mut self, block: &Block, code: Word, line: u32) -> Result<(), Flaw> {
         let home = self.machine.reader.home.unwrap_or_default();
         let straight = self.modes.incremental && block.axes().iter().flatten().all(|word| word.number.value() == 0.0);
@@ -44,8 +44,8 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// A move in the machine's own coordinates ends at a place that the work's zero says nothing about.
-    pub(super) fn go_to_machine_place(&mut self, block: &Block, code: Word, line: u32) -> Result<(), Flaw> {
+    /// A move in the machine's own coordinates ends at a position that the work's zero states nothing about.
+    pub(super) fn go_to_machine_position(&mut self, block: &Block, code: Word, line: u32) -> Result<(), Flaw> {
         let moves = matches!(self.motion, Some(Motion::Rapid | Motion::Feed));
         if !moves || self.modes.incremental {
             return Err((ReadFault::MachineCoordinates, Some(code)));
@@ -57,22 +57,22 @@ impl Interpreter<'_> {
         let mut places = [None; 3];
         for (index, (word, name)) in block.axes().iter().zip(AXES).enumerate() {
             let Some(word) = *word else { continue };
-            let place = self.mm(word)?;
-            text.push_str(&format!(" {name}{place} mm"));
-            places[index] = Some(place);
+            let position = self.mm(word)?;
+            text.push_str(&format!(" {name}{position} mm"));
+            places[index] = Some(position);
         }
         self.leave_work(text, places, line);
         Ok(())
     }
 
-    /// The axes that have a place of the machine's own go there; a remark says so.
+    /// The axes that have a position of the machine's own go there; a comment states it.
     ///
-    /// Controllers that name the length offset with Z lose it on the way (Fanuc 0i-MB, p. 204).
+    /// Controllers that name the length offset with Z lose it with that move (Fanuc 0i-MB, p. 204).
     fn leave_work(&mut self, remark: String, places: [Option<f64>; 3], line: u32) {
         (0..3).filter(|axis| places[*axis].is_some()).for_each(|axis| self.forget(axis));
         let with_z = self.machine.tool.length.as_ref().is_some_and(|length| length.with_z);
         if with_z && places[Z].is_some() {
-            self.standing.drop_length();
+            self.in_force.drop_length();
         }
         self.event(EventKind::Comment { text: remark });
         self.machine_moves.push(MachineMove { before: self.program.moves.len(), line, places });
