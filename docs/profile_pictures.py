@@ -50,12 +50,13 @@ def draw(tools: list[sc.Tool], name: str) -> None:
 
 def main() -> None:
     """Draws them all."""
-    profiles = [BALL if kind == "ball" else starters.PROFILES[kind] for kind in COMPARED]
+    known = starters.profiles()
+    profiles = [BALL if kind == "ball" else known[kind] for kind in COMPARED]
     draw([sc.Tool.from_dict({"profile": profile}) for profile in profiles], "compared")
     for name, tools in OPTIONS.items():
         draw([sc.Tool.from_dict({"name": title, **tool}) for title, tool in tools.items()], name)
     for kind in toolfile.profile_keys():
-        draw([sc.Tool.from_dict({"profile": starters.PROFILES[kind]})], kind)
+        draw([sc.Tool.from_dict({"profile": known[kind]})], kind)
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ import pytest
 from freecad_host import INSIDE, FreeCad
 
 import styluscam as sc
-from styluscam.tools import starters, toolfile
+from styluscam.tools import starters
 
 pytestmark = [pytest.mark.world, pytest.mark.freecad]
 
@@ -20,7 +20,7 @@ ODD = 3.175 + 1e-11
 
 
 def documents() -> dict[str, dict[str, Any]]:
-    found = {kind: starters.starter(kind) for kind in starters.PROFILES if kind in toolfile.profile_keys()}
+    found = {kind: starters.starter(kind) for kind in starters.profiles()}
     found["odd"] = {"profile": {"kind": "ball", "diameter": ODD}, "shank_diameter": 4.0 / 3.0, "length": 100.0 / 3.0}
     found["tip-flat"] = {"profile": {"kind": "clothoid", "diameter": 10.0, "tip_flat": 1.0}}
     return found

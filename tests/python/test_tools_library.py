@@ -229,7 +229,7 @@ def test_file_names_are_safe() -> None:
 
 
 def test_there_is_a_starter_of_every_kind() -> None:
-    assert set(toolfile.profile_keys()) <= set(starters.PROFILES)
+    assert set(toolfile.profile_keys()) == set(starters.profiles())
 
 
 @pytest.mark.parametrize("kind", sorted(toolfile.profile_keys()))
