@@ -109,9 +109,13 @@ class Program:
         npt.NDArray[np.uint8],
         _F,
         _F,
+        _F,
         npt.NDArray[np.uint8],
         npt.NDArray[np.uint32],
         _F,
+        npt.NDArray[np.uint8],
+        npt.NDArray[np.uint8],
+        npt.NDArray[np.uint32],
         npt.NDArray[np.uint32],
         npt.NDArray[np.uint32],
     ]: ...

@@ -20,16 +20,22 @@ MOVE = np.dtype(
     [
         ("kind", "u1"),
         ("end", "f8", 3),
+        ("axis", "f8", 3),
         ("centre", "f8", 3),
         ("plane", "u1"),
         ("turns", "u4"),
         ("feed", "f8"),
+        ("feed_mode", "u1"),
+        ("role", "u1"),
         ("operation", "u4"),
+        ("tool", "u4"),
         ("line", "u4"),
     ],
 )
 RAPID, FEED, CLOCKWISE, COUNTERCLOCKWISE = 0, 1, 2, 3
 """Kinds of moves: rapids, lines and arcs at a feed."""
+ROLES = (None, "cut", "lead", "ramp", "link")
+"""Names of a move's role by its number; planned programs have no roles until the posted text can carry them."""
 SAG = 0.001
 """How far the polyline of :attr:`Program.positions` may be from an arc, mm."""
 
@@ -76,9 +82,13 @@ class Program:
 
     @cached_property
     def moves(self) -> npt.NDArray[np.void]:
-        """Structured array of :data:`MOVE`: kind, end (mm), feed (mm/min), operation, line of the text (0: none).
+        """Structured array of :data:`MOVE`, one element for each move.
 
-        Of arcs also centre (mm; NaN of other moves), plane (17, 18 or 19, as in G17) and turns beyond the first.
+        ``kind`` (:data:`RAPID` to :data:`COUNTERCLOCKWISE`), ``end`` (position of the tip, mm) and ``axis`` (the tool's axis
+        there, a unit vector from the tip up), ``feed`` with its ``feed_mode`` (94: mm/min; 95: mm/rev; 93: 1/min),
+        ``role`` (:data:`ROLES`), ``operation`` and ``tool`` (indices into :attr:`operations` and :attr:`tools`), ``line``
+        of the text (0: none). Of arcs also ``centre`` (mm; NaN of other moves), ``plane`` (17, 18 or 19, as in G17) and
+        ``turns`` beyond the first.
         """
         columns = self.engine.columns()
         moves = np.zeros(len(columns[0]), dtype=MOVE)

@@ -9,6 +9,7 @@ import numpy as np
 
 from styluscam.drawing.decimation import thinned
 from styluscam.drawing.toolplot import tool_svg
+from styluscam.errors import VerifyError
 from styluscam.programs.program import SAG
 from styluscam.report import plots, tables
 from styluscam.report.columns import packed
@@ -23,6 +24,9 @@ from styluscam.types import Document, FloatArray, Progress
 
 SCRIPTS = ("data", "colours", "stage", "part", "path", "tool", "fixture", "player", "findings", "main")
 """In the order in which they build upon each other."""
+
+UPRIGHT = 1e-9
+"""Sine of the angle by which a tool's axis may differ from +Z: rounding only."""
 
 SEGMENTS = 200_000
 """Of the path as it is drawn."""
@@ -43,7 +47,9 @@ def report_page(subject: Subject, progress: Progress | None = None) -> str:
     Raises:
         StylusError: jinja2 or matplotlib are missing.
         GeometryError: a part that keeps no triangles to draw, or a program that goes nowhere.
+        VerifyError: a program that turns the tool's axis, which the page would draw upright.
     """
+    _require_upright(subject)
     shown = _shown(subject, progress)
     verdict = verdict_of(subject.report, subject.gaps is not None)
     return str(
@@ -68,6 +74,19 @@ def report_page(subject: Subject, progress: Progress | None = None) -> str:
             data=_json(_data(subject, shown)),
         )
     )
+
+
+def _require_upright(subject: Subject) -> None:
+    """Refuses a program with a tool axis that is not +Z."""
+    off = np.abs(subject.program.moves["axis"] - [0.0, 0.0, 1.0]).max(axis=1, initial=0.0)
+    tilted = np.flatnonzero(off > UPRIGHT)
+    if len(tilted):
+        raise VerifyError(
+            f"the tool axis of move {tilted[0]} is not +Z: the page draws upright tools only",
+            code="tool-axis",
+            where=f"moves[{tilted[0]}]",
+            hint="show a program for three axes",
+        )
 
 
 def _json(data: Document) -> str:

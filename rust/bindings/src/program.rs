@@ -2,7 +2,7 @@
 
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
-use styluscam_motion::{Dynamics, Move, MoveKind, Statistics, PROGRAM_SCHEMA};
+use styluscam_motion::{Dynamics, FeedMode, Move, MoveKind, Role, Statistics, PROGRAM_SCHEMA};
 
 use crate::{arrays, errors, machine::Machine};
 
@@ -12,14 +12,18 @@ pub struct Program {
     pub(crate) program: styluscam_motion::Program,
 }
 
-/// Columns of the moves: kind, end, centre, plane, turns, feed, operation, line.
+/// Columns of the moves: kind, end, axis, centre; plane, turns, feed, feed mode, role, operation, tool, line.
 type Columns<'py> = (
     Bound<'py, PyArray1<u8>>,
+    Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray1<u8>>,
     Bound<'py, PyArray1<u32>>,
     Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<u8>>,
+    Bound<'py, PyArray1<u8>>,
+    Bound<'py, PyArray1<u32>>,
     Bound<'py, PyArray1<u32>>,
     Bound<'py, PyArray1<u32>>,
 );
@@ -32,6 +36,24 @@ fn kind_of(step: &Move) -> u8 {
         (MoveKind::Rapid, _) => 0,
         (MoveKind::Feed, None) => 1,
         (MoveKind::Feed, Some(arc)) => 3 - u8::from(arc.clockwise),
+    }
+}
+
+fn feed_mode_of(step: &Move) -> u8 {
+    match step.feed_mode {
+        FeedMode::InverseTime => 93,
+        FeedMode::PerMinute => 94,
+        FeedMode::PerRevolution => 95,
+    }
+}
+
+fn role_of(step: &Move) -> u8 {
+    match step.role {
+        None => 0,
+        Some(Role::Cut) => 1,
+        Some(Role::Lead) => 2,
+        Some(Role::Ramp) => 3,
+        Some(Role::Link) => 4,
     }
 }
 
@@ -54,21 +76,27 @@ impl Program {
             .map_err(|e| errors::raise("StylusError", &e.to_string(), "internal", "", ""))
     }
 
-    /// Columns of the moves: kind (0 rapid, 1 line, 2 clockwise arc, 3 counterclockwise arc), end (N, 3), an arc's centre
-    /// (N, 3; else NaN), plane (17, 18, 19) and turns beyond the first, feed, operation, line.
+    /// Columns of the moves: kind (0 rapid, 1 line, 2 clockwise arc, 3 counterclockwise arc), end (N, 3), the tool's axis
+    /// there (N, 3), an arc's centre (N, 3; else NaN), plane (17, 18, 19) and turns beyond the first, feed and its mode
+    /// (93, 94, 95, as in G94), role (0 none, 1 cut, 2 lead, 3 ramp, 4 link), operation, its tool, line.
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Columns<'py>> {
         let moves = &self.program.moves;
         let kind = moves.iter().map(kind_of).collect();
         let centre = |m: &Move| m.arc.map_or([f64::NAN; 3], |arc| arc.centre);
         let plane = |m: &Move| m.arc.map_or(17, |arc| 17 + arc.plane as u8);
+        let tool = |m: &Move| self.program.operations.get(m.operation as usize).map_or(u32::MAX, |one| one.tool);
         Ok((
             PyArray1::from_vec(py, kind),
-            arrays::matrix(py, moves.iter().map(|m| m.end))?,
+            arrays::matrix(py, moves.iter().map(|m| m.end.tip))?,
+            arrays::matrix(py, moves.iter().map(|m| m.end.axis.vector()))?,
             arrays::matrix(py, moves.iter().map(centre))?,
             PyArray1::from_vec(py, moves.iter().map(plane).collect()),
             PyArray1::from_vec(py, moves.iter().map(|m| m.arc.map_or(0, |arc| arc.turns)).collect()),
             PyArray1::from_vec(py, moves.iter().map(|m| m.feed).collect()),
+            PyArray1::from_vec(py, moves.iter().map(feed_mode_of).collect()),
+            PyArray1::from_vec(py, moves.iter().map(role_of).collect()),
             PyArray1::from_vec(py, moves.iter().map(|m| m.operation).collect()),
+            PyArray1::from_vec(py, moves.iter().map(tool).collect()),
             PyArray1::from_vec(py, moves.iter().map(|m| m.line).collect()),
         ))
     }

@@ -1,6 +1,6 @@
 //! How long a program takes on a machine that must accelerate, slow down in corners and read its blocks.
 
-use crate::{EventKind, Move, MoveKind, Program};
+use crate::{EventKind, Move, Program};
 
 /// Seconds in a minute.
 const MINUTE: f64 = 60.0;
@@ -30,7 +30,7 @@ impl Dynamics {
     /// The speed changes evenly within a move. A corner is taken as fast as a circle allows that leaves it by the corner
     /// tolerance at most (S. K. Jeon, "Improving Grbl: Cornering Algorithm", 2011); an arc as fast as its radius allows.
     /// Events stop the machine. No block is faster than the controller reads. The way to the first place is not known
-    /// and takes no time; neither do tool changes.
+    /// and takes no time; neither do tool changes, and turns of the tool's axis.
     #[must_use]
     pub fn times(&self, program: &Program) -> (Vec<f64>, f64) {
         let legs = self.legs(program);
@@ -50,22 +50,28 @@ impl Dynamics {
     fn legs(&self, program: &Program) -> Vec<Leg> {
         let mut upcoming = program.upcoming();
         let mut legs = Vec::with_capacity(program.moves.len());
+        let mut rpm = None;
         for (index, (start, step)) in program.segments().enumerate() {
-            let halts = upcoming.before(index).filter(|event| !matches!(event, EventKind::Comment { .. })).count();
-            legs.push(self.leg(start.unwrap_or(step.end), step, halts > 0 || start.is_none()));
+            let mut stopped = start.is_none();
+            for event in upcoming.before(index) {
+                stopped |= !matches!(event, EventKind::Comment { .. });
+                rpm = rpm_after(event, rpm);
+            }
+            legs.push(self.leg(start.unwrap_or(step.end.tip), step, rpm, stopped));
         }
         legs
     }
 
-    fn leg(&self, start: [f64; 3], step: &Move, stopped: bool) -> Leg {
+    fn leg(&self, start: [f64; 3], step: &Move, rpm: Option<f64>, stopped: bool) -> Leg {
         let way = step.way(start);
         let length = step.length(start);
-        let rate = if step.kind == MoveKind::Rapid { self.rapid_rate } else { step.feed };
-        let mut speed = if rate > 0.0 && rate.is_finite() { rate / MINUTE } else { self.rapid_rate / MINUTE };
+        let rate = step.mm_per_min(length, rpm).filter(|rate| *rate > 0.0 && rate.is_finite());
+        let mut speed = rate.unwrap_or(self.rapid_rate) / MINUTE;
         if let (Some(way), Some(acceleration)) = (way, self.acceleration) {
             speed = speed.min((acceleration * way.radius()).sqrt());
         }
-        let heading = |from: f64, to: f64| way.map_or(direction(start, step.end), |w| direction(w.at(from), w.at(to)));
+        let heading =
+            |from: f64, to: f64| way.map_or(direction(start, step.end.tip), |w| direction(w.at(from), w.at(to)));
         Leg { length, speed, from: heading(0.0, 1e-4), to: heading(1.0 - 1e-4, 1.0), stopped }
     }
 
@@ -141,6 +147,15 @@ fn direction(a: [f64; 3], b: [f64; 3]) -> Option<[f64; 3]> {
     (length > 0.0).then(|| along.map(|x| x / length))
 }
 
+/// The spindle's speed after an event, rev/min; none while it stands.
+fn rpm_after(event: &EventKind, before: Option<f64>) -> Option<f64> {
+    match event {
+        EventKind::SpindleOn { rpm, .. } => Some(*rpm),
+        EventKind::SpindleOff | EventKind::ToolChange { .. } => None,
+        _ => before,
+    }
+}
+
 /// How long an event lasts, s.
 fn seconds_of(event: &EventKind) -> f64 {
     match event {
@@ -152,20 +167,13 @@ fn seconds_of(event: &EventKind) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Arc, Event, OperationRecord, Plane, SetupRecord};
+    use crate::{Arc, Event, FeedMode, MoveKind, OperationRecord, Plane, Pose, SetupRecord, SpindleDirection};
 
     const PLAIN: Dynamics =
         Dynamics { rapid_rate: 6000.0, acceleration: Some(1000.0), corner_tolerance: 0.0, blocks_per_second: None };
 
     fn program(moves: &[(MoveKind, [f64; 3])]) -> Program {
-        let step = |(kind, end): &(MoveKind, [f64; 3])| Move {
-            kind: *kind,
-            end: *end,
-            arc: None,
-            feed: 6000.0,
-            operation: 0,
-            line: 0,
-        };
+        let step = |(kind, tip): &(MoveKind, [f64; 3])| Move::new(*kind, *tip, 6000.0);
         let setup = SetupRecord { wcs: "G54".into(), ..SetupRecord::default() };
         let operations = vec![OperationRecord { id: "a".into(), kind: "z-level".into(), tool: 0 }];
         Program { moves: moves.iter().map(step).collect(), ..Program::empty(setup, Vec::new(), operations) }
@@ -203,7 +211,7 @@ mod tests {
     #[test]
     fn events_stop_and_dwells_last() {
         let mut waits = line();
-        waits.moves.push(Move { end: [200.0, 0.0, 0.0], ..waits.moves[1] });
+        waits.moves.push(waits.moves[1].to([200.0, 0.0, 0.0]));
         waits.events.push(Event { before: 2, kind: EventKind::Dwell { seconds: 0.5 } });
         waits.events.push(Event { before: 3, kind: EventKind::Dwell { seconds: 2.0 } });
         let (times, whole) = PLAIN.times(&waits);
@@ -217,9 +225,25 @@ mod tests {
         assert!((slow.times(&program(&short)).1 - 1.01).abs() < 1e-9);
         // a circle of radius 1 at 1000 mm/s^2: 31.6 mm/s at most
         let mut circle = line();
-        circle.moves[1].end = [0.0; 3];
+        circle.moves[1].end = Pose::upright([0.0; 3]);
         circle.moves[1].arc = Some(Arc { centre: [1.0, 0.0, 0.0], plane: Plane::Xy, clockwise: true, turns: 0 });
         let (length, top) = (std::f64::consts::TAU, 1000.0_f64.sqrt());
         assert!((PLAIN.times(&circle).1 - (length / top + top / 1000.0)).abs() < 1e-9);
+    }
+    #[test]
+    fn feeds_of_other_modes_have_their_speed() {
+        let timed = |feed, mode, rpm: Option<f64>| {
+            let mut program = line();
+            program.moves[1] = program.moves[1].with_feed(feed, mode);
+            let direction = SpindleDirection::Clockwise;
+            let on = rpm.map(|rpm| Event { before: 1, kind: EventKind::SpindleOn { rpm, direction } });
+            program.events.extend(on);
+            Dynamics::at_once(6000.0).times(&program).1
+        };
+        // 100 mm in half a minute; at 0.1 mm/rev and 1000 rev/min in one
+        assert!((timed(2.0, FeedMode::InverseTime, None) - 30.0).abs() < 1e-9);
+        assert!((timed(0.1, FeedMode::PerRevolution, Some(1000.0)) - 60.0).abs() < 1e-9);
+        // no spindle, no feed: as without a feed, at the rapid rate
+        assert!((timed(0.1, FeedMode::PerRevolution, None) - 1.0).abs() < 1e-9);
     }
 }

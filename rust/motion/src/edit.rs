@@ -1,6 +1,6 @@
 //! What shops do with a program that stands: go on from the middle, run it in the air, stop between operations.
 
-use crate::{Arc, Cycle, Event, EventKind, Move, MoveKind, Plane, Program};
+use crate::{Arc, Cycle, Event, EventKind, FeedMode, Move, MoveKind, Plane, Pose, Program};
 
 /// Heights of a level are compared with this slack, mm.
 const SAME_HEIGHT: f64 = 1e-6;
@@ -19,8 +19,8 @@ impl Program {
         if self.cycles.iter().any(|cycle| cycle.first < first && first < cycle.first + cycle.count) {
             return None;
         }
-        let highest = self.moves.iter().take(first).map(|m| m.end[2]).fold(self.setup.clearance, f64::max);
-        let rapid = |end| Move { kind: MoveKind::Rapid, end, arc: None, feed: 0.0, ..*step };
+        let highest = self.moves.iter().take(first).map(|m| m.end.tip[2]).fold(self.setup.clearance, f64::max);
+        let approach = |plain: Move| plain.with_axis(start.axis).of_operation(step.operation).on_line(step.line);
         // behind a tool or another zero point the last place means nothing: the program goes on with a rapid of its own
         let anew = |e: &Event| matches!(e.kind, EventKind::ToolChange { .. } | EventKind::WorkOffset { .. });
         let anew = self.events.iter().any(|event| event.before == first && anew(event));
@@ -29,10 +29,12 @@ impl Program {
         }
         let mut moves = Vec::new();
         if !anew {
-            moves.push(rapid([start[0], start[1], highest]));
+            let [x, y, _] = start.tip;
+            moves.push(approach(Move::rapid([x, y, highest])));
         }
-        if !anew && step.kind == MoveKind::Feed && highest > start[2] {
-            moves.push(Move { kind: MoveKind::Feed, end: start, arc: None, feed: self.plunge_feed(step), ..*step });
+        if !anew && step.kind == MoveKind::Feed && highest > start.tip[2] {
+            let (feed, mode) = self.plunge_feed(start, step);
+            moves.push(approach(Move::feed(start.tip, feed).with_feed(feed, mode)));
         }
         let shift = moves.len();
         moves.extend_from_slice(self.moves.get(first..)?);
@@ -44,31 +46,25 @@ impl Program {
         let events = state.into_iter().map(|kind| Event { before: 0, kind });
         let events = events.chain(later.map(|e| Event { before: e.before - first + shift, kind: e.kind.clone() }));
         let cycles = self.cycles.iter().filter(|cycle| cycle.first >= first);
-        let axes = if self.axes.is_empty() {
-            Vec::new()
-        } else {
-            let upright = self.axes.get(before).copied();
-            upright.into_iter().cycle().take(shift).chain(self.axes.iter().skip(first).copied()).collect()
-        };
         Some(Self {
             moves,
             events: events.collect(),
             cycles: cycles.map(|c| Cycle { first: c.first - first + shift, ..c.clone() }).collect(),
-            axes,
             setup,
             ..Self::empty(self.setup.clone(), self.tools.clone(), self.operations.clone())
         })
     }
 
-    /// The lowest feed at which a move's operation goes straight down; the move's own where it never does.
-    fn plunge_feed(&self, step: &Move) -> f64 {
+    /// The lowest feed at which the operation of a move from `start` goes straight down; the move's own where it never does.
+    fn plunge_feed(&self, start: Pose, step: &Move) -> (f64, FeedMode) {
+        let (own, mode) = lasting_feed(start.tip, step);
         let plunges = self.segments().filter_map(|(start, plunge)| {
-            let start = start?;
-            let down = plunge.end[2] < start[2]
-                && libm::hypot(plunge.end[0] - start[0], plunge.end[1] - start[1]) <= SAME_HEIGHT;
-            (down && plunge.kind == MoveKind::Feed && plunge.operation == step.operation).then_some(plunge.feed)
+            let (start, end) = (start?, plunge.end.tip);
+            let down = end[2] < start[2] && libm::hypot(end[0] - start[0], end[1] - start[1]) <= SAME_HEIGHT;
+            let (feed, of) = lasting_feed(start, plunge);
+            (down && plunge.kind == MoveKind::Feed && plunge.operation == step.operation && of == mode).then_some(feed)
         });
-        plunges.fold(step.feed, f64::min)
+        (plunges.fold(own, f64::min), mode)
     }
 
     /// Tool, spindle and coolant as they are when a move begins, and the work offset where one was called on the way.
@@ -82,13 +78,14 @@ impl Program {
         let mut height = None;
         let mut count = 0;
         for (index, (start, step)) in self.segments().enumerate() {
-            let start = start.unwrap_or(step.end);
-            let level_move = step.kind == MoveKind::Feed && (step.end[2] - start[2]).abs() <= SAME_HEIGHT;
+            let z = step.end.tip[2];
+            let level_move =
+                step.kind == MoveKind::Feed && start.is_none_or(|start| (z - start[2]).abs() <= SAME_HEIGHT);
             if step.operation != operation || !level_move {
                 continue;
             }
-            if height.is_none_or(|z: f64| (z - step.end[2]).abs() > SAME_HEIGHT) {
-                height = Some(step.end[2]);
+            if height.is_none_or(|height: f64| (height - z).abs() > SAME_HEIGHT) {
+                height = Some(z);
                 count += 1;
                 if count == level {
                     return Some(index);
@@ -103,7 +100,7 @@ impl Program {
     pub fn raised(&self, by: f64) -> Self {
         let mut program = self.clone();
         for step in &mut program.moves {
-            step.end[2] += by;
+            step.end.tip[2] += by;
             step.arc = step.arc.map(|arc| raised_arc(arc, by));
         }
         for cycle in &mut program.cycles {
@@ -258,6 +255,14 @@ fn is_state(kind: &EventKind) -> bool {
     )
 }
 
+/// A move's feed in a mode that holds for moves of any length.
+fn lasting_feed(start: [f64; 3], step: &Move) -> (f64, FeedMode) {
+    match step.feed_mode {
+        FeedMode::InverseTime => (step.feed * step.length(start), FeedMode::PerMinute),
+        FeedMode::PerMinute | FeedMode::PerRevolution => (step.feed, step.feed_mode),
+    }
+}
+
 fn raised_arc(arc: Arc, by: f64) -> Arc {
     let mut centre = arc.centre;
     // across the plane the centre says nothing
@@ -276,7 +281,7 @@ mod tests {
 
     /// Two operations of two levels each; the spindle turns in the second one.
     fn program() -> Program {
-        let step = |kind, end: [f64; 3], operation| Move { kind, end, arc: None, feed: 100.0, operation, line: 0 };
+        let step = |kind, tip, operation| Move::new(kind, tip, 100.0).of_operation(operation);
         let mut moves = Vec::new();
         for operation in 0..2 {
             for z in [-1.0, -2.0] {
@@ -322,8 +327,8 @@ mod tests {
                 (4, EventKind::SpindleOff),
             ]
         );
-        assert_eq!(rest.moves[0].end, [0.0, 0.0, 10.0]);
-        assert_eq!((rest.moves[1].kind, rest.moves[1].end), (MoveKind::Feed, [0.0, 0.0, -2.0]));
+        assert_eq!(rest.moves[0].end.tip, [0.0, 0.0, 10.0]);
+        assert_eq!((rest.moves[1].kind, rest.moves[1].end.tip), (MoveKind::Feed, [0.0, 0.0, -2.0]));
         assert_eq!(rest.moves[2..], whole.moves[14..]);
         assert_eq!(whole.restarted(0), None);
         assert_eq!(whole.restarted(16), None);
@@ -338,7 +343,7 @@ mod tests {
             .moves
             .iter()
             .zip(&air.moves)
-            .all(|(a, b)| a.end[..2] == b.end[..2] && b.end[2] - a.end[2] == 20.0));
+            .all(|(a, b)| a.end.tip[..2] == b.end.tip[..2] && b.end.tip[2] - a.end.tip[2] == 20.0));
     }
 
     #[test]

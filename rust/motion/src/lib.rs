@@ -10,18 +10,22 @@ mod cycle;
 mod dynamics;
 mod edit;
 mod event;
+mod pose;
 mod program;
 mod record;
 mod statistics;
+mod step;
 mod watch;
 
 pub use arc::{Arc, ArcWay, Plane};
 pub use cycle::{Cycle, CycleKind, CycleStart, CycleStep};
 pub use dynamics::Dynamics;
 pub use event::{Event, EventKind, SpindleDirection, Upcoming};
-pub use program::{MachineMove, Move, MoveKind, Program};
+pub use pose::{NotUnit, Pose, UnitAxis};
+pub use program::{MachineMove, Program};
 pub use record::{OperationRecord, SetupRecord, ToolRecord, ToolReference};
 pub use statistics::Statistics;
+pub use step::{FeedMode, Move, MoveKind, Role};
 pub use watch::{Cancelled, Watch};
 
 /// Version of the program document; older ones migrate, newer ones are refused.

@@ -3,68 +3,17 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Arc, ArcWay, Cycle, Event, EventKind, OperationRecord, SetupRecord, ToolRecord, Upcoming, PROGRAM_SCHEMA};
-
-/// What a move is for the machine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum MoveKind {
-    /// Positioning at the machine's rapid rate.
-    Rapid,
-    /// A line or an arc at a feed.
-    Feed,
-}
-
-/// One move of the controlled point, straight unless it has an arc, from the end of the one before it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Move {
-    /// Rapid or feed.
-    pub kind: MoveKind,
-    /// Where it ends, work coordinates, mm.
-    pub end: [f64; 3],
-    /// How it turns on the way; straight when left out. Rapids are straight.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub arc: Option<Arc>,
-    /// Feed in mm/min; 0 on rapids.
-    pub feed: f64,
-    /// Index into [`Program::operations`].
-    pub operation: u32,
-    /// Line of the text that it was read from, from 1; 0 when it was not read from text.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub line: u32,
-}
-
-impl Move {
-    /// The way of an arc that starts at `start`; none when the move is straight.
-    #[must_use]
-    pub fn way(&self, start: [f64; 3]) -> Option<ArcWay> {
-        self.arc.map(|arc| arc.way(start, self.end))
-    }
-
-    /// The box around it, lowest and highest coordinates, mm; of a straight move without its start.
-    #[must_use]
-    pub fn bounds(&self, start: Option<[f64; 3]>) -> ([f64; 3], [f64; 3]) {
-        start.and_then(|start| self.way(start)).map_or((self.end, self.end), |way| way.bounds())
-    }
-
-    /// Its length from `start`, mm.
-    #[must_use]
-    pub fn length(&self, start: [f64; 3]) -> f64 {
-        let [dx, dy, dz] = [0, 1, 2].map(|axis| self.end[axis] - start[axis]);
-        self.way(start).map_or_else(|| (dx * dx + dy * dy + dz * dz).sqrt(), |way| way.length())
-    }
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref)] // serde hands a reference
-fn is_zero(line: &u32) -> bool {
-    *line == 0
-}
+use crate::{
+    Cycle, Event, EventKind, Move, NotUnit, OperationRecord, SetupRecord, ToolRecord, UnitAxis, Upcoming,
+    PROGRAM_SCHEMA,
+};
 
 /// A whole program of one channel.
 ///
 /// The first move goes to a known place from wherever the machine stands: its posted form goes
 /// up first, then across. Later moves start where the one before them ends.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(try_from = "Document")]
 pub struct Program {
     /// Version of this document.
     pub schema: u32,
@@ -81,9 +30,53 @@ pub struct Program {
     /// Moves and events that a controller's canned cycle makes, in their order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cycles: Vec<Cycle>,
-    /// The tool's axis at the end of every move, a unit vector from the tip up; empty when it is +Z throughout.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub axes: Vec<[f64; 3]>,
+}
+
+/// A program document of any version that is read. Schema 1 had the tool's axes in a list beside the moves.
+#[derive(Deserialize, JsonSchema)]
+struct Document {
+    schema: u32,
+    setup: SetupRecord,
+    tools: Vec<ToolRecord>,
+    operations: Vec<OperationRecord>,
+    moves: Vec<Move>,
+    events: Vec<Event>,
+    #[serde(default)]
+    cycles: Vec<Cycle>,
+    /// One unit vector for each move, or none at all: +Z throughout.
+    #[serde(default)]
+    axes: Vec<[f64; 3]>,
+}
+
+/// Why the list of axes of an earlier document cannot be read.
+#[derive(Debug)]
+enum AxesError {
+    Count { axes: usize, moves: usize },
+    Vector { index: usize, error: NotUnit },
+}
+
+impl std::fmt::Display for AxesError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Count { axes, moves } => write!(f, "{axes} axes for {moves} moves: one for each move, or none"),
+            Self::Vector { index, error } => write!(f, "axes[{index}]: {error}"),
+        }
+    }
+}
+
+impl TryFrom<Document> for Program {
+    type Error = AxesError;
+
+    fn try_from(document: Document) -> Result<Self, AxesError> {
+        let Document { schema, setup, tools, operations, mut moves, events, cycles, axes } = document;
+        if !axes.is_empty() && axes.len() != moves.len() {
+            return Err(AxesError::Count { axes: axes.len(), moves: moves.len() });
+        }
+        for (index, (step, axis)) in moves.iter_mut().zip(axes).enumerate() {
+            step.end.axis = UnitAxis::new(axis).map_err(|error| AxesError::Vector { index, error })?;
+        }
+        Ok(Self { schema, setup, tools, operations, moves, events, cycles })
+    }
 }
 
 /// A move in the machine's own coordinates (G53): where that is in the work is not known.
@@ -101,13 +94,13 @@ impl Program {
     /// A program without motion.
     #[must_use]
     pub fn empty(setup: SetupRecord, tools: Vec<ToolRecord>, operations: Vec<OperationRecord>) -> Self {
-        let (moves, events, cycles, axes) = Default::default();
-        Self { schema: PROGRAM_SCHEMA, setup, tools, operations, moves, events, cycles, axes }
+        let (moves, events, cycles) = Default::default();
+        Self { schema: PROGRAM_SCHEMA, setup, tools, operations, moves, events, cycles }
     }
 
     /// The moves paired with the place where each starts; the first has none.
     pub fn segments(&self) -> impl Iterator<Item = (Option<[f64; 3]>, &Move)> {
-        let starts = std::iter::once(None).chain(self.moves.iter().map(|m| Some(m.end)));
+        let starts = std::iter::once(None).chain(self.moves.iter().map(|m| Some(m.end.tip)));
         starts.zip(&self.moves)
     }
 
@@ -144,8 +137,46 @@ impl Program {
             let count = way.map_or(1, |way| way.chords(sag));
             (1..=count).map(move |i| match way {
                 Some(way) if i < count => (way.at(i as f64 / count as f64), index),
-                _ => (step.end, index),
+                _ => (step.end.tip, index),
             })
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Move;
+
+    fn document(axes: &str) -> serde_json::Result<Program> {
+        let setup = serde_json::to_string(&SetupRecord::default()).unwrap();
+        let moves = r#"[{"kind":"rapid","end":[0.0,0.0,5.0],"feed":0.0,"operation":0},
+                        {"kind":"feed","end":[0.0,0.0,-1.0],"feed":100.0,"operation":0}]"#;
+        serde_json::from_str(&format!(
+            r#"{{"schema":1,"setup":{setup},"tools":[],"operations":[],"moves":{moves},"events":[]{axes}}}"#
+        ))
+    }
+
+    #[test]
+    fn axes_of_earlier_documents_move_to_the_moves() {
+        let tilted = UnitAxis::new([0.6, 0.0, 0.8]).unwrap();
+        let program = document(r#","axes":[[0.0,0.0,1.0],[0.6,0.0,0.8]]"#).unwrap();
+        let moves = [Move::rapid([0.0, 0.0, 5.0]), Move::feed([0.0, 0.0, -1.0], 100.0).with_axis(tilted)];
+        assert_eq!(program.moves, moves);
+        assert_eq!(serde_json::from_str::<Program>(&serde_json::to_string(&program).unwrap()).unwrap(), program);
+    }
+
+    #[test]
+    fn a_document_without_axes_is_upright_and_written_as_it_was_read() {
+        let program = document("").unwrap();
+        assert!(program.moves.iter().all(|step| step.end.axis == UnitAxis::UP));
+        assert!(!serde_json::to_string(&program).unwrap().contains("ax"));
+    }
+
+    #[test]
+    fn axes_that_do_not_fit_are_refused() {
+        let error = |axes: &str| document(axes).unwrap_err().to_string();
+        assert!(error(r#","axes":[[0.0,0.0,1.0]]"#).contains("1 axes for 2 moves"));
+        assert!(error(r#","axes":[[0.0,0.0,1.0],[0.0,0.0,0.5]]"#).contains("axes[1]"));
     }
 }

@@ -1,8 +1,6 @@
 //! Prints a short program as the machines named are given it; as every shipped machine without names.
 
-use styluscam_motion::{
-    Event, EventKind, Move, MoveKind, OperationRecord, Program, SetupRecord, ToolRecord, ToolReference,
-};
+use styluscam_motion::{Event, EventKind, Move, OperationRecord, Program, SetupRecord, ToolRecord, ToolReference};
 use styluscam_post::{post, shipped, Machine};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -15,7 +13,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 fn cone() -> Program {
-    let step = |kind, end, feed| Move { kind, end, arc: None, feed, operation: 0, line: 0 };
     let tool = ToolRecord {
         name: "stylus".into(),
         number: 1,
@@ -37,12 +34,12 @@ fn cone() -> Program {
     let operations = vec![OperationRecord { id: "walls".into(), kind: "z-level".into(), tool: 0 }];
     Program {
         moves: vec![
-            step(MoveKind::Rapid, [10.0, -5.0, 10.0], 0.0),
-            step(MoveKind::Rapid, [12.0, -5.0, 1.0], 0.0),
-            step(MoveKind::Feed, [12.0, -5.0, -0.5], 100.0),
-            step(MoveKind::Feed, [20.125, -5.0, -0.5], 1500.0),
-            step(MoveKind::Feed, [20.125, 7.5, -0.5], 1500.0),
-            step(MoveKind::Rapid, [20.125, 7.5, 10.0], 0.0),
+            Move::rapid([10.0, -5.0, 10.0]),
+            Move::rapid([12.0, -5.0, 1.0]),
+            Move::feed([12.0, -5.0, -0.5], 100.0),
+            Move::feed([20.125, -5.0, -0.5], 1500.0),
+            Move::feed([20.125, 7.5, -0.5], 1500.0),
+            Move::rapid([20.125, 7.5, 10.0]),
         ],
         events: vec![Event { before: 0, kind: EventKind::ToolChange { tool: 0 } }],
         ..Program::empty(setup, vec![tool], operations)

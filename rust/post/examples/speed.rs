@@ -63,5 +63,5 @@ fn turn(index: u32) -> Move {
     let (sine, cosine) = angle.sin_cos();
     let radius = 100.0 - 50.0 * share;
     let kind = if index == 0 { MoveKind::Rapid } else { MoveKind::Feed };
-    Move { kind, end: [radius * cosine, radius * sine, -40.0 * share], arc: None, feed: 1500.0, operation: 0, line: 0 }
+    Move::new(kind, [radius * cosine, radius * sine, -40.0 * share], 1500.0)
 }

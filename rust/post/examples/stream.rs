@@ -77,5 +77,5 @@ fn turn(index: u32) -> Move {
     let angle = f64::from(index) * 0.005;
     let end = [80.0 * angle.cos(), 80.0 * angle.sin(), -1e-6 * f64::from(index)];
     let kind = if index == 0 { MoveKind::Rapid } else { MoveKind::Feed };
-    Move { kind, end, arc: None, feed: 1500.0, operation: 0, line: 0 }
+    Move::new(kind, end, 1500.0)
 }

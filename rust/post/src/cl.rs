@@ -1,6 +1,6 @@
 //! Cutter location text: APT's words for a program, before any controller (ISO 3592, ISO 4343).
 
-use styluscam_motion::{EventKind, MoveKind, Program, SpindleDirection};
+use styluscam_motion::{EventKind, FeedMode, Move, MoveKind, Program, SpindleDirection, UnitAxis};
 
 use crate::number::{write_integer, NumberFormat};
 use crate::post_error::PostError;
@@ -12,14 +12,17 @@ const VECTOR_PLACES: u8 = 7;
 const SAG: f64 = 0.001;
 
 /// The cutter location data of a program, in mm: places are those of the tip. Arcs become points, none farther than 0.001 mm
-/// from its arc. A program with tool axes has them behind every place.
+/// from its arc. Where any tool axis is not +Z, every place has its
+/// axis behind it.
 ///
 /// # Errors
-/// [`PostError::Number`] for a place or feed that is no number; [`PostError::Empty`] without moves.
+/// [`PostError::Number`] for a place or feed that is no number; [`PostError::FeedMode`] for a feed that is not in mm/min;
+/// [`PostError::Empty`] without moves.
 pub fn cl_text(program: &Program) -> Result<String, PostError> {
     if program.moves.is_empty() {
         return Err(PostError::Empty);
     }
+    let tilted = program.moves.iter().any(|step| !step.end.axis.is_up());
     let mut out = Text { out: String::new(), feed: None };
     out.line(&format!("PARTNO {}", program.setup.title));
     out.line("UNITS/MM");
@@ -29,16 +32,16 @@ pub fn cl_text(program: &Program) -> Result<String, PostError> {
         events.before(index).try_for_each(|event| out.event(program, event))?;
         match step.kind {
             MoveKind::Rapid => out.line("RAPID"),
-            MoveKind::Feed => out.feed(index, step.feed)?,
+            MoveKind::Feed => out.feed(index, step)?,
         }
         let way = start.and_then(|start| step.way(start));
         let count = way.map_or(1, |way| way.chords(SAG));
         for chord in 1..=count {
             let place = match way {
                 Some(way) if chord < count => way.at(chord as f64 / count as f64),
-                _ => step.end,
+                _ => step.end.tip,
             };
-            out.goto(index, place, program.axes.get(index))?;
+            out.goto(index, place, tilted.then_some(step.end.axis))?;
         }
     }
     events.before(program.moves.len()).try_for_each(|event| out.event(program, event))?;
@@ -66,9 +69,9 @@ impl Text {
         Ok(())
     }
 
-    fn goto(&mut self, index: usize, place: [f64; 3], axis: Option<&[f64; 3]>) -> Result<(), PostError> {
+    fn goto(&mut self, index: usize, place: [f64; 3], axis: Option<UnitAxis>) -> Result<(), PostError> {
         self.out.push_str("GOTO/");
-        let vector = axis.into_iter().flatten().map(|v| (VECTOR_PLACES, *v));
+        let vector = axis.into_iter().flat_map(UnitAxis::vector).map(|v| (VECTOR_PLACES, v));
         for (number, (places, value)) in place.into_iter().map(|v| (PLACES, v)).chain(vector).enumerate() {
             if number > 0 {
                 self.out.push(',');
@@ -80,7 +83,11 @@ impl Text {
     }
 
     #[allow(clippy::float_cmp)] // the same number, not a near one
-    fn feed(&mut self, index: usize, feed: f64) -> Result<(), PostError> {
+    fn feed(&mut self, index: usize, step: &Move) -> Result<(), PostError> {
+        if step.feed_mode != FeedMode::PerMinute {
+            return Err(PostError::FeedMode { index });
+        }
+        let feed = step.feed;
         if self.feed == Some(feed) {
             return Ok(());
         }

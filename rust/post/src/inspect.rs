@@ -1,12 +1,10 @@
 //! Checks on a program before it is written: records, order of events, the machine's limits.
 
-use styluscam_motion::{Cycle, EventKind, Move, MoveKind, Program, ToolRecord};
+use styluscam_motion::{Cycle, EventKind, FeedMode, Move, MoveKind, Program, ToolRecord};
 
 use crate::machine::Machine;
 use crate::post_error::PostError;
 
-/// The sine of the angle by which a tool's axis may lean on a machine that cannot turn it: rounding only.
-const UPRIGHT: f64 = 1e-9;
 /// How far Y may be from 0 on a machine without it, mm: rounding only.
 const FLAT: f64 = 1e-9;
 
@@ -26,7 +24,6 @@ impl<'a> Inspector<'a> {
     pub fn new(head: &'a Program, machine: &'a Machine) -> Result<Self, PostError> {
         inspect_wcs(head, machine)?;
         inspect_tools(head, machine)?;
-        inspect_axes(head)?;
         // until a tool is called the first one is taken to be loaded
         let height = head.tools.first().map_or(0.0, |tool| tool.reference_height);
         Ok(Self { head, machine, height, moves: 0, low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] })
@@ -65,8 +62,8 @@ impl<'a> Inspector<'a> {
 
     /// Whether a hole's numbers are those of its moves.
     fn makes(&self, hole: &Cycle, moves: &[Move]) -> bool {
-        let lowest = moves.iter().map(|m| m.end[2]).fold(f64::INFINITY, f64::min);
-        let Some(last) = moves.last().map(|m| m.end) else { return false };
+        let lowest = moves.iter().map(|m| m.end.tip[2]).fold(f64::INFINITY, f64::min);
+        let Some(last) = moves.last().map(|m| m.end.tip) else { return false };
         let pairs = [(lowest, hole.bottom), (last[2], hole.leave), (last[0], hole.at[0]), (last[1], hole.at[1])];
         pairs.iter().all(|(found, stated)| (found - stated).abs() <= self.machine.resolution_mm())
             && hole.retract >= hole.bottom
@@ -115,8 +112,12 @@ impl<'a> Inspector<'a> {
             let place = format!("moves[{index}]");
             return Err(PostError::NoSuchRecord { place, what: "operation", index: step.operation });
         }
-        if self.machine.motion.lathe.is_some() && step.end[1].abs() > FLAT {
-            return Err(PostError::NoSuchAxis { index, axis: 'Y', value: step.end[1] });
+        // no machine file describes axes that turn the tool
+        if !step.end.axis.is_up() {
+            return Err(PostError::ToolAxis { index });
+        }
+        if self.machine.motion.lathe.is_some() && step.end.tip[1].abs() > FLAT {
+            return Err(PostError::NoSuchAxis { index, axis: 'Y', value: step.end.tip[1] });
         }
         self.inspect_feed(index, step)?;
         self.inspect_range(index, start, step)
@@ -140,6 +141,9 @@ impl<'a> Inspector<'a> {
     fn inspect_feed(&self, index: usize, step: &Move) -> Result<(), PostError> {
         if step.kind == MoveKind::Rapid {
             return Ok(());
+        }
+        if step.feed_mode != FeedMode::PerMinute {
+            return Err(PostError::FeedMode { index });
         }
         let max = self.machine.limits.max_feed.unwrap_or(f64::INFINITY);
         if !step.feed.is_finite() || step.feed <= 0.0 {
@@ -199,12 +203,6 @@ fn inspect_tools(program: &Program, machine: &Machine) -> Result<(), PostError> 
 #[allow(clippy::float_cmp)] // the same number, not a near one
 fn moves_alike(a: &ToolRecord, b: &ToolRecord) -> bool {
     a.length_offset == b.length_offset && a.reference_height == b.reference_height
-}
-
-/// No machine file describes axes that turn the tool.
-fn inspect_axes(program: &Program) -> Result<(), PostError> {
-    let leans = |[x, y, z]: &[f64; 3]| libm::hypot(*x, *y) > UPRIGHT || z.is_nan() || *z <= 0.0;
-    program.axes.iter().position(leans).map_or(Ok(()), |index| Err(PostError::ToolAxis { index }))
 }
 
 fn inspect_limit(index: usize, axis: usize, value: f64, range: Option<[f64; 2]>) -> Result<(), PostError> {

@@ -198,8 +198,15 @@ pub enum PostError {
         cycle: usize,
     },
     /// The program turns the tool's axis; the machine has three axes. Post it for a machine that turns the tool.
-    #[error("move {index} leans the tool; this machine has three axes and cannot")]
+    #[error("the tool axis of move {index} is not +Z; this machine has three axes and cannot turn it")]
     ToolAxis {
+        /// The move.
+        index: usize,
+    },
+    /// A move's feed is per revolution or in inverse time; what the writer takes is mm/min, and the machine file decides
+    /// how it is written. Give the feed in mm/min.
+    #[error("the feed of move {index} is not in mm/min")]
+    FeedMode {
         /// The move.
         index: usize,
     },
@@ -241,6 +248,7 @@ impl PostError {
             | Self::AxisLimit { index, .. }
             | Self::NoTool { index }
             | Self::ToolAxis { index }
+            | Self::FeedMode { index }
             | Self::NoSuchAxis { index, .. }
             | Self::NoRevolutions { index }
             | Self::FeedFromUnknown { index } => format!("moves[{index}]"),
@@ -286,6 +294,7 @@ codes_and_hints! {
     Self::CycleOrder { .. } => "post-cycle-order", "whoever built the program is at fault: report it";
     Self::CycleMoves { .. } => "post-cycle-moves", "whoever built the program is at fault: report it";
     Self::ToolAxis { .. } => "post-tool-axis", "post it for a machine that turns the tool";
+    Self::FeedMode { .. } => "post-feed-mode", "give the feed in mm/min: the machine file's feed mode decides how it is written";
     Self::NoSuchAxis { .. } => "post-no-such-axis", "turn the part into the machine's plane, or take another machine";
     Self::NoRevolutions { .. } => "post-no-revolutions", "turn the spindle on first, or take feed_mode = \"per-minute\"";
     Self::Output { .. } => "post-output", "look at the disk that it goes to";

@@ -74,11 +74,11 @@ fn off(posted: &Program, start: [f64; 3], meant: &ArcWay) -> f64 {
     for step in &posted.moves[1..] {
         for i in 0..=20 {
             let share = f64::from(i) / 20.0;
-            let straight = |axis: usize| from[axis] + share * (step.end[axis] - from[axis]);
+            let straight = |axis: usize| from[axis] + share * (step.end.tip[axis] - from[axis]);
             let place = step.way(from).map_or([straight(0), straight(1), straight(2)], |way| way.at(share));
             worst = worst.max(distance_to(meant, place));
         }
-        from = step.end;
+        from = step.end.tip;
     }
     worst
 }
@@ -134,7 +134,7 @@ proptest! {
             end[second] = start[second];
         }
         let arc = Arc { centre, plane, clockwise, turns };
-        let step = Move { arc: Some(arc), ..feed(end[0], end[1], end[2], 500.0) };
+        let step = feed(end[0], end[1], end[2], 500.0).arc(arc);
         let mut machine = if small { grbl() } else { linuxcnc() };
         if inch {
             machine.units.output = LengthUnit::Inch;
@@ -149,17 +149,15 @@ proptest! {
 
 #[test]
 fn arcs_that_the_machine_would_not_take_become_lines() {
-    let meant = Move {
-        arc: Some(Arc { centre: [0.0; 3], plane: Plane::Xy, clockwise: false, turns: 0 }),
-        ..feed(0.0, 10.0, 0.0, 500.0)
-    };
+    let quarter = Arc { centre: [0.0; 3], plane: Plane::Xy, clockwise: false, turns: 0 };
+    let meant = feed(0.0, 10.0, 0.0, 500.0).arc(quarter);
     let mut machine = linuxcnc();
     let arcs = |machine: &Machine| post(&program([10.0, 0.0, 0.0], meant), machine).unwrap().text.matches("G3").count();
     assert_eq!(arcs(&machine), 1);
     machine.arc = None;
     assert_eq!(arcs(&machine), 0);
     let exact = RadiusError { absolute: 0.0, relative: 0.0, most: 0.0 };
-    let odd = Move { end: [7.0714, 7.0708, 0.0], ..meant };
+    let odd = meant.to([7.0714, 7.0708, 0.0]);
     let mut strict = linuxcnc();
     strict.arc.as_mut().unwrap().radius_error = exact;
     let text = post(&program([10.0, 0.0, 0.0], odd), &strict).unwrap().text;

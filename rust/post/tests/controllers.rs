@@ -18,7 +18,7 @@ fn holes(kind: CycleKind, peck: f64, dwell: f64, lift: bool) -> Program {
     let mut work = program(vec![rapid(0.0, 0.0, 10.0)], vec![change(0, 0), spindle(0, 500.0)], vec![stylus(1)]);
     let turning = Some((500.0, SpindleDirection::Clockwise));
     for x in [0.0, 8.0] {
-        let place = work.moves.last().unwrap().end;
+        let place = work.moves.last().unwrap().end.tip;
         let leave = if lift { place[2] } else { 2.0 };
         let first = work.moves.len();
         let hole =
@@ -245,9 +245,9 @@ fn a_hole_is_reached_from_the_height_where_the_tool_stands() {
         assert_eq!(difference(&work, &posted, &reading, &controller), None, "{}", posted.text);
         let mut from = [0.0; 3];
         for step in &reading.program.moves {
-            let across = step.kind == styluscam_motion::MoveKind::Rapid && (step.end[0] - from[0]).abs() > 1.0;
-            assert!(!across || step.end[2] > 99.0, "{name} crosses at {:?}\n{}", step.end, posted.text);
-            from = step.end;
+            let across = step.kind == styluscam_motion::MoveKind::Rapid && (step.end.tip[0] - from[0]).abs() > 1.0;
+            assert!(!across || step.end.tip[2] > 99.0, "{name} crosses at {:?}\n{}", step.end.tip, posted.text);
+            from = step.end.tip;
         }
     }
 }

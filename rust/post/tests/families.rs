@@ -129,11 +129,11 @@ struct Work {
 
 impl Work {
     fn push(&mut self, kind: MoveKind, end: [f64; 3], arc: Option<Arc>, feed: f64) {
-        self.moves.push(Move { kind, end, arc, feed, operation: 0, line: 0 });
+        self.moves.push(Move::new(kind, end, feed).arc(arc));
     }
 
     fn at(&self) -> [f64; 3] {
-        self.moves.last().unwrap().end
+        self.moves.last().unwrap().end.tip
     }
 
     fn arc(&mut self, plane: Plane, radius: f64, [from, sweep]: [f64; 2], rise: f64, turns: u32) {

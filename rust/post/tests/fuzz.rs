@@ -108,7 +108,7 @@ fn damaged_programs_of_every_machine() {
         let text = damaged(text, &changes);
         if let Ok(reading) = read(&text, machine, &[]) {
             for step in &reading.program.moves {
-                assert!(step.end.iter().all(|v| v.is_finite()) && step.feed.is_finite(), "{text}");
+                assert!(step.end.tip.iter().all(|v| v.is_finite()) && step.feed.is_finite(), "{text}");
             }
             _ = post(&reading.program, machine);
         }

@@ -4,11 +4,11 @@
 
 mod support;
 
-use styluscam_motion::{EventKind, Program, SpindleDirection};
+use styluscam_motion::{EventKind, FeedMode, Program, SpindleDirection, UnitAxis};
 use styluscam_post::machine::{
     BlockNumber, CommentForm, Counted, LengthUnit, LineEnd, Point, Separator, TimeUnit, TrailingZeros,
 };
-use styluscam_post::{post, Machine, PostError};
+use styluscam_post::{cl_text, post, Machine, PostError};
 use support::{ball_by_center, change, cone, event, feed, grbl, linuxcnc, program, rapid, spindle, stylus};
 
 fn code_lines(program: &Program, machine: &Machine) -> Vec<String> {
@@ -229,7 +229,7 @@ fn an_unknown_work_offset() {
 fn numbers_that_are_none() {
     for (value, index) in [(f64::NAN, 0), (f64::INFINITY, 1), (1e300, 2), (-1e14, 2)] {
         let mut program = cone();
-        program.moves[3].end[index] = value;
+        program.moves[3].end.tip[index] = value;
         assert!(matches!(refusal(&program, &linuxcnc()), PostError::Number { .. }));
     }
     let mut program = cone();
@@ -247,6 +247,31 @@ fn feeds_out_of_range() {
     let mut machine = linuxcnc();
     machine.limits.max_feed = Some(1000.0);
     assert!(matches!(refusal(&cone(), &machine), PostError::FeedTooHigh { index: 3, .. }));
+}
+
+#[test]
+fn a_tool_axis_that_is_not_up() {
+    let mut program = cone();
+    let tilted = UnitAxis::new([0.6, 0.0, 0.8]).unwrap();
+    assert!(!cl_text(&program).unwrap().contains("0.8"), "upright tools need no axis");
+    program.moves[2] = program.moves[2].with_axis(tilted);
+    assert!(matches!(refusal(&program, &linuxcnc()), PostError::ToolAxis { index: 2 }));
+    let text = cl_text(&program).unwrap();
+    let ends: Vec<_> = text.lines().filter_map(|line| line.strip_prefix("GOTO/")).collect();
+    assert_eq!(ends.len(), program.moves.len());
+    for (index, end) in ends.into_iter().enumerate() {
+        assert!(end.ends_with(if index == 2 { ",0.6,0,0.8" } else { ",0,0,1" }), "{end}");
+    }
+}
+
+#[test]
+fn a_feed_that_is_not_per_minute() {
+    for mode in [FeedMode::PerRevolution, FeedMode::InverseTime] {
+        let mut program = cone();
+        program.moves[2] = program.moves[2].with_feed(0.1, mode);
+        assert!(matches!(refusal(&program, &linuxcnc()), PostError::FeedMode { index: 2 }));
+        assert_eq!(cl_text(&program).unwrap_err().code(), "post-feed-mode");
+    }
 }
 
 #[test]

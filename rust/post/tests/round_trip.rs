@@ -73,7 +73,7 @@ fn expected(program: &Program, machine: &Machine) -> Vec<Item> {
         }
         let Some(step) = program.moves.get(index) else { break };
         let height = program.tools[tool].reference_height;
-        let goal = [grid.round(step.end[0]), grid.round(step.end[1]), grid.round(step.end[2] + height)];
+        let goal = [grid.round(step.end.tip[0]), grid.round(step.end.tip[1]), grid.round(step.end.tip[2] + height)];
         let from = at.unwrap_or(goal);
         let across = from[0] != goal[0] || from[1] != goal[1];
         let mut stops = vec![goal];
@@ -108,7 +108,7 @@ fn found(reading: &Reading) -> Vec<Item> {
                 .map(|e| Item::Event(e.kind.clone())),
         );
         let step = program.moves.get(index);
-        items.extend(step.map(|m| Item::Move { kind: m.kind, end: m.end, feed: m.feed }));
+        items.extend(step.map(|m| Item::Move { kind: m.kind, end: m.end.tip, feed: m.feed }));
     }
     without_repeats(items)
 }
@@ -180,7 +180,7 @@ fn check_lines(program: &Program, machine: &Machine, posted: &Posted, reading: &
     assert_eq!(posted.line_of_move.len(), program.moves.len());
     for (step, line) in program.moves.iter().zip(&posted.line_of_move) {
         let arrived = reading.program.moves.iter().rfind(|m| m.line == *line).unwrap();
-        for (a, b) in arrived.end.iter().zip(step.end) {
+        for (a, b) in arrived.end.tip.iter().zip(step.end.tip) {
             assert!((a - b).abs() <= machine.resolution_mm() / 2.0 + 1e-9, "line {line}: {a} for {b}");
         }
     }
@@ -216,14 +216,8 @@ fn place() -> impl Strategy<Value = [f64; 3]> {
 
 fn step() -> impl Strategy<Value = Move> {
     let feed = prop_oneof![(5.0..5000.0_f64), (1_i32..4).prop_map(|n| f64::from(n) * 500.0)];
-    (place(), prop_oneof![1 => Just(None), 4 => feed.prop_map(Some)]).prop_map(|(end, feed)| Move {
-        kind: if feed.is_some() { MoveKind::Feed } else { MoveKind::Rapid },
-        end,
-        arc: None,
-        feed: feed.unwrap_or(0.0),
-        operation: 0,
-        line: 0,
-    })
+    (place(), prop_oneof![1 => Just(None), 4 => feed.prop_map(Some)])
+        .prop_map(|(end, feed)| feed.map_or(Move::rapid(end), |feed| Move::feed(end, feed)))
 }
 
 fn happening() -> impl Strategy<Value = EventKind> {
@@ -345,7 +339,7 @@ proptest! {
     #[test]
     fn numbers_of_any_size_end_in_text_or_an_error(end in [any::<f64>(), any::<f64>(), any::<f64>()], speed in any::<f64>()) {
         let mut program = support::cone();
-        program.moves[3].end = end;
+        program.moves[3].end.tip = end;
         program.moves[4].feed = speed;
         if let Ok(posted) = post(&program, &linuxcnc()) {
             check_text(&posted, &linuxcnc());

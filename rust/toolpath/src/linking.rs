@@ -144,7 +144,7 @@ impl Route<'_> {
     }
 
     fn go(&mut self, kind: MoveKind, end: Vector, feed: f64) {
-        self.moves.push(Move { kind, end: end.into(), arc: None, feed, operation: self.links.operation, line: 0 });
+        self.moves.push(Move::new(kind, end.into(), feed).of_operation(self.links.operation));
     }
 }
 

@@ -43,7 +43,7 @@ impl Fault {
 
     /// An error at the end of a move.
     pub fn of(kind: &'static FaultKind, index: usize, step: &Move) -> Self {
-        Self::new(kind, index, step.line, step.end)
+        Self::new(kind, index, step.line, step.end.tip)
     }
 
     /// With what was measured and what is allowed; it weighs what lies between them.
@@ -308,6 +308,16 @@ pub(crate) static NOT_FINITE: FaultKind = FaultKind::in_text(
     FindingKind::NotFinite,
     |_| "a coordinate is not a number, or lies beyond +/-1e7 mm".to_owned(),
     "correct the coordinate",
+);
+pub(crate) static TOOL_AXIS: FaultKind = FaultKind::in_text(
+    FindingKind::ToolAxis,
+    |_| "the tool axis is not +Z, and only upright tools are checked".to_owned(),
+    "write the move for an upright tool",
+);
+pub(crate) static FEED_MODE: FaultKind = FaultKind::in_text(
+    FindingKind::FeedMode,
+    |_| "the feed is not in mm/min, and no other is checked".to_owned(),
+    "write the feed in mm/min (G94)",
 );
 
 // settings that the job states

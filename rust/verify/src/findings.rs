@@ -117,6 +117,10 @@ pub enum FindingKind {
     SpindleLimit,
     /// A coordinate that is not a number, or absurd (beyond 10 km).
     NotFinite,
+    /// A move whose tool axis is not +Z: distances are those of an upright tool, so it is not checked.
+    ToolAxis,
+    /// A feed that is not in mm/min, which cannot be compared with the job's or the machine's.
+    FeedMode,
     /// Something that the verifier does not check, and why.
     NotChecked,
 }

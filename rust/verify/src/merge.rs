@@ -87,7 +87,7 @@ fn group(runs: Vec<Run>, reported: &mut Reported) {
 /// Length of a move, mm; 0 when its start or its end is not known.
 fn length_of(index: usize, program: &Program) -> f64 {
     let start = index.checked_sub(1).and_then(|before| program.moves.get(before));
-    let length = start.zip(program.moves.get(index)).map_or(0.0, |(start, step)| step.length(start.end));
+    let length = start.zip(program.moves.get(index)).map_or(0.0, |(start, step)| step.length(start.end.tip));
     if length.is_finite() {
         length
     } else {

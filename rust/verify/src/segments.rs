@@ -160,10 +160,10 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
                 tool = known_tool(*called as usize);
             }
         }
-        let known = subject.is_known(index) && is_in_range(step.end);
+        let known = subject.is_known(index) && is_in_range(step.end.tip) && step.end.axis.is_up();
         if known {
             let way = start.and_then(|start| step.way(start));
-            let kind = if way.is_some() { SegmentKind::Lateral } else { kind(step.kind, start, step.end) };
+            let kind = if way.is_some() { SegmentKind::Lateral } else { kind(step.kind, start, step.end.tip) };
             let excess =
                 limits.excess_of(step.operation).filter(|_| kind == SegmentKind::Lateral && touches(step.operation));
             let segment = Segment {
@@ -171,7 +171,7 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
                 operation: step.operation,
                 kind,
                 start,
-                end: step.end,
+                end: step.end.tip,
                 bend: way,
                 line: step.line,
                 tool,
@@ -181,7 +181,7 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
             let radius = tool.and_then(|t| subject.tools.get(t)).map_or(f64::INFINITY, |t| 0.5 * t.diameter());
             segments.push(Segment { pieces: segment.count(PIECE * radius, FAR * (part + 2.0 * radius)), ..segment });
         }
-        start = known.then_some(step.end);
+        start = known.then_some(step.end.tip);
     }
     segments
 }

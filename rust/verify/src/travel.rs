@@ -1,6 +1,6 @@
 //! Checks that need no distances: rapids' heights, feeds, tools, known positions.
 
-use styluscam_motion::{EventKind, Move, MoveKind, Program};
+use styluscam_motion::{EventKind, FeedMode, Move, MoveKind, Program};
 
 use crate::faults::{self, Fault};
 use crate::findings::{Finding, FindingKind, Severity};
@@ -124,7 +124,7 @@ pub(crate) fn work_offset(program: &Program, wcs: &str) -> Option<Finding> {
 
 fn text_faults(index: usize, step: &Move, subject: &Subject) -> impl Iterator<Item = Fault> {
     let feeds = step.kind != MoveKind::Rapid;
-    let absurd = !is_in_range(step.end);
+    let absurd = !is_in_range(step.end.tip);
     let placed = subject.is_known(index);
     let from_a_place = index.checked_sub(1).is_some_and(|before| subject.is_known(before));
     let fault = |kind| Fault::of(kind, index, step);
@@ -132,6 +132,8 @@ fn text_faults(index: usize, step: &Move, subject: &Subject) -> impl Iterator<It
         (feeds && !(step.feed > 0.0 && step.feed.is_finite())).then(|| fault(&faults::MISSING_FEED)),
         (feeds && !(placed && from_a_place)).then(|| fault(&faults::UNPLACED_FEED)),
         (absurd && placed).then(|| fault(&faults::NOT_FINITE)),
+        (!step.end.axis.is_up()).then(|| fault(&faults::TOOL_AXIS)),
+        (feeds && step.feed_mode != FeedMode::PerMinute).then(|| fault(&faults::FEED_MODE)),
     ]
     .into_iter()
     .flatten()

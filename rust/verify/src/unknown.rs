@@ -24,7 +24,7 @@ pub(crate) fn faults(program: &Program, segments: &[Segment], subject: &Subject,
     let mut faults: Vec<Fault> = low.map(|segment| fault(segment.index, segment.end[2])).collect();
     let Some(text) = subject.text else { return faults };
     for index in subject.unknown_positions.iter().flat_map(Clone::clone) {
-        let height = program.moves.get(index).map_or(f64::NAN, |step| step.end[2]);
+        let height = program.moves.get(index).map_or(f64::NAN, |step| step.end.tip[2]);
         let known = run_of(&text.unknown_heights, index).is_none();
         if known && height < limits.clearance - SLACK {
             faults.push(fault(index, height));

@@ -38,7 +38,7 @@ fn chorded(program: &Program, count: usize) -> Program {
             Some(way) => chorded.moves.extend((1..=count).map(|i| {
                 let mut chord = *step;
                 chord.arc = None;
-                chord.end = if i == count { step.end } else { way.at(i as f64 / count as f64) };
+                chord.end.tip = if i == count { step.end.tip } else { way.at(i as f64 / count as f64) };
                 chord
             })),
         }
@@ -76,7 +76,7 @@ fn a_reversed_arc_gouges_or_leaves_the_part() {
         let tool = ball(8.0);
         let mut program = loop_of_arcs(&tool, inner, &[0.5, std::f64::consts::TAU]);
         program.moves[2].arc.as_mut().unwrap().centre[0] += 2.0;
-        let start = program.moves[1].end;
+        let start = program.moves[1].end.tip;
         program.moves[2].arc.as_mut().unwrap().clockwise = true;
         assert!(program.moves[2].way(start).is_some());
         let report = judged(&Part::cone(inner, LOW, HIGH, 600, 20), &tool, &program);
@@ -90,7 +90,7 @@ fn depths_are_those_of_ten_thousand_chords() {
         for (tool, shift) in [(ball(8.0), [0.03, 0.0]), (clothoid(8.0), [-0.02, 0.05]), (ball(8.0), [0.0, -0.2])] {
             let mut program = loop_of_arcs(&tool, inner, &QUARTERS);
             // both ends of the second arc are kept, its centre is not: it is deepest somewhere on the way
-            let (from, to) = (program.moves[2].end, program.moves[3].end);
+            let (from, to) = (program.moves[2].end.tip, program.moves[3].end.tip);
             let [x, y] = [0, 1].map(|axis| 0.5 * (from[axis] + to[axis]));
             let centre = &mut program.moves[3].arc.as_mut().unwrap().centre;
             let along = (x * shift[0] + y * shift[1]) / (x * x + y * y);
@@ -110,7 +110,7 @@ fn depths_are_those_of_ten_thousand_chords() {
 fn what_a_long_arc_leaves_between_its_ends_is_found() {
     let tool = ball(8.0);
     let mut program = loop_of_arcs(&tool, false, &[3.0, std::f64::consts::TAU]);
-    let start = program.moves[1].end;
+    let start = program.moves[1].end.tip;
     let way = program.moves[2].way(start).unwrap();
     // outwards: both ends touch, what lies between does not
     let [x, y, _] = way.at(0.5);

@@ -5,7 +5,7 @@ mod common;
 
 use common::{ball, clothoid, limits, tip_on_cone, Levels, Part, Path, CLEARANCE};
 use styluscam_geometry::{ModelFace, Sheet, SheetLaw, Tool, Vector};
-use styluscam_motion::{MoveKind, Program, Watch};
+use styluscam_motion::{FeedMode, MoveKind, Program, UnitAxis, Watch};
 use styluscam_verify::{judge, Finding, FindingKind, Limits, Report, Severity};
 
 const LOW: f64 = 10.0;
@@ -58,18 +58,18 @@ fn one_wrong_coordinate_is_one_finding_at_its_line() {
             for wrong in [200, 777, 1500] {
                 let part = part(inner);
                 let mut program = levels(&tool, inner, None).path().program(&tool);
-                program.moves[wrong].end[2] -= 0.05;
+                program.moves[wrong].end.tip[2] -= 0.05;
                 let report = judged(&part, &tool, None, &program);
                 let found = of_kind(&report, FindingKind::Gouge);
                 assert_eq!((report.findings.len(), found.len()), (1, 1), "{:?}", report.findings);
                 assert_eq!(found[0].line, program.moves[wrong].line, "{inner} {} {found:?}", tool.description());
-                assert_eq!(found[0].position, Some(program.moves[wrong].end));
+                assert_eq!(found[0].position, Some(program.moves[wrong].end.tip));
                 let depth = 0.05 * std::f64::consts::FRAC_1_SQRT_2 - 0.0015;
                 assert!((found[0].value_mm.unwrap() - depth).abs() < 0.001, "{:?}", found[0].value_mm);
                 assert!(!report.ok && (report.gouge_max - depth).abs() < 0.001);
                 assert_eq!(report.gouge_at.unwrap().line, program.moves[wrong].line);
 
-                program.moves[wrong].end[2] += 0.1;
+                program.moves[wrong].end.tip[2] += 0.1;
                 let report = judged(&part, &tool, None, &program);
                 let found = of_kind(&report, FindingKind::Excess);
                 assert_eq!((report.findings.len(), found.len()), (1, 1), "{:?}", report.findings);
@@ -135,7 +135,7 @@ fn the_centre_taken_for_the_tip_is_named() {
     let tool = ball(8.0);
     for shift in [4.0, -4.0] {
         let mut program = levels(&tool, true, None).path().program(&tool);
-        program.moves.iter_mut().for_each(|m| m.end[2] += shift);
+        program.moves.iter_mut().for_each(|m| m.end.tip[2] += shift);
         let report = judged(&part(true), &tool, None, &program);
         let found = of_kind(&report, FindingKind::NoContact);
         assert!(found[0].message.contains("centre"), "{}", found[0].message);
@@ -147,7 +147,7 @@ fn inches_taken_for_millimetres_are_named() {
     let tool = ball(8.0);
     for (scale, words) in [(25.4, "millimetres taken for inches"), (1.0 / 25.4, "inches taken for millimetres")] {
         let mut program = levels(&tool, false, None).path().program(&tool);
-        program.moves.iter_mut().for_each(|m| m.end = m.end.map(|x| x * scale));
+        program.moves.iter_mut().for_each(|m| m.end.tip = m.end.tip.map(|x| x * scale));
         let report = judged(&part(false), &tool, None, &program);
         assert!(of_kind(&report, FindingKind::NoContact)[0].message.contains(words), "{:?}", report.findings);
     }
@@ -179,7 +179,7 @@ fn rapids_are_judged() {
 #[test]
 fn a_rapid_may_not_land_on_the_part() {
     let (part, tool) = (part(false), ball(8.0));
-    let touching = levels(&tool, false, None).path().moves[1].end;
+    let touching = levels(&tool, false, None).path().moves[1].end.tip;
     let above = |gap: f64| [touching[0], touching[1], touching[2] + gap];
     for (gap, count) in [(0.03, 1), (0.2, 0)] {
         let program = Path::new()
@@ -208,10 +208,15 @@ fn text_faults_are_found() {
     assert_eq!(kinds(&|p| p.events.clear()), [(FindingKind::MissingToolChange, 12, Severity::Warning)]);
     assert_eq!(kinds(&|p| p.moves.clear()), [(FindingKind::NoFeedMoves, 0, error)]);
     assert_eq!(kinds(&|p| p.moves.retain(|m| m.kind == MoveKind::Rapid))[0].0, FindingKind::NoFeedMoves);
-    assert_eq!(kinds(&|p| p.moves[9].end[1] = f64::NAN), [(FindingKind::NotFinite, 20, error)]);
-    assert_eq!(kinds(&|p| p.moves[9].end[1] = -1e300), [(FindingKind::NotFinite, 20, error)]);
+    assert_eq!(kinds(&|p| p.moves[9].end.tip[1] = f64::NAN), [(FindingKind::NotFinite, 20, error)]);
+    assert_eq!(kinds(&|p| p.moves[9].end.tip[1] = -1e300), [(FindingKind::NotFinite, 20, error)]);
     let unknown = kinds(&|p| p.events[0].kind = styluscam_motion::EventKind::ToolChange { tool: 9 });
     assert_eq!(unknown, [(FindingKind::UnknownTool, 11, error)]);
+    let tilted = UnitAxis::new([0.6, 0.0, 0.8]).unwrap();
+    let leaning = kinds(&|p| p.moves[9] = p.moves[9].with_axis(tilted));
+    assert_eq!(leaning, [(FindingKind::ToolAxis, 20, error)]);
+    let turning = kinds(&|p| p.moves[9] = p.moves[9].with_feed(0.1, FeedMode::PerRevolution));
+    assert_eq!(turning, [(FindingKind::FeedMode, 20, error)]);
 }
 
 #[test]
@@ -246,12 +251,12 @@ fn the_meshs_own_error_counts_against_the_program() {
 fn a_program_that_need_not_touch_is_only_held_clear() {
     let (part, tool) = (part(true), ball(8.0));
     let mut program = levels(&tool, true, None).path().program(&tool);
-    program.moves.iter_mut().for_each(|m| m.end[2] += 1.0);
+    program.moves.iter_mut().for_each(|m| m.end.tip[2] += 1.0);
     let free = Limits { excess: None, ..limits() };
     let tools = [tool];
     let report = judge(&program, &part.subject(&tools), &free, &Watch::default()).unwrap();
     assert!(report.ok && report.contacts.is_empty());
-    program.moves[500].end[2] -= 1.5;
+    program.moves[500].end.tip[2] -= 1.5;
     let report = judge(&program, &part.subject(&tools), &free, &Watch::default()).unwrap();
     assert_eq!(of_kind(&report, FindingKind::Gouge)[0].line, program.moves[500].line);
 }
@@ -260,12 +265,12 @@ fn a_program_that_need_not_touch_is_only_held_clear() {
 fn a_long_fault_is_one_finding_and_many_are_counted() {
     let (part, tool) = (part(true), ball(8.0));
     let mut program = levels(&tool, true, None).path().program(&tool);
-    program.moves[400..500].iter_mut().for_each(|m| m.end[2] -= 0.02);
+    program.moves[400..500].iter_mut().for_each(|m| m.end.tip[2] -= 0.02);
     let report = judged(&part, &tool, None, &program);
     let found = of_kind(&report, FindingKind::Gouge);
     assert_eq!((found.len(), found[0].first_line, found[0].last_line, found[0].moves), (1, 411, 511, 101));
     let mut program = levels(&tool, true, None).path().program(&tool);
-    (0..50).for_each(|i| program.moves[10 * i + 5].end[2] -= 0.02);
+    (0..50).for_each(|i| program.moves[10 * i + 5].end.tip[2] -= 0.02);
     let report = judged(&part, &tool, None, &program);
     assert_eq!(of_kind(&report, FindingKind::Gouge).len(), 20);
     assert!(report.counts[&FindingKind::Gouge] >= 48, "{:?}", report.counts);
@@ -291,7 +296,7 @@ fn contacts_lie_on_the_part() {
 fn the_report_survives_json() {
     let (part, tool) = (part(true), ball(8.0));
     let mut program = levels(&tool, true, None).path().program(&tool);
-    program.moves[100].end[2] -= 0.3;
+    program.moves[100].end.tip[2] -= 0.3;
     let report = judged(&part, &tool, None, &program);
     let text = serde_json::to_string(&report).unwrap();
     assert!(text.contains(r#""kind":"gouge""#) && text.contains(r#""counts":{"gouge":1"#), "{text}");
@@ -330,7 +335,7 @@ fn the_same_fault_in_two_regions_is_told_twice_and_not_a_hundred_times() {
     let mut program = levels(&tool, true, None).path().program(&tool);
     // every third place beyond X20 or X-20 on the topmost level
     for step in program.moves.iter_mut().step_by(3) {
-        let [x, _, z] = &mut step.end;
+        let [x, _, z] = &mut step.end.tip;
         if *z < CLEARANCE && x.abs() > 20.0 {
             *z -= if *x > 0.0 { 0.2 } else { 0.05 };
         }

@@ -165,7 +165,7 @@ fn spirals_are_checked_by_their_height() {
     let (part, tool) = (Part::cone(false, LOW, HIGH, 600, 20), ball(8.0));
     let turns = 14;
     let whole = spiral(&tool, turns, &[]);
-    let heights = || whole.moves.iter().map(|step| step.end[2]).filter(|z| *z < CLEARANCE);
+    let heights = || whole.moves.iter().map(|step| step.end.tip[2]).filter(|z| *z < CLEARANCE);
     let heights = [heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max)];
     let expected = expected(&part, Contact::Touch, heights, ordered(Arc::new(Height), true));
     let report = |skipped: &[usize]| judged(&part, &tool, &expected, &spiral(&tool, turns, skipped));
@@ -201,7 +201,7 @@ fn what_only_stays_clear_need_not_touch_and_must_not_gouge() {
 
     let mut gouging = levels(0.0015);
     assert_eq!(kinds(&judged(&part, &tool, &touch, &gouging)), note);
-    gouging.moves[777].end[2] -= 0.05;
+    gouging.moves[777].end.tip[2] -= 0.05;
     for expected in [&touch, &clear] {
         let report = judged(&part, &tool, expected, &gouging);
         assert_eq!(kinds(&report), [FindingKind::Gouge, FindingKind::NotChecked]);

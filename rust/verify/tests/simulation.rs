@@ -5,7 +5,7 @@ mod common;
 
 use common::{ball, limits, Part, Path};
 use styluscam_geometry::{Cutter, Tool, Vector};
-use styluscam_motion::{Arc, Move, Plane, Program, Watch};
+use styluscam_motion::{Arc, Plane, Program, Watch};
 use styluscam_verify::{simulate, Grid, Simulation, Skin};
 
 const SIZE: [f64; 2] = [20.0, 12.0];
@@ -108,7 +108,7 @@ fn every_profile_cuts_as_it_does_by_brute_force() {
         let simulation = simulated(&tool, &program, 0.5);
         let mut cut = 0;
         for (place, height) in nodes(&simulation) {
-            let ends = program.segments().filter_map(|(start, step)| Some((start?, step.end)));
+            let ends = program.segments().filter_map(|(start, step)| Some((start?, step.end.tip)));
             let expected = ends.map(|(from, to)| lowest(&cutter, from, to, place)).fold(0.0, f64::min);
             cut += usize::from(expected < 0.0);
             assert!((height - expected).abs() < 1e-6, "{profile} at {place:?}: {height} {expected}");
@@ -141,8 +141,8 @@ fn chorded(program: &Program, count: usize) -> Program {
     for (start, step) in program.segments() {
         let way = start.and_then(|start| step.way(start));
         let chord = |i: usize| {
-            let end = way.filter(|_| i < count).map_or(step.end, |way| way.at(i as f64 / count as f64));
-            Move { arc: None, end, ..*step }
+            let end = way.filter(|_| i < count).map_or(step.end.tip, |way| way.at(i as f64 / count as f64));
+            step.to(end).arc(None)
         };
         chorded.moves.extend((1..=way.map_or(1, |_| count)).map(chord));
     }

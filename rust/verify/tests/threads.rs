@@ -19,7 +19,7 @@ fn the_number_of_threads_changes_nothing() {
     let levels =
         Levels { tool: &tool, sheet: None, inner: true, low: 10.0, high: 30.0, levels: 5, points: 200, off: 0.0 };
     let mut program = levels.path().program(&tool);
-    program.moves.iter_mut().step_by(37).for_each(|m| m.end[2] -= 0.01);
+    program.moves.iter_mut().step_by(37).for_each(|m| m.end.tip[2] -= 0.01);
     let tools = [tool.clone()];
     let subject = part.subject(&tools);
     let reports =

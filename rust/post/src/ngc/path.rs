@@ -54,7 +54,7 @@ impl Path {
 
     /// Whether it has come to a position in the program's coordinates.
     pub(super) fn stands_at(&mut self, offsets: &Offsets, position: [f64; 3]) -> bool {
-        let Some(end) = self.program.moves.last().map(|last| last.end) else { return false };
+        let Some(end) = self.program.moves.last().map(|last| last.end.tip) else { return false };
         let position = self.shown(offsets, position);
         end.iter().zip(position).all(|(a, b)| (a - b).abs() <= SAME)
     }
@@ -143,7 +143,7 @@ impl Path {
         }
         let operation = self.operation();
         let Pace { kind, feed, line } = pace;
-        self.program.moves.push(Move { kind, end, arc, feed, operation, line });
+        self.program.moves.push(Move::new(kind, end, feed).arc(arc).of_operation(operation).on_line(line));
         Ok(())
     }
 

@@ -16,7 +16,7 @@ fn moves(text: &str) -> Vec<Move> {
 }
 
 fn ends(text: &str) -> Vec<[f64; 3]> {
-    moves(text).iter().map(|one| one.end.map(|length| (length * 1e9).round() / 1e9)).collect()
+    moves(text).iter().map(|one| one.end.tip.map(|length| (length * 1e9).round() / 1e9)).collect()
 }
 
 /// Where X stands after each move.
@@ -121,7 +121,7 @@ fn recursion_works_and_ends() {
 fn subroutines_come_from_files_and_computed_numbers() {
     let find = |name: &str| (name == "hop").then(|| "o<hop> sub\nG0 X#1\nG1 F5 X9\no<hop> endsub\nM2\n".into());
     let trace = super::trace("o<HOP> call [3]\nG0 X1\nM2", &find, &Watch::default()).unwrap();
-    let shown: Vec<_> = trace.program.moves.iter().map(|one| (one.end[0], one.line)).collect();
+    let shown: Vec<_> = trace.program.moves.iter().map(|one| (one.end.tip[0], one.line)).collect();
     assert_eq!(shown, [(3.0, 1), (9.0, 1), (1.0, 2)]);
     assert_eq!(trace.notes[0].to_string(), "line 2 of hop: neither G20 nor G21 came before: lengths are taken as mm");
     assert_eq!(positions("o101 sub\nG0 X1\no101 endsub\no[100+1] call\nM2"), [1.0]);
@@ -251,7 +251,7 @@ fn beziers_end_where_they_shall_and_pass_their_middle() {
 #[test]
 fn a_feed_from_an_unknown_place_begins_at_the_machines_zero() {
     let trace = traced("F100\nG1 X5\nM2").unwrap();
-    let kinds: Vec<_> = trace.program.moves.iter().map(|one| (one.kind, one.end[0])).collect();
+    let kinds: Vec<_> = trace.program.moves.iter().map(|one| (one.kind, one.end.tip[0])).collect();
     assert_eq!(kinds, [(MoveKind::Rapid, 0.0), (MoveKind::Feed, 5.0)]);
     let starts = ['X', 'Y', 'Z'].map(|axis| Gap::Start { axis });
     assert_eq!(trace.notes.into_iter().map(|note| note.gap).collect::<Vec<_>>(), [&[Gap::Unit], &starts[..]].concat());
@@ -262,7 +262,7 @@ fn a_feed_from_an_unknown_place_begins_at_the_machines_zero() {
 /// Rapids and feeds along Z: letters and heights.
 fn drilled(text: &str) -> Vec<(char, f64)> {
     let letter = |one: &Move| if one.kind == MoveKind::Rapid { 'R' } else { 'F' };
-    moves(text).iter().map(|one| (letter(one), (one.end[2] * 1e9).round() / 1e9)).collect()
+    moves(text).iter().map(|one| (letter(one), (one.end.tip[2] * 1e9).round() / 1e9)).collect()
 }
 
 #[test]
@@ -512,7 +512,7 @@ proptest! {
     fn no_program_breaks_it(lines in proptest::collection::vec(line(), 0..25)) {
         let found = stopped(&lines.join("\n"));
         if let Ok(trace) = found {
-            let sound = |one: &Move| one.end.iter().all(|x| x.is_finite()) && (one.feed > 0.0) == (one.kind == MoveKind::Feed);
+            let sound = |one: &Move| one.end.tip.iter().all(|x| x.is_finite()) && (one.feed > 0.0) == (one.kind == MoveKind::Feed);
             prop_assert!(trace.program.moves.iter().all(sound));
         }
     }

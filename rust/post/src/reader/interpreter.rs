@@ -316,7 +316,7 @@ impl<'m> Interpreter<'m> {
         let feed = match kind {
             MoveKind::Rapid => 0.0,
             MoveKind::Feed => {
-                let step = Move { kind, end: self.tip(), arc, feed: 0.0, operation: 0, line };
+                let step = Move::new(kind, self.tip(), 0.0).arc(arc);
                 self.feed_of(block, step.length(start), first)?
             }
         };
@@ -368,7 +368,7 @@ impl<'m> Interpreter<'m> {
             self.not_stated.extend((choice && self.wcs.is_none()).then_some("G54"));
         }
         let operation = self.operation();
-        self.program.moves.push(Move { kind, end, arc, feed, operation, line });
+        self.program.moves.push(Move::new(kind, end, feed).arc(arc).of_operation(operation).on_line(line));
     }
 
     /// The index of the operation that the next move belongs to: a new one after a tool change or an operation's remark.

@@ -218,7 +218,7 @@ impl Draft {
     }
 
     fn push(&mut self, kind: MoveKind, end: [f64; 3], arc: Option<Arc>, feed: f64) {
-        self.moves.push(Move { kind, end, arc, feed, operation: self.operation, line: 0 });
+        self.moves.push(Move::new(kind, end, feed).arc(arc).of_operation(self.operation));
     }
 
     fn event(&mut self, kind: EventKind) {
@@ -329,7 +329,7 @@ fn helices(bench: &Bench, plane: Plane) -> Draft {
     for (angles, turns) in [([0.0, 360.0], 0), ([90.0, -200.0], 0), ([0.0, 360.0], 2), ([30.0, -90.0], 3)] {
         arc(&mut draft, bench, plane, radius, angles, turns);
         if let Some(last) = draft.moves.last_mut().filter(|_| !(bench.lathe && third == 1)) {
-            last.end[third] += bench.fits(3.0);
+            last.end.tip[third] += bench.fits(3.0);
         }
     }
     draft
@@ -460,7 +460,7 @@ fn holes(bench: &Bench, kind: CycleKind, peck: f64, dwell: f64) -> Draft {
     for (dx, depth, lift) in
         [(1.0, 1.0, true), (2.0, 1.0, true), (2.0, 1.5, true), (1.0, 1.5, false), (0.0, 1.5, false)]
     {
-        let place = draft.moves.last().map_or([x, y, initial], |m| m.end);
+        let place = draft.moves.last().map_or([x, y, initial], |m| m.end.tip);
         let retract = z;
         let hole = Cycle {
             first: draft.moves.len(),

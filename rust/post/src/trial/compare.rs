@@ -226,13 +226,13 @@ fn move_difference(program: &Program, posted: &Posted, reading: &Reading, machin
         if let Some(what) = end_difference(step, found, machine) {
             return Some((*line, what));
         }
-        let slack = feed_slack(machine, step.feed, found.length(from.unwrap_or(found.end)), rpm_at(program, index));
+        let slack = feed_slack(machine, step.feed, found.length(from.unwrap_or(found.end.tip)), rpm_at(program, index));
         if step.kind == MoveKind::Feed && (step.feed - found.feed).abs() > slack {
             return Some((*line, format!("its feed is {} instead of {} mm/min", found.feed, step.feed)));
         }
     }
     let unneeded = reading.planes_not_needed.iter().find_map(|run| reading.program.moves.get(run.start));
-    let more = read.next().map(|(_, found)| (found.line, format!("a move to {:?} was not posted", found.end)));
+    let more = read.next().map(|(_, found)| (found.line, format!("a move to {:?} was not posted", found.end.tip)));
     more.or(unneeded.map(|found| (found.line, "another plane than G17 is in force and no arc uses it".into())))
 }
 
@@ -251,10 +251,10 @@ fn low_crossing(
     machine: &Machine,
 ) -> Option<String> {
     let before = cycle.first.checked_sub(1).and_then(|before| program.moves.get(before));
-    let height = before.map_or(cycle.retract, |step| step.end[2].max(cycle.retract));
-    let across = from.is_some_and(|from| (0..2).any(|axis| (from[axis] - found.end[axis]).abs() > SLACK));
-    let low = across && found.end[2] < height - machine.resolution_mm() / 2.0 - SLACK;
-    low.then(|| format!("it goes to {:?} mm before a hole", found.end))
+    let height = before.map_or(cycle.retract, |step| step.end.tip[2].max(cycle.retract));
+    let across = from.is_some_and(|from| (0..2).any(|axis| (from[axis] - found.end.tip[axis]).abs() > SLACK));
+    let low = across && found.end.tip[2] < height - machine.resolution_mm() / 2.0 - SLACK;
+    low.then(|| format!("it goes to {:?} mm before a hole", found.end.tip))
 }
 
 /// Whether a move that was read goes to a position that its step has no business with: templates must not move an axis.
@@ -263,19 +263,19 @@ fn detour(start: Option<[f64; 3]>, step: &Move, found: &Move, line: u32, machine
         return None;
     }
     let slack = machine.resolution_mm() / 2.0 + SLACK;
-    let between = found.end.iter().zip(step.end).enumerate().all(|(axis, (place, end))| {
+    let between = found.end.tip.iter().zip(step.end.tip).enumerate().all(|(axis, (place, end))| {
         let begin = start.map_or(end, |start| start[axis]);
         (place - end).abs() <= slack || (place - begin).abs() <= slack
     });
     let split = step.kind == MoveKind::Rapid && found.kind == MoveKind::Rapid && between;
-    (!split).then(|| format!("a move to {:?} was not posted", found.end))
+    (!split).then(|| format!("a move to {:?} was not posted", found.end.tip))
 }
 
 fn end_difference(step: &Move, found: &Move, machine: &Machine) -> Option<String> {
     let slack = machine.resolution_mm() / 2.0 + SLACK;
-    let near = step.end.iter().zip(found.end).all(|(a, b)| (a - b).abs() <= slack);
+    let near = step.end.tip.iter().zip(found.end.tip).all(|(a, b)| (a - b).abs() <= slack);
     if !near || step.kind != found.kind {
-        return Some(format!("it goes to {:?} instead of {:?} mm", found.end, step.end));
+        return Some(format!("it goes to {:?} instead of {:?} mm", found.end.tip, step.end.tip));
     }
     None
 }
@@ -316,13 +316,13 @@ fn path_difference(
     machine: &Machine,
 ) -> Option<String> {
     let (Some(arc), Some(start), Some(from)) = (step.arc, start, from) else { return None };
-    let path = arc.way(start, step.end);
+    let path = arc.way(start, step.end.tip);
     let slack = ARC_PLACES * machine.resolution_mm() + path.mismatch();
     let [first, second, _] = arc.plane.axes();
     let count = found.way(from).map_or(1, |w| w.chords(machine.resolution_mm()));
     let places = (1..=count).map(|i| match found.way(from) {
         Some(w) => w.at(i as f64 / count as f64),
-        None => found.end,
+        None => found.end.tip,
     });
     let off = |place: [f64; 3]| {
         let radius = libm::hypot(place[first] - arc.centre[first], place[second] - arc.centre[second]);

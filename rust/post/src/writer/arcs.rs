@@ -11,7 +11,7 @@ impl Poster<'_> {
     /// An arc in as many blocks as the machine needs; as lines where it would not take the rounded numbers.
     pub(super) fn arc(&mut self, index: usize, step: &Move, arc: Arc) -> Result<(), PostError> {
         self.position(index)?;
-        let path = arc.way(self.tip.unwrap_or(step.end), step.end);
+        let path = arc.way(self.tip.unwrap_or(step.end.tip), step.end.tip);
         let rules = self.machine.arc.as_ref();
         let (pieces, turns) = match rules {
             Some(rules) if rules.turns != Turns::None && rules.max_sweep_deg >= 360.0 => (1, arc.turns),

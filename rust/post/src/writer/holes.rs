@@ -27,7 +27,7 @@ impl Poster<'_> {
         }
         for (number, step) in moves.iter().enumerate() {
             self.inspector.step(index + number, self.tip, step)?;
-            self.tip = Some(step.end);
+            self.tip = Some(step.end.tip);
         }
         let [x, y] = cycle.at;
         let low = self.target(index, [x, y, cycle.bottom])?;
@@ -103,8 +103,8 @@ fn made_by(program: &Program, cycle: &Cycle, steps: &[CycleStep], machine: &Mach
     let (path, made) = moves.split_at(lead);
     let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= unit);
     let from = path.last().or(cycle.first.checked_sub(1).and_then(|before| program.moves.get(before)))?;
-    let above = path.iter().all(|step| step.end[2] >= cycle.retract - unit);
-    if !above || !near(from.end, [cycle.at[0], cycle.at[1], cycle.retract]) {
+    let above = path.iter().all(|step| step.end.tip[2] >= cycle.retract - unit);
+    if !above || !near(from.end.tip, [cycle.at[0], cycle.at[1], cycle.retract]) {
         return None;
     }
     let first = program.events.partition_point(|event| event.before <= cycle.first);
@@ -117,7 +117,7 @@ fn made_by(program: &Program, cycle: &Cycle, steps: &[CycleStep], machine: &Mach
                 let found = made.next()?;
                 let interrupted = events.peek().is_some_and(|event| event.before <= at);
                 let feed = *kind == MoveKind::Rapid || (found.feed - cycle.feed).abs() <= 1e-9 * cycle.feed;
-                if interrupted || !feed || found.kind != *kind || found.arc.is_some() || !near(found.end, *place) {
+                if interrupted || !feed || found.kind != *kind || found.arc.is_some() || !near(found.end.tip, *place) {
                     return None;
                 }
                 at += 1;

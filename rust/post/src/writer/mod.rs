@@ -246,13 +246,15 @@ impl<'a> Poster<'a> {
         let index = self.moves;
         self.inspector.step(index, self.tip, step)?;
         self.dialect.close(&mut self.lines)?;
-        let target = self.target(index, step.end)?;
+        let target = self.target(index, step.end.tip)?;
         match (step.kind, step.arc) {
             (MoveKind::Rapid, _) => self.rapid(target)?,
-            (MoveKind::Feed, None) => self.feed(index, target, step.feed, step.length(self.tip.unwrap_or(step.end)))?,
+            (MoveKind::Feed, None) => {
+                self.feed(index, target, step.feed, step.length(self.tip.unwrap_or(step.end.tip)))?
+            }
             (MoveKind::Feed, Some(arc)) => self.arc(index, step, arc)?,
         }
-        self.tip = Some(step.end);
+        self.tip = Some(step.end.tip);
         self.moves += 1;
         Ok(())
     }

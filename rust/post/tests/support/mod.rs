@@ -3,8 +3,7 @@
 #![allow(dead_code, clippy::unwrap_used)] // each test file uses a part of it; a helper that fails fails its test
 
 use styluscam_motion::{
-    Event, EventKind, Move, MoveKind, OperationRecord, Program, SetupRecord, SpindleDirection, ToolRecord,
-    ToolReference,
+    Event, EventKind, Move, OperationRecord, Program, SetupRecord, SpindleDirection, ToolRecord, ToolReference,
 };
 use styluscam_post::machine::ToolChange;
 use styluscam_post::Machine;
@@ -25,11 +24,11 @@ pub fn grbl_with_pauses() -> Machine {
 }
 
 pub fn rapid(x: f64, y: f64, z: f64) -> Move {
-    Move { kind: MoveKind::Rapid, end: [x, y, z], arc: None, feed: 0.0, operation: 0, line: 0 }
+    Move::rapid([x, y, z])
 }
 
 pub fn feed(x: f64, y: f64, z: f64, feed: f64) -> Move {
-    Move { kind: MoveKind::Feed, end: [x, y, z], arc: None, feed, operation: 0, line: 0 }
+    Move::feed([x, y, z], feed)
 }
 
 pub fn event(before: usize, kind: EventKind) -> Event {

@@ -112,13 +112,13 @@ impl Path {
     /// Lines count from 11.
     fn push(&mut self, kind: MoveKind, end: [f64; 3], feed: f64) {
         let line = self.moves.len() as u32 + 11;
-        self.moves.push(Move { kind, end, arc: None, feed, operation: 0, line });
+        self.moves.push(Move::new(kind, end, feed).on_line(line));
     }
 
     /// The program of one tool; at its end the tool is up.
     pub fn program(mut self, tool: &Tool) -> Program {
-        if let Some(last) = self.moves.last().filter(|m| m.end[2] < CLEARANCE) {
-            let [x, y, _] = last.end;
+        if let Some(last) = self.moves.last().filter(|m| m.end.tip[2] < CLEARANCE) {
+            let [x, y, _] = last.end.tip;
             self = self.rapid([x, y, CLEARANCE]);
         }
         let record = ToolRecord {

@@ -59,7 +59,7 @@ impl Interpreter<'_> {
         let Some(axis) = self.axes.get_mut(index) else { return };
         if !axis.known {
             let since = axis.pending.min(moves);
-            self.program.moves.iter_mut().skip(since).for_each(|m| m.end[index] = tip);
+            self.program.moves.iter_mut().skip(since).for_each(|m| m.end.tip[index] = tip);
         }
         *axis = Axis { position, known: true, ever: true, pending: moves };
         if index == Z {
