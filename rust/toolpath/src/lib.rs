@@ -10,11 +10,13 @@ mod lattice;
 mod linking;
 mod nearest;
 pub mod offset;
+mod segment;
 mod surface;
 
 pub use error::PlanError;
 pub use lattice::{Cells, Lattice};
-pub use linking::{link, Heights, Links, Rates};
+pub use linking::{join, link, AlongSurface, AtDepth, Heights, LinkRules, Links, OverClearance, Position, Rates, Run};
+pub use segment::{Curve, Pace, Segment};
 pub use surface::{PathPoint, Surface};
 
 /// A run of the tool along the surface: what a strategy makes and linking joins.

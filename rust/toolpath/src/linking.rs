@@ -1,15 +1,15 @@
 //! From passes to moves: their order, their direction, and how the tool gets from one to the next.
 //!
-//! Between neighbouring passes the tool rides on the envelope; where that would leave the selected faces or is long,
-//! it goes up, across at clearance height, and down again at plunge feed.
+//! How it does is the strategy's to say: it calls [`link`] or [`join`] with rules of its own. Where they give no path, the
+//! tool goes up, across at clearance height, and down again at plunge feed.
 
 use rayon::prelude::*;
 use styluscam_geometry::Vector;
-use styluscam_motion::{Cancelled, Move, MoveKind, Watch};
+use styluscam_motion::{Cancelled, Move, Watch};
 
-use crate::{fitting, fitting::Course, nearest, Pass, PathPoint, Surface};
+use crate::{fitting, fitting::Course, nearest, Pass, PathPoint, Segment, Surface};
 
-/// Heights of the ways between passes, mm.
+/// Heights of links over clearance, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Heights {
     /// Rapids cross the part here.
@@ -32,13 +32,7 @@ pub struct Rates {
 pub struct Links {
     /// Turn round every other level or row.
     pub alternate: bool,
-    /// Longest way in plan that is ridden instead of flown, mm.
-    pub ride: f64,
-    /// How far ridden chords may stray, mm.
-    pub deviation: f64,
-    /// What is narrower may be ridden over unseen, mm.
-    pub narrow: f64,
-    /// Heights of the ways that are flown.
+    /// Heights of links over clearance.
     pub heights: Heights,
     /// Feeds.
     pub rates: Rates,
@@ -46,54 +40,190 @@ pub struct Links {
     pub operation: u32,
 }
 
-/// The moves along all passes. Within a group the nearest pass comes next; a loop begins where it is nearest.
+/// Whatever stands at a position of the tip.
+pub trait Position {
+    /// The tip, mm.
+    fn tip(&self) -> Vector;
+}
+
+impl Position for Vector {
+    fn tip(&self) -> Vector {
+        *self
+    }
+}
+
+impl Position for PathPoint {
+    fn tip(&self) -> Vector {
+        self.tip
+    }
+}
+
+/// A strategy's rules for the gaps between its runs.
+pub trait LinkRules<P>: Sync {
+    /// The path below clearance from the end of one run to the start of the next, which is its last segment's end; none
+    /// where the tool has to go over clearance.
+    fn path(&self, from: &P, to: &P) -> Option<Vec<Segment>>;
+}
+
+/// Every link goes over clearance.
+#[derive(Clone, Copy, Debug)]
+pub struct OverClearance;
+
+impl<P> LinkRules<P> for OverClearance {
+    fn path(&self, _from: &P, _to: &P) -> Option<Vec<Segment>> {
+        None
+    }
+}
+
+/// Short links follow the envelope, as long as they touch selected faces only.
+pub struct AlongSurface<'a> {
+    /// The envelope, and what of it is selected.
+    pub surface: &'a Surface<'a>,
+    /// Longest distance in plan, mm.
+    pub longest: f64,
+    /// How far a chord may be from the envelope, mm.
+    pub deviation: f64,
+    /// What is narrower may be passed over unseen, mm.
+    pub narrow: f64,
+    /// mm/min.
+    pub feed: f64,
+}
+
+impl LinkRules<PathPoint> for AlongSurface<'_> {
+    fn path(&self, from: &PathPoint, to: &PathPoint) -> Option<Vec<Segment>> {
+        if (to.tip - from.tip).xy().norm() > self.longest {
+            return None;
+        }
+        let mut crossing = Crossing { surface: self.surface, hint: None, is_selected: true };
+        let runs = fitting::densified(&[*from, *to], self.deviation, self.narrow, &mut crossing);
+        let run = runs.first().filter(|_| crossing.is_selected)?;
+        Some(lines(&fitting::thinned(run, self.deviation)[1..], self.feed))
+    }
+}
+
+/// Short links between points of one height go straight, where the ground between them is cleared.
+pub struct AtDepth<F> {
+    /// Longest distance, mm.
+    pub longest: f64,
+    /// Heights that differ by no more are one, mm.
+    pub same_height: f64,
+    /// Whether nothing is left to cut between two points.
+    pub is_cleared: F,
+    /// mm/min.
+    pub feed: f64,
+}
+
+impl<P: Position, F: Fn(Vector, Vector) -> bool + Sync> LinkRules<P> for AtDepth<F> {
+    fn path(&self, from: &P, to: &P) -> Option<Vec<Segment>> {
+        let (from, to) = (from.tip(), to.tip());
+        let across = (to - from).norm() <= self.longest && (to.z - from.z).abs() <= self.same_height;
+        (across && (self.is_cleared)(from, to)).then(|| vec![Segment::line(to, self.feed)])
+    }
+}
+
+/// A path that the tool follows without leaving it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run<P> {
+    /// Where it begins.
+    pub from: P,
+    /// Where it ends: the end of its last segment.
+    pub to: P,
+    /// In order.
+    pub segments: Vec<Segment>,
+}
+
+/// The moves along all passes, joined by the rules. Within a group the nearest pass comes next; a loop begins where it is
+/// nearest.
 ///
 /// # Errors
 /// `Cancelled`.
-pub fn link(surface: &Surface<'_>, passes: &[Pass], links: &Links, watch: &Watch) -> Result<Vec<Move>, Cancelled> {
-    // ordered, then ridden to
+pub fn link(
+    passes: &[Pass],
+    rules: &impl LinkRules<PathPoint>,
+    links: &Links,
+    watch: &Watch,
+) -> Result<Vec<Move>, Cancelled> {
+    // ordered, then joined
     watch.begin("linking", 2 * passes.len());
     let passes = nearest::ordered(passes, links.alternate, watch)?;
-    let mut route = Route { links, surface, moves: Vec::new() };
-    let ways: Result<Vec<Option<Vec<PathPoint>>>, Cancelled> = (0..passes.len())
-        .into_par_iter()
-        .map(|number| {
-            watch.advance(1)?;
-            let before = number.checked_sub(1).and_then(|before| passes.get(before)?.points.last());
-            let first = passes[number].points.first();
-            Ok(before.zip(first).and_then(|(from, to)| route.ridden(from, to)))
-        })
-        .collect();
-    let mut last = None;
-    for (pass, way) in passes.iter().zip(ways?) {
-        let Some((first, rest)) = pass.points.split_first() else { continue };
-        match way {
-            Some(way) => route.cut(&way),
+    let runs: Vec<Run<PathPoint>> = passes.iter().filter_map(|pass| run_of(pass, links.rates.cut)).collect();
+    let segments = join(&runs, rules, links, watch)?;
+    Ok(segments.iter().map(|segment| segment.to_move(links.operation)).collect())
+}
+
+/// All runs in their order, joined by the rules: from clearance height to clearance height.
+///
+/// Advances the watch by the number of runs.
+///
+/// # Errors
+/// `Cancelled`.
+pub fn join<P: Position + Sync>(
+    runs: &[Run<P>],
+    rules: &impl LinkRules<P>,
+    links: &Links,
+    watch: &Watch,
+) -> Result<Vec<Segment>, Cancelled> {
+    let gap = |number: usize| {
+        watch.advance(1)?;
+        let before = number.checked_sub(1).map(|before| &runs[before]);
+        Ok(before.and_then(|before| rules.path(&before.to, &runs[number].from)))
+    };
+    let paths: Result<Vec<Option<Vec<Segment>>>, Cancelled> = (0..runs.len()).into_par_iter().map(gap).collect();
+    let mut joined = Vec::new();
+    let mut last: Option<Vector> = None;
+    for (run, path) in runs.iter().zip(paths?) {
+        match path {
+            Some(path) => joined.extend(path),
             None => {
-                route.leave(last);
-                route.arrive(first);
+                joined.extend(last.map(|last| up(last, links)));
+                joined.extend(down(run.from.tip(), links));
             }
         }
-        route.cut(rest);
-        last = pass.points.last();
+        joined.extend_from_slice(&run.segments);
+        last = Some(run.to.tip());
     }
-    route.leave(last);
-    Ok(route.moves)
+    joined.extend(last.map(|last| up(last, links)));
+    Ok(joined)
 }
 
-/// A way over selected faces.
-struct Way<'a> {
+/// A pass as a run of lines; none of a pass without points.
+fn run_of(pass: &Pass, feed: f64) -> Option<Run<PathPoint>> {
+    let (first, rest) = pass.points.split_first()?;
+    Some(Run { from: *first, to: *rest.last().unwrap_or(first), segments: lines(rest, feed) })
+}
+
+fn lines(points: &[PathPoint], feed: f64) -> Vec<Segment> {
+    points.iter().map(|point| Segment::line(point.tip, feed)).collect()
+}
+
+/// Straight up to clearance.
+fn up(from: Vector, links: &Links) -> Segment {
+    Segment::rapid(at_height(from, links.heights.clearance))
+}
+
+/// From clearance down to a point: at rapid to the retract height, then at plunge feed.
+fn down(to: Vector, links: &Links) -> [Segment; 3] {
+    let Heights { clearance, retract } = links.heights;
+    [
+        Segment::rapid(at_height(to, clearance)),
+        Segment::rapid(at_height(to, retract)),
+        Segment::line(to, links.rates.plunge),
+    ]
+}
+
+/// The envelope between two passes.
+struct Crossing<'a> {
     surface: &'a Surface<'a>,
     hint: Option<u32>,
-    /// Whether it has led over nothing else so far.
-    is_sound: bool,
+    /// Whether only selected faces have been touched so far.
+    is_selected: bool,
 }
 
-impl Course for Way<'_> {
+impl Course for Crossing<'_> {
     fn between(&mut self, a: &PathPoint, b: &PathPoint) -> Option<PathPoint> {
         let middle = self.surface.between(a, b, &mut self.hint);
-        self.is_sound &= middle.is_some_and(|m| m.selected);
-        middle.filter(|_| self.is_sound)
+        self.is_selected &= middle.is_some_and(|m| m.selected);
+        middle.filter(|_| self.is_selected)
     }
 
     fn keeps_to(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
@@ -102,49 +232,6 @@ impl Course for Way<'_> {
 
     fn may_rise(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
         self.surface.may_rise(a, b, most)
-    }
-}
-
-struct Route<'a> {
-    links: &'a Links,
-    surface: &'a Surface<'a>,
-    moves: Vec<Move>,
-}
-
-impl Route<'_> {
-    /// The way over the envelope from one point to another, without its first point; none when it should be flown.
-    fn ridden(&self, from: &PathPoint, to: &PathPoint) -> Option<Vec<PathPoint>> {
-        if (to.tip - from.tip).xy().norm() > self.links.ride {
-            return None;
-        }
-        let mut way = Way { surface: self.surface, hint: None, is_sound: true };
-        let runs = fitting::densified(&[*from, *to], self.links.deviation, self.links.narrow, &mut way);
-        let way = runs.first().filter(|_| way.is_sound)?;
-        Some(fitting::thinned(way, self.links.deviation)[1..].to_vec())
-    }
-
-    /// Straight up to clearance, if the tool is down.
-    fn leave(&mut self, last: Option<&PathPoint>) {
-        if let Some(last) = last {
-            self.go(MoveKind::Rapid, at_height(last.tip, self.links.heights.clearance), 0.0);
-        }
-    }
-
-    fn arrive(&mut self, first: &PathPoint) {
-        let Heights { clearance, retract } = self.links.heights;
-        self.go(MoveKind::Rapid, at_height(first.tip, clearance), 0.0);
-        self.go(MoveKind::Rapid, at_height(first.tip, retract), 0.0);
-        self.go(MoveKind::Feed, first.tip, self.links.rates.plunge);
-    }
-
-    fn cut(&mut self, points: &[PathPoint]) {
-        for point in points {
-            self.go(MoveKind::Feed, point.tip, self.links.rates.cut);
-        }
-    }
-
-    fn go(&mut self, kind: MoveKind, end: Vector, feed: f64) {
-        self.moves.push(Move::new(kind, end.into(), feed).of_operation(self.links.operation));
     }
 }
 

@@ -3,7 +3,9 @@
 
 use serde::Serialize;
 use styluscam_geometry::Tool;
-use styluscam_toolpath::{budget::Budget, link, offset::Envelope, Heights, Links, Pass, PlanError, Rates, Surface};
+use styluscam_toolpath::{
+    budget::Budget, link, offset::Envelope, AlongSurface, Heights, Links, Pass, PlanError, Rates, Surface,
+};
 
 use super::budget;
 use super::reached::{self, BridgedFace, ReachedFace};
@@ -82,13 +84,21 @@ impl Task<'_> {
         )
     }
 
-    fn links(&self, pitch: f64) -> Links {
+    /// Neighbouring passes are linked along the surface.
+    fn along<'s>(&self, surface: &'s Surface<'s>, pitch: f64) -> AlongSurface<'s> {
+        AlongSurface {
+            surface,
+            longest: LINKED_ALONG * pitch,
+            deviation: self.budget.deviation,
+            narrow: self.narrow(),
+            feed: self.context.section.common.feeds.cut,
+        }
+    }
+
+    fn links(&self) -> Links {
         let (job, scene, common) = (self.context.job, self.context.scene, &self.context.section.common);
         Links {
             alternate: common.direction == Direction::Alternate,
-            ride: LINKED_ALONG * pitch,
-            deviation: self.budget.deviation,
-            narrow: self.narrow(),
             heights: Heights { clearance: scene.clearance(job), retract: scene.top + job.setup.retract },
             rates: Rates { cut: common.feeds.cut, plunge: common.feeds.plunge },
             operation: self.context.index as u32,
@@ -160,7 +170,7 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
         note: kind.note(groups, passes),
         facts: kind.facts(groups, &traced),
         surface: Some(facts),
-        moves: link(&surface, &traced.passes, &task.links(kind.pitch()), watch)?,
+        moves: link(&traced.passes, &task.along(&surface, kind.pitch()), &task.links(), watch)?,
     })
 }
 
