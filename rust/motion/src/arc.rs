@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// In the plane of an arc, ends nearer than this share of its radius are one place: the arc is a full circle.
+/// In the plane of an arc, ends nearer than this share of its radius are one point: the arc is a full circle.
 const SAME: f64 = 1e-9;
 
 /// A main plane.
@@ -36,7 +36,7 @@ impl Plane {
 /// How a move turns about a line along an axis, from where the move before it ends.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Arc {
-    /// The centre, work coordinates, mm; along the plane's third axis it says nothing.
+    /// The centre, work coordinates, mm; along the plane's third axis it has no meaning.
     pub centre: [f64; 3],
     /// The plane in which it turns; along the third axis it rises evenly to the move's end.
     #[serde(default)]
@@ -48,7 +48,7 @@ pub struct Arc {
     pub turns: u32,
 }
 
-/// The way of an arc between two places.
+/// The path of an arc between two points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArcWay {
     axes: [usize; 3],
@@ -64,7 +64,7 @@ pub struct ArcWay {
 }
 
 impl Arc {
-    /// The way from `start` to `end`, mm. Ends at one place in the plane make a full circle.
+    /// The path from `start` to `end`, mm. Ends at one point in the plane make a full circle.
     #[must_use]
     pub fn way(&self, start: [f64; 3], end: [f64; 3]) -> ArcWay {
         let axes = self.plane.axes();
@@ -90,21 +90,21 @@ impl Arc {
 }
 
 impl ArcWay {
-    /// The place at a share of the way, 0 to 1.
+    /// The point at a share of the path, 0 to 1.
     #[must_use]
     pub fn at(&self, share: f64) -> [f64; 3] {
         let between = |[a, b]: [f64; 2]| a + share * (b - a);
         let (sin, cos) = libm::sincos(self.angle + share * self.sweep);
         let radius = between(self.radii);
         let [first, second, third] = self.axes;
-        let mut place = [0.0; 3];
-        place[first] = self.centre[0] + radius * cos;
-        place[second] = self.centre[1] + radius * sin;
-        place[third] = between(self.heights);
-        place
+        let mut point = [0.0; 3];
+        point[first] = self.centre[0] + radius * cos;
+        point[second] = self.centre[1] + radius * sin;
+        point[third] = between(self.heights);
+        point
     }
 
-    /// The part of the way between two shares of it.
+    /// The part of the path between two shares of it.
     #[must_use]
     pub fn part(&self, from: f64, to: f64) -> Self {
         let between = |[a, b]: [f64; 2]| [a + from * (b - a), a + to * (b - a)];
@@ -151,16 +151,16 @@ impl ArcWay {
         let quadrants = (0..4).map(|i| (first + f64::from(i)) * FRAC_PI_2).filter(|angle| *angle <= to);
         let shares = quadrants.map(|angle| (angle - self.angle) / self.sweep).chain([0.0, 1.0]);
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for place in shares.map(|share| self.at(share)) {
+        for point in shares.map(|share| self.at(share)) {
             for axis in 0..3 {
-                low[axis] = low[axis].min(place[axis]);
-                high[axis] = high[axis].max(place[axis]);
+                low[axis] = low[axis].min(point[axis]);
+                high[axis] = high[axis].max(point[axis]);
             }
         }
         (low, high)
     }
 
-    /// How far the way is from its chord at most, place for place of equal shares, mm.
+    /// How far the path is from its chord at most, each point from the chord's point at the same share, mm.
     ///
     /// An eighth of the largest second derivative: of r(s) (cos, sin)(a s), that is `r a^2 + 2 r' a`.
     #[must_use]
@@ -215,10 +215,10 @@ mod tests {
             (Plane::Zx, [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]),
             (Plane::Yz, [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]),
         ] {
-            let way = about(plane, false).way(from, to);
-            assert!((way.sweep() - TAU / 4.0).abs() < 1e-12, "{plane:?}");
+            let path = about(plane, false).way(from, to);
+            assert!((path.sweep() - TAU / 4.0).abs() < 1e-12, "{plane:?}");
             let half = std::f64::consts::FRAC_1_SQRT_2;
-            assert!(gap(way.at(0.5), [from, to].map(|p| p.map(|x| x * half)).into_iter().fold(ORIGIN, add)) < 1e-12);
+            assert!(gap(path.at(0.5), [from, to].map(|p| p.map(|x| x * half)).into_iter().fold(ORIGIN, add)) < 1e-12);
         }
     }
 
@@ -228,37 +228,37 @@ mod tests {
 
     #[test]
     fn equal_ends_are_a_full_circle_and_turns_are_added() {
-        let place = [3.0, 0.0, 1.0];
+        let start = [3.0, 0.0, 1.0];
         let arc = Arc { turns: 2, ..about(Plane::Xy, true) };
-        let way = arc.way(place, [3.0, 0.0, -1.0]);
-        assert!((way.sweep() + 3.0 * TAU).abs() < 1e-12);
-        assert!((way.length() - (3.0 * TAU * 3.0).hypot(2.0)).abs() < 1e-12);
-        assert!(gap(way.at(1.0), [3.0, 0.0, -1.0]) < 1e-12);
+        let path = arc.way(start, [3.0, 0.0, -1.0]);
+        assert!((path.sweep() + 3.0 * TAU).abs() < 1e-12);
+        assert!((path.length() - (3.0 * TAU * 3.0).hypot(2.0)).abs() < 1e-12);
+        assert!(gap(path.at(1.0), [3.0, 0.0, -1.0]) < 1e-12);
     }
 
     #[test]
     fn the_box_holds_the_quadrants() {
-        let way = about(Plane::Xy, false).way([3.0, -4.0, 0.0], [-3.0, 4.0, 2.0]);
-        let (low, high) = way.bounds();
+        let path = about(Plane::Xy, false).way([3.0, -4.0, 0.0], [-3.0, 4.0, 2.0]);
+        let (low, high) = path.bounds();
         assert!(gap(low, [-3.0, -4.0, 0.0]) < 1e-12 && gap(high, [5.0, 5.0, 2.0]) < 1e-12, "{low:?} {high:?}");
     }
 
     proptest! {
         #[test]
-        fn chords_keep_to_the_way(radius in 0.1..50.0_f64, off in -0.02..0.02_f64, turn in 0.01..6.2_f64,
+        fn chords_keep_to_the_path(radius in 0.1..50.0_f64, off in -0.02..0.02_f64, turn in 0.01..6.2_f64,
                                   rise in -9.0..9.0_f64, sag in 1e-5..0.1_f64, share in 0.0..1.0_f64) {
             let from = [radius, 0.0, 0.0];
             let to = [(radius + off) * turn.cos(), (radius + off) * turn.sin(), rise];
-            let way = about(Plane::Xy, false).way(from, to);
-            prop_assert!((way.sweep() - turn).abs() < 1e-9);
-            prop_assert!(gap(way.at(0.0), from) < 1e-9 && gap(way.at(1.0), to) < 1e-9);
-            let count = way.chords(sag);
+            let path = about(Plane::Xy, false).way(from, to);
+            prop_assert!((path.sweep() - turn).abs() < 1e-9);
+            prop_assert!(gap(path.at(0.0), from) < 1e-9 && gap(path.at(1.0), to) < 1e-9);
+            let count = path.chords(sag);
             let chord = (share * count as f64).floor() / count as f64;
-            let piece = way.part(chord, chord + 1.0 / count as f64);
+            let piece = path.part(chord, chord + 1.0 / count as f64);
             let inside = (share - chord) * count as f64;
             let (a, b) = (piece.at(0.0), piece.at(1.0));
             let straight = [0, 1, 2].map(|i| a[i] + inside * (b[i] - a[i]));
-            prop_assert!(gap(straight, way.at(share)) <= piece.sag() + 1e-12);
+            prop_assert!(gap(straight, path.at(share)) <= piece.sag() + 1e-12);
             prop_assert!(piece.sag() <= sag * (1.0 + 1e-9));
         }
     }

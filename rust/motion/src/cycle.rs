@@ -40,7 +40,7 @@ impl CycleKind {
     }
 }
 
-/// A hole made by a canned cycle. Its moves and events stand in the program as well: whoever has no word for it runs those.
+/// A hole made by a canned cycle. Its moves and events stand in the program as well: a machine without such a cycle runs those.
 ///
 /// Z are those of the tip, mm.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -72,7 +72,7 @@ pub struct Cycle {
 /// One thing that a cycle does.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CycleStep {
-    /// A straight move to a place; the feed is the cycle's.
+    /// A straight move to a point; the feed is the cycle's.
     Move(MoveKind, [f64; 3]),
     /// Something between moves.
     Event(EventKind),
@@ -81,7 +81,7 @@ pub enum CycleStep {
 /// Where a cycle starts and how the spindle turns then.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CycleStart {
-    /// The tip's place, mm.
+    /// Where the tip is, mm.
     pub place: [f64; 3],
     /// Speed, rev/min, and sense of the spindle; none while it stands.
     pub spindle: Option<(f64, SpindleDirection)>,
@@ -97,8 +97,8 @@ impl Cycle {
         let mut steps = Vec::new();
         let high = start.place[2].max(self.retract);
         let [from_x, from_y, _] = start.place;
-        for place in [[from_x, from_y, high], [x, y, high], [x, y, self.retract]] {
-            rapid(&mut steps, start.place, place);
+        for point in [[from_x, from_y, high], [x, y, high], [x, y, self.retract]] {
+            rapid(&mut steps, start.place, point);
         }
         self.go_down(&mut steps)?;
         if self.dwell > 0.0 {
@@ -160,14 +160,14 @@ impl Cycle {
 }
 
 /// A rapid, unless the tool stands there.
-#[allow(clippy::float_cmp)] // the same place, not a near one
-fn rapid(steps: &mut Vec<CycleStep>, start: [f64; 3], place: [f64; 3]) {
+#[allow(clippy::float_cmp)] // the same point, not a near one
+fn rapid(steps: &mut Vec<CycleStep>, start: [f64; 3], end: [f64; 3]) {
     let at = steps.iter().rev().find_map(|step| match step {
-        CycleStep::Move(_, place) => Some(*place),
+        CycleStep::Move(_, point) => Some(*point),
         CycleStep::Event(_) => None,
     });
-    if at.unwrap_or(start) != place {
-        steps.push(CycleStep::Move(MoveKind::Rapid, place));
+    if at.unwrap_or(start) != end {
+        steps.push(CycleStep::Move(MoveKind::Rapid, end));
     }
 }
 
@@ -194,7 +194,7 @@ mod tests {
         let start = CycleStart { place: from, spindle: None };
         let steps = cycle.steps(&start).unwrap();
         let moves = steps.iter().filter_map(|s| match s {
-            CycleStep::Move(kind, place) => Some((*kind, place[2])),
+            CycleStep::Move(kind, point) => Some((*kind, point[2])),
             CycleStep::Event(_) => None,
         });
         moves.collect()
@@ -203,8 +203,8 @@ mod tests {
     #[test]
     fn a_hole_is_reached_across_and_then_down() {
         use MoveKind::{Feed, Rapid};
-        let way = heights(&hole(CycleKind::Drill), [0.0, 0.0, 10.0]);
-        assert_eq!(way, [(Rapid, 10.0), (Rapid, 2.0), (Feed, -4.0), (Rapid, 2.0)]);
+        let heights_down = heights(&hole(CycleKind::Drill), [0.0, 0.0, 10.0]);
+        assert_eq!(heights_down, [(Rapid, 10.0), (Rapid, 2.0), (Feed, -4.0), (Rapid, 2.0)]);
         let from_below = heights(&hole(CycleKind::Drill), [0.0, 0.0, 1.0]);
         assert_eq!(from_below, [(Rapid, 2.0), (Rapid, 2.0), (Feed, -4.0), (Rapid, 2.0)]);
     }
@@ -213,8 +213,8 @@ mod tests {
     fn pecks_leave_the_hole_and_come_back_to_just_above() {
         use MoveKind::{Feed, Rapid};
         let cycle = Cycle { peck: 4.0, leave: 9.0, ..hole(CycleKind::Peck) };
-        let way = heights(&cycle, [10.0, 20.0, 2.0]);
-        assert_eq!(way, [(Feed, -2.0), (Rapid, 2.0), (Rapid, -2.0 + 0.254), (Feed, -4.0), (Rapid, 9.0)]);
+        let heights_down = heights(&cycle, [10.0, 20.0, 2.0]);
+        assert_eq!(heights_down, [(Feed, -2.0), (Rapid, 2.0), (Rapid, -2.0 + 0.254), (Feed, -4.0), (Rapid, 9.0)]);
         let chips = Cycle { kind: CycleKind::ChipBreak, ..cycle };
         assert_eq!(heights(&chips, [10.0, 20.0, 2.0])[1], (Rapid, -2.0 + 0.254));
     }

@@ -29,27 +29,27 @@ impl Dynamics {
     ///
     /// The speed changes evenly within a move. A corner is taken as fast as a circle allows that leaves it by the corner
     /// tolerance at most (S. K. Jeon, "Improving Grbl: Cornering Algorithm", 2011); an arc as fast as its radius allows.
-    /// Events stop the machine. No block is faster than the controller reads. The way to the first place is not known
+    /// Events stop the machine. No block is faster than the controller reads. The path to the first point is not known
     /// and takes no time; neither do tool changes, and turns of the tool's axis.
     #[must_use]
     pub fn times(&self, program: &Program) -> (Vec<f64>, f64) {
-        let legs = self.legs(program);
-        let speeds = self.speeds(&legs);
+        let stretches = self.stretches(program);
+        let speeds = self.speeds(&stretches);
         let mut upcoming = program.upcoming();
         let mut waits = |index| upcoming.before(index).map(seconds_of).sum::<f64>();
         let mut clock = 0.0;
-        let times = legs.iter().zip(speeds.windows(2)).enumerate();
-        let times = times.map(|(index, (leg, ends))| {
-            clock += waits(index) + self.seconds(leg, ends[0], ends[1]);
+        let times = stretches.iter().zip(speeds.windows(2)).enumerate();
+        let times = times.map(|(index, (stretch, ends))| {
+            clock += waits(index) + self.seconds(stretch, ends[0], ends[1]);
             clock
         });
         let times = times.collect();
         (times, clock + waits(program.moves.len()))
     }
 
-    fn legs(&self, program: &Program) -> Vec<Leg> {
+    fn stretches(&self, program: &Program) -> Vec<Stretch> {
         let mut upcoming = program.upcoming();
-        let mut legs = Vec::with_capacity(program.moves.len());
+        let mut stretches = Vec::with_capacity(program.moves.len());
         let mut rpm = None;
         for (index, (start, step)) in program.segments().enumerate() {
             let mut stopped = start.is_none();
@@ -57,50 +57,50 @@ impl Dynamics {
                 stopped |= !matches!(event, EventKind::Comment { .. });
                 rpm = rpm_after(event, rpm);
             }
-            legs.push(self.leg(start.unwrap_or(step.end.tip), step, rpm, stopped));
+            stretches.push(self.stretch(start.unwrap_or(step.end.tip), step, rpm, stopped));
         }
-        legs
+        stretches
     }
 
-    fn leg(&self, start: [f64; 3], step: &Move, rpm: Option<f64>, stopped: bool) -> Leg {
-        let way = step.way(start);
+    fn stretch(&self, start: [f64; 3], step: &Move, rpm: Option<f64>, stopped: bool) -> Stretch {
+        let path = step.way(start);
         let length = step.length(start);
         let rate = step.mm_per_min(length, rpm).filter(|rate| *rate > 0.0 && rate.is_finite());
         let mut speed = rate.unwrap_or(self.rapid_rate) / MINUTE;
-        if let (Some(way), Some(acceleration)) = (way, self.acceleration) {
-            speed = speed.min((acceleration * way.radius()).sqrt());
+        if let (Some(path), Some(acceleration)) = (path, self.acceleration) {
+            speed = speed.min((acceleration * path.radius()).sqrt());
         }
         let heading =
-            |from: f64, to: f64| way.map_or(direction(start, step.end.tip), |w| direction(w.at(from), w.at(to)));
-        Leg { length, speed, from: heading(0.0, 1e-4), to: heading(1.0 - 1e-4, 1.0), stopped }
+            |from: f64, to: f64| path.map_or(direction(start, step.end.tip), |arc| direction(arc.at(from), arc.at(to)));
+        Stretch { length, speed, from: heading(0.0, 1e-4), to: heading(1.0 - 1e-4, 1.0), stopped }
     }
 
-    /// Speed at the start of each leg and at the end of the last, mm/s.
-    fn speeds(&self, legs: &[Leg]) -> Vec<f64> {
+    /// Speed at the start of each stretch and at the end of the last, mm/s.
+    fn speeds(&self, stretches: &[Stretch]) -> Vec<f64> {
         let Some(acceleration) = self.acceleration else {
-            return legs.iter().map(|leg| leg.speed).chain([0.0]).collect();
+            return stretches.iter().map(|stretch| stretch.speed).chain([0.0]).collect();
         };
-        let mut speeds = vec![0.0; legs.len() + 1];
-        for (i, pair) in legs.windows(2).enumerate() {
+        let mut speeds = vec![0.0; stretches.len() + 1];
+        for (i, pair) in stretches.windows(2).enumerate() {
             speeds[i + 1] = self.corner_speed(&pair[0], &pair[1], acceleration);
         }
         let reach = |from: f64, length: f64| (from * from + 2.0 * acceleration * length).sqrt();
-        for i in (0..legs.len()).rev() {
-            speeds[i] = speeds[i].min(reach(speeds[i + 1], legs[i].length));
+        for i in (0..stretches.len()).rev() {
+            speeds[i] = speeds[i].min(reach(speeds[i + 1], stretches[i].length));
         }
-        for i in 0..legs.len() {
-            speeds[i + 1] = speeds[i + 1].min(reach(speeds[i], legs[i].length));
+        for i in 0..stretches.len() {
+            speeds[i + 1] = speeds[i + 1].min(reach(speeds[i], stretches[i].length));
         }
         speeds
     }
 
-    fn corner_speed(&self, before: &Leg, after: &Leg, acceleration: f64) -> f64 {
+    fn corner_speed(&self, before: &Stretch, after: &Stretch, acceleration: f64) -> f64 {
         let top = before.speed.min(after.speed);
         if after.stopped {
             return 0.0;
         }
         let (Some(a), Some(b)) = (before.to, after.from) else { return top };
-        // half the angle between the way back and the way on
+        // half the angle between the direction back and the direction on
         let cos = -(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]).clamp(-1.0, 1.0);
         let half = (0.5 * (1.0 - cos)).sqrt();
         let straight = 1.0 - half;
@@ -110,12 +110,12 @@ impl Dynamics {
         top.min((acceleration * self.corner_tolerance * half / straight).sqrt())
     }
 
-    /// The time of one leg between speeds at its ends, s.
-    fn seconds(&self, leg: &Leg, from: f64, to: f64) -> f64 {
+    /// The time of one stretch between speeds at its ends, s.
+    fn seconds(&self, stretch: &Stretch, from: f64, to: f64) -> f64 {
         let moving = match self.acceleration {
-            _ if leg.length <= 0.0 => 0.0,
-            None => leg.length / leg.speed,
-            Some(acceleration) => trapezoid(leg.length, leg.speed, from, to, acceleration),
+            _ if stretch.length <= 0.0 => 0.0,
+            None => stretch.length / stretch.speed,
+            Some(acceleration) => trapezoid(stretch.length, stretch.speed, from, to, acceleration),
         };
         moving.max(self.blocks_per_second.map_or(0.0, f64::recip))
     }
@@ -129,7 +129,7 @@ fn trapezoid(length: f64, top: f64, from: f64, to: f64, acceleration: f64) -> f6
 }
 
 /// A move as its dynamics see it.
-struct Leg {
+struct Stretch {
     /// mm
     length: f64,
     /// Highest speed, mm/s.

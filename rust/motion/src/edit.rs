@@ -1,4 +1,4 @@
-//! What shops do with a program that stands: go on from the middle, run it in the air, stop between operations.
+//! What shops do with a finished program: go on from the middle, run it in the air, stop between operations.
 
 use crate::{Arc, Cycle, Event, EventKind, FeedMode, Move, MoveKind, Plane, Pose, Program};
 
@@ -6,7 +6,7 @@ use crate::{Arc, Cycle, Event, EventKind, FeedMode, Move, MoveKind, Plane, Pose,
 const SAME_HEIGHT: f64 = 1e-6;
 
 impl Program {
-    /// The program from one of its moves on: tool, spindle, coolant and work offset as they are there, the way to its start
+    /// The program from one of its moves on: tool, spindle, coolant and work offset as they are there, the approach to its start
     /// at the clearance height and then straight down at the feed of its operation's plunges.
     ///
     /// None when there is no such move, when it is the first (nothing comes before it), or when it lies in a canned cycle
@@ -21,7 +21,7 @@ impl Program {
         }
         let highest = self.moves.iter().take(first).map(|m| m.end.tip[2]).fold(self.setup.clearance, f64::max);
         let approach = |plain: Move| plain.with_axis(start.axis).of_operation(step.operation).on_line(step.line);
-        // behind a tool or another zero point the last place means nothing: the program goes on with a rapid of its own
+        // behind a tool or another zero point the last position means nothing: the program goes on with a rapid of its own
         let anew = |e: &Event| matches!(e.kind, EventKind::ToolChange { .. } | EventKind::WorkOffset { .. });
         let anew = self.events.iter().any(|event| event.before == first && anew(event));
         if anew && step.kind != MoveKind::Rapid {
@@ -67,7 +67,7 @@ impl Program {
         (plunges.fold(own, f64::min), mode)
     }
 
-    /// Tool, spindle and coolant as they are when a move begins, and the work offset where one was called on the way.
+    /// Tool, spindle and coolant as they are when a move begins, and the work offset where one was called before it.
     fn state_before(&self, first: usize) -> (Vec<EventKind>, Option<String>) {
         state_of(self.events.iter().take_while(|event| event.before <= first))
     }
@@ -118,7 +118,7 @@ impl Program {
     }
 
     /// The same program with an optional stop before every operation but the first: spindle and coolant are off there, and on
-    /// again behind it unless the program says otherwise at that place.
+    /// again behind it unless an event of the program there decides otherwise.
     #[must_use]
     pub fn with_optional_stops(&self) -> Self {
         let mut program = self.clone();
@@ -129,8 +129,8 @@ impl Program {
             let running: Vec<EventKind> =
                 running.into_iter().filter(|kind| !matches!(kind, EventKind::ToolChange { .. })).collect();
             let here = program.events.get(first..behind).unwrap_or_default();
-            let said = |kind: &EventKind| here.iter().any(|event| decides(&event.kind, kind));
-            let again: Vec<EventKind> = running.iter().filter(|kind| !said(kind)).cloned().collect();
+            let decided = |kind: &EventKind| here.iter().any(|event| decides(&event.kind, kind));
+            let again: Vec<EventKind> = running.iter().filter(|kind| !decided(kind)).cloned().collect();
             let stop = EventKind::Stop { optional: true };
             let at = |kind| Event { before, kind };
             program.events.splice(behind..behind, again.into_iter().map(at));
@@ -139,7 +139,7 @@ impl Program {
         program
     }
 
-    /// Leaves out what the header of a text said about itself: another machine's header takes its place.
+    /// Leaves out what the header of a text states about itself: another machine's header takes its place.
     pub fn forget_old_header(&mut self) {
         // in small letters: some machines have capitals only
         const OWN: [&str; 8] = [
@@ -161,7 +161,7 @@ impl Program {
         });
     }
 
-    /// A tool that no word named becomes number 1, called at the start.
+    /// A tool without a number becomes number 1, called at the start.
     pub fn name_tools(&mut self) {
         let taken = self.tools.iter().any(|tool| tool.number == 1);
         if let Some(tool) = self.tools.iter_mut().find(|tool| tool.number == 0 && !taken) {
@@ -193,12 +193,12 @@ impl Program {
         starts.map(|(index, _)| index + 1).collect()
     }
 
-    /// The same program with more events, each before the others at its place.
+    /// The same program with more events, each before the others at its move.
     fn with_events(&self, events: Vec<(usize, EventKind)>) -> Self {
         let mut program = self.clone();
         for (before, kind) in events.into_iter().rev() {
-            let place = program.events.iter().position(|event| event.before >= before).unwrap_or(program.events.len());
-            program.events.insert(place, Event { before, kind });
+            let index = program.events.iter().position(|event| event.before >= before).unwrap_or(program.events.len());
+            program.events.insert(index, Event { before, kind });
         }
         program
     }
@@ -233,7 +233,7 @@ fn off(kind: &EventKind) -> EventKind {
     }
 }
 
-/// Whether an event says how something goes on that was on; behind a tool change the spindle stands.
+/// Whether an event decides how something goes on that was on; behind a tool change the spindle stands.
 fn decides(event: &EventKind, running: &EventKind) -> bool {
     match running {
         EventKind::Mist { .. } => matches!(event, EventKind::Mist { .. }),
@@ -265,7 +265,7 @@ fn lasting_feed(start: [f64; 3], step: &Move) -> (f64, FeedMode) {
 
 fn raised_arc(arc: Arc, by: f64) -> Arc {
     let mut centre = arc.centre;
-    // across the plane the centre says nothing
+    // across the plane the centre has no meaning
     if arc.plane != Plane::Xy {
         centre[2] += by;
     }

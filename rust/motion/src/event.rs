@@ -54,15 +54,15 @@ pub enum EventKind {
     },
     /// The program stops until the operator goes on.
     Stop {
-        /// Only where the operator's switch says so.
+        /// Only where the operator's switch is on (M1).
         optional: bool,
     },
-    /// Another work offset: places count from another zero from here on.
+    /// Another work offset: coordinates count from another zero from here on.
     WorkOffset {
-        /// Its word: `G55`.
+        /// Its code: `G55`.
         wcs: String,
     },
-    /// A straight way towards a place until the probe touches: where it ends is not known.
+    /// A straight move towards a point until the probe touches: where it ends is not known.
     Probe {
         /// Where it ends when nothing is touched, work coordinates, mm; none for axes that stay.
         end: [Option<f64>; 3],
@@ -93,7 +93,7 @@ pub enum EventKind {
     },
 }
 
-/// An event and its place: it happens before move `before`.
+/// An event and its position in the program: it happens before move `before`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Event {
     /// Index of the move that follows; the number of moves when none does.

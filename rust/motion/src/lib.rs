@@ -1,4 +1,4 @@
-//! The machine-independent program: what planning writes, posting turns into text, and verification judges.
+//! The machine-independent program: what planning writes, posting turns into text, and verification checks.
 //!
 //! Positions are the controlled point in work coordinates (mm); in a planned program the
 //! controlled point is the tool's tip. Nothing here knows shapes or controllers.

@@ -10,7 +10,7 @@ use crate::{
 
 /// A whole program of one channel.
 ///
-/// The first move goes to a known place from wherever the machine stands: its posted form goes
+/// The first move goes to a known point from wherever the machine stands: its posted form goes
 /// up first, then across. Later moves start where the one before them ends.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "Document")]
@@ -98,7 +98,7 @@ impl Program {
         Self { schema: PROGRAM_SCHEMA, setup, tools, operations, moves, events, cycles }
     }
 
-    /// The moves paired with the place where each starts; the first has none.
+    /// The moves paired with the point where each starts; the first has none.
     pub fn segments(&self) -> impl Iterator<Item = (Option<[f64; 3]>, &Move)> {
         let starts = std::iter::once(None).chain(self.moves.iter().map(|m| Some(m.end.tip)));
         starts.zip(&self.moves)
@@ -129,14 +129,14 @@ impl Program {
         })
     }
 
-    /// Places along the program and the move that each belongs to: the ends of all moves, and along arcs so many more that
+    /// Points along the program and the move that each belongs to: the ends of all moves, and along arcs so many more that
     /// no chord is farther than `sag` mm from its arc.
     pub fn polyline(&self, sag: f64) -> impl Iterator<Item = ([f64; 3], usize)> + '_ {
         self.segments().enumerate().flat_map(move |(index, (start, step))| {
-            let way = start.and_then(|start| step.way(start));
-            let count = way.map_or(1, |way| way.chords(sag));
-            (1..=count).map(move |i| match way {
-                Some(way) if i < count => (way.at(i as f64 / count as f64), index),
+            let path = start.and_then(|start| step.way(start));
+            let count = path.map_or(1, |arc| arc.chords(sag));
+            (1..=count).map(move |i| match path {
+                Some(arc) if i < count => (arc.at(i as f64 / count as f64), index),
                 _ => (step.end.tip, index),
             })
         })

@@ -19,9 +19,9 @@ pub enum ToolReference {
 pub struct ToolRecord {
     /// The name it has in the job.
     pub name: String,
-    /// Its place in the machine's tool table.
+    /// Its number in the machine's tool table.
     pub number: u32,
-    /// The length offset's number (H word); the tool's number unless the job says otherwise.
+    /// The length offset's number (H word); the tool's number unless the job states another.
     pub length_offset: u32,
     /// What it is, in words: `clothoid D10`.
     pub description: String,
@@ -48,7 +48,7 @@ pub struct SetupRecord {
     pub part_max: [f64; 3],
     /// Height at which rapids may cross the part, mm.
     pub clearance: f64,
-    /// Lines for the header, in order: what planning and verification have to say.
+    /// Lines for the header, in order: what planning and verification report.
     pub notes: Vec<String>,
 }
 

@@ -7,7 +7,7 @@ use crate::{Dynamics, MoveKind, Program};
 pub struct Statistics {
     /// Path length at feed, mm.
     pub feed_length: f64,
-    /// Path length at rapid, mm; the way to the first point is not known and not counted.
+    /// Path length at rapid, mm; the path to the first point is not known and not counted.
     pub rapid_length: f64,
     /// Time with dwells, s; see [`Dynamics::times`].
     pub duration: f64,

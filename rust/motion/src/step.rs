@@ -65,7 +65,7 @@ pub struct Move {
     pub feed: f64,
     /// What the feed's number means.
     pub feed_mode: FeedMode,
-    /// What it is for, where the text says.
+    /// What it is for, where the text states it.
     pub role: Option<Role>,
     /// Index into [`crate::Program::operations`].
     pub operation: u32,
@@ -144,14 +144,14 @@ impl Move {
     /// The box around it, lowest and highest coordinates, mm; of a straight move without its start.
     #[must_use]
     pub fn bounds(&self, start: Option<[f64; 3]>) -> ([f64; 3], [f64; 3]) {
-        start.and_then(|start| self.way(start)).map_or((self.end.tip, self.end.tip), |way| way.bounds())
+        start.and_then(|start| self.way(start)).map_or((self.end.tip, self.end.tip), |arc| arc.bounds())
     }
 
     /// Its length from `start`, mm.
     #[must_use]
     pub fn length(&self, start: [f64; 3]) -> f64 {
         let [dx, dy, dz] = [0, 1, 2].map(|axis| self.end.tip[axis] - start[axis]);
-        self.way(start).map_or_else(|| (dx * dx + dy * dy + dz * dz).sqrt(), |way| way.length())
+        self.way(start).map_or_else(|| (dx * dx + dy * dy + dz * dz).sqrt(), |arc| arc.length())
     }
 
     /// Its feed over a length, mm/min, with the spindle at `rpm`; none for a feed per revolution of a spindle that

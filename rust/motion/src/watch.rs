@@ -19,7 +19,7 @@ pub struct Cancelled;
 impl Watch {
     /// Begins a phase of `total` steps.
     pub fn begin(&self, phase: &'static str, total: usize) {
-        // held to the end: no one is told of the new phase and the last one's share
+        // held to the end: no one reads the new phase with the last one's share
         let current = self.phase.lock();
         self.done.store(0, Ordering::Relaxed);
         self.total.store(total as u64, Ordering::Relaxed);
@@ -41,7 +41,7 @@ impl Watch {
         }
     }
 
-    /// Whether somebody asked to stop: for work that leaves off first and says so later.
+    /// Whether somebody asked to stop: for work that leaves off first and reports it later.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
         self.cancelled.load(Ordering::Relaxed)

@@ -1,11 +1,11 @@
 //! Chords instead of curves: as few points as the tolerance allows, on either side of the exact path.
 //!
 //! The exact path lies on an envelope that keeps half of what is left for fitting as its margin, so
-//! that a chord may stray by that much to either side and still neither gouges nor leaves too much.
+//! that a chord may deviate by that much to either side and still neither gouges nor leaves too much.
 //!
-//! Witnesses, exact points, are put in until the path between neighbours is proven to stray little, or as far as that cannot
+//! Witnesses, exact points, are put in until the path between neighbours is proven to deviate little, or as far as that cannot
 //! be seen, looks so from close by; then those are left out over which a longer chord passes closely. What a final
-//! chord strays is at most the sum of both.
+//! chord deviates is at most the sum of both.
 //!
 //! The proofs are derived in docs/concepts/fitting.md.
 
@@ -13,18 +13,18 @@ use crate::PathPoint;
 use styluscam_geometry::Vector;
 
 /// Share of the deviation within which the path stays at the middle between two witnesses. Where it has a kink beside
-/// the middle, it strays twice as much.
+/// the middle, it deviates twice as much.
 const BETWEEN_WITNESSES: f64 = 0.2;
 /// Share of the deviation within which the path is proven to stay between two witnesses.
 pub const PROVEN: f64 = 2.0 * BETWEEN_WITNESSES;
 /// The rest: how far a witness may lie beside a chord.
 const AT_WITNESSES: f64 = 1.0 - PROVEN;
-/// A smooth path strays half as much as its tangents lead beside the ends of a chord; where that is more than could be proven,
+/// A smooth path deviates half as much as its tangents lead beside the ends of a chord; where that is more than could be proven,
 /// no proof is tried.
 const HOPELESS: f64 = 2.2;
-/// Least share of a distance in any direction that counts as straying.
+/// Least share of a distance in any direction that counts as deviation.
 const ASIDE: f64 = 0.25;
-/// What a path that crosses its chord aslant at the middle strays on both sides, as a share of what it would reach at
+/// What a path that crosses its chord aslant at the middle deviates on both sides, as a share of what it would reach at
 /// the chord's end: 0.19 where it is a cubic, up to 0.5 where it bends at once.
 const ASLANT: f64 = 0.35;
 /// Chords are not divided below this length in plan, mm: a kink is cut by less than a controller resolves.
@@ -39,7 +39,7 @@ pub trait Course {
     /// The exact point over the middle of two others, or none where there is none.
     fn between(&mut self, a: &PathPoint, b: &PathPoint) -> Option<PathPoint>;
 
-    /// Whether all of the path between two of its points is known to stray by no more than `most` mm from the chord.
+    /// Whether all of the path between two of its points is known to deviate by no more than `most` mm from the chord.
     fn keeps_to(&self, _a: &PathPoint, _b: &PathPoint, _most: f64) -> bool {
         false
     }
@@ -77,10 +77,10 @@ pub fn densified(points: &[PathPoint], deviation: f64, longest: f64, course: &mu
                 continue;
             }
             match course.between(&a, &b).filter(|m| divides(m, &a, &b)) {
-                Some(m) if 0.5 * length > longest || stray_around(&a, &m, &b) > BETWEEN_WITNESSES * deviation => {
+                Some(m) if 0.5 * length > longest || deviation_around(&a, &m, &b) > BETWEEN_WITNESSES * deviation => {
                     pending.extend([b, m]);
                 }
-                // what hides between two places is looked for in ever smaller pieces
+                // what hides between two points is looked for in ever smaller pieces
                 Some(m)
                     if length > HIDDEN
                         && (course.may_rise(&a, &m, PROVEN * deviation)
@@ -109,7 +109,7 @@ pub fn may_keep_to(a: &PathPoint, b: &PathPoint, most: f64) -> bool {
     bend(a, b) <= HOPELESS * most
 }
 
-/// What a distance of `most` mm along the normals of two points, as [`stray`] measures it, is in height.
+/// What a distance of `most` mm along the normals of two points, as [`deviation_at`] measures it, is in height.
 pub fn in_height(a: &PathPoint, b: &PathPoint, most: f64) -> f64 {
     most / a.normal.z.max(b.normal.z).max(ASIDE)
 }
@@ -124,7 +124,7 @@ pub fn thinned(points: &[PathPoint], deviation: f64) -> Vec<PathPoint> {
     while from + 1 < points.len() {
         let passes = |to: usize| {
             let mut passed = points[from + 1..to].iter();
-            passed.all(|p| stray(p, points[from].tip, points[to].tip) <= AT_WITNESSES * deviation)
+            passed.all(|p| deviation_at(p, points[from].tip, points[to].tip) <= AT_WITNESSES * deviation)
         };
         let (mut to, mut beyond) = (from + 1, points.len());
         let mut step = 1;
@@ -191,7 +191,7 @@ fn from_a_gap(points: &[PathPoint]) -> Vec<PathPoint> {
     turned
 }
 
-/// The last selected point on the way from `inside` to `outside`; `between` is asked in this order.
+/// The last selected point on the path from `inside` to `outside`; `between` is asked in this order.
 fn border(
     inside: &PathPoint,
     outside: &PathPoint,
@@ -211,8 +211,8 @@ fn border(
 /// How far a chord passes beside an exact point, along the point's normal; at least a quarter of its distance in any
 /// direction, so that it neither cuts a step nor drifts far over gentle ground.
 ///
-/// The two are compared at the same place in plan: there the tool stands over the one and over the other.
-fn stray(exact: &PathPoint, a: Vector, b: Vector) -> f64 {
+/// The two are compared at the same position in plan: there the tool stands over the one and over the other.
+fn deviation_at(exact: &PathPoint, a: Vector, b: Vector) -> f64 {
     let chord = b - a;
     let run = chord.xy().norm_squared();
     let share = if run > 0.0 { ((exact.tip - a).xy().dot(&chord.xy()) / run).clamp(0.0, 1.0) } else { 0.0 };
@@ -220,13 +220,13 @@ fn stray(exact: &PathPoint, a: Vector, b: Vector) -> f64 {
     aside.dot(&exact.normal).abs().max(ASIDE * aside.norm())
 }
 
-/// How far a path with the exact middle `m` strays from a chord, at the middle or beside it.
-fn stray_around(a: &PathPoint, m: &PathPoint, b: &PathPoint) -> f64 {
+/// How far a path with the exact middle `m` deviates from a chord, at the middle or beside it.
+fn deviation_around(a: &PathPoint, m: &PathPoint, b: &PathPoint) -> f64 {
     let aslant = ASLANT * (b.tip - a.tip).dot(&m.normal).abs();
-    stray(m, a.tip, b.tip).max(aslant).max(bend(a, m)).max(bend(m, b))
+    deviation_at(m, a.tip, b.tip).max(aslant).max(bend(a, m)).max(bend(m, b))
 }
 
-/// How far a path strays from the chord between two of its points, as far as their normals tell: where tangents meet at
+/// How far a path deviates from the chord between two of its points, as far as their normals tell: where tangents meet at
 /// the middle, it is half as far as one tangent leads beside the other end.
 fn bend(a: &PathPoint, b: &PathPoint) -> f64 {
     let along = b.tip - a.tip;
@@ -263,9 +263,9 @@ mod tests {
     #[test]
     fn a_middle_that_lies_elsewhere_ends_the_run() {
         let ends = [point(0.0, 0.0, true), point(1.0, 0.0, false)];
-        let mut astray = |_: &PathPoint, _: &PathPoint| Some(point(5.0, 7.0, true));
-        assert!(densified(&ends, 1e-3, f64::INFINITY, &mut astray).is_empty());
-        assert_eq!(selected_runs(&ends, false, astray).len(), 1);
+        let mut elsewhere = |_: &PathPoint, _: &PathPoint| Some(point(5.0, 7.0, true));
+        assert!(densified(&ends, 1e-3, f64::INFINITY, &mut elsewhere).is_empty());
+        assert_eq!(selected_runs(&ends, false, elsewhere).len(), 1);
     }
 
     #[test]

@@ -17,7 +17,7 @@ pub struct Lattice {
 }
 
 impl Lattice {
-    /// A place in plan, told in cells: column and row of a node where they are whole.
+    /// A point in plan, mm, from its coordinates in cells: column and row of a node where they are whole.
     #[must_use]
     pub fn place(&self, [column, row]: [f64; 2]) -> [f64; 2] {
         [self.origin[0] + column * self.cell, self.origin[1] + row * self.cell]

@@ -1,7 +1,7 @@
 //! From passes to moves: their order, their direction, and how the tool gets from one to the next.
 //!
-//! How it does is the strategy's to say: it calls [`link`] or [`join`] with rules of its own. Where they give no path, the
-//! tool goes up, across at clearance height, and down again at plunge feed.
+//! The strategy decides how: it calls [`link`] or [`join`] with rules of its own. Where they give no path, the tool goes
+//! up, across at clearance height, and down again at plunge feed.
 
 use rayon::prelude::*;
 use styluscam_geometry::Vector;

@@ -169,8 +169,8 @@ mod tests {
 
     fn any_passes() -> impl Strategy<Value = Vec<Pass>> {
         // whole numbers: many are equally near
-        let place = (0..30_i32, 0..30_i32).prop_map(|(x, y)| [f64::from(x), f64::from(y), 0.0]);
-        let pass_of = (prop::collection::vec(place, 2..40), any::<bool>(), 0..3_usize);
+        let point = (0..30_i32, 0..30_i32).prop_map(|(x, y)| [f64::from(x), f64::from(y), 0.0]);
+        let pass_of = (prop::collection::vec(point, 2..40), any::<bool>(), 0..3_usize);
         prop::collection::vec(pass_of, 1..80).prop_map(|mut passes| {
             passes.sort_by_key(|(_, _, group)| *group);
             passes.iter().map(|(points, closed, group)| pass(points, *closed, *group)).collect()

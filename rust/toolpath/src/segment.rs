@@ -197,8 +197,8 @@ mod tests {
         assert!((sweep + 2.25 * TAU).abs() < 1e-12);
         assert!((length - libm::hypot(2.25 * TAU * 3.0, 4.5)).abs() < 1e-12);
         // one pitch lower after a turn
-        let way = segment.to_move(0).way(start.into()).unwrap();
-        assert!(near(way.at(1.0 / 2.25), [5.0, 0.0, -2.0]));
+        let path = segment.to_move(0).way(start.into()).unwrap();
+        assert!(near(path.at(1.0 / 2.25), [5.0, 0.0, -2.0]));
     }
 
     #[test]

@@ -36,7 +36,7 @@ pub struct Surface<'a> {
 }
 
 impl<'a> Surface<'a> {
-    /// `selected` says of each triangle whether its face was asked for.
+    /// `selected` holds for each triangle whether its face was asked for.
     #[must_use]
     pub fn new(envelope: &'a Envelope<'a>, selected: &'a [bool]) -> Self {
         Self { envelope, selected: Some(selected), heights: EVERYWHERE, from_above: false }
@@ -130,7 +130,7 @@ impl<'a> Surface<'a> {
         (0..self.envelope.mesh().triangles().len()).filter(counts)
     }
 
-    /// Lower and upper corner in plan of the places from which the tool can touch a selected face, if any.
+    /// Lower and upper corner in plan of the positions from which the tool can touch a selected face, if any.
     #[must_use]
     pub fn domain(&self) -> Option<([f64; 2], [f64; 2])> {
         let mesh = self.envelope.mesh();
