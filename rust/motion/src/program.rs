@@ -146,7 +146,7 @@ impl Program {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Move;
+    use crate::{Arc, Plane};
 
     fn document(axes: &str) -> serde_json::Result<Program> {
         let setup = serde_json::to_string(&SetupRecord::default()).unwrap();
@@ -178,5 +178,41 @@ mod tests {
         let error = |axes: &str| document(axes).unwrap_err().to_string();
         assert!(error(r#","axes":[[0.0,0.0,1.0]]"#).contains("1 axes for 2 moves"));
         assert!(error(r#","axes":[[0.0,0.0,1.0],[0.0,0.0,0.5]]"#).contains("axes[1]"));
+    }
+
+    fn with_moves(tools: Vec<ToolRecord>, moves: Vec<Move>) -> Program {
+        Program { moves, ..Program::empty(SetupRecord::default(), tools, Vec::new()) }
+    }
+
+    #[test]
+    fn a_polyline_has_the_ends_of_lines_and_keeps_to_arcs() {
+        let arc = Arc { centre: [0.0; 3], plane: Plane::Xy, clockwise: false, turns: 0 };
+        let moves =
+            vec![Move::rapid([2.0, 0.0, 0.0]), Move::feed([0.0, 2.0, 0.0], 100.0).arc(arc), Move::rapid([9.0; 3])];
+        let points: Vec<([f64; 3], usize)> = with_moves(Vec::new(), moves).polyline(0.01).collect();
+        assert_eq!((points[0], points[points.len() - 1]), (([2.0, 0.0, 0.0], 0), ([9.0; 3], 2)));
+        // a chord of 0.01 mm below a circle of 2 mm spans 0.2 rad: eight of them in a quarter
+        assert_eq!(points.len(), 1 + 8 + 1);
+        for (point, owner) in &points[..9] {
+            assert!((point[0].hypot(point[1]) - 2.0).abs() < 1e-12 && *owner <= 1, "{point:?}");
+        }
+    }
+
+    #[test]
+    fn posted_boxes_rise_with_the_reference_of_the_tool_that_is_loaded() {
+        let tool = |reference_height| ToolRecord {
+            name: String::new(),
+            number: 1,
+            length_offset: 1,
+            description: String::new(),
+            reference: crate::ToolReference::Center,
+            reference_height,
+            diameter: 6.0,
+        };
+        let moves = vec![Move::rapid([0.0; 3]), Move::feed([1.0, 0.0, -1.0], 100.0)];
+        let mut program = with_moves(vec![tool(3.0), tool(5.0)], moves);
+        program.events = vec![Event { before: 1, kind: EventKind::ToolChange { tool: 1 } }];
+        let boxes: Vec<_> = program.posted_boxes().collect();
+        assert_eq!(boxes, [([0.0, 0.0, 3.0], [0.0, 0.0, 3.0]), ([1.0, 0.0, 4.0], [1.0, 0.0, 4.0])]);
     }
 }

@@ -33,3 +33,41 @@ impl Statistics {
         sum
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Arc, Event, EventKind, Move, Plane, SetupRecord};
+
+    #[test]
+    fn lengths_by_kind_and_the_lowest_point_of_an_arc() {
+        // a half circle of radius 2 about X, in the plane of X and Z: it hangs 2 mm below its ends
+        let below = Arc { centre: [3.0, 0.0, -1.0], plane: Plane::Zx, clockwise: true, turns: 0 };
+        let moves = vec![
+            Move::rapid([1.0, 0.0, 5.0]),
+            Move::rapid([1.0, 0.0, 1.0]),
+            Move::feed([1.0, 0.0, -1.0], 60.0),
+            Move::feed([5.0, 0.0, -1.0], 600.0).arc(below),
+            Move::rapid([5.0, 0.0, 5.0]),
+        ];
+        let (hangs, _) = moves[3].bounds(Some(moves[2].end.tip));
+        let program = Program { moves, ..Program::empty(SetupRecord::default(), Vec::new(), Vec::new()) };
+        let found = Statistics::of(&program, &Dynamics::at_once(600.0));
+        let around = std::f64::consts::TAU;
+        assert!((found.feed_length - (2.0 + around)).abs() < 1e-12);
+        // the path to the first point is not counted
+        assert!((found.rapid_length - (4.0 + 6.0)).abs() < 1e-12);
+        assert!((found.duration - (1.0 + 2.0 + around / 10.0)).abs() < 1e-12, "{}", found.duration);
+        assert!((hangs[2] + 3.0).abs() < 1e-12 && (found.lowest + 3.0).abs() < 1e-12, "{}", found.lowest);
+    }
+
+    #[test]
+    fn a_program_without_feed_moves_has_no_lowest_point() {
+        let events = vec![Event { before: 1, kind: EventKind::Dwell { seconds: 2.0 } }];
+        let moves = vec![Move::rapid([0.0; 3])];
+        let program = Program { moves, events, ..Program::empty(SetupRecord::default(), Vec::new(), Vec::new()) };
+        let found = Statistics::of(&program, &Dynamics::at_once(600.0));
+        assert_eq!(found.lowest, f64::INFINITY);
+        assert!((found.duration - 2.0).abs() < 1e-12);
+    }
+}

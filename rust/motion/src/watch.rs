@@ -61,3 +61,29 @@ impl Watch {
         (phase.map_or("", |phase| *phase), share)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_share_is_of_the_phase_and_never_more_than_all() {
+        let watch = Watch::default();
+        assert_eq!(watch.state(), ("", 0.0));
+        watch.begin("linking", 4);
+        watch.advance(1).unwrap();
+        assert_eq!(watch.state(), ("linking", 0.25));
+        watch.advance(9).unwrap();
+        assert_eq!(watch.state(), ("linking", 1.0));
+        watch.begin("measuring", 2);
+        assert_eq!(watch.state(), ("measuring", 0.0));
+    }
+
+    #[test]
+    fn a_cancelled_watch_stops_the_next_step() {
+        let watch = Watch::default();
+        assert!(!watch.is_cancelled());
+        watch.cancel();
+        assert_eq!((watch.is_cancelled(), watch.advance(1)), (true, Err(Cancelled)));
+    }
+}

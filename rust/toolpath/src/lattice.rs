@@ -113,3 +113,50 @@ impl Cells {
         self.pieces(width.div_ceil(2))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LATTICE: Lattice = Lattice { origin: [-3.0, 1.0], cell: 0.5, columns: 3, rows: 2 };
+
+    #[test]
+    fn nodes_are_numbered_row_by_row() {
+        let numbers: Vec<usize> = LATTICE.nodes().map(|node| LATTICE.node_number(node)).collect();
+        assert_eq!(numbers, (0..12).collect::<Vec<_>>());
+        assert_eq!(LATTICE.nodes().last(), Some([3, 2]));
+    }
+
+    #[test]
+    fn cells_have_numbers_and_corners() {
+        let cells: Vec<Node> = LATTICE.cells().iter().collect();
+        assert_eq!(cells.len(), 6);
+        for (number, cell) in cells.into_iter().enumerate() {
+            assert_eq!((LATTICE.number(cell), LATTICE.cell_of(number)), (number, cell));
+        }
+        // counterclockwise from the lower left; four nodes in a row
+        assert_eq!(LATTICE.corner_numbers([1, 1]), [5, 6, 10, 9]);
+    }
+
+    #[test]
+    #[allow(clippy::float_cmp)] // halves
+    fn corners_are_in_mm() {
+        assert_eq!(LATTICE.corners(&LATTICE.cells()), [[-3.0, 1.0], [-1.5, 2.0]]);
+        assert_eq!(LATTICE.corners(&Cells::single([2, 0])), [[-2.0, 1.0], [-1.5, 1.5]]);
+    }
+
+    #[test]
+    fn pieces_and_quarters_cover_every_cell_once() {
+        let cells = Cells { from: [2, 3], to: [9, 5] };
+        for pieces in [cells.pieces(3).collect::<Vec<_>>(), cells.quarters().collect()] {
+            let mut found: Vec<Node> = pieces.iter().flat_map(Cells::iter).collect();
+            found.sort_unstable();
+            let mut expected: Vec<Node> = cells.iter().collect();
+            expected.sort_unstable();
+            assert_eq!(found, expected);
+        }
+        // seven columns by two rows: halves of four, and both rows in each
+        assert_eq!(cells.quarters().count(), 2);
+        assert!(Cells::single([4, 4]).is_single() && !cells.is_single());
+    }
+}
