@@ -50,7 +50,7 @@ pub struct Arc {
 
 /// The path of an arc between two points.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ArcWay {
+pub struct ArcPath {
     axes: [usize; 3],
     centre: [f64; 2],
     /// Angle at the start, rad.
@@ -66,7 +66,7 @@ pub struct ArcWay {
 impl Arc {
     /// The path from `start` to `end`, mm. Ends at one point in the plane make a full circle.
     #[must_use]
-    pub fn way(&self, start: [f64; 3], end: [f64; 3]) -> ArcWay {
+    pub fn path(&self, start: [f64; 3], end: [f64; 3]) -> ArcPath {
         let axes = self.plane.axes();
         let [first, second, third] = axes;
         let centre = [self.centre[first], self.centre[second]];
@@ -85,11 +85,11 @@ impl Arc {
         };
         let more = f64::from(self.turns) * TAU;
         let sweep = if self.clockwise { sweep - more } else { sweep + more };
-        ArcWay { axes, centre, angle, sweep, radii, heights: [start[third], end[third]] }
+        ArcPath { axes, centre, angle, sweep, radii, heights: [start[third], end[third]] }
     }
 }
 
-impl ArcWay {
+impl ArcPath {
     /// The point at a share of the path, 0 to 1.
     #[must_use]
     pub fn at(&self, share: f64) -> [f64; 3] {
@@ -203,8 +203,8 @@ mod tests {
     #[test]
     fn a_quarter_is_a_quarter_and_the_other_way_the_rest() {
         let (from, to) = ([2.0, 0.0, 5.0], [0.0, 2.0, 5.0]);
-        assert!((about(Plane::Xy, false).way(from, to).length() - TAU / 2.0).abs() < 1e-12);
-        assert!((about(Plane::Xy, true).way(from, to).length() - 3.0 * TAU / 2.0).abs() < 1e-12);
+        assert!((about(Plane::Xy, false).path(from, to).length() - TAU / 2.0).abs() < 1e-12);
+        assert!((about(Plane::Xy, true).path(from, to).length() - 3.0 * TAU / 2.0).abs() < 1e-12);
     }
 
     #[test]
@@ -215,7 +215,7 @@ mod tests {
             (Plane::Zx, [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]),
             (Plane::Yz, [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]),
         ] {
-            let path = about(plane, false).way(from, to);
+            let path = about(plane, false).path(from, to);
             assert!((path.sweep() - TAU / 4.0).abs() < 1e-12, "{plane:?}");
             let half = std::f64::consts::FRAC_1_SQRT_2;
             assert!(gap(path.at(0.5), [from, to].map(|p| p.map(|x| x * half)).into_iter().fold(ORIGIN, add)) < 1e-12);
@@ -230,7 +230,7 @@ mod tests {
     fn equal_ends_are_a_full_circle_and_turns_are_added() {
         let start = [3.0, 0.0, 1.0];
         let arc = Arc { turns: 2, ..about(Plane::Xy, true) };
-        let path = arc.way(start, [3.0, 0.0, -1.0]);
+        let path = arc.path(start, [3.0, 0.0, -1.0]);
         assert!((path.sweep() + 3.0 * TAU).abs() < 1e-12);
         assert!((path.length() - (3.0 * TAU * 3.0).hypot(2.0)).abs() < 1e-12);
         assert!(gap(path.at(1.0), [3.0, 0.0, -1.0]) < 1e-12);
@@ -238,7 +238,7 @@ mod tests {
 
     #[test]
     fn the_box_holds_the_quadrants() {
-        let path = about(Plane::Xy, false).way([3.0, -4.0, 0.0], [-3.0, 4.0, 2.0]);
+        let path = about(Plane::Xy, false).path([3.0, -4.0, 0.0], [-3.0, 4.0, 2.0]);
         let (low, high) = path.bounds();
         assert!(gap(low, [-3.0, -4.0, 0.0]) < 1e-12 && gap(high, [5.0, 5.0, 2.0]) < 1e-12, "{low:?} {high:?}");
     }
@@ -249,7 +249,7 @@ mod tests {
                                   rise in -9.0..9.0_f64, sag in 1e-5..0.1_f64, share in 0.0..1.0_f64) {
             let from = [radius, 0.0, 0.0];
             let to = [(radius + off) * turn.cos(), (radius + off) * turn.sin(), rise];
-            let path = about(Plane::Xy, false).way(from, to);
+            let path = about(Plane::Xy, false).path(from, to);
             prop_assert!((path.sweep() - turn).abs() < 1e-9);
             prop_assert!(gap(path.at(0.0), from) < 1e-9 && gap(path.at(1.0), to) < 1e-9);
             let count = path.chords(sag);

@@ -82,7 +82,7 @@ pub enum CycleStep {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CycleStart {
     /// Where the tip is, mm.
-    pub place: [f64; 3],
+    pub position: [f64; 3],
     /// Speed, rev/min, and sense of the spindle; none while it stands.
     pub spindle: Option<(f64, SpindleDirection)>,
 }
@@ -95,10 +95,10 @@ impl Cycle {
     pub fn steps(&self, start: &CycleStart) -> Option<Vec<CycleStep>> {
         let [x, y] = self.at;
         let mut steps = Vec::new();
-        let high = start.place[2].max(self.retract);
-        let [from_x, from_y, _] = start.place;
+        let high = start.position[2].max(self.retract);
+        let [from_x, from_y, _] = start.position;
         for point in [[from_x, from_y, high], [x, y, high], [x, y, self.retract]] {
-            rapid(&mut steps, start.place, point);
+            rapid(&mut steps, start.position, point);
         }
         self.go_down(&mut steps)?;
         if self.dwell > 0.0 {
@@ -191,7 +191,7 @@ mod tests {
     }
 
     fn heights(cycle: &Cycle, from: [f64; 3]) -> Vec<(MoveKind, f64)> {
-        let start = CycleStart { place: from, spindle: None };
+        let start = CycleStart { position: from, spindle: None };
         let steps = cycle.steps(&start).unwrap();
         let moves = steps.iter().filter_map(|s| match s {
             CycleStep::Move(kind, point) => Some((*kind, point[2])),
@@ -221,14 +221,14 @@ mod tests {
 
     #[test]
     fn endless_pecks_are_none() {
-        let start = CycleStart { place: [0.0; 3], spindle: None };
+        let start = CycleStart { position: [0.0; 3], spindle: None };
         let hair = Cycle { peck: 1e-9, ..hole(CycleKind::Peck) };
         assert_eq!(hair.steps(&start), None);
     }
 
     #[test]
     fn a_tap_turns_back_at_the_bottom() {
-        let start = CycleStart { place: [10.0, 20.0, 2.0], spindle: Some((300.0, SpindleDirection::Clockwise)) };
+        let start = CycleStart { position: [10.0, 20.0, 2.0], spindle: Some((300.0, SpindleDirection::Clockwise)) };
         let steps = hole(CycleKind::Tap).steps(&start).unwrap();
         let turns: Vec<_> = steps
             .iter()

@@ -63,7 +63,7 @@ impl Dynamics {
     }
 
     fn stretch(&self, start: [f64; 3], step: &Move, rpm: Option<f64>, stopped: bool) -> Stretch {
-        let path = step.way(start);
+        let path = step.path(start);
         let length = step.length(start);
         let rate = step.mm_per_min(length, rpm).filter(|rate| *rate > 0.0 && rate.is_finite());
         let mut speed = rate.unwrap_or(self.rapid_rate) / MINUTE;

@@ -17,7 +17,7 @@ mod statistics;
 mod step;
 mod watch;
 
-pub use arc::{Arc, ArcWay, Plane};
+pub use arc::{Arc, ArcPath, Plane};
 pub use cycle::{Cycle, CycleKind, CycleStart, CycleStep};
 pub use dynamics::Dynamics;
 pub use event::{Event, EventKind, SpindleDirection, Upcoming};

@@ -87,7 +87,7 @@ pub struct MachineMove {
     /// Line of the text, from 1.
     pub line: u32,
     /// Where it goes, machine coordinates, mm; none for axes that stay.
-    pub places: [Option<f64>; 3],
+    pub coordinates: [Option<f64>; 3],
 }
 
 impl Program {
@@ -133,7 +133,7 @@ impl Program {
     /// no chord is farther than `sag` mm from its arc.
     pub fn polyline(&self, sag: f64) -> impl Iterator<Item = ([f64; 3], usize)> + '_ {
         self.segments().enumerate().flat_map(move |(index, (start, step))| {
-            let path = start.and_then(|start| step.way(start));
+            let path = start.and_then(|start| step.path(start));
             let count = path.map_or(1, |arc| arc.chords(sag));
             (1..=count).map(move |i| match path {
                 Some(arc) if i < count => (arc.at(i as f64 / count as f64), index),
@@ -170,7 +170,7 @@ mod tests {
     fn a_document_without_axes_is_upright_and_written_as_it_was_read() {
         let program = document("").unwrap();
         assert!(program.moves.iter().all(|step| step.end.axis == UnitAxis::UP));
-        assert!(!serde_json::to_string(&program).unwrap().contains("ax"));
+        assert!(!serde_json::to_string(&program).unwrap().contains("\"ax"));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Arc, ArcWay, Pose, UnitAxis};
+use crate::{Arc, ArcPath, Pose, UnitAxis};
 
 /// What a move is for the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -137,21 +137,21 @@ impl Move {
 
     /// The path of an arc that starts at `start`; none when the move is straight.
     #[must_use]
-    pub fn way(&self, start: [f64; 3]) -> Option<ArcWay> {
-        self.arc.map(|arc| arc.way(start, self.end.tip))
+    pub fn path(&self, start: [f64; 3]) -> Option<ArcPath> {
+        self.arc.map(|arc| arc.path(start, self.end.tip))
     }
 
     /// The box around it, lowest and highest coordinates, mm; of a straight move without its start.
     #[must_use]
     pub fn bounds(&self, start: Option<[f64; 3]>) -> ([f64; 3], [f64; 3]) {
-        start.and_then(|start| self.way(start)).map_or((self.end.tip, self.end.tip), |arc| arc.bounds())
+        start.and_then(|start| self.path(start)).map_or((self.end.tip, self.end.tip), |arc| arc.bounds())
     }
 
     /// Its length from `start`, mm.
     #[must_use]
     pub fn length(&self, start: [f64; 3]) -> f64 {
         let [dx, dy, dz] = [0, 1, 2].map(|axis| self.end.tip[axis] - start[axis]);
-        self.way(start).map_or_else(|| (dx * dx + dy * dy + dz * dz).sqrt(), |arc| arc.length())
+        self.path(start).map_or_else(|| (dx * dx + dy * dy + dz * dz).sqrt(), |arc| arc.length())
     }
 
     /// Its feed over a length, mm/min, with the spindle at `rpm`; none for a feed per revolution of a spindle that

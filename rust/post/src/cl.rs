@@ -34,7 +34,7 @@ pub fn cl_text(program: &Program) -> Result<String, PostError> {
             MoveKind::Rapid => out.line("RAPID"),
             MoveKind::Feed => out.feed(index, step)?,
         }
-        let way = start.and_then(|start| step.way(start));
+        let way = start.and_then(|start| step.path(start));
         let count = way.map_or(1, |way| way.chords(SAG));
         for chord in 1..=count {
             let place = match way {

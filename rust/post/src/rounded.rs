@@ -1,6 +1,6 @@
 //! An arc with the numbers that would be posted, and whether the controller takes it.
 
-use styluscam_motion::{Arc, ArcWay};
+use styluscam_motion::{Arc, ArcPath};
 
 use crate::machine::ArcRules;
 
@@ -42,7 +42,7 @@ impl RoundedArc {
     /// Whether a controller takes it for the path that is meant; `unit` is the last place, mm.
     ///
     /// A path too short for its ends to differ once rounded would be taken for a full circle.
-    pub fn stands_for(&self, path: &ArcWay, rules: &ArcRules, unit: f64) -> bool {
+    pub fn stands_for(&self, path: &ArcPath, rules: &ArcRules, unit: f64) -> bool {
         let [_, _, third] = self.arc.plane.axes();
         if !rules.planes.contains(&self.arc.plane) || !(rules.helix || self.from[third] == self.to[third]) {
             return false;
@@ -51,7 +51,7 @@ impl RoundedArc {
         let place = |count: [i64; 3]| [0, 1, 2].map(|axis| count[axis] as f64 * unit / scale[axis]);
         let start = place(self.from);
         let centre = [0, 1, 2].map(|axis| start[axis] + self.offset[axis] as f64 * unit);
-        let posted = Arc { centre, ..self.arc }.way(start, place(self.to));
+        let posted = Arc { centre, ..self.arc }.path(start, place(self.to));
         let as_meant = (posted.sweep() - path.sweep()).abs() < 1.0 && posted.sweep().abs() > LEAST;
         let radius = posted.radius();
         let in_range =

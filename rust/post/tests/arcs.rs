@@ -7,7 +7,7 @@ mod support;
 use std::f64::consts::{PI, TAU};
 
 use proptest::prelude::*;
-use styluscam_motion::{Arc, ArcWay, Move, Plane, Program};
+use styluscam_motion::{Arc, ArcPath, Move, Plane, Program};
 use styluscam_post::machine::{LengthUnit, RadiusError};
 use styluscam_post::{post, read, Machine, ReadFault};
 use support::{change, feed, grbl, linuxcnc, rapid, stylus};
@@ -20,8 +20,8 @@ fn reads(block: &str, machine: &Machine) -> Result<Move, ReadFault> {
     })
 }
 
-fn way(block: &str) -> ArcWay {
-    reads(block, &linuxcnc()).unwrap().way([10.0, 0.0, 0.0]).unwrap()
+fn way(block: &str) -> ArcPath {
+    reads(block, &linuxcnc()).unwrap().path([10.0, 0.0, 0.0]).unwrap()
 }
 
 #[test]
@@ -68,14 +68,14 @@ fn program(start: [f64; 3], step: Move) -> Program {
 }
 
 /// How far the posted path is from the one that is meant, at positions between the blocks' ends.
-fn off(posted: &Program, start: [f64; 3], meant: &ArcWay) -> f64 {
+fn off(posted: &Program, start: [f64; 3], meant: &ArcPath) -> f64 {
     let mut worst: f64 = 0.0;
     let mut from = start;
     for step in &posted.moves[1..] {
         for i in 0..=20 {
             let share = f64::from(i) / 20.0;
             let straight = |axis: usize| from[axis] + share * (step.end.tip[axis] - from[axis]);
-            let place = step.way(from).map_or([straight(0), straight(1), straight(2)], |way| way.at(share));
+            let place = step.path(from).map_or([straight(0), straight(1), straight(2)], |way| way.at(share));
             worst = worst.max(distance_to(meant, place));
         }
         from = step.end.tip;
@@ -84,7 +84,7 @@ fn off(posted: &Program, start: [f64; 3], meant: &ArcWay) -> f64 {
 }
 
 /// Distance of a position to a path: coarse, then fine.
-fn distance_to(way: &ArcWay, place: [f64; 3]) -> f64 {
+fn distance_to(way: &ArcPath, place: [f64; 3]) -> f64 {
     let gap = |share: f64| {
         let at = way.at(share.clamp(0.0, 1.0));
         (0..3).map(|i| (at[i] - place[i]).powi(2)).sum::<f64>().sqrt()
@@ -142,7 +142,7 @@ proptest! {
         let text = post(&program(start, step), &machine).unwrap().text;
         let back = read(&text, &machine, &[]).unwrap_or_else(|e| panic!("{e}\n{text}")).program;
         let unit = machine.resolution_mm();
-        let worst = off(&back, start, &arc.way(start, end));
+        let worst = off(&back, start, &arc.path(start, end));
         prop_assert!(worst <= 2.5 * unit, "{worst} {}", text.lines().skip(12).collect::<Vec<_>>().join("\n"));
     }
 }

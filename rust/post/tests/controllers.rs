@@ -23,7 +23,7 @@ fn holes(kind: CycleKind, peck: f64, dwell: f64, lift: bool) -> Program {
         let first = work.moves.len();
         let hole =
             Cycle { first, count: 0, kind, at: [x, 15.0], retract: 2.0, bottom: -6.0, leave, feed: 150.0, dwell, peck };
-        for step in hole.steps(&CycleStart { place, spindle: turning }).unwrap() {
+        for step in hole.steps(&CycleStart { position: place, spindle: turning }).unwrap() {
             match step {
                 CycleStep::Move(styluscam_motion::MoveKind::Rapid, [x, y, z]) => work.moves.push(rapid(x, y, z)),
                 CycleStep::Move(_, [x, y, z]) => work.moves.push(feed(x, y, z, 150.0)),

@@ -175,7 +175,7 @@ impl Work {
             EventKind::SpindleOff | EventKind::ToolChange { .. } => Some(None),
             _ => None,
         });
-        for step in hole.steps(&CycleStart { place, spindle: spindle.flatten() }).unwrap() {
+        for step in hole.steps(&CycleStart { position: place, spindle: spindle.flatten() }).unwrap() {
             match step {
                 CycleStep::Move(kind, end) => {
                     self.push(kind, end, None, if kind == MoveKind::Feed { 200.0 } else { 0.0 });

@@ -19,7 +19,7 @@ pub struct Lattice {
 impl Lattice {
     /// A point in plan, mm, from its coordinates in cells: column and row of a node where they are whole.
     #[must_use]
-    pub fn place(&self, [column, row]: [f64; 2]) -> [f64; 2] {
+    pub fn point(&self, [column, row]: [f64; 2]) -> [f64; 2] {
         [self.origin[0] + column * self.cell, self.origin[1] + row * self.cell]
     }
 
@@ -32,7 +32,7 @@ impl Lattice {
     /// Lower and upper corner of some cells.
     #[must_use]
     pub fn corners(&self, cells: &Cells) -> [[f64; 2]; 2] {
-        [cells.from, cells.to].map(|node| self.place(node.map(|i| i as f64)))
+        [cells.from, cells.to].map(|node| self.point(node.map(|i| i as f64)))
     }
 
     /// All nodes, row by row.

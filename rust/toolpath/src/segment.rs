@@ -97,7 +97,8 @@ impl Segment {
     pub fn helix(start: Vector, centre: [f64; 2], clockwise: bool, z: f64, pitch: f64, feed: f64) -> Option<Self> {
         let arm = [start.x - centre[0], start.y - centre[1]];
         let turned = (z - start.z).abs() / pitch;
-        if arm == [0.0; 2] || !(pitch > 0.0 && turned > WHOLE && turned < f64::from(u32::MAX)) {
+        let aside = arm.iter().any(|offset| *offset != 0.0);
+        if !(aside && pitch > 0.0 && turned > WHOLE && turned < f64::from(u32::MAX)) {
             return None;
         }
         // whole turns end over their start, where the first arrival is a turn by itself
@@ -150,7 +151,7 @@ mod tests {
 
     /// The path of a segment's move: its middle, its length and the angle it turns through.
     fn path(segment: &Segment, start: Vector) -> ([f64; 3], f64, f64) {
-        let arc = segment.to_move(0).way(start.into()).unwrap();
+        let arc = segment.to_move(0).path(start.into()).unwrap();
         (arc.at(0.5), arc.length(), arc.sweep())
     }
 
@@ -197,7 +198,7 @@ mod tests {
         assert!((sweep + 2.25 * TAU).abs() < 1e-12);
         assert!((length - libm::hypot(2.25 * TAU * 3.0, 4.5)).abs() < 1e-12);
         // one pitch lower after a turn
-        let path = segment.to_move(0).way(start.into()).unwrap();
+        let path = segment.to_move(0).path(start.into()).unwrap();
         assert!(near(path.at(1.0 / 2.25), [5.0, 0.0, -2.0]));
     }
 

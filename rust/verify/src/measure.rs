@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use rayon::prelude::*;
 use styluscam_geometry::Vector;
-use styluscam_motion::{ArcWay, Cancelled, Watch};
+use styluscam_motion::{ArcPath, Cancelled, Watch};
 
 use crate::body::Body;
 use crate::clearance::{Prober, Touch};
@@ -111,7 +111,7 @@ impl<'a> Walk<'a> {
     }
 
     /// A piece of an arc: samples, if it should touch, and a proof that nothing between them is deeper.
-    fn along_bend(&mut self, segment: &Segment, bend: &ArcWay, tool: usize, prober: &Prober) -> Measured {
+    fn along_bend(&mut self, segment: &Segment, bend: &ArcPath, tool: usize, prober: &Prober) -> Measured {
         let mut found = Measured::default();
         if segment.excess.is_some() {
             let start = segment.start.and_then(|tip| self.start(tip, tool, prober, &mut found));
@@ -240,7 +240,7 @@ fn deepest(stroke: Stroke, below: f64, prober: &Prober) -> Option<Sample> {
 /// The deepest position of a piece of an arc, if it is below `below`: chords that pass deeper than they are off it are halved.
 ///
 /// Where halving ends, the depth on the chord and what the chord is off are both counted: never too little.
-fn deepest_on_arc(bend: &ArcWay, below: f64, prober: &Prober) -> Option<Sample> {
+fn deepest_on_arc(bend: &ArcPath, below: f64, prober: &Prober) -> Option<Sample> {
     let mut best: Option<Sample> = None;
     let mut left = VecDeque::from([(0.0, 1.0)]);
     let mut halvings = 0;

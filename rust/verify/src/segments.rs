@@ -1,7 +1,7 @@
 //! The moves as the verifier sees them: what each is meant to do, with which tool, from where.
 
 use styluscam_geometry::Vector;
-use styluscam_motion::{ArcWay, EventKind, MoveKind, Program};
+use styluscam_motion::{ArcPath, EventKind, MoveKind, Program};
 
 use crate::assignment::Assignment;
 use crate::expectation::Contact;
@@ -52,7 +52,7 @@ pub(crate) struct Segment {
     /// The tool's tip where it ends.
     pub end: [f64; 3],
     /// How the tip gets there, when not straight; the start is known then.
-    pub bend: Option<ArcWay>,
+    pub bend: Option<ArcPath>,
     /// Line of the text, 0 when there is none.
     pub line: u32,
     /// Index of the tool; none is loaded or known otherwise.
@@ -162,7 +162,7 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
         }
         let known = subject.is_known(index) && is_in_range(step.end.tip) && step.end.axis.is_up();
         if known {
-            let way = start.and_then(|start| step.way(start));
+            let way = start.and_then(|start| step.path(start));
             let kind = if way.is_some() { SegmentKind::Lateral } else { kind(step.kind, start, step.end.tip) };
             let excess =
                 limits.excess_of(step.operation).filter(|_| kind == SegmentKind::Lateral && touches(step.operation));

@@ -46,8 +46,8 @@ fn machine_fault(
     limits: &Limits,
 ) -> Option<Fault> {
     let text = subject.text?;
-    let across = step.places[..2].iter().any(Option::is_some);
-    let down = step.places[2].is_some() && !goes_up(step, limits);
+    let across = step.coordinates[..2].iter().any(Option::is_some);
+    let down = step.coordinates[2].is_some() && !goes_up(step, limits);
     let low = || {
         let unknown = step.before == 0 || run_of(&text.unknown_heights, step.before.saturating_sub(1)).is_some();
         let raised = unknown && at_the_top(text, step.before, limits);
@@ -60,7 +60,7 @@ fn machine_fault(
     let position = last_before(segments, step.before).map_or(nowhere, |segment| segment.end);
     let index = step.before.min(program.moves.len().saturating_sub(1));
     let fault = Fault::new(&faults::MACHINE_POSITION, index, step.line, position);
-    Some(fault.measured(step.places[2].unwrap_or(f64::NAN), f64::NAN))
+    Some(fault.measured(step.coordinates[2].unwrap_or(f64::NAN), f64::NAN))
 }
 
 /// Whether a move in machine coordinates ends at the machine's top: at its zero, over it, or a little under it where the
@@ -68,14 +68,17 @@ fn machine_fault(
 fn goes_up(step: &MachineMove, limits: &Limits) -> bool {
     let range = limits.reach.axes[2].map(|[low, high]| high - low);
     let length = range.or(limits.reach.travel.map(|travel| travel[2]));
-    step.places[2].is_some_and(|z| z >= -(TOP * length.unwrap_or(0.0)).min(NEAR_TOP) - SLACK)
+    step.coordinates[2].is_some_and(|z| z >= -(TOP * length.unwrap_or(0.0)).min(NEAR_TOP) - SLACK)
 }
 
 /// Whether the tool, whose height in the work is not known after a move, was sent to the machine's top before.
 fn at_the_top(text: &TextFacts, index: usize, limits: &Limits) -> bool {
     let since = run_of(&text.unknown_heights, index).map_or(index, |run| run.start);
-    let last =
-        text.machine_moves.iter().rev().find(|step| step.places[2].is_some() && (since..=index).contains(&step.before));
+    let last = text
+        .machine_moves
+        .iter()
+        .rev()
+        .find(|step| step.coordinates[2].is_some() && (since..=index).contains(&step.before));
     last.is_some_and(|step| goes_up(step, limits))
 }
 

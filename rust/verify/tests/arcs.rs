@@ -33,7 +33,7 @@ fn chorded(program: &Program, count: usize) -> Program {
     let mut chorded = program.clone();
     chorded.moves.clear();
     for (start, step) in program.segments() {
-        match start.and_then(|s| step.way(s)) {
+        match start.and_then(|s| step.path(s)) {
             None => chorded.moves.push(*step),
             Some(way) => chorded.moves.extend((1..=count).map(|i| {
                 let mut chord = *step;
@@ -78,7 +78,7 @@ fn a_reversed_arc_gouges_or_leaves_the_part() {
         program.moves[2].arc.as_mut().unwrap().centre[0] += 2.0;
         let start = program.moves[1].end.tip;
         program.moves[2].arc.as_mut().unwrap().clockwise = true;
-        assert!(program.moves[2].way(start).is_some());
+        assert!(program.moves[2].path(start).is_some());
         let report = judged(&Part::cone(inner, LOW, HIGH, 600, 20), &tool, &program);
         assert!(!report.ok && report.findings.iter().any(|f| f.line == 13), "{:?}", report.findings);
     }
@@ -111,7 +111,7 @@ fn what_a_long_arc_leaves_between_its_ends_is_found() {
     let tool = ball(8.0);
     let mut program = loop_of_arcs(&tool, false, &[3.0, std::f64::consts::TAU]);
     let start = program.moves[1].end.tip;
-    let way = program.moves[2].way(start).unwrap();
+    let way = program.moves[2].path(start).unwrap();
     // outwards: both ends touch, what lies between does not
     let [x, y, _] = way.at(0.5);
     let arc = program.moves[2].arc.as_mut().unwrap();

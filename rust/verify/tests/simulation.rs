@@ -139,7 +139,7 @@ fn arcs(tool: &Tool) -> Program {
 fn chorded(program: &Program, count: usize) -> Program {
     let mut chorded = Program { moves: Vec::new(), ..program.clone() };
     for (start, step) in program.segments() {
-        let way = start.and_then(|start| step.way(start));
+        let way = start.and_then(|start| step.path(start));
         let chord = |i: usize| {
             let end = way.filter(|_| i < count).map_or(step.end.tip, |way| way.at(i as f64 / count as f64));
             step.to(end).arc(None)

@@ -1,6 +1,6 @@
 //! The arcs that a block's I, J, K or R describe.
 
-use styluscam_motion::{Arc, ArcWay, Plane};
+use styluscam_motion::{Arc, ArcPath, Plane};
 
 /// Turns of one arc at most: each takes its chords.
 pub(crate) const MOST_TURNS: u32 = 1000;
@@ -81,8 +81,8 @@ impl Ends {
     }
 
     /// The path of an arc between these ends, when there is one.
-    pub fn path(&self, arc: &Arc, least: Least) -> Result<ArcWay, ArcFault> {
-        let path = arc.way(self.start, self.end);
+    pub fn path(&self, arc: &Arc, least: Least) -> Result<ArcPath, ArcFault> {
+        let path = arc.path(self.start, self.end);
         let radius = path.radius();
         if radius <= 0.0 || radius < least.radius - ROUNDED {
             return Err(ArcFault::NoRadius);

@@ -117,7 +117,7 @@ impl Path {
             let end = self.shown(offsets, end);
             return self.push(end, Some(Arc { centre, ..arc }), pace);
         }
-        let path = arc.way(start, end);
+        let path = arc.path(start, end);
         let count = path.chords(SAG);
         (1..=count).try_for_each(|i| self.line(offsets, path.at(i as f64 / count as f64), pace))
     }

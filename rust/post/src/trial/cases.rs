@@ -474,7 +474,7 @@ fn holes(bench: &Bench, kind: CycleKind, peck: f64, dwell: f64) -> Draft {
             dwell,
             peck: peck * unit,
         };
-        for step in hole.steps(&CycleStart { place, spindle }).unwrap_or_default() {
+        for step in hole.steps(&CycleStart { position: place, spindle }).unwrap_or_default() {
             match step {
                 CycleStep::Move(MoveKind::Rapid, end) => draft.rapid(end),
                 CycleStep::Move(MoveKind::Feed, end) => draft.feed(end, bench.feed),

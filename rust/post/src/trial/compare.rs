@@ -316,11 +316,11 @@ fn path_difference(
     machine: &Machine,
 ) -> Option<String> {
     let (Some(arc), Some(start), Some(from)) = (step.arc, start, from) else { return None };
-    let path = arc.way(start, step.end.tip);
+    let path = arc.path(start, step.end.tip);
     let slack = ARC_PLACES * machine.resolution_mm() + path.mismatch();
     let [first, second, _] = arc.plane.axes();
-    let count = found.way(from).map_or(1, |w| w.chords(machine.resolution_mm()));
-    let places = (1..=count).map(|i| match found.way(from) {
+    let count = found.path(from).map_or(1, |w| w.chords(machine.resolution_mm()));
+    let places = (1..=count).map(|i| match found.path(from) {
         Some(w) => w.at(i as f64 / count as f64),
         None => found.end.tip,
     });
@@ -329,7 +329,7 @@ fn path_difference(
         (radius - path.radius()).abs()
     };
     let worst = places.map(off).fold(0.0, f64::max);
-    let sweep = found.way(from).map_or(0.0, |w| w.sweep().abs());
+    let sweep = found.path(from).map_or(0.0, |w| w.sweep().abs());
     let too_far = sweep > path.sweep().abs() + TINY_SWEEP;
     (worst > slack || too_far)
         .then(|| format!("it leaves the arc by {worst:.4} mm, over {:.0} degrees", sweep.to_degrees()))

@@ -1,6 +1,6 @@
 //! Arcs: in as many blocks as the machine needs, or as lines.
 
-use styluscam_motion::{Arc, ArcWay, Move};
+use styluscam_motion::{Arc, ArcPath, Move};
 
 use super::Poster;
 use crate::machine::Turns;
@@ -11,7 +11,7 @@ impl Poster<'_> {
     /// An arc in as many blocks as the machine needs; as lines where it would not take the rounded numbers.
     pub(super) fn arc(&mut self, index: usize, step: &Move, arc: Arc) -> Result<(), PostError> {
         self.position(index)?;
-        let path = arc.way(self.tip.unwrap_or(step.end.tip), step.end.tip);
+        let path = arc.path(self.tip.unwrap_or(step.end.tip), step.end.tip);
         let rules = self.machine.arc.as_ref();
         let (pieces, turns) = match rules {
             Some(rules) if rules.turns != Turns::None && rules.max_sweep_deg >= 360.0 => (1, arc.turns),
@@ -31,7 +31,7 @@ impl Poster<'_> {
         Ok(())
     }
 
-    fn rounded(&self, index: usize, arc: Arc, path: &ArcWay) -> Result<RoundedArc, PostError> {
+    fn rounded(&self, index: usize, arc: Arc, path: &ArcPath) -> Result<RoundedArc, PostError> {
         let from = self.position(index)?;
         let to = self.target(index, path.at(1.0))?;
         let mut arc_centre = [0; 3];
@@ -52,7 +52,7 @@ impl Poster<'_> {
         Ok(())
     }
 
-    fn chords(&mut self, index: usize, feed: f64, path: &ArcWay) -> Result<(), PostError> {
+    fn chords(&mut self, index: usize, feed: f64, path: &ArcPath) -> Result<(), PostError> {
         let count = path.chords(self.machine.resolution_mm());
         for chord in 1..=count {
             let target = self.target(index, path.at(chord as f64 / count as f64))?;

@@ -15,7 +15,7 @@ impl Poster<'_> {
             return None;
         }
         let [x, y] = cycle.at;
-        let start = CycleStart { place: [x, y, cycle.retract], spindle: self.spindle };
+        let start = CycleStart { position: [x, y, cycle.retract], spindle: self.spindle };
         made_by(program, cycle, &cycle.steps(&start)?, self.machine)
     }
 

@@ -250,7 +250,7 @@ impl<'a> Poster<'a> {
         match (step.kind, step.arc) {
             (MoveKind::Rapid, _) => self.rapid(target)?,
             (MoveKind::Feed, None) => {
-                self.feed(index, target, step.feed, step.length(self.tip.unwrap_or(step.end.tip)))?
+                self.feed(index, target, step.feed, step.length(self.tip.unwrap_or(step.end.tip)))?;
             }
             (MoveKind::Feed, Some(arc)) => self.arc(index, step, arc)?,
         }

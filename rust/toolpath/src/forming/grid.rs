@@ -28,7 +28,7 @@ impl Grid {
         // one ring of nodes outside: there the tool touches nothing that was asked for
         let (columns, rows) = ((width / cell).ceil() as usize + 2, (height / cell).ceil() as usize + 2);
         let lattice = Lattice { origin: low.map(|low| low - ASIDE * cell), cell, columns, rows };
-        let places: Vec<[f64; 2]> = lattice.nodes().map(|node| lattice.place(node.map(|i| i as f64))).collect();
+        let places: Vec<[f64; 2]> = lattice.nodes().map(|node| lattice.point(node.map(|i| i as f64))).collect();
         watch.begin("sampling", places.len());
         let contacts = surface.envelope().contacts(&places, watch)?;
         Ok(Some(Self { lattice, contacts }))
@@ -68,7 +68,7 @@ impl Grid {
     /// Lowest and highest tip among the nodes whose contact is selected.
     pub(super) fn selected_range(&self, surface: &Surface<'_>) -> Option<(f64, f64)> {
         let tips = self.lattice.nodes().zip(&self.contacts).filter_map(|(node, contact)| {
-            let [x, y] = self.lattice.place(node.map(|i| i as f64));
+            let [x, y] = self.lattice.point(node.map(|i| i as f64));
             contact.as_ref().map(|c| surface.path_point(x, y, c)).filter(|p| p.selected).map(|p| p.tip.z)
         });
         tips.fold(None, |range: Option<(f64, f64)>, z| {

@@ -148,7 +148,7 @@ impl<'a> Sides<'a> {
 
     /// A node in plan.
     pub fn place(&self, node: Node) -> Place {
-        self.grid.lattice().place(node.map(|i| i as f64 / PARTS as f64))
+        self.grid.lattice().point(node.map(|i| i as f64 / PARTS as f64))
     }
 }
 

@@ -1,6 +1,6 @@
 //! A short path of a tool's tip, straight or bent a little, and how low it brings the tool over a position.
 
-use styluscam_motion::ArcWay;
+use styluscam_motion::ArcPath;
 
 use super::underside::Underside;
 use crate::body::length;
@@ -60,12 +60,12 @@ impl Cut {
     }
 
     /// All of the arc of that index.
-    pub fn bent(way: &ArcWay, arc: u32, tool: u32) -> Self {
+    pub fn bent(way: &ArcPath, arc: u32, tool: u32) -> Self {
         Self::straight([0.0; 3], [0.0; 3], tool).of_part(way, arc, [0.0, 1.0])
     }
 
     /// A part of the arc, given by its ends and its middle.
-    fn of_part(&self, way: &ArcWay, arc: u32, part: [f32; 2]) -> Self {
+    fn of_part(&self, way: &ArcPath, arc: u32, part: [f32; 2]) -> Self {
         let [from, to] = part.map(|share| way.at(f64::from(share)));
         let middle = way.at(0.5 * (f64::from(part[0]) + f64::from(part[1])));
         let bulge = [0, 1, 2].map(|k| middle[k] - 0.5 * (from[k] + to[k]));
@@ -74,7 +74,7 @@ impl Cut {
     }
 
     /// Both halves of a part of an arc.
-    pub fn halves(&self, arcs: &[ArcWay]) -> Option<[Self; 2]> {
+    pub fn halves(&self, arcs: &[ArcPath]) -> Option<[Self; 2]> {
         let arc = self.arc?;
         let way = arcs.get(arc as usize)?;
         let [from, to] = self.part;
@@ -83,7 +83,7 @@ impl Cut {
     }
 
     /// The tool standing where this one is at a share, on the arc itself.
-    pub fn still(&self, share: f64, arcs: &[ArcWay]) -> Self {
+    pub fn still(&self, share: f64, arcs: &[ArcPath]) -> Self {
         let [from, to] = self.part.map(f64::from);
         let way = self.arc.and_then(|arc| arcs.get(arc as usize));
         let at = way.map_or_else(|| self.at(share), |way| way.at(from + share * (to - from)));

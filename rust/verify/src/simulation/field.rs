@@ -4,7 +4,7 @@
 //! is convex over the plan: it is nowhere below a plane that touches it, and nowhere in a rectangle above the highest of its
 //! corners. So a cut whose plane is above another cut at the four corners is above it everywhere between them.
 
-use styluscam_motion::{ArcWay, Cancelled, Watch};
+use styluscam_motion::{ArcPath, Cancelled, Watch};
 
 use super::cut::{Cut, Plane};
 use super::grid::{Extent, Grid, Region};
@@ -27,7 +27,7 @@ pub(super) struct Field<'a> {
     /// Height of the stock before the first cut, mm.
     pub top: f64,
     pub tools: &'a [Underside],
-    pub arcs: &'a [ArcWay],
+    pub arcs: &'a [ArcPath],
     pub watch: &'a Watch,
 }
 

@@ -16,7 +16,7 @@ mod mesh;
 mod stock;
 mod underside;
 
-use styluscam_motion::{ArcWay, Cancelled, Program, Watch};
+use styluscam_motion::{ArcPath, Cancelled, Program, Watch};
 
 use crate::segments::{placed, Segment};
 use crate::subject::{Limits, Subject};
@@ -51,7 +51,7 @@ pub fn simulate(
 }
 
 /// What every move cuts, and the arcs that some of them are parts of.
-fn cuts(segments: &[Segment]) -> (Vec<Cut>, Vec<ArcWay>) {
+fn cuts(segments: &[Segment]) -> (Vec<Cut>, Vec<ArcPath>) {
     let mut arcs = Vec::new();
     let cut = |segment: Segment| {
         let tool = segment.tool? as u32;

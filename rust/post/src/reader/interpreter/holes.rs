@@ -148,7 +148,7 @@ impl Interpreter<'_> {
             return Err(ReadFault::Halted);
         }
         let spindle = self.modes.direction.map(|direction| (self.modes.speed, direction));
-        let steps = cycle.steps(&CycleStart { place: start, spindle }).ok_or(ReadFault::TooManyPecks)?;
+        let steps = cycle.steps(&CycleStart { position: start, spindle }).ok_or(ReadFault::TooManyPecks)?;
         cycle.first = self.program.moves.len();
         for step in steps {
             match step {
