@@ -132,7 +132,24 @@ def _compare(options: argparse.Namespace) -> int:
 
 def _lines(folder: Path) -> dict[str, Any]:
     text = (folder / "lines.jsonl").read_text(encoding="utf-8")
-    return {line["name"]: line for line in map(json.loads, text.splitlines())}
+    lines = [_with_figures(line) for line in map(json.loads, text.splitlines())]
+    return {line["name"]: line for line in lines}
+
+
+def _with_figures(value: Any) -> Any:
+    """With an operation's figures as a list, whether they are keys of their own (until 0.1) or facts."""
+    if isinstance(value, list):
+        return [_with_figures(one) for one in value]
+    if not isinstance(value, dict):
+        return value
+    value = {key: _with_figures(one) for key, one in value.items()}
+    if "facts" in value:
+        value["figures"] = [fact["value"] for fact in value.pop("facts")]
+    elif "groups" in value and "passes" in value:
+        smallest = value.pop("smallest_feature")
+        figures = [float(value.pop("groups")), float(value.pop("passes"))]
+        value["figures"] = [*figures, smallest] if value["kind"] == "z-level" else figures
+    return value
 
 
 def _differences(before: Any, after: Any, path: str) -> Any:
