@@ -55,9 +55,16 @@ class Change:
         (crate,) = {file.split("/")[1] for file in self.files}
         return crate
 
+    @property
+    def target(self) -> Path:
+        """Where cargo builds the copy. Not the checkout's own: cargo names what it builds by the paths within a workspace, so
+        that a copy's crates would be taken for the checkout's.
+        """
+        return COPY / f"{self.name}-target"
+
     def cargo(self, *words: str) -> None:
         """Runs cargo in a copy with the change, on the changed crate."""
-        command = ["cargo", *words, "--quiet", "--offline", "--target-dir", str(CHECKOUT / "target")]
+        command = ["cargo", *words, "--quiet", "--offline", "--target-dir", str(self.target)]
         command += ["--package", f"styluscam-{self.crate()}"]
         ran = subprocess.run(command, cwd=self.copy(), capture_output=True, text=True, check=False)
         assert ran.returncode == 0 and "warning" not in ran.stderr, ran.stderr + ran.stdout

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use styluscam_geometry::{Base, Holder, ModelFace, ProfileDocument, SheetLaw};
 use styluscam_motion::ToolReference;
 
-use crate::{FixtureSection, OperationSection, ProcessSection, Risk};
+use crate::{FixtureSection, OperationSection, ProcessSection, Risk, Selection, UpAxis};
 
 /// A whole job: from a part's faces to a machine's program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -102,47 +102,6 @@ pub enum Units {
     Um,
 }
 
-/// Faces by rule or by name.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(try_from = "SelectionText", into = "SelectionText")]
-pub enum Selection {
-    /// All faces that look up.
-    #[default]
-    All,
-    /// These.
-    Named(Vec<String>),
-}
-
-#[derive(Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged, expecting = "expected \"all\" or a list of face names like [\"Face3\", \"Face4\"]")]
-enum SelectionText {
-    Word(String),
-    Names(Vec<String>),
-}
-
-impl TryFrom<SelectionText> for Selection {
-    type Error = String;
-
-    fn try_from(text: SelectionText) -> Result<Self, String> {
-        match text {
-            SelectionText::Word(word) if word == "all" => Ok(Self::All),
-            SelectionText::Word(word) => {
-                Err(format!("{word:?} is not a selection: write \"all\" or a list of names like [\"Face3\"]"))
-            }
-            SelectionText::Names(names) => Ok(Self::Named(names)),
-        }
-    }
-}
-
-impl From<Selection> for SelectionText {
-    fn from(selection: Selection) -> Self {
-        match selection {
-            Selection::All => Self::Word("all".to_owned()),
-            Selection::Named(names) => Self::Names(names),
-        }
-    }
-}
-
 /// How the part lies on the machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -187,30 +146,6 @@ impl Default for SetupSection {
             fixture: None,
         }
     }
-}
-
-/// An axis of the model.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum UpAxis {
-    /// +X.
-    #[serde(rename = "+x")]
-    PlusX,
-    /// -X.
-    #[serde(rename = "-x")]
-    MinusX,
-    /// +Y.
-    #[serde(rename = "+y")]
-    PlusY,
-    /// -Y.
-    #[serde(rename = "-y")]
-    MinusY,
-    /// +Z.
-    #[default]
-    #[serde(rename = "+z")]
-    PlusZ,
-    /// -Z: the model upside down.
-    #[serde(rename = "-z")]
-    MinusZ,
 }
 
 /// Where the program's zero is.

@@ -13,21 +13,15 @@ use styluscam_verify::{
 };
 
 use crate::heights::TipHeights;
+use crate::limits::{GOUGE, NO_ROOM};
 use crate::{
     faces, fixture, materials, model, scene, Coolant, JobDocument, JobError, OperationSection, Scene, SheetSection,
     Spindle,
 };
 
-/// Deepest gouge allowed, mm: the posted path may lie this far inside the exact envelope, and not more.
-pub(crate) const GOUGE: f64 = 0.001;
-
 /// Most that may be left on a sheet's faces where the tool cannot get, mm, where the job does not say: single-point forming
 /// itself is good to half a millimetre or a whole one.
 const BRIDGED: f64 = 1.0;
-/// Where more than this share of its radius is left, a milling tool has no room: in corners of three square walls it leaves
-/// 0.73 of it.
-pub(crate) const NO_ROOM: f64 = 0.75;
-
 /// The judge's report and the program that was read.
 #[derive(Clone, Debug, Serialize)]
 pub struct Judgement {

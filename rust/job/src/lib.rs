@@ -10,8 +10,10 @@ mod faces;
 mod fixture;
 mod heights;
 mod judge;
+mod limits;
 mod materials;
 mod model;
+mod numbers;
 mod operations;
 mod parse;
 mod plan;
@@ -19,16 +21,18 @@ mod process;
 mod risk;
 mod scene;
 mod schema;
+mod selection;
 mod starter;
 mod stopped;
 mod summary;
 mod tagged;
 mod units;
+mod up_axis;
 
 pub use body::{Body, Border, FaceLook, Heights, Hollows, Shell, Side, Thickness, Unformable, SIDES};
 pub use document::{
-    JobDocument, LengthUnit, MachineSection, OutputSection, PartSection, Selection, SetupSection, SheetSection,
-    ToolSection, Units, UpAxis, Zero,
+    JobDocument, LengthUnit, MachineSection, OutputSection, PartSection, SetupSection, SheetSection, ToolSection,
+    Units, Zero,
 };
 pub use error::JobError;
 pub use fixture::{plates, BackingSection, ClampSection, FixtureSection, Holder, Opening, Plate};
@@ -44,8 +48,10 @@ pub use process::{Process, ProcessKeys, ProcessKind, ProcessSection, MAIN_CHANNE
 pub use risk::Risk;
 pub use scene::{Part, Scene};
 pub use schema::schema;
+pub use selection::Selection;
 pub use starter::{fitting_radius, starter, Starter, StarterFace, StarterPart};
 pub use summary::Summary;
+pub use up_axis::UpAxis;
 
 /// Version of the job document; older ones migrate, newer ones are refused.
 pub const JOB_SCHEMA: u32 = 1;

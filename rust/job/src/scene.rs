@@ -8,7 +8,7 @@ use styluscam_toolpath::offset::Index;
 
 use crate::{
     faces::{self, FaceView},
-    JobDocument, JobError, ToolSection, UpAxis, Zero,
+    JobDocument, JobError, ToolSection, Zero,
 };
 
 /// The part as its reader hands it over.
@@ -122,34 +122,6 @@ fn sheet(job: &JobDocument) -> Result<Option<Sheet>, JobError> {
     let (Some(section), Some(model_face)) = (job.setup.sheet, job.part.model_face) else { return Ok(None) };
     let sheet = Sheet { thickness: section.thickness, law: section.law, model_face };
     sheet.checked().map(Some).map_err(JobError::geometry("setup.sheet"))
-}
-
-impl UpAxis {
-    /// As the job writes it.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::PlusX => "+x",
-            Self::MinusX => "-x",
-            Self::PlusY => "+y",
-            Self::MinusY => "-y",
-            Self::PlusZ => "+z",
-            Self::MinusZ => "-z",
-        }
-    }
-
-    /// Its unit vector in the model's frame.
-    #[must_use]
-    pub fn vector(self) -> Vector {
-        match self {
-            Self::PlusX => Vector::x(),
-            Self::MinusX => -Vector::x(),
-            Self::PlusY => Vector::y(),
-            Self::MinusY => -Vector::y(),
-            Self::PlusZ => Vector::z(),
-            Self::MinusZ => -Vector::z(),
-        }
-    }
 }
 
 /// The zero point in words that a person at the machine can check.

@@ -6,6 +6,7 @@ use std::sync::LazyLock;
 
 use serde_json::Value;
 
+use crate::numbers::shown;
 use crate::{JobDocument, LengthUnit};
 
 static SCHEMA: LazyLock<Value> = LazyLock::new(|| schemars::schema_for!(JobDocument).into());
@@ -125,15 +126,6 @@ impl Range {
             true => format!("above {low} and up to {high}{dimension}"),
             false => format!("{low} to {high}{dimension}"),
         }
-    }
-}
-
-/// A number as people write it, without hundreds of zeros.
-pub fn shown(value: f64) -> String {
-    if value == 0.0 || (1e-5..1e9).contains(&value.abs()) {
-        format!("{value}")
-    } else {
-        format!("{value:e}")
     }
 }
 

@@ -7,7 +7,8 @@
 use serde_json::{Map, Number, Value};
 
 use crate::document::LengthUnit;
-use crate::schema::{shown, Allowed, Range};
+use crate::numbers::shown;
+use crate::schema::{Allowed, Range};
 use crate::JobError;
 
 impl LengthUnit {

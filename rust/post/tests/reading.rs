@@ -178,7 +178,7 @@ fn places_that_are_not_known() {
         .filter(|e| matches!(&e.kind, EventKind::Comment { text } if text.starts_with("G53")));
     assert_eq!(remarks.count(), 2);
     let again = reads("G21\nG0 X1 Y2 Z5\nG53 G0 Z0\nX9\nG0 Z7\nM2", &linuxcnc());
-assert_eq!(again.program.moves[1].end.tip, [9.0, 2.0, 7.0]);
+    assert_eq!(again.program.moves[1].end.tip, [9.0, 2.0, 7.0]);
     assert_eq!(again.unknown_positions, [1..2]);
 }
 

@@ -4,7 +4,7 @@ use styluscam_post::{Machine, OptionValue};
 use styluscam_toolpath::budget::{Budget, POSTED_EACH_SIDE};
 use styluscam_toolpath::PlanError;
 
-use crate::judge::GOUGE;
+use crate::limits::GOUGE;
 use crate::Scene;
 
 /// Decimal places of coordinates that are tried where a machine's own are too few.

@@ -5,7 +5,7 @@ use styluscam_motion::Move;
 use styluscam_verify::{Contact, Passes};
 
 use super::{Areas, Context, Effort, SurfaceFacts};
-use crate::schema::shown;
+use crate::numbers::shown;
 use crate::{JobError, OperationKeys};
 
 /// A kind of operation, with its own keys.

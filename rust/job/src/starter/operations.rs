@@ -9,7 +9,7 @@ use super::choice::{covered, worth};
 use super::sizes::{self, round, Cutter, Shape};
 use crate::body::{Body, FaceLook, Hollows};
 use crate::faces::UP;
-use crate::judge::NO_ROOM;
+use crate::limits::NO_ROOM;
 use crate::operations::Serves;
 use crate::ProcessKeys;
 

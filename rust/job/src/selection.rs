@@ -1,0 +1,45 @@
+//! Which faces are meant: by a rule, or by their names.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Faces by rule or by name.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(try_from = "SelectionText", into = "SelectionText")]
+pub enum Selection {
+    /// All faces that look up.
+    #[default]
+    All,
+    /// These.
+    Named(Vec<String>),
+}
+
+#[derive(Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "expected \"all\" or a list of face names like [\"Face3\", \"Face4\"]")]
+enum SelectionText {
+    Word(String),
+    Names(Vec<String>),
+}
+
+impl TryFrom<SelectionText> for Selection {
+    type Error = String;
+
+    fn try_from(text: SelectionText) -> Result<Self, String> {
+        match text {
+            SelectionText::Word(word) if word == "all" => Ok(Self::All),
+            SelectionText::Word(word) => {
+                Err(format!("{word:?} is not a selection: write \"all\" or a list of names like [\"Face3\"]"))
+            }
+            SelectionText::Names(names) => Ok(Self::Named(names)),
+        }
+    }
+}
+
+impl From<Selection> for SelectionText {
+    fn from(selection: Selection) -> Self {
+        match selection {
+            Selection::All => Self::Word("all".to_owned()),
+            Selection::Named(names) => Self::Names(names),
+        }
+    }
+}
