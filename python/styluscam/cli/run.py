@@ -97,7 +97,9 @@ def _print(result: running.RunResult, written: list[Path], quiet: bool, has_prog
     for line in findings.lines(result.report):
         console.complain(line)
     if result.report.ok:
-        console.complain("verified: the written text was read back and checked; it may run, with these warnings")
+        warned = any(finding.severity == "warning" for finding in result.report.findings)
+        what = "warnings" if warned else "notes"
+        console.complain(f"verified: the written text was read back and checked; it may run, with these {what}")
         return
     if not has_program:
         console.complain("no program was written (--write-despite-findings writes it all the same)")

@@ -13,7 +13,7 @@ class Finding(Record):
 
     Attributes:
         kind: a stable name, as ``gouge``.
-        severity: ``error`` or ``warning``.
+        severity: ``error``, ``warning`` or ``note``.
         line: of the worst point, from 1; 0 where it has none.
         first_line, last_line: over which it lasts.
         moves: how many, and length_mm: how long they are.
