@@ -12,6 +12,7 @@ from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from typing import Any
 
+import in_workers
 import numpy as np
 import pytest
 from conftest import milling_document
@@ -140,23 +141,13 @@ def test_copies_work_as_what_they_were_made_of(made):
     assert made["job"].title == "A cube's top"
 
 
-def _tall(job: sc.Job, part: sc.Part, tool: sc.Tool, machine: sc.Machine) -> tuple[sc.Report, float, str]:
-    """What a worker does."""
-    height = float(sc.drop_cutter(part, tool, [[5.0, 4.0]])[0])
-    plan = sc.plan(job)
-    return sc.verify(sc.post(plan), job), height, sc.post(plan, machine).text
-
-
-def _fails() -> None:
-    """What a worker meets."""
-    sc.Tool("clothoid")
-
-
 def test_values_and_errors_travel_to_workers(made):
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(1, mp_context=context) as pool:
-        done = pool.submit(_tall, made["job"], made["part"], made["tool"], made["machine"]).result(timeout=120)
-        failed = pool.submit(_fails).exception(timeout=120)
+        done = pool.submit(in_workers.tall, made["job"], made["part"], made["tool"], made["machine"]).result(
+            timeout=120
+        )
+        failed = pool.submit(in_workers.fails).exception(timeout=120)
     report, height, text = done
     assert report == made["report"] and report.program == made["report"].program
     assert height == pytest.approx(0.0, abs=1e-12) and text == sc.post(made["plan"], made["machine"]).text
