@@ -66,9 +66,12 @@ print("\n".join(project["dependencies"] + [name for extra in extras for name in 
 endef
 export READ_DEPENDENCIES
 
+# What is measured and tested is built as it is shipped: PROFILE=release.
+PROFILE := quick
+
 .PHONY: dev
 dev: $(VENV)/.ready ## Environment, and the engine built into it
-	VIRTUAL_ENV=$(CURDIR)/$(VENV) $(BIN)/maturin develop --release --quiet
+	VIRTUAL_ENV=$(CURDIR)/$(VENV) $(BIN)/maturin develop --profile $(PROFILE) --quiet
 
 .PHONY: wheel
 wheel: $(VENV)/.ready ## The wheel, in target/wheels
@@ -85,7 +88,7 @@ test: ## Everything: what CI runs
 	@$(PYTHON) tests/oracles/roots.py ensure trixie forky browser >$(ROOTS_LOG) 2>&1 & roots=$$!; \
 	  tests/timed.sh lint $(MAKE) --no-print-directory lint; \
 	  PROPTEST_RNG_SEED=$(SEED) tests/timed.sh cargo cargo test --workspace --locked --quiet; \
-	  tests/timed.sh wheel $(MAKE) --no-print-directory wheel dev; \
+	  tests/timed.sh wheel $(MAKE) --no-print-directory wheel dev PROFILE=release; \
 	  wait $$roots || { cat $(ROOTS_LOG); [ -z "$${CI:-}" ] || exit 1; }; \
 	  tests/timed.sh pytest $(PYTEST) -n 2 --ignore=tests/freecad; \
 	  tests/timed.sh freecad $(PYTEST) tests/freecad
@@ -95,7 +98,7 @@ test: ## Everything: what CI runs
 test-long: tools ## Proofs by the hundred thousand: an hour or two
 	PROPTEST_CASES=20000 PROPTEST_MAX_GLOBAL_REJECTS=1000000 cargo test --release --locked -p styluscam-geometry -p styluscam-verify --lib
 	cargo test --release --locked -p styluscam-toolpath -- --ignored --nocapture --test-threads 1
-	@$(MAKE) --no-print-directory dev
+	@$(MAKE) --no-print-directory dev PROFILE=release
 	$(PYTEST) -m long -s
 	@$(MAKE) --no-print-directory corpus
 
@@ -134,6 +137,7 @@ fmt: $(VENV)/.ready ## Formats everything
 	$(BIN)/taplo fmt
 
 .PHONY: bench
+bench: PROFILE := release
 bench: dev ## Measures ours and others side by side; writes docs/performance.md
 	$(BIN)/python bench/drop_cutter.py
 	$(BIN)/python bench/growth.py
