@@ -24,10 +24,6 @@ CRATES = sorted(path.parent.name for path in ROOT.glob("*/Cargo.toml"))
 Module: TypeAlias = tuple[str, ...]
 
 KNOWN: dict[str, list[set[str]]] = {
-    "bindings": [
-        {"job.rs", "simulation.rs"},
-        {"machine.rs", "program.rs"},
-    ],
     "geometry": [
         {
             "mesh/soup/copies.rs",

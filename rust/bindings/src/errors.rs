@@ -24,8 +24,9 @@ fn build(py: Python<'_>, class: &str, message: &str, code: &str, place: &str, hi
     Ok(PyErr::from_value(exception))
 }
 
-/// A job's error.
-pub fn of_job(error: &JobError) -> PyErr {
+/// A job's error, or one that it may hold.
+pub fn of_job<E: Into<JobError>>(error: E) -> PyErr {
+    let error = error.into();
     raise(error.class(), &error.to_string(), error.code(), &error.place(), &error.hint())
 }
 

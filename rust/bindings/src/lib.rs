@@ -4,14 +4,23 @@
 
 mod arrays;
 mod errors;
+mod freecad;
 mod freeform;
 mod job;
+mod json;
 mod machine;
 mod offset;
 mod part;
+mod plan;
+mod posting;
 mod program;
+mod reading;
+mod scene;
+mod sheet;
 mod simulation;
+mod starter;
 mod tool;
+mod verification;
 mod waiting;
 
 use pyo3::prelude::*;
@@ -19,26 +28,35 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _engine {
     #[pymodule_export]
+    use crate::freecad::program_of_path;
+    #[pymodule_export]
     use crate::freeform::{Nurbs, Search};
     #[pymodule_export]
-    use crate::job::{job_schema, judge, materials, plan, read_back, starter, trace_gcode};
+    use crate::job::{job_schema, materials, Job};
     #[pymodule_export]
-    use crate::job::{Job, Judgement, Plan, Scene};
-    #[pymodule_export]
-    use crate::machine::{
-        cl_text, lines_of_moves, machine_options, machine_schema, post, post_to, program_of_path, read_gcode,
-        read_to_post, shipped_machines, template_names, Machine,
-    };
+    use crate::machine::{machine_options, machine_schema, shipped_machines, template_names, Machine};
     #[pymodule_export]
     use crate::offset::{drop_cutter, offset_surface, push_cutter, sheet_raise, slope_matched_offset, waterlines};
     #[pymodule_export]
     use crate::part::{mended, Part};
     #[pymodule_export]
+    use crate::plan::{plan, Plan};
+    #[pymodule_export]
+    use crate::posting::{cl_text, lines_of_moves, post, post_to};
+    #[pymodule_export]
     use crate::program::Program;
+    #[pymodule_export]
+    use crate::reading::{read_back, read_gcode, read_to_post, trace_gcode};
+    #[pymodule_export]
+    use crate::scene::Scene;
     #[pymodule_export]
     use crate::simulation::Simulation;
     #[pymodule_export]
+    use crate::starter::starter;
+    #[pymodule_export]
     use crate::tool::{profile_starters, Tool};
+    #[pymodule_export]
+    use crate::verification::{judge, Judgement};
     #[pymodule_export]
     use crate::waiting::CancelToken;
 

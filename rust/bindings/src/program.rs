@@ -4,7 +4,7 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use styluscam_motion::{Dynamics, FeedMode, Move, MoveKind, Role, Statistics, PROGRAM_SCHEMA};
 
-use crate::{arrays, errors, machine::Machine};
+use crate::{arrays, errors, json::json, machine::Machine};
 
 /// A machine-independent program; see `styluscam.Program`.
 #[pyclass(frozen, module = "styluscam._engine")]
@@ -72,8 +72,7 @@ impl Program {
     }
 
     fn to_json(&self) -> PyResult<String> {
-        serde_json::to_string(&self.program)
-            .map_err(|e| errors::raise("StylusError", &e.to_string(), "internal", "", ""))
+        json(&self.program)
     }
 
     /// Columns of the moves: kind (0 rapid, 1 line, 2 clockwise arc, 3 counterclockwise arc), end (N, 3), the tool's axis
@@ -130,8 +129,7 @@ impl Program {
     /// Events, tools, operations and set-up as JSON; moves are left to `columns`.
     fn records(&self) -> PyResult<String> {
         let p = &self.program;
-        serde_json::to_string(&(&p.events, &p.tools, &p.operations, &p.setup))
-            .map_err(|e| errors::raise("StylusError", &e.to_string(), "internal", "", ""))
+        json(&(&p.events, &p.tools, &p.operations, &p.setup))
     }
 
     /// The same program with these lines in its header.

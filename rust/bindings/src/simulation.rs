@@ -2,11 +2,10 @@
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
-use styluscam_geometry::ModelFace;
 
 use crate::{
     arrays, errors,
-    job::Scene,
+    scene::Scene,
     waiting::{watched, CancelToken},
 };
 
@@ -76,25 +75,5 @@ impl Simulation {
         let distances = watched(py, progress, cancel, work)?.map_err(errors::cancelled)?;
         let [columns, rows] = self.simulation.grid.nodes;
         PyArray1::from_vec(py, distances).reshape([rows, columns])
-    }
-}
-
-/// The sheet's faces.
-const FACES: [ModelFace; 3] = [ModelFace::Tool, ModelFace::Mid, ModelFace::Back];
-
-/// A face of the sheet by its name.
-pub fn sheet_face(name: &str) -> PyResult<ModelFace> {
-    FACES.into_iter().find(|face| face_name(*face) == name).ok_or_else(|| {
-        let message = format!("face = {name:?}: \"tool\", \"mid\" or \"back\" expected");
-        errors::raise("GeometryError", &message, "out-of-range", "face", "")
-    })
-}
-
-/// The name of a face of the sheet.
-pub fn face_name(face: ModelFace) -> &'static str {
-    match face {
-        ModelFace::Tool => "tool",
-        ModelFace::Mid => "mid",
-        ModelFace::Back => "back",
     }
 }

@@ -3,7 +3,7 @@
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use crate::{arrays::mapped, errors};
+use crate::{arrays::mapped, errors, json::json};
 
 /// A profile document of each kind with sensible numbers, as JSON.
 #[pyfunction]
@@ -30,14 +30,12 @@ impl Tool {
     }
 
     fn to_json(&self) -> PyResult<String> {
-        serde_json::to_string(self.tool.document())
-            .map_err(|e| errors::raise("ToolError", &e.to_string(), "document", "", ""))
+        json(self.tool.document())
     }
 
     /// What was done to the document's curve, as JSON.
     fn report(&self) -> PyResult<String> {
-        serde_json::to_string(self.tool.report())
-            .map_err(|e| errors::raise("ToolError", &e.to_string(), "document", "", ""))
+        json(self.tool.report())
     }
 
     #[getter]

@@ -1,0 +1,67 @@
+//! Planned programs and their summaries.
+
+use std::collections::BTreeMap;
+
+use pyo3::prelude::*;
+use styluscam_job::Summary;
+
+use crate::{
+    errors::{of_job, raise},
+    job::Job,
+    json::json,
+    machine::Machine,
+    program::Program,
+    scene::Scene,
+    verification::Judgement,
+    waiting::{watched, CancelToken},
+};
+
+/// A planned program.
+#[pyclass(frozen, module = "styluscam._engine")]
+pub struct Plan {
+    plan: styluscam_job::Plan,
+}
+
+#[pymethods]
+impl Plan {
+    /// The programs by channel; "main" is always there.
+    #[getter]
+    fn programs(&self) -> BTreeMap<&'static str, Program> {
+        let programs = self.plan.channels.iter();
+        programs.map(|(name, channel)| (*name, Program { program: channel.program.clone() })).collect()
+    }
+
+    /// The summary of a channel as JSON and the lines for its header; with the judgement of its text where there is one.
+    #[pyo3(signature = (channel, scene, machine, judgement=None))]
+    fn summary(
+        &self,
+        channel: &str,
+        scene: &Scene,
+        machine: &Machine,
+        judgement: Option<&Judgement>,
+    ) -> PyResult<(String, Vec<String>)> {
+        let planned = self.plan.channels.get(channel).ok_or_else(|| {
+            let known: Vec<&str> = self.plan.channels.keys().copied().collect();
+            let message = format!("no channel is called {channel:?}");
+            raise("StylusError", &message, "argument", "channel", &format!("the plan has {}", known.join(", ")))
+        })?;
+        let summary = Summary::new(planned, &scene.scene, &machine.machine, judgement.map(|j| &j.judgement));
+        Ok((json(&summary)?, summary.notes()))
+    }
+}
+
+/// Plans every operation of a job.
+#[pyfunction]
+#[pyo3(signature = (job, scene, machine, progress=None, cancel=None))]
+pub fn plan(
+    py: Python<'_>,
+    job: &Job,
+    scene: &Scene,
+    machine: &Machine,
+    progress: Option<&Bound<'_, PyAny>>,
+    cancel: Option<&CancelToken>,
+) -> PyResult<Plan> {
+    let work = |watch: &_| styluscam_job::plan(&job.document, &scene.scene, &machine.machine, watch);
+    let plan = watched(py, progress, cancel, work)?.map_err(of_job)?;
+    Ok(Plan { plan })
+}

@@ -1,0 +1,131 @@
+//! Posted texts, checked against a job's part.
+
+use numpy::{PyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+use styluscam_verify::Need;
+
+use crate::{
+    arrays,
+    errors::of_job,
+    job::Job,
+    json::json,
+    machine::Machine,
+    program::Program,
+    scene::Scene,
+    sheet::sheet_face,
+    simulation::Simulation,
+    waiting::{watched, CancelToken},
+};
+
+/// A judged text.
+#[pyclass(frozen, module = "styluscam._engine")]
+pub struct Judgement {
+    pub(crate) judgement: styluscam_job::Judgement,
+}
+
+#[pymethods]
+impl Judgement {
+    /// The report as JSON.
+    fn report(&self) -> PyResult<String> {
+        json(&self.judgement.report)
+    }
+
+    /// What is left on the job's faces, as JSON.
+    #[pyo3(signature = (job, scene, progress=None, cancel=None))]
+    fn coverage(
+        &self,
+        py: Python<'_>,
+        job: &Job,
+        scene: &Scene,
+        progress: Option<&Bound<'_, PyAny>>,
+        cancel: Option<&CancelToken>,
+    ) -> PyResult<String> {
+        let work = |watch: &_| styluscam_job::coverage(&job.document, &scene.scene, &self.judgement, watch);
+        json(&watched(py, progress, cancel, work)?.map_err(of_job)?)
+    }
+
+    /// What is left at points (N, 3) in work coordinates, (N,), mm.
+    #[pyo3(signature = (job, scene, points, progress=None, cancel=None))]
+    #[allow(clippy::needless_pass_by_value)] // PyO3 hands arrays by value
+    fn left<'py>(
+        &self,
+        py: Python<'py>,
+        job: &Job,
+        scene: &Scene,
+        points: PyReadonlyArray2<'py, f64>,
+        progress: Option<&Bound<'py, PyAny>>,
+        cancel: Option<&CancelToken>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let points = arrays::vectors(&points, "points")?;
+        let work = |watch: &_| styluscam_job::left(&job.document, &scene.scene, &self.judgement, &points, watch);
+        Ok(PyArray1::from_vec(py, watched(py, progress, cancel, work)?.map_err(of_job)?))
+    }
+
+    /// What points (N, 3) of the part in work coordinates ask for, with their unit normals (N, 3), (N,): 0 forming; 1
+    /// nothing, the blank lies there; 2 nothing, they go down flat with the passes around them.
+    #[pyo3(signature = (job, scene, points, normals, progress=None, cancel=None))]
+    #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)] // PyO3 hands arrays by value; Python's keywords
+    fn needs<'py>(
+        &self,
+        py: Python<'py>,
+        job: &Job,
+        scene: &Scene,
+        points: PyReadonlyArray2<'py, f64>,
+        normals: PyReadonlyArray2<'py, f64>,
+        progress: Option<&Bound<'_, PyAny>>,
+        cancel: Option<&CancelToken>,
+    ) -> PyResult<Bound<'py, PyArray1<u8>>> {
+        let (points, normals) = (arrays::vectors(&points, "points")?, arrays::vectors(&normals, "normals")?);
+        let pairs: Vec<_> = points.into_iter().zip(normals).collect();
+        let work = |watch: &_| styluscam_job::needs(&job.document, &scene.scene, &self.judgement, &pairs, watch);
+        let number = |need| match need {
+            Need::Forming => 0,
+            Need::Flat => 1,
+            Need::Carried => 2,
+        };
+        let needs = watched(py, progress, cancel, work)?.map_err(of_job)?;
+        Ok(PyArray1::from_vec(py, needs.into_iter().map(number).collect()))
+    }
+
+    /// The material after the program; `face` of the sheet is "tool", "mid" or "back".
+    #[pyo3(signature = (job, scene, spacing, face=None, progress=None, cancel=None))]
+    #[allow(clippy::too_many_arguments)] // Python's keywords
+    fn simulate(
+        &self,
+        py: Python<'_>,
+        job: &Job,
+        scene: &Scene,
+        spacing: f64,
+        face: Option<&str>,
+        progress: Option<&Bound<'_, PyAny>>,
+        cancel: Option<&CancelToken>,
+    ) -> PyResult<Simulation> {
+        let face = face.map(sheet_face).transpose()?;
+        let work =
+            |watch: &_| styluscam_job::simulate(&job.document, &scene.scene, &self.judgement, spacing, face, watch);
+        Ok(Simulation { simulation: watched(py, progress, cancel, work)?.map_err(of_job)? })
+    }
+
+    /// The moves as they were read back.
+    #[getter]
+    fn program(&self) -> Program {
+        Program { program: self.judgement.program.clone() }
+    }
+}
+
+/// Judges a text against a job's part.
+#[pyfunction]
+#[pyo3(signature = (job, scene, machine, text, progress=None, cancel=None))]
+pub fn judge(
+    py: Python<'_>,
+    job: &Job,
+    scene: &Scene,
+    machine: &Machine,
+    text: &str,
+    progress: Option<&Bound<'_, PyAny>>,
+    cancel: Option<&CancelToken>,
+) -> PyResult<Judgement> {
+    let work = |watch: &_| styluscam_job::judge(&job.document, &scene.scene, &machine.machine, text, watch);
+    let judgement = watched(py, progress, cancel, work)?.map_err(of_job)?;
+    Ok(Judgement { judgement })
+}
