@@ -1,4 +1,5 @@
-//! What all who interpret blocks share: numbers and words, comments, the table of codes, modal state, arcs.
+//! What all who interpret blocks share: numbers and words, comments, the table of codes, modal state, arcs, the program that
+//! is recorded.
 //!
 //! The [`reader`](crate::reader) is strict, because verification stands on it; the [tracer](crate::ngc) shows what it
 //! can. Where they differ on purpose, the difference is a value here: [`Comments`], [`Slack`](arc::Slack), [`Least`](arc::Least).
@@ -8,10 +9,12 @@ mod codes;
 mod comments;
 mod modes;
 mod number;
+mod recorder;
 mod words;
 
 pub(crate) use codes::{g_code, m_code, Code, Length, Motion, Stop};
 pub(crate) use comments::{CommentFault, Comments};
 pub(crate) use modes::{Feed, FeedFault, Modes};
 pub(crate) use number::{code, cut_number, Misfit, Number};
+pub(crate) use recorder::Recorder;
 pub(crate) use words::{Twice, Words};

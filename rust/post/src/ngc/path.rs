@@ -1,13 +1,11 @@
 //! The program that a trace records: moves and events, consistent in space.
 
-use std::collections::HashMap;
-
-use styluscam_motion::{Arc, Event, EventKind, Move, MoveKind, OperationRecord, Plane, Program, SetupRecord};
+use styluscam_motion::{Arc, EventKind, Move, MoveKind, Plane, Program};
 
 use super::codes;
 use super::fault::TraceFault;
 use super::offsets::{turned, Offsets};
-use crate::reader::bare_tool;
+use crate::block::Recorder;
 
 /// mm: no machine reaches so far.
 const FAR: f64 = 1e6;
@@ -20,14 +18,9 @@ const SAME: f64 = 1e-6;
 
 /// Moves in the coordinates that were in force at the first one.
 pub(super) struct Path {
-    program: Program,
+    record: Recorder,
     /// The offsets at the first move.
     anchor: Option<Offsets>,
-    /// The tools' indices in the program, by number.
-    tools: HashMap<u32, u32>,
-    /// Index of the tool in the spindle.
-    tool: Option<u32>,
-    operation_due: bool,
     /// Of moves and events.
     limit: usize,
 }
@@ -44,17 +37,16 @@ pub(super) struct Pace {
 
 impl Path {
     pub(super) fn new(limit: usize) -> Self {
-        let program = Program::empty(SetupRecord::default(), Vec::new(), Vec::new());
-        Self { program, anchor: None, tools: HashMap::new(), tool: None, operation_due: true, limit }
+        Self { record: Recorder::new(&[], 0), anchor: None, limit }
     }
 
     pub(super) fn is_empty(&self) -> bool {
-        self.program.moves.is_empty()
+        self.record.program.moves.is_empty()
     }
 
     /// Whether it has come to a position in the program's coordinates.
     pub(super) fn stands_at(&mut self, offsets: &Offsets, position: [f64; 3]) -> bool {
-        let Some(end) = self.program.moves.last().map(|last| last.end.tip) else { return false };
+        let Some(end) = self.record.program.moves.last().map(|last| last.end.tip) else { return false };
         let position = self.shown(offsets, position);
         end.iter().zip(position).all(|(a, b)| (a - b).abs() <= SAME)
     }
@@ -63,12 +55,12 @@ impl Path {
     pub(super) fn finish(mut self) -> Program {
         let system = self.anchor.map_or(0, |anchor| anchor.index as u32);
         let code = if system < 6 { 540 + 10 * system } else { 585 + system };
-        self.program.setup.wcs = codes::name_g(code);
-        self.program
+        self.record.program.setup.wcs = codes::name_g(code);
+        self.record.program
     }
 
     fn require_room(&self) -> Result<(), TraceFault> {
-        if self.program.moves.len() + self.program.events.len() < self.limit {
+        if self.record.program.moves.len() + self.record.program.events.len() < self.limit {
             Ok(())
         } else {
             Err(TraceFault::TooManyMoves { limit: self.limit })
@@ -77,24 +69,15 @@ impl Path {
 
     pub(super) fn event(&mut self, kind: EventKind) -> Result<(), TraceFault> {
         self.require_room()?;
-        self.program.events.push(Event { before: self.program.moves.len(), kind });
+        self.record.event(kind);
         Ok(())
     }
 
     /// A tool of this number is in the spindle from now on.
     pub(super) fn load(&mut self, number: u32) -> Result<(), TraceFault> {
-        let tool = self.tool_of_number(number);
-        self.tool = Some(tool);
-        self.operation_due = true;
+        let tool = self.record.tool_of_number(number);
+        self.record.load(tool);
         self.event(EventKind::ToolChange { tool })
-    }
-
-    fn tool_of_number(&mut self, number: u32) -> u32 {
-        let tools = &mut self.program.tools;
-        *self.tools.entry(number).or_insert_with(|| {
-            tools.push(bare_tool(number));
-            u32::try_from(tools.len() - 1).unwrap_or(u32::MAX)
-        })
     }
 
     /// A straight move to a position in the program's coordinates.
@@ -141,23 +124,9 @@ impl Path {
         if !end.iter().chain(&centre).all(|coordinate| coordinate.abs() <= FAR) {
             return Err(TraceFault::TooFar);
         }
-        let operation = self.operation();
         let Pace { kind, feed, line } = pace;
-        self.program.moves.push(Move::new(kind, end, feed).arc(arc).of_operation(operation).on_line(line));
+        self.record.push(Move::new(kind, end, feed).arc(arc).on_line(line));
         Ok(())
-    }
-
-    /// The index of the operation that the next move belongs to: a new one after a tool change.
-    fn operation(&mut self) -> u32 {
-        if self.operation_due {
-            self.operation_due = false;
-            let tool = self.tool.unwrap_or_else(|| self.tool_of_number(0));
-            self.tool = Some(tool);
-            let number = self.program.tools.get(tool as usize).map_or(0, |tool| tool.number);
-            let id = format!("{}-T{number}", self.program.operations.len() + 1);
-            self.program.operations.push(OperationRecord { id, kind: "text".into(), tool });
-        }
-        u32::try_from(self.program.operations.len().saturating_sub(1)).unwrap_or(u32::MAX)
     }
 }
 

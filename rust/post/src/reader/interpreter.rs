@@ -10,10 +10,7 @@ mod tools;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use styluscam_motion::{
-    Arc, Event, EventKind, MachineMove, Move, MoveKind, OperationRecord, Plane, Program, SetupRecord, ToolRecord,
-    ToolReference,
-};
+use styluscam_motion::{Arc, EventKind, MachineMove, Move, MoveKind, Plane, ToolRecord};
 
 use super::block::Block;
 use super::called::Called;
@@ -24,7 +21,7 @@ use super::in_force::InForce;
 use super::lexer::{Flaw, Word};
 use super::reading::Reading;
 use crate::block::arc::Ends;
-use crate::block::{Code, Modes, Motion};
+use crate::block::{Code, Modes, Motion, Recorder};
 use crate::machine::Machine;
 use crate::read_error::ReadFault;
 
@@ -69,7 +66,6 @@ pub(crate) struct Interpreter<'m> {
     /// The cycle that is called at positions.
     called: Option<Called>,
     selected: Option<u32>,
-    tool: Option<u32>,
     /// Height of the posted point above the tip, mm.
     height: f64,
     tools_given: bool,
@@ -89,9 +85,7 @@ pub(crate) struct Interpreter<'m> {
     wcs: Option<String>,
     /// The work offset in force, where one was called between moves.
     wcs_now: Option<String>,
-    label: Option<(String, String)>,
-    operation_due: bool,
-    program: Program,
+    record: Recorder,
 }
 
 impl<'m> Interpreter<'m> {
@@ -112,7 +106,6 @@ impl<'m> Interpreter<'m> {
             series: None,
             called: None,
             selected: None,
-            tool: None,
             height: 0.0,
             tools_given: !tools.is_empty(),
             learned: BTreeMap::new(),
@@ -125,17 +118,14 @@ impl<'m> Interpreter<'m> {
             unknown_positions: Vec::new(),
             wcs: None,
             wcs_now: None,
-            label: None,
-            operation_due: true,
-            program: empty_program(tools, text_length / TYPICAL_LINE),
+            record: Recorder::new(tools, text_length / TYPICAL_LINE),
         }
     }
 
     /// Notes a remark; one as the shipped templates write them, `operation ID: KIND`, names what follows.
     pub(crate) fn remark(&mut self, text: &str) {
         if let Some((id, kind)) = text.strip_prefix("operation ").and_then(|t| t.split_once(": ")) {
-            self.label = Some((id.into(), kind.into()));
-            self.operation_due = true;
+            self.record.start_operation(id, kind);
         }
         self.event(EventKind::Comment { text: text.into() });
     }
@@ -152,8 +142,7 @@ impl<'m> Interpreter<'m> {
 
     /// What follows is an operation of its own.
     pub(crate) fn start_operation(&mut self, id: &str, kind: &str) {
-        self.label = Some((id.into(), kind.into()));
-        self.operation_due = true;
+        self.record.start_operation(id, kind);
     }
 
     /// Something that happens beside the text.
@@ -196,7 +185,7 @@ impl<'m> Interpreter<'m> {
     }
 
     fn event(&mut self, kind: EventKind) {
-        self.program.events.push(Event { before: self.program.moves.len(), kind });
+        self.record.event(kind);
     }
 
     fn set_path(&mut self, block: &Block) -> Result<(), Flaw> {
@@ -227,7 +216,7 @@ impl<'m> Interpreter<'m> {
         // Before the first G54 to G59 the controller is in its first work offset.
         let called = self.wcs_now.as_deref().or(self.wcs.as_deref());
         let now = called.or(self.machine.wcs.first().map(String::as_str));
-        if !self.program.moves.is_empty() && now != Some(name.as_str()) {
+        if !self.record.program.moves.is_empty() && now != Some(name.as_str()) {
             if self.tools_given && !self.loose {
                 return Err(ReadFault::WcsChanged);
             }
@@ -243,11 +232,11 @@ impl<'m> Interpreter<'m> {
     fn set_plane(&mut self, plane: Plane) {
         self.close_plane_not_needed();
         self.modes.plane = plane;
-        self.plane_not_needed_since = (plane != Plane::Xy).then_some(self.program.moves.len());
+        self.plane_not_needed_since = (plane != Plane::Xy).then_some(self.record.program.moves.len());
     }
 
     fn close_plane_not_needed(&mut self) {
-        let moves = self.program.moves.len();
+        let moves = self.record.program.moves.len();
         self.planes_not_needed
             .extend(self.plane_not_needed_since.take().map(|since| since..moves).filter(|run| !run.is_empty()));
     }
@@ -284,7 +273,7 @@ impl<'m> Interpreter<'m> {
             Some(Motion::Feed | Motion::Arc(_)) => MoveKind::Feed,
             _ => return Err((ReadFault::NoMotionMode, Some(first))),
         };
-        if self.loose && self.tool.is_none() && kind == MoveKind::Rapid {
+        if self.loose && self.record.tool.is_none() && kind == MoveKind::Rapid {
             return Ok(());
         }
         self.load_only_tool(first)?;
@@ -362,26 +351,12 @@ impl<'m> Interpreter<'m> {
 
     fn push_move_to(&mut self, end: [f64; 3], kind: MoveKind, arc: Option<Arc>, feed: f64, line: u32) {
         self.close_unknown();
-        if self.program.moves.is_empty() {
+        if self.record.program.moves.is_empty() {
             self.not_stated.extend((!self.distance_stated).then_some("G90"));
             let choice = self.machine.wcs.len() > 1;
             self.not_stated.extend((choice && self.wcs.is_none()).then_some("G54"));
         }
-        let operation = self.operation();
-        self.program.moves.push(Move::new(kind, end, feed).arc(arc).of_operation(operation).on_line(line));
-    }
-
-    /// The index of the operation that the next move belongs to: a new one after a tool change or an operation's remark.
-    fn operation(&mut self) -> u32 {
-        if self.operation_due {
-            self.operation_due = false;
-            let tool = self.tool.unwrap_or_default();
-            let number = self.program.tools.get(tool as usize).map_or(0, |t| t.number);
-            let count = self.program.operations.len() + 1;
-            let (id, kind) = self.label.take().unwrap_or_else(|| (format!("{count}-T{number}"), "text".into()));
-            self.program.operations.push(OperationRecord { id, kind, tool });
-        }
-        u32::try_from(self.program.operations.len().saturating_sub(1)).unwrap_or(u32::MAX)
+        self.record.push(Move::new(kind, end, feed).arc(arc).on_line(line));
     }
 
     /// What was read; whether the program ended is the reader's to decide.
@@ -391,13 +366,13 @@ impl<'m> Interpreter<'m> {
         }
         self.end_unknown_height();
         self.close_plane_not_needed();
-        if !self.program.moves.is_empty() {
+        if !self.record.program.moves.is_empty() {
             if let Some((_, axis)) = self.axes.iter().zip(AXES).find(|(axis, _)| !axis.ever) {
                 return Err(ReadFault::NeverPlaced { axis });
             }
         }
         let first = self.machine.wcs.first().cloned().unwrap_or_default();
-        self.program.setup.wcs = self.wcs.unwrap_or(first);
+        self.record.program.setup.wcs = self.wcs.unwrap_or(first);
         let first_known_move = self.unknown_positions.first().filter(|run| run.start == 0).map_or(0, |run| run.end);
         Ok(Reading {
             first_known_move,
@@ -411,25 +386,7 @@ impl<'m> Interpreter<'m> {
             stops: self.stops,
             lines,
             ended,
-            program: self.program,
+            program: self.record.program,
         })
-    }
-}
-
-fn empty_program(tools: &[ToolRecord], typical_moves: usize) -> Program {
-    let moves = Vec::with_capacity(typical_moves);
-    Program { moves, ..Program::empty(SetupRecord::default(), tools.to_vec(), Vec::new()) }
-}
-
-/// A tool of which the text gives the number only: its tip is what moves.
-pub(crate) fn bare_tool(number: u32) -> ToolRecord {
-    ToolRecord {
-        name: format!("T{number}"),
-        number,
-        length_offset: number,
-        description: String::new(),
-        reference: ToolReference::Tip,
-        reference_height: 0.0,
-        diameter: 0.0,
     }
 }

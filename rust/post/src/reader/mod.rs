@@ -23,7 +23,6 @@ use block::{Block, Force};
 use called::{Arguments, Called};
 use codes::{Codes, Meaning};
 use errors::{flaw_at, misfit_at, whole_line, whole_text};
-pub(crate) use interpreter::bare_tool;
 use interpreter::Interpreter;
 use lexer::{Call, Flaw, Line, Word};
 pub use reading::Reading;

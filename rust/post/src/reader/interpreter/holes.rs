@@ -149,7 +149,7 @@ impl Interpreter<'_> {
         }
         let spindle = self.modes.direction.map(|direction| (self.modes.speed, direction));
         let steps = cycle.steps(&CycleStart { position: start, spindle }).ok_or(ReadFault::TooManyPecks)?;
-        cycle.first = self.program.moves.len();
+        cycle.first = self.record.program.moves.len();
         for step in steps {
             match step {
                 CycleStep::Move(kind, position) => {
@@ -160,8 +160,8 @@ impl Interpreter<'_> {
                 CycleStep::Event(kind) => self.event(kind),
             }
         }
-        cycle.count = self.program.moves.len() - cycle.first;
-        self.program.cycles.push(cycle);
+        cycle.count = self.record.program.moves.len() - cycle.first;
+        self.record.program.cycles.push(cycle);
         Ok(())
     }
 }

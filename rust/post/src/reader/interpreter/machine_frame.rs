@@ -75,6 +75,6 @@ impl Interpreter<'_> {
             self.in_force.drop_length();
         }
         self.event(EventKind::Comment { text: remark });
-        self.machine_moves.push(MachineMove { before: self.program.moves.len(), line, coordinates: places });
+        self.machine_moves.push(MachineMove { before: self.record.program.moves.len(), line, coordinates: places });
     }
 }

@@ -54,12 +54,12 @@ impl Interpreter<'_> {
     }
 
     pub(super) fn set_position(&mut self, index: usize, position: f64) {
-        let moves = self.program.moves.len();
+        let moves = self.record.program.moves.len();
         let tip = position - if index == Z { self.height } else { 0.0 };
         let Some(axis) = self.axes.get_mut(index) else { return };
         if !axis.known {
             let since = axis.pending.min(moves);
-            self.program.moves.iter_mut().skip(since).for_each(|m| m.end.tip[index] = tip);
+            self.record.program.moves.iter_mut().skip(since).for_each(|m| m.end.tip[index] = tip);
         }
         *axis = Axis { position, known: true, ever: true, pending: moves };
         if index == Z {
@@ -69,7 +69,7 @@ impl Interpreter<'_> {
 
     /// The position of this axis is not known from the next move on.
     pub(super) fn forget(&mut self, index: usize) {
-        let moves = self.program.moves.len();
+        let moves = self.record.program.moves.len();
         let Some(axis) = self.axes.get_mut(index) else { return };
         if axis.known {
             axis.known = false;
@@ -82,7 +82,7 @@ impl Interpreter<'_> {
     }
 
     pub(super) fn end_unknown_height(&mut self) {
-        let moves = self.program.moves.len();
+        let moves = self.record.program.moves.len();
         self.unknown_heights
             .extend(self.unknown_height_since.take().map(|since| since..moves).filter(|run| !run.is_empty()));
     }
@@ -104,7 +104,7 @@ impl Interpreter<'_> {
 
     pub(super) fn note_unknown(&mut self, since: usize) {
         self.unknown_since = None;
-        let moves = self.program.moves.len();
+        let moves = self.record.program.moves.len();
         if since < moves {
             self.unknown_positions.push(since..moves);
         }

@@ -87,7 +87,7 @@ impl Interpreter<'_> {
     pub(super) fn stop(&mut self, block: &Block) -> bool {
         let Some((stop, _)) = block.stop() else { return false };
         if stop != Stop::End {
-            self.stops.push(self.program.moves.len());
+            self.stops.push(self.record.program.moves.len());
             self.halted = self.machine.stop.stops_spindle && self.modes.direction.is_some();
         }
         match stop {

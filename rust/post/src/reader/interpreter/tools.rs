@@ -2,7 +2,7 @@
 
 use styluscam_motion::{EventKind, ToolRecord};
 
-use super::{bare_tool, Interpreter, Z};
+use super::{Interpreter, Z};
 use crate::machine::{Family, ToolChange};
 use crate::read_error::ReadFault;
 use crate::reader::block::Block;
@@ -18,9 +18,12 @@ impl Interpreter<'_> {
         let by_word = if by_code { None } else { block.words.get(b'T') };
         let Some(word) = block.change().or(by_word) else { return Ok(()) };
         let number = self.selected.ok_or((ReadFault::NoToolSelected, Some(word)))?;
-        let index = self
-            .tool_of_number(number)
-            .ok_or((ReadFault::UnknownTool { number }, block.words.get(b'T').or(Some(word))))?;
+        let unknown = (ReadFault::UnknownTool { number }, block.words.get(b'T').or(Some(word)));
+        let index = if self.tools_given {
+            self.record.known_tool(number).ok_or(unknown)?
+        } else {
+            self.record.tool_of_number(number)
+        };
         self.load(index);
         self.modes.direction = None; // the spindle stops before a change
         self.halted = false;
@@ -28,37 +31,23 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// The index of a tool; without tools from the job, a record that states nothing but the number is added.
-    pub(super) fn tool_of_number(&mut self, number: u32) -> Option<u32> {
-        let known = self.program.tools.iter().position(|t| t.number == number);
-        if let Some(index) = known {
-            return u32::try_from(index).ok();
-        }
-        if self.tools_given {
-            return None;
-        }
-        self.program.tools.push(bare_tool(number));
-        u32::try_from(self.program.tools.len() - 1).ok()
-    }
-
     /// Takes the tool for the active one. Its length differs from the last one's: Z is not known until it is commanded.
     pub(super) fn load(&mut self, index: u32) {
-        self.tool = Some(index);
-        self.height = self.program.tools.get(index as usize).map_or(0.0, |t| t.reference_height);
-        self.operation_due = true;
+        self.record.load(index);
+        self.height = self.record.program.tools.get(index as usize).map_or(0.0, |t| t.reference_height);
         self.forget(Z);
     }
 
     /// A job with one tool may run it without calling it; without any tool from the job, the tool is unknown.
     pub(super) fn load_only_tool(&mut self, word: Word) -> Result<(), Flaw> {
-        if self.tool.is_some() {
+        if self.record.tool.is_some() {
             return Ok(());
         }
-        if self.program.tools.len() > 1 {
+        if self.record.program.tools.len() > 1 {
             return Err((ReadFault::NoToolLoaded, Some(word)));
         }
-        if self.program.tools.is_empty() {
-            self.program.tools.push(bare_tool(0));
+        if self.record.program.tools.is_empty() {
+            self.record.tool_of_number(0);
         }
         self.load(0);
         Ok(())
@@ -80,13 +69,13 @@ impl Interpreter<'_> {
     /// Without the job's tools, the text's own words state which length offset a tool has; it has one.
     pub(super) fn learn_length(&mut self, block: &Block) -> Result<(), Flaw> {
         let Some(word) = block.length_number(self.length_word()).filter(|_| !self.tools_given) else { return Ok(()) };
-        let (Some((true, _)), Some(index)) = (block.length(), self.tool) else { return Ok(()) };
+        let (Some((true, _)), Some(index)) = (block.length(), self.record.tool) else { return Ok(()) };
         let number = word.number.natural().ok_or((ReadFault::NotNatural, Some(word)))?;
         let known = self.learned.insert(index, number);
         if known.is_some_and(|known| known != number) {
             return Err((ReadFault::NotRead { what: "two length offsets of one tool" }, Some(word)));
         }
-        if let Some(tool) = self.program.tools.get_mut(index as usize) {
+        if let Some(tool) = self.record.program.tools.get_mut(index as usize) {
             tool.length_offset = number;
         }
         Ok(())
@@ -99,7 +88,7 @@ impl Interpreter<'_> {
 
     /// The loaded tool, where the job's tools are known.
     pub(super) fn job_tool(&self) -> Option<&ToolRecord> {
-        self.tool.filter(|_| self.tools_given).and_then(|i| self.program.tools.get(i as usize))
+        self.record.tool.filter(|_| self.tools_given).and_then(|i| self.record.program.tools.get(i as usize))
     }
 
     /// The letter of a length offset's number.
