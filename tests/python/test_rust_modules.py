@@ -24,43 +24,6 @@ CRATES = sorted(path.parent.name for path in ROOT.glob("*/Cargo.toml"))
 Module: TypeAlias = tuple[str, ...]
 
 KNOWN: dict[str, list[set[str]]] = {
-    "geometry": [
-        {
-            "mesh/soup/copies.rs",
-            "mesh/soup/faces.rs",
-            "mesh/soup/mod.rs",
-            "mesh/soup/seams.rs",
-            "mesh/soup/weld.rs",
-            "mesh/soup/winding.rs",
-        },
-        {
-            "profile/arc.rs",
-            "profile/clothoid.rs",
-            "profile/conic.rs",
-            "profile/curve.rs",
-            "profile/cycloid.rs",
-            "profile/fitted.rs",
-            "profile/involute.rs",
-            "profile/power.rs",
-            "profile/solve.rs",
-        },
-        {
-            "profile/formula/closeness.rs",
-            "profile/formula/convexity.rs",
-            "profile/formula/explicit.rs",
-            "profile/formula/expression.rs",
-            "profile/formula/fit.rs",
-            "profile/formula/implicit.rs",
-            "profile/formula/mod.rs",
-            "profile/formula/parametric.rs",
-            "profile/formula/polynomials.rs",
-            "profile/formula/proof.rs",
-            "profile/formula/sample.rs",
-            "profile/formula/solve.rs",
-            "profile/formula/tokens.rs",
-            "profile/formula/trace.rs",
-        },
-    ],
     "job": [
         {
             "body/formable.rs",
@@ -87,19 +50,6 @@ KNOWN: dict[str, list[set[str]]] = {
             "scene.rs",
         },
         {"starter/choice.rs", "starter/mod.rs", "starter/operations.rs", "starter/sizes.rs"},
-    ],
-    "toolpath": [
-        {"fitting.rs", "surface.rs"},
-        {"forming/extra_rows.rs", "forming/zig_zag.rs"},
-        {
-            "offset/features.rs",
-            "offset/index/cover.rs",
-            "offset/index/lanes.rs",
-            "offset/index/lines.rs",
-            "offset/index/mod.rs",
-            "offset/index/order.rs",
-        },
-        {"offset/offset_surface.rs", "offset/splits.rs"},
     ],
 }
 """Circles that are still to be broken, as sets of files: they may get smaller, and go."""

@@ -4,6 +4,7 @@ use styluscam_geometry::Vector;
 
 use crate::fitting;
 use crate::offset::{Contact, Envelope, Keeping};
+use crate::PathPoint;
 
 /// A contact on an unselected face's border still counts while its normal is this close to what selected facets span, rad:
 /// wide enough for tessellated tangent joins, too narrow to roll round an edge.
@@ -11,19 +12,6 @@ const SPREAD: f64 = 0.0175;
 
 /// Heights without limits.
 const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
-
-/// An exact position of the tool on the envelope.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PathPoint {
-    /// The tool's tip, mm.
-    pub tip: Vector,
-    /// Unit normal of the contact, into the tool: the direction in which it comes free.
-    pub normal: Vector,
-    /// Whether the contact lies on a selected face.
-    pub selected: bool,
-    /// The triangle touched, one of equals.
-    pub triangle: u32,
-}
 
 /// Envelope and selection, asked point by point.
 pub struct Surface<'a> {

@@ -1,35 +1,6 @@
 //! The smooth curves that profiles are made of.
 
-use super::{solve, Arc, Clothoid, Cycloid, Ellipse, Fitted, Involute, Parabola, Power};
-
-/// What every smooth curve can tell about itself, relative to its start.
-///
-/// Slopes are those of the piece that the curve stands in; implementors need not clamp them.
-pub trait Meridian {
-    /// Radius and height at a slope, mm.
-    fn point_at(&self, slope: f64) -> (f64, f64);
-
-    /// Radius of curvature of the meridian at a slope, mm; infinite where it is flat.
-    fn curvature_radius_at(&self, slope: f64) -> f64;
-
-    /// The slope at a radius, rad, one of `within`; to rounding.
-    fn slope_at_radius(&self, radius: f64, within: [f64; 2]) -> f64;
-
-    /// The slope at a height, rad, one of `within`; to rounding.
-    fn slope_at_height(&self, height: f64, within: [f64; 2]) -> f64 {
-        solve::slope_at_height(self, height, within)
-    }
-
-    /// The slope of the point nearest to (r, z) of those with a slope of `within`, rad; about `guess`.
-    fn slope_nearest(&self, point: (f64, f64), within: [f64; 2], guess: f64) -> f64 {
-        solve::slope_nearest(self, point, within, guess)
-    }
-
-    /// The height at a radius, mm, its slope one of `within`.
-    fn height_at_radius(&self, radius: f64, within: [f64; 2]) -> f64 {
-        self.point_at(self.slope_at_radius(radius, within)).1
-    }
-}
+use super::{Arc, Clothoid, Cycloid, Ellipse, Fitted, Involute, Meridian, Parabola, Power};
 
 /// A smooth curve of one of the known sorts.
 #[derive(Clone, Debug, PartialEq)]
@@ -125,9 +96,5 @@ impl Meridian for Grown {
 
     fn curvature_radius_at(&self, slope: f64) -> f64 {
         self.curve.curvature_radius_at(slope) + self.ball.radius()
-    }
-
-    fn slope_at_radius(&self, radius: f64, within: [f64; 2]) -> f64 {
-        solve::slope_at_radius(self, radius, within)
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{solve, Meridian};
+use super::Meridian;
 
 /// Half an arch of a cycloid, from its lowest point to its cusp.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,9 +26,5 @@ impl Meridian for Cycloid {
 
     fn curvature_radius_at(&self, slope: f64) -> f64 {
         4.0 * self.circle * libm::cos(slope)
-    }
-
-    fn slope_at_radius(&self, radius: f64, within: [f64; 2]) -> f64 {
-        solve::slope_at_radius(self, radius, within)
     }
 }

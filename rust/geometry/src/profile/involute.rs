@@ -1,6 +1,6 @@
 //! A curve whose radius of curvature changes evenly with the slope: part of a circle's involute, or of an offset of one.
 
-use super::{solve, Meridian};
+use super::Meridian;
 
 /// Radius of curvature `radius + rate * (slope - start)`, told from the curve's start.
 ///
@@ -56,10 +56,6 @@ impl Meridian for Involute {
 
     fn curvature_radius_at(&self, slope: f64) -> f64 {
         self.radius + self.rate * (slope - self.start)
-    }
-
-    fn slope_at_radius(&self, radius: f64, within: [f64; 2]) -> f64 {
-        solve::slope_at_radius(self, radius, within)
     }
 
     fn height_at_radius(&self, radius: f64, within: [f64; 2]) -> f64 {

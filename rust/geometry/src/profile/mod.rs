@@ -19,6 +19,7 @@ mod formula;
 mod involute;
 mod kind;
 pub mod kinds;
+mod meridian;
 #[cfg(test)]
 mod numbers;
 mod parts;
@@ -37,8 +38,9 @@ use arc::Arc;
 use chain::Builder;
 use clothoid::Clothoid;
 use conic::{Ellipse, Parabola};
-use curve::{Curve, Meridian};
+use curve::Curve;
 use cycloid::Cycloid;
 use fitted::Fitted;
 use involute::Involute;
+use meridian::Meridian;
 use power::Power;

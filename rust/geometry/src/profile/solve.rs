@@ -1,6 +1,6 @@
 //! The slope at a radius, at a height and nearest to a point, for curves without a closed form of it.
-
-use super::Meridian;
+//!
+//! A curve is given by slope (rad), as its point (r, z) and its radius of curvature, mm.
 
 /// Steps at most: bisection alone would need sixty.
 const STEPS: usize = 80;
@@ -8,18 +8,19 @@ const STEPS: usize = 80;
 /// The slope of `within` at which `curve` has `radius`, by Newton's method kept between two sides.
 ///
 /// It works in the root of the slope: in it, a radius that begins flat (clothoid) or straight is smooth.
-pub fn slope_at_radius(curve: &(impl Meridian + ?Sized), radius: f64, within: [f64; 2]) -> f64 {
+pub fn slope_at_radius(curve: impl Fn(f64) -> ((f64, f64), f64), radius: f64, within: [f64; 2]) -> f64 {
     let (mut low, mut high) = (within[0].sqrt(), within[1].sqrt());
     let mut x = 0.5 * (low + high);
     for _ in 0..STEPS {
         let slope = x * x;
-        let excess = curve.point_at(slope).0 - radius;
+        let ((r, _), curvature_radius) = curve(slope);
+        let excess = r - radius;
         if excess > 0.0 {
             high = x;
         } else {
             low = x;
         }
-        let rate = 2.0 * x * libm::cos(slope) * curve.curvature_radius_at(slope);
+        let rate = 2.0 * x * libm::cos(slope) * curvature_radius;
         let next = x - excess / rate;
         let next = if next > low && next < high { next } else { 0.5 * (low + high) };
         let step = (next - x).abs();
@@ -32,17 +33,18 @@ pub fn slope_at_radius(curve: &(impl Meridian + ?Sized), radius: f64, within: [f
 }
 
 /// The slope of `within` at which `curve` has `height`, by Newton's method kept between two sides.
-pub fn slope_at_height(curve: &(impl Meridian + ?Sized), height: f64, within: [f64; 2]) -> f64 {
+pub fn slope_at_height(curve: impl Fn(f64) -> ((f64, f64), f64), height: f64, within: [f64; 2]) -> f64 {
     let [mut low, mut high] = within;
     let mut slope = 0.5 * (low + high);
     for _ in 0..STEPS {
-        let excess = curve.point_at(slope).1 - height;
+        let ((_, z), curvature_radius) = curve(slope);
+        let excess = z - height;
         if excess > 0.0 {
             high = slope;
         } else {
             low = slope;
         }
-        let rate = libm::sin(slope) * curve.curvature_radius_at(slope);
+        let rate = libm::sin(slope) * curvature_radius;
         let next = slope - excess / rate;
         let next = if next > low && next < high { next } else { 0.5 * (low + high) };
         let step = (next - slope).abs();
@@ -61,20 +63,25 @@ pub const NEAREST: f64 = 1e-5;
 ///
 /// For a point no farther inside than the radius of curvature the distance has one minimum. Farther inside the slope
 /// is that of one of the minima: a point on the curve, if not the nearest.
-pub fn slope_nearest(curve: &(impl Meridian + ?Sized), (r, z): (f64, f64), within: [f64; 2], guess: f64) -> f64 {
+pub fn slope_nearest(
+    curve: impl Fn(f64) -> ((f64, f64), f64),
+    (r, z): (f64, f64),
+    within: [f64; 2],
+    guess: f64,
+) -> f64 {
     let [mut low, mut high] = within;
     let width = high - low;
     let mut slope = guess.clamp(low, high);
     for _ in 0..STEPS {
         let (sin, cos) = libm::sincos(slope);
-        let on = curve.point_at(slope);
+        let (on, curvature_radius) = curve(slope);
         let along = (r - on.0) * cos + (z - on.1) * sin;
         if along > 0.0 {
             low = slope;
         } else {
             high = slope;
         }
-        let rate = curve.curvature_radius_at(slope) + (r - on.0) * sin - (z - on.1) * cos;
+        let rate = curvature_radius + (r - on.0) * sin - (z - on.1) * cos;
         let next = slope + along / rate;
         let next = if next > low && next < high { next } else { 0.5 * (low + high) };
         let step = (next - slope).abs();

@@ -6,9 +6,9 @@ use styluscam_geometry::Vector;
 use styluscam_motion::{Cancelled, Watch};
 
 use super::{
+    pattern::{share, spread, Pattern, Row},
     stances::stances_of,
     untouched::Untouched,
-    zig_zag::{share, Row},
 };
 use crate::Pass;
 
@@ -24,14 +24,6 @@ const LEVEL: f64 = 0.02;
 const OFF: f64 = 0.25;
 /// Walls whose normal rises by less, a sine, are narrow in plan: what rows leave there is the steep wall's.
 const STEEP: f64 = 0.5;
-
-/// How the rows lie: directions along and across them, and the distance between two of them, mm.
-#[derive(Clone, Copy)]
-pub(super) struct Pattern {
-    pub along: [f64; 2],
-    pub across: [f64; 2],
-    pub stepover: f64,
-}
 
 /// A square of a [`Lattice`].
 type Cell = [i64; 2];
@@ -91,13 +83,6 @@ pub(super) fn extra_rows(
     let mut rows: Vec<Row> = patches.flat_map(|patch| lattice.through(&patch)).collect();
     rows.sort_by(|a, b| a.place.total_cmp(&b.place));
     Ok(rows)
-}
-
-impl Pattern {
-    /// A place in plan, along and across the rows.
-    fn along_across(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [self.along, self.across].map(|axis| x * axis[0] + y * axis[1])
-    }
 }
 
 impl Lattice {
@@ -237,12 +222,6 @@ fn lies_on(run: &[[f64; 2]], [from, to]: [f64; 2], row: f64, floor: &Floor) -> b
         [only] => lies([*only, *only]),
         _ => run[first..].windows(2).take_while(|pair| pair[0][0] <= to).any(|pair| lies([pair[0], pair[1]])),
     }
-}
-
-/// Rows a step apart in the middle of a band.
-pub(super) fn spread([low, high]: [f64; 2], count: usize, step: f64) -> impl Iterator<Item = f64> {
-    let first = 0.5 * (low + high - (count - 1) as f64 * step);
-    (0..count).map(move |row| first + row as f64 * step)
 }
 
 /// The longer side of the box round some cells, in cells.

@@ -10,6 +10,7 @@ mod left_out;
 mod level_curve;
 mod levels;
 mod line;
+mod pattern;
 mod reach;
 mod sides;
 mod square;

@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 use styluscam_motion::Watch;
 
-use super::extra_rows::{extra_rows, spread, Pattern};
+use super::extra_rows::extra_rows;
+use super::pattern::{share, spread, Pattern, Row};
 use super::{stances::stances, untouched::Untouched};
 use crate::{fitting, fitting::Course, Pass, PathPoint, PlanError, Surface};
 
@@ -50,15 +51,6 @@ pub fn zig_zag(surface: &Surface<'_>, rows: &Rows, deviation: f64, watch: &Watch
         .enumerate()
         .flat_map(|(group, (_, passes))| passes.into_iter().map(move |pass| Pass { group, ..pass }));
     Ok(numbered.collect())
-}
-
-/// A line of the pattern.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Row {
-    /// Its place across, mm.
-    pub place: f64,
-    /// From and to along it, mm.
-    pub range: [f64; 2],
 }
 
 /// The envelope over a line in plan.
@@ -255,16 +247,6 @@ impl Lines {
         }
         found
     }
-}
-
-/// From where to where along it a triangle (along, across) is cut at a place across.
-pub(super) fn share(corners: &[[f64; 2]; 3], across: f64) -> Option<[f64; 2]> {
-    let mut cuts = (0..3).filter_map(|i| {
-        let ([a, from], [b, to]) = (corners[i], corners[(i + 1) % 3]);
-        ((from < across) != (to < across)).then(|| a + (b - a) * (across - from) / (to - from))
-    });
-    let (a, b) = (cuts.next()?, cuts.next()?);
-    Some([a.min(b), a.max(b)])
 }
 
 /// The last place at which the tool meets something, on the way from one where it does to one where it does not.

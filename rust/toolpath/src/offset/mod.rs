@@ -15,7 +15,6 @@ mod regions;
 mod search;
 mod selection;
 mod slope_matched;
-mod splits;
 mod tiles;
 
 pub use bridging::{bridges, Bridge, Bridges, Stopped};

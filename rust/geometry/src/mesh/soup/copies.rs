@@ -2,7 +2,9 @@
 
 use std::collections::HashMap;
 
-use super::{area_vector, retain, Mending, Union};
+use super::mending::Mending;
+use super::triangles::{area_vector, retain};
+use super::union_find::Union;
 use crate::Vector;
 
 /// A triangle's corners in ascending order, and whether they are wound that way.

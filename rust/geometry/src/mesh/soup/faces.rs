@@ -10,7 +10,8 @@ use rayon::prelude::*;
 
 use super::edges::{ends, Edges};
 use super::shapes::{shape_of, Shape};
-use super::{area_vector, bounds, Union};
+use super::triangles::{area_vector, bounds};
+use super::union_find::Union;
 use crate::Vector;
 
 /// Corners of one facet lie on one plane within this share of the part's size,

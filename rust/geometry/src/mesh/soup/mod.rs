@@ -6,44 +6,17 @@
 mod copies;
 mod edges;
 mod faces;
+mod mending;
 mod seams;
 mod shapes;
+mod triangles;
+mod union_find;
 mod weld;
 mod winding;
 
-use serde::Serialize;
-
 use crate::{GeometryError, Vector};
+pub use mending::Mending;
 pub use shapes::Shape;
-
-/// What was done to a file's triangles.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Mending {
-    /// Corners that were joined though they do not agree to the last bit.
-    pub joined: usize,
-    /// Within what distance corners are joined, mm.
-    pub join_distance: f64,
-    /// How far a corner moved at most, mm.
-    pub moved: f64,
-    /// Triangles without area that were dropped, or removed by cutting their neighbour at their middle corner.
-    pub degenerate: usize,
-    /// Cuts of triangles at corners of others that lie on their sides.
-    pub cut: usize,
-    /// Triangles that were there already, wound alike.
-    pub duplicate: usize,
-    /// Triangles that lay back to back between two bodies, both of each pair dropped.
-    pub back_to_back: usize,
-    /// Triangles of which a copy wound the other way was dropped: a surface that has two sides in the file.
-    pub double_sided: usize,
-    /// Triangles turned over since their neighbours wind the other way.
-    pub turned: usize,
-    /// Triangles of bodies that were inside out as a whole, turned over.
-    pub inside_out: usize,
-    /// Whether each edge is run as often in one direction as in the other.
-    pub closed: bool,
-    /// A place where triangles cannot be made to agree, mm.
-    pub unclear: Option<[f64; 3]>,
-}
 
 /// Triangles that make a part.
 #[derive(Clone, Debug)]
@@ -140,52 +113,6 @@ fn drop_collapsed(triangles: &mut Vec<[u32; 3]>, mending: &mut Mending) {
     let before = triangles.len();
     triangles.retain(|[a, b, c]| a != b && b != c && c != a);
     mending.degenerate += before - triangles.len();
-}
-
-/// Keeps the triangles whose numbers satisfy; returns how many go.
-fn retain(triangles: &mut Vec<[u32; 3]>, stays: impl Fn(usize) -> bool) -> usize {
-    let (before, mut t) = (triangles.len(), 0);
-    triangles.retain(|_| {
-        t += 1;
-        stays(t - 1)
-    });
-    before - triangles.len()
-}
-
-/// Twice the area of a triangle along its normal.
-fn area_vector(vertices: &[Vector], [a, b, c]: [u32; 3]) -> Vector {
-    let [a, b, c] = [a, b, c].map(|i| vertices[i as usize]);
-    (b - a).cross(&(c - a))
-}
-
-/// Lower and upper corner of the box around some points.
-fn bounds(points: impl Iterator<Item = Vector>) -> (Vector, Vector) {
-    let infinite = Vector::repeat(f64::INFINITY);
-    points.fold((infinite, -infinite), |(low, high), p| (low.inf(&p), high.sup(&p)))
-}
-
-/// Sets that grow together.
-struct Union(Vec<u32>);
-
-impl Union {
-    fn new(count: usize) -> Self {
-        Self((0..count as u32).collect())
-    }
-
-    fn root(&mut self, mut i: u32) -> u32 {
-        while self.0[i as usize] != i {
-            let above = self.0[self.0[i as usize] as usize];
-            self.0[i as usize] = above;
-            i = above;
-        }
-        i
-    }
-
-    /// The smaller root stays: who is whose does not depend on the order of joining.
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
 }
 
 #[cfg(test)]

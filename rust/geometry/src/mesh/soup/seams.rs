@@ -4,8 +4,9 @@
 use std::collections::HashMap;
 
 use super::edges::{ends, Edges};
+use super::mending::Mending;
+use super::triangles::bounds;
 use super::weld::join_distance;
-use super::{bounds, Mending};
 use crate::Vector;
 
 /// A side is cut at the corner nearest to its middle, and its parts in the next round.

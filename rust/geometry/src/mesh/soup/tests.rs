@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::triangles::area_vector;
 use super::*;
 
 /// Triangles by their corners' coordinates.

@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use rayon::prelude::*;
 
 use super::edges::{ends, Edges, NONE};
-use super::{area_vector, bounds, retain, Mending};
+use super::mending::Mending;
+use super::triangles::{area_vector, bounds, retain};
 use crate::Vector;
 
 /// Corners on open edges are joined within this share of the part's size, and never farther than [`FARTHEST`],

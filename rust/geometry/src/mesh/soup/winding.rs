@@ -1,7 +1,9 @@
 //! Which side of each triangle is out.
 
 use super::edges::{ends, is_closed, Edges};
-use super::{area_vector, bounds, Mending, Union};
+use super::mending::Mending;
+use super::triangles::{area_vector, bounds};
+use super::union_find::Union;
 use crate::Vector;
 
 /// In a surface with a border, triangles that wind against their neighbours are turned where they are fewer than this

@@ -9,11 +9,10 @@
 //! turns by `turn`, and `place`. Where P turns so little that rounding of the slope itself moves its point by more,
 //! that much is left to the slope ([`RELATIVE`]).
 
-use super::explicit::BY_RADIUS;
 use super::interval::Interval;
 use super::jet::Jet;
 use super::number::Number;
-use super::sample::{Sample, Source};
+use super::sample::{Sample, Source, BY_RADIUS};
 use super::series::{Series, ORDER};
 use crate::profile::fitted;
 

@@ -7,14 +7,10 @@ use super::interval::Interval;
 use super::jet::Jet;
 use super::number::Number;
 use super::parametric::note_move;
-use super::sample::{short, Enclosure, Route, Sample, Source, SAMPLES};
+use super::sample::{short, Enclosure, Route, Sample, Source, BY_HEIGHT, BY_RADIUS, SAMPLES};
 use super::series::Series;
 use super::solve::{bracket, solve};
 use crate::GeometryError;
-
-/// Stretches by radius and by height.
-pub(super) const BY_RADIUS: usize = 0;
-pub(super) const BY_HEIGHT: usize = 1;
 
 /// dz/dr from here on is a right angle but for rounding, if the height left is [`SLIVER`] of the radius at most.
 const STEEP: f64 = 3e6;

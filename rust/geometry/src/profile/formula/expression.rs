@@ -14,7 +14,7 @@ use exmex::{BinOp, Express, FlatEx, MakeOperators, MatchLiteral, Operator};
 use super::interval::Interval;
 use super::jet::Jet;
 use super::number::Number;
-use super::refusal;
+use super::refusal::refusal;
 use super::series::Series;
 use super::tokens::{tokens, Names, Token};
 use crate::GeometryError;

@@ -1,6 +1,7 @@
 //! From a proven curve to piecewise polynomials, halved until they agree with it.
 
 use super::closeness::{bound, Bound, Cell, Fault, Piece, Ruler};
+use super::refusal::refusal;
 use super::sample::{short, Route, Sample, Source};
 use crate::profile::fitted::{Fitted, Interval, TERMS};
 use crate::GeometryError;
@@ -215,7 +216,7 @@ impl Fitter<'_> {
         let far = short(bound.place.max(bound.by_slope));
         let place = route.samples.last().map_or_else(String::new, |sample| self.source.place(sample));
         let hint = "it needs a continuous tangent and curvature between tip and base";
-        super::refusal(place, format!("the polynomials before it are off the formula by up to {far} mm"), hint)
+        refusal(place, format!("the polynomials before it are off the formula by up to {far} mm"), hint)
     }
 
     /// What counts of a deviation that is small enough, or as small as rounding lets it be.

@@ -1,53 +1,18 @@
 //! f(r, z) = 0 from a start point: followed to the axis and to the base, by radius or by height as it lies.
 
-use super::explicit::{BY_HEIGHT, BY_RADIUS};
 use super::expression::Expression;
+use super::field::{bending, Field};
 use super::interval::Interval;
 use super::jet::Jet;
 use super::number::Number;
 use super::parametric::note_move;
 use super::proof::rises;
-use super::sample::{short, Enclosure, Route, Sample, Source, SAMPLES};
+use super::refusal::refusal;
+use super::sample::{Enclosure, Route, Sample, Source, BY_HEIGHT, BY_RADIUS, SAMPLES};
 use super::series::Series;
 use super::solve::{bracket, solve};
 use super::trace::{trace, Knot};
 use crate::GeometryError;
-
-/// The field f in the tool's coordinates, and places as the user knows them.
-pub(super) struct Field {
-    pub f: Expression,
-    /// z of the tip in the formula's coordinates.
-    pub origin: f64,
-    /// -1 where z falls from the tip.
-    pub upwards: f64,
-}
-
-impl Field {
-    pub fn jet(&self, [r, z]: [f64; 2]) -> Jet {
-        let mut jet = self.f.at(r, self.origin + self.upwards * z);
-        jet.first[1] *= self.upwards;
-        jet.second[1] *= self.upwards;
-        jet
-    }
-
-    /// As [`jet`](Self::jet), everywhere in a box.
-    fn over(&self, [r, z]: [Interval; 2]) -> Jet<Interval> {
-        let upwards = Interval::exact(self.upwards);
-        let mut jet = self.f.over(r, Interval::exact(self.origin) + upwards * z);
-        jet.first[1] = jet.first[1] * upwards;
-        jet.second[1] = jet.second[1] * upwards;
-        jet
-    }
-
-    pub fn place(&self, [r, z]: [f64; 2]) -> String {
-        format!("r = {}, z = {}", short(r), short(self.origin + self.upwards * z))
-    }
-}
-
-/// t' H t: how f bends along a direction.
-pub(super) fn bending<T: Number>(jet: &Jet<T>, [r, z]: [T; 2]) -> T {
-    jet.second[0] * r.square() + T::exact(2.0) * jet.second[1] * r * z + jet.second[2] * z.square()
-}
 
 /// How near a point must be to the curve to be taken for one of it, in parts of the largest of its coordinates.
 const ON_CURVE: f64 = 1e-11;
@@ -187,7 +152,7 @@ pub(super) fn route(f: Expression, start: [f64; 2], base: Option<f64>) -> Result
 }
 
 fn nothing(field: &Field, start: [f64; 2]) -> GeometryError {
-    super::refusal(field.place(start), "there is no curve here".to_owned(), "give a start point on the curve")
+    refusal(field.place(start), "there is no curve here".to_owned(), "give a start point on the curve")
 }
 
 /// A knot in the tool's coordinates, by arc length. Each is a stretch of its own: nothing lies between them yet.

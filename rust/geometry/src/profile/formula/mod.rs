@@ -10,6 +10,7 @@ mod closeness;
 mod convexity;
 mod explicit;
 mod expression;
+mod field;
 mod fit;
 mod implicit;
 mod interval;
@@ -18,6 +19,7 @@ mod number;
 mod parametric;
 mod polynomials;
 mod proof;
+mod refusal;
 mod sample;
 mod series;
 mod solve;
@@ -33,6 +35,7 @@ use super::fitted::Fitted;
 use crate::error::positive_length;
 use crate::GeometryError;
 use expression::Expression;
+use refusal::refusal;
 use sample::Route;
 use tokens::{Names, CONSTANTS, FUNCTIONS};
 
@@ -114,11 +117,6 @@ pub enum TracedPart {
         /// Its upper end.
         to: (f64, f64),
     },
-}
-
-/// A defect with its place, its reason and a hint.
-fn refusal(place: String, reason: String, hint: &str) -> GeometryError {
-    GeometryError::Profile { place, reason, hint: hint.to_owned() }
 }
 
 /// Traces a formula from its tip to its base; the tip flat is the caller's.

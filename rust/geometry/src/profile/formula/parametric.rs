@@ -3,7 +3,7 @@
 use super::expression::Expression;
 use super::interval::Interval;
 use super::number::Number;
-use super::refusal;
+use super::refusal::refusal;
 use super::sample::{short, Enclosure, Route, Sample, Source, SAMPLES};
 use super::series::Series;
 use crate::GeometryError;

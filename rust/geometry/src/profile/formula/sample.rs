@@ -3,9 +3,13 @@
 use super::interval::Interval;
 use super::jet::Jet;
 use super::number::Number;
-use super::refusal;
+use super::refusal::refusal;
 use super::series::Series;
 use crate::GeometryError;
+
+/// Stretches by radius and by height, of formulas that have no parameter of their own.
+pub(super) const BY_RADIUS: usize = 0;
+pub(super) const BY_HEIGHT: usize = 1;
 
 /// A point of the curve by its own parameter: t, the radius, or the height.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::refusal;
+use super::refusal::refusal;
 use crate::GeometryError;
 
 /// Longest formula, characters.

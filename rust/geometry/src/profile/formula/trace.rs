@@ -1,8 +1,8 @@
 //! Following f(r, z) = 0 in small steps, each put back on the curve.
 
-use super::implicit::{bending, Field};
+use super::field::{bending, Field};
 use super::jet::Jet;
-use super::refusal;
+use super::refusal::refusal;
 use super::sample::short;
 use super::solve::{solve, Bracket};
 use crate::GeometryError;

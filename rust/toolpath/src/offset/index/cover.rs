@@ -10,7 +10,8 @@ use wide::f32x8;
 use super::lanes::Lanes;
 use super::lines::STEEPEST;
 use super::pieces::Part;
-use super::{Triangles, WIDTH};
+use super::triangles::Triangles;
+use super::width::WIDTH;
 
 /// Rounding in a bound, as a share of the lengths and slopes that it is computed from.
 const ROUNDING: f64 = 1e-6;

@@ -4,7 +4,7 @@ use styluscam_geometry::Cutter;
 use wide::f32x8;
 
 use super::lines::Lines;
-use super::WIDTH;
+use super::width::WIDTH;
 
 /// Eight boxes, relative to the index's centre, mm. A lane without content is low enough for any search to pass over it.
 #[derive(Clone, Copy, Debug)]

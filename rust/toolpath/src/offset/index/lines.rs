@@ -3,7 +3,7 @@
 use styluscam_geometry::Cutter;
 use wide::f32x8;
 
-use super::WIDTH;
+use super::width::WIDTH;
 
 /// Cells up to the cutter's radius; one more serves beyond.
 const CELLS: usize = 512;

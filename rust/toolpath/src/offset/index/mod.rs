@@ -8,6 +8,8 @@ mod lanes;
 mod lines;
 mod order;
 mod pieces;
+mod triangles;
+mod width;
 
 use rayon::prelude::*;
 use styluscam_geometry::{Mesh, Vector};
@@ -16,6 +18,8 @@ use styluscam_motion::{Cancelled, Watch};
 pub use lanes::{Bounds, HalfLine, Lanes, Matched, Probe};
 pub use lines::Lines;
 use pieces::{Part, Piece};
+pub use triangles::Triangles;
+pub use width::WIDTH;
 
 use super::features::{self, Neighbours, Owned};
 
@@ -27,18 +31,6 @@ const ROUNDING: f64 = 1e-13;
 
 /// Stages of building that progress shows.
 const STAGES: usize = 3;
-
-/// Children of a node.
-pub const WIDTH: usize = 8;
-
-/// Triangles by number in the index's order.
-#[derive(Clone, Debug, Default)]
-pub struct Triangles {
-    /// Indices of the corners in `points`.
-    pub corners: Vec<[u32; 3]>,
-    /// The corners, in the order in which the triangles first use them.
-    pub points: Vec<Vector>,
-}
 
 /// A mesh, ordered for searching. Independent of tools.
 #[derive(Clone, Debug)]
@@ -56,15 +48,6 @@ pub struct Index {
     centre: Vector,
     low: Vector,
     high: Vector,
-}
-
-impl Triangles {
-    /// The corners of a triangle.
-    #[inline]
-    pub fn at(&self, triangle: u32) -> [Vector; 3] {
-        let [a, b, c] = self.corners[triangle as usize];
-        [self.points[a as usize], self.points[b as usize], self.points[c as usize]]
-    }
 }
 
 impl Index {

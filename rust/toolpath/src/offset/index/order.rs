@@ -5,7 +5,7 @@ use styluscam_geometry::Vector;
 use styluscam_motion::Watch;
 
 use super::pieces::Piece;
-use super::WIDTH;
+use super::width::WIDTH;
 
 /// Ranges larger than this are split in parallel.
 const PARALLEL: usize = 8192;

@@ -1,9 +1,11 @@
 //! What the offset surface holds at its points, between them and in its regions.
 
+use super::checks::FARTHEST;
 use super::*;
-use crate::offset::Index;
+use crate::offset::{Envelope, Index};
 use proptest::prelude::*;
-use styluscam_geometry::{kinds, ProfileDocument, ToolDocument};
+use styluscam_geometry::{kinds, Mesh, ProfileDocument, Tool, ToolDocument};
+use styluscam_motion::{Cancelled, Watch};
 
 const TOLERANCE: f64 = 0.001;
 const MOST: usize = 1 << 20;

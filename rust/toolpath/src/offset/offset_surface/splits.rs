@@ -18,7 +18,7 @@ use std::collections::{HashMap, HashSet};
 
 use rayon::prelude::*;
 
-use super::offset_surface::{Corner, OffsetSurface};
+use super::{corners::Corner, OffsetSurface};
 
 /// How much longer the sides of a triangle may stay that is stopped at all its corners: a
 /// reached place in it that is narrower than the tool's radius may be missed.

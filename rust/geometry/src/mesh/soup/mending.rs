@@ -1,0 +1,32 @@
+//! What was done to make a part of a file's triangles.
+
+use serde::Serialize;
+
+/// What was done to a file's triangles.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Mending {
+    /// Corners that were joined though they do not agree to the last bit.
+    pub joined: usize,
+    /// Within what distance corners are joined, mm.
+    pub join_distance: f64,
+    /// How far a corner moved at most, mm.
+    pub moved: f64,
+    /// Triangles without area that were dropped, or removed by cutting their neighbour at their middle corner.
+    pub degenerate: usize,
+    /// Cuts of triangles at corners of others that lie on their sides.
+    pub cut: usize,
+    /// Triangles that were there already, wound alike.
+    pub duplicate: usize,
+    /// Triangles that lay back to back between two bodies, both of each pair dropped.
+    pub back_to_back: usize,
+    /// Triangles of which a copy wound the other way was dropped: a surface that has two sides in the file.
+    pub double_sided: usize,
+    /// Triangles turned over since their neighbours wind the other way.
+    pub turned: usize,
+    /// Triangles of bodies that were inside out as a whole, turned over.
+    pub inside_out: usize,
+    /// Whether each edge is run as often in one direction as in the other.
+    pub closed: bool,
+    /// A place where triangles cannot be made to agree, mm.
+    pub unclear: Option<[f64; 3]>,
+}

@@ -1,0 +1,4 @@
+//! How wide the tree is.
+
+/// Children of a node: the lanes that are tested at once.
+pub const WIDTH: usize = 8;

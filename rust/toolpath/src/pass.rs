@@ -1,0 +1,27 @@
+//! Exact positions of the tool, and passes of them: what strategies make.
+
+use styluscam_geometry::Vector;
+
+/// An exact position of the tool on the envelope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathPoint {
+    /// The tool's tip, mm.
+    pub tip: Vector,
+    /// Unit normal of the contact, into the tool: the direction in which it comes free.
+    pub normal: Vector,
+    /// Whether the contact lies on a selected face.
+    pub selected: bool,
+    /// The triangle touched, one of equals.
+    pub triangle: u32,
+}
+
+/// A run of the tool along the surface: what a strategy makes and linking joins.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pass {
+    /// Tip positions in order; the first is repeated at the end when closed.
+    pub points: Vec<PathPoint>,
+    /// Whether it ends where it begins.
+    pub closed: bool,
+    /// Number of the level or row, from 0.
+    pub group: usize,
+}
