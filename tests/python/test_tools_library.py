@@ -251,31 +251,25 @@ def test_outlines_have_straight_parts_with_exact_ends() -> None:
     assert not curve.straight and curve.points[-1, 0] == pytest.approx(5.0)
 
 
-class Faceted:
-    """A flat of 1 mm, an edge, a straight part at 33.3 degrees, and an arc of 2 mm to the vertical."""
-
-    max_slope = math.pi / 2.0
-    facet = math.radians(33.3)
-
-    def radius_range_at(self, slope: Any) -> Any:
-        slope = np.asarray(slope, dtype=float)
-        arc = 3.0 + 2.0 * (np.sin(slope) - math.sin(self.facet))
-        inner = np.where(slope <= self.facet, 1.0, arc)
-        return np.where(slope == 0.0, 0.0, inner), np.where(slope < self.facet, 1.0, arc)
-
-    def height_at(self, slope: Any) -> Any:
-        slope = np.asarray(slope, dtype=float)
-        arc = 2.0 * math.tan(self.facet) + 2.0 * (math.cos(self.facet) - np.cos(slope))
-        return np.where(slope < self.facet, 0.0, arc)
-
-
 @pytest.mark.parametrize("stations", (3, 5, 65))
-def test_a_straight_part_is_found_at_any_slope(stations: int) -> None:
-    flat, facet, arc = pieces(Faceted(), stations)
-    assert flat.straight and facet.straight and not arc.straight
-    assert flat.points == pytest.approx(np.array([[0.0, 0.0], [1.0, 0.0]]), abs=1e-12)
-    assert facet.points == pytest.approx(np.array([[1.0, 0.0], [3.0, 2.0 * math.tan(Faceted.facet)]]), abs=1e-9)
-    assert arc.points[0] == pytest.approx(facet.points[1], abs=1e-9)
+@pytest.mark.parametrize("side_deg", (20.0, 56.7))
+def test_a_straight_part_has_exact_ends_at_any_slope(stations: int, side_deg: float) -> None:
+    profile = {"kind": "cone", "tip_radius": 2.0, "half_angle_deg": side_deg, "diameter": 20.0, "tip_flat": 1.0}
+    flat, arc, side = pieces(sc.Tool.from_dict({"profile": profile}), stations)
+    slope = math.radians(90.0 - side_deg)
+    foot = [1.0 + 2.0 * math.sin(slope), 2.0 * (1.0 - math.cos(slope))]
+    assert flat.straight and side.straight and not arc.straight
+    assert flat.points.tolist() == [[0.0, 0.0], [1.0, 0.0]]
+    assert arc.points[-1] == pytest.approx(foot, abs=1e-14) and arc.points[0].tolist() == [1.0, 0.0]
+    rim = [10.0, foot[1] + (10.0 - foot[0]) * math.tan(slope)]
+    assert side.points == pytest.approx(np.array([foot, rim]), abs=1e-13)
+
+
+def test_the_engine_names_the_parts_of_an_outline() -> None:
+    arc, side = sc.Tool.from_dict(starters.starter("cone")).outline()
+    assert not arc.straight and side.straight
+    assert arc.slopes == (0.0, side.slopes[0]) and side.slopes[0] == side.slopes[1]
+    assert arc.outer == side.inner and side.outer[0] == 5.0
 
 
 @pytest.mark.parametrize("kind", ("cylindrical", "chamfer", "tangent"))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,7 +15,7 @@ import numpy as np
 from styluscam.errors import ToolError
 from styluscam.extras import require
 from styluscam.files import drawn_whole
-from styluscam.tools.outline import pieces, polyline, silhouette
+from styluscam.tools.outline import polyline, silhouette
 from styluscam.tools.scallop import scallop_of_step
 from styluscam.tools.tool import Tool
 from styluscam.types import FloatArray
@@ -272,8 +273,7 @@ def _curvature(axes: Axes, tools: list[_Drawn]) -> None:
 
 def _straight(tool: Tool) -> list[float]:
     """Slopes (degrees) of the straight parts."""
-    runs = [piece.points[1] - piece.points[0] for piece in pieces(tool) if piece.straight]
-    return [float(np.degrees(np.arctan2(run[1], run[0]))) for run in runs]
+    return [math.degrees(part.slopes[0]) for part in tool.outline() if part.straight]
 
 
 def _radii(tool: Tool) -> tuple[FloatArray, FloatArray]:

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from styluscam.tools.scallop import Meridian
+from styluscam.tools.tool import Tool
 from styluscam.types import Document, FloatArray
 
 STATIONS = 65
-"""Slopes at which a whole profile is looked at."""
-
-HALVINGS = 60
-"""Of a slope between stations, in search of a straight part: what is then still long is straight."""
+"""Slopes of a whole profile; a curve goes through the points of those that it has."""
 
 SHORT = 1e-6
 """Points nearer than this part of the tool's size are one point."""
@@ -27,27 +24,21 @@ class Piece:
     straight: bool
 
 
-def pieces(tool: Meridian, stations: int = STATIONS) -> list[Piece]:
+def pieces(tool: Tool, stations: int = STATIONS) -> list[Piece]:
     """From the tip to the base; each piece begins where the one before it ends. Curved ones hold no kink."""
-    slopes = np.unique(np.linspace(0.0, tool.max_slope, stations))
-    inner, outer = _ends(tool, slopes)
-    size = float(max(outer[-1].max(), inner[-1].max()))
-    hidden = _straight_between(tool, slopes)
-    found = _Run(SHORT * size)
-    for index in range(len(slopes)):
-        found.line(inner[index], outer[index])
-        if index + 1 < len(slopes):
-            start, end, following = hidden[0][index], hidden[1][index], inner[index + 1]
-            if np.linalg.norm(end - start) > found.short:
-                found.curve(start)
-                found.line(start, end)
-            found.curve(following)
-            if np.linalg.norm(following - outer[index]) <= found.short:
-                found.kink()
-    return found.finished()
+    parts, slopes = tool.outline(), np.linspace(0.0, tool.max_slope, stations)
+    drawn = _Drawn(SHORT * max(parts[-1].outer))
+    for part in parts:
+        if part.straight:
+            drawn.line(np.array(part.inner), np.array(part.outer))
+            continue
+        within = slopes[(slopes > part.slopes[0]) & (slopes < part.slopes[1])]
+        inside = np.stack([tool.radius_at(within), tool.height_at(within)], axis=1)
+        drawn.curve(np.concatenate([[part.inner], inside, [part.outer]]))
+    return drawn.finished()
 
 
-def polyline(tool: Meridian, stations: int = STATIONS) -> FloatArray:
+def polyline(tool: Tool, stations: int = STATIONS) -> FloatArray:
     """Radii and heights (N, 2), mm, from the tip to the base."""
     parts = [piece.points for piece in pieces(tool, stations)]
     return np.concatenate([parts[0][:1], *(part[1:] for part in parts)])
@@ -72,7 +63,7 @@ def transition(base: Document | None, rim: tuple[float, float], shank: float) ->
     return np.stack([radius + (shank - radius) * smooth, height + (top - height) * share], axis=1)
 
 
-def silhouette(tool: Meridian, document: Document, top: float) -> FloatArray:
+def silhouette(tool: Tool, document: Document, top: float) -> FloatArray:
     """Radii and heights (N, 2), mm, from the tip over base, shank and holder; up to ``top`` where nothing ends before.
 
     ``document`` is the tool's: without a length the shank goes on to the top, without a holder it ends at the length.
@@ -92,61 +83,31 @@ def silhouette(tool: Meridian, document: Document, top: float) -> FloatArray:
     return np.concatenate([profile, np.array(points)])
 
 
-def _ends(tool: Meridian, slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Inner and outer end (N, 2) of what has each slope: one point where the profile is curved."""
-    inner, outer = tool.radius_range_at(slopes)
-    height = tool.height_at(slopes)
-    run = outer - inner
-    lower = height - np.where(run > 0.0, run * np.tan(np.minimum(slopes, 1.57)), 0.0)
-    return np.stack([inner, lower], axis=1), np.stack([outer, height], axis=1)
+@dataclass
+class _Drawn:
+    """Collects pieces; what is shorter than ``short`` (mm) joins its neighbours."""
 
+    short: float
+    _pieces: list[Piece] = field(default_factory=list)
+    _open: list[FloatArray] = field(default_factory=list)
+    _joins: bool = False
 
-def _straight_between(tool: Meridian, slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """The ends of the longest stretch between each two stations that no slope divides: of a straight part, if any."""
-    low, high = slopes[:-1].copy(), slopes[1:].copy()
-    found = np.zeros(len(low), dtype=np.bool_)
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        between = ~found & (low < middle) & (middle < high)
-        a, (b, c), d = _ends(tool, low)[1], _ends(tool, middle), _ends(tool, high)[0]
-        below, here, above = (np.linalg.norm(end - start, axis=1) for start, end in ((a, b), (b, c), (c, d)))
-        found |= between & (here > np.maximum(below, above))
-        upper = above > below
-        low = np.where(between & (found | upper), middle, low)
-        high = np.where(between & (found | ~upper), middle, high)
-    (start, after), (before, _) = _ends(tool, low), _ends(tool, high)
-    return np.where(found[:, None], start, after), np.where(found[:, None], after, before)
-
-
-class _Run:
-    """Collects points, and cuts them into pieces at straight parts and kinks."""
-
-    def __init__(self, short: float) -> None:
-        self.short = short
-        self._pieces: list[Piece] = []
-        self._open: list[FloatArray] = []
-
-    def curve(self, point: FloatArray) -> None:
-        """The curve goes on to a point."""
-        if not self._open:
-            self._open = [point]
-        elif np.linalg.norm(point - self._open[-1]) > self.short:
-            self._open.append(point)
-
-    def kink(self) -> None:
-        """The last point is a corner."""
-        corner = self._open[-1]
-        self._close()
-        self._open = [corner]
+    def curve(self, points: FloatArray) -> None:
+        """A smooth curve through points: it goes on from one before it where only a short line lies between."""
+        if not self._joins:
+            self._close()
+        for point in points:
+            if not self._open or np.linalg.norm(point - self._open[-1]) > self.short:
+                self._open.append(point)
+        self._joins = False
 
     def line(self, start: FloatArray, end: FloatArray) -> None:
-        """A straight part, if it is long enough to be one."""
+        """A straight part."""
         if np.linalg.norm(end - start) <= self.short:
-            self.curve(start)
+            self._joins = True
             return
         self._close()
         self._pieces.append(Piece(np.stack([start, end]), straight=True))
-        self._open = [end]
 
     def _close(self) -> None:
         if len(self._open) > 1:

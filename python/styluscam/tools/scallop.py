@@ -5,6 +5,9 @@ the spacing p. Cut the section by a line parallel to the wall at the height h ov
 sections cross where it is as long as p. So the scallop of a spacing is the height of the chord of that length. Where p is
 small this is p^2 / (8 rho), rho the profile's radius of curvature at the wall's slope.
 
+The slope at which a chord ends is searched for: the engine inverts profiles by radius and by height over the tip, and a
+chord ends at a height over the wall, for which no kind of profile has a closed form.
+
 Walls are named by their angle in degrees, 0 for a floor and 90 for a vertical wall; lengths are mm. Passes are level lines
 (Z-levels, spirals), so that the spacing runs straight up the wall; :func:`scallop_of_rows` is for rows that do so themselves.
 """

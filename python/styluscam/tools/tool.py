@@ -6,6 +6,7 @@ import json
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias
 
@@ -26,6 +27,19 @@ WANTED = "a Tool, a dict with its profile, the name of a shipped tool or of a to
 
 LONG = re.compile(r"\d+\.\d{2,}")
 """A number with many digits."""
+
+
+@dataclass(frozen=True)
+class OutlinePart:
+    """A part of a tool's profile: straight, or a curve without kinks."""
+
+    straight: bool
+    slopes: tuple[float, float]
+    """First and last slope, rad: the same one where it is straight."""
+    inner: tuple[float, float]
+    """Radius and height of its end nearer to the tip, mm."""
+    outer: tuple[float, float]
+    """Radius and height of its other end, mm."""
 
 
 class Tool:
@@ -232,6 +246,11 @@ class Tool:
     def max_slope(self) -> float:
         """Slope at which the profile ends, rad."""
         return self._engine.max_slope
+
+    def outline(self) -> tuple[OutlinePart, ...]:
+        """The parts of the profile from the tip to the base, each from where the one before it ends."""
+        parts = self._engine.outline()
+        return tuple(OutlinePart(straight, (first, last), *ends) for straight, (first, last), ends in parts)
 
     def radius_at(self, slope: npt.ArrayLike) -> FloatArray:
         """Radius (mm) by slope (rad): array in, array out; the outer end where the profile is straight."""

@@ -11,6 +11,9 @@ pub fn profile_starters() -> Vec<&'static str> {
     styluscam_geometry::ProfileDocument::starters()
 }
 
+/// Whether a part of a profile is straight, its first and last slope, and its ends as radius and height.
+type OutlinePart = (bool, [f64; 2], [(f64, f64); 2]);
+
 /// A checked tool; see `styluscam.Tool`.
 #[pyclass(frozen, module = "styluscam._engine")]
 pub struct Tool {
@@ -51,6 +54,12 @@ impl Tool {
     #[getter]
     fn diameter(&self) -> f64 {
         self.tool.diameter()
+    }
+
+    /// The parts of the profile from the tip to the base.
+    fn outline(&self) -> Vec<OutlinePart> {
+        let parts = self.tool.profile().outline();
+        parts.iter().map(|part| (part.is_straight(), part.slopes(), part.ends())).collect()
     }
 
     fn radius_at<'py>(&self, py: Python<'py>, slope: PyReadonlyArray1<'py, f64>) -> Bound<'py, PyArray1<f64>> {

@@ -19,7 +19,7 @@ pub use error::GeometryError;
 pub use frame::Frame;
 pub use freeform::{Foot, FootSearch, NurbsSurface, Pole, SurfacePoint};
 pub use mesh::{Bvh, Mending, Mesh, Node, Shape, Soup};
-pub use profile::{kinds, Profile, ProfileDocument, ProfileReport, Straight};
+pub use profile::{kinds, Curved, OutlinePart, Profile, ProfileDocument, ProfileReport, Straight};
 pub use sheet::{ModelFace, Sheet, SheetLaw};
 pub use tool::{Base, Holder, Tool, ToolDocument};
 

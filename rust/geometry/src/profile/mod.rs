@@ -22,6 +22,7 @@ pub mod kinds;
 mod meridian;
 #[cfg(test)]
 mod numbers;
+mod outline;
 mod parts;
 mod points;
 mod power;
@@ -33,6 +34,7 @@ mod solve;
 pub use chain::{Profile, Straight};
 pub use kind::ProfileReport;
 pub use kinds::ProfileDocument;
+pub use outline::{Curved, OutlinePart};
 
 use arc::Arc;
 use chain::Builder;
