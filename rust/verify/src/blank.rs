@@ -79,7 +79,7 @@ impl Blank {
         self.is_stale = true;
         self.lowest = self.lowest.min(z);
         let reach = (tool.max_radius() / self.cell).ceil() as i64;
-        let [i, j] = self.place([x, y]);
+        let [i, j] = self.cell_at([x, y]);
         for (other_i, other_j) in (-reach..=reach).flat_map(|di| (-reach..=reach).map(move |dj| (i + di, j + dj))) {
             let Some(at) = self.index([other_i, other_j]) else { continue };
             let height = if (other_i, other_j) == (i, j) {
@@ -93,20 +93,20 @@ impl Blank {
     }
 
     /// Height at which the sheet stands at a position, as far as the tools around have pressed it, mm.
-    pub fn pressed_at(&self, place: [f64; 2]) -> f64 {
-        let [i, j] = self.place(place);
+    pub fn pressed_at(&self, position: [f64; 2]) -> f64 {
+        let [i, j] = self.cell_at(position);
         let around = (-1..=1).flat_map(|di| (-1..=1).map(move |dj| [i + di, j + dj]));
         around.filter_map(|at| self.index(at)).map(|at| self.pressed[at]).fold(self.top, f64::min)
     }
 
     /// Height at which it stands there, also where it only hangs, mm. Off the part it is taken to hang as low as anything
     /// is: what lies there the job does not state.
-    pub fn hangs_at(&mut self, place: [f64; 2]) -> f64 {
-        let Some(at) = self.index(self.place(place)).filter(|at| self.part[*at]) else { return self.lowest };
+    pub fn hangs_at(&mut self, position: [f64; 2]) -> f64 {
+        let Some(at) = self.index(self.cell_at(position)).filter(|at| self.part[*at]) else { return self.lowest };
         if self.is_stale {
             self.hang();
         }
-        self.hanging[at].min(self.pressed_at(place))
+        self.hanging[at].min(self.pressed_at(position))
     }
 
     /// Lets it hang: from the highest positions on, each cell as high as the best path to it.
@@ -136,7 +136,7 @@ impl Blank {
         let mut heights = vec![f64::NEG_INFINITY; self.pressed.len()];
         for corners in (0..part.triangles().len()).map(|triangle| part.corners(triangle)) {
             let [low, high] = [Vector::inf, Vector::sup].map(|end| end(&end(&corners[0], &corners[1]), &corners[2]));
-            let ([i, j], [last_i, last_j]) = (self.place([low.x, low.y]), self.place([high.x, high.y]));
+            let ([i, j], [last_i, last_j]) = (self.cell_at([low.x, low.y]), self.cell_at([high.x, high.y]));
             for at in (i..=last_i).flat_map(|i| (j..=last_j).map(move |j| [i, j])) {
                 let Some(index) = self.index(at) else { continue };
                 heights[index] = heights[index].max(height_over(&corners, self.middle(at)));
@@ -145,7 +145,7 @@ impl Blank {
         heights
     }
 
-    fn place(&self, [x, y]: [f64; 2]) -> [i64; 2] {
+    fn cell_at(&self, [x, y]: [f64; 2]) -> [i64; 2] {
         [(x - self.low[0]) / self.cell, (y - self.low[1]) / self.cell].map(|at| at.floor() as i64)
     }
 

@@ -39,7 +39,7 @@ pub(crate) struct Body {
     /// For squares of the half plane about the meridian, the plane of the table that separates their middle best.
     atlas: Vec<u16>,
     squares_per_mm: f64,
-    /// Depth from which the nearest way out may not be the one that a local search finds, mm.
+    /// Depth from which the shortest path out may not be the one that a local search finds, mm.
     shallow: f64,
     /// See [`Body::own`].
     own: f64,
@@ -301,9 +301,9 @@ impl Body {
             return ball * (length(steep, fall) - fall) + ROUNDING;
         }
         let sum = steep + fall;
-        let place = steep / sum * CELLS as f64;
-        let cell = (place as usize).min(CELLS - 1);
-        let share = place - cell as f64;
+        let at = steep / sum * CELLS as f64;
+        let cell = (at as usize).min(CELLS - 1);
+        let share = at - cell as f64;
         sum * (self.supports[cell] + share * (self.supports[cell + 1] - self.supports[cell]) + ROUNDING)
     }
 

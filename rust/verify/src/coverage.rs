@@ -205,8 +205,8 @@ impl RTreeObject for Sweep {
 impl Sweep {
     /// The position of the body on the path that is nearest to a point.
     pub fn nearest(&self, point: Vector) -> Vector {
-        let way = self.stroke.to - self.stroke.from;
-        let share = (point - self.stroke.from).dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE);
+        let travel = self.stroke.to - self.stroke.from;
+        let share = (point - self.stroke.from).dot(&travel) / travel.norm_squared().max(f64::MIN_POSITIVE);
         self.stroke.at(share.clamp(0.0, 1.0))
     }
 }

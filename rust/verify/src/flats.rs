@@ -94,15 +94,15 @@ fn loops(chain: &[&Segment], bodies: &[Body], enough: f64) -> Vec<Ring> {
     };
     let height = body.position(first.end).z;
     let heights = [height - enough, height + enough];
-    let plan = |place: [f64; 3]| [place[0], place[1]];
+    let plan = |position: [f64; 3]| [position[0], position[1]];
     let apart = |a: &[f64; 2], b: &[f64; 2]| length(b[0] - a[0], b[1] - a[1]);
     let mut rings = Vec::new();
     let mut positions: Vec<[f64; 2]> = first.start.map(plan).into_iter().collect();
-    for place in chain.iter().flat_map(|segment| segment.pieces()).map(|piece| plan(piece.end)) {
-        positions.push(place);
-        if positions.len() > 3 && apart(&positions[0], &place) <= SLACK {
+    for position in chain.iter().flat_map(|segment| segment.pieces()).map(|piece| plan(piece.end)) {
+        positions.push(position);
+        if positions.len() > 3 && apart(&positions[0], &position) <= SLACK {
             rings.push(Ring::new(&positions, heights));
-            positions = vec![place];
+            positions = vec![position];
         }
     }
     if positions.len() > 2 && apart(&positions[0], &positions[positions.len() - 1]) <= body.radius() {
@@ -114,7 +114,7 @@ fn loops(chain: &[&Segment], bodies: &[Body], enough: f64) -> Vec<Ring> {
 impl Ring {
     fn new(positions: &[[f64; 2]], heights: [f64; 2]) -> Self {
         let corner = |pick: fn(f64, f64) -> f64, none: f64| {
-            [0, 1].map(|axis| positions.iter().map(|place| place[axis]).fold(none, pick))
+            [0, 1].map(|axis| positions.iter().map(|position| position[axis]).fold(none, pick))
         };
         let (low, high) = (corner(f64::min, f64::INFINITY), corner(f64::max, f64::NEG_INFINITY));
         let mut ring = Self { heights, low, high, bins: vec![Vec::new(); BINS] };
@@ -137,7 +137,7 @@ impl Ring {
         if !(self.heights[0]..=self.heights[1]).contains(&point.z) || !inside(0) || !inside(1) {
             return false;
         }
-        // Sunday's winding number: sides that cross the way to the right upwards less those that cross it downwards
+        // Sunday's winding number: sides that cross the line to the right upwards less those that cross it downwards
         let turns = self.bins[self.bin(point.y)].iter().map(|[a, b]| {
             let side = (b[0] - a[0]) * (point.y - a[1]) - (point.x - a[0]) * (b[1] - a[1]);
             let (up, down) = (a[1] <= point.y && b[1] > point.y, a[1] > point.y && b[1] <= point.y);

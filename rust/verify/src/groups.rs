@@ -60,7 +60,7 @@ impl Group {
             severity: finding.severity,
             count: 1,
             regions: 1,
-            extent: finding.position.map(|place| [place, place]),
+            extent: finding.position.map(|position| [position, position]),
             line: finding.line,
             first_line: finding.first_line,
             last_line: finding.last_line,
@@ -144,8 +144,8 @@ impl Cells {
         Self { size: APART * size }
     }
 
-    pub fn at(self, place: [f64; 3]) -> Cell {
-        place.map(|x| (x / self.size).clamp(-FARTHEST, FARTHEST).floor() as i64)
+    pub fn at(self, position: [f64; 3]) -> Cell {
+        position.map(|x| (x / self.size).clamp(-FARTHEST, FARTHEST).floor() as i64)
     }
 }
 
@@ -240,7 +240,7 @@ mod tests {
     #[test]
     fn positions_beyond_all_cells_have_neighbours() {
         let cells = Cells::of(0.0);
-        let place = [f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
-        assert_eq!(of(&[&[cells.at(place)]]), (vec![0], 1));
+        let position = [f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
+        assert_eq!(of(&[&[cells.at(position)]]), (vec![0], 1));
     }
 }

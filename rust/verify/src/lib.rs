@@ -3,7 +3,7 @@
 //! It works with distances. The signed distance of a point to the tool (a convex body) is a convex
 //! function of the point; the clearance at a position is that function's minimum over the part's
 //! triangles. Nothing here lowers a tool onto a surface: that is how planning finds its paths, and a
-//! judge that shared the method would share the mistakes.
+//! verifier that shared the method would share the mistakes.
 //!
 //! What is proved, what is sampled:
 //!

@@ -156,10 +156,10 @@ impl<'a> Walk<'a> {
 
     /// On a long move one search for all would look at too much.
     fn one_by_one(&self, asked: Question, prober: &Prober) -> Seen {
-        let guess = |touch: Option<Touch>, place: Option<Vector>| Some(Guess::like(&touch?, place?));
+        let guess = |touch: Option<Touch>, position: Option<Vector>| Some(Guess::like(&touch?, position?));
         let [first, second] = asked.positions;
-        let middle = first.and_then(|place| prober.at(place, self.guess(prober)));
-        let end = second.and_then(|place| prober.at(place, guess(middle, first).or(self.guess(prober))));
+        let middle = first.and_then(|position| prober.at(position, self.guess(prober)));
+        let end = second.and_then(|position| prober.at(position, guess(middle, first).or(self.guess(prober))));
         let sampled = [middle, end].iter().flatten().fold(f64::INFINITY, |a, t| a.min(t.value));
         let below = asked.below.min(sampled - SLACK);
         let passed = prober.survey(Question { positions: [None; 2], below, ..asked }, guess(end, second));

@@ -177,7 +177,7 @@ impl Run {
             last_line: self.last_line,
             moves: self.moves,
             length_mm: self.length,
-            position: Some(worst.position).filter(|place| place.iter().all(|x| x.is_finite())),
+            position: Some(worst.position).filter(|position| position.iter().all(|x| x.is_finite())),
             value_mm: value.filter(|_| unit == "mm"),
             value,
             limit,

@@ -232,7 +232,7 @@ impl Look<'_> {
         (shortest..=3.0 * shortest + self.body.radius()).contains(&distance)
     }
 
-    /// Whether the pass lies beside a spot on it: within the tolerance the same height may be some way off.
+    /// Whether the pass lies beside a spot on it: within the tolerance the same height may be some distance off.
     fn passes_beside(&self, spot: &Spot, sweeps: &Sweeps) -> bool {
         let value = self.scalar().value(spot.tip.into());
         let pitch = self.passes.step;
@@ -262,7 +262,7 @@ impl Look<'_> {
         }
         // in the midst of a face a pass is half a step away at most, at its ends a whole one; where it does not go on at
         // all, what lies around is not like it
-        let explained = match positions(0.5).into_iter().filter(|place| self.goes_on(*place)).count() {
+        let explained = match positions(0.5).into_iter().filter(|position| self.goes_on(*position)).count() {
             0 => return None,
             1 => CURVED * self.leaves(spot.point, positions(1.0)),
             _ => amidst,
@@ -293,20 +293,22 @@ impl Look<'_> {
 
     /// Whether the tool can go `length` mm both ways together along an axis from a spot, touching what the passes are for.
     fn reaches(&self, spot: &Spot, axis: Vector, length: f64, bend: f64) -> bool {
-        let parts: usize = [axis, -axis].into_iter().map(|way| self.steps_that_touch(spot, length * way, bend)).sum();
+        let parts: usize = [axis, -axis].into_iter().map(|side| self.steps_that_touch(spot, length * side, bend)).sum();
         parts >= STEPS
     }
 
-    /// How many of [`STEPS`] equal parts of a travel off a spot the tool can go, touching what the passes are for all the way, which
-    /// bends away by no more than a share of a part within it.
-    fn steps_that_touch(&self, spot: &Spot, way: Vector, bend: f64) -> usize {
-        let step = way.norm() / STEPS as f64;
-        let (mut position, mut way) = (spot.position, way.normalize());
+    /// How many of [`STEPS`] equal parts of a travel off a spot the tool can go, touching what the passes are for all along it:
+    /// that bends away by no more than a share of a part within it.
+    fn steps_that_touch(&self, spot: &Spot, travel: Vector, bend: f64) -> usize {
+        let step = travel.norm() / STEPS as f64;
+        let (mut position, mut travel) = (spot.position, travel.normalize());
         for taken in 0..STEPS {
-            let Some((there, across)) = self.brought_to_touch(position + step * way, bend * step) else { return taken };
+            let Some((there, across)) = self.brought_to_touch(position + step * travel, bend * step) else {
+                return taken;
+            };
             position = there;
-            let Some(on) = (way - way.dot(&across) * across).try_normalize(HEAD_ON) else { return taken };
-            way = on;
+            let Some(on) = (travel - travel.dot(&across) * across).try_normalize(HEAD_ON) else { return taken };
+            travel = on;
         }
         STEPS
     }
@@ -335,11 +337,11 @@ impl Look<'_> {
         let along = spot.up.cross(&step).normalize();
         let value = scalar.value(spot.tip.into());
         let beside = sweeps.near(spot.position, AROUND * length).filter_map(|sweep| {
-            let place = sweep.nearest(spot.position);
-            let [aside, off] = [along, spot.up].map(|axis| (place - spot.position).dot(&axis).abs());
+            let nearest = sweep.nearest(spot.position);
+            let [aside, off] = [along, spot.up].map(|axis| (nearest - spot.position).dot(&axis).abs());
             let is_near = aside.max(off) <= RUNS_BY * length;
-            let runs_by = is_near && (off <= ROUGH + self.tolerated() || self.touches_alike(place, spot.up));
-            runs_by.then(|| (scalar.value(self.body.tip(place).into()) - value) / self.passes.step)
+            let runs_by = is_near && (off <= ROUGH + self.tolerated() || self.touches_alike(nearest, spot.up));
+            runs_by.then(|| (scalar.value(self.body.tip(nearest).into()) - value) / self.passes.step)
         });
         let (before, behind): (Vec<f64>, Vec<f64>) = beside.partition(|steps| *steps < 0.0);
         let before = before.into_iter().reduce(f64::max);
@@ -372,7 +374,7 @@ impl Look<'_> {
 
     /// What passes at these positions leave at a point, mm.
     fn leaves(&self, point: Vector, positions: [Vector; 2]) -> f64 {
-        positions.map(|place| self.body.distance(point - place).value).into_iter().fold(0.0, f64::max)
+        positions.map(|position| self.body.distance(point - position).value).into_iter().fold(0.0, f64::max)
     }
 
     /// Whether the tool touches the part at a position that is asked for.

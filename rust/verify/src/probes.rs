@@ -22,8 +22,8 @@ pub(crate) fn spread(mesh: &Mesh, triangles: &[usize], count: usize) -> Vec<Prob
     for triangle in triangles {
         passed += mesh.area(*triangle);
         while (points.len() as f64 + 0.5) * each < passed {
-            let place = STEPS.map(|step| (0.5 + step * (points.len() + 1) as f64).fract());
-            points.push(Probe { point: within(mesh.corners(*triangle), place), triangle: *triangle });
+            let shares = STEPS.map(|step| (0.5 + step * (points.len() + 1) as f64).fract());
+            points.push(Probe { point: within(mesh.corners(*triangle), shares), triangle: *triangle });
         }
     }
     points

@@ -1,4 +1,4 @@
-//! What orders passes: a number at every position of the tip, equal all along a pass (a level's height, a row's position
+//! The order of passes: a number at every position of the tip, equal all along a pass (a level's height, a row's position
 //! across) or moving on by a step a turn (a spiral's height).
 //!
 //! A new order is one implementation of [`Scalar`]: its value and its gradient. All checks of passes ask the scalar, and
@@ -29,7 +29,7 @@ const LOW: f64 = 0.5;
 const NARROW: f64 = 0.2;
 const LONG: f64 = 4.0;
 
-/// A number at every position of the tip that orders passes.
+/// A number at every position of the tip: the order of the passes.
 ///
 /// What follows from value and gradient alone is provided; an implementation overrides it where its passes are planned by
 /// another rule. Normals are unit vectors, lengths mm.

@@ -109,8 +109,8 @@ impl Segment {
     }
 
     /// Whether it starts at a position.
-    pub fn starts_at(&self, place: [f64; 3]) -> bool {
-        self.start.is_some_and(|s| same_plan(s, place) && (s[2] - place[2]).abs() <= SAME)
+    pub fn starts_at(&self, position: [f64; 3]) -> bool {
+        self.start.is_some_and(|s| same_plan(s, position) && (s[2] - position[2]).abs() <= SAME)
     }
 
     /// Whether it leaves its height.
@@ -162,8 +162,8 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
         }
         let known = subject.is_known(index) && is_in_range(step.end.tip) && step.end.axis.is_up();
         if known {
-            let way = start.and_then(|start| step.path(start));
-            let kind = if way.is_some() { SegmentKind::Lateral } else { kind(step.kind, start, step.end.tip) };
+            let path = start.and_then(|start| step.path(start));
+            let kind = if path.is_some() { SegmentKind::Lateral } else { kind(step.kind, start, step.end.tip) };
             let excess =
                 limits.excess_of(step.operation).filter(|_| kind == SegmentKind::Lateral && touches(step.operation));
             let segment = Segment {
@@ -172,7 +172,7 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
                 kind,
                 start,
                 end: step.end.tip,
-                bend: way,
+                bend: path,
                 line: step.line,
                 tool,
                 excess,
@@ -200,8 +200,8 @@ fn kind(kind: MoveKind, start: Option<[f64; 3]>, end: [f64; 3]) -> SegmentKind {
 }
 
 /// Whether a position's coordinates are numbers, and not too large: arithmetic holds up to there.
-pub(crate) fn is_in_range(place: [f64; 3]) -> bool {
-    place.iter().all(|x| x.abs() <= FARTHEST)
+pub(crate) fn is_in_range(position: [f64; 3]) -> bool {
+    position.iter().all(|x| x.abs() <= FARTHEST)
 }
 
 fn same_plan(a: [f64; 3], b: [f64; 3]) -> bool {

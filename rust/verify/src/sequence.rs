@@ -153,7 +153,7 @@ pub(crate) fn faults(
             let [x, y, z] = segment.end;
             let [i, j] = [x, y].map(|at| (at / cell).floor() as i64);
             let around = (-1..=1).flat_map(|di| (-1..=1).map(move |dj| [i + di, j + dj]));
-            let formed = around.filter_map(|place| lowest.get(&place)).copied().fold(f64::INFINITY, f64::min);
+            let formed = around.filter_map(|cell| lowest.get(&cell)).copied().fold(f64::INFINITY, f64::min);
             if z > formed + LOWER * step {
                 faults.push(segment.fault(&faults::FORMING_ORDER).measured(z, formed).warning());
             }

@@ -1,7 +1,7 @@
 //! Where the body on a straight path is nearest to the part, or deepest in it.
 //!
 //! Along a straight move the distance from the body to a triangle is convex in the position on the move:
-//! a supporting plane that keeps the triangle off at both ends keeps it off all the way, and where
+//! a supporting plane that keeps the triangle off at both ends keeps it off all along it, and where
 //! none is found the lowest position comes from one convex search.
 //!
 //! The derivation, and why one search is enough for a whole move: docs/concepts/verifier.md.
@@ -130,8 +130,8 @@ impl Survey<'_> {
     /// Looks where the contacts may be: what is found there keeps most of the part off.
     fn begin(&self, guess: Guess) {
         let mut guess = guess;
-        for (i, place) in self.question.positions.iter().enumerate() {
-            let Some(position) = *place else { continue };
+        for (i, asked) in self.question.positions.iter().enumerate() {
+            let Some(position) = *asked else { continue };
             for triangle in guess.triangle.iter().chain(self.prober.bvh.near(position + guess.offset)) {
                 self.visit(*triangle);
             }
@@ -202,8 +202,8 @@ impl Survey<'_> {
     fn settle(&self, open: &mut Open, at: impl Fn(Vector) -> f64, along: f64) {
         let limits = self.limits.get();
         let mut nearest = f64::INFINITY;
-        for ((place, limit), is_open) in self.question.positions.iter().zip(limits).zip(&mut open.of[..BETWEEN]) {
-            if let Some(position) = place.filter(|_| *is_open) {
+        for ((asked, limit), is_open) in self.question.positions.iter().zip(limits).zip(&mut open.of[..BETWEEN]) {
+            if let Some(position) = asked.filter(|_| *is_open) {
                 let bound = at(position);
                 *is_open = bound < limit;
                 nearest = if *is_open { nearest.min(bound) } else { nearest };
@@ -373,13 +373,13 @@ mod tests {
 
         #[test]
         fn one_search_answers_as_three_do(body in any_body(), mesh in any_mesh(), from in any_point(25.0, 3.0, 15.0),
-                                          way in any_point(3.0, -1.0, 1.0)) {
-            let stroke = Stroke { from, to: from + way };
+                                          travel in any_point(3.0, -1.0, 1.0)) {
+            let stroke = Stroke { from, to: from + travel };
             let positions = [Some(stroke.at(0.5)), Some(stroke.to)];
             with(&body, &mesh, |p| {
                 let seen = p.survey(Question { stroke, positions, below: 5.0 }, Some(Guess { triangle: Some(3), offset: Vector::zeros() }));
-                for (place, touch) in positions.iter().zip(&seen.positions) {
-                    let (found, expected) = (touch.unwrap().value, of_all(p, place.unwrap()));
+                for (position, touch) in positions.iter().zip(&seen.positions) {
+                    let (found, expected) = (touch.unwrap().value, of_all(p, position.unwrap()));
                     prop_assert!((found - expected).abs() < 1e-9, "{found} {expected}");
                     let deeper = seen.deepest.is_none_or(|p| p.touch.value < found - 0.5 * SLACK);
                     prop_assert!(deeper, "{:?} {found}", seen.deepest);
@@ -390,8 +390,8 @@ mod tests {
 
         #[test]
         fn nothing_hides_between_the_samples(body in any_body(), mesh in any_mesh(), from in any_point(25.0, 0.0, 12.0),
-                                             way in any_point(30.0, -5.0, 5.0)) {
-            let stroke = Stroke { from, to: from + way };
+                                             travel in any_point(30.0, -5.0, 5.0)) {
+            let stroke = Stroke { from, to: from + travel };
             with(&body, &mesh, |p| {
                 let passed = p.survey(Question { stroke, positions: [None; 2], below: 1.0 }, None).deepest;
                 let sampled = (0..=200).map(|i| of_all(p, stroke.at(f64::from(i) / 200.0)));

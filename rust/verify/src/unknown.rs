@@ -64,7 +64,7 @@ fn machine_fault(
 }
 
 /// Whether a move in machine coordinates ends at the machine's top: at its zero, over it, or a little under it where the
-/// axis' length is known. The range of Z is one of the work's coordinates and does not tell where that zero is.
+/// axis' length is known. The range of Z is one of the work's coordinates and does not state where that zero is.
 fn goes_up(step: &MachineMove, limits: &Limits) -> bool {
     let range = limits.reach.axes[2].map(|[low, high]| high - low);
     let length = range.or(limits.reach.travel.map(|travel| travel[2]));

@@ -60,13 +60,13 @@ pub(crate) fn findings(
         .collect();
     let asked: Vec<(&Probe, f64)> =
         probes.iter().zip(gaps?.concat()).filter_map(|(probe, gap)| Some((probe, gap?))).collect();
-    let mut positions: Vec<Place> =
-        asked.iter().filter(|(_, gap)| *gap > most).map(|(probe, gap)| Place { probe, left: *gap }).collect();
+    let mut positions: Vec<Spot> =
+        asked.iter().filter(|(_, gap)| *gap > most).map(|(probe, gap)| Spot { probe, left: *gap }).collect();
     if !positions.is_empty() {
         let sweeps = Sweeps::of_all(segments, subject);
         let mut last = None;
-        for place in &mut positions {
-            place.left = place.left.min(sweeps.left(place.probe.point, &mut last));
+        for spot in &mut positions {
+            spot.left = spot.left.min(sweeps.left(spot.probe.point, &mut last));
         }
     }
     let area: f64 = selected.iter().map(|triangle| subject.mesh.area(*triangle)).sum();
@@ -74,7 +74,7 @@ pub(crate) fn findings(
 }
 
 /// A position that no tool can touch.
-struct Place<'a> {
+struct Spot<'a> {
     probe: &'a Probe,
     /// What is left there, mm; infinite where the program does nothing.
     left: f64,
@@ -216,10 +216,10 @@ fn gap(tasks: &[Task], probe: &Probe, subject: &Subject, enough: f64) -> Option<
     tasks.iter().filter_map(|task| task.gap(probe, subject, enough)).min_by(f64::total_cmp)
 }
 
-fn findings_of(positions: &[Place], asked: usize, area_each: f64, subject: &Subject, limits: &Limits) -> Vec<Finding> {
+fn findings_of(positions: &[Spot], asked: usize, area_each: f64, subject: &Subject, limits: &Limits) -> Vec<Finding> {
     let mut findings = Vec::new();
     let Some(worst) = positions.iter().max_by(|a, b| a.left.total_cmp(&b.left)) else { return findings };
-    let face = |place: &Place| subject.mesh.faces().get(place.probe.triangle).copied().unwrap_or(0);
+    let face = |spot: &Spot| subject.mesh.faces().get(spot.probe.triangle).copied().unwrap_or(0);
     let left = |left: f64| if left.is_finite() { format!("{left:.3} mm") } else { "everything".to_owned() };
     let [x, y, z]: [f64; 3] = worst.probe.point.into();
     if worst.left > limits.bridged {
@@ -239,7 +239,7 @@ fn findings_of(positions: &[Place], asked: usize, area_each: f64, subject: &Subj
             ..Finding::of_all(FindingKind::Bridged, Severity::Error, message)
         });
     }
-    let unreached = positions.iter().filter(|place| place.left > limits.unreached_from).count();
+    let unreached = positions.iter().filter(|spot| spot.left > limits.unreached_from).count();
     let share = unreached as f64 / asked.max(1) as f64;
     if share > limits.unreached {
         let [unreached, whole] = [unreached, asked].map(|points| points as f64 * area_each);

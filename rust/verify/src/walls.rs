@@ -98,27 +98,27 @@ fn finding_of(forming: &Forming, wall: &Wall) -> Finding {
     let angle = wall.angle.to_degrees();
     let [most, sure] = [forming.max_wall_angle, forming.sure_wall_angle].map(f64::to_degrees);
     let is_error = wall.angle > forming.max_wall_angle + ANGLE;
-    let place = format!("X{:.3} Y{:.3} Z{:.3}", wall.at.x, wall.at.y, wall.at.z);
+    let position = format!("X{:.3} Y{:.3} Z{:.3}", wall.at.x, wall.at.y, wall.at.z);
     let message = match (forming.source, is_error) {
         (WallAngleSource::Job, _) => format!(
-            "{place}: a wall is at {angle:.1} degrees, and the job's max_wall_angle_deg is {most:.1}; turn the part so that \
+            "{position}: a wall is at {angle:.1} degrees, and the job's max_wall_angle_deg is {most:.1}; turn the part so that \
              its walls share the angle, or form in stages"
         ),
         (WallAngleSource::Material(name), true) => format!(
-            "{place}: a wall is at {angle:.1} degrees, and {name} allows {most:.1} in one pass; turn the part so that its \
+            "{position}: a wall is at {angle:.1} degrees, and {name} allows {most:.1} in one pass; turn the part so that its \
              walls share the angle, form in stages, or state what your sheet allows as setup.sheet.max_wall_angle_deg"
         ),
         (WallAngleSource::Material(name), false) => format!(
-            "{place}: a wall is at {angle:.1} degrees, and {name} allows {sure:.1} to {most:.1} in one pass; try it, and \
+            "{position}: a wall is at {angle:.1} degrees, and {name} allows {sure:.1} to {most:.1} in one pass; try it, and \
              state what your sheet allows as setup.sheet.max_wall_angle_deg"
         ),
         (WallAngleSource::Unknown, true) => format!(
-            "{place}: a wall is at {angle:.1} degrees, and no known material allows more than {most:.1} in one \
+            "{position}: a wall is at {angle:.1} degrees, and no known material allows more than {most:.1} in one \
              pass; turn the part so that its walls share the angle, form in stages, or state what your sheet allows as \
              setup.sheet.max_wall_angle_deg"
         ),
         (WallAngleSource::Unknown, false) => format!(
-            "{place}: a wall is at {angle:.1} degrees, and not every material allows more than {sure:.1} in one pass; name \
+            "{position}: a wall is at {angle:.1} degrees, and not every material allows more than {sure:.1} in one pass; name \
              the material (process.material), or state what your sheet allows as setup.sheet.max_wall_angle_deg"
         ),
     };

@@ -1,4 +1,4 @@
-//! Arcs are judged as arcs: against the same way in short chords.
+//! Arcs are checked as arcs: against the same path in short chords.
 #![allow(clippy::disallowed_methods, clippy::unwrap_used)] // helpers of tests are not test functions
 
 mod common;
@@ -35,10 +35,10 @@ fn chorded(program: &Program, count: usize) -> Program {
     for (start, step) in program.segments() {
         match start.and_then(|s| step.path(s)) {
             None => chorded.moves.push(*step),
-            Some(way) => chorded.moves.extend((1..=count).map(|i| {
+            Some(path) => chorded.moves.extend((1..=count).map(|i| {
                 let mut chord = *step;
                 chord.arc = None;
-                chord.end.tip = if i == count { step.end.tip } else { way.at(i as f64 / count as f64) };
+                chord.end.tip = if i == count { step.end.tip } else { path.at(i as f64 / count as f64) };
                 chord
             })),
         }
@@ -60,10 +60,10 @@ fn sound_arcs_pass_and_cover_as_chords_do() {
             let report = judged(&part, &tool, &program);
             assert!(report.ok && report.findings.is_empty(), "{inner}: {:?}", report.findings);
             assert!((report.contact_share - 1.0).abs() < 1e-12 && report.samples > 40);
-            let wanted = vec![true; part.mesh.triangles().len()];
+            let selected = vec![true; part.mesh.triangles().len()];
             let left = |program: &Program| {
                 let tools = std::slice::from_ref(&tool);
-                coverage(program, &part.subject(tools), &limits(), &wanted, &Watch::default()).unwrap()[0].left.unwrap()
+                coverage(program, &part.subject(tools), &limits(), &selected, &Watch::default()).unwrap()[0].left.unwrap()
             };
             assert!((left(&program) - left(&chorded(&program, 2000))).abs() < 2e-4);
         }
@@ -89,7 +89,7 @@ fn depths_are_those_of_ten_thousand_chords() {
     for inner in [true, false] {
         for (tool, shift) in [(ball(8.0), [0.03, 0.0]), (clothoid(8.0), [-0.02, 0.05]), (ball(8.0), [0.0, -0.2])] {
             let mut program = loop_of_arcs(&tool, inner, &QUARTERS);
-            // both ends of the second arc are kept, its centre is not: it is deepest somewhere on the way
+            // both ends of the second arc are kept, its centre is not: it is deepest somewhere along the path
             let (from, to) = (program.moves[2].end.tip, program.moves[3].end.tip);
             let [x, y] = [0, 1].map(|axis| 0.5 * (from[axis] + to[axis]));
             let centre = &mut program.moves[3].arc.as_mut().unwrap().centre;
@@ -111,9 +111,9 @@ fn what_a_long_arc_leaves_between_its_ends_is_found() {
     let tool = ball(8.0);
     let mut program = loop_of_arcs(&tool, false, &[3.0, std::f64::consts::TAU]);
     let start = program.moves[1].end.tip;
-    let way = program.moves[2].path(start).unwrap();
+    let path = program.moves[2].path(start).unwrap();
     // outwards: both ends touch, what lies between does not
-    let [x, y, _] = way.at(0.5);
+    let [x, y, _] = path.at(0.5);
     let arc = program.moves[2].arc.as_mut().unwrap();
     arc.centre[0] += 0.01 * x;
     arc.centre[1] += 0.01 * y;

@@ -333,7 +333,7 @@ fn nothing_is_too_strange_to_be_judged() {
 fn the_same_fault_in_two_regions_is_told_twice_and_not_a_hundred_times() {
     let (part, tool) = (part(true), ball(8.0));
     let mut program = levels(&tool, true, None).path().program(&tool);
-    // every third place beyond X20 or X-20 on the topmost level
+    // every third position beyond X20 or X-20 on the topmost level
     for step in program.moves.iter_mut().step_by(3) {
         let [x, _, z] = &mut step.end.tip;
         if *z < CLEARANCE && x.abs() > 20.0 {
@@ -350,7 +350,7 @@ fn the_same_fault_in_two_regions_is_told_twice_and_not_a_hundred_times() {
         let listed: Vec<&Finding> = group.findings.iter().map(|index| &report.findings[*index]).collect();
         assert_eq!(listed.len(), group.count.min(20));
         let deepest = listed.iter().filter_map(|finding| finding.value).fold(0.0, f64::max);
-        // of places that differ by arithmetic the first one is named
+        // of positions that differ by arithmetic the first one is named
         assert!((group.value.unwrap() - deepest).abs() < 1e-6);
         assert!((deepest - if low[0] > 0.0 { 0.14 } else { 0.034 }).abs() < 0.01, "{deepest}");
         let worst = listed.iter().find(|finding| finding.value == group.value).unwrap();

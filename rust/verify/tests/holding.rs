@@ -75,12 +75,12 @@ fn a_shank_beside_a_wall() {
 fn a_holder_over_an_edge() {
     let tool = tool(r#", "length": 28.0, "holder": {"diameter": 40.0, "length": 50.0}"#);
     let report = judged(&tool, None, &along(&tool, 10.0, 0.0));
-    // 2 mm below the edge and 10 mm over it: the shorter way out is up
+    // 2 mm below the edge and 10 mm over it: the shorter path out is up
     assert!((depth(&report, FindingKind::HolderCollision).unwrap() - 2.0).abs() < 1e-6);
     assert!(report.findings[0].message.contains("stick out"), "{}", report.findings[0].message);
     assert_eq!(depth(&judged(&tool, None, &along(&tool, 10.0, 2.0005)), FindingKind::HolderCollision), None);
     assert!(judged(&tool, None, &along(&tool, 20.1, 0.0)).ok);
-    // a sheet on the part comes off the room that is left
+    // a sheet on the part comes off the clearance that is left
     let sheet = Sheet { thickness: 1.0, law: SheetLaw::Constant, model_face: ModelFace::Back };
     assert!(
         (depth(&judged(&tool, Some(sheet), &along(&tool, 10.0, 2.5)), FindingKind::HolderCollision).unwrap() - 0.5)

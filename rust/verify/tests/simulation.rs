@@ -72,11 +72,11 @@ fn lines(tool: &Tool) -> Program {
     path.program(tool)
 }
 
-/// The lowest that a tool comes on a line over a place, by samples and then by thirds.
-fn lowest(cutter: &Cutter, from: [f64; 3], to: [f64; 3], place: [f64; 2]) -> f64 {
+/// The lowest that a tool comes on a line over a position, by samples and then by thirds.
+fn lowest(cutter: &Cutter, from: [f64; 3], to: [f64; 3], position: [f64; 2]) -> f64 {
     let height = |share: f64| {
         let tip = [0, 1, 2].map(|k| from[k] + share * (to[k] - from[k]));
-        let distance = (tip[0] - place[0]).hypot(tip[1] - place[1]);
+        let distance = (tip[0] - position[0]).hypot(tip[1] - position[1]);
         let beyond = distance - cutter.max_radius();
         // nearer is better as long as it does not come
         tip[2]
@@ -107,11 +107,11 @@ fn every_profile_cuts_as_it_does_by_brute_force() {
         let cutter = tool.cutter();
         let simulation = simulated(&tool, &program, 0.5);
         let mut cut = 0;
-        for (place, height) in nodes(&simulation) {
+        for (position, height) in nodes(&simulation) {
             let ends = program.segments().filter_map(|(start, step)| Some((start?, step.end.tip)));
-            let expected = ends.map(|(from, to)| lowest(&cutter, from, to, place)).fold(0.0, f64::min);
+            let expected = ends.map(|(from, to)| lowest(&cutter, from, to, position)).fold(0.0, f64::min);
             cut += usize::from(expected < 0.0);
-            assert!((height - expected).abs() < 1e-6, "{profile} at {place:?}: {height} {expected}");
+            assert!((height - expected).abs() < 1e-6, "{profile} at {position:?}: {height} {expected}");
         }
         assert!(cut > 300, "{profile}: {cut}");
     }
@@ -139,12 +139,12 @@ fn arcs(tool: &Tool) -> Program {
 fn chorded(program: &Program, count: usize) -> Program {
     let mut chorded = Program { moves: Vec::new(), ..program.clone() };
     for (start, step) in program.segments() {
-        let way = start.and_then(|start| step.path(start));
+        let path = start.and_then(|start| step.path(start));
         let chord = |i: usize| {
-            let end = way.filter(|_| i < count).map_or(step.end.tip, |way| way.at(i as f64 / count as f64));
+            let end = path.filter(|_| i < count).map_or(step.end.tip, |path| path.at(i as f64 / count as f64));
             step.to(end).arc(None)
         };
-        chorded.moves.extend((1..=way.map_or(1, |_| count)).map(chord));
+        chorded.moves.extend((1..=path.map_or(1, |_| count)).map(chord));
     }
     chorded
 }
@@ -158,8 +158,8 @@ fn arcs_cut_as_ten_thousand_chords_do() {
         let expected = simulated(&tool, &chorded(&program, 10_000), 0.5);
         let off = |i: usize| (found.heights[i] - expected.heights[i]).abs();
         let worst = (0..found.heights.len()).max_by(|a, b| off(*a).total_cmp(&off(*b))).unwrap();
-        let place = nodes(&found).nth(worst).unwrap();
-        assert!(off(worst) < 1e-6, "{profile} at {place:?}: off by {}", off(worst));
+        let position = nodes(&found).nth(worst).unwrap();
+        assert!(off(worst) < 1e-6, "{profile} at {position:?}: off by {}", off(worst));
     }
 }
 
@@ -212,7 +212,7 @@ fn scallop(profile: &str, wall_deg: f64, up_the_wall: bool) -> f64 {
     let tool = tool(profile);
     let (sin, cos) = wall_deg.to_radians().sin_cos();
     let (radius, height) = tool.point_at(wall_deg.to_radians());
-    // the tip that touches the wall z = -x tan at a place along it
+    // the tip that touches the wall z = -x tan at a position along it
     let tip = |down: f64, y: f64| [down * cos + radius, y, -down * sin - height];
     let mut path = Path::new();
     for pass in -8..14 {
@@ -255,7 +255,7 @@ fn scallops_are_those_of_the_tables() {
     }
 }
 
-/// How often each side of the triangles is passed in the direction of its lower end to the higher, less the other way.
+/// How often each side of the triangles is passed in the direction of its lower end to the higher, less the other direction.
 fn open_sides(skin: &Skin) -> usize {
     let mut passed = std::collections::HashMap::new();
     for [a, b, c] in &skin.triangles {
@@ -276,8 +276,8 @@ fn worst_of_skin(simulation: &Simulation, skin: &Skin) -> f64 {
         let (ab, ac) = (b - a, c - a);
         let area = ab.x * ac.y - ab.y * ac.x;
         assert!(area > 0.0);
-        for (index, (place, height)) in nodes(simulation).enumerate() {
-            let (dx, dy) = (place[0] - a.x, place[1] - a.y);
+        for (index, (position, height)) in nodes(simulation).enumerate() {
+            let (dx, dy) = (position[0] - a.x, position[1] - a.y);
             let (s, t) = ((dx * ac.y - dy * ac.x) / area, (ab.x * dy - ab.y * dx) / area);
             if s >= -1e-9 && t >= -1e-9 && s + t <= 1.0 + 1e-9 {
                 covered[index] = true;

@@ -1,4 +1,4 @@
-//! How long the judge takes: `cargo test --release -p styluscam-verify --test speed -- --ignored --nocapture`.
+//! How long the verifier takes: `cargo test --release -p styluscam-verify --test speed -- --ignored --nocapture`.
 #![allow(clippy::disallowed_methods, clippy::unwrap_used)] // helpers of tests are not test functions
 
 mod common;

@@ -58,10 +58,10 @@ fn raise(heights: &mut [f64], [a, b, c]: [Vector; 3], grid: &Grid) {
     }
     let (low, high) = (a.inf(&b).inf(&c), a.sup(&b).sup(&c));
     let range = |axis: usize| {
-        let place = |at: f64| (at - grid.origin[axis]) / grid.step[axis];
+        let index = |at: f64| (at - grid.origin[axis]) / grid.step[axis];
         let last = grid.nodes[axis] - 1;
-        let from = (place(low[axis]) - EDGE).ceil().clamp(0.0, last as f64 + 1.0) as usize;
-        let to = (place(high[axis]) + EDGE).floor().clamp(-1.0, last as f64);
+        let from = (index(low[axis]) - EDGE).ceil().clamp(0.0, last as f64 + 1.0) as usize;
+        let to = (index(high[axis]) + EDGE).floor().clamp(-1.0, last as f64);
         from..(to + 1.0) as usize
     };
     for y in range(1) {

@@ -17,7 +17,7 @@ const SHORT: f64 = 1e-6;
 const ROUNDING: f64 = 1e-12;
 
 /// A position in plan, mm.
-pub(super) type Place = [f64; 2];
+pub(super) type Position = [f64; 2];
 
 /// A path of the tip: at a share t from 0 to 1 it is at `from + t along + 4 t (1 - t) bulge`.
 ///
@@ -49,7 +49,7 @@ pub(super) struct Plane {
 impl Plane {
     /// Height at an offset from that position, mm.
     #[inline]
-    pub fn at(&self, offset: Place) -> f64 {
+    pub fn at(&self, offset: Position) -> f64 {
         self.height + self.gradient[0] * offset[0] + self.gradient[1] * offset[1]
     }
 }
@@ -60,38 +60,38 @@ impl Cut {
     }
 
     /// All of the arc of that index.
-    pub fn bent(way: &ArcPath, arc: u32, tool: u32) -> Self {
-        Self::straight([0.0; 3], [0.0; 3], tool).of_part(way, arc, [0.0, 1.0])
+    pub fn bent(path: &ArcPath, arc: u32, tool: u32) -> Self {
+        Self::straight([0.0; 3], [0.0; 3], tool).of_part(path, arc, [0.0, 1.0])
     }
 
     /// A part of the arc, given by its ends and its middle.
-    fn of_part(&self, way: &ArcPath, arc: u32, part: [f32; 2]) -> Self {
-        let [from, to] = part.map(|share| way.at(f64::from(share)));
-        let middle = way.at(0.5 * (f64::from(part[0]) + f64::from(part[1])));
+    fn of_part(&self, path: &ArcPath, arc: u32, part: [f32; 2]) -> Self {
+        let [from, to] = part.map(|share| path.at(f64::from(share)));
+        let middle = path.at(0.5 * (f64::from(part[0]) + f64::from(part[1])));
         let bulge = [0, 1, 2].map(|k| middle[k] - 0.5 * (from[k] + to[k]));
-        let sag = way.part(f64::from(part[0]), f64::from(part[1])).sag();
+        let sag = path.part(f64::from(part[0]), f64::from(part[1])).sag();
         Self { from, along: minus(to, from), bulge, sag, arc: Some(arc), part, ..*self }
     }
 
     /// Both halves of a part of an arc.
     pub fn halves(&self, arcs: &[ArcPath]) -> Option<[Self; 2]> {
         let arc = self.arc?;
-        let way = arcs.get(arc as usize)?;
+        let path = arcs.get(arc as usize)?;
         let [from, to] = self.part;
         let middle = 0.5 * (from + to);
-        Some([[from, middle], [middle, to]].map(|part| self.of_part(way, arc, part)))
+        Some([[from, middle], [middle, to]].map(|part| self.of_part(path, arc, part)))
     }
 
     /// The tool standing where this one is at a share, on the arc itself.
     pub fn still(&self, share: f64, arcs: &[ArcPath]) -> Self {
         let [from, to] = self.part.map(f64::from);
-        let way = self.arc.and_then(|arc| arcs.get(arc as usize));
-        let at = way.map_or_else(|| self.at(share), |way| way.at(from + share * (to - from)));
+        let path = self.arc.and_then(|arc| arcs.get(arc as usize));
+        let at = path.map_or_else(|| self.at(share), |path| path.at(from + share * (to - from)));
         Self::straight(at, at, self.tool)
     }
 
     /// Lower and upper corner of a box in plan that holds the tip's path.
-    pub fn bounds(&self) -> [Place; 2] {
+    pub fn bounds(&self) -> [Position; 2] {
         let ends = |k: usize| (self.from[k], self.from[k] + self.along[k]);
         let ((x0, x1), (y0, y1)) = (ends(0), ends(1));
         [[x0.min(x1) - self.sag, y0.min(y1) - self.sag], [x0.max(x1) + self.sag, y0.max(y1) + self.sag]]
@@ -103,17 +103,17 @@ impl Cut {
     }
 
     /// Distance in plan from a position to the chord, mm.
-    pub fn distance(&self, place: Place) -> f64 {
-        let share = self.nearest(place).clamp(0.0, 1.0);
-        length(place[0] - self.from[0] - share * self.along[0], place[1] - self.from[1] - share * self.along[1])
+    pub fn distance(&self, position: Position) -> f64 {
+        let share = self.nearest(position).clamp(0.0, 1.0);
+        length(position[0] - self.from[0] - share * self.along[0], position[1] - self.from[1] - share * self.along[1])
     }
 
     /// Share at which the line of the chord is nearest to a position in plan; 0 where it has no length there.
-    fn nearest(&self, place: Place) -> f64 {
+    fn nearest(&self, position: Position) -> f64 {
         let [x, y, _] = self.along;
         let square = x * x + y * y;
         if square > 0.0 {
-            ((place[0] - self.from[0]) * x + (place[1] - self.from[1]) * y) / square
+            ((position[0] - self.from[0]) * x + (position[1] - self.from[1]) * y) / square
         } else {
             0.0
         }
@@ -121,38 +121,38 @@ impl Cut {
 
     /// The lowest that it brings the tool over a position, mm, and the share at which; infinite where it does not come.
     #[inline]
-    pub fn over(&self, tool: &Underside, place: Place) -> (f64, f64) {
-        let share = self.share(tool, place);
+    pub fn over(&self, tool: &Underside, position: Position) -> (f64, f64) {
+        let share = self.share(tool, position);
         if self.arc.is_none() {
-            return (self.height(tool, place, share), share);
+            return (self.height(tool, position, share), share);
         }
-        if self.distance(place) > tool.radius() + self.sag {
+        if self.distance(position) > tool.radius() + self.sag {
             return (f64::INFINITY, share);
         }
-        self.bent_over(tool, place, share)
+        self.bent_over(tool, position, share)
     }
 
-    fn height(&self, tool: &Underside, place: Place, share: f64) -> f64 {
+    fn height(&self, tool: &Underside, position: Position, share: f64) -> f64 {
         let tip = self.at(share);
-        tip[2] + tool.height(length(place[0] - tip[0], place[1] - tip[1]))
+        tip[2] + tool.height(length(position[0] - tip[0], position[1] - tip[1]))
     }
 
     /// The share at which the tool on the chord is lowest over a position; where it does not come, the nearest.
     ///
     /// Along the chord the height is convex: at its minimum the rise of the tool's surface along the path undoes the path's.
-    fn share(&self, tool: &Underside, place: Place) -> f64 {
+    fn share(&self, tool: &Underside, position: Position) -> f64 {
         let [x, y, z] = self.along;
         let square = x * x + y * y;
         if square <= 0.0 {
             return f64::from(u8::from(z < 0.0));
         }
-        let middle = self.nearest(place);
+        let middle = self.nearest(position);
         let nearest = middle.clamp(0.0, 1.0);
         if z == 0.0 {
             return nearest;
         }
         let size = square.sqrt();
-        let aside = ((place[0] - self.from[0]) * y - (place[1] - self.from[1]) * x) / size;
+        let aside = ((position[0] - self.from[0]) * y - (position[1] - self.from[1]) * x) / size;
         let (aside, radius) = (aside * aside, tool.radius());
         let reach = radius * radius - aside;
         if reach < 0.0 {
@@ -182,31 +182,31 @@ impl Cut {
     }
 
     /// The lowest on a bent path: Newton from the share that is best on its chord, where that leads to a minimum.
-    fn bent_over(&self, tool: &Underside, place: Place, share: f64) -> (f64, f64) {
+    fn bent_over(&self, tool: &Underside, position: Position, share: f64) -> (f64, f64) {
         let mut share = share;
         for _ in 0..STEPS[1] {
-            let Some((first, second)) = self.rates(tool, place, share) else { break };
+            let Some((first, second)) = self.rates(tool, position, share) else { break };
             if first == 0.0 {
-                return (self.height(tool, place, share), share);
+                return (self.height(tool, position, share), share);
             }
             let next = (share - first / second).clamp(0.0, 1.0);
             if second.is_nan() || second <= 0.0 {
                 break;
             }
             if (next - share).abs() <= SHORT_SHARE {
-                return (self.height(tool, place, next), next);
+                return (self.height(tool, position, next), next);
             }
             share = next;
         }
-        self.by_thirds(tool, place)
+        self.by_thirds(tool, position)
     }
 
     /// How fast the height over a position changes with the share, and how fast that does; none off the tool and beside kinks.
-    fn rates(&self, tool: &Underside, place: Place, share: f64) -> Option<(f64, f64)> {
+    fn rates(&self, tool: &Underside, position: Position, share: f64) -> Option<(f64, f64)> {
         let tip = self.at(share);
         let (turn, bend) = (4.0 - 8.0 * share, -8.0);
         let rate = [0, 1, 2].map(|k| self.along[k] + turn * self.bulge[k]);
-        let apart = [tip[0] - place[0], tip[1] - place[1]];
+        let apart = [tip[0] - position[0], tip[1] - position[1]];
         let distance = length(apart[0], apart[1]);
         if distance <= 0.0 || !tool.reaches(distance) {
             return None;
@@ -220,29 +220,30 @@ impl Cut {
     }
 
     /// The lowest on a bent path by thirds: at rims and kinks.
-    fn by_thirds(&self, tool: &Underside, place: Place) -> (f64, f64) {
+    fn by_thirds(&self, tool: &Underside, position: Position) -> (f64, f64) {
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..THIRDS {
             let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
-            let [at_a, at_b] = [a, b].map(|share| self.height(tool, place, share));
+            let [at_a, at_b] = [a, b].map(|share| self.height(tool, position, share));
             // where the tool does not come at either, it is nearer at the one that is better on the chord
-            let falls = if at_a.is_finite() || at_b.is_finite() { at_b < at_a } else { self.share(tool, place) > b };
+            let falls = if at_a.is_finite() || at_b.is_finite() { at_b < at_a } else { self.share(tool, position) > b };
             if falls {
                 low = a;
             } else {
                 high = b;
             }
         }
-        let ends = [0.0, 0.5 * (low + high), 1.0].map(|share| (self.height(tool, place, share), share));
+        let ends = [0.0, 0.5 * (low + high), 1.0].map(|share| (self.height(tool, position, share), share));
         ends.into_iter().fold((f64::INFINITY, 0.0), |best, found| if found.0 < best.0 { found } else { best })
     }
 
     /// A plane that its surface is nowhere below within `around` mm of a position.
     ///
     /// Height is convex in position and share together: a plane that touches at one share, and what the share can gain.
-    pub fn plane(&self, tool: &Underside, place: Place, around: f64) -> Plane {
-        let share = self.share(tool, place);
-        let apart = [place[0] - self.from[0] - share * self.along[0], place[1] - self.from[1] - share * self.along[1]];
+    pub fn plane(&self, tool: &Underside, position: Position, around: f64) -> Plane {
+        let share = self.share(tool, position);
+        let apart =
+            [position[0] - self.from[0] - share * self.along[0], position[1] - self.from[1] - share * self.along[1]];
         let distance = length(apart[0], apart[1]);
         let line = tool.line(distance);
         let out = if distance > f64::MIN_POSITIVE { 1.0 / distance } else { 0.0 };
@@ -258,7 +259,7 @@ impl Cut {
         };
         let rate = self.along[2] - rise * towards;
         let size = length(self.along[0], self.along[1]);
-        let (middle, reach) = (self.nearest(place), (tool.radius() + around) / size);
+        let (middle, reach) = (self.nearest(position), (tool.radius() + around) / size);
         let [first, last] =
             if size > 0.0 { [(middle - reach).max(0.0), (middle + reach).min(1.0)] } else { [0.0, 1.0] };
         let gain = (rate * (first - share)).min(rate * (last - share)).min(0.0);

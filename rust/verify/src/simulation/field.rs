@@ -14,7 +14,7 @@ use super::underside::Underside;
 const TILE: usize = 64;
 /// Nodes along the sides of a region that is not halved any more.
 const LEAF: usize = 6;
-/// Ways are nearer to their chords than this where heights are taken, mm.
+/// Paths are nearer to their chords than this where heights are taken, mm.
 const SAG: f64 = 1e-4;
 /// In larger regions, than this share of their size.
 const COARSE: f64 = 0.01;
@@ -77,12 +77,12 @@ impl Field<'_> {
         let width = tile.region.size()[0];
         for y in region.from[1]..region.to[1] {
             for x in region.from[0]..region.to[0] {
-                let place = self.grid.at(x, y);
-                let offset = [place[0] - extent.middle[0], place[1] - extent.middle[1]];
+                let position = self.grid.at(x, y);
+                let offset = [position[0] - extent.middle[0], position[1] - extent.middle[1]];
                 let height = &mut tile.heights[(y - tile.region.from[1]) * width + x - tile.region.from[0]];
                 for (plane, cut) in &cuts {
                     if plane.at(offset) < *height - EQUAL {
-                        *height = height.min(cut.over(self.tool(cut), place).0);
+                        *height = height.min(cut.over(self.tool(cut), position).0);
                     }
                 }
             }

@@ -2,7 +2,7 @@
 
 use styluscam_geometry::GeometryError;
 
-use super::cut::Place;
+use super::cut::Position;
 
 /// A grid of nodes in plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,9 +79,9 @@ pub(super) struct Region {
 /// A region in plan.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
-    pub middle: Place,
+    pub middle: Position,
     /// Half of its sides, mm.
-    pub half: Place,
+    pub half: Position,
 }
 
 impl Region {
@@ -122,7 +122,7 @@ impl Extent {
     }
 
     /// Offsets of its corners from its middle.
-    pub fn corners(&self) -> [Place; 4] {
+    pub fn corners(&self) -> [Position; 4] {
         let [x, y] = self.half;
         [[-x, -y], [x, -y], [-x, y], [x, y]]
     }

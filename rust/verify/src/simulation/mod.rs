@@ -55,11 +55,11 @@ fn cuts(segments: &[Segment]) -> (Vec<Cut>, Vec<ArcPath>) {
     let mut arcs = Vec::new();
     let cut = |segment: Segment| {
         let tool = segment.tool? as u32;
-        let Some(way) = segment.bend else {
+        let Some(path) = segment.bend else {
             return Some(Cut::straight(segment.start.unwrap_or(segment.end), segment.end, tool));
         };
-        arcs.push(way);
-        Some(Cut::bent(&way, arcs.len() as u32 - 1, tool))
+        arcs.push(path);
+        Some(Cut::bent(&path, arcs.len() as u32 - 1, tool))
     };
     (segments.iter().flat_map(Segment::pieces).filter_map(cut).collect(), arcs)
 }
