@@ -29,31 +29,31 @@ pub fn rows<T: numpy::Element + Copy + Default, const K: usize>(
     Ok(view.rows().into_iter().map(row).collect())
 }
 
-/// Coordinates farther out than this are no place for a tool, mm.
+/// No tool stands farther out than this, mm.
 const FARTHEST: f64 = 1e9;
 
-/// Places (N, 2) in plan.
+/// Positions (N, 2) in plan.
 pub fn places(array: &PyReadonlyArray2<'_, f64>, name: &str) -> PyResult<Vec<[f64; 2]>> {
-    let places = rows::<f64, 2>(array, name)?;
-    match places.iter().position(|place| !place.iter().copied().all(is_place)) {
+    let positions = rows::<f64, 2>(array, name)?;
+    match positions.iter().position(|position| !position.iter().copied().all(is_in_range)) {
         Some(i) => {
-            let message = format!("{name}[{i}] = {:?}: places within {FARTHEST:e} mm expected", places[i]);
+            let message = format!("{name}[{i}] = {:?}: coordinates must lie within +/-{FARTHEST:e} mm", positions[i]);
             Err(raise("GeometryError", &message, "out-of-range", name, "lengths are in mm"))
         }
-        None => Ok(places),
+        None => Ok(positions),
     }
 }
 
 /// A height at which a tool may stand.
 pub fn height(z: f64, name: &str) -> PyResult<f64> {
-    if is_place(z) {
+    if is_in_range(z) {
         return Ok(z);
     }
-    let message = format!("{name} = {z:e}: a height within {FARTHEST:e} mm expected");
+    let message = format!("{name} = {z:e}: a height within +/-{FARTHEST:e} mm expected");
     Err(raise("GeometryError", &message, "out-of-range", name, "lengths are in mm"))
 }
 
-fn is_place(coordinate: f64) -> bool {
+fn is_in_range(coordinate: f64) -> bool {
     coordinate.abs() <= FARTHEST
 }
 

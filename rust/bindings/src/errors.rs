@@ -7,18 +7,18 @@ use styluscam_job::JobError;
 use styluscam_motion::Cancelled;
 use styluscam_post::{TraceError, TraceFault};
 
-/// The exception of class `class` with its code, place and hint.
-pub fn raise(class: &str, message: &str, code: &str, place: &str, hint: &str) -> PyErr {
-    Python::attach(|py| match build(py, class, message, code, place, hint) {
+/// The exception of class `class` with its code, location and hint.
+pub fn raise(class: &str, message: &str, code: &str, location: &str, hint: &str) -> PyErr {
+    Python::attach(|py| match build(py, class, message, code, location, hint) {
         Ok(error) => error,
         Err(failure) => failure, // the package is broken: that is the thing to show
     })
 }
 
-fn build(py: Python<'_>, class: &str, message: &str, code: &str, place: &str, hint: &str) -> PyResult<PyErr> {
+fn build(py: Python<'_>, class: &str, message: &str, code: &str, location: &str, hint: &str) -> PyResult<PyErr> {
     let keywords = PyDict::new(py);
     keywords.set_item("code", code)?;
-    keywords.set_item("where", place)?;
+    keywords.set_item("where", location)?;
     keywords.set_item("hint", hint)?;
     let exception = py.import("styluscam.errors")?.getattr(class)?.call((message,), Some(&keywords))?;
     Ok(PyErr::from_value(exception))

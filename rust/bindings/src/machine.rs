@@ -16,7 +16,7 @@ pub struct Machine {
     pub(crate) machine: styluscam_post::Machine,
 }
 
-/// Name, outcome ("passed", "without", "failed"), what is said about it, code, place, the posted line, what to do, the text.
+/// Name, outcome ("passed", "without", "failed"), what is reported about it, code, position, the posted line, what to do, the text.
 type Tried = (String, &'static str, String, &'static str, String, String, String, String);
 
 #[pymethods]
@@ -74,7 +74,7 @@ impl Machine {
         &self.machine.description
     }
 
-    /// One unit of the last posted place, mm.
+    /// One unit of the last posted decimal, mm.
     #[getter]
     fn resolution_mm(&self) -> f64 {
         self.machine.resolution_mm()
@@ -97,8 +97,8 @@ fn tried(trial: Trial) -> Tried {
     let none = String::new;
     match outcome {
         Outcome::Passed => {
-            let said = format!("{} lines", text.lines().count());
-            (name, "passed", said, "", none(), none(), none(), text)
+            let report = format!("{} lines", text.lines().count());
+            (name, "passed", report, "", none(), none(), none(), text)
         }
         Outcome::Without { reason } => (name, "without", reason, "", none(), none(), none(), text),
         Outcome::Failed(error) => {

@@ -31,7 +31,7 @@ impl Part {
     /// The triangles' index, built when it is first asked for.
     ///
     /// # Errors
-    /// `Cancelled` when `watch` says so; the next call builds it anew.
+    /// `Cancelled` when `watch` is cancelled; the next call builds it anew.
     pub(crate) fn index(&self, watch: &Watch) -> Result<&Index, Cancelled> {
         let _alone = self.building.lock();
         if self.index.get().is_none() {

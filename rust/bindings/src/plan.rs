@@ -31,7 +31,7 @@ impl Plan {
         programs.map(|(name, channel)| (*name, Program { program: channel.program.clone() })).collect()
     }
 
-    /// The summary of a channel as JSON and the lines for its header; with the judgement of its text where there is one.
+    /// The summary of a channel as JSON and the lines for its header; with the verification of its text where there is one.
     #[pyo3(signature = (channel, scene, machine, judgement=None))]
     fn summary(
         &self,

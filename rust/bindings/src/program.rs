@@ -28,7 +28,7 @@ type Columns<'py> = (
     Bound<'py, PyArray1<u32>>,
 );
 
-/// Places and the moves that they belong to.
+/// Positions and the moves that they belong to.
 type Polyline<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<u32>>);
 
 fn kind_of(step: &Move) -> u8 {
@@ -105,7 +105,7 @@ impl Program {
         self.program.moves.len()
     }
 
-    /// Places along the program (M, 3) and the move that each belongs to (M,); no chord is farther than `sag` mm from its arc.
+    /// Positions along the program (M, 3) and the move that each belongs to (M,); no chord is farther than `sag` mm from its arc.
     fn polyline<'py>(&self, py: Python<'py>, sag: f64) -> PyResult<Polyline<'py>> {
         if sag.is_nan() || sag <= 0.0 {
             return Err(errors::raise(
@@ -116,8 +116,8 @@ impl Program {
                 "give a length above 0, in mm",
             ));
         }
-        let (places, moves): (Vec<_>, Vec<_>) = self.program.polyline(sag).map(|(p, i)| (p, i as u32)).unzip();
-        Ok((arrays::matrix(py, places.into_iter())?, PyArray1::from_vec(py, moves)))
+        let (positions, moves): (Vec<_>, Vec<_>) = self.program.polyline(sag).map(|(p, i)| (p, i as u32)).unzip();
+        Ok((arrays::matrix(py, positions.into_iter())?, PyArray1::from_vec(py, moves)))
     }
 
     /// The time at the end of every move (N,), s, and of the whole program, on a machine.

@@ -40,7 +40,7 @@ impl Scene {
         plates.into_iter().map(|plate| (plate.holder.name(), plate.opening, plate.heights)).collect()
     }
 
-    /// Radius (mm) up to which a tool from above fits nearly all concave places; None where nothing bounds it.
+    /// Radius (mm) up to which a tool from above fits nearly all concave regions; None where nothing bounds it.
     #[getter]
     fn fitting_radius(&self, py: Python<'_>) -> Option<f64> {
         py.detach(|| styluscam_job::fitting_radius(&self.scene.mesh, &self.scene.bvh))

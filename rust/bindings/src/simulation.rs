@@ -19,7 +19,7 @@ pub struct Simulation {
 
 #[pymethods]
 impl Simulation {
-    /// From what the getters give: the first node, the way from one to the next, heights (rows, columns) and that before.
+    /// From what the getters give: the first node, the step from one to the next, heights (rows, columns) and that before.
     #[new]
     #[allow(clippy::needless_pass_by_value)] // PyO3 hands arrays by value
     fn new(origin: [f64; 2], step: [f64; 2], heights: PyReadonlyArray2<'_, f64>, top: f64) -> Self {

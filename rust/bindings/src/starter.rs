@@ -8,7 +8,7 @@ use crate::part::Part;
 /// A face for a starter job: name, kind, area (mm^2), smallest and largest slope (degrees).
 type ListedFace = (String, String, f64, [f64; 2]);
 
-/// A commented job for a part that has none yet, and the sentences that say why it is so.
+/// A commented job for a part that has none yet, and the sentences that state why it is so.
 #[pyfunction]
 #[pyo3(signature = (part, file, faces, units=None, edge_gap=0.0))]
 pub fn starter(

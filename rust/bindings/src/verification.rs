@@ -17,7 +17,7 @@ use crate::{
     waiting::{watched, CancelToken},
 };
 
-/// A judged text.
+/// A text that was checked.
 #[pyclass(frozen, module = "styluscam._engine")]
 pub struct Judgement {
     pub(crate) judgement: styluscam_job::Judgement,
@@ -113,7 +113,7 @@ impl Judgement {
     }
 }
 
-/// Judges a text against a job's part.
+/// Checks a text against a job's part.
 #[pyfunction]
 #[pyo3(signature = (job, scene, machine, text, progress=None, cancel=None))]
 pub fn judge(

@@ -1,4 +1,4 @@
-//! Posts moves that are made one by one, and says how many a second and how much memory that took:
+//! Posts moves that are made one by one, and prints how many a second and how much memory that took:
 //! `cargo run --release -p styluscam-post --example stream -- 10000000`.
 
 #![allow(clippy::disallowed_methods)] // nothing here reaches a program
@@ -51,7 +51,7 @@ impl Write for Counted {
     }
 }
 
-/// The process's largest resident size, as the system says it.
+/// The process's largest resident size, as the system reports it.
 fn peak_memory_mb() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

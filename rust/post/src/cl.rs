@@ -5,18 +5,18 @@ use styluscam_motion::{EventKind, FeedMode, Move, MoveKind, Program, SpindleDire
 use crate::number::{write_integer, NumberFormat};
 use crate::post_error::PostError;
 
-/// Decimal places of places and feeds, mm and mm/min; of directions.
+/// Decimal places of positions and feeds, mm and mm/min; of directions.
 const PLACES: u8 = 4;
 const VECTOR_PLACES: u8 = 7;
 /// How far the points of an arc's polyline may leave it, mm.
 const SAG: f64 = 0.001;
 
-/// The cutter location data of a program, in mm: places are those of the tip. Arcs become points, none farther than 0.001 mm
-/// from its arc. Where any tool axis is not +Z, every place has its
+/// The cutter location data of a program, in mm: positions are those of the tip. Arcs become points, none farther than 0.001 mm
+/// from its arc. Where any tool axis is not +Z, every position has its
 /// axis behind it.
 ///
 /// # Errors
-/// [`PostError::Number`] for a place or feed that is no number; [`PostError::FeedMode`] for a feed that is not in mm/min;
+/// [`PostError::Number`] for a position or feed that is no number; [`PostError::FeedMode`] for a feed that is not in mm/min;
 /// [`PostError::Empty`] without moves.
 pub fn cl_text(program: &Program) -> Result<String, PostError> {
     if program.moves.is_empty() {
@@ -34,14 +34,14 @@ pub fn cl_text(program: &Program) -> Result<String, PostError> {
             MoveKind::Rapid => out.line("RAPID"),
             MoveKind::Feed => out.feed(index, step)?,
         }
-        let way = start.and_then(|start| step.path(start));
-        let count = way.map_or(1, |way| way.chords(SAG));
+        let path = start.and_then(|start| step.path(start));
+        let count = path.map_or(1, |path| path.chords(SAG));
         for chord in 1..=count {
-            let place = match way {
-                Some(way) if chord < count => way.at(chord as f64 / count as f64),
+            let position = match path {
+                Some(path) if chord < count => path.at(chord as f64 / count as f64),
                 _ => step.end.tip,
             };
-            out.goto(index, place, tilted.then_some(step.end.axis))?;
+            out.goto(index, position, tilted.then_some(step.end.axis))?;
         }
     }
     events.before(program.moves.len()).try_for_each(|event| out.event(program, event))?;
@@ -69,10 +69,10 @@ impl Text {
         Ok(())
     }
 
-    fn goto(&mut self, index: usize, place: [f64; 3], axis: Option<UnitAxis>) -> Result<(), PostError> {
+    fn goto(&mut self, index: usize, position: [f64; 3], axis: Option<UnitAxis>) -> Result<(), PostError> {
         self.out.push_str("GOTO/");
         let vector = axis.into_iter().flat_map(UnitAxis::vector).map(|v| (VECTOR_PLACES, v));
-        for (number, (places, value)) in place.into_iter().map(|v| (PLACES, v)).chain(vector).enumerate() {
+        for (number, (places, value)) in position.into_iter().map(|v| (PLACES, v)).chain(vector).enumerate() {
             if number > 0 {
                 self.out.push(',');
             }

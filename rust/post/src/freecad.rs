@@ -68,9 +68,9 @@ pub fn read_path(sections: &[PathSection], tools: &[ToolRecord], setup: SetupRec
 /// A section's commands; a tool controller that starts no spindle leaves it standing.
 fn text_of(section: &PathSection) -> String {
     let mut text = with_remarks(&section.text);
-    let says =
+    let has =
         |words: &[&str]| text.lines().any(|line| line.split(' ').next().is_some_and(|word| words.contains(&word)));
-    if section.kind.is_none() && says(&["M6", "M06"]) && !says(&["M3", "M03", "M4", "M04"]) {
+    if section.kind.is_none() && has(&["M6", "M06"]) && !has(&["M3", "M03", "M4", "M04"]) {
         text.push_str("M5\n");
     }
     text

@@ -98,9 +98,9 @@ impl<'a> Inspector<'a> {
         }
         let limits = &self.machine.limits;
         let ranges = [limits.x, limits.y, limits.z];
-        for (axis, place) in end.into_iter().enumerate() {
+        for (axis, position) in end.into_iter().enumerate() {
             let above = if axis == 2 { self.height } else { 0.0 };
-            place.map_or(Ok(()), |place| inspect_limit(self.moves, axis, place + above, ranges[axis]))?;
+            position.map_or(Ok(()), |position| inspect_limit(self.moves, axis, position + above, ranges[axis]))?;
         }
         Ok(())
     }

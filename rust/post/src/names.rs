@@ -20,7 +20,7 @@ pub const NAMES: [(&str, &str); 29] = [
     ("program.part_max", "its upper corner"),
     ("program.clearance", "height at which rapids may cross the part, mm"),
     ("program.deepest_z", "lowest Z of a tip at feed, mm"),
-    ("program.notes", "what planning and verification have to say, a list of texts"),
+    ("program.notes", "what planning and verification report, a list of texts"),
     ("program.uses_spindle", "whether the spindle turns"),
     ("tools", "the tools, a list; each as `tool` in tool_change"),
     ("units", "mm or inch"),
@@ -29,7 +29,7 @@ pub const NAMES: [(&str, &str); 29] = [
     ("wcs", "the machine's words for the work offset"),
     ("wcs_number", "which work offset it is, from 1"),
     ("end", "the code that ends the program"),
-    ("smoothing", "the block that says how closely the path is kept; empty where there is none"),
+    ("smoothing", "the block that states how closely the path is kept; empty where there is none"),
     ("path_tolerance", "how closely that is, in words"),
     ("has_length_offsets", "whether the machine takes length offsets"),
     ("length_with_z", "whether they stand in the first block that moves Z"),
@@ -88,7 +88,7 @@ pub(crate) fn unknown_name<'n>(
     };
     let mut strangers: BTreeMap<(usize, usize), &str> = BTreeMap::new();
     for name in used.filter(|name| !known(name)) {
-        strangers.insert(place(source, name), name);
+        strangers.insert(position(source, name), name);
     }
     let ((line, column), name) = strangers.into_iter().next()?;
     let similar = most_similar(name, names);
@@ -98,7 +98,7 @@ pub(crate) fn unknown_name<'n>(
 }
 
 /// Line and column, from 1, where a name stands first.
-fn place(source: &str, name: &str) -> (usize, usize) {
+fn position(source: &str, name: &str) -> (usize, usize) {
     let at = source.match_indices(name).map(|(at, _)| at).find(|at| {
         let edge = |c: Option<char>| c.is_none_or(|c| !c.is_ascii_alphanumeric() && c != '_' && c != '.');
         let (before, after) = (source.get(..*at), source.get(at + name.len()..));

@@ -14,7 +14,7 @@ pub enum PostError {
     /// The machine's own values or templates are at fault. Correct the machine file.
     #[error(transparent)]
     Machine(#[from] MachineError),
-    /// The program has no moves. Look at why planning found nothing to do.
+    /// The program has no moves. Find out why planning found nothing to do.
     #[error("the program has no moves")]
     Empty,
     /// The machine has no such work offset. Take one that it has.
@@ -226,7 +226,7 @@ pub enum PostError {
         /// The move.
         index: usize,
     },
-    /// The text could not be written where it goes. Look at the disk.
+    /// The text could not be written where it goes. Check the disk.
     #[error("the text cannot be written: {message}")]
     Output {
         /// The system's message.
@@ -270,7 +270,7 @@ impl PostError {
 codes_and_hints! {
     PostError, String;
     Self::Machine(error) => error.code(), error.hint();
-    Self::Empty => "post-empty", "look at why planning found nothing to do";
+    Self::Empty => "post-empty", "find out why planning found nothing to do";
     Self::Wcs { .. } => "post-wcs", "take a work offset that the machine has";
     Self::Number { .. } => "post-number", "whoever built the program is at fault: report it";
     Self::Feed { .. } => "post-feed", "give the operation a feed above zero";
@@ -297,5 +297,5 @@ codes_and_hints! {
     Self::FeedMode { .. } => "post-feed-mode", "give the feed in mm/min: the machine file's feed mode decides how it is written";
     Self::NoSuchAxis { .. } => "post-no-such-axis", "turn the part into the machine's plane, or take another machine";
     Self::NoRevolutions { .. } => "post-no-revolutions", "turn the spindle on first, or take feed_mode = \"per-minute\"";
-    Self::Output { .. } => "post-output", "look at the disk that it goes to";
+    Self::Output { .. } => "post-output", "check the disk that it goes to";
 }

@@ -48,10 +48,10 @@ impl RoundedArc {
             return false;
         }
         let scale = [self.x_scale, 1.0, 1.0];
-        let place = |count: [i64; 3]| [0, 1, 2].map(|axis| count[axis] as f64 * unit / scale[axis]);
-        let start = place(self.from);
+        let position = |count: [i64; 3]| [0, 1, 2].map(|axis| count[axis] as f64 * unit / scale[axis]);
+        let start = position(self.from);
         let centre = [0, 1, 2].map(|axis| start[axis] + self.offset[axis] as f64 * unit);
-        let posted = Arc { centre, ..self.arc }.path(start, place(self.to));
+        let posted = Arc { centre, ..self.arc }.path(start, position(self.to));
         let as_meant = (posted.sweep() - path.sweep()).abs() < 1.0 && posted.sweep().abs() > LEAST;
         let radius = posted.radius();
         let in_range =

@@ -277,7 +277,7 @@ fn words(format: NumberFormat, value: f64) -> String {
 
 /// The smoothing tolerance in output units, rounded down; none when nothing is left of it.
 ///
-/// It carries two places more than coordinates do, so that rounding takes little of it.
+/// It carries two decimals more than coordinates do, so that rounding takes little of it.
 pub(crate) fn tolerance_words(machine: &Machine) -> Option<String> {
     let format = NumberFormat::plain(machine.decimals().linear.saturating_add(2));
     let exact = machine.smoothing.tolerance / machine.units.output.in_mm() * format.per_one();

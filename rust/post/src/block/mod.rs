@@ -1,4 +1,4 @@
-//! What all who interpret blocks share: numbers and words, comments, the table of codes, modal state, arcs, the program that
+//! What all who interpret blocks share: numbers and words, comments, the table of codes, modal state, arcs, cycles, the program that
 //! is recorded.
 //!
 //! The [`reader`](crate::reader) is strict, because verification stands on it; the [tracer](crate::ngc) shows what it
@@ -7,6 +7,7 @@
 pub(crate) mod arc;
 mod codes;
 mod comments;
+mod cycle;
 mod modes;
 mod number;
 mod recorder;
@@ -14,7 +15,8 @@ mod words;
 
 pub(crate) use codes::{g_code, m_code, Code, Length, Motion, Stop};
 pub(crate) use comments::{CommentFault, Comments};
+pub(crate) use cycle::{end_height, CycleWords};
 pub(crate) use modes::{Feed, FeedFault, Modes};
 pub(crate) use number::{code, cut_number, Misfit, Number};
 pub(crate) use recorder::Recorder;
-pub(crate) use words::{Twice, Words};
+pub(crate) use words::{once, Twice, Words};

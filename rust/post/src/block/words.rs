@@ -27,9 +27,7 @@ impl<V: Copy> Words<V> {
     }
 
     pub fn put(&mut self, letter: u8, value: V) -> Result<(), Twice> {
-        let slot = self.0.get_mut(index(letter)).filter(|slot| slot.is_none()).ok_or(Twice)?;
-        *slot = Some(value);
-        Ok(())
+        self.0.get_mut(index(letter)).map_or(Err(Twice), |slot| once(slot, value))
     }
 
     /// X, Y and Z.
@@ -47,6 +45,11 @@ impl<V> Default for Words<V> {
     fn default() -> Self {
         Self([const { None }; 26])
     }
+}
+
+/// Puts a value into a slot that is free.
+pub(crate) fn once<V>(slot: &mut Option<V>, value: V) -> Result<(), Twice> {
+    slot.replace(value).map_or(Ok(()), |_| Err(Twice))
 }
 
 fn index(letter: u8) -> usize {

@@ -176,7 +176,11 @@ fn check_smoothing(machine: &Machine) -> Result<(), MachineError> {
     let exact = smoothing.tolerance <= 0.0;
     require(exact || smoothing.on.is_some(), "smoothing.on", "a tolerance needs the block that sets it")?;
     let rounded_away = !exact && crate::template::tolerance_words(machine).is_none();
-    require(!rounded_away, "smoothing.tolerance", "it is smaller than the numbers can say; take 0 for an exact path")
+    require(
+        !rounded_away,
+        "smoothing.tolerance",
+        "it is smaller than the last decimal of the numbers; take 0 for an exact path",
+    )
 }
 
 fn check_arc(machine: &Machine) -> Result<(), MachineError> {

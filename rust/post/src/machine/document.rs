@@ -49,7 +49,7 @@ impl Machine {
     /// The same for what a machine file holds in another form than TOML, such as JSON; null is no value.
     ///
     /// # Errors
-    /// Those of [`from_toml`](Self::from_toml), with keys for places.
+    /// Those of [`from_toml`](Self::from_toml), with keys in place of lines.
     pub fn from_values<'de, D: serde::Deserializer<'de>>(
         values: D,
         file: &dyn Fn(&str) -> Option<String>,
@@ -67,7 +67,7 @@ impl Machine {
     /// The whole of it as a machine file that extends nothing.
     ///
     /// # Errors
-    /// [`MachineError::Document`] for values that a file cannot say.
+    /// [`MachineError::Document`] for values that a file cannot hold.
     pub fn to_toml(&self) -> Result<String, MachineError> {
         toml::to_string_pretty(self).map_err(|e| MachineError::Document {
             place: self.name.clone(),

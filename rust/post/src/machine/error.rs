@@ -6,7 +6,7 @@ use super::shipped::shipped;
 
 /// A machine that cannot be used.
 ///
-/// Each variant says when it occurs and what to do about it; [`code`](Self::code) is stable.
+/// Each variant states when it occurs and what to do about it; [`code`](Self::code) is stable.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum MachineError {
     /// No machine of this name is shipped. Take one of the names listed, or give a file.
@@ -17,7 +17,7 @@ pub enum MachineError {
         /// The shipped name most like it.
         similar: Option<String>,
     },
-    /// The file is not TOML, or a key is unknown, missing or of the wrong kind. Correct the place named.
+    /// The file is not TOML, or a key is unknown, missing or of the wrong kind. Correct the key or line named.
     #[error("{place}: {message}")]
     Document {
         /// Key, or line of the file.
@@ -30,7 +30,7 @@ pub enum MachineError {
     /// The file was written for a newer release. Update `StylusCAM`.
     #[error("schema {found} is newer than {known}, the one that this release reads")]
     Schema {
-        /// What the file says.
+        /// What the file states.
         found: u32,
         /// What this release reads.
         known: u32,
@@ -106,7 +106,7 @@ impl MachineError {
             Self::UnknownMachine { .. } => {
                 format!("shipped machines: {}; anything else is the path of a machine file", shipped().join(", "))
             }
-            Self::Document { .. } => "correct the machine file at this place".into(),
+            Self::Document { .. } => "correct this key or line of the machine file".into(),
             Self::Schema { .. } => "update StylusCAM, or write the file for this release".into(),
             Self::Value { .. } => "correct this key of the machine file".into(),
             Self::Template { .. } => "correct the template at this line".into(),

@@ -30,7 +30,7 @@ fn with_parents(
     depth: usize,
 ) -> Result<Table, MachineError> {
     let Some(parent) = own.remove(EXTENDS) else { return Ok(own) };
-    let wrong = |message: String| MachineError::Document { place: place(text, EXTENDS), message, similar: None };
+    let wrong = |message: String| MachineError::Document { place: position(text, EXTENDS), message, similar: None };
     let Value::String(name) = parent else { return Err(wrong("name a shipped machine, or a file".into())) };
     let Some(depth) = depth.checked_sub(1) else { return Err(wrong("files extend one another without end".into())) };
     let parent_text = match file(&name) {
@@ -39,7 +39,7 @@ fn with_parents(
     };
     let parent: Table = toml::from_str(&parent_text).map_err(|e| wrong(format!("{name}: {}", e.message())))?;
     let mut whole = with_parents(parent, &parent_text, file, depth)?;
-    // what was read for the parent says nothing about this machine
+    // what was read for the parent states nothing about this machine
     whole.insert("source".into(), Value::Table(unread(&name)));
     if own.contains_key("wcs") && !own.contains_key("wcs_words") {
         whole.remove("wcs_words"); // they go with the list that was there
@@ -77,11 +77,11 @@ fn syntax_error(text: &str, error: &toml::de::Error) -> MachineError {
 fn document_error(text: &str, error: &serde_path_to_error::Error<toml::de::Error>) -> MachineError {
     let message = error.inner().message().to_string();
     let path = error.path().to_string();
-    MachineError::Document { place: place(text, &path), similar: similar_key(&message), message }
+    MachineError::Document { place: position(text, &path), similar: similar_key(&message), message }
 }
 
 /// A key, with its line where it stands in this text.
-fn place(text: &str, path: &str) -> String {
+fn position(text: &str, path: &str) -> String {
     match line_of_key(text, path) {
         Some(line) if path == "." => format!("line {line}"),
         Some(line) => format!("{path} (line {line})"),
@@ -89,7 +89,7 @@ fn place(text: &str, path: &str) -> String {
     }
 }
 
-/// The line of a key or of the last table on its way that the text has.
+/// The line of a key or of the last table on its path that the text has.
 fn line_of_key(text: &str, path: &str) -> Option<usize> {
     let document = DeTable::parse(text).ok()?;
     let mut table = document.get_ref();

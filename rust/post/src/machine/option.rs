@@ -65,7 +65,7 @@ pub struct OptionRule {
 }
 
 impl OptionRule {
-    /// Says in words why `value` cannot be taken, if so.
+    /// States in words why `value` cannot be taken, if so.
     pub(crate) fn refuses(&self, value: &OptionValue) -> Option<String> {
         if value.kind() != self.value.kind() {
             return Some(format!("it takes {}, not {}", self.value.kind(), value.kind()));

@@ -34,7 +34,7 @@ impl Machine {
     }
 }
 
-/// Sets an option that every machine has; says whether there is one of this name.
+/// Sets an option that every machine has; returns whether there is one of this name.
 fn set_built_in(machine: &mut Machine, name: &str, value: &OptionValue) -> Result<bool, MachineError> {
     let takes = BUILT_IN_OPTIONS.iter().find(|(known, _)| *known == name).map(|(_, takes)| *takes);
     let Some(takes) = takes else { return Ok(false) };
@@ -104,7 +104,7 @@ fn set_decimals(machine: &mut Machine, places: f64) -> bool {
     true
 }
 
-/// Klartext cannot do without them.
+/// Klartext always has them.
 fn set_block_numbers(machine: &mut Machine, on: bool) -> bool {
     if machine.family == Family::Klartext {
         return on;

@@ -30,7 +30,7 @@ pub struct Machine {
     pub family: Family,
     /// What it is, in words.
     pub description: String,
-    /// Work offsets that it takes: `G54`, `G54.1 P1`. The first is in force when a program says none.
+    /// Work offsets that it takes: `G54`, `G54.1 P1`. The first is in force when a program states none.
     pub wcs: Vec<String>,
     /// What the controller calls them, one for one, where that differs: `G15 H1`.
     #[serde(default)]
@@ -63,7 +63,7 @@ pub struct Machine {
     pub feed: FeedRules,
     /// Tool changes and lengths.
     pub tool: ToolRules,
-    /// The way up between tools.
+    /// The retract between tools.
     #[serde(default)]
     pub retract: RetractRules,
     /// Spindle words.
@@ -98,19 +98,19 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// One unit of the last posted place, mm: rounding moves a coordinate by half of it at most.
+    /// One unit of the last posted decimal, mm: rounding moves a coordinate by half of it at most.
     #[must_use]
     pub fn resolution_mm(&self) -> f64 {
         self.units.output.in_mm() / self.linear_format().per_one()
     }
 
-    /// One unit of the last posted place of a feed, mm/min.
+    /// One unit of the last posted decimal of a feed, mm/min.
     #[must_use]
     pub fn feed_resolution_mm(&self) -> f64 {
         self.units.output.in_mm() / self.feed_format().per_one() / self.feed_scale()
     }
 
-    /// One unit of the last posted place of a spindle's speed, rev/min.
+    /// One unit of the last posted decimal of a spindle's speed, rev/min.
     #[must_use]
     pub fn speed_resolution(&self) -> f64 {
         let unit = NumberFormat::plain(self.number.rpm).per_one().recip();
@@ -150,12 +150,12 @@ impl Machine {
         }
     }
 
-    /// The way coordinates are written.
+    /// How coordinates are written.
     pub(crate) fn linear_format(&self) -> NumberFormat {
         NumberFormat::new(&self.number, self.decimals().linear)
     }
 
-    /// The way feeds are written in the mode in force; they are never negative.
+    /// How feeds are written in the mode in force; they are never negative.
     pub(crate) fn feed_format(&self) -> NumberFormat {
         let decimals = self.decimals();
         let places = match self.feed.mode {

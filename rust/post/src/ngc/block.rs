@@ -3,7 +3,7 @@
 use super::codes::known_g;
 use super::expression::{natural, Cursor, Key, Values};
 use super::fault::TraceFault;
-use crate::block::{Code, Twice, Words};
+use crate::block::{once, Code, Twice, Words};
 
 /// A block with its values worked out.
 #[derive(Clone, Debug, Default)]
@@ -38,13 +38,13 @@ impl Block {
                 }
                 b'g' => block.g.push(tenths(cursor.value()?)?),
                 b'm' => block.m.push(whole(cursor.value()?, "M")?),
-                b'@' => once(&mut block.distance, cursor.value()?, '@')?,
-                b'$' => once(&mut block.spindle, cursor.value()?, '$')?,
-                b'^' => once(&mut block.angle, cursor.value()?, '^')?,
+                b'@' => once(&mut block.distance, cursor.value()?).map_err(twice('@'))?,
+                b'$' => once(&mut block.spindle, cursor.value()?).map_err(twice('$'))?,
+                b'^' => once(&mut block.angle, cursor.value()?).map_err(twice('^'))?,
                 b'a'..=b'z' if !matches!(byte, b'n' | b'o') => {
                     let letter = char::from(byte.to_ascii_uppercase());
                     let value = cursor.value()?;
-                    block.words.put(byte, value).map_err(|Twice| TraceFault::WordTwice { letter })?;
+                    block.words.put(byte, value).map_err(twice(letter))?;
                 }
                 _ => return Err(TraceFault::Character { character: character_at(code, byte) }),
             }
@@ -107,11 +107,8 @@ impl Block {
     }
 }
 
-fn once(slot: &mut Option<f64>, value: f64, letter: char) -> Result<(), TraceFault> {
-    match slot.replace(value) {
-        Some(_) => Err(TraceFault::WordTwice { letter }),
-        None => Ok(()),
-    }
+fn twice(letter: char) -> impl Fn(Twice) -> TraceFault {
+    move |Twice| TraceFault::WordTwice { letter }
 }
 
 fn whole(value: f64, what: &'static str) -> Result<u32, TraceFault> {

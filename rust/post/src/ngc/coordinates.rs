@@ -3,7 +3,7 @@
 use super::block::Block;
 use super::fault::TraceFault;
 use super::note::Gap;
-use super::offsets::{less, System, SYSTEMS};
+use super::offsets::{less, system_code, System, SYSTEMS};
 use super::path::Pace;
 use super::tracer::Tracer;
 use styluscam_motion::MoveKind;
@@ -37,11 +37,7 @@ impl Tracer<'_> {
 
     pub(super) fn set_system(&mut self, block: &Block) {
         for code in &block.g {
-            let index = match code {
-                540..=590 if code % 10 == 0 => (*code as usize - 540) / 10,
-                591..=593 => *code as usize - 585,
-                _ => continue,
-            };
+            let Some(index) = (0..SYSTEMS).find(|index| system_code(*index) == *code) else { continue };
             let set = self.offsets.stored.get(index).is_some_and(|stored| *stored != System::default());
             if index != self.offsets.index && !set {
                 self.note(Gap::WorkOffset);
@@ -198,14 +194,14 @@ impl Tracer<'_> {
     }
 
     /// L2 and L20: the zero of a coordinate system.
-    fn set_zero(&mut self, block: &Block, index: usize, from_place: bool) {
+    fn set_zero(&mut self, block: &Block, index: usize, measured_here: bool) {
         let words = self.lengths(block);
         let machine = self.offsets.in_machine(self.position);
-        let turn = block.word(b'r').filter(|_| !from_place);
+        let turn = block.word(b'r').filter(|_| !measured_here);
         let measured = self.offsets.origin_for(machine, words, index);
         let Some(stored) = self.offsets.stored.get_mut(index) else { return };
         let origin =
-            if from_place { measured } else { [0, 1, 2].map(|axis| words[axis].unwrap_or(stored.origin[axis])) };
+            if measured_here { measured } else { [0, 1, 2].map(|axis| words[axis].unwrap_or(stored.origin[axis])) };
         *stored = System { origin, turn_deg: turn.unwrap_or(stored.turn_deg) };
         if index == self.offsets.index {
             self.call_system(index);

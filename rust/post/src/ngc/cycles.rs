@@ -3,6 +3,7 @@
 use super::block::Block;
 use super::fault::TraceFault;
 use super::tracer::Tracer;
+use crate::block::{end_height, CycleWords};
 
 /// mm: how far a peck goes back to break the chip, and how far above the last depth the next one begins.
 const BACK: f64 = 0.254;
@@ -36,22 +37,24 @@ impl Tracer<'_> {
     }
 
     fn heights(&mut self, block: &Block, along: usize) -> Result<Heights, TraceFault> {
-        let begin = *self.cycle.begin.get_or_insert(self.position[along]);
+        let begin = *self.cycle.initial.get_or_insert(self.position[along]);
+        // as written: a change of the unit changes the words in force
         let unit = self.modes.unit();
-        let bottom = self.lengths(block)[along].map(|length| length / unit);
-        let sticky = &mut self.cycle;
-        sticky.bottom = bottom.or(sticky.bottom);
-        sticky.retract = block.word(b'r').or(sticky.retract);
-        sticky.peck = block.word(b'q').or(sticky.peck);
-        sticky.wait = block.word(b'p').or(sticky.wait);
-        let retract = unit * sticky.retract.ok_or(TraceFault::WordMissing { what: "R of a cycle" })?;
-        let bottom = unit * sticky.bottom.ok_or(TraceFault::WordMissing { what: "the depth of a cycle" })?;
+        self.cycle.take(CycleWords {
+            initial: None,
+            bottom: self.lengths(block)[along].map(|length| length / unit),
+            retract: block.word(b'r'),
+            peck: block.word(b'q'),
+            dwell: block.word(b'p'),
+        });
+        let retract = unit * self.cycle.retract.ok_or(TraceFault::WordMissing { what: "R of a cycle" })?;
+        let bottom = unit * self.cycle.bottom.ok_or(TraceFault::WordMissing { what: "the depth of a cycle" })?;
         let (retract, bottom) =
             if self.modes.common.incremental { (begin + retract, begin + retract + bottom) } else { (retract, bottom) };
         if bottom > retract {
             return Err(TraceFault::CycleDepths);
         }
-        let clear = if self.modes.common.low_return { retract } else { begin.max(retract) };
+        let clear = end_height(self.modes.common.low_return, retract, begin);
         Ok(Heights { begin, retract, bottom, clear })
     }
 
@@ -61,7 +64,7 @@ impl Tracer<'_> {
             _ => self.feed_along(along, heights.bottom)?,
         }
         if matches!(code, 740 | 820 | 840 | 860 | 880 | 890) {
-            if let Some(seconds) = self.cycle.wait {
+            if let Some(seconds) = self.cycle.dwell {
                 self.wait(seconds)?;
             }
         }

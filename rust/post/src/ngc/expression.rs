@@ -391,7 +391,7 @@ mod tests {
     }
 
     #[test]
-    fn parameters_are_looked_up_and_what_has_no_value_is_told() {
+    fn parameters_are_looked_up_and_what_has_no_value_is_reported() {
         assert_eq!(value("#7"), Ok(7.5));
         assert_eq!(value("#[2+3]"), Ok(5.5));
         assert_eq!(value("#<one>"), Ok(1.0));

@@ -14,7 +14,7 @@ use super::tracer::{Next, Tracer};
 /// Subroutines within subroutines.
 const DEPTH: usize = 100;
 
-/// Names that were looked for in vain and are remembered.
+/// Names that were not found and are remembered.
 const REMEMBERED: usize = 1000;
 
 impl Tracer<'_> {
@@ -191,9 +191,9 @@ impl Tracer<'_> {
 
     /// The file and the line that open a subroutine: here, in a file that is known, or in one of its name.
     fn find_subroutine(&mut self, label: &str) -> Option<(usize, usize)> {
-        let place = |source: &Rc<Source>| source.subroutine(label).or_else(|| source.number(label));
-        let here = self.sources.get(self.file).and_then(place).map(|line| (self.file, line));
-        let known = || self.sources.iter().enumerate().find_map(|(file, source)| Some((file, place(source)?)));
+        let start = |source: &Rc<Source>| source.subroutine(label).or_else(|| source.number(label));
+        let here = self.sources.get(self.file).and_then(start).map(|line| (self.file, line));
+        let known = || self.sources.iter().enumerate().find_map(|(file, source)| Some((file, start(source)?)));
         if let Some(found) = here.or_else(known) {
             return Some(found);
         }
@@ -202,7 +202,7 @@ impl Tracer<'_> {
         }
         let name = label.trim_matches(['<', '>']);
         let source = (self.find)(name).map(|text| Rc::new(Source::new(name, &text)));
-        let Some((source, line)) = source.and_then(|source| place(&source).map(|line| (source, line))) else {
+        let Some((source, line)) = source.and_then(|source| start(&source).map(|line| (source, line))) else {
             if self.missing.len() < REMEMBERED {
                 self.missing.insert(label.into());
             }

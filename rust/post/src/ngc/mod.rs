@@ -1,6 +1,6 @@
 //! Programs to look at: an interpreter of the whole RS-274NGC language as LinuxCNC speaks it.
 //!
-//! Where [`read`](crate::read) refuses what it does not know, because a judgement stands on it, [`trace`] shows what it
+//! Where [`read`](crate::read) refuses what it does not know, because verification stands on it, [`trace`] shows what it
 //! can and notes what it leaves out. Sources: LinuxCNC's manual, chapters "G-Code Overview", "G-Codes", "M-Codes" and
 //! "O-Codes"; T. Kramer, F. Proctor, E. Messina, "The NIST RS274NGC Interpreter - Version 3", NISTIR 6556, 2000.
 
@@ -21,7 +21,6 @@ mod parameters;
 mod path;
 mod settings;
 mod source;
-mod sticky;
 mod threads;
 mod trace;
 mod tracer;

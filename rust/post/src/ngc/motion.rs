@@ -8,10 +8,9 @@ use super::fault::TraceFault;
 use super::modes::NO_MOTION;
 use super::note::{Gap, FEED_UNKNOWN};
 use super::path::Pace;
-use super::sticky::Sticky;
 use super::tracer::{Next, Tracer};
 use crate::block::arc::{centre_by_offsets, ArcFault, Ends, Least, Slack, MOST_TURNS};
-use crate::block::Feed;
+use crate::block::{CycleWords, Feed};
 use crate::machine::FeedMode;
 
 /// Ends of an arc may differ so much in their distance from its centre unmentioned.
@@ -32,7 +31,7 @@ impl Tracer<'_> {
     pub(super) fn motion(&mut self, block: &Block, code: u32) -> Result<Next, TraceFault> {
         self.modes.motion = code;
         if !is_cycle(code) {
-            self.cycle = Sticky::default();
+            self.cycle = CycleWords::default();
         }
         if code != 50 {
             self.tangent = None;

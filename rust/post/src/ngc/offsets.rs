@@ -12,6 +12,16 @@ pub(super) struct System {
 /// How many there are.
 pub(super) const SYSTEMS: usize = 9;
 
+/// The code of a coordinate system, in tenths: G54 to G59, G59.1 to G59.3.
+pub(super) fn system_code(index: usize) -> u32 {
+    let index = index as u32;
+    if index < 6 {
+        540 + 10 * index
+    } else {
+        585 + index
+    }
+}
+
 /// What lies between the program's coordinates and the position of the tip.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Offsets {
@@ -62,9 +72,9 @@ impl Offsets {
     pub(super) fn origin_for(&self, machine: [f64; 3], words: [Option<f64>; 3], index: usize) -> [f64; 3] {
         let system = self.stored.get(index).copied().unwrap_or_default();
         let there = Self { system, ..*self };
-        let wanted = there.of_machine(machine);
-        let wanted = [0, 1, 2].map(|axis| words[axis].unwrap_or(wanted[axis]));
-        let [x, y, z] = add(wanted, self.local);
+        let coordinates = there.of_machine(machine);
+        let coordinates = [0, 1, 2].map(|axis| words[axis].unwrap_or(coordinates[axis]));
+        let [x, y, z] = add(coordinates, self.local);
         let [x, y] = turned([x, y], system.turn_deg);
         less(less(machine, self.tool), [x, y, z])
     }
@@ -109,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn a_zero_is_set_by_what_the_place_is_to_be_called() {
+    fn a_zero_is_set_by_the_coordinates_that_the_position_gets() {
         // LinuxCNC 2.9.4: G10 L2 P1 X1 Y2 R30, G92 to [10, 0], at X1 Y0, then G10 L20 P1 X3 Y3
         let mut offsets = Offsets { local: [10.0, 0.0, 0.0], ..Offsets::default() };
         offsets.stored[0] = System { origin: [1.0, 2.0, 0.0], turn_deg: 30.0 };

@@ -4,7 +4,7 @@ use styluscam_motion::{Arc, EventKind, Move, MoveKind, Plane, Program};
 
 use super::codes;
 use super::fault::TraceFault;
-use super::offsets::{turned, Offsets};
+use super::offsets::{system_code, turned, Offsets};
 use crate::block::Recorder;
 
 /// mm: no machine reaches so far.
@@ -53,8 +53,7 @@ impl Path {
 
     /// The program, in the work coordinates of its first move.
     pub(super) fn finish(mut self) -> Program {
-        let system = self.anchor.map_or(0, |anchor| anchor.index as u32);
-        let code = if system < 6 { 540 + 10 * system } else { 585 + system };
+        let code = system_code(self.anchor.map_or(0, |anchor| anchor.index));
         self.record.program.setup.wcs = codes::name_g(code);
         self.record.program
     }

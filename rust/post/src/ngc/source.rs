@@ -106,42 +106,42 @@ impl Source {
     fn collect_labels(&mut self) {
         for (index, line) in self.lines.iter_mut().enumerate() {
             let Content::Flow(Label::Fixed(label), flow, _) = &mut line.content else { continue };
-            let places = self.labels.entry(label.clone()).or_default();
+            let lines = self.labels.entry(label.clone()).or_default();
             let loops = |flow: &Flow| matches!(flow, Flow::Do | Flow::DoWhile | Flow::While | Flow::EndWhile);
-            let before = places.iter().rev().map(|(_, flow)| *flow).find(loops);
+            let before = lines.iter().rev().map(|(_, flow)| *flow).find(loops);
             if (*flow, before) == (Flow::While, Some(Flow::Do)) {
                 *flow = Flow::DoWhile;
             }
-            places.push((index, *flow));
+            lines.push((index, *flow));
         }
     }
 
     /// The first line after `line` that has the label and one of the keywords.
     pub(super) fn after(&self, line: usize, label: &str, flows: &[Flow]) -> Option<(usize, Flow)> {
-        let places = self.places(label);
-        let next = places.partition_point(|(place, _)| *place <= line);
-        places.iter().skip(next).copied().find(|(_, flow)| flows.contains(flow))
+        let lines = self.lines_of(label);
+        let next = lines.partition_point(|(at, _)| *at <= line);
+        lines.iter().skip(next).copied().find(|(_, flow)| flows.contains(flow))
     }
 
     /// The last line before `line` that has the label and one of the keywords.
     pub(super) fn before(&self, line: usize, label: &str, flows: &[Flow]) -> Option<(usize, Flow)> {
-        let places = self.places(label);
-        let next = places.partition_point(|(place, _)| *place < line);
-        places.iter().take(next).rev().copied().find(|(_, flow)| flows.contains(flow))
+        let lines = self.lines_of(label);
+        let next = lines.partition_point(|(at, _)| *at < line);
+        lines.iter().take(next).rev().copied().find(|(_, flow)| flows.contains(flow))
     }
 
-    fn places(&self, label: &str) -> &[(usize, Flow)] {
+    fn lines_of(&self, label: &str) -> &[(usize, Flow)] {
         self.labels.get(label).map_or(&[], Vec::as_slice)
     }
 
     /// The line that opens a subroutine.
     pub(super) fn subroutine(&self, label: &str) -> Option<usize> {
-        self.places(label).iter().find(|(_, flow)| *flow == Flow::Sub).map(|(line, _)| *line)
+        self.lines_of(label).iter().find(|(_, flow)| *flow == Flow::Sub).map(|(line, _)| *line)
     }
 
     /// The line that has only this number: where M98 goes to.
     pub(super) fn number(&self, label: &str) -> Option<usize> {
-        self.places(label).iter().find(|(_, flow)| *flow == Flow::Number).map(|(line, _)| *line)
+        self.lines_of(label).iter().find(|(_, flow)| *flow == Flow::Number).map(|(line, _)| *line)
     }
 
     /// The labels of the subroutines, in the order of the text.
@@ -270,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn a_while_that_ends_a_do_is_told_from_one_that_begins() {
+    fn a_while_that_ends_a_do_differs_from_one_that_begins() {
         let source = Source::new("", "o1 do\no1 while [0]\no1 while [0]\no1 endwhile\n");
         assert_eq!(source.after(0, "1", &[Flow::DoWhile]), Some((1, Flow::DoWhile)));
         assert_eq!(source.before(3, "1", &[Flow::While]), Some((2, Flow::While)));

@@ -19,7 +19,7 @@ pub(super) const LIMITS: Limits = Limits { blocks: 20_000_000, moves: 5_000_000 
 /// A program as far as it can be shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trace {
-    /// Its moves and events. Places are those of the tips, in the coordinates in force at the first move: where work
+    /// Its moves and events. Positions are those of the tips, in the coordinates in force at the first move: where work
     /// offsets change later, what follows is shown where it lies in space.
     pub program: Program,
     /// What is left out or taken for granted.

@@ -15,8 +15,8 @@ use super::offsets::Offsets;
 use super::parameters::Parameters;
 use super::path::Path;
 use super::source::{Content, Line, Source};
-use super::sticky::Sticky;
 use super::trace::{Limits, Trace};
+use crate::block::CycleWords;
 
 /// A subroutine's text by its name.
 pub(super) type Find<'f> = &'f dyn Fn(&str) -> Option<String>;
@@ -51,7 +51,7 @@ pub(super) struct Tracer<'f> {
     pub(super) loaded: u32,
     /// By tool number, as far as the program sets them, mm.
     pub(super) lengths: HashMap<u32, [f64; 3]>,
-    pub(super) cycle: Sticky,
+    pub(super) cycle: CycleWords,
     /// The end of the last cubic curve: P and Q, mm.
     pub(super) tangent: Option<[f64; 2]>,
     pub(super) path: Path,
@@ -94,7 +94,7 @@ impl<'f> Tracer<'f> {
             selected: None,
             loaded: 0,
             lengths: HashMap::new(),
-            cycle: Sticky::default(),
+            cycle: CycleWords::default(),
             tangent: None,
             path: Path::new(limits.moves),
             notes: Notes::default(),
@@ -225,7 +225,7 @@ impl<'f> Tracer<'f> {
         }
         if block.has_g(NO_MOTION) {
             self.modes.motion = NO_MOTION;
-            self.cycle = Sticky::default();
+            self.cycle = CycleWords::default();
         }
         match user {
             Some(code) if codes::moves(code) => self.motion(block, code),

@@ -4,6 +4,7 @@ use styluscam_motion::{Plane, SpindleDirection};
 
 use super::expression::{Key, Values};
 use super::fault::TraceFault;
+use super::offsets::system_code;
 use super::parameters::{of_system, LARGEST};
 use super::tracer::Tracer;
 use crate::machine::{FeedMode, LengthUnit};
@@ -73,7 +74,7 @@ impl Tracer<'_> {
             "_inverse_time" => truth(common.feed.mode == FeedMode::InverseTime),
             "_units_per_minute" => truth(common.feed.mode == FeedMode::PerMinute),
             "_units_per_rev" => truth(common.feed.mode == FeedMode::PerRevolution),
-            "_coord_system" => self.coordinate_system_code(),
+            "_coord_system" => code(system_code(self.offsets.index)),
             "_tool_offset" => truth(self.offsets.tool.iter().any(|offset| offset.abs() > 0.0)),
             "_retract_r_plane" => truth(common.low_return),
             "_retract_old_z" => truth(!common.low_return),
@@ -104,16 +105,6 @@ impl Tracer<'_> {
             "_call_level" => self.depth() as f64,
             _ => return None,
         })
-    }
-
-    /// 540 to 590, 591 to 593.
-    fn coordinate_system_code(&self) -> f64 {
-        let index = self.offsets.index as f64;
-        if index < 6.0 {
-            540.0 + 10.0 * index
-        } else {
-            585.0 + index
-        }
     }
 }
 

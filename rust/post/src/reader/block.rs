@@ -6,7 +6,7 @@ use styluscam_motion::{Plane, SpindleDirection};
 
 use super::codes::{Codes, Meaning};
 use super::lexer::{Word, TURN};
-use crate::block::{g_code, m_code, Code, Length, Motion, Number, Stop, Twice, Words};
+use crate::block::{g_code, m_code, once, Code, Length, Motion, Number, Stop, Twice, Words};
 use crate::machine::LengthUnit;
 use crate::read_error::ReadFault;
 
@@ -84,7 +84,7 @@ impl Block {
     pub(crate) fn take(&mut self, word: Word, codes: &Codes, radius_word: u8) -> Result<(), ReadFault> {
         match codes.meaning(word) {
             Some(Meaning::Code(code)) => return self.take_code(code, word, ReadFault::SameGroup),
-            Some(Meaning::Passed) => return once(&mut self.passed, word, ReadFault::SameGroup),
+            Some(Meaning::Passed) => return once(&mut self.passed, word).map_err(|Twice| ReadFault::SameGroup),
             Some(Meaning::Refused) | None => {}
         }
         match word.letter {
@@ -92,7 +92,7 @@ impl Block {
             b'X' | b'Y' | b'Z' | b'F' | b'S' | b'T' | b'H' | b'D' | b'P' | b'Q' | b'N' | b'I' | b'J' | b'K' => {
                 self.take_word(word.letter, word)
             }
-            TURN => once(&mut self.turns, word, ReadFault::WordTwice),
+            TURN => once(&mut self.turns, word).map_err(|Twice| ReadFault::WordTwice),
             b'G' => self.take_code(shared_g(word.number)?, word, ReadFault::SameGroup),
             b'M' => self.take_m(word),
             b'O' => Err(ReadFault::NotRead { what: "subroutines and program numbers" }),
@@ -226,14 +226,6 @@ pub(crate) struct Force<'c> {
     pub(crate) turns: bool,
     /// A canned cycle.
     pub(crate) cycle: bool,
-}
-
-fn once<T>(slot: &mut Option<T>, value: T, fault: ReadFault) -> Result<(), ReadFault> {
-    if slot.is_some() {
-        return Err(fault);
-    }
-    *slot = Some(value);
-    Ok(())
 }
 
 /// A G code as all machines have it. Units, feeds, work offsets, probing and stored points are those of the machine's file.

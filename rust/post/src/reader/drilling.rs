@@ -2,6 +2,7 @@
 
 use styluscam_motion::{Cycle, CycleKind};
 
+use crate::block::{end_height, CycleWords};
 use crate::read_error::ReadFault;
 
 /// What was stated since the cycle's code.
@@ -9,43 +10,36 @@ use crate::read_error::ReadFault;
 pub(super) struct Series {
     /// G81 to G89, G73, G74.
     pub number: u16,
-    /// Z before the first hole, the tip's, mm.
-    initial: f64,
-    /// Z of the bottom, of the tip, mm.
-    pub bottom: Option<f64>,
-    /// Z of the retract plane, of the tip, mm.
-    pub retract: Option<f64>,
-    /// Depth of a peck, mm.
-    pub peck: f64,
-    /// Wait at the bottom, s.
-    pub dwell: f64,
+    /// Heights are those of the tip; mm.
+    pub words: CycleWords,
 }
 
 impl Series {
     /// The one before, or a new one: it begins at a height, or where the cycles before it began.
     pub fn next(before: Option<Self>, number: u16, height: f64) -> Self {
-        let initial = before.map_or(height, |series| series.initial);
-        let new = Self { number, initial, bottom: None, retract: None, peck: 0.0, dwell: 0.0 };
+        let initial = before.and_then(|series| series.words.initial).or(Some(height));
+        let new = Self { number, words: CycleWords { initial, ..CycleWords::default() } };
         before.filter(|series| series.number == number).unwrap_or(new)
     }
 
     /// The hole at a position; `low` is set when it ends at the retract plane.
     pub fn hole(&self, at: [f64; 2], feed: f64, low: bool) -> Result<Cycle, ReadFault> {
         let missing = |what| ReadFault::MissingWord { what };
-        let bottom = self.bottom.ok_or(missing("the depth (Z) of the cycle"))?;
-        let retract = self.retract.ok_or(missing("the retract plane (R) of the cycle"))?;
+        let bottom = self.words.bottom.ok_or(missing("the depth (Z) of the cycle"))?;
+        let retract = self.words.retract.ok_or(missing("the retract plane (R) of the cycle"))?;
+        let [peck, dwell] = [self.words.peck, self.words.dwell].map(Option::unwrap_or_default);
         let (kind, dwells) = kind(self.number);
         let pecks = matches!(kind, CycleKind::Peck | CycleKind::ChipBreak);
-        if pecks && self.peck <= 0.0 {
+        if pecks && peck <= 0.0 {
             return Err(missing("the peck (Q) of the cycle"));
         }
-        if self.peck != 0.0 && !pecks || self.dwell != 0.0 && !dwells {
+        if peck != 0.0 && !pecks || dwell != 0.0 && !dwells {
             return Err(ReadFault::NotRead { what: "a peck or a wait in a cycle of this code" });
         }
         if bottom > retract {
             return Err(ReadFault::CycleUpwards);
         }
-        if self.dwell < 0.0 {
+        if dwell < 0.0 {
             return Err(ReadFault::Negative);
         }
         Ok(Cycle {
@@ -55,10 +49,10 @@ impl Series {
             at,
             retract,
             bottom,
-            leave: if low { retract } else { retract.max(self.initial) },
+            leave: end_height(low, retract, self.words.initial.unwrap_or(retract)),
             feed,
-            dwell: self.dwell,
-            peck: self.peck,
+            dwell,
+            peck,
         })
     }
 }

@@ -34,7 +34,7 @@ const TYPICAL_LINE: usize = 20;
 /// One axis: where the posted point stands, in mm.
 #[derive(Clone, Copy, Debug, Default)]
 struct Axis {
-    /// The last place commanded.
+    /// The last position commanded.
     position: f64,
     /// Whether it stands there still.
     known: bool,

@@ -12,7 +12,7 @@ use super::errors::{flaw_at, misfit_at, whole_line, whole_text};
 use super::interpreter::Interpreter;
 use super::lexer::{Flaw, Word};
 use super::reading::Reading;
-use crate::block::{cut_number, m_code, Code, Misfit, Motion, Number, Stop};
+use crate::block::{cut_number, m_code, once, Code, Misfit, Motion, Number, Stop, Twice};
 use crate::machine::{LengthUnit, Machine};
 use crate::read_error::{ReadError, ReadFault};
 
@@ -212,10 +212,10 @@ impl Reader<'_> {
                 "DR+" => clockwise = Some(false),
                 "DR-" => clockwise = Some(true),
                 text if text.starts_with("IPA") && head.text == "CP" => {
-                    once(&mut block.polar, token.word(3, b'P')?, token)?;
+                    put(&mut block.polar, token.word(3, b'P')?, token)?;
                 }
                 text if text.starts_with("IZ") && head.text == "CP" => {
-                    once(&mut block.rise, token.word(2, b'Z')?, token)?;
+                    put(&mut block.rise, token.word(2, b'Z')?, token)?;
                 }
                 text if text.starts_with("R") && head.text == "CR" => {
                     take_word(&mut block, token, b'R')?;
@@ -349,7 +349,7 @@ fn take_function(block: &mut Block, token: &Token) -> Result<(), Misfit> {
             take(8)
         }
         91 => take_code(block, Code::MachineCoordinates, word, token),
-        99 => once(&mut block.call, word, token),
+        99 => put(&mut block.call, word, token),
         _ => take(number),
     }
 }
@@ -396,12 +396,8 @@ fn take_code(block: &mut Block, code: Code, word: Word, token: &Token) -> Result
     block.take_code(code, word, ReadFault::WordTwice).map_err(|fault| token.misfit(fault))
 }
 
-fn once<T>(slot: &mut Option<T>, value: T, token: &Token) -> Result<(), Misfit> {
-    if slot.is_some() {
-        return Err(token.misfit(ReadFault::WordTwice));
-    }
-    *slot = Some(value);
-    Ok(())
+fn put(slot: &mut Option<Word>, word: Word, token: &Token) -> Result<(), Misfit> {
+    once(slot, word).map_err(|Twice| token.misfit(ReadFault::WordTwice))
 }
 
 /// Code and remark of a line.

@@ -91,10 +91,10 @@ fn name_of(plane: Plane) -> &'static str {
     }
 }
 
-/// Where there is room on a machine, and what it can do.
+/// Where a machine can move, and what it can do.
 struct Bench {
     centre: [f64; 3],
-    /// Half of the room, mm.
+    /// Half of the range along each axis, mm.
     size: [f64; 3],
     feed: f64,
     rpm: f64,
@@ -113,13 +113,13 @@ impl Bench {
     fn of(machine: &Machine) -> Self {
         let limits = &machine.limits;
         let ranges = [limits.x, limits.y, limits.z];
-        let room = |axis: usize| {
+        let range = |axis: usize| {
             let (middle, half) = ranges[axis]
                 .map_or((0.0, 100.0), |[low, high]| (f64::midpoint(low, high), ((high - low) / 2.0).min(100.0)));
             let travel = limits.travel.map_or(f64::INFINITY, |travel| travel[axis]);
             (middle, half.min(travel / 2.0) * 0.9)
         };
-        let [x, y, z] = [0, 1, 2].map(room);
+        let [x, y, z] = [0, 1, 2].map(range);
         let rpm = limits.max_rpm.map_or(1000.0, |most| most.min(1000.0)).max(limits.min_rpm.unwrap_or(0.0)).floor();
         let lathe = machine.motion.lathe.is_some();
         Self {
@@ -134,7 +134,7 @@ impl Bench {
         }
     }
 
-    /// A position; -1 to 1 is the room along each axis.
+    /// A position; -1 to 1 is the range along each axis.
     fn at(&self, share: [f64; 3]) -> [f64; 3] {
         [0, 1, 2].map(|axis| self.centre[axis] + share[axis] * self.size[axis])
     }
@@ -144,7 +144,7 @@ impl Bench {
         [0, 1, 2].map(|axis| self.centre[axis] + if self.lathe && axis == 1 { 0.0 } else { mm[axis] })
     }
 
-    /// A length that fits in the room, mm.
+    /// A length that fits in the range, mm.
     fn fits(&self, mm: f64) -> f64 {
         let least =
             if self.lathe { self.size[0].min(self.size[2]) } else { self.size.iter().copied().fold(mm, f64::min) };
@@ -354,7 +354,7 @@ fn large_arcs(bench: &Bench) -> Draft {
     for radius in [1e3, 1e4, 1e6] {
         let half = bench.fits(20.0);
         let angle = libm::asin(half / radius);
-        let place = |side: f64| {
+        let position = |side: f64| {
             let mut mm = [0.0; 3];
             mm[first] = side * half;
             mm[second] = radius * (libm::cos(angle) - 1.0);
@@ -363,8 +363,8 @@ fn large_arcs(bench: &Bench) -> Draft {
         let mut mm = [0.0; 3];
         mm[second] = -radius;
         let centre = bench.off(mm);
-        draft.rapid(place(1.0));
-        draft.push(MoveKind::Feed, place(-1.0), Some(Arc { centre, plane, clockwise: false, turns: 0 }), bench.feed);
+        draft.rapid(position(1.0));
+        draft.push(MoveKind::Feed, position(-1.0), Some(Arc { centre, plane, clockwise: false, turns: 0 }), bench.feed);
     }
     draft
 }
@@ -460,7 +460,7 @@ fn holes(bench: &Bench, kind: CycleKind, peck: f64, dwell: f64) -> Draft {
     for (dx, depth, lift) in
         [(1.0, 1.0, true), (2.0, 1.0, true), (2.0, 1.5, true), (1.0, 1.5, false), (0.0, 1.5, false)]
     {
-        let place = draft.moves.last().map_or([x, y, initial], |m| m.end.tip);
+        let position = draft.moves.last().map_or([x, y, initial], |m| m.end.tip);
         let retract = z;
         let hole = Cycle {
             first: draft.moves.len(),
@@ -469,12 +469,12 @@ fn holes(bench: &Bench, kind: CycleKind, peck: f64, dwell: f64) -> Draft {
             at: [x + dx * unit, y],
             retract,
             bottom: z - depth * unit,
-            leave: if lift { place[2].max(retract) } else { retract },
+            leave: if lift { position[2].max(retract) } else { retract },
             feed: bench.feed,
             dwell,
             peck: peck * unit,
         };
-        for step in hole.steps(&CycleStart { position: place, spindle }).unwrap_or_default() {
+        for step in hole.steps(&CycleStart { position, spindle }).unwrap_or_default() {
             match step {
                 CycleStep::Move(MoveKind::Rapid, end) => draft.rapid(end),
                 CycleStep::Move(MoveKind::Feed, end) => draft.feed(end, bench.feed),
@@ -574,9 +574,9 @@ fn outside(bench: &Bench, machine: &Machine) -> Vec<Case> {
     for (axis, range) in [limits.x, limits.y, limits.z].into_iter().enumerate() {
         for (end, sign) in range.into_iter().flatten().zip([-1.0, 1.0]) {
             let mut draft = Draft::start(bench);
-            let mut place = bench.at([0.0; 3]);
-            place[axis] = end + sign * 0.01 - if axis == 2 { HEIGHT } else { 0.0 };
-            draft.rapid(place);
+            let mut position = bench.at([0.0; 3]);
+            position[axis] = end + sign * 0.01 - if axis == 2 { HEIGHT } else { 0.0 };
+            draft.rapid(position);
             let name = format!("limit {}{end}", ["X", "Y", "Z"][axis]);
             out.push(Case { must_fail: true, ..bench.case(&name, machine.clone(), draft) });
         }

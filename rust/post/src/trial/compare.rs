@@ -8,7 +8,7 @@ use crate::writer::Posted;
 
 /// Feeds are compared with this slack over and above their rounding, as a share.
 const FEED_SLACK: f64 = 1e-9;
-/// Places are compared with this slack over and above their rounding, mm.
+/// Positions are compared with this slack over and above their rounding, mm.
 const SLACK: f64 = 1e-9;
 /// An arc's centre is rounded too: its path may leave the planned one by so many last places.
 const ARC_PLACES: f64 = 3.0;
@@ -21,7 +21,7 @@ const TINY_SWEEP: f64 = 0.6;
 
 /// The first thing of a program that was posted and does not come back: its line, 0 where none is at fault, and what it is.
 ///
-/// Places are compared within half a last place, arcs within three, events in their order; remarks are not.
+/// Positions are compared within half a last place, arcs within three, events in their order; remarks are not.
 #[must_use]
 pub fn difference(program: &Program, posted: &Posted, reading: &Reading, machine: &Machine) -> Option<(u32, String)> {
     if reading.program.setup.wcs != program.setup.wcs {
@@ -257,15 +257,15 @@ fn low_crossing(
     low.then(|| format!("it goes to {:?} mm before a hole", found.end.tip))
 }
 
-/// Whether a move that was read goes to a position that its step has no business with: templates must not move an axis.
+/// Whether a move that was read goes to a position that its step does not have: templates must not move an axis.
 fn detour(start: Option<[f64; 3]>, step: &Move, found: &Move, line: u32, machine: &Machine) -> Option<String> {
     if found.line == line || step.arc.is_some() {
         return None;
     }
     let slack = machine.resolution_mm() / 2.0 + SLACK;
-    let between = found.end.tip.iter().zip(step.end.tip).enumerate().all(|(axis, (place, end))| {
+    let between = found.end.tip.iter().zip(step.end.tip).enumerate().all(|(axis, (tip, end))| {
         let begin = start.map_or(end, |start| start[axis]);
-        (place - end).abs() <= slack || (place - begin).abs() <= slack
+        (tip - end).abs() <= slack || (tip - begin).abs() <= slack
     });
     let split = step.kind == MoveKind::Rapid && found.kind == MoveKind::Rapid && between;
     (!split).then(|| format!("a move to {:?} was not posted", found.end.tip))
@@ -320,15 +320,15 @@ fn path_difference(
     let slack = ARC_PLACES * machine.resolution_mm() + path.mismatch();
     let [first, second, _] = arc.plane.axes();
     let count = found.path(from).map_or(1, |w| w.chords(machine.resolution_mm()));
-    let places = (1..=count).map(|i| match found.path(from) {
+    let positions = (1..=count).map(|i| match found.path(from) {
         Some(w) => w.at(i as f64 / count as f64),
         None => found.end.tip,
     });
-    let off = |place: [f64; 3]| {
-        let radius = libm::hypot(place[first] - arc.centre[first], place[second] - arc.centre[second]);
+    let off = |position: [f64; 3]| {
+        let radius = libm::hypot(position[first] - arc.centre[first], position[second] - arc.centre[second]);
         (radius - path.radius()).abs()
     };
-    let worst = places.map(off).fold(0.0, f64::max);
+    let worst = positions.map(off).fold(0.0, f64::max);
     let sweep = found.path(from).map_or(0.0, |w| w.sweep().abs());
     let too_far = sweep > path.sweep().abs() + TINY_SWEEP;
     (worst > slack || too_far)

@@ -7,7 +7,7 @@ use crate::post_error::PostError;
 use crate::rounded::RoundedArc;
 
 /// Where the posted point stands, in last places; none where that is not known.
-pub(super) type Place = [Option<i64>; 3];
+pub(super) type Position = [Option<i64>; 3];
 
 /// A feed as it is posted: in last places of the mode that is in force.
 pub(super) type Feed = i64;
@@ -62,10 +62,10 @@ pub(super) trait Dialect {
     fn close(&mut self, lines: &mut Lines) -> Result<(), PostError>;
 
     /// A rapid; axes at `from` already are left out unless every axis is repeated.
-    fn rapid(&mut self, lines: &mut Lines, from: Place, to: Place) -> Result<(), PostError>;
+    fn rapid(&mut self, lines: &mut Lines, from: Position, to: Position) -> Result<(), PostError>;
 
     /// A line at feed.
-    fn feed(&mut self, lines: &mut Lines, from: Place, to: Place, feed: Feed) -> Result<(), PostError>;
+    fn feed(&mut self, lines: &mut Lines, from: Position, to: Position, feed: Feed) -> Result<(), PostError>;
 
     /// An arc that the machine takes.
     fn arc(&mut self, lines: &mut Lines, arc: &RoundedArc, feed: Feed) -> Result<(), PostError>;
@@ -80,5 +80,5 @@ pub(super) trait Dialect {
     fn dwell(&mut self, lines: &mut Lines, seconds: f64) -> Result<bool, PostError>;
 
     /// A path to a position until the probe touches, by this word.
-    fn probe(&mut self, lines: &mut Lines, word: &str, to: Place, feed: Feed) -> Result<(), PostError>;
+    fn probe(&mut self, lines: &mut Lines, word: &str, to: Position, feed: Feed) -> Result<(), PostError>;
 }

@@ -183,11 +183,11 @@ impl Poster<'_> {
         let word = word.ok_or(PostError::Unsupported { what: "probing that may miss" })?;
         let height = self.tool.ok_or(PostError::NoTool { index: self.moves })?.reference_height;
         let mut to = [None; 3];
-        for (axis, place) in end.into_iter().enumerate() {
-            let Some(place) = place else { continue };
-            let place = place + if axis == 2 { height } else { 0.0 };
-            let count = self.linear.count(place * self.per_mm);
-            let at = || PostError::Number { what: "a position", place: format!("events[{event}]"), value: place };
+        for (axis, position) in end.into_iter().enumerate() {
+            let Some(position) = position else { continue };
+            let position = position + if axis == 2 { height } else { 0.0 };
+            let count = self.linear.count(position * self.per_mm);
+            let at = || PostError::Number { what: "a position", place: format!("events[{event}]"), value: position };
             to[axis] = Some(count.ok_or_else(at)?);
         }
         if self.machine.feed.mode == FeedMode::InverseTime {
@@ -196,15 +196,15 @@ impl Poster<'_> {
         let count = self.feed_count(self.moves, feed, f64::INFINITY)?;
         self.dialect.probe(&mut self.lines, word, to, count)?;
         self.dialect.forget();
-        for (axis, place) in to.into_iter().enumerate() {
-            if place.is_some() {
+        for (axis, position) in to.into_iter().enumerate() {
+            if position.is_some() {
                 self.position[axis] = None;
             }
         }
         Ok(())
     }
 
-    /// A line of one's own must not move an axis, and it may change modes.
+    /// A line of the job's own: it must not move an axis, and it may change modes.
     fn raw(&mut self, text: &str) -> Result<(), PostError> {
         self.speak(text)
     }

@@ -99,8 +99,8 @@ fn made_by(program: &Program, cycle: &Cycle, steps: &[CycleStep], machine: &Mach
     let unit = machine.resolution_mm();
     let end = cycle.first + cycle.count;
     let moves = program.moves.get(cycle.first..end)?;
-    let lead = moves.iter().position(|step| step.kind == MoveKind::Feed)?;
-    let (path, made) = moves.split_at(lead);
+    let approach = moves.iter().position(|step| step.kind == MoveKind::Feed)?;
+    let (path, made) = moves.split_at(approach);
     let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= unit);
     let from = path.last().or(cycle.first.checked_sub(1).and_then(|before| program.moves.get(before)))?;
     let above = path.iter().all(|step| step.end.tip[2] >= cycle.retract - unit);
@@ -109,15 +109,16 @@ fn made_by(program: &Program, cycle: &Cycle, steps: &[CycleStep], machine: &Mach
     }
     let first = program.events.partition_point(|event| event.before <= cycle.first);
     let mut events = program.events.iter().skip(first).peekable();
-    let (mut at, mut own) = (cycle.first + lead, 0);
+    let (mut at, mut own) = (cycle.first + approach, 0);
     let mut made = made.iter();
     for step in steps {
         match step {
-            CycleStep::Move(kind, place) => {
+            CycleStep::Move(kind, position) => {
                 let found = made.next()?;
                 let interrupted = events.peek().is_some_and(|event| event.before <= at);
                 let feed = *kind == MoveKind::Rapid || (found.feed - cycle.feed).abs() <= 1e-9 * cycle.feed;
-                if interrupted || !feed || found.kind != *kind || found.arc.is_some() || !near(found.end.tip, *place) {
+                if interrupted || !feed || found.kind != *kind || found.arc.is_some() || !near(found.end.tip, *position)
+                {
                     return None;
                 }
                 at += 1;

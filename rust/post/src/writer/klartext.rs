@@ -3,7 +3,7 @@
 use styluscam_motion::Plane;
 
 use super::cycl_def;
-use super::dialect::{Dialect, Feed, Hole, Place};
+use super::dialect::{Dialect, Feed, Hole, Position};
 use super::lines::Lines;
 use crate::machine::Machine;
 use crate::number::{NumberFormat, DWELL_PLACES};
@@ -36,7 +36,7 @@ impl<'m> Klartext<'m> {
         }
     }
 
-    fn line(&self, lines: &mut Lines, from: Place, to: Place) {
+    fn line(&self, lines: &mut Lines, from: Position, to: Position) {
         lines.begin();
         lines.word("L");
         for (axis, (from, to)) in from.into_iter().zip(to).enumerate() {
@@ -72,14 +72,14 @@ impl Dialect for Klartext<'_> {
         }
     }
 
-    fn rapid(&mut self, lines: &mut Lines, from: Place, to: Place) -> Result<(), PostError> {
+    fn rapid(&mut self, lines: &mut Lines, from: Position, to: Position) -> Result<(), PostError> {
         self.line(lines, from, to);
         lines.word("R0");
         lines.word("FMAX");
         lines.end()
     }
 
-    fn feed(&mut self, lines: &mut Lines, from: Place, to: Place, feed: Feed) -> Result<(), PostError> {
+    fn feed(&mut self, lines: &mut Lines, from: Position, to: Position, feed: Feed) -> Result<(), PostError> {
         self.line(lines, from, to);
         lines.word("R0");
         self.changed_feed(lines, feed);
@@ -141,7 +141,7 @@ impl Dialect for Klartext<'_> {
         Ok(true)
     }
 
-    fn probe(&mut self, _lines: &mut Lines, _word: &str, _to: Place, _feed: Feed) -> Result<(), PostError> {
+    fn probe(&mut self, _lines: &mut Lines, _word: &str, _to: Position, _feed: Feed) -> Result<(), PostError> {
         Err(PostError::Unsupported { what: "probing" })
     }
 }

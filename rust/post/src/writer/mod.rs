@@ -20,7 +20,7 @@ use crate::machine::{Family, FeedMode, Lathe, Machine};
 use crate::number::NumberFormat;
 use crate::post_error::PostError;
 use crate::template::{Facts, Templater};
-use dialect::{Dialect, Place};
+use dialect::{Dialect, Position};
 pub(crate) use lines::counted_length;
 use lines::{Lines, Outlet};
 
@@ -88,7 +88,7 @@ pub struct Poster<'a> {
     calls: std::collections::VecDeque<u32>,
     /// The last line with motion.
     motion_line: u32,
-    position: Place,
+    position: Position,
     /// The tip's last place, as planned.
     tip: Option<[f64; 3]>,
     tool: Option<&'a ToolRecord>,
@@ -277,30 +277,30 @@ impl<'a> Poster<'a> {
         if self.position == goal {
             return Ok(());
         }
-        for place in self.rapids_to(target).into_iter().flatten() {
-            if place != self.position {
+        for position in self.rapids_to(target).into_iter().flatten() {
+            if position != self.position {
                 self.motion_line = self.lines.line;
-                self.dialect.rapid(&mut self.lines, self.position, place)?;
-                self.position = place;
+                self.dialect.rapid(&mut self.lines, self.position, position)?;
+                self.position = position;
             }
         }
         Ok(())
     }
 
     /// The position between, if any, and the goal. From a position that is not known: away from the work first, then across.
-    fn rapids_to(&self, target: [i64; 3]) -> [Option<Place>; 2] {
+    fn rapids_to(&self, target: [i64; 3]) -> [Option<Position>; 2] {
         let away = if self.machine.motion.lathe.is_some() { 0 } else { 2 };
         let goal = target.map(Some);
-        let mut on_the_way = self.position;
+        let mut between = self.position;
         let known = self.position.iter().all(Option::is_some);
         let across = (0..3).any(|axis| axis != away && self.position[axis] != goal[axis]);
         let rises = self.position[away].is_none_or(|from| target[away] > from);
         match self.machine.motion.split_rapids || !known {
-            true if across && (!known || rises) => on_the_way[away] = goal[away],
-            true if across => on_the_way = std::array::from_fn(|i| if i == away { self.position[i] } else { goal[i] }),
+            true if across && (!known || rises) => between[away] = goal[away],
+            true if across => between = std::array::from_fn(|i| if i == away { self.position[i] } else { goal[i] }),
             _ => return [Some(goal), None],
         }
-        [Some(on_the_way), Some(goal)]
+        [Some(between), Some(goal)]
     }
 
     fn feed(&mut self, index: usize, target: [i64; 3], feed: f64, length: f64) -> Result<(), PostError> {

@@ -2,7 +2,7 @@
 
 use styluscam_motion::{CycleKind, Plane};
 
-use super::dialect::{Dialect, Feed, Hole, Place};
+use super::dialect::{Dialect, Feed, Hole, Position};
 use super::lines::Lines;
 use super::mcall;
 use crate::machine::{ArcCentre, DwellRules, Family, FeedMode, LengthRules, Machine, Repeat, TimeUnit, Turns};
@@ -63,7 +63,7 @@ impl<'m> Words<'m> {
     }
 
     /// Axis words of what changes, or of every axis.
-    fn axes(&mut self, lines: &mut Lines, from: Place, to: Place) {
+    fn axes(&mut self, lines: &mut Lines, from: Position, to: Position) {
         let every = self.machine.words.repeat_axes == Repeat::Always;
         for (axis, (from, to)) in from.into_iter().zip(to).enumerate() {
             let Some(count) = to else { continue };
@@ -184,7 +184,7 @@ impl Dialect for Words<'_> {
         lines.block(if self.calls_cycles() { mcall::END } else { CANCEL })
     }
 
-    fn rapid(&mut self, lines: &mut Lines, from: Place, to: Place) -> Result<(), PostError> {
+    fn rapid(&mut self, lines: &mut Lines, from: Position, to: Position) -> Result<(), PostError> {
         self.begin_motion(lines, RAPID);
         self.axes(lines, from, to);
         if let Some(feed) = self.rapid_feed {
@@ -193,7 +193,7 @@ impl Dialect for Words<'_> {
         lines.end()
     }
 
-    fn feed(&mut self, lines: &mut Lines, from: Place, to: Place, feed: Feed) -> Result<(), PostError> {
+    fn feed(&mut self, lines: &mut Lines, from: Position, to: Position, feed: Feed) -> Result<(), PostError> {
         self.begin_motion(lines, LINE);
         self.axes(lines, from, to);
         self.changed_feed(lines, feed);
@@ -285,7 +285,7 @@ impl Dialect for Words<'_> {
         Ok(true)
     }
 
-    fn probe(&mut self, lines: &mut Lines, word: &str, to: Place, feed: Feed) -> Result<(), PostError> {
+    fn probe(&mut self, lines: &mut Lines, word: &str, to: Position, feed: Feed) -> Result<(), PostError> {
         self.forget();
         lines.begin();
         lines.word(word);

@@ -128,14 +128,14 @@ pub struct DwellRules {
 pub struct StopRules {
     /// Until the operator goes on: `M0`.
     pub always: Option<String>,
-    /// The same where the operator's switch says so: `M1`.
+    /// The same where the operator's switch is on: `M1`.
     pub optional: Option<String>,
     /// Whether they stop spindle and coolant as well: they are switched on again behind them.
     #[serde(default)]
     pub stops_spindle: bool,
 }
 
-/// The way to a height where nothing is in the way.
+/// The retract to a height without obstacles.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RetractRules {

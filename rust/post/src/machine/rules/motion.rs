@@ -19,7 +19,7 @@ pub enum FeedMode {
     InverseTime,
 }
 
-/// Feeds. A program's feeds are mm/min; the mode decides how they are said.
+/// Feeds. A program's feeds are mm/min; the mode decides how they are written.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FeedRules {
@@ -83,7 +83,7 @@ impl RadiusError {
     }
 }
 
-/// How an arc's centre is said.
+/// How an arc's centre is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ArcCentre {
@@ -94,7 +94,7 @@ pub enum ArcCentre {
     Absolute,
 }
 
-/// How full turns beyond the first arrival are said.
+/// How full turns beyond the first arrival are written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Turns {
@@ -113,10 +113,10 @@ pub enum Turns {
 pub struct ArcRules {
     /// How exact an arc must be.
     pub radius_error: RadiusError,
-    /// How its centre is said.
+    /// How its centre is written.
     #[serde(default)]
     pub centre: ArcCentre,
-    /// How full turns are said.
+    /// How full turns are written.
     #[serde(default)]
     pub turns: Turns,
     /// Whether a full circle needs an axis word.
@@ -210,7 +210,7 @@ pub enum Rapids {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MotionRules {
-    /// Whether a rapid that goes across and down, or up and across, becomes two blocks, the higher way.
+    /// Whether a rapid that goes across and down, or up and across, becomes two blocks, along the higher path.
     #[serde(default = "super::yes")]
     pub split_rapids: bool,
     /// How rapids run.

@@ -13,7 +13,7 @@ pub struct Templates {
     pub header: Option<String>,
     /// Before everything else: the header, units, modes, work offset.
     pub program_start: String,
-    /// For every tool change; what `[tool]` says when left out.
+    /// For every tool change; the words of `[tool]` when left out.
     pub tool_change: Option<String>,
     /// Where an operation begins, after its tool change.
     #[serde(default)]
@@ -23,7 +23,7 @@ pub struct Templates {
     pub operation_end: String,
     /// Where the work offset changes between operations; its words when left out.
     pub work_offset: Option<String>,
-    /// Where the program stops for the operator; the word of `[stop]` when left out. `optional` says which stop it is.
+    /// Where the program stops for the operator; the word of `[stop]` when left out. `optional` states which stop it is.
     pub stop: Option<String>,
     /// Where the two programs of a pair wait for one another, at `mark`; a machine without it takes no pairs.
     pub sync: Option<String>,

@@ -25,7 +25,7 @@ pub enum Evidence {
     Read,
     /// All but those listed in `unconfirmed`.
     Partly,
-    /// Facts are guessed, or taken from another machine: the header and `machine list` say so.
+    /// Facts are guessed, or taken from another machine: the header and `machine list` state it.
     #[default]
     Unverified,
 }

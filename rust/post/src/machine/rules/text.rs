@@ -175,7 +175,7 @@ pub struct CommentRules {
     /// `_`, or is dropped where `_` is outside too.
     #[serde(default)]
     pub substitutions: BTreeMap<char, String>,
-    /// First words that the controller takes as orders when a comma or the end follows: a `-` is put before them.
+    /// First words that the controller takes as commands when a comma or the end follows: a `-` is put before them.
     #[serde(default)]
     pub active: Vec<String>,
 }

@@ -3,7 +3,7 @@
 use styluscam_motion::{Cycle, CycleKind, CycleStart, CycleStep, MoveKind, Plane};
 
 use super::{Interpreter, Z};
-use crate::block::Motion;
+use crate::block::{CycleWords, Motion};
 use crate::machine::CycleRules;
 use crate::read_error::ReadFault;
 use crate::reader::block::Block;
@@ -131,14 +131,13 @@ impl Interpreter<'_> {
         let [_, _, z] = block.axes();
         let mut series = Series::next(self.series.take(), number, height);
         let tip = |word: Word| Ok::<_, Flaw>(self.mm(word)? - self.height);
-        series.bottom = z.map(tip).transpose()?.or(series.bottom);
-        series.retract = block.words.get(b'R').map(tip).transpose()?.or(series.retract);
-        if let Some(word) = block.words.get(b'Q') {
-            series.peck = self.mm(word)?;
-        }
-        if let Some(word) = block.words.get(b'P') {
-            series.dwell = self.seconds(word, rules.dwell_unit)?;
-        }
+        series.words.take(CycleWords {
+            initial: None,
+            bottom: z.map(tip).transpose()?,
+            retract: block.words.get(b'R').map(tip).transpose()?,
+            peck: block.words.get(b'Q').map(|word| self.mm(word)).transpose()?,
+            dwell: block.words.get(b'P').map(|word| self.seconds(word, rules.dwell_unit)).transpose()?,
+        });
         Ok(series)
     }
 

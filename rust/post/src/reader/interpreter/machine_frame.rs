@@ -38,9 +38,9 @@ impl Interpreter<'_> {
         if !straight || block.any_axis().is_none() {
             return Err((ReadFault::HomeByWay, Some(code)));
         }
-        let places = std::array::from_fn(|axis| block.axes()[axis].map(|_| home[axis]));
+        let coordinates = std::array::from_fn(|axis| block.axes()[axis].map(|_| home[axis]));
         self.series = None;
-        self.leave_work("G28, place in the work unknown".into(), places, line);
+        self.leave_work("G28, place in the work unknown".into(), coordinates, line);
         Ok(())
     }
 
@@ -54,27 +54,27 @@ impl Interpreter<'_> {
             return Err((ReadFault::MissingWord { what: "an axis word of G53" }, Some(code)));
         }
         let mut text = String::from("G53, place in the work unknown:");
-        let mut places = [None; 3];
+        let mut coordinates = [None; 3];
         for (index, (word, name)) in block.axes().iter().zip(AXES).enumerate() {
             let Some(word) = *word else { continue };
             let position = self.mm(word)?;
             text.push_str(&format!(" {name}{position} mm"));
-            places[index] = Some(position);
+            coordinates[index] = Some(position);
         }
-        self.leave_work(text, places, line);
+        self.leave_work(text, coordinates, line);
         Ok(())
     }
 
     /// The axes that have a position of the machine's own go there; a comment states it.
     ///
     /// Controllers that name the length offset with Z lose it with that move (Fanuc 0i-MB, p. 204).
-    fn leave_work(&mut self, remark: String, places: [Option<f64>; 3], line: u32) {
-        (0..3).filter(|axis| places[*axis].is_some()).for_each(|axis| self.forget(axis));
+    fn leave_work(&mut self, remark: String, coordinates: [Option<f64>; 3], line: u32) {
+        (0..3).filter(|axis| coordinates[*axis].is_some()).for_each(|axis| self.forget(axis));
         let with_z = self.machine.tool.length.as_ref().is_some_and(|length| length.with_z);
-        if with_z && places[Z].is_some() {
+        if with_z && coordinates[Z].is_some() {
             self.in_force.drop_length();
         }
         self.event(EventKind::Comment { text: remark });
-        self.machine_moves.push(MachineMove { before: self.record.program.moves.len(), line, coordinates: places });
+        self.machine_moves.push(MachineMove { before: self.record.program.moves.len(), line, coordinates });
     }
 }
