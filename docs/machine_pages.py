@@ -1,6 +1,6 @@
 """Writes docs/machines.md, the golden programs in docs/machines/ and the tables of docs/posts.md: `make machines`.
 
-With ``--check`` it writes nothing and says what is out of date.
+With ``--check`` it writes nothing and prints what is out of date.
 """
 
 from __future__ import annotations
@@ -148,7 +148,7 @@ def _between(text: str, mark: str, inside: str) -> str:
 def _section(machine: sc.Machine, golden: Path) -> str:
     source = machine.document["source"]
     lines = [f"## {machine.name}", "", f"{machine.description}. [Golden program]({golden.relative_to(FOLDER)})."]
-    titles = {"read": "Read:", "unconfirmed": "Not confirmed:", "notes": "To know:"}
+    titles = {"read": "Read:", "unconfirmed": "Not confirmed:", "notes": "Notes:"}
     for key, title in titles.items():
         if source[key]:
             lines += ["", title, "", *(f"- {line}" for line in source[key])]
@@ -156,7 +156,7 @@ def _section(machine: sc.Machine, golden: Path) -> str:
 
 
 def main() -> int:
-    """Writes what differs, or says what does."""
+    """Writes what differs, or prints what does."""
     stale = [path for path, text in pages().items() if not path.is_file() or path.read_text(encoding="utf-8") != text]
     if "--check" in sys.argv:
         for path in stale:
