@@ -35,7 +35,7 @@ pub fn of_trace(error: &TraceError) -> PyErr {
     if error.fault == TraceFault::Cancelled {
         return cancelled(Cancelled);
     }
-    raise("VerifyError", &error.to_string(), error.code(), &error.place(), error.hint())
+    raise("VerifyError", &error.to_string(), error.code(), &error.place(), &error.hint())
 }
 
 /// A shape's error.

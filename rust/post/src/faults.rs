@@ -1,27 +1,52 @@
-//! One table for what scripts and people need of each fault: its stable code, and what to do.
+//! One list for each kind of fault: what occurs, its stable code, the message, and what to do.
 
-/// Implements `code` and `hint` for an enum of faults, by a line for each variant: pattern, code, hint.
-macro_rules! codes_and_hints {
-    ($fault:ident, $hint_type:ty; $($pattern:pat => $code:expr, $hint:expr;)*) => {
+/// Makes an enum of faults with `code` and `hint`. A variant states its code, its message (as thiserror takes it) and its
+/// hint, in which fields stand as in the message; `@transparent` ones are another error's.
+macro_rules! faults {
+    (
+        $(#[$meta:meta])*
+        pub enum $fault:ident;
+        $(@transparent $(#[$outer:meta])* $inner:ident($error:ty);)*
+        $(
+            $(#[$doc:meta])*
+            $name:ident $({ $($(#[$field_doc:meta])* $field:ident: $type:ty,)* })?
+            = $code:literal, ($($message:tt)+), $hint:literal;
+        )*
+    ) => {
+        $(#[$meta])*
+        #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+        pub enum $fault {
+            $($(#[$outer])* #[error(transparent)] $inner(#[from] $error),)*
+            $(
+                $(#[$doc])*
+                #[doc = ""]
+                #[doc = concat!("To do: ", $hint, ".")]
+                #[error($($message)+)]
+                $name $({ $($(#[$field_doc])* $field: $type,)* })?,
+            )*
+        }
+
         impl $fault {
             /// A stable name for scripts.
             #[must_use]
-            #[allow(unused_variables)] // values that the hint names
             pub fn code(&self) -> &'static str {
                 match self {
-                    $($pattern => $code,)*
+                    $(Self::$inner(error) => error.code(),)*
+                    $(Self::$name { .. } => $code,)*
                 }
             }
 
             /// What to do, in a sentence.
             #[must_use]
-            pub fn hint(&self) -> $hint_type {
+            #[allow(unused_variables, clippy::useless_format)] // fields that no hint names; hints without fields
+            pub fn hint(&self) -> String {
                 match self {
-                    $($pattern => <$hint_type>::from($hint),)*
+                    $(Self::$inner(error) => error.hint(),)*
+                    $(Self::$name $({ $($field),* })? => format!($hint),)*
                 }
             }
         }
     };
 }
 
-pub(crate) use codes_and_hints;
+pub(crate) use faults;

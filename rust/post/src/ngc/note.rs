@@ -1,4 +1,4 @@
-//! What a trace leaves out or takes for granted, noted once each.
+//! What a trace leaves out or assumes, noted once each.
 
 use std::fmt;
 
@@ -73,7 +73,7 @@ pub enum Gap {
         name: String,
     },
     /// M66, or a parameter of the machine's inputs.
-    #[error("no input is there to wait for (M66): 0 is taken")]
+    #[error("inputs are not known (M66): 0 is taken")]
     Input,
     /// A code of the user's or of one machine.
     #[error("{code} is not known here: left out")]
@@ -103,10 +103,10 @@ pub enum Gap {
         axis: char,
     },
     /// M99 outside of a subroutine.
-    #[error("the program begins anew for ever (M99): it is shown once")]
+    #[error("M99 repeats the program without end: it is shown once")]
     Forever,
     /// Neither M2, M30 nor a closing %.
-    #[error("it has no end (M2, M30 or %): it may be cut off")]
+    #[error("the program has no end (M2, M30 or %): the file may be cut off")]
     NoEnd,
 }
 

@@ -22,6 +22,6 @@ pub struct Trace {
     /// Its moves and events. Positions are those of the tips, in the coordinates in force at the first move: where work
     /// offsets change later, what follows is shown where it lies in space.
     pub program: Program,
-    /// What is left out or taken for granted.
+    /// What is left out or assumed.
     pub notes: Vec<Note>,
 }
