@@ -143,7 +143,7 @@ fn pieces(word: &str, width: usize) -> impl Iterator<Item = String> + '_ {
     word.as_bytes().chunks(width).map(|c| String::from_utf8_lossy(c).into_owned())
 }
 
-/// A line that no controller takes as an order.
+/// A line that no controller takes as a command.
 fn passive(line: String, active: &[String]) -> String {
     let first = line.split([',', ' ']).next().unwrap_or_default();
     if active.iter().any(|a| a.eq_ignore_ascii_case(first)) {

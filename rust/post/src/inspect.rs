@@ -8,7 +8,7 @@ use crate::post_error::PostError;
 /// How far Y may be from 0 on a machine without it, mm: rounding only.
 const FLAT: f64 = 1e-9;
 
-/// Looks at a program, move by move.
+/// Inspects a program, move by move.
 pub(crate) struct Inspector<'a> {
     head: &'a Program,
     machine: &'a Machine,
@@ -20,7 +20,7 @@ pub(crate) struct Inspector<'a> {
 }
 
 impl<'a> Inspector<'a> {
-    /// Looks at the records of a program.
+    /// Inspects the records of a program.
     pub fn new(head: &'a Program, machine: &'a Machine) -> Result<Self, PostError> {
         inspect_wcs(head, machine)?;
         inspect_tools(head, machine)?;
@@ -69,7 +69,7 @@ impl<'a> Inspector<'a> {
             && hole.retract >= hole.bottom
     }
 
-    /// Looks at an event.
+    /// Inspects an event.
     pub fn event(&mut self, number: usize, kind: &EventKind) -> Result<(), PostError> {
         match *kind {
             EventKind::ToolChange { tool } => {
@@ -105,7 +105,7 @@ impl<'a> Inspector<'a> {
         Ok(())
     }
 
-    /// Looks at a move from `start`: its operation, its feed, its path in the machine.
+    /// Inspects a move from `start`: its operation, its feed, its path in the machine.
     pub fn step(&mut self, index: usize, start: Option<[f64; 3]>, step: &Move) -> Result<(), PostError> {
         self.moves += 1;
         if step.operation as usize >= self.head.operations.len() {

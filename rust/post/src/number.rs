@@ -1,4 +1,4 @@
-//! Numbers as a controller reads them, written from whole counts of the last place.
+//! Numbers as a controller reads them, written from whole counts of the last decimal.
 
 use crate::machine::{NumberRules, Point, TrailingZeros};
 
@@ -10,7 +10,7 @@ pub(crate) const DWELL_PLACES: u8 = 3;
 /// Decimal places of a thread's pitch.
 pub(crate) const PITCH_PLACES: u8 = 6;
 
-/// Largest count of last places that is taken: every whole number up to here is exact in an f64.
+/// Largest count of last decimals that is taken: every whole number up to here is exact in an f64.
 const LARGEST: f64 = 9.0e15;
 
 /// How one kind of number is written.
@@ -56,18 +56,18 @@ impl NumberFormat {
         Self { plus_sign: false, ..self }
     }
 
-    /// How many last places one whole unit has.
+    /// How many units of the last decimal one whole unit has.
     #[allow(clippy::cast_precision_loss)] // at most 1e8
     pub(crate) fn per_one(&self) -> f64 {
         self.units_per_one as f64
     }
 
-    /// `value` in last places, rounded half away from zero; none when it is not finite or too large.
+    /// `value` in units of the last decimal, rounded half away from zero; none when it is not finite or too large.
     pub(crate) fn count(&self, value: f64) -> Option<i64> {
         whole(value * self.per_one())
     }
 
-    /// A count of last places as text.
+    /// A count of last decimals as text.
     pub(crate) fn text(&self, count: i64) -> String {
         let mut out = String::new();
         self.write(&mut out, count);
@@ -79,7 +79,7 @@ impl NumberFormat {
         self.text(self.count(value).unwrap_or_default())
     }
 
-    /// Writes a count of last places.
+    /// Writes a count of last decimals.
     pub(crate) fn write(&self, out: &mut String, count: i64) {
         if count < 0 {
             out.push('-');

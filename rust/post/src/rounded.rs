@@ -10,10 +10,10 @@ const LEAST: f64 = 1e-5;
 /// What arithmetic may add to a difference of radii, mm.
 const ARITHMETIC: f64 = 1e-9;
 
-/// A radius of fewer last places is hardly a circle once rounded: it becomes lines.
+/// A radius of fewer units of the last decimal is hardly a circle once rounded: it becomes lines.
 const LEAST_PLACES: f64 = 5.0;
 
-/// An arc of which the ends and the centre stand in last places.
+/// An arc of which the ends and the centre stand in units of the last decimal.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RoundedArc {
     /// Plane, sense and turns.
@@ -39,7 +39,7 @@ impl RoundedArc {
         [0, 1, 2].map(|axis| self.from[axis] + self.offset[axis])
     }
 
-    /// Whether a controller takes it for the path that is meant; `unit` is the last place, mm.
+    /// Whether a controller takes it for the path that is meant; `unit` is the last decimal, mm.
     ///
     /// A path too short for its ends to differ once rounded would be taken for a full circle.
     pub fn stands_for(&self, path: &ArcPath, rules: &ArcRules, unit: f64) -> bool {
@@ -56,7 +56,7 @@ impl RoundedArc {
         let radius = posted.radius();
         let in_range =
             radius > rules.min_radius.max(LEAST_PLACES * unit) && rules.max_radius.is_none_or(|most| radius <= most);
-        // the controller computes anew, and rounds otherwise
+        // the controller computes again, and rounds otherwise
         as_meant && in_range && rules.radius_error.takes(posted.mismatch() + ARITHMETIC, radius)
     }
 }

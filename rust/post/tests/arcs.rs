@@ -20,26 +20,26 @@ fn reads(block: &str, machine: &Machine) -> Result<Move, ReadFault> {
     })
 }
 
-fn way(block: &str) -> ArcPath {
+fn path(block: &str) -> ArcPath {
     reads(block, &linuxcnc()).unwrap().path([10.0, 0.0, 0.0]).unwrap()
 }
 
 #[test]
 fn centres_radii_planes_and_turns() {
     let quarter =
-        [way("G3 X0 Y10 I-10"), way("G3 X0 Y10 R10"), way("G90.1 G3 X0 Y10 I0 J0"), way("G91 G3 X-10 Y10 I-10 J0")];
-    for way in quarter {
-        assert!((way.sweep() - PI / 2.0).abs() < 1e-12 && (way.radius() - 10.0).abs() < 1e-12);
+        [path("G3 X0 Y10 I-10"), path("G3 X0 Y10 R10"), path("G90.1 G3 X0 Y10 I0 J0"), path("G91 G3 X-10 Y10 I-10 J0")];
+    for path in quarter {
+        assert!((path.sweep() - PI / 2.0).abs() < 1e-12 && (path.radius() - 10.0).abs() < 1e-12);
     }
-    assert!((way("G2 X0 Y10 R-10").sweep() + PI * 1.5).abs() < 1e-12);
-    assert!((way("G2 X0 Y10 I-10").sweep() + PI * 1.5).abs() < 1e-12);
-    assert!((way("G2 X10 Y0 I-10").sweep() + TAU).abs() < 1e-12);
-    assert!((way("G2 I-10").sweep() + TAU).abs() < 1e-12);
-    assert!((way("G2 I-10 P3 Z-3").sweep() + 3.0 * TAU).abs() < 1e-12);
+    assert!((path("G2 X0 Y10 R-10").sweep() + PI * 1.5).abs() < 1e-12);
+    assert!((path("G2 X0 Y10 I-10").sweep() + PI * 1.5).abs() < 1e-12);
+    assert!((path("G2 X10 Y0 I-10").sweep() + TAU).abs() < 1e-12);
+    assert!((path("G2 I-10").sweep() + TAU).abs() < 1e-12);
+    assert!((path("G2 I-10 P3 Z-3").sweep() + 3.0 * TAU).abs() < 1e-12);
     // G18 is seen from +Y: from X to Z is clockwise
-    assert!((way("G18 G2 X0 Z10 I-10").sweep() + PI * 0.5).abs() < 1e-12);
-    assert!((way("G18 G3 X0 Z10 I-10").sweep() - PI * 1.5).abs() < 1e-12);
-    assert!(way("G18 G2 X0 Z-10 I-10").at(1.0).iter().zip([0.0, 0.0, -10.0]).all(|(a, b)| (a - b).abs() < 1e-12));
+    assert!((path("G18 G2 X0 Z10 I-10").sweep() + PI * 0.5).abs() < 1e-12);
+    assert!((path("G18 G3 X0 Z10 I-10").sweep() - PI * 1.5).abs() < 1e-12);
+    assert!(path("G18 G2 X0 Z-10 I-10").at(1.0).iter().zip([0.0, 0.0, -10.0]).all(|(a, b)| (a - b).abs() < 1e-12));
 }
 
 #[test]
@@ -75,8 +75,8 @@ fn off(posted: &Program, start: [f64; 3], meant: &ArcPath) -> f64 {
         for i in 0..=20 {
             let share = f64::from(i) / 20.0;
             let straight = |axis: usize| from[axis] + share * (step.end.tip[axis] - from[axis]);
-            let place = step.path(from).map_or([straight(0), straight(1), straight(2)], |way| way.at(share));
-            worst = worst.max(distance_to(meant, place));
+            let position = step.path(from).map_or([straight(0), straight(1), straight(2)], |path| path.at(share));
+            worst = worst.max(distance_to(meant, position));
         }
         from = step.end.tip;
     }
@@ -84,15 +84,15 @@ fn off(posted: &Program, start: [f64; 3], meant: &ArcPath) -> f64 {
 }
 
 /// Distance of a position to a path: coarse, then fine.
-fn distance_to(way: &ArcPath, place: [f64; 3]) -> f64 {
+fn distance_to(path: &ArcPath, position: [f64; 3]) -> f64 {
     let gap = |share: f64| {
-        let at = way.at(share.clamp(0.0, 1.0));
-        (0..3).map(|i| (at[i] - place[i]).powi(2)).sum::<f64>().sqrt()
+        let at = path.at(share.clamp(0.0, 1.0));
+        (0..3).map(|i| (at[i] - position[i]).powi(2)).sum::<f64>().sqrt()
     };
     let near = |i: u32| gap(f64::from(i) / 2000.0);
     let best = (0..=2000).map(near).fold(f64::INFINITY, f64::min);
     // turns of a helix lie side by side: every one that may be the nearest is looked at
-    let chosen = (0..=2000).filter(|i| near(*i) <= best + way.length() / 2000.0);
+    let chosen = (0..=2000).filter(|i| near(*i) <= best + path.length() / 2000.0);
     chosen.map(|i| fine(&gap, f64::from(i) / 2000.0)).fold(f64::INFINITY, f64::min)
 }
 
@@ -121,11 +121,11 @@ proptest! {
     ) {
         let [first, second, third] = plane.axes();
         let at = |angle: f64, height: f64| {
-            let mut place = centre;
-            place[first] += radius * angle.cos();
-            place[second] += radius * angle.sin();
-            place[third] += height;
-            place
+            let mut position = centre;
+            position[first] += radius * angle.cos();
+            position[second] += radius * angle.sin();
+            position[third] += height;
+            position
         };
         let start = at(angle, 0.0);
         let mut end = at(if clockwise { angle - sweep } else { angle + sweep }, rise);

@@ -18,12 +18,12 @@ fn holes(kind: CycleKind, peck: f64, dwell: f64, lift: bool) -> Program {
     let mut work = program(vec![rapid(0.0, 0.0, 10.0)], vec![change(0, 0), spindle(0, 500.0)], vec![stylus(1)]);
     let turning = Some((500.0, SpindleDirection::Clockwise));
     for x in [0.0, 8.0] {
-        let place = work.moves.last().unwrap().end.tip;
-        let leave = if lift { place[2] } else { 2.0 };
+        let position = work.moves.last().unwrap().end.tip;
+        let leave = if lift { position[2] } else { 2.0 };
         let first = work.moves.len();
         let hole =
             Cycle { first, count: 0, kind, at: [x, 15.0], retract: 2.0, bottom: -6.0, leave, feed: 150.0, dwell, peck };
-        for step in hole.steps(&CycleStart { position: place, spindle: turning }).unwrap() {
+        for step in hole.steps(&CycleStart { position, spindle: turning }).unwrap() {
             match step {
                 CycleStep::Move(styluscam_motion::MoveKind::Rapid, [x, y, z]) => work.moves.push(rapid(x, y, z)),
                 CycleStep::Move(_, [x, y, z]) => work.moves.push(feed(x, y, z, 150.0)),

@@ -65,10 +65,10 @@ fn step() -> impl Strategy<Value = Step> {
     let radius = prop_oneof![3 => 0.5..80.0_f64, 1 => 0.000_3..0.01_f64, 1 => 100.0..5000.0_f64];
     let sweep = prop_oneof![4 => -359.0..359.0_f64, 1 => Just(360.0), 1 => Just(-360.0), 1 => -1.0..1.0_f64];
     let rise = prop_oneof![2 => Just(0.0), 1 => -10.0..10.0_f64];
-    let place = || [coordinate(), coordinate(), coordinate()];
+    let position = || [coordinate(), coordinate(), coordinate()];
     prop_oneof![
-        2 => place().prop_map(Step::Rapid),
-        5 => (place(), feed()).prop_map(|(end, feed)| Step::Feed(end, feed)),
+        2 => position().prop_map(Step::Rapid),
+        5 => (position(), feed()).prop_map(|(end, feed)| Step::Feed(end, feed)),
         4 => (plane(), radius, 0.0..360.0_f64, sweep, rise, 0_u32..3)
             .prop_map(|(plane, radius, from, sweep, rise, turns)| Step::Arc(plane, radius, [from, sweep], rise, turns)),
         2 => hole(),
@@ -154,18 +154,18 @@ impl Work {
     }
 
     fn hole(&mut self, kind: CycleKind, depth: f64, peck: f64, dwell: f64, lift: bool, machine: &Machine) {
-        let place = self.at();
-        let retract = place[2] - 1.0;
+        let position = self.at();
+        let retract = position[2] - 1.0;
         let dwells = matches!(kind, CycleKind::Drill | CycleKind::Bore) && machine.dwell.is_some();
         let pecks = matches!(kind, CycleKind::Peck | CycleKind::ChipBreak);
         let hole = Cycle {
             first: self.moves.len(),
             count: 0,
             kind,
-            at: [place[0] + 5.0, place[1]],
+            at: [position[0] + 5.0, position[1]],
             retract,
             bottom: retract - depth,
-            leave: if lift { place[2] } else { retract },
+            leave: if lift { position[2] } else { retract },
             feed: 200.0,
             dwell: if dwells { dwell } else { 0.0 },
             peck: if pecks { peck } else { 0.0 },
@@ -175,7 +175,7 @@ impl Work {
             EventKind::SpindleOff | EventKind::ToolChange { .. } => Some(None),
             _ => None,
         });
-        for step in hole.steps(&CycleStart { position: place, spindle: spindle.flatten() }).unwrap() {
+        for step in hole.steps(&CycleStart { position, spindle: spindle.flatten() }).unwrap() {
             match step {
                 CycleStep::Move(kind, end) => {
                     self.push(kind, end, None, if kind == MoveKind::Feed { 200.0 } else { 0.0 });

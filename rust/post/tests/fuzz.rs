@@ -81,8 +81,8 @@ fn changes() -> impl Strategy<Value = Vec<Change>> {
 
 fn damaged(text: &str, changes: &[Change]) -> String {
     let mut characters: Vec<char> = text.chars().collect();
-    for (place, length, piece) in changes {
-        let at = ((place * characters.len() as f64) as usize).min(characters.len());
+    for (share, length, piece) in changes {
+        let at = ((share * characters.len() as f64) as usize).min(characters.len());
         let end = (at + length).min(characters.len());
         characters.splice(at..end, piece.chars());
     }

@@ -175,7 +175,7 @@ fn check_numbers(line: &str) {
     }
 }
 
-/// Every move's line leads to its end, within half a unit of the last place.
+/// Every move's line leads to its end, within half a unit of the last decimal.
 fn check_lines(program: &Program, machine: &Machine, posted: &Posted, reading: &Reading) {
     assert_eq!(posted.line_of_move.len(), program.moves.len());
     for (step, line) in program.moves.iter().zip(&posted.line_of_move) {
@@ -190,11 +190,11 @@ fn check_round_trip(program: &Program, machine: &Machine) {
     let posted = post(program, machine).unwrap();
     check_text(&posted, machine);
     let reading = read(&posted.text, machine, &program.tools).unwrap_or_else(|e| panic!("{e}\n{}", posted.text));
-    let (wanted, got) = (expected(program, machine), found(&reading));
-    for (index, (a, b)) in wanted.iter().zip(&got).enumerate() {
+    let (planned, got) = (expected(program, machine), found(&reading));
+    for (index, (a, b)) in planned.iter().zip(&got).enumerate() {
         assert!(same(a, b), "item {index}: {a:?} became {b:?}\n{}", posted.text);
     }
-    assert_eq!(wanted.len(), got.len(), "{}", posted.text);
+    assert_eq!(planned.len(), got.len(), "{}", posted.text);
     assert_eq!(reading.program.setup.wcs, program.setup.wcs);
     check_lines(program, machine, &posted, &reading);
 }
@@ -210,13 +210,13 @@ fn coordinate() -> impl Strategy<Value = f64> {
     ]
 }
 
-fn place() -> impl Strategy<Value = [f64; 3]> {
+fn position() -> impl Strategy<Value = [f64; 3]> {
     [coordinate(), coordinate(), coordinate()]
 }
 
 fn step() -> impl Strategy<Value = Move> {
     let feed = prop_oneof![(5.0..5000.0_f64), (1_i32..4).prop_map(|n| f64::from(n) * 500.0)];
-    (place(), prop_oneof![1 => Just(None), 4 => feed.prop_map(Some)])
+    (position(), prop_oneof![1 => Just(None), 4 => feed.prop_map(Some)])
         .prop_map(|(end, feed)| feed.map_or(Move::rapid(end), |feed| Move::feed(end, feed)))
 }
 

@@ -10,7 +10,7 @@ use super::option::OptionRule;
 use super::rules::*;
 use crate::number::NumberFormat;
 
-/// Holes of fewer last places are made of plain moves: controllers refuse a cycle of no depth.
+/// Holes of fewer units of the last decimal are made of plain moves: controllers refuse a cycle of no depth.
 const LEAST_DEPTH: f64 = 3.0;
 
 /// Version of the machine document; newer ones are refused.

@@ -63,6 +63,12 @@ impl Block {
         self.words.offsets()
     }
 
+    /// Whether one of its G words asks for this.
+    pub(super) fn has(&self, code: Code) -> bool {
+        self.codes().any(|known| known == code)
+    }
+
+    /// Whether one of its G words is this one, in tenths: for codes that mean nothing to others.
     pub(super) fn has_g(&self, code: u32) -> bool {
         self.g.contains(&code)
     }
@@ -74,11 +80,6 @@ impl Block {
     /// What its G words ask for, as far as they are known.
     pub(super) fn codes(&self) -> impl Iterator<Item = Code> + '_ {
         self.g.iter().filter_map(|code| known_g(*code))
-    }
-
-    /// The last of its G words that is one of these.
-    pub(super) fn any_g(&self, codes: &[u32]) -> Option<u32> {
-        self.g.iter().rev().copied().find(|code| codes.contains(code))
     }
 
     /// X, Y and Z.

@@ -6,6 +6,7 @@ use super::note::Gap;
 use super::offsets::{less, system_code, System, SYSTEMS};
 use super::path::Pace;
 use super::tracer::Tracer;
+use crate::block::{Code, Length};
 use styluscam_motion::MoveKind;
 
 /// The first parameters of the positions that G28 and G30 go to, and of G92's offset.
@@ -49,17 +50,18 @@ impl Tracer<'_> {
     /// G43, G43.1, G43.2 and G49. The tool table is not here: lengths are those that G10 L1 has set.
     pub(super) fn set_tool_length(&mut self, block: &Block) -> Result<(), TraceFault> {
         let number = block.count(b'h', "H")?.unwrap_or(self.loaded);
-        let offset = match block.any_g(&[430, 431, 432, 490]) {
-            Some(430) => self.length_of(number),
-            Some(431) => {
+        let length = block.codes().filter_map(|code| if let Code::Length(length) = code { Some(length) } else { None });
+        let offset = match length.last() {
+            Some(Length::Table) => self.length_of(number),
+            Some(Length::Words) => {
                 let words = self.lengths(block);
                 [0, 1, 2].map(|axis| words[axis].unwrap_or(self.offsets.tool[axis]))
             }
-            Some(432) => {
+            Some(Length::Added) => {
                 let (table, words) = (self.length_of(number), self.lengths(block));
                 [0, 1, 2].map(|axis| self.offsets.tool[axis] + words[axis].unwrap_or(table[axis]))
             }
-            Some(_) => [0.0; 3],
+            Some(Length::Off) => [0.0; 3],
             None => return Ok(()),
         };
         self.offset(|tracer| tracer.offsets.tool = offset);

@@ -10,7 +10,7 @@ use super::note::{Gap, FEED_UNKNOWN};
 use super::path::Pace;
 use super::tracer::{Next, Tracer};
 use crate::block::arc::{centre_by_offsets, ArcFault, Ends, Least, Slack, MOST_TURNS};
-use crate::block::{CycleWords, Feed};
+use crate::block::{Code, CycleWords, Feed};
 use crate::machine::FeedMode;
 
 /// Ends of an arc may differ so much in their distance from its centre unmentioned.
@@ -41,7 +41,7 @@ impl Tracer<'_> {
             _ if !codes::moves(code) => self.note(Gap::Code { code: codes::name_g(code) }),
             0 | 10 if !names_position(block) => {}
             0 => {
-                let end = self.target(block, block.has_g(530))?;
+                let end = self.target(block, block.has(Code::MachineCoordinates))?;
                 self.rapid(end)?;
             }
             10 => self.straight(block)?,
@@ -62,7 +62,7 @@ impl Tracer<'_> {
 
     fn straight(&mut self, block: &Block) -> Result<(), TraceFault> {
         self.begin()?;
-        let end = self.target(block, block.has_g(530))?;
+        let end = self.target(block, block.has(Code::MachineCoordinates))?;
         self.feed_to(end)
     }
 

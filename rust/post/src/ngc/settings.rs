@@ -115,16 +115,17 @@ impl Tracer<'_> {
     }
 
     pub(super) fn set_coolant(&mut self, block: &Block) -> Result<(), TraceFault> {
-        for code in &block.m {
+        for code in block.m.iter().filter_map(|code| m_code(*code)) {
             match code {
-                7 => {
+                Code::Mist => {
                     self.modes.common.mist = true;
                     self.path.event(EventKind::Mist { on: true })?;
                 }
-                8 | 9 => {
-                    self.modes.flood = *code == 8;
-                    self.modes.common.mist &= *code == 8;
-                    self.path.event(EventKind::Flood { on: *code == 8 })?;
+                Code::Flood | Code::CoolantOff => {
+                    let on = code == Code::Flood;
+                    self.modes.flood = on;
+                    self.modes.common.mist &= on;
+                    self.path.event(EventKind::Flood { on })?;
                 }
                 _ => {}
             }
@@ -133,7 +134,7 @@ impl Tracer<'_> {
     }
 
     pub(super) fn dwell(&mut self, block: &Block) -> Result<(), TraceFault> {
-        if !block.has_g(40) {
+        if !block.has(Code::Dwell) {
             return Ok(());
         }
         let seconds = block.word(b'p').ok_or(TraceFault::WordMissing { what: "P of G4" })?;

@@ -16,7 +16,7 @@ use super::parameters::Parameters;
 use super::path::Path;
 use super::source::{Content, Line, Source};
 use super::trace::{Limits, Trace};
-use crate::block::CycleWords;
+use crate::block::{Code, CycleWords, Motion};
 
 /// A subroutine's text by its name.
 pub(super) type Find<'f> = &'f dyn Fn(&str) -> Option<String>;
@@ -223,7 +223,7 @@ impl<'f> Tracer<'f> {
         if users.next().is_some() {
             return Err(TraceFault::SameGroup);
         }
-        if block.has_g(NO_MOTION) {
+        if block.has(Code::Motion(Motion::Cancel)) {
             self.modes.motion = NO_MOTION;
             self.cycle = CycleWords::default();
         }

@@ -257,7 +257,7 @@ fn operations(bench: &Bench, machine: &Machine) -> Draft {
     draft
 }
 
-/// Steps about the last place, halves of it, positions that round to where the tool stands, and back over zero.
+/// Steps about the last decimal, halves of it, positions that round to where the tool stands, and back over zero.
 fn edges(bench: &Bench) -> Draft {
     let mut draft = Draft::start(bench);
     for step in

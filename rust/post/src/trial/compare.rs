@@ -10,18 +10,18 @@ use crate::writer::Posted;
 const FEED_SLACK: f64 = 1e-9;
 /// Positions are compared with this slack over and above their rounding, mm.
 const SLACK: f64 = 1e-9;
-/// An arc's centre is rounded too: its path may leave the planned one by so many last places.
+/// An arc's centre is rounded too: its path may leave the planned one by so many units of the last decimal.
 const ARC_PLACES: f64 = 3.0;
 
-/// A path whose ends are rounded may be longer or shorter by so many last places.
+/// A path whose ends are rounded may be longer or shorter by so many units of the last decimal.
 const PLACES_OF_A_WAY: f64 = 4.0;
 
-/// An arc of a few last places may turn so much farther once rounded, rad.
+/// An arc of a few units of the last decimal may turn so much farther once rounded, rad.
 const TINY_SWEEP: f64 = 0.6;
 
 /// The first thing of a program that was posted and does not come back: its line, 0 where none is at fault, and what it is.
 ///
-/// Positions are compared within half a last place, arcs within three, events in their order; remarks are not.
+/// Positions are compared within half a unit of the last decimal, arcs within three, events in their order; remarks are not.
 #[must_use]
 pub fn difference(program: &Program, posted: &Posted, reading: &Reading, machine: &Machine) -> Option<(u32, String)> {
     if reading.program.setup.wcs != program.setup.wcs {

@@ -15,7 +15,7 @@ const CLEARANCE: f64 = 0.25;
 /// Chips broken before the drill leaves the hole to clear it.
 const BREAKS: &str = "99";
 
-/// The lines that define a cycle, without block numbers; boring is no cycle here. `per_mm` is last places in a mm.
+/// The lines that define a cycle, without block numbers; boring is no cycle here. `per_mm` is units of the last decimal in a mm.
 ///
 /// Heights are measured from a surface just under the position where the hole begins.
 pub(super) fn definition(hole: &Hole, linear: &NumberFormat, feed: &NumberFormat, per_mm: f64) -> String {

@@ -6,13 +6,13 @@ use super::lines::Lines;
 use crate::post_error::PostError;
 use crate::rounded::RoundedArc;
 
-/// Where the posted point stands, in last places; none where that is not known.
+/// Where the posted point stands, in units of the last decimal; none where that is not known.
 pub(super) type Position = [Option<i64>; 3];
 
-/// A feed as it is posted: in last places of the mode that is in force.
+/// A feed as it is posted: in units of the last decimal of the mode that is in force.
 pub(super) type Feed = i64;
 
-/// A hole in last places.
+/// A hole in units of the last decimal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Hole {
     pub kind: CycleKind,
@@ -34,7 +34,7 @@ pub(super) struct Hole {
 pub(super) struct Thread {
     /// Output units in a revolution.
     pub pitch: f64,
-    /// The spindle's speed, in last places.
+    /// The spindle's speed, in units of the last decimal.
     pub speed: i64,
 }
 
@@ -73,7 +73,7 @@ pub(super) trait Dialect {
     /// A hole of a kind that the machine has a cycle for.
     fn hole(&mut self, lines: &mut Lines, hole: &Hole) -> Result<(), PostError>;
 
-    /// The spindle's speed, in last places, and the word that turns it.
+    /// The spindle's speed, in units of the last decimal, and the word that turns it.
     fn spindle(&mut self, lines: &mut Lines, speed: i64, word: &str) -> Result<(), PostError>;
 
     /// A wait, s; false when it cannot be written as a number.

@@ -84,7 +84,7 @@ impl Poster<'_> {
         Ok(())
     }
 
-    /// A speed as the machine counts it, in last places.
+    /// A speed as the machine counts it, in units of the last decimal.
     pub(super) fn speed_count(&self, rpm: f64) -> Result<i64, PostError> {
         let speed = match (self.machine.spindle.unit, self.machine.limits.max_rpm) {
             (SpeedUnit::Percent, Some(most)) => 100.0 * rpm / most,

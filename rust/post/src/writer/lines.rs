@@ -85,7 +85,7 @@ impl<'a> Lines<'a> {
         self.text.push_str(word);
     }
 
-    /// A letter, or an address, and a number in last places.
+    /// A letter, or an address, and a number in units of the last decimal.
     pub fn number(&mut self, address: &str, format: &NumberFormat, count: i64) {
         self.separate();
         self.text.push_str(address);

@@ -89,7 +89,7 @@ pub struct Poster<'a> {
     /// The last line with motion.
     motion_line: u32,
     position: Position,
-    /// The tip's last place, as planned.
+    /// The tip's last position, as planned.
     tip: Option<[f64; 3]>,
     tool: Option<&'a ToolRecord>,
     operation: Option<u32>,
@@ -259,7 +259,7 @@ impl<'a> Poster<'a> {
         Ok(())
     }
 
-    /// A tip's position as the active tool's reference point, in last places.
+    /// A tip's position as the active tool's reference point, in units of the last decimal.
     fn target(&self, index: usize, tip: [f64; 3]) -> Result<[i64; 3], PostError> {
         let height = self.tool.ok_or(PostError::NoTool { index })?.reference_height;
         let [x, y, z] = [tip[0], tip[1], tip[2] + height];
@@ -320,7 +320,7 @@ impl<'a> Poster<'a> {
         Ok([x, y, z])
     }
 
-    /// A feed, mm/min, as the mode in force states it, in last places; `length` is that of the block's path, mm.
+    /// A feed, mm/min, as the mode in force states it, in units of the last decimal; `length` is that of the block's path, mm.
     fn feed_count(&self, index: usize, feed: f64, length: f64) -> Result<i64, PostError> {
         let per_mm = self.per_mm * self.machine.feed_scale();
         let stated = match self.machine.feed.mode {
