@@ -349,7 +349,7 @@ def test_suggest_takes_each_operation_s_faces(cli: Any, mine: Path, tmp_path: Pa
     ran = cli(*words, "--operation", "ground")
     assert ran.code == 2 and "no operation 'ground'" in ran.err and "floor" in ran.err
     job.write_text(changed(FINE_CUP, ('"Face4"', '"Face44"')))
-    assert "no face 'Face44'" in cli(*words).err
+    assert 'no face "Face44"' in cli(*words).err
 
 
 def test_suggest_puts_last_what_cannot_be_planned(cli: Any, mine: Path, tmp_path: Path, monkeypatch: Any) -> None:

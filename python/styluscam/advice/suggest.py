@@ -22,7 +22,7 @@ from styluscam import _engine
 from styluscam.advice import reach
 from styluscam.advice.facts import Facts, OperationFacts, WallShare
 from styluscam.advice.walls import BIN_DEG, Classes, Walls, walls_of
-from styluscam.errors import Cancelled, GeometryError, JobError, PlanError, ToolError
+from styluscam.errors import Cancelled, JobError, PlanError, ToolError
 from styluscam.programs import planning
 from styluscam.programs.job import Job
 from styluscam.tools.scallop import scallop_of_spacing
@@ -248,17 +248,16 @@ def _asked_by(job: Job, progress: Progress | None) -> list[_Asked]:
     document, found = job.document, []
     sheet = document["setup"].get("sheet") or {}
     thickness = float(sheet.get("thickness", 0.0))
-    share = {"tool": 0.0, "mid": 0.5, "back": 1.0}.get(document["part"].get("model_face"), 0.0)
-    ball = share * thickness if sheet.get("law", "constant") == "constant" else 0.0
-    bound = _engine.Scene(job.engine, job.part(progress).engine).fitting_radius
+    scene = _engine.Scene(job.engine, job.part(progress).engine)
+    ball, bound = scene.sheet_ball, scene.fitting_radius
     fits = math.inf if bound is None else bound
     for index, name in enumerate(job.engine.operation_ids()):
         spacing = job.engine.spacing(index)
         if spacing is None:
             continue  # its passes do not lie in step: no scallop follows from the profile alone
         try:
-            walls = walls_of(job, index, progress)
-        except GeometryError as error:
+            walls = walls_of(job, index, scene)
+        except JobError as error:
             if error.code != "no-faces":
                 raise
             continue  # upright walls alone: no profile leaves more there than another

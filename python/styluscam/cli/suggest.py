@@ -106,8 +106,8 @@ def _check(own: Path) -> None:
 
 def _shelf(job: Job) -> library.Library:
     """The shipped library for the job's process."""
-    milling = job.document.get("process", {}).get("kind") == "milling"
-    return next(shelf for shelf in library.shipped() if shelf.name == ("milling" if milling else "forming"))
+    name = "forming" if job.engine.forms else "milling"
+    return next(shelf for shelf in library.shipped() if shelf.name == name)
 
 
 def _part(facts: Facts) -> list[tuple[str, str]]:

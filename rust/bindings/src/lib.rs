@@ -22,6 +22,7 @@ mod starter;
 mod tool;
 mod verification;
 mod waiting;
+mod walls;
 
 use pyo3::prelude::*;
 

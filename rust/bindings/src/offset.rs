@@ -4,10 +4,9 @@ use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 use styluscam_geometry::{Mesh, Sheet};
 use styluscam_toolpath::{
-    budget::{Budget, LOOPS_EACH_SIDE},
-    forming::{z_levels, Floors, Grid},
+    budget::LoopBudget,
+    forming,
     offset::{Envelope, Line, OffsetPoint, OffsetSurface, Region},
-    Surface,
 };
 
 use crate::{
@@ -16,11 +15,6 @@ use crate::{
     tool::Tool,
     waiting::{watched, CancelToken},
 };
-
-/// Spacing of the grid that finds loops, as a share of the diameter.
-const SPACING_SHARE: f64 = 0.08;
-/// Largest tolerance of waterlines, as a share of the tool's diameter.
-const LARGEST_TOLERANCE: f64 = 0.1;
 
 fn sheet(document: Option<&str>) -> PyResult<Option<Sheet>> {
     let Some(text) = document else { return Ok(None) };
@@ -157,26 +151,15 @@ pub fn waterlines<'py>(
 ) -> PyResult<Vec<Loops<'py>>> {
     let sheet = self::sheet(sheet)?;
     let (whole, part) = (part, &part.part);
-    let left = tolerance - part.inward - part.outward;
     for (i, z) in heights.iter().enumerate() {
         arrays::height(*z, &format!("heights[{i}]"))?;
     }
-    let most = LARGEST_TOLERANCE * tool.tool.diameter();
-    if !(left > 0.0 && tolerance <= most) {
-        let message = format!(
-            "tolerance = {tolerance} mm: it must exceed the part's checked deviation, {} mm, and be at most {most:.3} mm, a tenth of the tool's diameter",
-            part.inward + part.outward
-        );
-        return Err(errors::raise("PlanError", &message, "tolerance-budget", "tolerance", "0.005 mm is usual"));
-    }
-    let budget = Budget::sharing(left, part.inward, LOOPS_EACH_SIDE);
+    let budget = LoopBudget::new(tolerance, [part.inward, part.outward], tool.tool.diameter())
+        .map_err(|e| errors::raise("PlanError", &e.to_string(), e.code(), "tolerance", "0.005 mm is usual"))?;
     let passes = watched(py, progress, cancel, |watch| {
-        let envelope = Envelope::new(&part.mesh, whole.index(watch)?, &tool.tool, sheet.as_ref(), budget.margin);
-        let floors = Floors::of(&envelope);
-        let heights: Vec<f64> = heights.iter().map(|z| floors.raised(*z)).collect();
-        let surface = Surface::whole(&envelope);
-        let grid = Grid::sample(&surface, SPACING_SHARE * tool.tool.diameter(), watch)?;
-        grid.map_or(Ok(Vec::new()), |grid| z_levels(&surface, &grid, &heights, budget.deviation, watch))
+        let index = whole.index(watch)?;
+        let envelope = Envelope::new(&part.mesh, index, &tool.tool, sheet.as_ref(), budget.shares.margin);
+        forming::waterlines(&envelope, &heights, &budget, watch)
     })?;
     let passes = passes.map_err(|e| errors::raise("PlanError", &e.to_string(), e.code(), "", ""))?;
     let mut loops: Vec<Loops<'py>> = heights.iter().map(|_| Vec::new()).collect();

@@ -2,7 +2,7 @@
 
 use pyo3::prelude::*;
 
-use crate::{errors::of_job, job::Job, part::Part, sheet::face_name};
+use crate::{errors::of_job, job::Job, part::Part, sheet::face_name, walls};
 
 /// Name, corners of the opening, heights of the lower and the upper face.
 type Plate = (&'static str, Vec<[f64; 2]>, [f64; 2]);
@@ -44,6 +44,18 @@ impl Scene {
     #[getter]
     fn fitting_radius(&self, py: Python<'_>) -> Option<f64> {
         py.detach(|| styluscam_job::fitting_radius(&self.scene.mesh, &self.scene.bvh))
+    }
+
+    /// The walls of the faces that an operation selects, and their concave corners.
+    fn walls<'py>(&self, py: Python<'py>, job: &Job, index: usize) -> PyResult<walls::Columns<'py>> {
+        let found = py.detach(|| styluscam_job::walls(&job.document, &self.scene, index)).map_err(of_job)?;
+        walls::columns(py, &found)
+    }
+
+    /// Radius (mm) of the ball by which the sheet rounds the tool; 0 without a sheet.
+    #[getter]
+    fn sheet_ball(&self) -> f64 {
+        self.scene.sheet.map_or(0.0, |sheet| sheet.along_normal())
     }
 
     /// The sheet's face that the part is, where there is a sheet.

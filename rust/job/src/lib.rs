@@ -2,6 +2,7 @@
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // what tests expect may come from std
 
+mod advice;
 mod body;
 mod check;
 mod document;
@@ -29,6 +30,7 @@ mod tagged;
 mod units;
 mod up_axis;
 
+pub use advice::{walls, Bend, Corner, Wall, Walls};
 pub use body::{Body, Border, FaceLook, Heights, Hollows, Shell, Side, Thickness, Unformable, SIDES};
 pub use document::{
     JobDocument, LengthUnit, MachineSection, OutputSection, PartSection, SetupSection, SheetSection, ToolSection,

@@ -36,6 +36,19 @@ pub enum PlanError {
         /// Decimal places of coordinates with which it would be enough; None where the machine has none that help.
         decimals: Option<u32>,
     },
+    /// The tolerance of waterlines asked for by height does not fit the part or the tool.
+    #[error(
+        "tolerance = {tolerance} mm: it must exceed the part's checked deviation, {deviation} mm, and be at most {most:.3} \
+         mm, a tenth of the tool's diameter"
+    )]
+    LoopTolerance {
+        /// The tolerance asked for, mm.
+        tolerance: f64,
+        /// How far the triangles deviate, inward and outward together, mm.
+        deviation: f64,
+        /// The largest tolerance, mm.
+        most: f64,
+    },
     /// The path would have more points than a program can hold: the step is too small for the part.
     #[error("{what} = {value} makes {count} passes, more than {limit}: raise it")]
     TooMany {
@@ -66,7 +79,7 @@ impl PlanError {
         match self {
             Self::NothingReached(_) => "nothing-reached",
             Self::Empty { .. } => "empty-path",
-            Self::Budget { .. } => "tolerance-budget",
+            Self::Budget { .. } | Self::LoopTolerance { .. } => "tolerance-budget",
             Self::TooMany { .. } => "too-many-passes",
             Self::Cancelled => "cancelled",
         }

@@ -4,7 +4,7 @@
 //! All of it is measured by rays and nearest points from some thousand places spread evenly over the surface: quick, the
 //! same for the same triangles, and told as shares of the area. It chooses and warns; nothing is cut by it.
 
-mod adjacency;
+pub(crate) mod adjacency;
 mod formable;
 mod heights;
 mod hollows;

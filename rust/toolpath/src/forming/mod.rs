@@ -18,6 +18,7 @@ mod stances;
 mod trace;
 mod untouched;
 mod walls;
+mod waterlines;
 mod z_level;
 mod zig_zag;
 
@@ -27,5 +28,6 @@ pub use left_out::left_out;
 pub use levels::{levels, raise_last, with_levels_at, LevelRange};
 pub use line::over_line;
 pub use reach::selected_range;
+pub use waterlines::waterlines;
 pub use z_level::{z_levels, z_levels_beside};
 pub use zig_zag::{zig_zag, Rows};

@@ -1,0 +1,14 @@
+//! What the faces of an operation ask of a tool: how they slope and curve, and their concave corners.
+
+mod corner;
+mod creases;
+mod curvature;
+mod fillets;
+mod patch;
+#[cfg(test)]
+mod tests;
+mod walls;
+
+pub use corner::Corner;
+pub use curvature::Bend;
+pub use walls::{walls, Wall, Walls};
