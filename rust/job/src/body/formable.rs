@@ -2,7 +2,7 @@
 
 use super::Body;
 
-/// Steeper walls no material of ours bears in one pass, degrees.
+/// No known material withstands steeper walls in one pass, degrees.
 pub const FORMED_DEG: f64 = 70.0;
 /// Share of the area that may be steeper: the sheet's own rim.
 const RIM: f64 = 0.03;
@@ -10,7 +10,7 @@ const RIM: f64 = 0.03;
 const LEVEL_DEG: f64 = 1.0;
 /// Share of the area that slopes, at least: where floors lie at several heights and nothing slopes, walls between them are upright.
 const SLOPING: f64 = 0.01;
-/// Share of the plan that may stand above the border: embossed places.
+/// Share of the plan that may stand above the border: embossed areas.
 const EMBOSSED: f64 = 0.02;
 /// A sheet that is not deeper than this many thicknesses is flat.
 const FLAT: f64 = 2.0;
@@ -26,7 +26,7 @@ pub enum Unformable {
     Unseen,
     /// It is flat.
     Flat,
-    /// Its border lies this far below its highest place, mm.
+    /// Its border lies this far below its highest point, mm.
     LowBorder(f64),
     /// This share of its area is steeper than [`FORMED_DEG`].
     Steep(f64),
@@ -41,7 +41,7 @@ impl std::fmt::Display for Unformable {
             Self::Flat => write!(f, "it is flat, and there is nothing to form"),
             Self::LowBorder(below) => write!(
                 f,
-                "its border, where a sheet is clamped, lies {below:.1} mm below its highest place, and the tool only \
+                "its border, where a sheet is clamped, lies {below:.1} mm below its highest point, and the tool only \
                  pushes down"
             ),
             Self::Steep(share) => {
@@ -54,24 +54,30 @@ impl std::fmt::Display for Unformable {
     }
 }
 
-/// The depth below the border, mm, for a sheet of a `thickness` (none: a surface).
-pub fn depth(body: &Body<'_>, thickness: Option<f64>) -> Result<f64, Unformable> {
-    let heights = body.heights();
-    let depth = heights.top - heights.bottom;
-    let border = heights.border.ok_or(Unformable::Unseen)?;
-    if depth < thickness.map_or(FLAT_SURFACE, |t| FLAT * t) {
-        return Err(Unformable::Flat);
+impl Body<'_> {
+    /// How deep a sheet of a `thickness` (none: a surface without) goes down from its border, mm, where it can be formed
+    /// from above.
+    ///
+    /// # Errors
+    /// Why it cannot.
+    pub fn formed_depth(&self, thickness: Option<f64>) -> Result<f64, Unformable> {
+        let heights = self.heights();
+        let depth = heights.top - heights.bottom;
+        let border = heights.border.ok_or(Unformable::Unseen)?;
+        if depth < thickness.map_or(FLAT_SURFACE, |t| FLAT * t) {
+            return Err(Unformable::Flat);
+        }
+        let below = heights.top - border.middle;
+        if below > thickness.unwrap_or(0.0) + SAME * depth && border.above > EMBOSSED {
+            return Err(Unformable::LowBorder(below));
+        }
+        let steep = self.steeper(FORMED_DEG);
+        if steep > RIM {
+            return Err(Unformable::Steep(steep));
+        }
+        if self.steeper(LEVEL_DEG) - steep < SLOPING {
+            return Err(Unformable::Stepped);
+        }
+        Ok(depth)
     }
-    let below = heights.top - border.middle;
-    if below > thickness.unwrap_or(0.0) + SAME * depth && border.above > EMBOSSED {
-        return Err(Unformable::LowBorder(below));
-    }
-    let steep = body.steeper(FORMED_DEG);
-    if steep > RIM {
-        return Err(Unformable::Steep(steep));
-    }
-    if body.steeper(LEVEL_DEG) - steep < SLOPING {
-        return Err(Unformable::Stepped);
-    }
-    Ok(depth)
 }

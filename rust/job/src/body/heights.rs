@@ -12,7 +12,7 @@ const WITHIN: [f64; 2] = [0.513, 0.487];
 /// What rays from above meet.
 #[derive(Clone, Debug)]
 pub struct Heights {
-    /// The highest place, mm.
+    /// The highest point, mm.
     pub top: f64,
     /// The lowest one that is seen from above, mm.
     pub bottom: f64,
@@ -70,12 +70,25 @@ impl Map {
     }
 }
 
-pub fn of(body: &Body<'_>) -> Heights {
-    let (low, high) = body.bounds();
-    let map = map(body, low, high);
-    let seen: Vec<f64> = map.heights.iter().flatten().copied().collect();
-    let bottom = seen.iter().copied().fold(high.z, f64::min);
-    Heights { top: high.z, bottom, border: border(&map, &seen, high.z - bottom) }
+impl Body<'_> {
+    /// Heights as seen from above.
+    #[must_use]
+    pub fn heights(&self) -> Heights {
+        let (low, high) = self.bounds();
+        let map = map(self, low, high);
+        let seen: Vec<f64> = map.heights.iter().flatten().copied().collect();
+        let bottom = seen.iter().copied().fold(high.z, f64::min);
+        Heights { top: high.z, bottom, border: border(&map, &seen, high.z - bottom) }
+    }
+
+    /// The highest point over (x, y), mm; none beside the part.
+    #[must_use]
+    pub fn height_at(&self, x: f64, y: f64) -> Option<f64> {
+        let (low, high) = self.bounds();
+        let above = high.z + (high.z - low.z) + 1.0;
+        let hit = self.rays.first(Vector::new(x, y, above), -Vector::z(), 0.0, |_| true)?;
+        Some(above - hit.distance)
+    }
 }
 
 fn map(body: &Body<'_>, low: Vector, high: Vector) -> Map {

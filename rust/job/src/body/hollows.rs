@@ -8,8 +8,12 @@ use std::collections::BTreeMap;
 
 use styluscam_geometry::{Mesh, Vector};
 
-use super::{adjacency::edges, samples::Sample, sides::is_seen, Body, UPRIGHT_DEG};
+use super::adjacency::edges;
+use super::samples::{of_triangles, Sample};
+use super::Body;
 
+/// From this slope on a wall is upright, degrees.
+pub const UPRIGHT_DEG: f64 = 89.0;
 /// Faces that slope at most this much are floors, degrees.
 const FLOOR_DEG: f64 = 1.0;
 /// From this slope on levels serve a face better than rows, degrees.
@@ -20,8 +24,8 @@ const SHARP_DEG: f64 = 40.0;
 const STRAIGHT: f64 = 1e-4;
 /// Of two facets of different width only those belong to the fillet that are not wider than this times the other.
 const BESIDE: f64 = 2.0;
-/// Places on each face, at least and at most, and on all of them about.
-const PLACES: [usize; 3] = [4, 24, 6000];
+/// Points on each face, at least and at most, and on all of them about.
+const SAMPLES: [usize; 3] = [4, 24, 6000];
 /// Radius of the tool that a gap has room for, as a share of its width.
 const ROOM: f64 = 0.45;
 /// A hole's width is twice its radius within this share.
@@ -29,7 +33,7 @@ const ROUND: f64 = 0.15;
 /// Most that a concave radius may differ between the narrowest and the widest tenth of a hole's wall.
 const EVEN: f64 = 0.3;
 
-/// A face as it looks from above.
+/// A face as it is seen from above.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FaceLook {
     /// Its number.
@@ -38,7 +42,7 @@ pub struct FaceLook {
     pub area: f64,
     /// Share of the area that a tool from above could see.
     pub seen: f64,
-    /// Share that looks up and is flat.
+    /// Share that faces up and is flat.
     pub flat: f64,
     /// Share that slopes, up to 45 degrees.
     pub gentle: f64,
@@ -48,7 +52,7 @@ pub struct FaceLook {
     pub vertical: f64,
     /// Whether a job that names the face must allow undercuts.
     pub looks_down: bool,
-    /// Lowest and highest place, mm.
+    /// Lowest and highest point, mm.
     pub heights: [f64; 2],
     /// Largest radius of a tool that fits, mm, and for how much area, mm^2; only what bounds it.
     pub bounds: Vec<(f64, f64)>,
@@ -94,17 +98,31 @@ impl Hollows {
     }
 }
 
-pub fn of(body: &Body<'_>) -> Hollows {
-    let mesh = body.mesh();
-    let (radii, sharp) = concave(mesh);
-    let mut by_face: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-    for (triangle, face) in mesh.faces().iter().enumerate() {
-        by_face.entry(*face).or_default().push(triangle as u32);
+impl Body<'_> {
+    /// The faces as seen from above, with the concave radii and the gaps that bound a tool.
+    #[must_use]
+    pub fn hollows(&self) -> Hollows {
+        let mesh = self.mesh();
+        let (radii, sharp) = concave(mesh);
+        let mut by_face: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        for (triangle, face) in mesh.faces().iter().enumerate() {
+            by_face.entry(*face).or_default().push(triangle as u32);
+        }
+        let [least, most, all] = SAMPLES;
+        let count = (all / by_face.len().max(1)).clamp(least, most);
+        let faces = by_face.iter().map(|(face, triangles)| look(self, *face, triangles, &radii, count)).collect();
+        Hollows { faces, sharp }
     }
-    let [least, most, all] = PLACES;
-    let count = (all / by_face.len().max(1)).clamp(least, most);
-    let faces = by_face.iter().map(|(face, triangles)| look(body, *face, triangles, &radii, count)).collect();
-    Hollows { faces, sharp }
+
+    /// From a steep point level across to what stands opposite, mm.
+    pub(super) fn gap(&self, sample: &Sample) -> Option<f64> {
+        let level = Vector::new(sample.normal.x, sample.normal.y, 0.0);
+        if level.norm() < libm::sin(STEEP_DEG.to_radians()) {
+            return None;
+        }
+        let hit = self.rays.first(sample.point, level.normalize(), 10.0 * self.fine(), |hit| hit.along < 0.0)?;
+        Some(hit.distance)
+    }
 }
 
 fn look(body: &Body<'_>, face: u32, triangles: &[u32], radii: &[f64], count: usize) -> FaceLook {
@@ -138,27 +156,17 @@ fn look(body: &Body<'_>, face: u32, triangles: &[u32], radii: &[f64], count: usi
             look.heights = [look.heights[0].min(z), look.heights[1].max(z)];
         }
     }
-    let places = super::samples::of_triangles(mesh, triangles, count);
-    let seen: Vec<&Sample> = places.iter().filter(|place| is_seen(body, place, Vector::z())).collect();
-    look.seen = seen.len() as f64 / places.len().max(1) as f64;
-    let gaps: Vec<f64> = seen.iter().filter_map(|place| gap(body, place)).collect();
+    let samples = of_triangles(mesh, triangles, count);
+    let seen: Vec<&Sample> = samples.iter().filter(|sample| body.is_seen(sample, Vector::z())).collect();
+    look.seen = seen.len() as f64 / samples.len().max(1) as f64;
+    let gaps: Vec<f64> = seen.iter().filter_map(|sample| body.gap(sample)).collect();
     look.hole = hole(&look, &gaps);
-    let each = look.area / places.len().max(1) as f64;
+    let each = look.area / samples.len().max(1) as f64;
     look.bounds.extend(gaps.iter().map(|gap| (ROOM * gap, each)));
     for share in [&mut look.flat, &mut look.gentle, &mut look.steep, &mut look.vertical] {
         *share /= look.area;
     }
     look
-}
-
-/// From a steep place level across to what stands opposite, mm.
-pub fn gap(body: &Body<'_>, place: &Sample) -> Option<f64> {
-    let level = Vector::new(place.normal.x, place.normal.y, 0.0);
-    if level.norm() < libm::sin(STEEP_DEG.to_radians()) {
-        return None;
-    }
-    let hit = body.rays.first(place.point, level.normalize(), 10.0 * body.fine(), |hit| hit.along < 0.0)?;
-    Some(hit.distance)
 }
 
 /// The diameter, where a face is an upright wall, concave all over with one radius, as wide as that is.

@@ -27,13 +27,13 @@ impl<'a> Rays<'a> {
         Self { mesh, bvh }
     }
 
-    /// The nearest triangle from `start` on along the unit vector `way`, farther than `from` mm, of those that are `wanted`.
-    pub fn first(&self, start: Vector, way: Vector, from: f64, wanted: impl Fn(&Hit) -> bool) -> Option<Hit> {
+    /// The nearest triangle from `start` on along the unit vector `direction`, farther than `from` mm, of those that are `wanted`.
+    pub fn first(&self, start: Vector, direction: Vector, from: f64, wanted: impl Fn(&Hit) -> bool) -> Option<Hit> {
         let mut nearest: Option<Hit> = None;
-        let inverse = way.map(|x| 1.0 / x);
+        let inverse = direction.map(|x| 1.0 / x);
         let bound = |node: &Node| -entry(node, start, inverse);
         self.bvh.maximise(f64::NEG_INFINITY, bound, |triangle, best| {
-            let hit = self.hit(triangle, start, way).filter(|hit| hit.distance > from && wanted(hit));
+            let hit = self.hit(triangle, start, direction).filter(|hit| hit.distance > from && wanted(hit));
             match hit {
                 Some(hit) if -hit.distance > best => {
                     nearest = Some(hit);
@@ -45,13 +45,13 @@ impl<'a> Rays<'a> {
         nearest
     }
 
-    /// All that the whole line meets, from one end to the other; twice at one place counts once.
-    pub fn line(&self, through: Vector, way: Vector, fine: f64) -> Vec<Hit> {
+    /// All that the whole line meets, from one end to the other; twice at one point counts once.
+    pub fn line(&self, through: Vector, direction: Vector, fine: f64) -> Vec<Hit> {
         let mut hits = Vec::new();
-        let inverse = way.map(|x| 1.0 / x);
+        let inverse = direction.map(|x| 1.0 / x);
         let bound = |node: &Node| if crossed(node, through, inverse) { 0.0 } else { f64::NEG_INFINITY };
         self.bvh.maximise(f64::NEG_INFINITY, bound, |triangle, _| {
-            hits.extend(self.hit(triangle, through, way));
+            hits.extend(self.hit(triangle, through, direction));
             f64::NEG_INFINITY
         });
         hits.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.triangle.cmp(&b.triangle)));
@@ -59,13 +59,13 @@ impl<'a> Rays<'a> {
         hits
     }
 
-    fn hit(&self, triangle: u32, start: Vector, way: Vector) -> Option<Hit> {
+    fn hit(&self, triangle: u32, start: Vector, direction: Vector) -> Option<Hit> {
         let [a, b, c] = self.mesh.corners(triangle as usize);
         let (ab, ac) = (b - a, c - a);
         let normal = ab.cross(&ac);
         let away = start - a;
-        let across = away.cross(&way);
-        let fall = -way.dot(&normal);
+        let across = away.cross(&direction);
+        let fall = -direction.dot(&normal);
         if fall == 0.0 {
             return None;
         }

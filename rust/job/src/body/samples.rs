@@ -1,11 +1,11 @@
-//! Places spread evenly over a mesh's area.
+//! Points spread evenly over a mesh's area.
 
 use styluscam_geometry::{Mesh, Vector};
 
 /// Steps of the R2 sequence: the plane's counterpart of the golden ratio (Roberts, 2018).
 const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
 
-/// A place of the surface.
+/// A point of the surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
     /// Where, mm.
@@ -14,7 +14,7 @@ pub struct Sample {
     pub normal: Vector,
 }
 
-/// `count` places, each for the same area: the same for the same mesh.
+/// `count` points, each for the same area: the same for the same mesh.
 pub fn samples(mesh: &Mesh, count: usize) -> Vec<Sample> {
     let all: Vec<u32> = (0..mesh.triangles().len() as u32).collect();
     of_triangles(mesh, &all, count)
@@ -30,13 +30,13 @@ pub fn of_triangles(mesh: &Mesh, triangles: &[u32], count: usize) -> Vec<Sample>
         passed += mesh.area(*triangle as usize);
         let until = (passed / each + 0.5).min(count as f64) as usize;
         while found.len() < until {
-            found.push(place(mesh, *triangle as usize, found.len()));
+            found.push(sample(mesh, *triangle as usize, found.len()));
         }
     }
     found
 }
 
-fn place(mesh: &Mesh, triangle: usize, number: usize) -> Sample {
+fn sample(mesh: &Mesh, triangle: usize, number: usize) -> Sample {
     Sample { point: in_triangle(mesh.corners(triangle), number), normal: mesh.model_normal(triangle) }
 }
 

@@ -1,13 +1,13 @@
 //! Open or closed, by lines through the surface: what enters a closed body leaves it.
 //!
-//! Edges do not say it: a closed body's triangles may meet in T-joints or lie a hair apart, as many files have them.
+//! Edges do not show it: a closed body's triangles may meet in T-joints or lie a hair apart, as many files have them.
 
 use styluscam_geometry::Vector;
 
 use super::Body;
 
 /// Directions in which lines are drawn: along no axis, plane or diagonal that a part is likely to have.
-const WAYS: [[f64; 3]; 3] = [[0.211, 0.157, 0.965], [0.683, -0.312, 0.661], [-0.419, 0.871, 0.257]];
+const DIRECTIONS: [[f64; 3]; 3] = [[0.211, 0.157, 0.965], [0.683, -0.312, 0.661], [-0.419, 0.871, 0.257]];
 /// Lines in each direction.
 const LINES: usize = 200;
 /// Share of the lines that may miss their other end, where a triangle is lost or turned over.
@@ -30,17 +30,21 @@ pub enum Shell {
     Mixed,
 }
 
-pub fn of(body: &Body<'_>) -> Shell {
-    let shares = WAYS.map(|way| unbalanced(body, Vector::from(way).normalize()));
-    let signed = shares.iter().map(|share| share.signed).fold(0.0, f64::max);
-    let plain = shares.iter().map(|share| share.plain).fold(0.0, f64::max);
-    let inward = shares.iter().map(|share| share.inward).fold(0.0, f64::max);
-    match () {
-        () if signed <= SLACK && inward > 0.5 => Shell::InsideOut,
-        () if signed <= SLACK => Shell::Closed,
-        () if plain <= SLACK => Shell::Mixed,
-        () if signed <= TORN && inward <= 0.5 => Shell::Torn,
-        () => Shell::Open,
+impl Body<'_> {
+    /// Whether the surface is open, closed, or wound both ways.
+    #[must_use]
+    pub fn shell(&self) -> Shell {
+        let shares = DIRECTIONS.map(|direction| unbalanced(self, Vector::from(direction).normalize()));
+        let signed = shares.iter().map(|share| share.signed).fold(0.0, f64::max);
+        let plain = shares.iter().map(|share| share.plain).fold(0.0, f64::max);
+        let inward = shares.iter().map(|share| share.inward).fold(0.0, f64::max);
+        match () {
+            () if signed <= SLACK && inward > 0.5 => Shell::InsideOut,
+            () if signed <= SLACK => Shell::Closed,
+            () if plain <= SLACK => Shell::Mixed,
+            () if signed <= TORN && inward <= 0.5 => Shell::Torn,
+            () => Shell::Open,
+        }
     }
 }
 
@@ -54,11 +58,11 @@ struct Unbalanced {
     inward: f64,
 }
 
-fn unbalanced(body: &Body<'_>, way: Vector) -> Unbalanced {
-    let step = (body.places.len() / LINES).max(1);
+fn unbalanced(body: &Body<'_>, direction: Vector) -> Unbalanced {
+    let step = (body.samples.len() / LINES).max(1);
     let (mut lines, mut signed, mut odd, mut inward) = (0.0, 0.0, 0.0, 0.0);
-    for place in body.places.iter().step_by(step) {
-        let hits = body.rays.line(place.point, way, body.fine());
+    for sample in body.samples.iter().step_by(step) {
+        let hits = body.rays.line(sample.point, direction, body.fine());
         let leaving = hits.iter().filter(|hit| hit.along > 0.0).count();
         lines += 1.0;
         signed += f64::from(2 * leaving != hits.len());

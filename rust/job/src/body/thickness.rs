@@ -1,6 +1,7 @@
-//! How thick a closed body is: from each place straight into the material to the other side.
+//! How thick a closed body is: from each point straight into the material to the other side.
 
-use super::Body;
+use super::samples::Sample;
+use super::{Body, Shell};
 
 /// Thicknesses this near to the middle one, as a share of it, are the same.
 const ALIKE: f64 = 0.15;
@@ -32,24 +33,30 @@ impl Thickness {
     }
 }
 
-/// None where no place has another side.
-pub fn of(body: &Body<'_>) -> Option<Thickness> {
-    let through = |place: &super::Sample| {
-        let hit = body.rays.first(place.point, -place.normal, body.fine(), |hit| hit.along > 0.0);
-        hit.map(|hit| hit.distance)
-    };
-    let mut all: Vec<f64> = body.places.iter().filter_map(through).collect();
-    all.sort_by(f64::total_cmp);
-    let at = |share: f64| all.get((share * (all.len() as f64 - 1.0)).round() as usize).copied();
-    let median = at(0.5)?;
-    let alike = all.iter().filter(|t| (**t - median).abs() <= ALIKE * median).count() as f64;
-    let mesh = body.mesh();
-    let area: f64 = (0..mesh.triangles().len()).map(|t| mesh.area(t)).sum();
-    Some(Thickness {
-        median,
-        thin: at(0.05)?,
-        thick: at(0.95)?,
-        alike: alike / body.places.len() as f64,
-        slenderness: median / (0.5 * area).sqrt(),
-    })
+impl Body<'_> {
+    /// How thick a body is that encloses a volume, but for holes where triangles are missing; none for other surfaces.
+    #[must_use]
+    pub fn thickness(&self) -> Option<Thickness> {
+        if !matches!(self.shell(), Shell::Closed | Shell::Torn) {
+            return None;
+        }
+        let through = |sample: &Sample| {
+            let hit = self.rays.first(sample.point, -sample.normal, self.fine(), |hit| hit.along > 0.0);
+            hit.map(|hit| hit.distance)
+        };
+        let mut all: Vec<f64> = self.samples.iter().filter_map(through).collect();
+        all.sort_by(f64::total_cmp);
+        let at = |share: f64| all.get((share * (all.len() as f64 - 1.0)).round() as usize).copied();
+        let median = at(0.5)?;
+        let alike = all.iter().filter(|t| (**t - median).abs() <= ALIKE * median).count() as f64;
+        let mesh = self.mesh();
+        let area: f64 = (0..mesh.triangles().len()).map(|t| mesh.area(t)).sum();
+        Some(Thickness {
+            median,
+            thin: at(0.05)?,
+            thick: at(0.95)?,
+            alike: alike / self.samples.len() as f64,
+            slenderness: median / (0.5 * area).sqrt(),
+        })
+    }
 }

@@ -2,8 +2,9 @@
 
 use styluscam_geometry::{Bvh, Frame, Mesh};
 
-use super::{operations, sizes, StarterPart};
-use crate::body::{Body, FaceLook, Hollows, Shell, Side, Thickness};
+use super::part::StarterPart;
+use super::{operations, sizes};
+use crate::body::{Body, FaceLook, Shell, Side, Thickness};
 use crate::UpAxis;
 
 /// Share of the area hidden from above that is worth a word.
@@ -12,11 +13,6 @@ const HIDDEN: f64 = 0.1;
 const ON_SIDE: f64 = 0.25;
 /// Share of an open surface that must look up for the tool to come from there.
 const FACES_TOOL: f64 = 0.5;
-
-/// Share of a face that a tool from above must see for the face to be worth an operation,
-const SEEN: f64 = 0.2;
-/// and the share of it that must look up or stand upright.
-const UPWARD: f64 = 0.05;
 
 /// Thicker sheets are pressed, not formed point by point, mm.
 const THICKEST: f64 = 6.0;
@@ -234,19 +230,4 @@ fn is_upright(up: UpAxis) -> bool {
 fn bounds(mesh: &Mesh) -> [[f64; 3]; 2] {
     let (low, high) = mesh.bounds();
     [low.into(), high.into()]
-}
-
-/// The faces of which a tool from above sees enough to work on.
-pub fn worth(looks: &Hollows) -> impl Iterator<Item = &FaceLook> {
-    looks.faces.iter().filter(|face| face.seen > SEEN && is_upward(face))
-}
-
-/// The faces that look up or stand upright, and lie under others.
-pub fn covered(looks: &Hollows) -> impl Iterator<Item = &FaceLook> {
-    looks.faces.iter().filter(|face| face.seen <= SEEN && is_upward(face))
-}
-
-/// Whether more of a face than an edge of it looks up or stands upright.
-fn is_upward(face: &FaceLook) -> bool {
-    face.flat + face.gentle + face.steep > UPWARD
 }

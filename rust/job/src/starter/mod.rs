@@ -2,16 +2,17 @@
 
 mod choice;
 mod operations;
+mod part;
 mod sizes;
+mod workable;
 
 use std::path::Path;
-
-use styluscam_geometry::Mesh;
 
 use crate::operations::{About, Operation, StarterPasses};
 use crate::{Process, UpAxis};
 use choice::{choose, Choice};
 use operations::Work;
+pub use part::{StarterFace, StarterPart};
 pub use sizes::fitting_radius;
 use sizes::{round, Shape};
 
@@ -34,33 +35,6 @@ const PART_TOLERANCE: f64 = 0.003;
 const NODES: f64 = 2e5;
 /// A part that lies farther from its origin than this many times its size gets a zero point of its own.
 const FAR: f64 = 1.0;
-
-/// What a starter job is written for.
-pub struct StarterPart<'a> {
-    /// The part's file, as the job should name it.
-    pub file: &'a str,
-    /// Its unit, where the file does not state one.
-    pub units: Option<&'a str>,
-    /// Its triangles, in the file's frame, mm.
-    pub mesh: &'a Mesh,
-    /// Its faces.
-    pub faces: &'a [StarterFace],
-    /// How far the file's own edges lie off its surfaces at most, mm.
-    pub edge_gap: f64,
-}
-
-/// A face as the job's comment lists it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StarterFace {
-    /// `Face1` and so on.
-    pub name: String,
-    /// plane, cone, ...
-    pub kind: String,
-    /// Area, mm^2.
-    pub area: f64,
-    /// Smallest and largest slope with the file's +Z up, degrees.
-    pub slope_deg: [f64; 2],
-}
 
 /// A job, and why it is so.
 #[derive(Clone, Debug, PartialEq)]

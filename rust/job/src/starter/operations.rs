@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use styluscam_geometry::Mesh;
 use styluscam_verify::ToolReach;
 
-use super::choice::{covered, worth};
 use super::sizes::{self, round, Cutter, Shape};
+use super::workable::{covered, workable};
 use crate::body::{Body, FaceLook, Hollows};
 use crate::faces::UP;
 use crate::limits::NO_ROOM;
@@ -92,14 +92,14 @@ impl Milled {
 
 /// Levels over all that looks up.
 pub fn forming(mesh: &Mesh, looks: &Hollows, tool: &Cutter) -> Work {
-    let faces: Vec<&FaceLook> = worth(looks).collect();
+    let faces: Vec<&FaceLook> = workable(looks).collect();
     let pitch = levels_apart(mesh, &faces, tool);
     Work { id: "walls", serves: Serves::Walls, faces: None, pitch, angle_deg: 0.0 }
 }
 
 /// Rows, levels, or both, with a tool that gets to the faces.
 pub fn milling(body: &Body<'_>, looks: &Hollows) -> Milled {
-    let seen: Vec<&FaceLook> = worth(looks).collect();
+    let seen: Vec<&FaceLook> = workable(looks).collect();
     let is_prismatic = seen.iter().all(|face| face.flat >= PRISMATIC || face.vertical >= PRISMATIC);
     let shape = if is_prismatic { Shape::Flat } else { Shape::Ball };
     let drilled = |face: &&FaceLook| face.hole.is_some();

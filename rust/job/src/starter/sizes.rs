@@ -2,7 +2,7 @@
 
 use styluscam_geometry::{kinds, Bvh, Mesh, ProfileDocument, Tool, ToolDocument};
 
-use super::choice::worth;
+use super::workable::workable;
 use crate::body::{Body, FaceLook, Hollows};
 
 /// Diameters of cutters and styluses, mm.
@@ -58,12 +58,12 @@ pub fn next_smaller(diameter: f64, mesh: &Mesh) -> Option<f64> {
 /// nothing bounds it.
 #[must_use]
 pub fn fitting_radius(mesh: &Mesh, bvh: &Bvh) -> Option<f64> {
-    Hollows::bound(worth(&Body::new(mesh, bvh).hollows()), LEFT)
+    Hollows::bound(workable(&Body::new(mesh, bvh).hollows()), LEFT)
 }
 
 /// The largest stylus that fits the concave places of what is formed, and the sentence that says so.
 pub fn stylus(mesh: &Mesh, looks: &Hollows, thickness: Option<f64>) -> (Cutter, String) {
-    let bound = Hollows::bound(worth(looks), LEFT);
+    let bound = Hollows::bound(workable(looks), LEFT);
     // sharper ones tear the sheet
     let least = 2.0 * thickness.unwrap_or(0.0);
     let [widest, _] = WIDEST.map(|share| share * smaller_side(mesh));
