@@ -1,4 +1,4 @@
-"""A kind of operation is one file and one line: the one of docs/howto/add-an-operation.md is found wherever kinds are named."""
+"""A kind of operation or of process is one file and one line: those of docs/howto are found wherever kinds are named."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,7 @@ from .conftest import CHECKOUT
 from .test_docs import change_of
 
 PAGE = "docs/howto/add-an-operation.md"
+PROCESS = "docs/howto/add-a-process.md"
 
 LOOK = r"""
 import json, sys
@@ -64,9 +66,12 @@ tolerance = 0.01
 
 @pytest.fixture(scope="module")
 def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The package with an engine that has the page's kind."""
+    """The package with an engine that has the pages' kinds."""
     change = change_of(PAGE)
     assert sorted(change.files) == ["rust/job/src/operations/mod.rs", "rust/job/src/operations/rings.rs"]
+    process = change_of(PROCESS)
+    assert sorted(process.files) == ["rust/job/src/process/mod.rs", "rust/job/src/process/relay.rs"]
+    change.files |= process.files
     change.name = "new-kind"  # the page's own test may run beside this one
     folder = change.copy()
     # built to be built soon, not to run fast
@@ -123,6 +128,107 @@ def test_a_new_kind_is_one_file_and_one_line_and_is_found_everywhere(package: Pa
     assert shown.returncode == 0, shown.stderr
     assert "rings-1: rings, " in shown.stdout
     assert "passes are not checked" in shown.stderr and "with these notes" in shown.stderr
+
+
+RELAY = """
+schema = 1
+part = { file = "part.stl", units = "mm", tolerance = 0.001 }
+process = { kind = "relay" }
+machine = { name = "linuxcnc" }
+machines.finish = { name = "grbl" }
+output = { file = "ball.ngc", report = "ball.html" }
+setup = { zero = "model" }
+
+[tools.wide]
+profile = { kind = "ball", diameter = 4.0 }
+[tools.narrow]
+number = 2
+profile = { kind = "ball", diameter = 3.0 }
+
+[[operations]]
+kind = "z-level"
+tool = "wide"
+step = { height = 1.0 }
+z_bottom = 0.0
+tolerance = 0.01
+
+[[operations]]
+kind = "zig-zag"
+tool = "narrow"
+stepover = 1.0
+z_bottom = 0.0
+tolerance = 0.01
+channel = "finish"
+"""
+
+
+@pytest.fixture
+def relay(package: Path, tmp_path: Path) -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Runs the command line on a ball, in a folder with a job of two channels."""
+    import trimesh
+
+    trimesh.creation.icosphere(subdivisions=3, radius=6.0).export(tmp_path / "part.stl")
+    (tmp_path / "job.toml").write_text(RELAY, encoding="utf-8")
+
+    def run(*words: str, job: str = RELAY) -> subprocess.CompletedProcess[str]:
+        (tmp_path / "job.toml").write_text(job, encoding="utf-8")
+        command = [sys.executable, "-m", "styluscam", *words]
+        environment = os.environ | {"PYTHONPATH": str(package)}
+        return subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+
+    return run
+
+
+def test_every_channel_has_its_program_report_and_verification(
+    relay: Callable[..., subprocess.CompletedProcess[str]], tmp_path: Path
+) -> None:
+    ran = relay("run", "job.toml", "--json", "--picture", "ball.png")
+    assert ran.returncode == 0, ran.stderr + ran.stdout
+    document = json.loads(ran.stdout)
+    names = {"ball.ngc", "ball.program.json", "ball.html", "ball.png"}
+    assert {Path(name).name for name in document["written"]} == names | {
+        name.replace("ball", "ball.finish", 1) for name in names
+    }
+    assert all((tmp_path / name).stat().st_size > 1000 for name in document["written"])
+    finish = document["channels"]["finish"]
+    assert [each["id"] for each in document["summary"]["operations"]] == ["z-level-1"]
+    assert [each["id"] for each in finish["summary"]["operations"]] == ["zig-zag-2"]
+    assert [tool["number"] for tool in finish["summary"]["tools"]] == [2]
+    assert document["report"]["ok"] and finish["report"]["ok"]
+    assert "LinuxCNC" in document["summary"]["machine"] and "GRBL" in finish["summary"]["machine"].upper()
+    again = relay("run", "job.toml")
+    assert again.returncode == 0, again.stderr
+    assert [line.split() for line in again.stdout.splitlines() if line.startswith("channel")] == [
+        ["channel", "main"],
+        ["channel", "finish"],
+    ]
+    checked = relay("verify", "ball.finish.ngc", "--job", "job.toml", "--channel", "finish")
+    assert checked.returncode == 0, checked.stderr + checked.stdout
+    mixed_up = relay("verify", "ball.finish.ngc", "--job", "job.toml")
+    assert mixed_up.returncode != 0, mixed_up.stdout
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "code", "where"),
+    [
+        ('channel = "finish"', 'channel = "finnish"', "unknown", "operations[1].channel"),
+        ('channel = "finish"', "", "empty", "operations"),
+        ("machines.finish", "machines.rest", "unknown", "machines.rest"),
+        ('machines.finish = { name = "grbl" }', "", "missing", "machines.finish"),
+        ("machines.finish = {", 'machines.main = { name = "grbl" }\nmachines.finish = {', "conflict", "machines.main"),
+        ('machines.finish = { name = "grbl" }', "machines.finish = {}", "conflict", "machines.finish"),
+        ('kind = "relay"', 'kind = "milling"', "unknown", "operations[1].channel"),
+    ],
+)
+def test_channels_that_the_process_does_not_have_are_refused(
+    relay: Callable[..., subprocess.CompletedProcess[str]], before: str, after: str, code: str, where: str
+) -> None:
+    assert before in RELAY
+    ran = relay("plan", "job.toml", "--json", job=RELAY.replace(before, after))
+    assert ran.returncode == 2, ran.stdout
+    error = json.loads(ran.stdout)["error"]
+    assert (error["code"], error["where"]) == (code, where)
+    assert error["hint"]
 
 
 def test_the_page_of_operations_is_the_schema() -> None:

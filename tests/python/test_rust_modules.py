@@ -23,37 +23,6 @@ CRATES = sorted(path.parent.name for path in ROOT.glob("*/Cargo.toml"))
 
 Module: TypeAlias = tuple[str, ...]
 
-KNOWN: dict[str, list[set[str]]] = {
-    "job": [
-        {
-            "body/formable.rs",
-            "body/heights.rs",
-            "body/hollows.rs",
-            "body/mod.rs",
-            "body/shell.rs",
-            "body/sides.rs",
-            "body/thickness.rs",
-        },
-        # the document holds operations, and a kind of operation plans with the document that holds it
-        {
-            "document.rs",
-            "faces.rs",
-            "fixture.rs",
-            "heights.rs",
-            "operations/budget.rs",
-            "operations/context.rs",
-            "operations/effort.rs",
-            "operations/kind.rs",
-            "operations/mod.rs",
-            "operations/reached.rs",
-            "operations/surface.rs",
-            "scene.rs",
-        },
-        {"starter/choice.rs", "starter/mod.rs", "starter/operations.rs", "starter/sizes.rs"},
-    ],
-}
-"""Circles that are still to be broken, as sets of files: they may get smaller, and go."""
-
 _NOT_CODE = re.compile(
     r"""//[^\n]*|/\*.*?\*/|r(#*)".*?"\1|b?"(?:\\.|[^"\\])*"|b?'(?:\\.[^']*|[^'\\])'""",
     re.DOTALL,
@@ -234,18 +203,10 @@ def crate_at(folder: Path) -> Crate:
 
 @pytest.mark.parametrize("name", CRATES)
 def test_no_circle_between_modules(name: str) -> None:
-    """None but those that are known, and those are all still there."""
+    """In no crate."""
     edges = crate_at(ROOT / name).edges()
-    known = KNOWN.get(name, [])
-    found = circles(edges)
-    new = [
-        sorted((file, *sorted(edges[file] & circle)) for file in circle)
-        for circle in found
-        if not any(circle <= old for old in known)
-    ]
-    assert not new, f"files that depend on one another (each with those of its circle that it names): {new}"
-    gone = [sorted(old) for old in known if not any(circle <= old for circle in found)]
-    assert not gone, f"these circles are broken: take them off KNOWN: {gone}"
+    found = [sorted((file, *sorted(edges[file] & circle)) for file in circle) for circle in circles(edges)]
+    assert not found, f"files that depend on one another (each with those of its circle that it names): {found}"
 
 
 def found_in(**texts: str) -> list[set[str]]:
@@ -287,9 +248,3 @@ def test_a_name_that_is_passed_on_counts_for_its_home() -> None:
     assert found_in(
         lib="mod a; mod b; pub use a::*;", a="pub struct A; use crate::b::B;", b="use crate::A; pub struct B;"
     ) == [{"a.rs", "b.rs"}]
-
-
-def test_the_list_of_known_circles_names_files() -> None:
-    """Of crates that there are."""
-    for name, known in KNOWN.items():
-        assert all((ROOT / name / "src" / file).is_file() for circle in known for file in circle), name

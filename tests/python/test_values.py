@@ -18,6 +18,7 @@ import pytest
 from conftest import milling_document
 
 import styluscam as sc
+from styluscam.programs.running import ChannelResult
 
 BALL = {"kind": "ball", "diameter": 6.0}
 CUBE = ([[x, y, z] for z in (-5.0, 0.0) for y in (0.0, 8.0) for x in (0.0, 10.0)],
@@ -55,7 +56,7 @@ def _values(stepover: float = 2.0) -> dict[str, Any]:
         "program": plan.programs["main"],
         "posted": posted,
         "report": report,
-        "run": sc.RunResult(plan, posted, report, plan.summary(report.judgement)[0], ()),
+        "run": sc.RunResult(plan, posted, {"main": ChannelResult(report, plan.summary(report.judgement)[0])}, ()),
         "simulation": sc.simulate(report, 0.25 * stepover),
         "comparison": sc.simulate(report, 0.25 * stepover).compare(),
         "offset": sc.offset_surface(sc.Part.from_mesh(*CUBE), {"profile": BALL}, tolerance=0.01),

@@ -39,6 +39,9 @@ GcodeFile: TypeAlias = Annotated[Path, typer.Argument(metavar="FILE.ngc", help="
 ForJob: TypeAlias = Annotated[
     Path, typer.Option("--job", metavar="JOB.toml", help="The job that it is for.", show_default=False)
 ]
+ChannelName: TypeAlias = Annotated[
+    str, typer.Option("--channel", metavar="NAME", help="The job's channel that the text is for, of several.")
+]
 Json: TypeAlias = Annotated[bool, typer.Option("--json", help="Print one JSON document, errors included.")]
 Quiet: TypeAlias = Annotated[bool, typer.Option("--quiet", "-q", help="No progress, and no summary of what may run.")]
 Debug: TypeAlias = Annotated[bool, typer.Option("--debug", help="Show the traceback of a fault.")]

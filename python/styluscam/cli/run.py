@@ -12,7 +12,8 @@ from styluscam.cli import console, findings, progress, summary
 from styluscam.cli.failures import FOUND, naming
 from styluscam.cli.options import Debug, Force, JobFile, Json, Picture, Quiet, ReportFile
 from styluscam.programs import running
-from styluscam.programs.job import Job
+from styluscam.programs.job import MAIN_CHANNEL, Job
+from styluscam.programs.planning import of_channel
 from styluscam.types import Document
 
 Despite = Annotated[
@@ -40,40 +41,40 @@ def run(
         work = Job.read(job)
         for sentence in [] if quiet else estimate.too_long(work, shown):
             console.complain(sentence)
-        also = [] if picture is None else [picture]
+        pictures = {} if picture is None else {channel: of_channel(picture, channel) for channel in work.channels}
         result = running.run(
             work,
             write_despite_findings=write_despite_findings,
             force=force,
             progress=shown,
             report=report,
-            also=also,
+            also=list(pictures.values()),
         )
-        written = list(result.written)
-        if picture is not None:
-            _draw(result, picture)
-            written.append(picture)
+        _draw(result, pictures)
+        written = [*result.written, *pictures.values()]
     if json:
         console.say_json(_document(result, written))
     else:
-        _print(result, written, quiet, result.report.ok or write_despite_findings)
-    return 0 if result.report.ok else FOUND
+        _print(result, written, quiet, result.ok or write_despite_findings)
+    return 0 if result.ok else FOUND
 
 
-def _draw(result: running.RunResult, path: Path) -> None:
-    from styluscam.drawing.picture import plan_picture
+def _draw(result: running.RunResult, pictures: dict[str, Path]) -> None:
+    if pictures:
+        from styluscam.drawing.picture import plan_picture
 
-    plan_picture(result.plan, path)
+        for channel, path in pictures.items():
+            plan_picture(result.plan, path, channel)
 
 
 def _document(result: running.RunResult, written: list[Path]) -> Document:
-    return {
-        "ok": result.report.ok,
-        "notes": _notes(result),
-        "summary": result.summary,
-        "report": findings.document(result.report),
-        "written": [str(path) for path in written],
+    channels = {
+        name: {"summary": channel.summary, "report": findings.document(channel.report)}
+        for name, channel in result.channels.items()
     }
+    main = channels.pop(MAIN_CHANNEL)
+    document = {"ok": result.ok, "notes": _notes(result), **main, "written": [str(path) for path in written]}
+    return {**document, "channels": channels} if channels else document
 
 
 def _notes(result: running.RunResult) -> list[str]:
@@ -83,22 +84,24 @@ def _notes(result: running.RunResult) -> list[str]:
 
 
 def _print(result: running.RunResult, written: list[Path], quiet: bool, has_program: bool) -> None:
-    if not quiet or not result.report.ok:
+    if not quiet or not result.ok:
         rows = [("note", note) for note in _notes(result)]
-        rows += summary.lines_of(result.summary, result.plan.job.document)
+        rows += summary.rows_of(
+            {name: each.summary for name, each in result.channels.items()}, result.plan.job.document
+        )
         rows += [("written", summary.shown_path(path)) for path in written]
         console.say(summary.title(result.plan.job.document))
         console.fields(rows)
-    if not result.report.findings:
-        if quiet:
-            return
-        console.say("verified: the written text was read back and checked, nothing was found")
+    found = [finding for each in result.channels.values() for finding in each.report.findings]
+    if not found:
+        if not quiet:
+            console.say("verified: the written text was read back and checked, nothing was found")
         return
-    for line in findings.lines(result.report):
-        console.complain(line)
-    if result.report.ok:
-        warned = any(finding.severity == "warning" for finding in result.report.findings)
-        what = "warnings" if warned else "notes"
+    for name, channel in result.channels.items():
+        for line in findings.lines(channel.report):
+            console.complain(f"{name}: {line}" if len(result.channels) > 1 else line)
+    if result.ok:
+        what = "warnings" if any(finding.severity == "warning" for finding in found) else "notes"
         console.complain(f"verified: the written text was read back and checked; it may run, with these {what}")
         return
     if not has_program:

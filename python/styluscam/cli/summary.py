@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,15 @@ def lines_of(summary: Document, job: Document) -> list[tuple[str, str]]:
     if summary["gouge_max"] is not None:
         rows.append(("worst gouge", f"{summary['gouge_max']:.4f} mm"))
         rows.append(("worst excess", f"{summary['excess_max']:.4f} mm where the tool should touch"))
+    return rows
+
+
+def rows_of(summaries: Mapping[str, Document], job: Document) -> list[tuple[str, str]]:
+    """As :func:`lines_of` for each channel, named where there are several."""
+    rows: list[tuple[str, str]] = []
+    for channel, summary in summaries.items():
+        rows += [("channel", channel)] if len(summaries) > 1 else []
+        rows += lines_of(summary, job)
     return rows
 
 

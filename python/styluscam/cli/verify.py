@@ -6,10 +6,20 @@ from pathlib import Path
 
 from styluscam.cli import console, findings, pages, progress, summary
 from styluscam.cli.failures import FOUND, naming
-from styluscam.cli.options import Debug, ForJob, GcodeFile, Json, Picture, Quiet, ReportFile, SimulationFile
+from styluscam.cli.options import (
+    ChannelName,
+    Debug,
+    ForJob,
+    GcodeFile,
+    Json,
+    Picture,
+    Quiet,
+    ReportFile,
+    SimulationFile,
+)
 from styluscam.errors import VerifyError
 from styluscam.judging import coverage, simulation, verification
-from styluscam.programs.job import Job
+from styluscam.programs.job import MAIN_CHANNEL, Job
 from styluscam.report.findings import verdict_of
 from styluscam.report.subject import Subject
 from styluscam.words import position
@@ -22,6 +32,7 @@ def verify(
     report: ReportFile = None,
     picture: Picture = None,
     simulated: SimulationFile = None,
+    channel: ChannelName = MAIN_CHANNEL,
     json: Json = False,
     quiet: Quiet = False,
     debug: Debug = False,
@@ -35,9 +46,9 @@ def verify(
         pages.require(report, picture, inputs=[file, *work.inputs()])
         if simulated is not None:
             simulation.require(simulated, inputs=[file, *work.inputs()])
-        checked = verification.verify_file(file, work, progress=shown)
+        checked = verification.verify_file(file, work, channel=channel, progress=shown)
         covered = checked.coverage(progress=shown) if json or not quiet else []
-        written = pages.write(lambda: Subject.judged(checked, work.machine(), file.name), report, picture, shown)
+        written = pages.write(lambda: Subject.judged(checked, work.machine(channel), file.name), report, picture, shown)
         if simulated is not None:
             simulation.simulate(checked, progress=shown).save(simulated)
             written.append(simulated)

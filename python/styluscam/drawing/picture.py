@@ -18,7 +18,8 @@ from styluscam.extras import require
 from styluscam.files import drawn_whole
 from styluscam.parts.arrays import PartArrays
 from styluscam.parts.part import Part
-from styluscam.programs.planning import MAIN_CHANNEL, Plan
+from styluscam.programs.job import MAIN_CHANNEL
+from styluscam.programs.planning import Plan, require_channel
 from styluscam.programs.program import RAPID, Program
 from styluscam.tools.tool import Tool
 from styluscam.types import FloatArray, IntArray
@@ -188,12 +189,17 @@ def _program_figure(
     return figure
 
 
-def plan_picture(plan: Plan, path: str | Path) -> None:
-    """As :func:`program_picture`, for a plan's part and program."""
-    program = plan.programs[MAIN_CHANNEL]
+def plan_picture(plan: Plan, path: str | Path, channel: str = MAIN_CHANNEL) -> None:
+    """As :func:`program_picture`, for a plan's part and the program of a channel.
+
+    Raises:
+        PlanError: the plan has no such channel.
+    """
+    require_channel(channel, plan.programs)
+    program = plan.programs[channel]
     tools = plan.job.tools()
     tool = tools[program.tools[0]["name"]] if program.tools else None
-    program_picture(plan.job.part(), program, path, plan.scene.frame, tool)
+    program_picture(plan.job.part(), program, path, plan.settings[channel].scene.frame, tool)
 
 
 def arrays_of(part: Part | PartArrays) -> PartArrays:

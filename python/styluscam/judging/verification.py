@@ -14,9 +14,9 @@ from styluscam.errors import GeometryError, JobError, PlanError, VerifyError
 from styluscam.files import read_gcode_text
 from styluscam.judging.brep import recheck
 from styluscam.judging.results import FaceCoverage, Finding, Group
-from styluscam.programs.job import Job, JobLike
+from styluscam.programs.job import MAIN_CHANNEL, Job, JobLike
 from styluscam.programs.machine import Machine, MachineLike
-from styluscam.programs.planning import MAIN_CHANNEL, Plan, TextLike, text_of
+from styluscam.programs.planning import Plan, Setting, TextLike, require_channel, text_of_channel
 from styluscam.programs.program import Program
 from styluscam.types import Document, FloatArray, Progress, shaped
 from styluscam.types import points as rows
@@ -35,6 +35,7 @@ class Report:
         *,
         machine: Machine,
         text: str,
+        channel: str = MAIN_CHANNEL,
     ) -> None:
         self._document = document
         self.judgement = judgement
@@ -42,6 +43,7 @@ class Report:
         self.job, self.scene = job, scene
         self.machine = machine
         self.text = text
+        self.channel = channel
         self._coverage: list[FaceCoverage] | None = None
 
     def __repr__(self) -> str:
@@ -68,7 +70,7 @@ class Report:
     @cached_property
     def scene(self) -> _engine.Scene:
         """The part as it lies on the machine."""
-        return self.job.scene()
+        return self.job.scene(channel=self.channel)
 
     @cached_property
     def judgement(self) -> _engine.Judgement:
@@ -169,10 +171,14 @@ class Report:
 
 
 def judge_plan(
-    plan: Plan, text: str, progress: Progress | None = None, cancel: _engine.CancelToken | None = None
+    plan: Plan,
+    text: str,
+    progress: Progress | None = None,
+    cancel: _engine.CancelToken | None = None,
+    channel: str = MAIN_CHANNEL,
 ) -> Report:
-    """Checks ``text`` against a plan's part, and its contacts against the exact model."""
-    return _checked(plan.job, plan.scene, plan.machine, text, progress=progress, cancel=cancel)
+    """Checks the ``text`` of a plan's channel against its part, and its contacts against the exact model."""
+    return _checked(plan.job, plan.settings[channel], channel, text, progress=progress, cancel=cancel)
 
 
 def verify(
@@ -180,20 +186,22 @@ def verify(
     job: JobLike,
     machine: MachineLike | None = None,
     *,
+    channel: str = MAIN_CHANNEL,
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
 ) -> Report:
     """Verifies posted text: gouge, excess, rapids, order; nothing of planning is used.
 
     ``text`` is G-code, what was posted, or the name of a file that holds it (see :func:`styluscam.read_gcode`); the job's
-    machine reads it unless another is given.
+    machine reads it unless another is given. ``channel`` is the one that the text is for, where the job has several.
 
     Raises:
+        JobError: the job has no such channel.
         VerifyError: the text is not what the machine understands, or the file cannot be read.
     """
     work = Job.of(job)
-    reader = work.machine() if machine is None else Machine.of(machine)
-    return _verified(text_of(text), work, reader, progress, cancel)
+    reader = work.machine(channel) if machine is None else Machine.of(machine)
+    return _verified(text_of_channel(text, work, channel), work, reader, channel, progress=progress, cancel=cancel)
 
 
 def verify_file(
@@ -201,20 +209,22 @@ def verify_file(
     job: JobLike,
     machine: MachineLike | None = None,
     *,
+    channel: str = MAIN_CHANNEL,
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
 ) -> Report:
     """As :func:`verify`, for a file alone: ``path`` itself is never taken for G-code."""
     file = file_of(path, "path", A_FILE, VerifyError, "sc.verify(text, job) takes a text")
     work = Job.of(job)
-    reader = work.machine() if machine is None else Machine.of(machine)
-    return _verified(read_gcode_text(file), work, reader, progress, cancel)
+    reader = work.machine(channel) if machine is None else Machine.of(machine)
+    return _verified(read_gcode_text(file), work, reader, channel, progress=progress, cancel=cancel)
 
 
 def check_program(
     plan: Plan | Program,
     job: JobLike | None = None,
     *,
+    channel: str = MAIN_CHANNEL,
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
 ) -> Report:
@@ -228,29 +238,40 @@ def check_program(
             hint = "give one: check_program(program, job)"
             raise JobError("job: a program names none", code="argument", where="job", hint=hint)
         work = Job.of(job)
-        machine = work.machine()
-        return _verified(_engine.post(plan.engine, machine.engine), work, machine, progress, cancel)
+        machine = work.machine(channel)
+        text = _engine.post(plan.engine, machine.engine)
+        return _verified(text, work, machine, channel, progress=progress, cancel=cancel)
     if not isinstance(plan, Plan):
         raise refused("plan", plan, "a Plan or a Program", PlanError, "sc.plan(job) makes one")
-    return judge_plan(plan, _engine.post(plan.engine.programs[MAIN_CHANNEL], plan.machine.engine), progress, cancel)
+    require_channel(channel, plan.programs)
+    text = _engine.post(plan.engine.programs[channel], plan.machines[channel].engine)
+    return judge_plan(plan, text, progress, cancel, channel)
 
 
 def _verified(
-    text: str, job: Job, machine: Machine, progress: Progress | None, cancel: _engine.CancelToken | None
+    text: str,
+    job: Job,
+    machine: Machine,
+    channel: str,
+    *,
+    progress: Progress | None,
+    cancel: _engine.CancelToken | None,
 ) -> Report:
-    return _checked(job, job.scene(progress), machine, text, progress=progress, cancel=cancel)
+    setting = Setting(job.scene(progress, channel), machine)
+    return _checked(job, setting, channel, text, progress=progress, cancel=cancel)
 
 
 def _checked(
     job: Job,
-    scene: _engine.Scene,
-    machine: Machine,
+    setting: Setting,
+    channel: str,
     text: str,
     *,
     progress: Progress | None,
     cancel: _engine.CancelToken | None,
 ) -> Report:
+    scene, machine = setting
     judgement = _engine.judge(job.engine, scene, machine.engine, text, progress=progress, cancel=cancel)
     document: Document = json.loads(judgement.report())
     recheck(document, job, scene)
-    return Report(document, judgement, job, scene, machine=machine, text=text)
+    return Report(document, judgement, job, scene, machine=machine, text=text, channel=channel)

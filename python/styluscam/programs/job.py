@@ -31,6 +31,9 @@ else:
 JobLike: TypeAlias = "Job | Document | str | os.PathLike[str]"
 """A job, its document, or a job file."""
 
+MAIN_CHANNEL = "main"
+"""The channel that every job has."""
+
 WANTED = "a Job, a dict or the name of a job file"
 
 
@@ -198,7 +201,8 @@ class Job:
 
     def inputs(self) -> list[Path]:
         """The files that the job is read from: itself, the part's, the machine's and the tools'."""
-        named = [self.document["part"]["file"], self.document["machine"].get("file"), *dict.fromkeys(self._tool_files)]
+        machines = [json.loads(self.engine.machine_of(channel)).get("file") for channel in self.channels]
+        named = [self.document["part"]["file"], *machines, *dict.fromkeys(self._tool_files)]
         own = [] if self.file is None else [self.file]
         return own + [self.folder / name for name in named if name]
 
@@ -209,9 +213,18 @@ class Job:
             self._part = Part.read(self.folder / section["file"], section["tolerance"], section.get("units"), progress)
         return self._part
 
-    def scene(self, progress: Progress | None = None) -> _engine.Scene:
-        """The part as it lies on the machine."""
-        return _engine.Scene(self.engine, self.part(progress).engine)
+    @property
+    def channels(self) -> tuple[str, ...]:
+        """The channels of its process, programs that run side by side: ``"main"`` first."""
+        return tuple(self.engine.channels)
+
+    def scene(self, progress: Progress | None = None, channel: str = MAIN_CHANNEL) -> _engine.Scene:
+        """The part as it lies on the machine of a channel.
+
+        Raises:
+            JobError: the job has no such channel.
+        """
+        return _engine.Scene(self.engine, self.part(progress).engine, channel)
 
     def tools(self) -> dict[str, Tool]:
         """The job's tools by name: profile, base, shank and holder."""
@@ -219,9 +232,13 @@ class Job:
         sections = self.document["tools"].items()
         return {name: Tool.from_dict({key: tool[key] for key in keys if key in tool}) for name, tool in sections}
 
-    def machine(self) -> Machine:
-        """The machine that the job names."""
-        return Machine.of_section(self.document["machine"], self.folder)
+    def machine(self, channel: str = MAIN_CHANNEL) -> Machine:
+        """The machine that the job names for a channel.
+
+        Raises:
+            JobError: the job has no such channel.
+        """
+        return Machine.of_section(json.loads(self.engine.machine_of(channel)), self.folder)
 
 
 PROGRAMS = (".ngc", ".nc", ".gcode", ".tap", ".cnc", ".mpf", ".h")

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeAlias
+from pathlib import Path
+from typing import NamedTuple, TypeAlias
 
 from styluscam import _engine
 from styluscam.arguments import document_of, gcode_of, refused
 from styluscam.errors import MachineError, PlanError, StylusError
-from styluscam.programs.job import Job, JobLike
+from styluscam.programs.job import MAIN_CHANNEL, Job, JobLike
 from styluscam.programs.machine import Machine, MachineLike
 from styluscam.programs.program import Program
 from styluscam.types import Document, Progress
@@ -19,8 +21,19 @@ from styluscam.words import counted, shortened
 
 NEWLINE = "\n"
 
-MAIN_CHANNEL = "main"
-"""The channel that every plan has."""
+
+class Setting(NamedTuple):
+    """What a channel is planned for."""
+
+    scene: _engine.Scene
+    """The part as it lies on the machine."""
+    machine: Machine
+
+    @classmethod
+    def of(cls, job: Job, channel: str, progress: Progress | None = None) -> Setting:
+        """As a job has it for a channel."""
+        machine = job.machine(channel)
+        return cls(job.scene(progress, channel), machine)
 
 
 class Plan:
@@ -30,10 +43,10 @@ class Plan:
     plan is asked for, as for a summary with a verification.
     """
 
-    def __init__(self, job: Job, machine: Machine, scene: _engine.Scene, engine: _engine.Plan) -> None:
+    def __init__(self, job: Job, settings: dict[str, Setting], engine: _engine.Plan) -> None:
         self.job = job
-        self.machine = machine
-        self.scene = scene
+        self.machines = {channel: setting.machine for channel, setting in settings.items()}
+        self.settings = settings
         self.engine = engine
 
     def __repr__(self) -> str:
@@ -44,7 +57,7 @@ class Plan:
         """Whether job, machine and programs are the same."""
         if not isinstance(other, Plan):
             return NotImplemented
-        return (self.job, self.machine, self.programs) == (other.job, other.machine, other.programs)
+        return (self.job, self.machines, self.programs) == (other.job, other.machines, other.programs)
 
     def __hash__(self) -> int:
         """As equality compares."""
@@ -52,34 +65,53 @@ class Plan:
 
     def __getstate__(self) -> Document:
         """For pickle and copy."""
-        return {"job": self.job, "machine": self.machine, "programs": self.programs, "_summary": self._summary}
+        kept = ("job", "machines", "programs", "_summaries")
+        return {name: getattr(self, name) for name in kept}
+
+    @property
+    def machine(self) -> Machine:
+        """The machine of the main channel."""
+        return self.machines[MAIN_CHANNEL]
+
+    @property
+    def scene(self) -> _engine.Scene:
+        """The part as it lies on the machine of the main channel."""
+        return self.settings[MAIN_CHANNEL].scene
 
     @cached_property
-    def scene(self) -> _engine.Scene:
-        """The part as it lies on the machine."""
-        return self.job.scene()
+    def settings(self) -> dict[str, Setting]:
+        """What each channel is planned for."""
+        return {name: Setting(self.job.scene(channel=name), machine) for name, machine in self.machines.items()}
 
     @cached_property
     def engine(self) -> _engine.Plan:
         """The engine's plan."""
-        return _engine.plan(self.job.engine, self.scene, self.machine.engine)
+        return _planned(self.job, self.settings)
 
     @cached_property
     def programs(self) -> dict[str, Program]:
         """Programs by channel; ``"main"`` is always there."""
         return {channel: Program(program) for channel, program in self.engine.programs.items()}
 
-    def summary(self, judgement: _engine.Judgement | None = None) -> tuple[Document, list[str]]:
-        """The job in numbers, and the lines on it in a program's header."""
-        document, notes = self._summary if judgement is None else self._summed(judgement)
+    def summary(
+        self, judgement: _engine.Judgement | None = None, channel: str = MAIN_CHANNEL
+    ) -> tuple[Document, list[str]]:
+        """A channel in numbers, and the lines on it in its program's header.
+
+        Raises:
+            PlanError: the plan has no such channel.
+        """
+        require_channel(channel, self.programs)
+        document, notes = self._summaries[channel] if judgement is None else self._summed(channel, judgement)
         return json.loads(document), list(notes)
 
     @cached_property
-    def _summary(self) -> tuple[str, list[str]]:
-        return self._summed(None)
+    def _summaries(self) -> dict[str, tuple[str, list[str]]]:
+        return {channel: self._summed(channel, None) for channel in self.programs}
 
-    def _summed(self, judgement: _engine.Judgement | None) -> tuple[str, list[str]]:
-        return self.engine.summary(MAIN_CHANNEL, self.scene, self.machine.engine, judgement)
+    def _summed(self, channel: str, judgement: _engine.Judgement | None) -> tuple[str, list[str]]:
+        scene, machine = self.settings[channel]
+        return self.engine.summary(channel, scene, machine.engine, judgement)
 
 
 @dataclass(frozen=True, repr=False)
@@ -124,16 +156,25 @@ def plan(job: JobLike, *, progress: Progress | None = None, cancel: _engine.Canc
         Cancelled: by ``progress`` or ``cancel``.
     """
     work = Job.of(job)
-    machine = work.machine()
-    scene = work.scene(progress)
-    engine = _engine.plan(work.engine, scene, machine.engine, progress=progress, cancel=cancel)
-    return Plan(work, machine, scene, engine)
+    settings = {channel: Setting.of(work, channel, progress) for channel in work.channels}
+    return Plan(work, settings, _planned(work, settings, progress, cancel))
+
+
+def _planned(
+    job: Job,
+    settings: dict[str, Setting],
+    progress: Progress | None = None,
+    cancel: _engine.CancelToken | None = None,
+) -> _engine.Plan:
+    pairs = [(setting.scene, setting.machine.engine) for setting in settings.values()]
+    return _engine.plan(job.engine, pairs, progress=progress, cancel=cancel)
 
 
 def post(plan: Plan | Program, machine: MachineLike | None = None, notes: list[str] | None = None) -> Posted:
     """The text of a plan, or of a program, for a machine: by name, file, dict or object.
 
-    ``machine`` may be left out for a plan: the job's own. ``notes`` are lines for the header.
+    ``machine`` may be left out for a plan: the job's own. ``notes`` are lines for the header. Of a plan there is one file a
+    channel, and a machine can be given where there is one channel.
 
     Raises:
         JobError, MachineError: the machine cannot be given this program; nothing is posted then.
@@ -151,14 +192,35 @@ def post(plan: Plan | Program, machine: MachineLike | None = None, notes: list[s
         return Posted({"program.ngc": _engine.post(work.engine, target.engine)})
     if not isinstance(plan, Plan):
         raise refused("plan", plan, "a Plan or a Program", PlanError, "sc.plan(job) makes one")
-    lines = plan.summary()[1] if notes is None else notes
-    program = plan.programs[MAIN_CHANNEL].with_notes(lines)
-    return Posted({output_name(plan.job): _engine.post(program.engine, (target or plan.machine).engine)})
+    if target is not None and len(plan.programs) > 1:
+        message = f"machine: of one channel, and the plan has {len(plan.programs)} ({', '.join(plan.programs)})"
+        hint = "leave it out, or post each of plan.programs"
+        raise MachineError(message, code="argument", where="machine", hint=hint)
+    files = {}
+    for channel, program in plan.programs.items():
+        lines = plan.summary(channel=channel)[1] if notes is None else notes
+        machine_of = target or plan.machines[channel]
+        files[output_name(plan.job, channel)] = _engine.post(program.with_notes(lines).engine, machine_of.engine)
+    return Posted(files)
 
 
-def output_name(job: Job) -> str:
-    """The G-code's file as the job names it."""
-    return str(job.document["output"]["file"]) or f"{job.name}.ngc"
+def require_channel(channel: str, channels: Iterable[str]) -> None:
+    """Refuses a channel that is not among those of a plan."""
+    known = list(channels)
+    if channel not in known:
+        message = f"channel: no channel is called {channel!r}"
+        raise PlanError(message, code="argument", where="channel", hint=f"the plan has {', '.join(known)}")
+
+
+def of_channel(path: Path, channel: str) -> Path:
+    """A file for a channel: the main one's as it is, another's with the channel before its ending."""
+    return path if channel == MAIN_CHANNEL else path.with_name(f"{path.stem}.{channel}{path.suffix}")
+
+
+def output_name(job: Job, channel: str = MAIN_CHANNEL) -> str:
+    """The G-code's file as the job names it, or by the job's name."""
+    main = str(job.document["output"]["file"]) or f"{job.name}.ngc"
+    return main if channel == MAIN_CHANNEL else str(of_channel(Path(main), channel))
 
 
 TextLike: TypeAlias = "str | os.PathLike[str] | Posted"
@@ -166,12 +228,23 @@ TextLike: TypeAlias = "str | os.PathLike[str] | Posted"
 
 
 def text_of(text: TextLike) -> str:
-    """The G-code that a call takes: a text, a file that holds one, or what was posted.
+    """The G-code that a call takes: a text, a file that holds one, or what was posted as one file.
 
     Raises:
         VerifyError: as :func:`styluscam.arguments.gcode_of`.
     """
     return text.text if isinstance(text, Posted) else gcode_of(text)
+
+
+def text_of_channel(text: TextLike, job: Job, channel: str) -> str:
+    """As :func:`text_of`, of a channel where several were posted.
+
+    Raises:
+        VerifyError: as :func:`text_of`.
+    """
+    if isinstance(text, Posted) and len(text.files) > 1:
+        return text.files.get(output_name(job, channel)) or text.text
+    return text_of(text)
 
 
 def read_gcode(text: TextLike, machine: MachineLike) -> Program:

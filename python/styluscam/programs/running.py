@@ -8,14 +8,15 @@ import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from styluscam import _engine
 from styluscam.arguments import A_FILE, FileName, file_of
 from styluscam.errors import JobError, StylusError, VerifyError
 from styluscam.files import is_file, require_writable, write_all_whole
 from styluscam.judging.verification import Report, judge_plan
-from styluscam.programs.job import Job, JobLike
-from styluscam.programs.planning import MAIN_CHANNEL, Plan, Posted, output_name, plan, post
+from styluscam.programs.job import MAIN_CHANNEL, Job, JobLike
+from styluscam.programs.planning import Plan, Posted, of_channel, output_name, plan, post
 from styluscam.programs.posting import VERDICT
 from styluscam.programs.program import Program
 from styluscam.report.page import report_page
@@ -31,23 +32,43 @@ BLOCK_NUMBER = re.compile(r"^\s*N?\d+\s")
 """What stands before a remark where blocks are numbered."""
 
 
+@dataclass(frozen=True)
+class ChannelResult:
+    """What verification found in a channel's text, and the channel in numbers."""
+
+    report: Report
+    summary: Document
+
+
 @dataclass(frozen=True, repr=False)
 class RunResult:
-    """What a run made: the program is written unless verification found an error, a report in any case."""
+    """What a run made: the programs are written unless verification found an error in one, reports in any case."""
 
     plan: Plan
     posted: Posted
-    report: Report
-    summary: Document
+    channels: dict[str, ChannelResult]
     written: tuple[Path, ...]
+
+    @property
+    def ok(self) -> bool:
+        """Whether nothing was found in any channel that must not be."""
+        return all(channel.report.ok for channel in self.channels.values())
+
+    @property
+    def report(self) -> Report:
+        """Of the main channel."""
+        return self.channels[MAIN_CHANNEL].report
+
+    @property
+    def summary(self) -> Document:
+        """Of the main channel."""
+        return self.channels[MAIN_CHANNEL].summary
 
     def __repr__(self) -> str:
         """The verdict, and what was written."""
         names = ", ".join(path.name for path in self.written)
         written = f"written: {shortened(names, 50)}" if names else "nothing written"
-        return (
-            f"<RunResult of {shortened(self.plan.job.title, 30)!r}: {'ok' if self.report.ok else 'FAILED'}, {written}>"
-        )
+        return f"<RunResult of {shortened(self.plan.job.title, 30)!r}: {'ok' if self.ok else 'FAILED'}, {written}>"
 
     def __hash__(self) -> int:
         """As equality compares."""
@@ -69,27 +90,58 @@ def run(
     A program that another job wrote, or no job at all, is not replaced without ``force``; one of this job is. ``report``
     names the page to be written, the job's own when left out: whatever was found. ``also`` names files that the caller
     will write beside the program: asked about before the work begins.
-    The verifier's figures go into the header: the text is posted again with them, and must hold the very same moves.
+    The verifier's figures go into the headers: texts are posted again with them, and must hold the very same moves. A job of
+    several channels writes a program, and a report, for each.
     """
     work = Job.of(job)
-    page = _report_name(work) if report is None else file_of(report, "report", A_FILE, JobError)
+    pages = _report_names(work, None if report is None else file_of(report, "report", A_FILE, JobError))
     named = [also] if isinstance(also, str | os.PathLike) else also
     others = [file_of(each, "also", A_FILE, JobError) for each in named]
-    require_writable([*_names(work), *([] if page is None else [page]), *others], work.inputs())
+    programs = [path for channel in work.channels for path in _names(work, channel)]
+    require_writable([*programs, *pages.values(), *others], work.inputs())
     if not force:
         _require_own(work)
-    if page is not None:
+    if pages:
         require_extra()
     planned = plan(work, progress=progress, cancel=cancel)
-    verified = judge_plan(planned, post(planned).text, progress, cancel)
-    summary, notes = planned.summary(verified.judgement)
-    posted = post(planned, notes=notes)
-    _require_same_moves(verified, planned, posted)
-    files = _outputs(work, planned, posted, notes) if verified.ok or write_despite_findings else {}
-    if page is not None:
-        files[page] = report_page(Subject.judged(verified, planned.machine, _names(work)[0].name), progress)
+    made = {channel: _made(planned, channel, progress, cancel) for channel in planned.programs}
+    channels = {channel: ChannelResult(each.report, each.summary) for channel, each in made.items()}
+    posted = Posted({output_name(work, channel): each.text for channel, each in made.items()})
+    files: dict[Path, str] = {}
+    if write_despite_findings or all(each.report.ok for each in made.values()):
+        for channel, each in made.items():
+            gcode, program = _names(work, channel)
+            files |= {gcode: each.text, program: each.program.engine.to_json()}
+    for channel, page in pages.items():
+        subject = Subject.judged(made[channel].report, planned.machines[channel], _names(work, channel)[0].name)
+        files[page] = report_page(subject, progress)
     write_all_whole(files)
-    return RunResult(planned, posted, verified, summary, tuple(files))
+    return RunResult(planned, posted, channels, tuple(files))
+
+
+class _Made(NamedTuple):
+    """A channel, posted and verified."""
+
+    report: Report
+    summary: Document
+    program: Program
+    text: str
+
+
+def _made(planned: Plan, channel: str, progress: Progress | None, cancel: _engine.CancelToken | None) -> _Made:
+    """Posts a channel and verifies it; the text is then posted again with the verifier's figures in its header.
+
+    Raises:
+        VerifyError: the header changed the moves.
+    """
+    program, machine = planned.programs[channel], planned.machines[channel]
+    first = post(program.with_notes(planned.summary(channel=channel)[1]), machine).text
+    report = judge_plan(planned, first, progress, cancel, channel)
+    summary, notes = planned.summary(report.judgement, channel)
+    noted = program.with_notes(notes)
+    text = post(noted, machine).text
+    _require_same_moves(report, text)
+    return _Made(report, summary, noted, text)
 
 
 def _require_own(job: Job) -> None:
@@ -98,15 +150,15 @@ def _require_own(job: Job) -> None:
     Raises:
         JobError: a file of another job, or of none, has that name.
     """
-    gcode, program = _names(job)
     title = str(job.document["title"] or job.document["part"]["file"])  # as programs have it
-    described = not is_file(program) or _title(program) == title
-    posted = not is_file(gcode) or _is_verified(gcode, title, is_file(program) and described)
-    for path, own in ((gcode, posted), (program, described)):
-        if not own:
-            message = f"{path}: the file is there already, and this job ({job.title}) did not write it"
-            hint = "add --force (in Python force=True) to replace it, or name another output.file"
-            raise JobError(message, code="exists", where=str(path), hint=hint)
+    for gcode, program in (_names(job, channel) for channel in job.channels):
+        described = not is_file(program) or _title(program) == title
+        posted = not is_file(gcode) or _is_verified(gcode, title, is_file(program) and described)
+        for path, own in ((gcode, posted), (program, described)):
+            if not own:
+                message = f"{path}: the file is there already, and this job ({job.title}) did not write it"
+                hint = "add --force (in Python force=True) to replace it, or name another output.file"
+                raise JobError(message, code="exists", where=str(path), hint=hint)
 
 
 def _title(program: Path) -> str | None:
@@ -135,26 +187,22 @@ def _letters(text: str) -> str:
     return "".join(letter for letter in plain if letter.isascii() and letter.isalnum())
 
 
-def _require_same_moves(report: Report, planned: Plan, posted: Posted) -> None:
+def _require_same_moves(report: Report, text: str) -> None:
     """Comments differ between the verified text and the written one; nothing else may."""
-    again = _engine.read_back(planned.job.engine, planned.machine.engine, posted.text)
+    again = _engine.read_back(report.job.engine, report.machine.engine, text, report.channel)
     if not again.same_moves(report.judgement.program):
         raise VerifyError("the header changed the program's moves", code="internal", hint="please report this")
 
 
-def _outputs(job: Job, planned: Plan, posted: Posted, notes: list[str]) -> dict[Path, str]:
-    gcode, program = _names(job)
-    return {gcode: posted.text, program: planned.engine.programs[MAIN_CHANNEL].with_notes(notes).to_json()}
-
-
-def _names(job: Job) -> tuple[Path, Path]:
-    """The G-code's file and the program's."""
-    gcode = job.folder / output_name(job)
+def _names(job: Job, channel: str) -> tuple[Path, Path]:
+    """The G-code's file of a channel and the program's."""
+    gcode = job.folder / output_name(job, channel)
     named = job.document["output"]["program"]
-    return gcode, job.folder / named if named else gcode.with_suffix(".program.json")
+    return gcode, of_channel(job.folder / named, channel) if named else gcode.with_suffix(".program.json")
 
 
-def _report_name(job: Job) -> Path | None:
-    """The report's file, if the job names one."""
+def _report_names(job: Job, given: Path | None) -> dict[str, Path]:
+    """The reports' files by channel, the job's own where none is given; none if it names none."""
     named = job.document["output"]["report"]
-    return job.folder / named if named else None
+    first = given or (job.folder / named if named else None)
+    return {} if first is None else {channel: of_channel(first, channel) for channel in job.channels}

@@ -71,7 +71,7 @@ class Subject:
     @cached_property
     def fixture(self) -> list[tuple[str, list[list[float]], list[float]]]:
         """What holds the sheet: name, corners of the opening, heights of the lower and the upper face, mm."""
-        return [] if self.scene is None or self.job is None else self.scene.fixture(self.job.engine)
+        return [] if self.scene is None or self.job is None else self.scene.fixture()
 
     @cached_property
     def _known(self) -> IntArray:

@@ -3,7 +3,11 @@
 use pyo3::prelude::*;
 use styluscam_job::JobDocument;
 
-use crate::{errors::of_job, json::json, part::Part};
+use crate::{
+    errors::{of_job, raise},
+    json::json,
+    part::Part,
+};
 
 /// A checked job document; see `styluscam.Job`.
 #[pyclass(frozen, module = "styluscam._engine")]
@@ -33,6 +37,17 @@ impl Job {
         self.document.operations.iter().enumerate().map(|(index, section)| section.id(index)).collect()
     }
 
+    /// The channels of its process: programs that run side by side; "main" first.
+    #[getter]
+    fn channels(&self) -> Vec<&'static str> {
+        self.document.channels().to_vec()
+    }
+
+    /// The machine of a channel as JSON: its section of the document.
+    fn machine_of(&self, channel: &str) -> PyResult<String> {
+        json(&self.document.machine_of(self.channel(channel)?))
+    }
+
     /// How far the passes of an operation lie apart, as JSON: in height, or in plan across straight rows; None where they do
     /// not lie in step.
     fn spacing(&self, index: usize) -> PyResult<Option<String>> {
@@ -49,6 +64,17 @@ impl Job {
     /// What planning each operation will take, as JSON.
     fn estimates(&self, py: Python<'_>, part: &Part) -> PyResult<String> {
         json(&py.detach(|| styluscam_job::estimates(&self.document, &part.part)))
+    }
+}
+
+impl Job {
+    /// The name of a channel, if the job has it.
+    pub(crate) fn channel(&self, name: &str) -> PyResult<&'static str> {
+        let channels = self.document.channels();
+        channels.iter().copied().find(|channel| *channel == name).ok_or_else(|| {
+            let message = format!("channel: the job has no {name:?}");
+            raise("JobError", &message, "argument", "channel", &format!("it has {}", channels.join(", ")))
+        })
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use pyo3::prelude::*;
-use styluscam_job::Summary;
+use styluscam_job::{Setting, Summary};
 
 use crate::{
     errors::{of_job, raise},
@@ -50,18 +50,24 @@ impl Plan {
     }
 }
 
-/// Plans every operation of a job.
+/// Plans every operation of a job, each for the scene and the machine of its channel.
 #[pyfunction]
-#[pyo3(signature = (job, scene, machine, progress=None, cancel=None))]
+#[pyo3(signature = (job, settings, progress=None, cancel=None))]
+#[allow(clippy::needless_pass_by_value)] // PyO3 hands lists by value
 pub fn plan(
     py: Python<'_>,
     job: &Job,
-    scene: &Scene,
-    machine: &Machine,
+    settings: Vec<(Py<Scene>, Py<Machine>)>,
     progress: Option<&Bound<'_, PyAny>>,
     cancel: Option<&CancelToken>,
 ) -> PyResult<Plan> {
-    let work = |watch: &_| styluscam_job::plan(&job.document, &scene.scene, &machine.machine, watch);
+    let work = |watch: &_| {
+        let settings: Vec<Setting<'_>> = settings
+            .iter()
+            .map(|(scene, machine)| Setting { scene: &scene.get().scene, machine: &machine.get().machine })
+            .collect();
+        styluscam_job::plan(&job.document, &settings, watch)
+    };
     let plan = watched(py, progress, cancel, work)?.map_err(of_job)?;
     Ok(Plan { plan })
 }

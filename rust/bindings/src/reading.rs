@@ -33,10 +33,12 @@ pub fn read_to_post(py: Python<'_>, text: &str, machine: &Machine, target: &Mach
     Ok(Program { program })
 }
 
-/// The moves of a text as a machine would read it for this job.
+/// The moves of a channel's text as a machine would read it for this job.
 #[pyfunction]
-pub fn read_back(py: Python<'_>, job: &Job, machine: &Machine, text: &str) -> PyResult<Program> {
-    let program = py.detach(|| styluscam_job::read_back(&job.document, &machine.machine, text));
+#[pyo3(signature = (job, machine, text, channel="main"))]
+pub fn read_back(py: Python<'_>, job: &Job, machine: &Machine, text: &str, channel: &str) -> PyResult<Program> {
+    let channel = job.channel(channel)?;
+    let program = py.detach(|| styluscam_job::read_back(&job.document, channel, &machine.machine, text));
     Ok(Program { program: program.map_err(of_job)? })
 }
 

@@ -7,7 +7,7 @@ use crate::{errors::of_job, job::Job, part::Part, sheet::face_name, walls};
 /// Name, corners of the opening, heights of the lower and the upper face.
 type Plate = (&'static str, Vec<[f64; 2]>, [f64; 2]);
 
-/// The part as it lies on the machine.
+/// The part as it lies on the machine of a channel.
 #[pyclass(frozen, module = "styluscam._engine")]
 pub struct Scene {
     pub(crate) scene: styluscam_job::Scene,
@@ -16,8 +16,10 @@ pub struct Scene {
 #[pymethods]
 impl Scene {
     #[new]
-    fn new(py: Python<'_>, job: &Job, part: &Part) -> PyResult<Self> {
-        let scene = py.detach(|| styluscam_job::Scene::new(&job.document, &part.part)).map_err(of_job)?;
+    #[pyo3(signature = (job, part, channel="main"))]
+    fn new(py: Python<'_>, job: &Job, part: &Part, channel: &str) -> PyResult<Self> {
+        let channel = job.channel(channel)?;
+        let scene = py.detach(|| styluscam_job::Scene::new(&job.document, channel, &part.part)).map_err(of_job)?;
         Ok(Self { scene })
     }
 
@@ -35,8 +37,8 @@ impl Scene {
     }
 
     /// What holds the sheet: name, corners of the opening, heights of the lower and the upper face; work coordinates.
-    fn fixture(&self, job: &Job) -> Vec<Plate> {
-        let plates = styluscam_job::plates(&job.document, &self.scene);
+    fn fixture(&self) -> Vec<Plate> {
+        let plates = styluscam_job::plates(&self.scene);
         plates.into_iter().map(|plate| (plate.holder.name(), plate.opening, plate.heights)).collect()
     }
 

@@ -1,6 +1,7 @@
 //! What the schema cannot state: keys that belong together, or exclude each other. Ranges are checked in [`crate::units`].
 
 use crate::fixture::FixtureSection;
+use crate::resolve::check_channels;
 use crate::{
     JobDocument, JobError, LengthUnit, MachineSection, OperationKeys, OperationSection, Process, ProcessSection,
     Selection, SheetSection, Zero,
@@ -11,7 +12,10 @@ pub fn document(job: &JobDocument) -> Result<(), JobError> {
     some_face("part.faces", &job.part.faces)?;
     setup(job)?;
     process(&job.process)?;
-    machine(&job.machine)?;
+    machine("machine", &job.machine)?;
+    for (channel, section) in &job.machines {
+        machine(&format!("machines.{channel}"), section)?;
+    }
     tools(job)?;
     if job.operations.is_empty() {
         return Err(JobError::document(
@@ -24,7 +28,8 @@ pub fn document(job: &JobDocument) -> Result<(), JobError> {
     for (i, operation) in job.operations.iter().enumerate() {
         self::operation(job, &format!("operations[{i}]"), operation)?;
     }
-    ids(&job.operations)
+    ids(&job.operations)?;
+    check_channels(job)
 }
 
 /// No two operations have one name.
@@ -45,10 +50,10 @@ fn ids(operations: &[OperationSection]) -> Result<(), JobError> {
     Ok(())
 }
 
-fn some_face(place: &str, selection: &Selection) -> Result<(), JobError> {
+fn some_face(path: &str, selection: &Selection) -> Result<(), JobError> {
     match selection {
         Selection::Named(names) if names.is_empty() => {
-            Err(JobError::document("empty", place, "no face is named", "name one, or write \"all\""))
+            Err(JobError::document("empty", path, "no face is named", "name one, or write \"all\""))
         }
         _ => Ok(()),
     }
@@ -142,12 +147,12 @@ fn without_sheet(job: &JobDocument) -> Result<(), JobError> {
     Ok(())
 }
 
-fn machine(section: &MachineSection) -> Result<(), JobError> {
+fn machine(path: &str, section: &MachineSection) -> Result<(), JobError> {
     match (&section.name, &section.file) {
         (Some(_), None) | (None, Some(_)) => Ok(()),
         _ => Err(JobError::document(
             "conflict",
-            "machine",
+            path,
             "a machine has either a name or a file",
             format!("write name = one of {}", styluscam_post::shipped().join(", ")),
         )),
@@ -163,9 +168,9 @@ fn tools(job: &JobDocument) -> Result<(), JobError> {
             return Err(JobError::document("conflict", format!("tools.{name}"), message, hint));
         }
         if tool.length_offset == Some(0) {
-            let place = format!("tools.{name}.length_offset");
+            let path = format!("tools.{name}.length_offset");
             let message = "length_offset = 0 means no length offset at all";
-            return Err(JobError::document("out-of-range", place, message, "give 1 or more, or leave it out"));
+            return Err(JobError::document("out-of-range", path, message, "give 1 or more, or leave it out"));
         }
         if let Some(other) = numbers.insert(tool.number, name) {
             let message = format!("tools {other} and {name} have the same number {}", tool.number);

@@ -42,6 +42,9 @@ pub struct JobDocument {
     pub operations: Vec<OperationSection>,
     /// The machine.
     pub machine: MachineSection,
+    /// The machines of further channels, by channel, where the process has any.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub machines: BTreeMap<String, MachineSection>,
     /// What is written.
     #[serde(default)]
     pub output: OutputSection,

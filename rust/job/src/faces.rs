@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use styluscam_geometry::{Mesh, Vector};
 
-use crate::{JobDocument, JobError, OperationSection, Scene, Selection};
+use crate::selection::face_number;
+use crate::{JobError, Selection};
 
 /// Normals whose Z is above this look up; a wall of 89.9 degrees still does.
 pub(crate) const UP: f64 = 1e-3;
@@ -78,28 +79,6 @@ pub fn rims(mesh: &Mesh) -> Vec<bool> {
     rims
 }
 
-/// The faces that an operation is for, in order of their numbers: its own selection, or the part's.
-///
-/// # Errors
-/// As [`chosen`].
-pub fn of_operation(
-    job: &JobDocument,
-    scene: &Scene,
-    section: &OperationSection,
-    index: usize,
-) -> Result<Vec<u32>, JobError> {
-    let (selection, place) = match &section.common.faces {
-        Some(selection) => (selection, format!("operations[{index}].faces")),
-        None => (&job.part.faces, "part.faces".to_owned()),
-    };
-    let all = match (job.process.process.as_kind().forms(), section.kind().cuts_upright_walls()) {
-        (true, _) => Look::UpButRims,
-        (false, true) => Look::UpOrAside,
-        (false, false) => Look::Up,
-    };
-    chosen(selection, &scene.views, all, job.part.allow_undercuts, &place)
-}
-
 /// How faces look that "all" means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Look {
@@ -156,7 +135,7 @@ pub fn chosen(
 }
 
 fn named(name: &str, views: &BTreeMap<u32, FaceView>, allow_undercuts: bool, place: &str) -> Result<u32, JobError> {
-    let number = name.strip_prefix("Face").unwrap_or(name).parse::<u32>().ok();
+    let number = face_number(name);
     let Some((number, view)) = number.and_then(|n| views.get(&n).map(|v| (n, v))) else {
         return Err(JobError::document(
             "no-such-face",

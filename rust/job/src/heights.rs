@@ -1,8 +1,8 @@
-//! Between which heights an operation's tip stays: resolved once, for planning, judging and the summary alike.
+//! Between which heights an operation's tip stays.
 
 use styluscam_geometry::Tool;
 
-use crate::{JobDocument, OperationSection, Scene};
+use crate::Scene;
 
 /// Heights of the tip, work coordinates, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,14 +14,6 @@ pub(crate) struct TipHeights {
 }
 
 impl TipHeights {
-    /// Those of an operation: its own, and in milling no lower than the part's foot, on which it stands, unless it says so.
-    pub fn of(job: &JobDocument, scene: &Scene, section: &OperationSection) -> Self {
-        // a sheet hangs free: it is formed as low as it goes
-        let foot = if job.process.process.as_kind().rests_on_table() { scene.foot() } else { f64::NEG_INFINITY };
-        let common = &section.common;
-        Self { bottom: common.z_bottom.unwrap_or(foot), top: common.z_top }
-    }
-
     /// What selected triangles keep below their lowest touch where the tip stops at `bottom`: the most, mm; none where
     /// it is within `tolerance`.
     pub fn untouched(&self, scene: &Scene, tool: &Tool, selected: &[bool], tolerance: f64) -> Option<f64> {

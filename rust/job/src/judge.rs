@@ -1,4 +1,5 @@
-//! Posted text, judged: read back, put against the part, limits taken from the job.
+//! Posted text, checked: read back, held against the part, limits taken from the job. A text is one channel's, and a scene
+//! states whose.
 
 use std::ops::Range;
 
@@ -6,23 +7,21 @@ use serde::Serialize;
 use styluscam_geometry::{ModelFace, Sheet, Tool, Vector};
 use styluscam_motion::{Program, ToolRecord, Watch};
 use styluscam_post::machine::ToolChange;
-use styluscam_post::{read, Machine, Reading};
+use styluscam_post::{read, Machine};
 use styluscam_verify::{
     Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Limits, Need, Reach, Report, Simulation, Subject,
     TextFacts, ToolCalls,
 };
 
-use crate::heights::TipHeights;
 use crate::limits::{GOUGE, NO_ROOM};
-use crate::{
-    faces, fixture, materials, model, scene, Coolant, JobDocument, JobError, OperationSection, Scene, SheetSection,
-    Spindle,
-};
+use crate::resolve::{faces_of, heights_of, tools_in_order};
+use crate::{materials, model, plates, Coolant, JobDocument, JobError, OperationSection, Scene, SheetSection, Spindle};
 
-/// Most that may be left on a sheet's faces where the tool cannot get, mm, where the job does not say: single-point forming
+/// Most that may be left on a sheet's faces where the tool cannot get, mm, where the job does not state it: single-point forming
 /// itself is good to half a millimetre or a whole one.
 const BRIDGED: f64 = 1.0;
-/// The judge's report and the program that was read.
+
+/// The verifier's report and the program that was read.
 #[derive(Clone, Debug, Serialize)]
 pub struct Judgement {
     /// The report.
@@ -32,13 +31,47 @@ pub struct Judgement {
     pub program: Program,
     /// Moves whose end is not known in all three axes, in runs.
     #[serde(skip)]
-    unplaced: Vec<Range<usize>>,
+    unknown_positions: Vec<Range<usize>>,
     /// What was allowed.
     #[serde(skip)]
     limits: Limits,
 }
 
-/// Reads `text` as `machine` would and judges it against the part.
+/// What a channel's text is held against.
+struct Against<'a> {
+    scene: &'a Scene,
+    wcs: &'a str,
+    tools: Vec<Tool>,
+    records: Vec<ToolRecord>,
+    expected: Vec<ExpectedOperation>,
+}
+
+impl<'a> Against<'a> {
+    fn new(job: &'a JobDocument, scene: &'a Scene) -> Result<Self, JobError> {
+        let (tools, records) = tools_in_order(job, scene.channel)?;
+        let expected = expected(job, scene, &records)?;
+        Ok(Self { scene, wcs: &job.setup.wcs, tools, records, expected })
+    }
+
+    /// What a program is checked against whose moves have `unknown_positions`; without its text and obstacles.
+    fn subject<'s>(&'s self, unknown_positions: &'s [Range<usize>]) -> Subject<'s> {
+        Subject {
+            mesh: &self.scene.mesh,
+            bvh: &self.scene.bvh,
+            tools: &self.tools,
+            sheet: self.scene.sheet,
+            deviation_inward: self.scene.inward,
+            deviation_outward: self.scene.outward,
+            wcs: self.wcs,
+            unknown_positions,
+            text: None,
+            expected: &self.expected,
+            obstacles: &[],
+        }
+    }
+}
+
+/// Reads `text` as `machine` would and checks it against the part.
 ///
 /// # Errors
 /// Text that the machine would not take, tools that do not build, `Cancelled`.
@@ -49,49 +82,48 @@ pub fn judge(
     text: &str,
     watch: &Watch,
 ) -> Result<Judgement, JobError> {
-    let (tools, records) = tools_in_order(job)?;
-    let reading = read(text, machine, &records)?;
-    let Reading {
-        program,
-        unknown_positions: unplaced,
-        unknown_heights,
-        machine_moves,
-        optional_lines,
-        not_stated,
-        planes_not_needed,
-        stops,
-        lines,
-        ended,
-        ..
-    } = reading;
+    let against = Against::new(job, scene)?;
+    let Reading { program, unknown_positions, facts } = reading(text, machine, &against.records)?;
+    let obstacles = plates::obstacles(scene)?;
+    let plain = against.subject(&unknown_positions);
+    let subject = Subject { text: Some(&facts), obstacles: &obstacles, ..plain };
+    let found = model::mismatches(job, scene);
+    let of_job = limits(job, scene, &against.tools, machine);
+    let limits = Limits { excess_by_operation: excess(job, scene.channel, &program), found, ..of_job };
+    let report = styluscam_verify::judge(&program, &subject, &limits, watch)?;
+    Ok(Judgement { report, program, unknown_positions, limits })
+}
+
+/// A text as it was read.
+struct Reading {
+    program: Program,
+    unknown_positions: Vec<Range<usize>>,
+    facts: TextFacts,
+}
+
+/// Reads a text, and what there is to know of it beside its moves.
+fn reading(text: &str, machine: &Machine, records: &[ToolRecord]) -> Result<Reading, JobError> {
+    let read = read(text, machine, records)?;
     let tool_calls = match machine.tool.change {
         ToolChange::M6 | ToolChange::T | ToolChange::ToolCall => ToolCalls::Load,
         ToolChange::Pause | ToolChange::LoadBeforeStart => ToolCalls::Name,
         ToolChange::Unsaid => ToolCalls::NotStated,
     };
-    let ended = ended || machine.end.is_empty(); // some controllers have no word for it
-    let text = TextFacts {
-        unknown_heights,
-        machine_moves,
-        optional_lines,
-        not_stated,
-        planes_not_needed,
-        stops,
-        lines,
-        ended,
+    let facts = TextFacts {
+        unknown_heights: read.unknown_heights,
+        machine_moves: read.machine_moves,
+        optional_lines: read.optional_lines,
+        not_stated: read.not_stated,
+        planes_not_needed: read.planes_not_needed,
+        stops: read.stops,
+        lines: read.lines,
+        ended: read.ended || machine.end.is_empty(), // some controllers have no word for it
         tool_calls,
     };
-    let expected = expected(job, scene, &records)?;
-    let obstacles = fixture::obstacles(job, scene)?;
-    let plain = subject(job, scene, &tools, &unplaced);
-    let subject = Subject { text: Some(&text), expected: &expected, obstacles: &obstacles, ..plain };
-    let found = model::mismatches(job, scene);
-    let limits = Limits { excess_by_operation: excess(job, &program), found, ..limits(job, scene, &tools, machine) };
-    let report = styluscam_verify::judge(&program, &subject, &limits, watch)?;
-    Ok(Judgement { report, program, unplaced, limits })
+    Ok(Reading { program: read.program, unknown_positions: read.unknown_positions, facts })
 }
 
-/// What a judged program leaves on the faces that the job's operations are for, face by face.
+/// What a checked program leaves on the faces that its operations are for, face by face.
 ///
 /// # Errors
 /// Tools that do not build, `Cancelled`.
@@ -101,17 +133,17 @@ pub fn coverage(
     judgement: &Judgement,
     watch: &Watch,
 ) -> Result<Vec<FaceCoverage>, JobError> {
-    let (tools, _) = tools_in_order(job)?;
+    let against = Against::new(job, scene)?;
     let mut faces = Vec::new();
-    for (index, section) in job.operations.iter().enumerate() {
-        faces.extend(faces::of_operation(job, scene, section, index)?);
+    for (index, section) in job.operations_of(scene.channel) {
+        faces.extend(faces_of(job, scene, section, index)?);
     }
-    let subject = subject(job, scene, &tools, &judgement.unplaced);
-    let wanted = scene.looking_up(&faces);
-    Ok(styluscam_verify::coverage(&judgement.program, &subject, &judgement.limits, &wanted, watch)?)
+    let subject = against.subject(&judgement.unknown_positions);
+    let selected = scene.facing_up(&faces);
+    Ok(styluscam_verify::coverage(&judgement.program, &subject, &judgement.limits, &selected, watch)?)
 }
 
-/// What a judged program leaves at points in work coordinates, mm: their distance from all that tool and sheet sweep.
+/// What a checked program leaves at points in work coordinates, mm: their distance from all that tool and sheet sweep.
 ///
 /// # Errors
 /// Tools that do not build, `Cancelled`.
@@ -122,8 +154,8 @@ pub fn left(
     points: &[Vector],
     watch: &Watch,
 ) -> Result<Vec<f64>, JobError> {
-    let (tools, _) = tools_in_order(job)?;
-    let subject = subject(job, scene, &tools, &judgement.unplaced);
+    let against = Against::new(job, scene)?;
+    let subject = against.subject(&judgement.unknown_positions);
     Ok(styluscam_verify::left(&judgement.program, &subject, &judgement.limits, points, watch)?)
 }
 
@@ -138,12 +170,12 @@ pub fn needs(
     points: &[(Vector, Vector)],
     watch: &Watch,
 ) -> Result<Vec<Need>, JobError> {
-    let (tools, _) = tools_in_order(job)?;
-    let subject = subject(job, scene, &tools, &judgement.unplaced);
+    let against = Against::new(job, scene)?;
+    let subject = against.subject(&judgement.unknown_positions);
     Ok(styluscam_verify::needs(&judgement.program, &subject, &judgement.limits, points, watch)?)
 }
 
-/// What a judged program makes of the stock: the part's box, or the sheet's blank, of which `face` is followed.
+/// What a checked program makes of the stock: the part's box, or the sheet's blank, of which `face` is followed.
 ///
 /// # Errors
 /// A spacing that asks for too many nodes, tools that do not build, `Cancelled`.
@@ -155,9 +187,9 @@ pub fn simulate(
     face: Option<ModelFace>,
     watch: &Watch,
 ) -> Result<Simulation, JobError> {
-    let (tools, _) = tools_in_order(job)?;
+    let against = Against::new(job, scene)?;
     let sheet = scene.sheet.map(|sheet| Sheet { model_face: face.unwrap_or(sheet.model_face), ..sheet });
-    let subject = Subject { sheet, ..subject(job, scene, &tools, &judgement.unplaced) };
+    let subject = Subject { sheet, ..against.subject(&judgement.unknown_positions) };
     let (low, high) = scene.mesh.bounds();
     let under = sheet.map_or(0.0, |sheet| sheet.raise());
     let grid = Grid::over([low.x, low.y], [high.x, high.y], spacing).map_err(JobError::geometry("spacing"))?;
@@ -165,23 +197,7 @@ pub fn simulate(
     Ok(styluscam_verify::simulate(&judgement.program, &subject, &judgement.limits, grid, top, watch)?)
 }
 
-fn subject<'a>(job: &'a JobDocument, scene: &'a Scene, tools: &'a [Tool], unplaced: &'a [Range<usize>]) -> Subject<'a> {
-    Subject {
-        mesh: &scene.mesh,
-        bvh: &scene.bvh,
-        tools,
-        sheet: scene.sheet,
-        deviation_inward: scene.inward,
-        deviation_outward: scene.outward,
-        wcs: &job.setup.wcs,
-        unknown_positions: unplaced,
-        text: None,
-        expected: &[],
-        obstacles: &[],
-    }
-}
-
-/// What the job states for each of its operations.
+/// What the job states for each operation of the scene's channel.
 fn expected(job: &JobDocument, scene: &Scene, records: &[ToolRecord]) -> Result<Vec<ExpectedOperation>, JobError> {
     let operation = |(index, section): (usize, &OperationSection)| {
         let common = &section.common;
@@ -198,7 +214,7 @@ fn expected(job: &JobDocument, scene: &Scene, records: &[ToolRecord]) -> Result<
             expectation: expectation(job, scene, section, index)?,
         })
     };
-    job.operations.iter().enumerate().map(operation).collect()
+    job.operations_of(scene.channel).map(operation).collect()
 }
 
 /// What an operation's moves and passes must do.
@@ -208,52 +224,49 @@ fn expectation(
     section: &OperationSection,
     index: usize,
 ) -> Result<Expectation, JobError> {
-    let heights = TipHeights::of(job, scene, section);
+    let heights = heights_of(job, scene, section);
     Ok(Expectation {
         contact: section.kind().contact(),
-        selected: scene.looking_up(&faces::of_operation(job, scene, section, index)?),
+        selected: scene.facing_up(&faces_of(job, scene, section, index)?),
         heights: [heights.bottom, heights.top.unwrap_or(f64::INFINITY)],
         passes: section.kind().passes(section.common.smallest_feature),
         forms: job.process.process.as_kind().forms(),
     })
 }
 
-/// The tolerance of each of the text's operations, by the ids in its remarks; the widest of the job where it names none.
-fn excess(job: &JobDocument, program: &Program) -> Vec<Option<f64>> {
+/// The tolerance of each of the text's operations, by the ids in its remarks; the widest of the channel where it names none.
+fn excess(job: &JobDocument, channel: &str, program: &Program) -> Vec<Option<f64>> {
     let tolerance = |id: &str| {
-        let mut sections = job.operations.iter().enumerate();
+        let mut sections = job.operations_of(channel);
         sections.find(|(index, section)| section.id(*index) == id).map(|(_, section)| section.common.tolerance)
     };
-    let widest = job.operations.iter().map(|operation| operation.common.tolerance).reduce(f64::max);
+    let widest = widest_tolerance(job, channel);
     program.operations.iter().map(|operation| tolerance(&operation.id).or(widest)).collect()
 }
 
-/// The moves of a text as `machine` would read it for this job.
+fn widest_tolerance(job: &JobDocument, channel: &str) -> Option<f64> {
+    job.operations_of(channel).map(|(_, operation)| operation.common.tolerance).reduce(f64::max)
+}
+
+/// The moves of a channel's text as `machine` would read it for this job.
 ///
 /// # Errors
 /// Text that the machine would not take, tools that do not build.
-pub fn read_back(job: &JobDocument, machine: &Machine, text: &str) -> Result<Program, JobError> {
-    let (_, records) = tools_in_order(job)?;
+pub fn read_back(job: &JobDocument, channel: &str, machine: &Machine, text: &str) -> Result<Program, JobError> {
+    let (_, records) = tools_in_order(job, channel)?;
     Ok(read(text, machine, &records)?.program)
 }
 
-/// The job's tools in the order of their first use: the order in which planning lists them.
-fn tools_in_order(job: &JobDocument) -> Result<(Vec<Tool>, Vec<ToolRecord>), JobError> {
-    let mut known = scene::tools(job)?;
-    Ok(job.operations.iter().filter_map(|operation| known.remove(&operation.common.tool)).unzip())
-}
-
-/// Text is rounded: what stands at the clearance height may be half a unit of the machine below it.
+/// Text is rounded: a coordinate at the clearance height may be half a unit of the machine below it.
 fn limits(job: &JobDocument, scene: &Scene, tools: &[Tool], machine: &Machine) -> Limits {
-    let clearance = scene.clearance(job) - 0.5 * machine.resolution_mm();
-    let excess = job.operations.iter().map(|operation| operation.common.tolerance);
+    let clearance = scene.clearance - 0.5 * machine.resolution_mm();
     let sheet_bridged = job.setup.sheet.map_or(f64::INFINITY, |_| BRIDGED);
     let bridged = job.process.common.max_bridged.unwrap_or(sheet_bridged);
     let narrowest = tools.iter().map(|tool| 0.5 * tool.diameter()).fold(f64::INFINITY, f64::min);
     Limits {
         gouge: GOUGE,
-        excess: excess.reduce(f64::max),
-        retract: scene.top + job.setup.retract - 0.5 * machine.resolution_mm(),
+        excess: widest_tolerance(job, scene.channel),
+        retract: scene.retract - 0.5 * machine.resolution_mm(),
         feed_unit: machine.feed_resolution_mm(),
         reach: reach(machine),
         forming: job.setup.sheet.map(|sheet| forming(job, &sheet, scene.top)),
@@ -265,7 +278,7 @@ fn limits(job: &JobDocument, scene: &Scene, tools: &[Tool], machine: &Machine) -
     }
 }
 
-/// What the sheet bears.
+/// What the sheet withstands.
 fn forming(job: &JobDocument, sheet: &SheetSection, top: f64) -> Forming {
     let wall = materials::wall_angle(job, sheet);
     Forming {

@@ -7,6 +7,7 @@ mod body;
 mod check;
 mod document;
 mod error;
+mod estimate;
 mod faces;
 mod fixture;
 mod heights;
@@ -18,7 +19,9 @@ mod numbers;
 mod operations;
 mod parse;
 mod plan;
+mod plates;
 mod process;
+mod resolve;
 mod risk;
 mod scene;
 mod schema;
@@ -37,15 +40,17 @@ pub use document::{
     Units, Zero,
 };
 pub use error::JobError;
-pub use fixture::{plates, BackingSection, ClampSection, FixtureSection, Holder, Opening, Plate};
+pub use estimate::{estimates, Estimate};
+pub use fixture::{BackingSection, ClampSection, FixtureSection, Opening};
 pub use judge::{coverage, judge, left, needs, read_back, simulate, Judgement};
 pub use materials::{materials, Angle, Material};
 pub use operations::{
-    estimates, BridgedFace, Context, Coolant, Direction, Effort, End, Estimate, Fact, Feeds, Operation, OperationKeys,
-    OperationKind, OperationSection, PassSpacing, Planned, ReachedFace, Spindle, SurfaceFacts, ZLevel, ZigZag,
+    BridgedFace, Context, Coolant, Direction, Effort, End, Fact, Feeds, Operation, OperationKeys, OperationKind,
+    OperationSection, PassSpacing, Planned, ReachedFace, Spindle, SurfaceFacts, ZLevel, ZigZag,
 };
 pub use parse::{from_json, from_toml, tool_from_json};
-pub use plan::{plan, Channel, OperationSummary, Plan};
+pub use plan::{plan, Channel, OperationSummary, Plan, Setting};
+pub use plates::{plates, Holder, Plate};
 pub use process::{Process, ProcessKeys, ProcessKind, ProcessSection, MAIN_CHANNEL};
 pub use risk::Risk;
 pub use scene::{Part, Scene};

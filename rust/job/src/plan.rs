@@ -7,14 +7,23 @@ use styluscam_motion::{Event, EventKind, OperationRecord, Program, ToolRecord, W
 use styluscam_post::Machine;
 
 use crate::operations::{Context, Coolant, Fact, OperationSection, Planned, Spindle, SurfaceFacts};
-use crate::process::MAIN_CHANNEL;
-use crate::{check, scene, JobDocument, JobError, Scene};
+use crate::resolve::{faces_of, heights_of, tools};
+use crate::{check, JobDocument, JobError, Scene};
 
 /// Planned programs by channel.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// What each channel does.
     pub channels: BTreeMap<&'static str, Channel>,
+}
+
+/// What a channel is planned for.
+#[derive(Clone, Copy)]
+pub struct Setting<'a> {
+    /// The part as it lies on the channel's machine.
+    pub scene: &'a Scene,
+    /// The machine.
+    pub machine: &'a Machine,
 }
 
 /// A channel's program and what there is to report of it.
@@ -45,28 +54,43 @@ pub struct OperationSummary {
     pub note: String,
 }
 
-/// Plans every operation of the job, in order.
+/// Plans every operation of the job, in order, each for the setting of its channel.
 ///
 /// # Errors
 /// Anything of [`JobError`]; nothing is planned then.
-pub fn plan(job: &JobDocument, scene: &Scene, machine: &Machine, watch: &Watch) -> Result<Plan, JobError> {
-    let tools = scene::tools(job)?;
+pub fn plan(job: &JobDocument, settings: &[Setting<'_>], watch: &Watch) -> Result<Plan, JobError> {
+    let planned = settings.iter().map(|setting| Ok((setting.scene.channel, channel(job, *setting, watch)?)));
+    Ok(Plan { channels: planned.collect::<Result<_, JobError>>()? })
+}
+
+fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &Watch) -> Result<Channel, JobError> {
+    let tools = tools(job)?;
     let mut program = Program::empty(scene.record(job), Vec::new(), Vec::new());
     let mut operations = Vec::new();
-    for (index, section) in job.operations.iter().enumerate() {
-        let (tool, record) = tools
-            .get(&section.common.tool)
-            .ok_or_else(|| check::no_tool(job, &format!("operations[{index}]"), &section.common.tool))?;
-        let context = Context { job, scene, machine, section, index, tool, watch };
+    for (index, section) in job.operations_of(scene.channel) {
+        let path = format!("operations[{index}]");
+        let (tool, record) =
+            tools.get(&section.common.tool).ok_or_else(|| check::no_tool(job, &path, &section.common.tool))?;
+        let context = Context {
+            scene,
+            machine,
+            common: &section.common,
+            path,
+            operation: operations.len() as u32,
+            tool,
+            faces: faces_of(job, scene, section, index)?,
+            heights: heights_of(job, scene, section),
+            watch,
+        };
         let Planned { moves, words, note, facts, surface } = section.kind().plan(&context)?;
         let (id, kind, tool) = (section.id(index), section.operation.name(), tool_index(&mut program, record));
-        program.events.extend(events_before(&program, section, tool, index));
+        program.events.extend(events_before(&program, section, tool));
         program.operations.push(OperationRecord { id: id.clone(), kind: kind.to_owned(), tool });
         program.moves.extend(moves);
         operations.push(OperationSummary { id, kind, words, facts, surface, note });
     }
-    program.events.extend(events_at_end(&program, job.operations.last()));
-    Ok(Plan { channels: BTreeMap::from([(MAIN_CHANNEL, Channel { program, operations })]) })
+    program.events.extend(events_at_end(&program, job.operations_of(scene.channel).last().map(|(_, last)| last)));
+    Ok(Channel { program, operations })
 }
 
 fn tool_index(program: &mut Program, record: &ToolRecord) -> u32 {
@@ -79,7 +103,7 @@ fn tool_index(program: &mut Program, record: &ToolRecord) -> u32 {
 }
 
 /// Tool change, spindle and coolant as far as they differ from the operation before.
-fn events_before(program: &Program, section: &OperationSection, tool: u32, index: usize) -> Vec<Event> {
+fn events_before(program: &Program, section: &OperationSection, tool: u32) -> Vec<Event> {
     let before = program.moves.len();
     let changes_tool = program.operations.last().is_none_or(|last| last.tool != tool);
     let mut kinds = Vec::new();
@@ -90,7 +114,7 @@ fn events_before(program: &Program, section: &OperationSection, tool: u32, index
         Spindle::Off => EventKind::SpindleOff,
         Spindle::Fixed { rpm, direction } => EventKind::SpindleOn { rpm, direction },
     });
-    if index > 0 || section.common.coolant == Coolant::Flood {
+    if !program.operations.is_empty() || section.common.coolant == Coolant::Flood {
         kinds.push(EventKind::Flood { on: section.common.coolant == Coolant::Flood });
     }
     kinds.into_iter().map(|kind| Event { before, kind }).collect()

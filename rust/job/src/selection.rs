@@ -43,3 +43,8 @@ impl From<Selection> for SelectionText {
         }
     }
 }
+
+/// The number in a face's name: 3 of "Face3", and of "3".
+pub(crate) fn face_number(name: &str) -> Option<u32> {
+    name.strip_prefix("Face").unwrap_or(name).parse().ok()
+}

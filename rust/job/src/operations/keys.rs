@@ -18,6 +18,9 @@ pub struct OperationKeys {
     /// Faces of this operation alone; the part's when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub faces: Option<Selection>,
+    /// The channel whose program does it, where the process has several; "main" when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub channel: Option<String>,
     /// Height at which the operation begins, mm in work coordinates; the selected faces' top when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "mm", "minimum" = -10000.0, "maximum" = 10000.0))]

@@ -4,7 +4,7 @@ use serde::Serialize;
 use styluscam_motion::Move;
 use styluscam_verify::{Contact, Passes};
 
-use super::{Areas, Context, Effort, SurfaceFacts};
+use super::{Areas, Context, Effort, Fact, SurfaceFacts};
 use crate::numbers::shown;
 use crate::{JobError, OperationKeys};
 
@@ -82,46 +82,6 @@ pub struct Planned {
     pub facts: Vec<Fact>,
     /// What becomes of the faces, where it follows faces.
     pub surface: Option<SurfaceFacts>,
-}
-
-/// A figure of a planned operation.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Fact {
-    /// What it is: "levels".
-    pub fact: &'static str,
-    /// How many, or how much.
-    pub value: f64,
-    /// Its unit; empty for counts.
-    pub unit: &'static str,
-    /// In words.
-    pub words: String,
-}
-
-impl Fact {
-    /// So many things, called `one` or `many`.
-    #[must_use]
-    pub fn count(count: usize, one: &str, many: &'static str) -> Self {
-        Self { fact: many, value: count as f64, unit: "", words: counted(count, one, many) }
-    }
-
-    /// A length in mm.
-    #[must_use]
-    pub fn length(fact: &'static str, mm: f64, words: &str) -> Self {
-        Self { fact, value: mm, unit: "mm", words: format!("{words} {mm:.3} mm") }
-    }
-}
-
-/// "1 level", "2 levels", "12,000 levels".
-pub(super) fn counted(count: usize, one: &str, many: &str) -> String {
-    let digits = count.to_string();
-    let mut grouped = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            grouped.push(',');
-        }
-        grouped.push(digit);
-    }
-    format!("{grouped} {}", if count == 1 { one } else { many })
 }
 
 /// The distance between neighbouring passes, and in what.

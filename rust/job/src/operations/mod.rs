@@ -9,10 +9,12 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
 
 use crate::tagged::{self, kinds, Family};
+use crate::MAIN_CHANNEL;
 
 mod budget;
 mod context;
 mod effort;
+mod facts;
 mod keys;
 mod kind;
 mod reached;
@@ -21,11 +23,10 @@ mod surface;
 mod tests;
 
 pub use context::Context;
-pub use effort::{estimates, Areas, Effort, Estimate};
+pub use effort::{Areas, Effort};
+pub use facts::{BridgedFace, End, Fact, ReachedFace, SurfaceFacts};
 pub use keys::{Coolant, Direction, Feeds, OperationKeys, Spindle};
-pub use kind::{About, Fact, OperationKind, PassSpacing, Planned, Serves, StarterPasses};
-pub use reached::{BridgedFace, ReachedFace};
-pub use surface::{End, SurfaceFacts};
+pub use kind::{About, OperationKind, PassSpacing, Planned, Serves, StarterPasses};
 
 kinds! {
     /// The kinds of operations, each with its own keys.
@@ -53,6 +54,12 @@ impl OperationSection {
     #[must_use]
     pub fn kind(&self) -> &dyn OperationKind {
         self.operation.as_kind()
+    }
+
+    /// The channel whose program does it.
+    #[must_use]
+    pub fn channel(&self) -> &str {
+        self.common.channel.as_deref().unwrap_or(MAIN_CHANNEL)
     }
 
     /// Its name: its own, or one made of its kind and its number in the job, `index` + 1.

@@ -7,6 +7,7 @@ use styluscam_motion::Watch;
 use styluscam_toolpath::offset::{bridges, Bridges, Envelope, OffsetSurface, Stopped, SurfaceFlag};
 use styluscam_verify::ToolReach;
 
+use super::{BridgedFace, ReachedFace};
 use crate::faces::UP;
 use crate::stopped::{stopped_places, StoppedTriangle};
 use crate::{JobError, Scene};
@@ -15,34 +16,6 @@ use crate::{JobError, Scene};
 const OFFSET_SAMPLES: usize = 2000;
 /// Points that refining it may add, where something stops the tool.
 const OFFSET_POINTS: usize = 1 << 16;
-
-/// How much of a face the tool reaches, and what keeps it from the rest; areas, mm^2, from samples.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct ReachedFace {
-    /// The face.
-    pub face: u32,
-    /// Touched by the tool.
-    pub contact: f64,
-    /// Kept from the tool by the same smooth patch of the part, which is more curved than the tool.
-    pub bridged: f64,
-    /// Kept from the tool by something beyond a crease: a wall, a step, an island.
-    pub interferes: f64,
-    /// Steeper than the tool's profile: touched by its rim.
-    pub rim: f64,
-    /// Looks down.
-    pub undercut: f64,
-}
-
-/// A face that the tool bridges.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct BridgedFace {
-    /// The face.
-    pub face: u32,
-    /// Most that is left between it and the tool, along the normal, mm.
-    pub excess: f64,
-    /// Where, work coordinates, mm.
-    pub at: [f64; 3],
-}
 
 /// The slope-matched offset of faces: of all their triangles, or of up to [`OFFSET_SAMPLES`] of each.
 pub fn offset_of(

@@ -1,16 +1,13 @@
 //! What all operations share whose tool follows the selected faces: the envelope is prepared, the kind traces its passes on it,
 //! and they are linked; what becomes of the faces is measured beside.
 
-use serde::Serialize;
 use styluscam_geometry::Tool;
 use styluscam_toolpath::{
     budget::Budget, link, offset::Envelope, AlongSurface, Heights, Links, Pass, PlanError, Rates, Surface,
 };
 
 use super::budget;
-use super::reached::{self, BridgedFace, ReachedFace};
-use super::{Context, Direction, Fact, Planned};
-use crate::heights::TipHeights;
+use super::{reached, Context, Direction, End, Fact, Planned, SurfaceFacts};
 use crate::{JobError, Scene};
 
 /// What links along the surface and rows look for, as a share of the distance between the grid's nodes: the tool's rim and its
@@ -62,8 +59,6 @@ pub struct Traced {
 pub struct Task<'a> {
     /// The operation.
     pub context: &'a Context<'a>,
-    /// Between which heights its tip stays.
-    pub(crate) heights: TipHeights,
     /// What is left of the tolerance.
     pub budget: Budget,
 }
@@ -91,50 +86,19 @@ impl Task<'_> {
             longest: LINKED_ALONG * pitch,
             deviation: self.budget.deviation,
             narrow: self.narrow(),
-            feed: self.context.section.common.feeds.cut,
+            feed: self.context.common.feeds.cut,
         }
     }
 
     fn links(&self) -> Links {
-        let (job, scene, common) = (self.context.job, self.context.scene, &self.context.section.common);
+        let (scene, common) = (self.context.scene, self.context.common);
         Links {
             alternate: common.direction == Direction::Alternate,
-            heights: Heights { clearance: scene.clearance(job), retract: scene.top + job.setup.retract },
+            heights: Heights { clearance: scene.clearance, retract: scene.retract },
             rates: Rates { cut: common.feeds.cut, plunge: common.feeds.plunge },
-            operation: self.context.index as u32,
+            operation: self.context.operation,
         }
     }
-}
-
-/// What becomes of the faces that an operation follows.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct SurfaceFacts {
-    /// Faces planned.
-    pub faces: Vec<u32>,
-    /// Largest wall angle of those faces, degrees.
-    pub wall_angle_max_deg: f64,
-    /// Where it ends though the tool could touch the faces farther down.
-    pub ends: Option<End>,
-    /// What becomes of the planned faces, in the order of their numbers.
-    pub reached: Vec<ReachedFace>,
-    /// How large the triangles are from which that is known where something stops the tool, mm, if larger than meant:
-    /// there is more of it than is worth the time.
-    pub reached_coarsely: Option<f64>,
-    /// Faces with positions that the tool cannot touch, worst first.
-    pub bridged: Vec<BridgedFace>,
-    /// Faces with area that faces down, mm^2: not reached.
-    pub undercut: Vec<(u32, f64)>,
-}
-
-/// Where an operation ends though the tool could touch its faces farther down; mm.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct End {
-    /// Lowest tip.
-    pub z: f64,
-    /// Whether that is the part's foot, and nothing that the job states.
-    pub at_foot: bool,
-    /// Most of the faces' lowest parts that is touched only from lower down.
-    pub untouched: f64,
 }
 
 /// Plans an operation whose tool follows the selected faces.
@@ -143,17 +107,16 @@ pub struct End {
 /// The tolerance is used up, nothing is reached, `Cancelled`.
 pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned, JobError> {
     let (scene, tool, watch) = (context.scene, context.tool, context.watch);
-    let tolerance = context.section.common.tolerance;
-    let faces = context.faces()?;
-    let selected = scene.looking_up(&faces);
+    let tolerance = context.common.tolerance;
+    let selected = scene.facing_up(&context.faces);
     let budget = budget::of(tolerance, scene, context.machine).map_err(|error| context.error(error))?;
     watch.begin("preparing", 1);
     let envelope = Envelope::new(&scene.mesh, &scene.index, tool, scene.sheet.as_ref(), budget.margin);
-    let task = Task { context, heights: context.heights(), budget };
+    let task = Task { context, budget };
     let surface = Surface::new(&envelope, &selected).between_heights(kind.tip_range(&task));
     let surface = if scene.sheet.is_some() { surface.from_above() } else { surface };
     let traced = kind.trace(&task, &surface).map_err(|error| context.error(error))?;
-    let offset = reached::offset_of(scene, tool, &envelope, &faces, tolerance, watch)?;
+    let offset = reached::offset_of(scene, tool, &envelope, &context.faces, tolerance, watch)?;
     let bridges = reached::bridges_of(scene, tool, &envelope, &offset, tolerance, watch)?;
     let (groups, passes) = (count_groups(&traced.passes), traced.passes.len());
     let facts = SurfaceFacts {
@@ -162,8 +125,8 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
         reached: reached::reached(scene, &offset, &bridges),
         reached_coarsely: offset.is_coarse.then_some(offset.fine),
         bridged: reached::bridged(&bridges),
-        undercut: undercut(scene, &faces),
-        faces,
+        undercut: undercut(scene, &context.faces),
+        faces: context.faces.clone(),
     };
     Ok(Planned {
         words: kind.words(groups, passes),
@@ -176,10 +139,10 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
 
 /// The end that the heights are to an operation, if the tool would go on below.
 fn ends(task: &Task<'_>, lowest_rest: f64, tool: &Tool, passes: &[Pass], selected: &[bool]) -> Option<End> {
-    let (scene, common) = (task.context.scene, &task.context.section.common);
+    let (scene, common) = (task.context.scene, task.context.common);
     let lowest = passes.iter().flat_map(|pass| &pass.points).map(|point| point.tip.z).fold(f64::INFINITY, f64::min);
-    let stopped = lowest - task.heights.bottom <= lowest_rest;
-    let untouched = task.heights.untouched(scene, tool, selected, common.tolerance).filter(|_| stopped)?;
+    let stopped = lowest - task.context.heights.bottom <= lowest_rest;
+    let untouched = task.context.heights.untouched(scene, tool, selected, common.tolerance).filter(|_| stopped)?;
     Some(End { z: lowest, at_foot: common.z_bottom.is_none(), untouched })
 }
 

@@ -7,7 +7,7 @@ use styluscam_post::Machine;
 use styluscam_verify::Passes;
 
 use super::{Operation, Serves, StarterPasses};
-use crate::{JobDocument, Part, Scene};
+use crate::{JobDocument, Part, Scene, Setting};
 
 /// A pyramid frustum of 20 x 20 mm, 4 mm high, walls of 45 degrees.
 fn part() -> Part {
@@ -92,8 +92,8 @@ fn every_kind_plans_and_says_what_it_planned() {
     let machine = Machine::shipped("linuxcnc").unwrap();
     for kind in kinds() {
         let job = job(kind).unwrap();
-        let scene = Scene::new(&job, &part).unwrap();
-        let plan = crate::plan(&job, &scene, &machine, &watch).unwrap();
+        let scene = Scene::new(&job, crate::MAIN_CHANNEL, &part).unwrap();
+        let plan = crate::plan(&job, &[Setting { scene: &scene, machine: &machine }], &watch).unwrap();
         let channel = &plan.channels[crate::MAIN_CHANNEL];
         let (name, summary): (&str, _) = (Operation::NAMES[kind], &channel.operations[0]);
         assert_eq!(summary.kind, name);

@@ -13,7 +13,7 @@ use styluscam_toolpath::{
 };
 use styluscam_verify::{Contact, Height, OrderedPasses, Passes};
 
-use super::kind::counted;
+use super::facts::counted;
 use super::surface::{self, FollowsSurface, Task, Traced};
 use super::{About, Areas, Context, Effort, Fact, OperationKind, PassSpacing, Planned, Serves};
 use crate::{JobError, OperationKeys};
@@ -106,8 +106,8 @@ impl FollowsSurface for ZLevel {
         let resolution = task.context.machine.resolution_mm();
         let (lowest, highest) = selected_range(surface, &grid, resolution, watch)?.ok_or_else(nothing)?;
         // the flat top lies margin below what the envelope shows
-        let top = task.heights.top.unwrap_or_else(|| rounded(highest - task.budget.margin, resolution));
-        let bottom = task.heights.bottom;
+        let top = task.context.heights.top.unwrap_or_else(|| rounded(highest - task.budget.margin, resolution));
+        let bottom = task.context.heights.bottom;
         let range = LevelRange { top, bottom, reachable: lowest, step: self.height(), resolution };
         let floors = Floors::of(surface.envelope());
         let heights = levels(&range, &floors)?;

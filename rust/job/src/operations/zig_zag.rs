@@ -10,7 +10,7 @@ use styluscam_toolpath::{
 };
 use styluscam_verify::{Across, Contact, OrderedPasses, Passes};
 
-use super::kind::counted;
+use super::facts::counted;
 use super::surface::{self, FollowsSurface, Task, Traced};
 use super::{About, Areas, Context, Effort, Fact, OperationKind, PassSpacing, Planned, Serves};
 use crate::{JobError, OperationKeys};
@@ -82,8 +82,8 @@ impl OperationKind for ZigZag {
 impl FollowsSurface for ZigZag {
     /// What lies at the top is formed within the tolerance above it.
     fn tip_range(&self, task: &Task<'_>) -> [f64; 2] {
-        let tolerance = task.context.section.common.tolerance;
-        [task.heights.bottom, task.heights.top.map_or(f64::INFINITY, |z| z + tolerance)]
+        let tolerance = task.context.common.tolerance;
+        [task.context.heights.bottom, task.context.heights.top.map_or(f64::INFINITY, |z| z + tolerance)]
     }
 
     fn pitch(&self) -> f64 {
@@ -105,7 +105,7 @@ impl FollowsSurface for ZigZag {
         if passes.is_empty() {
             return Err(PlanError::NothingReached(task.why_nothing()));
         }
-        Ok(Traced { passes, smallest_feature: task.context.section.common.smallest_feature })
+        Ok(Traced { passes, smallest_feature: task.context.common.smallest_feature })
     }
 
     fn words(&self, groups: usize, passes: usize) -> String {

@@ -27,7 +27,7 @@ pub trait ProcessKind {
         !self.forms()
     }
 
-    /// The programs that run side by side, by name.
+    /// The channels: programs that run side by side, each on a machine of its own; [`MAIN_CHANNEL`] first.
     fn channels(&self) -> &'static [&'static str] {
         &[MAIN_CHANNEL]
     }

@@ -1,0 +1,37 @@
+//! The faces and the heights of an operation: resolved here for planning, verification and the summary alike.
+
+use crate::faces::{chosen, Look};
+use crate::heights::TipHeights;
+use crate::{JobDocument, JobError, OperationSection, Scene};
+
+/// The faces that an operation is for, in order of their numbers: its own selection, or the part's. `index` is its number in
+/// the job.
+///
+/// # Errors
+/// A name that no face has, a face that faces down.
+pub fn faces_of(
+    job: &JobDocument,
+    scene: &Scene,
+    section: &OperationSection,
+    index: usize,
+) -> Result<Vec<u32>, JobError> {
+    let (selection, path) = match &section.common.faces {
+        Some(selection) => (selection, format!("operations[{index}].faces")),
+        None => (&job.part.faces, "part.faces".to_owned()),
+    };
+    let all = match (job.process.process.as_kind().forms(), section.kind().cuts_upright_walls()) {
+        (true, _) => Look::UpButRims,
+        (false, true) => Look::UpOrAside,
+        (false, false) => Look::Up,
+    };
+    chosen(selection, &scene.views, all, job.part.allow_undercuts, &path)
+}
+
+/// Between which heights an operation's tip stays: its own, and in milling no lower than the part's foot, on which it
+/// stands, unless the job states so.
+pub fn heights_of(job: &JobDocument, scene: &Scene, section: &OperationSection) -> TipHeights {
+    // a sheet hangs free: it is formed as low as it goes
+    let foot = if job.process.process.as_kind().rests_on_table() { scene.foot() } else { f64::NEG_INFINITY };
+    let common = &section.common;
+    TipHeights { bottom: common.z_bottom.unwrap_or(foot), top: common.z_top }
+}
