@@ -56,11 +56,7 @@ impl Machine {
         let options: std::collections::BTreeMap<String, styluscam_post::OptionValue> = serde_json::from_str(options)
             .map_err(|e| raise("MachineError", &e.to_string(), "document", "machine.options", ""))?;
         let mut machine = self.machine.clone();
-        // decimals are those of the unit that is posted
-        let (units, others): (Vec<_>, Vec<_>) = options.into_iter().partition(|(name, _)| name == "units");
-        for (name, value) in units.into_iter().chain(others) {
-            machine.set_option(&name, value).map_err(of_job)?;
-        }
+        machine.set_options(options).map_err(of_job)?;
         Ok(Self { machine })
     }
 

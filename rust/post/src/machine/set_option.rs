@@ -1,5 +1,7 @@
 //! Options of a machine, set.
 
+use std::collections::BTreeMap;
+
 use super::error::{most_similar, MachineError};
 use super::option::{OptionValue, BUILT_IN_OPTIONS};
 use super::rules::{BlockNumber, CommentForm, Family, FeedMode, LengthUnit};
@@ -16,6 +18,18 @@ impl Machine {
             machine.set_own_option(name, value)?;
         }
         machine.check()?;
+        *self = machine;
+        Ok(())
+    }
+
+    /// Sets options, the unit before the others: decimals are those of the unit that is posted.
+    ///
+    /// # Errors
+    /// Those of [`set_option`](Self::set_option); the machine stays as it was.
+    pub fn set_options(&mut self, options: BTreeMap<String, OptionValue>) -> Result<(), MachineError> {
+        let mut machine = self.clone();
+        let (units, others): (Vec<_>, Vec<_>) = options.into_iter().partition(|(name, _)| name == "units");
+        units.into_iter().chain(others).try_for_each(|(name, value)| machine.set_option(&name, value))?;
         *self = machine;
         Ok(())
     }
