@@ -27,7 +27,7 @@ fn build(py: Python<'_>, class: &str, message: &str, code: &str, location: &str,
 /// A job's error, or one that it may hold.
 pub fn of_job<E: Into<JobError>>(error: E) -> PyErr {
     let error = error.into();
-    raise(error.class(), &error.to_string(), error.code(), &error.place(), &error.hint())
+    raise(error.class(), &error.to_string(), error.code(), &error.location(), &error.hint())
 }
 
 /// What keeps a program from being traced.
@@ -35,7 +35,7 @@ pub fn of_trace(error: &TraceError) -> PyErr {
     if error.fault == TraceFault::Cancelled {
         return cancelled(Cancelled);
     }
-    raise("VerifyError", &error.to_string(), error.code(), &error.place(), &error.hint())
+    raise("VerifyError", &error.to_string(), error.code(), &error.location(), &error.hint())
 }
 
 /// A shape's error.

@@ -99,7 +99,7 @@ fn tried(trial: Trial) -> Tried {
         Outcome::Without { reason } => (name, "without", reason, "", none(), none(), none(), text),
         Outcome::Failed(error) => {
             let (message, line, hint) = (error.to_string(), error.line().to_owned(), error.hint());
-            (name, "failed", message, error.code(), error.place(), line, hint, text)
+            (name, "failed", message, error.code(), error.location(), line, hint, text)
         }
     }
 }

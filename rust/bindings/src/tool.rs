@@ -27,7 +27,7 @@ impl Tool {
     #[new]
     fn new(document: &str) -> PyResult<Self> {
         let document = styluscam_job::tool_from_json(document)
-            .map_err(|e| errors::raise("ToolError", &e.to_string(), e.code(), &e.place(), &e.hint()))?;
+            .map_err(|e| errors::raise("ToolError", &e.to_string(), e.code(), &e.location(), &e.hint()))?;
         let tool = styluscam_geometry::Tool::new(document).map_err(|e| errors::of_tool(&e))?;
         Ok(Self { cutter: tool.cutter(), tool })
     }

@@ -107,7 +107,7 @@ fn with_sheet(job: &JobDocument, sheet: &SheetSection) -> Result<(), JobError> {
         return Err(JobError::document(
             "missing",
             "part.model_face",
-            "with a sheet, model_face must say which of its faces the model shows",
+            "with a sheet, model_face must state which of its faces the model shows",
             "add model_face = \"tool\", \"back\" or \"mid\" to [part]",
         ));
     }
@@ -141,7 +141,7 @@ fn without_sheet(job: &JobDocument) -> Result<(), JobError> {
         return Err(JobError::document("conflict", "setup.fixture", message, "remove it, or add [setup.sheet]"));
     }
     if job.part.model_face.is_some() {
-        let message = "model_face says which face of the sheet the model shows, and there is no sheet";
+        let message = "model_face states which face of the sheet the model shows, and there is no sheet";
         return Err(JobError::document("conflict", "part.model_face", message, "remove it, or add [setup.sheet]"));
     }
     Ok(())

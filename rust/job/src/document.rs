@@ -1,7 +1,7 @@
 //! The job document as people write it. Lengths in mm, angles in degrees, feeds in mm/min.
 //!
-//! Every number's unit stands in its schema as `x-unit`: by these a document in inches becomes one in mm (`units`).
-//! Defaults and descriptions stand here and nowhere else; ranges stand in `check`.
+//! Every number's unit is in its schema as `x-unit`: by these a document in inches becomes one in mm (`units`).
+//! Defaults, ranges and descriptions are here and nowhere else; which keys go together is in `check`.
 
 use std::collections::BTreeMap;
 
@@ -21,14 +21,14 @@ pub struct JobDocument {
     /// A name for people; the part's file name when left out.
     #[serde(default)]
     pub title: String,
-    /// Risks that are taken: what the judge would refuse for them becomes a warning.
+    /// Risks that are taken: what the verifier would report for them as an error becomes a warning.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub accept: Vec<Risk>,
     /// The unit of every length in this document: "mm" or "inch", and feeds in it per minute. What is left out is as in mm; a
     /// part's file, tool files and machine files have units of their own.
     #[serde(default, skip_serializing_if = "LengthUnit::is_mm")]
     pub units: LengthUnit,
-    /// The part and what of it is wanted.
+    /// The part, and which of its faces are selected.
     pub part: PartSection,
     /// How the part lies on the machine.
     #[serde(default)]
@@ -62,7 +62,7 @@ pub enum LengthUnit {
     Inch,
 }
 
-/// The part and what of it is wanted.
+/// The part, and which of its faces are selected.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PartSection {
@@ -71,7 +71,7 @@ pub struct PartSection {
     /// Unit of a file that does not state one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub units: Option<Units>,
-    /// "all" (the faces that look up; for levels in milling upright walls too), or names: ["Face3", "Face4"].
+    /// "all" (the faces that face up; for levels in milling upright walls too), or names: ["Face3", "Face4"].
     #[serde(default)]
     pub faces: Selection,
     /// Which face of the sheet the model shows; required with a sheet.
@@ -81,7 +81,7 @@ pub struct PartSection {
     #[serde(default = "part_tolerance")]
     #[schemars(extend("x-unit" = "mm", "minimum" = 0.0001, "maximum" = 1.0))]
     pub tolerance: f64,
-    /// Plan what can be reached of named faces that partly look down.
+    /// Plan what can be reached of named faces that partly face down.
     #[serde(default)]
     pub allow_undercuts: bool,
 }
@@ -205,11 +205,11 @@ pub struct SheetSection {
     /// How the thickness behaves as the sheet is formed.
     #[serde(default)]
     pub law: SheetLaw,
-    /// Thinnest that the sheet may become, by the sine law, mm; not judged when left out.
+    /// Thinnest that the sheet may become, by the sine law, mm; not checked when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 50.0))]
     pub min_thickness: Option<f64>,
-    /// Steepest wall that may be formed, degrees; when left out, what is known of `process.material`, or of any sheet, judges.
+    /// Steepest wall that may be formed, degrees; when left out, what is known of `process.material`, or of any sheet, decides.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "deg", "minimum" = 1.0, "maximum" = 90.0))]
     pub max_wall_angle_deg: Option<f64>,
@@ -219,7 +219,7 @@ pub struct SheetSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ToolSection {
-    /// Its place in the machine's tool table.
+    /// Its number in the machine's tool table.
     #[serde(default = "one")]
     pub number: u32,
     /// Number of its length offset; the tool's number when left out.

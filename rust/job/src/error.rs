@@ -6,7 +6,7 @@ use styluscam_post::{MachineError, PostError, ReadError};
 use styluscam_toolpath::PlanError;
 use thiserror::Error;
 
-/// Everything that stops a job. `code` is stable, `place` a path in the document or a line of a text, `hint` what to do.
+/// Everything that stops a job. `code` is stable, `location` a path in the document or a line of a text, `hint` what to do.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum JobError {
     /// A key of the document is unknown, missing, of the wrong type, out of range, or at odds with another.
@@ -15,7 +15,7 @@ pub enum JobError {
         /// What is wrong, with the value and what is allowed.
         message: String,
         /// Path of the key: `operations[0].step.height`.
-        place: String,
+        location: String,
         /// What to do.
         hint: String,
         /// Stable name.
@@ -27,7 +27,7 @@ pub enum JobError {
         /// What.
         error: GeometryError,
         /// Path in the document.
-        place: String,
+        location: String,
     },
     /// Planning failed.
     #[error("{error}")]
@@ -35,7 +35,7 @@ pub enum JobError {
         /// Why.
         error: PlanError,
         /// The operation: `operations[0]`.
-        place: String,
+        location: String,
     },
     /// The machine file is wrong or does not exist.
     #[error("{0}")]
@@ -54,32 +54,32 @@ pub enum JobError {
 impl JobError {
     pub(crate) fn document(
         code: &'static str,
-        place: impl Into<String>,
+        location: impl Into<String>,
         message: impl Into<String>,
         hint: impl Into<String>,
     ) -> Self {
-        Self::Document { message: message.into(), place: place.into(), hint: hint.into(), code }
+        Self::Document { message: message.into(), location: location.into(), hint: hint.into(), code }
     }
 
-    pub(crate) fn geometry(place: impl Into<String>) -> impl FnOnce(GeometryError) -> Self {
-        let place = place.into();
-        move |error| Self::Geometry { error, place }
+    pub(crate) fn geometry(location: impl Into<String>) -> impl FnOnce(GeometryError) -> Self {
+        let location = location.into();
+        move |error| Self::Geometry { error, location }
     }
 
-    pub(crate) fn planning(place: impl Into<String>) -> impl FnOnce(PlanError) -> Self {
-        let place = place.into();
+    pub(crate) fn planning(location: impl Into<String>) -> impl FnOnce(PlanError) -> Self {
+        let location = location.into();
         move |error| match error {
             PlanError::Cancelled => Self::Cancelled,
-            error => Self::Plan { error, place },
+            error => Self::Plan { error, location },
         }
     }
 
-    /// The class of the error: the name of the Python exception that stands for it.
+    /// The class of the error: the name of the Python exception that it becomes.
     #[must_use]
     pub fn class(&self) -> &'static str {
         match self {
             Self::Document { .. } => "JobError",
-            Self::Geometry { place, .. } if place.starts_with("tools") => "ToolError",
+            Self::Geometry { location, .. } if location.starts_with("tools") => "ToolError",
             Self::Geometry { .. } => "GeometryError",
             Self::Plan { .. } => "PlanError",
             Self::Machine(_) | Self::Post(_) => "MachineError",
@@ -104,12 +104,14 @@ impl JobError {
 
     /// Where: a path in the document, or a line.
     #[must_use]
-    pub fn place(&self) -> String {
+    pub fn location(&self) -> String {
         match self {
-            Self::Document { place, .. } | Self::Geometry { place, .. } | Self::Plan { place, .. } => place.clone(),
-            Self::Machine(error) => error.place(),
-            Self::Post(error) => error.place(),
-            Self::Read(error) => error.place(),
+            Self::Document { location, .. } | Self::Geometry { location, .. } | Self::Plan { location, .. } => {
+                location.clone()
+            }
+            Self::Machine(error) => error.location(),
+            Self::Post(error) => error.location(),
+            Self::Read(error) => error.location(),
             Self::Cancelled => String::new(),
         }
     }

@@ -7,10 +7,10 @@ use styluscam_geometry::{Mesh, Vector};
 use crate::selection::face_number;
 use crate::{JobError, Selection};
 
-/// Normals whose Z is above this look up; a wall of 89.9 degrees still does.
+/// Normals whose Z is above this face up; a wall of 89.9 degrees still does.
 pub(crate) const UP: f64 = 1e-3;
 
-/// Share of a face that may look down and is no undercut: triangles of an upright side lean by their deviation.
+/// Share of a face that may face down and is no undercut: triangles of an upright side lean by their deviation.
 const LEAST_UNDERCUT: f64 = 5e-3;
 
 /// A face of the model as its triangles show it in work coordinates.
@@ -18,13 +18,13 @@ const LEAST_UNDERCUT: f64 = 5e-3;
 pub struct FaceView {
     /// Area, mm^2.
     pub area: f64,
-    /// Area that looks up, mm^2.
+    /// Area that faces up, mm^2.
     pub up: f64,
-    /// Area that looks down, mm^2.
+    /// Area that faces down, mm^2.
     pub down: f64,
     /// Area of upright walls, which do neither, mm^2.
     pub upright: f64,
-    /// Area where the part was cut off, mm^2: upright beside what looks down.
+    /// Area where the part was cut off, mm^2: upright beside what faces down.
     pub rim: f64,
     /// Largest slope, rad.
     pub steepest: f64,
@@ -53,7 +53,7 @@ pub fn views(mesh: &Mesh) -> BTreeMap<u32, FaceView> {
 /// Walls go on in one another where their normals are nearer than 30 degrees, by their cosine.
 const CREASE: f64 = 0.866;
 
-/// Which triangles stand upright and share a side with one that looks down, and the upright ones that go on from them without a crease: of a
+/// Which triangles stand upright and share a side with one that faces down, and the upright ones that go on from them without a crease: of a
 /// sheet, these are its cut edges.
 pub fn rims(mesh: &Mesh) -> Vec<bool> {
     // corners by what they measure: faces of a STEP part share none
@@ -82,7 +82,7 @@ pub fn rims(mesh: &Mesh) -> Vec<bool> {
 /// How faces look that "all" means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Look {
-    /// Those that look up.
+    /// Those that face up.
     Up,
     /// As [`Up`](Self::Up); of a mesh upright walls too, but for those where a sheet was cut off.
     UpButRims,
@@ -99,7 +99,7 @@ pub fn chosen(
     views: &BTreeMap<u32, FaceView>,
     all: Look,
     allow_undercuts: bool,
-    place: &str,
+    path: &str,
 ) -> Result<Vec<u32>, JobError> {
     match selection {
         Selection::All => {
@@ -114,8 +114,8 @@ pub fn chosen(
             if up.is_empty() {
                 return Err(JobError::document(
                     "nothing-up",
-                    place,
-                    "no face of the part looks up",
+                    path,
+                    "no face of the part faces up",
                     "turn the part with setup.up, or check that its triangles are not inside out",
                 ));
             }
@@ -125,7 +125,7 @@ pub fn chosen(
             let mut faces = names
                 .iter()
                 .enumerate()
-                .map(|(i, name)| named(name, views, allow_undercuts, &format!("{place}[{i}]")))
+                .map(|(i, name)| named(name, views, allow_undercuts, &format!("{path}[{i}]")))
                 .collect::<Result<Vec<u32>, JobError>>()?;
             faces.sort_unstable();
             faces.dedup();
@@ -134,12 +134,12 @@ pub fn chosen(
     }
 }
 
-fn named(name: &str, views: &BTreeMap<u32, FaceView>, allow_undercuts: bool, place: &str) -> Result<u32, JobError> {
+fn named(name: &str, views: &BTreeMap<u32, FaceView>, allow_undercuts: bool, path: &str) -> Result<u32, JobError> {
     let number = face_number(name);
     let Some((number, view)) = number.and_then(|n| views.get(&n).map(|v| (n, v))) else {
         return Err(JobError::document(
             "no-such-face",
-            place,
+            path,
             format!("the part has no face {name:?}"),
             format!("it has {}; see `styluscam part show`", listed(views)),
         ));
@@ -148,8 +148,8 @@ fn named(name: &str, views: &BTreeMap<u32, FaceView>, allow_undercuts: bool, pla
         let share = 100.0 * view.down / view.area;
         return Err(JobError::document(
             "undercut",
-            place,
-            format!("Face{number} looks down on {share:.1} % of its area: no vertical tool reaches that"),
+            path,
+            format!("Face{number} faces down on {share:.1} % of its area: no vertical tool reaches that"),
             "turn the part with setup.up, choose other faces, or set part.allow_undercuts = true",
         ));
     }
@@ -172,7 +172,7 @@ mod tests {
 
     #[test]
     fn a_cut_edge_in_two_strips_is_a_rim_and_the_wall_beside_it_is_none() {
-        // under a front of two strips lies what looks down; the wall around the corner meets it nowhere
+        // under a front of two strips lies what faces down; the wall around the corner meets it nowhere
         let at = |x: f64, y: f64, z: f64| Vector::new(x, y, z);
         let vertices = vec![
             at(0.0, 0.0, 0.0),

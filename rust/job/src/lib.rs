@@ -30,6 +30,8 @@ mod starter;
 mod stopped;
 mod summary;
 mod tagged;
+#[cfg(test)]
+mod tests;
 mod units;
 mod up_axis;
 

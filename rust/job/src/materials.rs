@@ -1,6 +1,6 @@
 //! How steep a wall sheets of known materials bear in one pass: shipped data files, each number with its source.
 //!
-//! Between measured thicknesses angles are interpolated; beyond them the nearest one stands.
+//! Between measured thicknesses angles are interpolated; beyond them the nearest one holds.
 
 use std::sync::LazyLock;
 
@@ -27,17 +27,17 @@ pub struct Material {
     pub angles: Vec<Angle>,
 }
 
-/// A wall angle that a source tells.
+/// A wall angle that a source states.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Angle {
-    /// Thickness before, mm; any where it was not told.
+    /// Thickness before, mm; any where it is not stated.
     pub thickness: Option<f64>,
     /// Steepest wall, degrees.
     pub most_deg: f64,
     /// Walls up to this angle are sure, degrees; up to the steepest where it is left out.
     pub sure_deg: Option<f64>,
-    /// Where it is told.
+    /// Where it is stated.
     pub source: String,
 }
 
@@ -58,7 +58,7 @@ pub(crate) struct WallAngle {
     pub source: WallAngleSource,
 }
 
-/// What the job's sheet bears: what it says itself, what is known of its material, or what is known of all.
+/// What the job's sheet withstands: what the job states, what is known of its material, or what is known of all.
 pub(crate) fn wall_angle(job: &JobDocument, sheet: &SheetSection) -> WallAngle {
     if let Some(most_deg) = sheet.max_wall_angle_deg {
         return WallAngle { most_deg, sure_deg: f64::INFINITY, source: WallAngleSource::Job };

@@ -34,7 +34,7 @@ pub fn mismatches(job: &JobDocument, scene: &Scene) -> Vec<(FindingKind, String)
     found.extend(of_sheet.and_then(|measured| other_face(measured, sheet)));
     if let Err(Unformable::LowBorder(below)) = formed {
         let words = format!(
-            "the model's border, where the sheet is clamped, lies {below:.2} mm below its highest place: the sheet lies \
+            "the model's border, where the sheet is clamped, lies {below:.2} mm below its highest point: the sheet lies \
              flat at the border's height, and the tool only pushes down; turn the model over with setup.up, or accept = \
              [\"flange\"] where a die holds the sheet up"
         );
@@ -43,7 +43,7 @@ pub fn mismatches(job: &JobDocument, scene: &Scene) -> Vec<(FindingKind, String)
     found
 }
 
-/// Whether no face is chosen: all that looks up is to be formed.
+/// Whether no face is chosen: all that faces up is to be formed.
 fn takes_all(job: &JobDocument) -> bool {
     let mut chosen = job.operations.iter().map(|operation| operation.common.faces.as_ref().unwrap_or(&job.part.faces));
     chosen.any(|selection| *selection == Selection::All)

@@ -105,17 +105,17 @@ fn checked(document: JobDocument) -> Result<JobDocument, JobError> {
 /// `written`: the document as its author wrote it.
 fn deserialize<T: DeserializeOwned>(value: &Value, written: &Value) -> Result<T, JobError> {
     serde_path_to_error::deserialize(value).map_err(|error| {
-        let place = error.path().to_string().trim_start_matches('.').to_owned();
+        let path = error.path().to_string().trim_start_matches('.').to_owned();
         let message = error.into_inner().to_string();
         let message = message.lines().next().unwrap_or(&message);
-        let key = blamed::<T>(value, &place, message).unwrap_or(place);
+        let key = blamed::<T>(value, &path, message).unwrap_or(path);
         explained(written, &written_path(&key), message)
     })
 }
 
 /// The key that a table with a `kind` fails by: serde names the table only. It is the one without which the error is another.
-fn blamed<T: DeserializeOwned>(plain: &Value, place: &str, message: &str) -> Option<String> {
-    let pointer: String = place.split(['.', '[']).map(|key| format!("/{}", key.trim_end_matches(']'))).collect();
+fn blamed<T: DeserializeOwned>(plain: &Value, path: &str, message: &str) -> Option<String> {
+    let pointer: String = path.split(['.', '[']).map(|key| format!("/{}", key.trim_end_matches(']'))).collect();
     let table = plain.pointer(&pointer)?.as_object().filter(|table| table.contains_key("kind"))?;
     let invalid = message.starts_with("invalid ");
     let is_blamed = |key: &&String| {
@@ -124,7 +124,7 @@ fn blamed<T: DeserializeOwned>(plain: &Value, place: &str, message: &str) -> Opt
         serde_json::from_value::<T>(without).err().is_none_or(|error| error.to_string() != message)
     };
     let key = table.keys().filter(|key| invalid && *key != "kind").find(is_blamed)?;
-    Some(format!("{place}.{key}"))
+    Some(format!("{path}.{key}"))
 }
 
 /// Turns serde's message into one with the key, what is allowed, and the nearest known word.

@@ -1,4 +1,4 @@
-//! Risks that a job takes by name: the judge then warns of them, and the program is written.
+//! Risks that a job takes by name: the verifier then warns of them, and the program is written.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -20,7 +20,7 @@ pub enum Risk {
     Unreached,
     /// The model is thicker or thinner than the sheet.
     Thickness,
-    /// The model shows another face of the sheet than model_face says.
+    /// The model shows another face of the sheet than model_face states.
     ModelFace,
     /// The model is a solid, and no sheet of nearly constant thickness.
     Solid,

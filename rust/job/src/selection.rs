@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "SelectionText", into = "SelectionText")]
 pub enum Selection {
-    /// All faces that look up.
+    /// All faces that face up.
     #[default]
     All,
     /// These.

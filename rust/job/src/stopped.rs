@@ -1,13 +1,13 @@
-//! Places of the faces at which something keeps the tool away: from these it is found what is left there.
+//! Points of the faces at which something keeps the tool away: from these it is found what is left there.
 
 use styluscam_geometry::Vector;
 use styluscam_toolpath::offset::Stopped;
 
 use crate::body::in_triangle;
 
-/// Places on a face.
-const PLACES: usize = 64;
-/// How much nearer a place lies to the corners of a triangle that are stopped than to the others.
+/// Points on a face.
+const SAMPLES: usize = 64;
+/// How much nearer a point lies to the corners of a triangle that are stopped than to the others.
 const NEAR: f64 = 3.0;
 
 /// A triangle of the offset with corners at which something keeps the tool away.
@@ -23,15 +23,15 @@ pub struct StoppedTriangle {
 }
 
 impl StoppedTriangle {
-    /// Its share that the stopped corners stand for, mm^2.
+    /// Its share of the stopped corners, mm^2.
     fn area(&self) -> f64 {
         let [a, b, c] = self.corners;
         let stopped = self.stopped.into_iter().filter(|stopped| *stopped).count() as f64;
         (b - a).cross(&(c - a)).norm() / 6.0 * stopped
     }
 
-    /// A place of that share: any where all corners are stopped, else nearer to those that are.
-    fn place(&self, number: usize, area: f64) -> Stopped {
+    /// A point of that share: any where all corners are stopped, else nearer to those that are.
+    fn sample(&self, number: usize, area: f64) -> Stopped {
         let point = if self.stopped == [true; 3] {
             in_triangle(self.corners, number)
         } else {
@@ -43,15 +43,15 @@ impl StoppedTriangle {
     }
 }
 
-/// [`PLACES`] places of some triangles, each for the same area.
-pub fn stopped_places(all: &[StoppedTriangle]) -> Vec<Stopped> {
-    let each = all.iter().map(StoppedTriangle::area).sum::<f64>() / PLACES as f64;
+/// [`SAMPLES`] points of some triangles, each for the same area.
+pub fn stopped_points(all: &[StoppedTriangle]) -> Vec<Stopped> {
+    let each = all.iter().map(StoppedTriangle::area).sum::<f64>() / SAMPLES as f64;
     let mut passed = 0.0;
-    let mut taken = Vec::with_capacity(PLACES);
+    let mut taken = Vec::with_capacity(SAMPLES);
     for triangle in all {
         passed += triangle.area();
-        while taken.len() < PLACES && passed >= (taken.len() as f64 + 0.5) * each {
-            taken.push(triangle.place(taken.len(), each));
+        while taken.len() < SAMPLES && passed >= (taken.len() as f64 + 0.5) * each {
+            taken.push(triangle.sample(taken.len(), each));
         }
     }
     taken

@@ -38,11 +38,11 @@ pub struct Summary {
     pub accelerates: bool,
     /// Checked deviation of the part's triangles: inward and outward.
     pub tessellation: [f64; 2],
-    /// Deepest gouge found in the posted text; absent before it is judged.
+    /// Deepest gouge found in the posted text; absent before it is checked.
     pub gouge_max: Option<f64>,
     /// Largest excess found at its contact tracks.
     pub excess_max: Option<f64>,
-    /// Whether the judge found nothing.
+    /// Whether the verifier found nothing.
     pub ok: Option<bool>,
 }
 

@@ -3,7 +3,7 @@
 //! People write such a table flat: `{ kind = "z-level", tool = "ball", step = { height = 0.5 } }`. In memory the keys that
 //! every kind takes and the keys of one kind are two structs. Before serde reads a table its keys are parted into
 //! `{ "$common": {...}, "$own": { "z-level": {...} } }`, so that serde's errors still name the key; [`written_path`] turns
-//! their paths back. A key that another kind owns is an error that says whose it is.
+//! their paths back. A key that another kind owns is an error that names it.
 
 use schemars::Schema;
 use serde_json::{Map, Value};
@@ -257,7 +257,7 @@ mod tests {
     #[test]
     fn a_key_of_another_kind_is_refused_with_its_owner() {
         let error = parted(&serde_json::json!({ "kind": "levels", "apart": 2.0 })).unwrap_err();
-        assert_eq!((error.code(), error.place().as_str()), ("foreign-key", "operations[3].apart"));
+        assert_eq!((error.code(), error.location().as_str()), ("foreign-key", "operations[3].apart"));
         assert_eq!(error.to_string(), "apart is a key of rows, and this operation is levels");
         assert_eq!(error.hint(), "remove apart (levels takes step), or write kind = \"rows\"");
         let error = parted(&serde_json::json!({ "kind": "drill", "apart": 2.0 })).unwrap_err();
@@ -300,7 +300,7 @@ mod tests {
         ] {
             let error = parted(&table).unwrap_err();
             assert_eq!(
-                (error.place().as_str(), error.to_string().as_str(), error.hint().as_str()),
+                (error.location().as_str(), error.to_string().as_str(), error.hint().as_str()),
                 (path, message, hint)
             );
         }

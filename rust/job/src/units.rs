@@ -1,7 +1,7 @@
 //! Documents in inches, and ranges: every length becomes mm once, before anything else reads it, and every number is in the
 //! range that its key states.
 //!
-//! Which numbers are lengths, of what power, and between what they must lie, the schema says at each key (`x-unit`,
+//! Which numbers are lengths, of what power, and between what they must lie, the schema states at each key (`x-unit`,
 //! `minimum`, `exclusiveMinimum`, `maximum`).
 
 use serde_json::{Map, Number, Value};
@@ -263,7 +263,7 @@ mod tests {
 
     #[test]
     fn errors_are_in_the_unit_of_the_document() {
-        for (old, new, place, said) in [
+        for (old, new, path, message) in [
             (
                 "height = 0.02",
                 "height = 5",
@@ -295,8 +295,8 @@ mod tests {
         ] {
             assert!(JOB.contains(old), "{old}");
             let error = read(&JOB.replacen(old, new, 1)).unwrap_err();
-            assert!(error.to_string().contains(said), "{new}: {error}");
-            assert_eq!(error.place(), place, "{new}");
+            assert!(error.to_string().contains(message), "{new}: {error}");
+            assert_eq!(error.location(), path, "{new}");
         }
         let error = read(&JOB.replace("\"inch\"", "\"inches\"")).unwrap_err();
         assert!(error.hint().contains("inch"), "{error}: {}", error.hint());
@@ -307,7 +307,7 @@ mod tests {
         let wrong = "profile = { kind = \"formula\", z = \"r^2\", diameter = 0.5 }";
         let error = read(&JOB.replace("profile = { kind = \"clothoid\", scale = 0.02, end_slope_deg = 60.0 }", wrong));
         let error = error.unwrap_err();
-        assert_eq!(error.place(), "tools.b.profile.z");
+        assert_eq!(error.location(), "tools.b.profile.z");
         assert!(error.hint().contains("library"), "{}", error.hint());
     }
 
@@ -347,27 +347,27 @@ mod tests {
 
     #[test]
     fn every_number_of_the_schema_says_its_unit() {
-        fn look(schema: &Value, unit: bool, place: &str, missing: &mut Vec<String>) {
+        fn look(schema: &Value, unit: bool, path: &str, missing: &mut Vec<String>) {
             let unit = unit || schema.get("x-unit").is_some();
             let is_number =
                 |kind: &Value| kind == "number" || kind.as_array().is_some_and(|all| all.contains(&"number".into()));
             if schema.get("type").is_some_and(is_number) && !unit {
-                missing.push(place.to_owned());
+                missing.push(path.to_owned());
             }
             match schema {
                 Value::Object(entries) => {
-                    entries.iter().for_each(|(key, part)| look(part, unit, &format!("{place}/{key}"), missing));
+                    entries.iter().for_each(|(key, part)| look(part, unit, &format!("{path}/{key}"), missing));
                 }
                 Value::Array(items) => {
-                    items.iter().enumerate().for_each(|(i, part)| look(part, unit, &format!("{place}/{i}"), missing));
+                    items.iter().enumerate().for_each(|(i, part)| look(part, unit, &format!("{path}/{i}"), missing));
                 }
                 _ => {}
             }
         }
         let mut missing = Vec::new();
         look(&crate::schema(), false, "", &mut missing);
-        // said at the keys that refer to them; and a machine's options are its own
-        missing.retain(|place| !["/Opening/", "/Zero/", "/OptionValue/"].iter().any(|known| place.contains(known)));
+        // stated at the keys that refer to them; and a machine's options are its own
+        missing.retain(|path| !["/Opening/", "/Zero/", "/OptionValue/"].iter().any(|known| path.contains(known)));
         assert_eq!(missing, Vec::<String>::new());
     }
 }

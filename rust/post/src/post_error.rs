@@ -228,9 +228,9 @@ faults! {
 impl PostError {
     /// Where: a move, event or record of the program, a key of the job or the machine, or a line of the text.
     #[must_use]
-    pub fn place(&self) -> String {
+    pub fn location(&self) -> String {
         match self {
-            Self::Machine(error) => error.place(),
+            Self::Machine(error) => error.location(),
             Self::Empty => "moves".into(),
             Self::Wcs { .. } => "setup.wcs".into(),
             Self::Number { place, .. } | Self::NoSuchRecord { place, .. } => place.clone(),

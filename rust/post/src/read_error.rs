@@ -226,7 +226,7 @@ impl ReadError {
 
     /// Where: line and column.
     #[must_use]
-    pub fn place(&self) -> String {
+    pub fn location(&self) -> String {
         match (self.line, self.column) {
             (0, _) => "text".into(),
             (line, 0) => format!("line {line}"),

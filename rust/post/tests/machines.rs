@@ -18,7 +18,7 @@ fn changed(from: &str, to: &str) -> Result<Machine, MachineError> {
 
 fn refusal(from: &str, to: &str) -> MachineError {
     let error = changed(from, to).expect_err(to);
-    assert!(!error.hint().is_empty() && !error.place().is_empty() && !error.code().is_empty(), "{error}");
+    assert!(!error.hint().is_empty() && !error.location().is_empty() && !error.code().is_empty(), "{error}");
     error
 }
 
@@ -168,7 +168,7 @@ fn trials() {
         let mut machine = linuxcnc();
         change(&mut machine);
         let error = try_out(&machine).unwrap_err();
-        assert!(!error.hint().is_empty() && !error.place().is_empty() && !error.code().is_empty(), "{error}");
+        assert!(!error.hint().is_empty() && !error.location().is_empty() && !error.code().is_empty(), "{error}");
         error
     };
     assert!(matches!(tried(|m| m.templates.program_end = "M2 ?{{ x }}".into()), TrialError::Post { .. }));

@@ -18,7 +18,7 @@ fn code_lines(program: &Program, machine: &Machine) -> Vec<String> {
 
 fn refusal(program: &Program, machine: &Machine) -> PostError {
     let error = post(program, machine).unwrap_err();
-    assert!(!error.hint().is_empty() && !error.place().is_empty() && !error.code().is_empty(), "{error}");
+    assert!(!error.hint().is_empty() && !error.location().is_empty() && !error.code().is_empty(), "{error}");
     error
 }
 

@@ -21,7 +21,7 @@ fn ends(text: &str, machine: &Machine) -> Vec<[f64; 3]> {
 
 fn refusal_with(text: &str, machine: &Machine, tools: &[ToolRecord]) -> ReadError {
     let error = read(text, machine, tools).expect_err(text);
-    assert!(!error.hint().is_empty() && !error.place().is_empty() && !error.code().is_empty(), "{error}");
+    assert!(!error.hint().is_empty() && !error.location().is_empty() && !error.code().is_empty(), "{error}");
     error
 }
 
@@ -196,7 +196,7 @@ fn the_place_of_an_error() {
     let error = refusal_with("G21\nG0 X1 (ß) G10 Y1\n", &linuxcnc(), &[]);
     assert_eq!((error.line, error.column, error.word.as_str()), (2, 11, "G10"));
     assert_eq!(error.to_string(), "line 2, column 11: shifts of the zero point are not read yet: \"G10\"");
-    assert_eq!(error.place(), "line 2, column 11");
+    assert_eq!(error.location(), "line 2, column 11");
 }
 
 #[test]

@@ -33,7 +33,7 @@ fn job(faces: &str) -> JobDocument {
 
 fn found(mesh: Mesh, faces: &str) -> Result<super::Walls, JobError> {
     let job = job(faces);
-    let scene = Scene::new(&job, &Part { mesh, inward: 0.0, outward: 0.0 })?;
+    let scene = Scene::new(&job, crate::MAIN_CHANNEL, &Part { mesh, inward: 0.0, outward: 0.0 })?;
     walls(&job, &scene, 0)
 }
 
@@ -125,6 +125,6 @@ fn faces_that_are_not_selected_do_not_count() {
 fn faces_that_are_not_there_or_do_not_face_up_are_errors() {
     assert_eq!(found(open_box(), "[\"Face9\"]").unwrap_err().code(), "no-such-face");
     let upright = found(open_box(), "[\"Face2\"]").unwrap_err();
-    assert_eq!((upright.code(), upright.place().as_str()), ("no-faces", "part.faces"));
+    assert_eq!((upright.code(), upright.location().as_str()), ("no-faces", "part.faces"));
     assert!(upright.hint().contains("setup.up"));
 }

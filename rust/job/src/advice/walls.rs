@@ -54,7 +54,7 @@ impl From<&Patch> for Wall {
 /// # Errors
 /// No such operation, a face that the part does not have, nothing selected that faces up (`no-faces`).
 pub fn walls(job: &JobDocument, scene: &Scene, index: usize) -> Result<Walls, JobError> {
-    let (mut selected, place) = selected(job, scene, index)?;
+    let (mut selected, path) = selected(job, scene, index)?;
     let mut patches = Vec::new();
     for (triangle, is_selected) in selected.iter_mut().enumerate().filter(|(_, is_selected)| **is_selected) {
         let patch = Patch::facing_up(&scene.mesh, triangle);
@@ -62,8 +62,8 @@ pub fn walls(job: &JobDocument, scene: &Scene, index: usize) -> Result<Walls, Jo
         patches.extend(patch);
     }
     if patches.is_empty() {
-        let hint = format!("check setup.up and {place}");
-        return Err(JobError::document("no-faces", place, "no selected face faces up", hint));
+        let hint = format!("check setup.up and {path}");
+        return Err(JobError::document("no-faces", path, "no selected face faces up", hint));
     }
     let corners = [creases(&scene.mesh, &selected), fillets(&patches)].concat();
     Ok(Walls { walls: patches.iter().map(Wall::from).collect(), corners: alike(&corners) })
@@ -75,7 +75,7 @@ fn selected(job: &JobDocument, scene: &Scene, index: usize) -> Result<(Vec<bool>
         let hint = format!("the job has {}", job.operations.len());
         JobError::document("no-such-operation", "operations", format!("no operation {index}"), hint)
     })?;
-    let (selection, place) = match &section.common.faces {
+    let (selection, path) = match &section.common.faces {
         Some(selection) => (selection, format!("operations[{index}].faces")),
         None => (&job.part.faces, "part.faces".to_owned()),
     };
@@ -83,9 +83,9 @@ fn selected(job: &JobDocument, scene: &Scene, index: usize) -> Result<(Vec<bool>
     let selected = match selection {
         Selection::All => vec![true; faces.len()],
         Selection::Named(_) => {
-            let named = chosen(selection, &scene.views, Look::Up, true, &place)?;
+            let named = chosen(selection, &scene.views, Look::Up, true, &path)?;
             faces.iter().map(|face| named.binary_search(face).is_ok()).collect()
         }
     };
-    Ok((selected, place))
+    Ok((selected, path))
 }

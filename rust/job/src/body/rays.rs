@@ -27,13 +27,13 @@ impl<'a> Rays<'a> {
         Self { mesh, bvh }
     }
 
-    /// The nearest triangle from `start` on along the unit vector `direction`, farther than `from` mm, of those that are `wanted`.
-    pub fn first(&self, start: Vector, direction: Vector, from: f64, wanted: impl Fn(&Hit) -> bool) -> Option<Hit> {
+    /// The nearest triangle from `start` on along the unit vector `direction`, farther than `from` mm, of those that `counts` takes.
+    pub fn first(&self, start: Vector, direction: Vector, from: f64, counts: impl Fn(&Hit) -> bool) -> Option<Hit> {
         let mut nearest: Option<Hit> = None;
         let inverse = direction.map(|x| 1.0 / x);
         let bound = |node: &Node| -entry(node, start, inverse);
         self.bvh.maximise(f64::NEG_INFINITY, bound, |triangle, best| {
-            let hit = self.hit(triangle, start, direction).filter(|hit| hit.distance > from && wanted(hit));
+            let hit = self.hit(triangle, start, direction).filter(|hit| hit.distance > from && counts(hit));
             match hit {
                 Some(hit) if -hit.distance > best => {
                     nearest = Some(hit);

@@ -29,7 +29,7 @@ pub struct OperationKeys {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "mm", "minimum" = -10000.0, "maximum" = 10000.0))]
     pub z_bottom: Option<f64>,
-    /// Whether every other level or row is run the other way.
+    /// Whether every other level or row is run in the other direction.
     #[serde(default)]
     pub direction: Direction,
     /// How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
@@ -57,10 +57,10 @@ pub struct OperationKeys {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Direction {
-    /// Every other one the other way: counters the twist of a formed sheet.
+    /// Every other one in the other direction: counters the twist of a formed sheet.
     #[default]
     Alternate,
-    /// All the same way: the higher ground on the right of levels, rows along `angle_deg`.
+    /// All in the same direction: the higher ground on the right of levels, rows along `angle_deg`.
     Same,
 }
 

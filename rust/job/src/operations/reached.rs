@@ -9,7 +9,7 @@ use styluscam_verify::ToolReach;
 
 use super::{BridgedFace, ReachedFace};
 use crate::faces::UP;
-use crate::stopped::{stopped_places, StoppedTriangle};
+use crate::stopped::{stopped_points, StoppedTriangle};
 use crate::{JobError, Scene};
 
 /// Triangles of a face whose offset is checked, at most: areas are right to a percent or two of the face's.
@@ -41,7 +41,7 @@ fn spread<T: Copy>(all: &[T], most: usize) -> impl Iterator<Item = T> + '_ {
     all.iter().step_by(all.len().div_ceil(most).max(1)).copied()
 }
 
-/// What becomes of each face; what was sampled stands for all of it.
+/// What becomes of each face; by what was sampled of it.
 pub fn reached(scene: &Scene, offset: &OffsetSurface, bridges: &[Bridges]) -> Vec<ReachedFace> {
     let regions = offset.regions(&scene.mesh);
     let faces = regions.chunk_by(|a, b| a.face == b.face).filter_map(|regions| {
@@ -63,8 +63,8 @@ pub fn reached(scene: &Scene, offset: &OffsetSurface, bridges: &[Bridges]) -> Ve
     faces.collect()
 }
 
-/// What the tool leaves of each face by more than the tolerance: looked for from [`stopped_places`] among the points of
-/// each face that the offset says are kept from the tool. A flat tool may touch with its edge what it cannot stand on.
+/// What the tool leaves of each face by more than the tolerance: looked for from [`stopped_points`] among the points of
+/// each face that by the offset are kept from the tool. A flat tool may touch with its edge what it cannot stand on.
 pub fn bridges_of(
     scene: &Scene,
     tool: &Tool,
@@ -88,13 +88,13 @@ pub fn bridges_of(
             by_face.entry(scene.mesh.faces()[*triangle as usize]).or_default().push(found);
         }
     }
-    let sampled: Vec<Stopped> = by_face.values().flat_map(|all| stopped_places(all)).collect();
+    let sampled: Vec<Stopped> = by_face.values().flat_map(|all| stopped_points(all)).collect();
     let reach = ToolReach::new(tool, scene.sheet.as_ref(), &scene.mesh, &scene.bvh);
     let left = |triangle: u32, point: Vector, enough: f64| reach.left(triangle as usize, point, enough);
     Ok(bridges(envelope, tool, scene.sheet.as_ref(), &sampled, tolerance, &left, watch)?)
 }
 
-/// The worst place of each face that the tool bridges, worst first.
+/// The worst point of each face that the tool bridges, worst first.
 pub fn bridged(bridges: &[Bridges]) -> Vec<BridgedFace> {
     let worst = bridges.iter().filter_map(|face| face.worst);
     let worst = worst.map(|b| BridgedFace { face: b.face, excess: b.excess, at: b.point.into() });

@@ -1,49 +1,18 @@
 //! Every kind of the registry, held to what the rest of the job relies on.
 
 use serde_json::Value;
-use styluscam_geometry::{Mesh, Vector};
 use styluscam_motion::Watch;
-use styluscam_post::Machine;
 use styluscam_verify::Passes;
 
 use super::{Operation, Serves, StarterPasses};
-use crate::{JobDocument, Part, Scene, Setting};
-
-/// A pyramid frustum of 20 x 20 mm, 4 mm high, walls of 45 degrees.
-fn part() -> Part {
-    let square = |half: f64, z: f64| {
-        [[-half, -half], [half, -half], [half, half], [-half, half]].map(|[x, y]| Vector::new(x, y, z))
-    };
-    let vertices: Vec<Vector> = square(10.0, 0.0).into_iter().chain(square(6.0, 4.0)).collect();
-    let mut triangles = vec![[4, 5, 6], [4, 6, 7], [0, 2, 1], [0, 3, 2]];
-    for i in 0..4_i64 {
-        let j = (i + 1) % 4;
-        triangles.extend([[i, j, j + 4], [i, j + 4, i + 4]]);
-    }
-    let faces: Vec<u32> = vec![1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6];
-    let mesh = Mesh::new(vertices, &triangles, &faces).unwrap();
-    Part { mesh, inward: 0.0, outward: 0.0 }
-}
+use crate::tests::setup::{frustum, machine, milling};
+use crate::{JobDocument, Scene, Setting};
 
 /// A milling job of one operation of a kind, with the lines that a starter job gives it.
 fn job(kind: usize) -> Result<JobDocument, crate::JobError> {
     let (name, about) = Operation::ABOUT[kind];
     let keys = (about.starter)(StarterPasses { pitch: 1.0, angle_deg: 0.0 });
-    crate::from_toml(&format!(
-        r#"
-        schema = 1
-        part = {{ file = "a.stl", units = "mm" }}
-        process = {{ kind = "milling" }}
-        machine = {{ name = "linuxcnc" }}
-        [tools.a]
-        profile = {{ kind = "ball", diameter = 3.0 }}
-        [[operations]]
-        kind = "{name}"
-        tool = "a"
-        tolerance = 0.01
-        {keys}
-        "#
-    ))
+    crate::from_toml(&milling(&format!("kind = \"{name}\"\n{keys}")))
 }
 
 fn kinds() -> std::ops::Range<usize> {
@@ -88,8 +57,8 @@ fn every_key_of_every_kind_has_a_help_text() {
 
 #[test]
 fn every_kind_plans_and_says_what_it_planned() {
-    let (part, watch) = (part(), Watch::default());
-    let machine = Machine::shipped("linuxcnc").unwrap();
+    let (part, watch) = (frustum(), Watch::default());
+    let machine = machine();
     for kind in kinds() {
         let job = job(kind).unwrap();
         let scene = Scene::new(&job, crate::MAIN_CHANNEL, &part).unwrap();

@@ -22,7 +22,7 @@ pub trait ProcessKind {
         self.forms()
     }
 
-    /// Whether the part rests on a table, below which no tip goes unless the job says so; else it hangs free.
+    /// Whether the part rests on a table, below which no tip goes unless the job states so; else it hangs free.
     fn rests_on_table(&self) -> bool {
         !self.forms()
     }
@@ -38,10 +38,10 @@ pub trait ProcessKind {
     }
 }
 
-/// What a starter job says of a process.
+/// What a starter job states of a process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct About {
-    /// What it is, in a few words; empty where its name says it all.
+    /// What it is, in a few words; empty where its name is enough.
     pub words: &'static str,
     /// Whether a starter job takes it for a sheet; for solid parts otherwise.
     pub for_sheets: bool,

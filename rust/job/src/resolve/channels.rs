@@ -37,7 +37,7 @@ pub fn check(job: &JobDocument) -> Result<(), JobError> {
         known(job, path, channel)?;
     }
     if job.machines.contains_key(MAIN_CHANNEL) {
-        let message = format!("machines.{MAIN_CHANNEL}: the machine of channel {MAIN_CHANNEL:?} stands in [machine]");
+        let message = format!("machines.{MAIN_CHANNEL}: the machine of channel {MAIN_CHANNEL:?} is [machine]");
         return Err(JobError::document("conflict", format!("machines.{MAIN_CHANNEL}"), message, "remove it"));
     }
     job.channels().iter().try_for_each(|channel| complete(job, channel))

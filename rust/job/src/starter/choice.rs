@@ -11,7 +11,7 @@ use crate::UpAxis;
 const HIDDEN: f64 = 0.1;
 /// Share that is worth standing the part on its side, where that hides less than half of it; turning it over is less work.
 const ON_SIDE: f64 = 0.25;
-/// Share of an open surface that must look up for the tool to come from there.
+/// Share of an open surface that must face up for the tool to come from there.
 const FACES_TOOL: f64 = 0.5;
 
 /// Thicker sheets are pressed, not formed point by point, mm.
@@ -32,7 +32,7 @@ pub struct Choice {
     pub operations: Vec<operations::Work>,
     /// Share of the faces that the tool may be unable to get to, where that is more than usual.
     pub max_unreached: Option<f64>,
-    /// Whether faces are named that partly look down.
+    /// Whether faces are named that partly face down.
     pub allow_undercuts: bool,
     /// Lowest and highest corner of the part as it lies, mm.
     pub bounds: [[f64; 3]; 2],
@@ -205,7 +205,7 @@ fn best_side(sides: &[Side; 6]) -> (UpAxis, Option<String>) {
         return (above.up, None);
     }
     let hidden =
-        format!("{percent} of the surface cannot be reached from above (it looks down, or lies under the rest)");
+        format!("{percent} of the surface cannot be reached from above (it faces down, or lies under the rest)");
     let name = best.up.name();
     if best.up == above.up {
         return (above.up, Some(format!("{hidden}, and no other side hides less: what is left may take a second job")));

@@ -1,4 +1,4 @@
-//! A commented job for a part that has none yet: it runs as it stands, says why it is so, and shows what can be changed.
+//! A commented job for a part that has none yet: it runs as it is, states why it is so, and shows what can be changed.
 
 mod choice;
 mod operations;
@@ -16,7 +16,7 @@ pub use part::{StarterFace, StarterPart};
 pub use sizes::fitting_radius;
 use sizes::{round, Shape};
 
-/// From this slope on a face does not look up: it is not listed, degrees.
+/// From this slope on a face does not face up: it is not listed, degrees.
 const WALL: f64 = 90.1;
 /// Faces that the comment lists at most.
 const LISTED: usize = 60;
@@ -46,7 +46,7 @@ pub struct Starter {
 }
 
 /// A job for a part: formed where it is a sheet or an open surface that a sheet can take, else milled; levels for its
-/// walls, rows for its floors; a tool that fits its concave places.
+/// walls, rows for its floors; a tool that fits its concave areas.
 #[must_use]
 pub fn starter(part: &StarterPart<'_>) -> Starter {
     let mut choice = choose(part);
@@ -75,7 +75,7 @@ fn text(part: &StarterPart<'_>, choice: &Choice, [part_tolerance, path_tolerance
     let stem = stem_of(part.file);
     let units = part.units.map_or(String::new(), |u| format!("units = {}\n", quoted(u)));
     let undercuts = if choice.allow_undercuts {
-        "allow_undercuts = true      # some of the named faces look down in places: those are left\n"
+        "allow_undercuts = true      # some of the named faces face down in parts: those are left\n"
     } else {
         ""
     };
@@ -91,7 +91,7 @@ title = {title}
 
 [part]
 file = {file}
-{units}faces = "all"              # the faces that look up, or names: ["Face3", "Face4"]
+{units}faces = "all"              # the faces that face up, or names: ["Face3", "Face4"]
 {faces}{undercuts}{model_face}tolerance = {part_tolerance}           # largest deviation of triangles from surfaces, checked
 
 {setup}

@@ -17,7 +17,7 @@ use crate::ProcessKeys;
 const WORTH: f64 = 0.01;
 /// Names in one operation at most: beyond, nobody reads or edits them.
 const NAMES: usize = 400;
-/// A face that is steep on this share of what looks up is a wall.
+/// A face that is steep on this share of what faces up is a wall.
 const WALL: f64 = 0.75;
 /// A part whose faces are flat or upright on this share of their area is milled with a flat tool.
 const PRISMATIC: f64 = 0.98;
@@ -38,7 +38,7 @@ const TOUCHED: f64 = 0.02;
 const PLACES: usize = 2000;
 /// Faces that a reason names at most.
 const NAMED: usize = 6;
-/// Of what the judge lets pass: a tool that leaves less than this share of it is sure to pass,
+/// Of what the verifier lets pass: a tool that leaves less than this share of it is sure to pass,
 const SURE: f64 = 0.8;
 /// and a smaller one is worth its longer path if it leaves no more than this share of what the wider one leaves.
 const WORTHWHILE: f64 = 0.95;
@@ -90,7 +90,7 @@ impl Milled {
     }
 }
 
-/// Levels over all that looks up.
+/// Levels over all that faces up.
 pub fn forming(mesh: &Mesh, looks: &Hollows, tool: &Cutter) -> Work {
     let faces: Vec<&FaceLook> = workable(looks).collect();
     let pitch = levels_apart(mesh, &faces, tool);
@@ -128,7 +128,7 @@ pub fn milling(body: &Body<'_>, looks: &Hollows) -> Milled {
         let passes = if left <= MOST_LEFT {
             format!("max_unreached = {limit} lets that pass")
         } else {
-            "`styluscam run` refuses the job as it stands".to_owned()
+            "`styluscam run` refuses the job as it is".to_owned()
         };
         milled.reasons.push(format!(
             "the tool does not get to {} of these faces, which lie under others or between walls: {passes}; leave faces out, or \
@@ -198,7 +198,7 @@ impl<'a> ByFace<'a> {
         Self { body, triangles, foot: body.bounds().0.z }
     }
 
-    /// What a tool gets to; none for one that cannot be made: the job's check says why.
+    /// What a tool gets to; none for one that cannot be made: the job's check states why.
     fn reach(&self, tool: &Cutter) -> Option<ToolReach<'a>> {
         tool.made().map(|tool| ToolReach::new(&tool, None, self.body.mesh(), self.body.bvh()))
     }
@@ -226,8 +226,8 @@ impl<'a> ByFace<'a> {
         has_room && reach.is_none_or(touches)
     }
 
-    /// Share of the faces to which the tool does not get, by the judge's measure, but for what the program's moves leave where
-    /// the tool stands between walls: at least what the judge will say. Rows over the whole part serve what looks up.
+    /// Share of the faces to which the tool does not get, by the verifier's measure, but for what the program's moves leave where
+    /// the tool stands between walls: at least what the verifier will find. Rows over the whole part serve what faces up.
     fn share_left(&self, milled: &Milled) -> f64 {
         let mesh = self.body.mesh();
         let triangles: Vec<usize> = if milled.works.iter().any(|work| work.faces.is_none()) {
@@ -277,17 +277,18 @@ fn is_wall(face: &FaceLook) -> bool {
 /// What is left for another tool, in words.
 fn left(narrow: &[&FaceLook], tool: &Cutter) -> Option<String> {
     let (holes, slots): (Vec<&FaceLook>, Vec<&FaceLook>) = narrow.iter().partition(|face| face.hole.is_some());
-    let mut said = Vec::new();
+    let mut sentences = Vec::new();
     if !holes.is_empty() {
         let (plural, are) = if holes.len() == 1 { ("", "is") } else { ("s", "are") };
-        said.push(format!("the hole{plural} {} {are} for a drill", names(&holes)));
+        sentences.push(format!("the hole{plural} {} {are} for a drill", names(&holes)));
     }
     if !slots.is_empty() {
         let are = if slots.len() == 1 { "is" } else { "are" };
-        said.push(format!("{} {are} narrower than the tool and for a smaller one", names(&slots)));
+        sentences.push(format!("{} {are} narrower than the tool and for a smaller one", names(&slots)));
     }
     let diameter = tool.diameter;
-    (!said.is_empty()).then(|| format!("the tool of {diameter} mm has too little room in these: {}", said.join("; ")))
+    (!sentences.is_empty())
+        .then(|| format!("the tool of {diameter} mm has too little room in these: {}", sentences.join("; ")))
 }
 
 /// Some of the names, and how many more there are.
@@ -313,22 +314,22 @@ fn by_scallop(tool: &Cutter) -> f64 {
 }
 
 fn rows_apart(faces: &[&FaceLook], tool: &Cutter) -> f64 {
-    let wanted = match tool.shape {
+    let length = match tool.shape {
         Shape::Ball => by_scallop(tool),
         Shape::Flat => FLAT_ROWS * tool.diameter,
     };
     let longest = area(faces) / LONGEST;
-    round(wanted.max(longest.min(0.25 * tool.diameter)))
+    round(length.max(longest.min(0.25 * tool.diameter)))
 }
 
 fn levels_apart(mesh: &Mesh, faces: &[&FaceLook], tool: &Cutter) -> f64 {
-    let wanted = match tool.shape {
+    let length = match tool.shape {
         Shape::Ball => by_scallop(tool) * steepness(faces),
         Shape::Flat => FLAT_LEVELS * tool.diameter,
     };
     let deepest = size(mesh)[2] / LEVELS;
     let longest = area(faces) / LONGEST;
-    round(wanted.max(deepest).max(longest.min(0.25 * tool.diameter)))
+    round(length.max(deepest).max(longest.min(0.25 * tool.diameter)))
 }
 
 /// Sine of a usual wall's slope: half of what is steep, and the gentle rest, lie farther apart than levels do.

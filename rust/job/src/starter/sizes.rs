@@ -15,7 +15,7 @@ const STURDY: f64 = 2.0;
 const HALF: f64 = 0.5;
 /// Smallest diameter against the part's larger side: below it the path is longer than anybody waits for.
 const THINNEST: f64 = 0.02;
-/// Share of the area that may be narrower than the tool: the places that a shop leaves for a second tool.
+/// Share of the area that may be narrower than the tool: the areas that a shop leaves for a second tool.
 const LEFT: f64 = 0.02;
 /// The tool may be this much wider than what bounds it: what triangles know of a radius.
 const SLACK: f64 = 1.01;
@@ -54,14 +54,14 @@ pub fn next_smaller(diameter: f64, mesh: &Mesh) -> Option<f64> {
     DIAMETERS.into_iter().find(|other| *other < diameter).filter(|smaller| *smaller >= thinnest(mesh))
 }
 
-/// The radius up to which a tool from above fits the concave places of a part, all but a fiftieth of its area, mm; none where
+/// The radius up to which a tool from above fits the concave areas of a part, all but a fiftieth of its area, mm; none where
 /// nothing bounds it.
 #[must_use]
 pub fn fitting_radius(mesh: &Mesh, bvh: &Bvh) -> Option<f64> {
     Hollows::bound(workable(&Body::new(mesh, bvh).hollows()), LEFT)
 }
 
-/// The largest stylus that fits the concave places of what is formed, and the sentence that says so.
+/// The largest stylus that fits the concave areas of what is formed, and the sentence on it.
 pub fn stylus(mesh: &Mesh, looks: &Hollows, thickness: Option<f64>) -> (Cutter, String) {
     let bound = Hollows::bound(workable(looks), LEFT);
     // sharper ones tear the sheet
@@ -71,7 +71,7 @@ pub fn stylus(mesh: &Mesh, looks: &Hollows, thickness: Option<f64>) -> (Cutter, 
     (Cutter { shape: Shape::Ball, diameter }, words)
 }
 
-/// The largest cutter that fits some faces, and the sentence that says so.
+/// The largest cutter that fits some faces, and the sentence on it.
 pub fn cutter<'f>(mesh: &Mesh, faces: impl IntoIterator<Item = &'f FaceLook>, shape: Shape) -> (Cutter, String) {
     let [_, widest] = WIDEST.map(|share| share * smaller_side(mesh));
     let sturdy = STURDY.min(HALF * smaller_side(mesh));
@@ -101,11 +101,11 @@ fn fitting(mesh: &Mesh, bound: Option<f64>, widest: f64, least: f64) -> (f64, St
     let fits = at_most(2.0 * SLACK * radius);
     let wide = DIAMETERS.into_iter().rev().find(|d| *d >= thinnest).unwrap_or(widest).min(widest);
     if fits >= wide {
-        let words = format!("the tool, {fits} mm wide, fits the narrowest places, but for {} of the area: a radius of {radius:.2} mm has room there", percent(LEFT));
+        let words = format!("the tool, {fits} mm wide, fits the narrowest areas, but for {} of the area: a radius of {radius:.2} mm has room there", percent(LEFT));
         return (fits, words);
     }
     let words = format!(
-        "the part has concave places with room for a radius of {radius:.2} mm and less; the tool, {wide} mm wide, is the smallest \
+        "the part has concave areas with room for a radius of {radius:.2} mm and less; the tool, {wide} mm wide, is the smallest \
          that makes sense for its size and leaves something there"
     );
     (wide, words)
@@ -122,7 +122,7 @@ pub fn measured(length: f64) -> f64 {
     ((length * unit).round() / unit).max(1.0 / unit)
 }
 
-/// Up to two significant places.
+/// To two significant digits.
 pub fn round(value: f64) -> f64 {
     let unit = libm::pow(10.0, libm::log10(value).floor() - 1.0);
     let rounded = (value / unit - 1e-9).ceil() * unit;

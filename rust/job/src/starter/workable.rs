@@ -4,7 +4,7 @@ use crate::body::{FaceLook, Hollows};
 
 /// Share of a face that a tool from above must see for the face to be worth an operation,
 const SEEN: f64 = 0.2;
-/// and the share of it that must look up or stand upright.
+/// and the share of it that must face up or stand upright.
 const UPWARD: f64 = 0.05;
 
 /// The faces of which a tool from above sees enough to work on.

@@ -88,7 +88,7 @@ impl MachineError {
 
     /// Where: a key of the machine file, or a line of it.
     #[must_use]
-    pub fn place(&self) -> String {
+    pub fn location(&self) -> String {
         match self {
             Self::UnknownMachine { .. } => "machine.name".into(),
             Self::Document { place, .. } => place.clone(),

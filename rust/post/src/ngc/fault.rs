@@ -34,7 +34,7 @@ impl TraceError {
 
     /// Where: the line, and its file where it is not the program's own; nothing when the whole program is meant.
     #[must_use]
-    pub fn place(&self) -> String {
+    pub fn location(&self) -> String {
         heading(&self.file, self.line).trim_end_matches(": ").into()
     }
 

@@ -63,10 +63,10 @@ impl TrialError {
 
     /// Where: a key of the machine file, or a line of the text.
     #[must_use]
-    pub fn place(&self) -> String {
+    pub fn location(&self) -> String {
         match self {
-            Self::Post { error } => error.place(),
-            Self::Read { error, .. } => error.place(),
+            Self::Post { error } => error.location(),
+            Self::Read { error, .. } => error.location(),
             Self::Differs { line, .. } if *line > 0 => format!("line {line}"),
             Self::Differs { .. } => "templates".into(),
             Self::Allowed { .. } => "limits".into(),
