@@ -86,7 +86,7 @@ fn tools_are_listed_in_the_order_of_their_first_use() {
     let more = "[[operations]]\ntool = \"b\"\nkind = \"zig-zag\"\nstepover = 1.0\n[[operations]]\ntool = \"a\"\n";
     let text =
         with(&levels(), "[tools.a]", "[tools.b]\nnumber = 7\nprofile = { kind = \"flat\", diameter = 2.0 }\n[tools.a]");
-    let job = job(&format!("{text}\n{more}{}", LEVELS));
+    let job = job(&format!("{text}\n{more}{LEVELS}"));
     let (tools, records) = tools_in_order(&job, MAIN_CHANNEL).unwrap();
     assert_eq!(records.iter().map(|record| record.number).collect::<Vec<_>>(), [1, 7]);
     assert_eq!(tools.iter().map(|tool| tool.diameter()).collect::<Vec<_>>(), [3.0, 2.0]);
