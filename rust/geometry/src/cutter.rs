@@ -1,12 +1,11 @@
-//! The convex body that planning and verification ask: a profile, grown by a ball.
-//!
-//! Sheet of constant thickness and safety margins are balls added to the tool (Minkowski sum), so a
-//! formed sheet needs no algorithm of its own. Above the base the body goes straight up.
+//! A tool's body with tables by radius, height and rise: what planning asks some hundred million times.
 
 use std::f64::consts::FRAC_PI_2;
+use std::ops::Deref;
 
 use crate::piecewise::{Piecewise, ROUNDING};
-use crate::profile::{Profile, Straight};
+use crate::profile::Profile;
+use crate::ToolBody;
 
 /// Cells of the table over the radius; one tangent each. At 1024 a bound costs one look-up and is
 /// within micrometres of the curve except at a vertical tangent, where it stays on the safe side.
@@ -44,16 +43,10 @@ pub struct SupportingLine {
     pub rise: f64,
 }
 
-/// Profile + ball, with tables for quick and safe bounds. Tip at the origin, axis up.
+/// A tool's body with tables for quick and safe bounds. Tip at the origin, axis up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cutter {
-    /// Grown, and up to a right angle.
-    profile: Profile,
-    straights: Vec<Straight>,
-    /// The radius of the ball that it is, if it is one.
-    ball: Option<f64>,
-    max_radius: f64,
-    max_height: f64,
+    body: ToolBody,
     cells_per_mm: f64,
     lines: Vec<SupportingLine>,
     /// Radius by rise / (1 + rise).
@@ -75,17 +68,21 @@ struct SlopeNode {
     height: f64,
 }
 
+impl Deref for Cutter {
+    type Target = ToolBody;
+
+    #[inline]
+    fn deref(&self) -> &ToolBody {
+        &self.body
+    }
+}
+
 impl Cutter {
     /// `profile` offset outwards by a ball of radius `ball`, mm, not negative.
     #[must_use]
     pub fn new(profile: &Profile, ball: f64) -> Self {
-        let profile = profile.grown(ball);
         let mut cutter = Self {
-            straights: profile.straights().collect(),
-            ball: profile.as_ball(),
-            profile,
-            max_radius: 0.0,
-            max_height: 0.0,
+            body: ToolBody::new(profile, ball),
             cells_per_mm: 0.0,
             lines: Vec::new(),
             rises: Vec::new(),
@@ -93,13 +90,12 @@ impl Cutter {
             heights: None,
             points: None,
         };
-        (cutter.max_radius, cutter.max_height) = cutter.point_at(FRAC_PI_2);
         cutter.slopes = (0..=SLOPE_CELLS).map(|i| cutter.slope_node(i)).collect();
-        cutter.cells_per_mm = RADIUS_CELLS as f64 / cutter.max_radius;
+        cutter.cells_per_mm = RADIUS_CELLS as f64 / cutter.max_radius();
         cutter.lines = (0..RADIUS_CELLS).map(|i| cutter.tangent_at(i as f64 / cutter.cells_per_mm)).collect();
         cutter.rises = (0..=RISE_CELLS).map(|i| cutter.rise_node(i)).collect();
         let size = cutter.size();
-        cutter.heights = Some(Piecewise::of(cutter.max_radius, size, |radius| cutter.height_at_radius(radius)));
+        cutter.heights = Some(Piecewise::of(cutter.max_radius(), size, |radius| cutter.height_at_radius(radius)));
         let at_share = |share: f64| cutter.point_at(libm::atan2(share, 1.0 - share));
         cutter.points = Some([
             Piecewise::of(1.0, size, |share| at_share(share).0),
@@ -110,7 +106,7 @@ impl Cutter {
 
     /// What rounding is a share of.
     fn size(&self) -> f64 {
-        self.max_radius + self.max_height
+        self.max_radius() + self.max_height()
     }
 
     fn rise_node(&self, i: usize) -> f64 {
@@ -131,22 +127,14 @@ impl Cutter {
         SupportingLine { radius, height, rise: libm::tan(slope) }
     }
 
-    /// Radius and height at a slope from 0 to a right angle, mm; the outer end of a straight part.
-    ///
-    /// Where the profile ends below a right angle, its rim serves all steeper slopes.
-    #[must_use]
-    pub fn point_at(&self, slope: f64) -> (f64, f64) {
-        self.profile.point_at(slope)
-    }
-
-    /// Radius and height where the profile rises by `rise` (dz/dr, not negative), mm: [`point_at`](Self::point_at) of its
+    /// Radius and height where the profile rises by `rise` (dz/dr, not negative), mm: [`point_at`](ToolBody::point_at) of its
     /// slope, by table where that does.
     #[must_use]
     pub fn at_rise(&self, rise: f64) -> (f64, f64) {
         if rise > STEEP {
             return self.point_at(libm::atan(rise));
         }
-        if let Some(ball) = self.ball {
+        if let Some(ball) = self.as_ball() {
             let cos = 1.0 / (1.0 + rise * rise).sqrt();
             let sin = rise * cos;
             return (ball * sin, ball * sin * sin / (1.0 + cos));
@@ -159,36 +147,12 @@ impl Cutter {
         Some((radii.value_at(share)?, heights.value_at(share)?))
     }
 
-    /// The straight parts: flats, cones, in the order of their slopes.
-    #[must_use]
-    pub fn straights(&self) -> &[Straight] {
-        &self.straights
-    }
-
-    /// Radius of curvature of the meridian, mm.
-    #[must_use]
-    pub fn curvature_radius_at(&self, slope: f64) -> f64 {
-        self.profile.curvature_radius_at(slope)
-    }
-
-    /// Radius of the base, mm.
-    #[must_use]
-    pub fn max_radius(&self) -> f64 {
-        self.max_radius
-    }
-
-    /// Height of the base over the tip, mm.
-    #[must_use]
-    pub fn max_height(&self) -> f64 {
-        self.max_height
-    }
-
     /// Slope at a radius from 0 to the base's, rad; 0 on a flat tip.
     #[must_use]
     pub fn slope_at_radius(&self, radius: f64) -> f64 {
-        match self.ball {
+        match self.as_ball() {
             Some(ball) => libm::asin((radius / ball).clamp(0.0, 1.0)),
-            None => self.profile.slope_within(radius, self.slope_bracket(radius)),
+            None => self.meridian().slope_within(radius, self.slope_bracket(radius)),
         }
     }
 
@@ -204,29 +168,29 @@ impl Cutter {
     /// Height over the tip at a radius, mm; infinite beyond the base.
     #[must_use]
     pub fn height_at_radius(&self, radius: f64) -> f64 {
-        if radius > self.max_radius {
+        if radius > self.max_radius() {
             return f64::INFINITY;
         }
-        match self.ball {
+        match self.as_ball() {
             Some(ball) => radius * radius / (ball + (ball * ball - radius * radius).max(0.0).sqrt()),
-            None => self.profile.height_within(radius, self.slope_bracket(radius)),
+            None => self.meridian().height_within(radius, self.slope_bracket(radius)),
         }
     }
 
     /// Radius (mm) and steepness dz/dr at a height over the tip, mm, not negative: the base's and infinity above it.
     #[must_use]
     pub fn at_height(&self, height: f64) -> (f64, f64) {
-        if height >= self.max_height {
-            return (self.max_radius, f64::INFINITY);
+        if height >= self.max_height() {
+            return (self.max_radius(), f64::INFINITY);
         }
-        if let Some(ball) = self.ball {
-            let radius = (height * (2.0 * ball - height)).max(0.0).sqrt().min(self.max_radius);
+        if let Some(ball) = self.as_ball() {
+            let radius = (height * (2.0 * ball - height)).max(0.0).sqrt().min(self.max_radius());
             return (radius, radius / (ball - height));
         }
         let above = self.slopes.partition_point(|n| n.height < height).clamp(1, self.slopes.len() - 1);
         let (low, high) = (&self.slopes[above - 1], &self.slopes[above]);
         self.followed_to_height(height, low, high).unwrap_or_else(|| {
-            let (radius, slope) = self.profile.at_height(height, [low.slope, high.slope]);
+            let (radius, slope) = self.meridian().at_height(height, [low.slope, high.slope]);
             (radius, libm::tan(slope))
         })
     }
@@ -253,7 +217,7 @@ impl Cutter {
     #[inline]
     #[must_use]
     pub fn quick_height_at_radius(&self, radius: f64) -> f64 {
-        let followed = if self.ball.is_some() { None } else { self.heights.as_ref() };
+        let followed = if self.as_ball().is_some() { None } else { self.heights.as_ref() };
         followed.and_then(|heights| heights.value_at(radius)).unwrap_or_else(|| self.height_at_radius(radius))
     }
 
@@ -263,13 +227,6 @@ impl Cutter {
     pub fn height_with_derivatives(&self, radius: f64) -> Option<Height> {
         let [value, rise, bend] = self.heights.as_ref()?.at(radius)?;
         Some(Height { value, rise, bend })
-    }
-
-    /// The radius of the ball that it is, mm, if it is one.
-    #[inline]
-    #[must_use]
-    pub fn as_ball(&self) -> Option<f64> {
-        self.ball
     }
 
     /// A line that the profile does not fall below, touching near `radius` (mm, up to the base's).
@@ -294,7 +251,7 @@ impl Cutter {
     #[inline]
     #[must_use]
     pub fn height_bound(&self, radius: f64) -> f64 {
-        if radius > self.max_radius {
+        if radius > self.max_radius() {
             return f64::INFINITY;
         }
         let line = self.supporting_line(radius);
@@ -336,17 +293,9 @@ impl Cutter {
             }
         }
         // over a straight part the gap is largest at its slope alone, not near it
-        let straights = self.straights.iter().map(|straight| straight.slope);
+        let straights = self.straights().iter().map(|straight| straight.slope);
         let gaps = [low, slope, high].into_iter().chain(straights).map(|s| (self.gap(radius, height, s), s));
         gaps.fold((f64::NEG_INFINITY, 0.0), |a, b| if b.0 > a.0 { b } else { a })
-    }
-
-    /// How far a point lies outside the supporting plane of `slope`, mm: a lower bound of its distance.
-    #[must_use]
-    pub fn gap(&self, radius: f64, height: f64, slope: f64) -> f64 {
-        let (sin, cos) = libm::sincos(slope);
-        let (r, z) = self.point_at(slope);
-        (radius - r) * sin - (height - z) * cos
     }
 
     /// The cell of the slope table in which the nearest point's slope lies.
@@ -379,7 +328,7 @@ mod tests {
             let cutter = Cutter::new(&profile, ball);
             let radius = share * cutter.max_radius();
             let (slope, height) = (cutter.slope_at_radius(radius), cutter.height_at_radius(radius));
-            let (inner, outer) = (cutter.profile.inner_point_at(slope), cutter.point_at(slope));
+            let (inner, outer) = (cutter.meridian().inner_point_at(slope), cutter.point_at(slope));
             // a slope is rounded: on a flat arc of a large circle that shows
             let size = 1e-12 * (cutter.max_radius() + cutter.max_height()) + 1e-15 * cutter.curvature_radius_at(slope);
             prop_assert!(inner.0 <= radius + size && radius <= outer.0 + size, "{inner:?} {radius} {outer:?}");

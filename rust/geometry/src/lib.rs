@@ -13,6 +13,8 @@ mod piecewise;
 mod profile;
 mod sheet;
 mod tool;
+mod tool_body;
+mod tool_parts;
 
 pub use cutter::{Cutter, Height, SupportingLine};
 pub use error::GeometryError;
@@ -22,6 +24,8 @@ pub use mesh::{Bvh, Mending, Mesh, Node, Shape, Soup};
 pub use profile::{kinds, Curved, OutlinePart, Profile, ProfileDocument, ProfileReport, Straight};
 pub use sheet::{ModelFace, Sheet, SheetLaw};
 pub use tool::{Base, Holder, Tool, ToolDocument};
+pub use tool_body::ToolBody;
+pub use tool_parts::ToolPart;
 
 /// A point or vector of space, mm.
 pub type Vector = nalgebra::Vector3<f64>;

@@ -3,10 +3,13 @@
 //! Distances by support functions alone: E. G. Gilbert, D. W. Johnson, S. S. Keerthi, "A fast procedure for computing the
 //! distance between complex objects in three-dimensional space", IEEE Journal of Robotics and Automation 4, 1988; simpler here,
 //! for the body is one of revolution. See docs/concepts/verifier.md.
+//!
+//! The meridian is geometry's [`ToolBody`]; of the drop-cutter's tables over it, [`Cutter`](styluscam_geometry::Cutter), nothing
+//! is used here, so that an error in them shows as a finding.
 
 use std::f64::consts::FRAC_PI_2;
 
-use styluscam_geometry::{Cutter, Sheet, Tool, Vector};
+use styluscam_geometry::{Sheet, Tool, ToolBody, Vector};
 
 use crate::convex::Tangent;
 
@@ -32,8 +35,7 @@ const SHORT: f64 = 1e-5;
 /// The convex body that must not enter the triangles. Its tip is the origin of what it is asked.
 #[derive(Clone, Debug)]
 pub(crate) struct Body {
-    cutter: Cutter,
-    tip_above: f64,
+    solid: ToolBody,
     supports: Vec<f64>,
     planes: Vec<Tangency>,
     /// For squares of the half plane about the meridian, the plane of the table that separates their middle best.
@@ -85,33 +87,24 @@ pub(crate) struct Distance {
 impl Body {
     /// Tool and sheet, to be checked together.
     pub fn new(tool: &Tool, sheet: Option<&Sheet>) -> Self {
-        Self::above(tool, sheet, 0.0)
+        Self::of(tool.body(sheet))
     }
 
-    /// The same for what stands `height` mm above the point that is the tool's tip.
-    pub fn above(tool: &Tool, sheet: Option<&Sheet>, height: f64) -> Self {
-        let cutter = tool.cutter_with(sheet, 0.0);
-        let supports = (0..=CELLS).map(|i| support_at(&cutter, i)).collect();
-        let mut planes: Vec<_> = (0..=PLANES).map(|i| Tangency::at(&cutter, plane_root(i))).collect();
+    /// A solid of a tool with the tables by which it is checked.
+    pub fn of(solid: ToolBody) -> Self {
+        let supports = (0..=CELLS).map(|i| support_at(&solid, i)).collect();
+        let mut planes: Vec<_> = (0..=PLANES).map(|i| Tangency::at(&solid, plane_root(i))).collect();
         // both ends of a straight part: between them the plane stays and the position jumps
-        planes.extend(cutter.straights().iter().flat_map(|s| [s.inner, s.outer].map(|end| Tangency::on(s.slope, end))));
+        planes.extend(solid.straights().iter().flat_map(|s| [s.inner, s.outer].map(|end| Tangency::on(s.slope, end))));
         planes.sort_by(|a, b| {
             a.slope.total_cmp(&b.slope).then(a.radius.total_cmp(&b.radius)).then(a.height.total_cmp(&b.height))
         });
-        let sharpest = planes.iter().map(|p| cutter.curvature_radius_at(p.slope)).fold(f64::INFINITY, f64::min);
-        let at_the_tip = cutter.straights().iter().filter(|s| s.inner.0 < SLENDER * cutter.max_radius());
+        let sharpest = planes.iter().map(|p| solid.curvature_radius_at(p.slope)).fold(f64::INFINITY, f64::min);
+        let at_the_tip = solid.straights().iter().filter(|s| s.inner.0 < SLENDER * solid.max_radius());
         let own = at_the_tip.map(|s| 0.5 * libm::cos(s.slope)).fold(OWN, f64::min);
-        let squares_per_mm = SQUARES as f64 / (REACH * (cutter.max_radius() + cutter.max_height()));
-        let mut body = Self {
-            cutter,
-            tip_above: Tool::tip_above(sheet, 0.0) - height,
-            supports,
-            planes,
-            atlas: Vec::new(),
-            squares_per_mm,
-            shallow: 0.5 * sharpest,
-            own,
-        };
+        let squares_per_mm = SQUARES as f64 / (REACH * (solid.max_radius() + solid.max_height()));
+        let mut body =
+            Self { solid, supports, planes, atlas: Vec::new(), squares_per_mm, shallow: 0.5 * sharpest, own };
         body.atlas = (0..SQUARES * SQUARES).map(|i| body.best_plane_of_square(i)).collect();
         body
     }
@@ -150,22 +143,22 @@ impl Body {
 
     /// Radius of the sphere that it ends in, when it does, mm: then its centre alone counts. Its cylinder is as wide.
     pub fn ball(&self) -> Option<f64> {
-        self.cutter.as_ball()
+        self.solid.as_ball()
     }
 
     /// Radius of the body's cylinder, mm.
     pub fn radius(&self) -> f64 {
-        self.cutter.max_radius()
+        self.solid.max_radius()
     }
 
     /// The body's tip when the tool's stands at `tip`.
     pub fn position(&self, tip: [f64; 3]) -> Vector {
-        Vector::new(tip[0], tip[1], tip[2] - self.tip_above)
+        Vector::new(tip[0], tip[1], tip[2] - self.solid.tip_above())
     }
 
     /// The tool's tip when the body's stands at `position`.
     pub fn tip(&self, position: Vector) -> [f64; 3] {
-        [position.x, position.y, position.z + self.tip_above]
+        [position.x, position.y, position.z + self.solid.tip_above()]
     }
 
     /// Signed distance to a point: the largest gap that any touching plane leaves.
@@ -205,11 +198,11 @@ impl Body {
         }
         let mut root = low.root + (high.root - low.root) * first / (first - last);
         for _ in 0..60 {
-            let here = Tangency::at(&self.cutter, root);
+            let here = Tangency::at(&self.solid, root);
             let ahead = here.ahead(radius, height);
             let bend = (height - here.height) * here.cos
                 - (radius - here.radius) * here.sin
-                - self.cutter.curvature_radius_at(here.slope);
+                - self.solid.curvature_radius_at(here.slope);
             let (rate, step) = (2.0 * root * bend, -ahead / (2.0 * root * bend));
             if rate < 0.0 && step.abs() < SHORT {
                 let turn = 2.0 * root * step;
@@ -269,7 +262,7 @@ impl Body {
 
     fn meridian_bend(&self, d: &Distance) -> f64 {
         let curved = !d.straight && d.slope > EDGE && d.slope < FRAC_PI_2 - EDGE;
-        let radius = self.cutter.curvature_radius_at(d.slope) + d.value;
+        let radius = self.solid.curvature_radius_at(d.slope) + d.value;
         if curved && radius > EDGE {
             1.0 / radius
         } else {
@@ -286,7 +279,7 @@ impl Body {
             return (witness, Plane { away: -up, support: ball - ball * up.z });
         }
         let sin = length(up.x, up.y);
-        let (radius, height) = self.cutter.point_at(libm::atan2(sin, up.z));
+        let (radius, height) = self.solid.point_at(libm::atan2(sin, up.z));
         let scale = if sin > 0.0 { -radius / sin } else { 0.0 };
         let witness = Vector::new(up.x * scale, up.y * scale, height);
         (witness, Plane { away: -up, support: radius * sin - height * up.z })
@@ -334,10 +327,10 @@ fn of_ball(ball: f64, p: Vector, radius: f64) -> Distance {
 }
 
 impl Tangency {
-    fn at(cutter: &Cutter, root: f64) -> Self {
+    fn at(solid: &ToolBody, root: f64) -> Self {
         let slope = root * root;
         let (sin, cos) = libm::sincos(slope);
-        let (radius, height) = cutter.point_at(slope);
+        let (radius, height) = solid.point_at(slope);
         Self { root, slope, sin, cos, radius, height, straight: false }
     }
 
@@ -379,10 +372,10 @@ pub(crate) fn length(x: f64, y: f64) -> f64 {
 }
 
 /// Support along the direction i / CELLS outwards and the rest downwards.
-fn support_at(cutter: &Cutter, i: usize) -> f64 {
+fn support_at(solid: &ToolBody, i: usize) -> f64 {
     let steep = i as f64 / CELLS as f64;
     let fall = 1.0 - steep;
-    let (radius, height) = cutter.point_at(libm::atan2(steep, fall));
+    let (radius, height) = solid.point_at(libm::atan2(steep, fall));
     radius * steep - height * fall
 }
 
@@ -454,8 +447,8 @@ pub(crate) mod tests {
     /// The largest gap over a fine fan of planes: the distance by its definition.
     fn by_definition(body: &Body, radius: f64, height: f64) -> f64 {
         let slopes = (0..=20_000).map(|i| FRAC_PI_2 * f64::from(i) / 20_000.0);
-        let slopes = slopes.chain(body.cutter.straights().iter().map(|s| s.slope));
-        slopes.map(|s| body.cutter.gap(radius, height, s)).fold(f64::NEG_INFINITY, f64::max)
+        let slopes = slopes.chain(body.solid.straights().iter().map(|s| s.slope));
+        slopes.map(|s| body.solid.gap(radius, height, s)).fold(f64::NEG_INFINITY, f64::max)
     }
 
     #[test]

@@ -40,7 +40,7 @@ pub(crate) fn punches(
         return Vec::new();
     };
     let tools: Vec<Cutter> = subject.tools.iter().map(Tool::cutter).collect();
-    let narrowest = tools.iter().map(Cutter::max_radius).fold(f64::INFINITY, f64::min);
+    let narrowest = tools.iter().map(|tool| tool.max_radius()).fold(f64::INFINITY, f64::min);
     let mut blank = Blank::new(subject.mesh, forming.top, narrowest);
     let mut rows = Vec::new();
     let mut operation = None;
