@@ -241,10 +241,10 @@ impl Cutter {
     #[inline]
     #[must_use]
     pub fn radius_of_rise(&self, rise: f64) -> f64 {
-        let place = rise / (1.0 + rise) * RISE_CELLS as f64;
-        let cell = (place as usize).min(RISE_CELLS - 1);
+        let scaled = rise / (1.0 + rise) * RISE_CELLS as f64;
+        let cell = (scaled as usize).min(RISE_CELLS - 1);
         let (a, b) = (self.rises[cell], self.rises[cell + 1]);
-        a + (place - cell as f64) * (b - a)
+        a + (scaled - cell as f64) * (b - a)
     }
 
     /// A height that the profile does not fall below at `radius`, mm; infinite beyond the base.

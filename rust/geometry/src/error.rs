@@ -4,7 +4,7 @@ use thiserror::Error;
 
 /// A shape that cannot be used.
 ///
-/// Each variant says when it occurs and what to do about it; `code` is stable.
+/// Each variant states when it occurs and what to do about it; `code` is stable.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum GeometryError {
     /// A number of a tool or sheet is out of its range. Correct the key named.
@@ -88,7 +88,7 @@ impl GeometryError {
     }
 }
 
-/// Refuses a length that is not positive, finite and of this world.
+/// Refuses a length that is not positive or not one that a tool can have.
 pub(crate) fn positive_length(key: &'static str, value: f64) -> Result<f64, GeometryError> {
     if value > 1e-6 && value <= 1e4 {
         Ok(value)
@@ -97,7 +97,7 @@ pub(crate) fn positive_length(key: &'static str, value: f64) -> Result<f64, Geom
     }
 }
 
-/// Refuses an area that is not positive, finite and of this world.
+/// Refuses an area that is not positive or not one that a tool can have.
 pub(crate) fn positive_area(key: &'static str, value: f64) -> Result<f64, GeometryError> {
     if value > 1e-12 && value <= 1e8 {
         Ok(value)
@@ -106,7 +106,7 @@ pub(crate) fn positive_area(key: &'static str, value: f64) -> Result<f64, Geomet
     }
 }
 
-/// Refuses a length that is negative, infinite or absurd.
+/// Refuses a length that is negative or not one that a tool can have.
 pub(crate) fn length(key: &'static str, value: f64) -> Result<f64, GeometryError> {
     if (0.0..=1e4).contains(&value) {
         Ok(value)

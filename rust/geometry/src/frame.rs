@@ -16,7 +16,7 @@ impl Frame {
         Self { rotation: nalgebra::Matrix3::identity(), translation: Vector::zeros() }
     }
 
-    /// Turns `up` to +Z by the shortest way, then turns by `about_z` radians about +Z.
+    /// Turns `up` to +Z by the smallest angle, then turns by `about_z` radians about +Z.
     ///
     /// A quarter turn comes out exact: zeros and ones, no rounding.
     #[must_use]

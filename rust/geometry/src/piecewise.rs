@@ -34,17 +34,17 @@ impl Piecewise {
         Self { cells_per_unit: 1.0 / width, cells: (0..CELLS).map(cell).collect() }
     }
 
-    /// The value at a place; none where only the function knows.
+    /// The value at `x`; none where only the function knows.
     #[inline]
-    pub fn value_at(&self, place: f64) -> Option<f64> {
-        let (polynomial, u) = self.polynomial(place)?;
+    pub fn value_at(&self, x: f64) -> Option<f64> {
+        let (polynomial, u) = self.polynomial(x)?;
         Some(evaluated(polynomial, u))
     }
 
-    /// The value and its first two derivatives at a place; none where only the function knows.
+    /// The value and its first two derivatives at `x`; none where only the function knows.
     #[inline]
-    pub fn at(&self, place: f64) -> Option<[f64; 3]> {
-        let (polynomial, u) = self.polynomial(place)?;
+    pub fn at(&self, x: f64) -> Option<[f64; 3]> {
+        let (polynomial, u) = self.polynomial(x)?;
         let (mut value, mut first, mut second) = (0.0, 0.0, 0.0);
         for coefficient in polynomial.iter().rev() {
             second = second * u + first;
@@ -56,11 +56,11 @@ impl Piecewise {
     }
 
     #[inline]
-    fn polynomial(&self, place: f64) -> Option<(&[f64; TERMS], f64)> {
-        let place = place * self.cells_per_unit;
-        let cell = place as usize;
+    fn polynomial(&self, x: f64) -> Option<(&[f64; TERMS], f64)> {
+        let x = x * self.cells_per_unit;
+        let cell = x as usize;
         let polynomial = self.cells.get(cell)?.as_ref()?;
-        Some((polynomial, 2.0 * (place - cell as f64) - 1.0))
+        Some((polynomial, 2.0 * (x - cell as f64) - 1.0))
     }
 }
 

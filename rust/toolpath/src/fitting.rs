@@ -3,9 +3,9 @@
 //! The exact path lies on an envelope that keeps half of what is left for fitting as its margin, so
 //! that a chord may deviate by that much to either side and still neither gouges nor leaves too much.
 //!
-//! Witnesses, exact points, are put in until the path between neighbours is proven to deviate little, or as far as that cannot
-//! be seen, looks so from close by; then those are left out over which a longer chord passes closely. What a final
-//! chord deviates is at most the sum of both.
+//! Witnesses, exact points, are put in until the path between neighbours is proven to deviate little, or where that cannot
+//! be proven, deviates little at points close by; then those are left out over which a longer chord passes closely. What a
+//! final chord deviates is at most the sum of both.
 //!
 //! The proofs are derived in docs/concepts/fitting.md.
 
@@ -21,7 +21,7 @@ pub const PROVEN: f64 = 2.0 * BETWEEN_WITNESSES;
 const AT_WITNESSES: f64 = 1.0 - PROVEN;
 /// A smooth path deviates half as much as its tangents lead beside the ends of a chord; where that is more than could be proven,
 /// no proof is tried.
-const HOPELESS: f64 = 2.2;
+const TOO_BENT: f64 = 2.2;
 /// Least share of a distance in any direction that counts as deviation.
 const ASIDE: f64 = 0.25;
 /// What a path that crosses its chord aslant at the middle deviates on both sides, as a share of what it would reach at
@@ -44,7 +44,8 @@ pub trait Course {
         false
     }
 
-    /// Whether the path between two of its points is seen to rise over the chord by more than `most` mm, or not seen not to.
+    /// Whether the path between two of its points is seen to rise over the chord by more than `most` mm, or that cannot be
+    /// excluded.
     fn may_rise(&self, _a: &PathPoint, _b: &PathPoint, _most: f64) -> bool {
         false
     }
@@ -58,7 +59,7 @@ impl<F: FnMut(&PathPoint, &PathPoint) -> Option<PathPoint>> Course for F {
 }
 
 /// Adds exact points between those given, dense enough for [`thinned`] to keep chords within `deviation` mm of the path,
-/// and in plan no farther apart than `longest` mm where nothing is proven: there what is narrower may pass unseen.
+/// and in plan no farther apart than `longest` mm where nothing is proven: there what is narrower may be missed.
 ///
 /// Where the course has no middle to keep to, a run ends; what follows is another. The middles are kept: they are witnesses.
 pub fn densified(points: &[PathPoint], deviation: f64, longest: f64, course: &mut impl Course) -> Vec<Vec<PathPoint>> {
@@ -106,7 +107,7 @@ fn divides(m: &PathPoint, a: &PathPoint, b: &PathPoint) -> bool {
 
 /// Whether a proof that the path between two points keeps to within `most` mm of the chord is worth trying.
 pub fn may_keep_to(a: &PathPoint, b: &PathPoint, most: f64) -> bool {
-    bend(a, b) <= HOPELESS * most
+    bend(a, b) <= TOO_BENT * most
 }
 
 /// What a distance of `most` mm along the normals of two points, as [`deviation_at`] measures it, is in height.
@@ -226,7 +227,7 @@ fn deviation_around(a: &PathPoint, m: &PathPoint, b: &PathPoint) -> f64 {
     deviation_at(m, a.tip, b.tip).max(aslant).max(bend(a, m)).max(bend(m, b))
 }
 
-/// How far a path deviates from the chord between two of its points, as far as their normals tell: where tangents meet at
+/// How far a path deviates from the chord between two of its points, as far as their normals show: where tangents meet at
 /// the middle, it is half as far as one tangent leads beside the other end.
 fn bend(a: &PathPoint, b: &PathPoint) -> f64 {
     let along = b.tip - a.tip;

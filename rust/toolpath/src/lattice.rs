@@ -95,7 +95,7 @@ impl Cells {
         (from[1]..to[1]).flat_map(move |row| (from[0]..to[0]).map(move |column| [column, row]))
     }
 
-    /// Pieces of at most `size` cells each way.
+    /// Pieces of at most `size` cells in each direction.
     pub fn pieces(&self, size: usize) -> impl Iterator<Item = Self> {
         let Self { from, to } = *self;
         let firsts = move |i: usize| (from[i]..to[i]).step_by(size);

@@ -83,7 +83,7 @@ pub struct AlongSurface<'a> {
     pub longest: f64,
     /// How far a chord may be from the envelope, mm.
     pub deviation: f64,
-    /// What is narrower may be passed over unseen, mm.
+    /// What is narrower may be missed, mm.
     pub narrow: f64,
     /// mm/min.
     pub feed: f64,

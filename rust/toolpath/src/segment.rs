@@ -9,7 +9,7 @@ use styluscam_motion::{Arc, Move, Plane, Role};
 /// read as a full turn more (arcs take ends nearer than 1e-9 of the radius as one).
 const WHOLE: f64 = 1e-8;
 
-/// How fast a segment is gone.
+/// How fast a segment is travelled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pace {
     /// At the machine's rapid rate. Rapids are lines.

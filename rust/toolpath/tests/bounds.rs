@@ -1,4 +1,4 @@
-//! What is said of boxes of the plan against what is found at places in them.
+//! Bounds over boxes of the plan against what is found at positions in them.
 
 #![allow(clippy::disallowed_methods, clippy::unwrap_used)] // a test that panics fails
 
@@ -54,7 +54,7 @@ proptest! {
     fn tips_lie_within_what_is_said_of_the_box(
         mesh in any_mesh(), tool in any_tool(), x in -8.0..8.0_f64, y in -8.0..8.0_f64, size in -2.0..0.5_f64, share in -0.2..1.2_f64,
         over in -1.0..1.0_f64,
-        places in prop::collection::vec([0.0..=1.0_f64, 0.0..=1.0_f64], 12),
+        positions in prop::collection::vec([0.0..=1.0_f64, 0.0..=1.0_f64], 12),
     ) {
         let index = Index::new(&mesh);
         let envelope = Envelope::new(&mesh, &index, &tool, None, 0.0);
@@ -67,7 +67,7 @@ proptest! {
         let high = envelope.ceilings(&lattice, |_| limit, &watch).unwrap()[0].max(limit);
         let verdict = envelope.verdict(&cells, limit);
         let ends = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
-        for [s, t] in places.into_iter().chain(ends) {
+        for [s, t] in positions.into_iter().chain(ends) {
             let tip = envelope.contact(x + s * side, y + t * side).map_or(f64::NEG_INFINITY, |contact| contact.tip);
             prop_assert!(tip >= low - 1e-9 && tip <= high + 1e-9, "{tip} at {s}, {t} in {low}..{high}");
             let agrees = match verdict {

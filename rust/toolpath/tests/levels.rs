@@ -104,10 +104,10 @@ fn levels_that_are_added_are_those_of_one_plan() {
     let profile = ProfileDocument::from(kinds::Flat { diameter: 3.0, tip_flat: 0.0 });
     over_walls(&mesh, profile, |surface, grid| {
         let at = |heights: &[f64]| z_levels(surface, grid, heights, 0.01, &Watch::default()).unwrap();
-        let (known, wanted) = ([2.0, 1.0, 0.3], [2.0, 1.5, 0.6, 0.3, 0.1]);
-        let beside = z_levels_beside((&known, at(&known)), surface, grid, &wanted, 0.01, &Watch::default()).unwrap();
+        let (known, asked) = ([2.0, 1.0, 0.3], [2.0, 1.5, 0.6, 0.3, 0.1]);
+        let beside = z_levels_beside((&known, at(&known)), surface, grid, &asked, 0.01, &Watch::default()).unwrap();
         assert!(!beside.is_empty());
-        assert_eq!(beside, at(&wanted));
+        assert_eq!(beside, at(&asked));
     });
 }
 

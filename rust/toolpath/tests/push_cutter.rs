@@ -58,7 +58,7 @@ fn mesh_of(corners: [Vector; 3]) -> Option<Mesh> {
     Mesh::new(corners.to_vec(), &[[0, 1, 2]], &[]).ok()
 }
 
-/// The least signed distance between the triangle and the body standing with its tip over a place.
+/// The least signed distance between the triangle and the body standing with its tip over a position.
 fn clearance(cutter: &Cutter, corners: [Vector; 3], [x, y]: [f64; 2], z: f64) -> f64 {
     let [a, b, c] = corners;
     let distance = |p: Vector| cutter.distance((p.x - x).hypot(p.y - y), p.z - z).0;
@@ -97,24 +97,24 @@ proptest! {
         let envelope = Envelope::new(&mesh, &index, &tool, None, 0.0);
         let (sin, cos) = turn.sin_cos();
         let line = Line { from: [40.0 * cos - aside * sin, 40.0 * sin + aside * cos], along: [-cos, -sin] };
-        let clear = |way: f64| clearance(envelope.cutter(), corners, line.at(way), z);
+        let clear = |travel: f64| clearance(envelope.cutter(), corners, line.at(travel), z);
         let samples = (0..10).map(|i| 8.0 * f64::from(i));
         match (envelope.push(&line, z, 100.0), envelope.release(0, &line, z)) {
             (Some((stop, stopped)), Some((free, freed))) => {
                 prop_assert!(stop <= free + EXACT, "{stop} {free}");
-                for (way, contact) in [(stop, stopped), (free, freed)] {
-                    prop_assert!(clear(way).abs() <= EXACT, "{way}: {:e} left, {contact:?}", clear(way));
-                    let [x, y] = line.at(way);
+                for (travel, contact) in [(stop, stopped), (free, freed)] {
+                    prop_assert!(clear(travel).abs() <= EXACT, "{travel}: {:e} left, {contact:?}", clear(travel));
+                    let [x, y] = line.at(travel);
                     let gap = envelope.gap(contact.point, x, y, z);
                     prop_assert!(gap.abs() <= EXACT, "the contact is {gap:e} off, {contact:?}");
                 }
-                for way in samples.filter(|way| *way < stop || *way > free) {
-                    prop_assert!(clear(way) >= -EXACT, "at {way}, outside {stop} to {free}, it enters by {:e}", clear(way));
+                for travel in samples.filter(|travel| *travel < stop || *travel > free) {
+                    prop_assert!(clear(travel) >= -EXACT, "at {travel}, outside {stop} to {free}, it enters by {:e}", clear(travel));
                 }
             }
             (None, None) => {
-                for way in samples {
-                    prop_assert!(clear(way) >= -EXACT, "unseen at {way}: {:e}", clear(way));
+                for travel in samples {
+                    prop_assert!(clear(travel) >= -EXACT, "missed at {travel}: {:e}", clear(travel));
                 }
             }
             other => prop_assert!(false, "{other:?}"),

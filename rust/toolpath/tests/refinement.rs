@@ -1,4 +1,4 @@
-//! Offset surfaces are refined where something stops the tool: that ends, with as many points as the places are wide.
+//! Offset surfaces are refined where something stops the tool: that ends, with as many points as the positions are wide.
 
 #![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::panic)] // a test that panics fails
 
@@ -86,14 +86,14 @@ fn what_would_take_more_points_than_the_budget_stays_coarse_and_says_so() {
     assert!(surface.points.len() < 70_000, "{}", surface.points.len());
 }
 
-/// Place along and across, radius, sides and height as they are drawn.
+/// Position along and across, radius, sides and height as they are drawn.
 type Drawn = (f64, f64, f64, usize, f64);
 
 fn any_bosses() -> impl Strategy<Value = Vec<Boss>> {
     // one to a cell of 20 mm: they do not meet
     let boss = (0.0..1.0_f64, 0.0..1.0_f64, 0.05..8.0_f64, 3..24_usize, 0.5..20.0_f64);
     prop::collection::vec(prop::option::of(boss), 10).prop_map(|cells| {
-        let place = |(cell, boss): (usize, Option<Drawn>)| {
+        let position = |(cell, boss): (usize, Option<Drawn>)| {
             let (x, y, radius, sides, height) = boss?;
             let free = 19.0 - 2.0 * radius;
             let centre = [
@@ -102,7 +102,7 @@ fn any_bosses() -> impl Strategy<Value = Vec<Boss>> {
             ];
             Some(Boss { centre, radius, sides, height })
         };
-        cells.into_iter().enumerate().filter_map(place).collect()
+        cells.into_iter().enumerate().filter_map(position).collect()
     })
 }
 

@@ -13,7 +13,7 @@ use styluscam_toolpath::offset::{Envelope, Index};
 use styluscam_toolpath::{Pass, Surface};
 
 const DEVIATION: f64 = 0.0012;
-/// Steps are climbed on less way than this, mm.
+/// Steps are climbed within less travel than this, mm.
 const STEP: f64 = 2e-4;
 
 fn tool(profile: ProfileDocument) -> Tool {
@@ -25,17 +25,18 @@ fn rows(envelope: &Envelope<'_>, angle: f64, stepover: f64) -> Vec<Pass> {
     zig_zag(&Surface::whole(envelope), &rows, DEVIATION, &Watch::default()).unwrap()
 }
 
-/// That no chord lies under the envelope by more than the deviation along the normal, but where it climbs a step, nor far over it.
+/// That no chord lies under the envelope by more than the deviation along the normal, but where it climbs a step, nor far
+/// over it.
 fn assert_clear(passes: &[Pass], envelope: &Envelope<'_>, spacing: f64) {
     for pair in passes.iter().flat_map(|pass| pass.points.windows(2)) {
-        let (from, way) = (pair[0].tip, pair[1].tip - pair[0].tip);
-        let length = way.xy().norm();
+        let (from, span) = (pair[0].tip, pair[1].tip - pair[0].tip);
+        let length = span.xy().norm();
         if length < STEP {
             continue;
         }
-        let along = way.xy() / length;
+        let along = span.xy() / length;
         for i in 0..=(length / spacing) as usize {
-            let at = from + way * (i as f64 * spacing / length).min(1.0);
+            let at = from + span * (i as f64 * spacing / length).min(1.0);
             let beside = |s: f64| envelope.contact(at.x + s * along.x, at.y + s * along.y);
             let exact = beside(0.0).unwrap();
             let least = [-STEP, STEP].iter().filter_map(|s| beside(*s)).map(|c| c.tip).fold(exact.tip, f64::min);
@@ -75,12 +76,12 @@ fn rows_aslant_over_facets_are_fitted_closely() {
     }
 }
 
-/// A floor and needles on it: place, and height.
-fn needles(places: &[([f64; 2], f64)]) -> Mesh {
+/// A floor and needles on it: position, and height.
+fn needles(positions: &[([f64; 2], f64)]) -> Mesh {
     let floor = [[-20.0, -20.0, 0.0], [20.0, -20.0, 0.0], [20.0, 20.0, 0.0], [-20.0, 20.0, 0.0]];
     let mut vertices: Vec<Vector> = floor.into_iter().map(Vector::from).collect();
     let mut triangles = vec![[0, 1, 2], [0, 2, 3]];
-    for ([x, y], height) in places {
+    for ([x, y], height) in positions {
         let first = vertices.len() as i64;
         vertices.extend(
             [[-1e-4, 0.0, 0.0], [1e-4, 0.0, 0.0], [0.0, 0.0, *height]]
@@ -95,14 +96,14 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
     #[test]
     fn no_row_of_a_flat_tool_enters_what_it_only_meets_with_its_rim(
-        // a needle this far inside the rim is met on a way of 0.03 to 0.5 mm
-        places in prop::collection::vec((-15.0..15.0_f64, 5e-5..1e-2_f64, any::<bool>(), 0.01..2.0_f64), 1..8),
+        // a needle this far inside the rim is met within a travel of 0.03 to 0.5 mm
+        positions in prop::collection::vec((-15.0..15.0_f64, 5e-5..1e-2_f64, any::<bool>(), 0.01..2.0_f64), 1..8),
         corner in prop_oneof![Just(None), (0.1..2.5_f64).prop_map(Some)],
     ) {
         let side = |left: bool| if left { 1.0 } else { -1.0 };
-        let places: Vec<([f64; 2], f64)> =
-            places.iter().map(|(x, inside, left, height)| ([*x, side(*left) * (3.0 - inside)], *height)).collect();
-        let mesh = needles(&places);
+        let positions: Vec<([f64; 2], f64)> =
+            positions.iter().map(|(x, inside, left, height)| ([*x, side(*left) * (3.0 - inside)], *height)).collect();
+        let mesh = needles(&positions);
         let profile = match corner {
             Some(corner_radius) => ProfileDocument::from(kinds::BullNose { diameter: 6.0, corner_radius, tip_flat: 0.0 }),
             None => ProfileDocument::from(kinds::Flat { diameter: 6.0, tip_flat: 0.0 }),
@@ -114,7 +115,7 @@ proptest! {
     }
 }
 
-/// Strips along X, 20 mm long, between places across (mm) at heights (mm), with the walls between them.
+/// Strips along X, 20 mm long, between positions across (mm) at heights (mm), with the walls between them.
 fn strips(edges: &[[f64; 2]]) -> Mesh {
     let rim = edges.iter().flat_map(|[y, z]| [Vector::new(0.0, *y, *z), Vector::new(20.0, *y, *z)]);
     let quads = (0..edges.len() as i64 - 1).map(|i| 2 * i);

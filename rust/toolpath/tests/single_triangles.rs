@@ -74,7 +74,7 @@ fn worst_of_tool(kind: &Kind, seed: u64) -> Worst {
         let index = Index::new(&mesh);
         let envelope = Envelope::new(&mesh, &index, &tool, sheet.as_ref(), margin);
         for corners in triangles {
-            let [x, y] = triangles::place(&mut dice, &corners, body.radius());
+            let [x, y] = triangles::position(&mut dice, &corners, body.radius());
             let contact = envelope.contact(x, y);
             let fault = match contact {
                 Some(contact) => body.fault(corners, Vector::new(x, y, contact.tip)),
@@ -122,8 +122,8 @@ fn no_triangle_of_a_hundred_thousand_of_every_kind_is_gouged_or_floated_over() {
 }
 
 /// A tool over one triangle.
-fn fault_of(profile: &serde_json::Value, corners: [[f64; 3]; 3], place: [f64; 2]) -> Fault {
-    fault_with(profile, 0.0, corners, place)
+fn fault_of(profile: &serde_json::Value, corners: [[f64; 3]; 3], position: [f64; 2]) -> Fault {
+    fault_with(profile, 0.0, corners, position)
 }
 
 /// The same with a margin.
@@ -184,7 +184,7 @@ fn an_edge_is_followed_over_a_jump_of_the_curvature() {
         [-159.67496647624762, 159.7457455478534, -16.334268510819065],
         [-159.77499717122114, 159.93640290433729, -16.501427393644903],
     ];
-    // a rim, rounded by the margin: Newton's steps went to and fro over the place where it begins
+    // a rim, rounded by the margin: Newton's steps went to and fro over the position where it begins
     let power = serde_json::json!({
         "kind": "power", "coefficient": 0.6970275174040432, "exponent": 1.585863994886944,
         "diameter": 1.9497845308707356, "tip_flat": 0.11065991130244025

@@ -9,7 +9,7 @@ const ROUNDS: usize = 40;
 /// [parallel, one of them vanishes].
 const FLAT: [f64; 2] = [1e-14, 1e-20];
 
-/// A bound of the parameters that is one point of the surface: there the other parameter says nothing.
+/// A bound of the parameters that is one point of the surface: there the other parameter has no effect.
 #[derive(Clone, Debug)]
 pub struct Pole {
     /// Which of the parameters is fixed there.
@@ -18,7 +18,7 @@ pub struct Pole {
     pub value: f64,
     /// A foot stands on the pole within this of the value.
     pub near: f64,
-    /// Values of the other parameter, and the unit way off the pole at each.
+    /// Values of the other parameter, and the unit direction off the pole at each.
     pub ways: Vec<(f64, Vector)>,
 }
 
@@ -64,8 +64,8 @@ impl FootSearch {
         for round in 0..ROUNDS {
             if round > 0 {
                 let mut moved: Vec<[f64; 2]> = active.iter().map(|i| found[*i].parameters).collect();
-                let places: Vec<Vector> = active.iter().map(|i| points[*i]).collect();
-                self.leave_poles(&places, &mut moved, &surface)?;
+                let targets: Vec<Vector> = active.iter().map(|i| points[*i]).collect();
+                self.leave_poles(&targets, &mut moved, &surface)?;
                 for ((i, at), parameters) in active.iter().zip(surface(&moved)?).zip(&moved) {
                     found[*i] = Foot::new((at, parameters));
                 }
@@ -106,8 +106,8 @@ impl FootSearch {
         for pole in &self.poles {
             let stands = |foot: &[f64; 2]| (foot[pole.fixed] - pole.value).abs() <= pole.near;
             let standing: Vec<usize> = (0..feet.len()).filter(|i| stands(&feet[*i])).collect();
-            let places: Vec<[f64; 2]> = standing.iter().map(|i| feet[*i]).collect();
-            for (i, at) in standing.into_iter().zip(surface(&places)?) {
+            let parameters: Vec<[f64; 2]> = standing.iter().map(|i| feet[*i]).collect();
+            for (i, at) in standing.into_iter().zip(surface(&parameters)?) {
                 let away = points[i] - at.point;
                 let best = pole.ways.iter().max_by(|a, b| away.dot(&a.1).total_cmp(&away.dot(&b.1)));
                 feet[i][1 - pole.fixed] = best.map_or(feet[i][1 - pole.fixed], |(value, _)| *value);
@@ -164,10 +164,10 @@ mod tests {
 
     fn search() -> FootSearch {
         let quarter = std::f64::consts::FRAC_PI_2;
-        let way = |i: i32| {
+        let direction = |i: i32| {
             (0.2 * f64::from(i), Vector::new(libm::cos(0.2 * f64::from(i)), libm::sin(0.2 * f64::from(i)), 0.0))
         };
-        let pole = Pole { fixed: 1, value: quarter, near: 1e-9, ways: (0..32).map(way).collect() };
+        let pole = Pole { fixed: 1, value: quarter, near: 1e-9, ways: (0..32).map(direction).collect() };
         FootSearch {
             limits: [[0.0, -quarter], [std::f64::consts::TAU, quarter]],
             poles: vec![pole],

@@ -93,7 +93,7 @@ impl NurbsSurface {
             along_v += basis_u[i] * slope;
         }
         let point = whole.xyz() / whole.w;
-        SurfacePoint { point, along: [along_u, along_v].map(|way| (way.xyz() - way.w * point) / whole.w) }
+        SurfacePoint { point, along: [along_u, along_v].map(|rate| (rate.xyz() - rate.w * point) / whole.w) }
     }
 }
 

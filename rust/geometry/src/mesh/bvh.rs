@@ -80,7 +80,7 @@ impl Bvh {
         Self { nodes, order: items.iter().map(|i| i.triangle).collect() }
     }
 
-    /// The triangles of a leaf near a point, found by going down to the nearer box: often the nearest ones, and if not, a place
+    /// The triangles of a leaf near a point, found by going down to the nearer box: often the nearest ones, and if not, a point
     /// to begin at.
     #[must_use]
     pub fn near(&self, point: Vector) -> &[u32] {

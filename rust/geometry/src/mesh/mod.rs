@@ -151,7 +151,7 @@ impl Mesh {
         rise <= UPRIGHT || rise <= MOST_TWISTED && rise * self.height(triangle) <= TWISTED
     }
 
-    /// Whether a triangle looks down: no tool from above touches its inside.
+    /// Whether a triangle faces down: no tool from above touches its inside.
     #[must_use]
     pub fn looks_down(&self, triangle: usize) -> bool {
         self.rise(triangle) < 0.0 && !self.is_upright(triangle)
@@ -242,7 +242,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_models_normals_say_whether_a_leaning_triangle_looks_down() {
+    fn the_models_normals_decide_whether_a_leaning_triangle_faces_down() {
         let vertices = vec![Vector::new(0.0, 0.0, 0.0), Vector::new(0.0, 1.0, 0.0), Vector::new(0.01, 0.0, 2.0)];
         let alone = Mesh::new(vertices.clone(), &[[0, 1, 2]], &[]).unwrap();
         assert!(alone.normal(0).x > 0.99 && alone.looks_down(0));

@@ -5,7 +5,7 @@ use super::Meridian;
 /// Steps that mend rounding are shorter than this, rad.
 const NEWTON: f64 = 1e-6;
 
-/// A circular arc, told from its start: r = R (sin - sin start), z = R (cos start - cos).
+/// A circular arc, relative to its start: r = R (sin - sin start), z = R (cos start - cos).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
     radius: f64,
@@ -60,7 +60,7 @@ impl Meridian for Arc {
     }
 
     fn slope_at_height(&self, height: f64, within: [f64; 2]) -> f64 {
-        // 1 - cos, told from that of the start: nothing cancels near the tip
+        // 1 - cos, relative to that of the start: nothing cancels near the tip
         let half = libm::sin(0.5 * self.start);
         let versine = (2.0 * half * half + height / self.radius).max(0.0);
         let sin = (versine * (2.0 - versine)).max(0.0).sqrt();
@@ -68,7 +68,7 @@ impl Meridian for Arc {
     }
 
     fn slope_nearest(&self, (r, z): (f64, f64), within: [f64; 2], _guess: f64) -> f64 {
-        // the direction from the centre, told from that to the start
+        // the direction from the centre, relative to that to the start
         let (sin, cos) = libm::sincos(self.start);
         let (along, away) = (r * cos + z * sin, r * sin - z * cos);
         (self.start + libm::atan2(along, self.radius + away)).clamp(within[0], within[1])

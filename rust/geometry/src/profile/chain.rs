@@ -15,7 +15,7 @@ pub struct Profile {
     base: (f64, f64),
 }
 
-/// A curve over an interval of slopes, at its place.
+/// A curve over an interval of slopes, at its position on the profile.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Piece {
     pub from: f64,
@@ -38,8 +38,8 @@ pub struct Straight {
     pub outer: (f64, f64),
 }
 
-/// Where on a profile a radius lies.
-enum Place<'a> {
+/// The part of a profile at a radius.
+enum Part<'a> {
     On(&'a Piece),
     Between(Straight),
 }
@@ -99,9 +99,9 @@ impl Profile {
     /// As [`slope_at_radius`](Self::slope_at_radius), when the slope is known to be one of `within`.
     #[must_use]
     pub fn slope_within(&self, radius: f64, within: [f64; 2]) -> f64 {
-        match self.place(radius) {
-            Place::On(piece) => piece.curve.slope_at_radius(radius - piece.shift.0, piece.narrowed(within)),
-            Place::Between(straight) => straight.slope,
+        match self.part_at(radius) {
+            Part::On(piece) => piece.curve.slope_at_radius(radius - piece.shift.0, piece.narrowed(within)),
+            Part::Between(straight) => straight.slope,
         }
     }
 
@@ -114,13 +114,13 @@ impl Profile {
     /// As [`height_at_radius`](Self::height_at_radius), when the slope is known to be one of `within`.
     #[must_use]
     pub fn height_within(&self, radius: f64, within: [f64; 2]) -> f64 {
-        match self.place(radius) {
-            Place::On(piece) => {
+        match self.part_at(radius) {
+            Part::On(piece) => {
                 let within = piece.narrowed(within);
                 let height = piece.shift.1 + piece.curve.height_at_radius(radius - piece.shift.0, within);
                 height.max(piece.start.1).min(piece.end.1)
             }
-            Place::Between(straight) => straight.height_at(radius),
+            Part::Between(straight) => straight.height_at(radius),
         }
     }
 
@@ -197,7 +197,7 @@ impl Profile {
             grown.kink(piece.from);
             if piece.start != end {
                 grown.straight(length(end, piece.start));
-                // each piece at its own place: of many, the rounding would add up
+                // each piece at its own position: of many, the rounding would add up
                 grown.arrive(offset(piece.start, piece.from));
             }
             grown.curve(piece.curve.grown(ball, piece.from), piece.from, piece.to);
@@ -211,13 +211,13 @@ impl Profile {
         grown.finish()
     }
 
-    fn place(&self, radius: f64) -> Place<'_> {
+    fn part_at(&self, radius: f64) -> Part<'_> {
         let index = self.pieces.partition_point(|p| p.end.0 < radius);
         let before = || if index == 0 { (0.0, 0.0) } else { self.pieces[index - 1].end };
         match self.pieces.get(index) {
-            Some(piece) if radius >= piece.start.0 => Place::On(piece),
-            Some(piece) => Place::Between(Straight { slope: piece.from, inner: before(), outer: piece.start }),
-            None => Place::Between(Straight { slope: self.max_slope(), inner: self.base, outer: self.base }),
+            Some(piece) if radius >= piece.start.0 => Part::On(piece),
+            Some(piece) => Part::Between(Straight { slope: piece.from, inner: before(), outer: piece.start }),
+            None => Part::Between(Straight { slope: self.max_slope(), inner: self.base, outer: self.base }),
         }
     }
 }

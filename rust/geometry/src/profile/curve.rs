@@ -28,7 +28,7 @@ pub enum Curve {
 }
 
 impl Curve {
-    /// The curve offset outwards by a ball, told from the slope at which it begins.
+    /// The curve offset outwards by a ball, relative to its point at the slope at which it begins.
     #[must_use]
     pub fn grown(&self, ball: f64, from: f64) -> Self {
         match self {

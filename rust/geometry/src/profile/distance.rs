@@ -10,7 +10,7 @@ impl Profile {
     /// Distance of (r, z) from the curve between tip and base, mm, if it is at most `within`; else a distance from one
     /// of its points, which is the less exact the farther away it is.
     ///
-    /// Along a profile r + z rises: the search begins where the point's own is met and goes both ways while the curve
+    /// Along a profile r + z rises: the search begins where the point's own is met and goes in both directions while the curve
     /// stays near.
     #[must_use]
     pub(super) fn distance(&self, point: (f64, f64), within: f64) -> f64 {
@@ -62,7 +62,7 @@ impl Piece {
         let (sin, cos) = libm::sincos(slope);
         let (r, z) = (point.0 - on.0, point.1 - on.1);
         let (along, away) = (r * cos + z * sin, r * sin - z * cos);
-        // on a nearly straight piece the last bit of the slope is a long way: along the tangent, which is the curve
+        // on a nearly straight piece the last bit of the slope is a long distance: along the tangent, which is the curve
         let known_to = 2.0 * NEAREST * (self.to - self.from) + BITS * f64::EPSILON;
         let foot = (slope > self.from || along >= 0.0) && (slope < self.to || along <= 0.0);
         let foot = foot && along.abs() <= known_to * self.curve.curvature_radius_at(slope);

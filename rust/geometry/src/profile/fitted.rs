@@ -169,12 +169,12 @@ impl Fitted {
 
     /// Interval and u at a slope strictly between the ends'.
     fn locate(&self, slope: f64) -> (&Interval, f64) {
-        let place = (slope - self.from) * self.bins_per_slope;
-        let index = (place as usize).min(BINS - 1);
+        let scaled = (slope - self.from) * self.bins_per_slope;
+        let index = (scaled as usize).min(BINS - 1);
         let bin = &self.bins[index];
         let (interval, start) = match bin.start {
             Some(c) => {
-                let x = place - index as f64;
+                let x = scaled - index as f64;
                 let start = c[0] + x * (c[1] + x * (c[2] + x * c[3]));
                 (&self.intervals[bin.interval], start.clamp(-1.0, 1.0))
             }

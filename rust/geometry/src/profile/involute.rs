@@ -2,7 +2,7 @@
 
 use super::Meridian;
 
-/// Radius of curvature `radius + rate * (slope - start)`, told from the curve's start.
+/// Radius of curvature `radius + rate * (slope - start)`, counted from the curve's start.
 ///
 /// Of the curves with a continuous radius of curvature it is the plainest: r and z by slope are the integrals of
 /// that line times cos and sin.
@@ -61,7 +61,7 @@ impl Meridian for Involute {
     fn height_at_radius(&self, radius: f64, within: [f64; 2]) -> f64 {
         let slope = self.slope_at_radius(radius, within);
         let (r, z) = self.point_at(slope);
-        // on a nearly straight piece the last bit of the slope is a long way: along the tangent, which is the curve
+        // on a nearly straight piece the last bit of the slope is a long distance: along the tangent, which is the curve
         let rest = (radius - r) * libm::tan(slope);
         if rest.is_finite() {
             z + rest

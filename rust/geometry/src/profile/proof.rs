@@ -7,11 +7,11 @@ use crate::GeometryError;
 const JOINED: f64 = 1e-12;
 
 impl Profile {
-    /// Checks that slopes never fall, that pieces begin where the one before ends and end where they say, that straight
-    /// parts lead at their slope, and that every curve bends upwards.
+    /// Checks that slopes never fall, that pieces begin where the one before ends and end where stated, that straight
+    /// parts run at their slope, and that every curve bends upwards.
     ///
     /// # Errors
-    /// The first place where one of them does not hold.
+    /// The first point at which one of them does not hold.
     pub(super) fn proved(self) -> Result<Self, GeometryError> {
         match self.flaw() {
             None => Ok(self),
@@ -64,7 +64,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_hold_is_told() {
+    fn what_does_not_hold_is_reported() {
         let flaw = |build: &dyn Fn(&mut Builder)| {
             let mut builder = Builder::default();
             build(&mut builder);

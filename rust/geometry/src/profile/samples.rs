@@ -61,7 +61,7 @@ mod tests {
             let radius = share * profile.base().0;
             let slope = profile.slope_at_radius(radius);
             let (inner, outer) = (profile.inner_point_at(slope), profile.point_at(slope));
-            // on a nearly straight piece the last bits of the slope are a long way
+            // on a nearly straight piece the last bits of the slope are a long distance
             let size = 1e-12 * (profile.base().0 + profile.base().1);
             let size = size + BITS * f64::EPSILON * profile.curvature_radius_at(slope);
             prop_assert!(inner.0 <= radius + size && radius <= outer.0 + size, "{inner:?} {radius} {outer:?}");

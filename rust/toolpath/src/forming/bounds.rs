@@ -20,10 +20,10 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// Bounds that say of each of the `heights` whether it may hide.
+    /// Bounds that decide of each of the `heights` whether it may hide.
     ///
     /// # Errors
-    /// `Cancelled` when `watch` says so.
+    /// `Cancelled` when `watch` is cancelled.
     pub fn of(grid: &Grid, surface: &Surface<'_>, heights: &[f64], watch: &Watch) -> Result<Self, Cancelled> {
         let levels = Levels::of(grid, heights);
         let lattice = grid.lattice();

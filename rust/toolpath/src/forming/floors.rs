@@ -19,7 +19,7 @@ pub struct Floors {
 }
 
 impl Floors {
-    /// Of all horizontal triangles that look up, selected or not.
+    /// Of all horizontal triangles that face up, selected or not.
     #[must_use]
     pub fn of(envelope: &Envelope<'_>) -> Self {
         let (mesh, margin) = (envelope.mesh(), envelope.margin());

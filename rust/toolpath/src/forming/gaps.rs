@@ -67,8 +67,8 @@ mod tests {
         Some(point(0.5 * (a.tip.x + b.tip.x), false))
     }
 
-    fn chain(places: &[(f64, bool)], closed: bool) -> Chain {
-        Chain { points: places.iter().map(|(x, selected)| point(*x, *selected)).collect(), closed }
+    fn chain(positions: &[(f64, bool)], closed: bool) -> Chain {
+        Chain { points: positions.iter().map(|(x, selected)| point(*x, *selected)).collect(), closed }
     }
 
     #[test]

@@ -20,7 +20,7 @@ impl Grid {
     /// Samples the envelope over the surface's domain, `cell` mm apart or a little less.
     ///
     /// # Errors
-    /// `Cancelled` when `watch` says so.
+    /// `Cancelled` when `watch` is cancelled.
     pub fn sample(surface: &Surface<'_>, cell: f64, watch: &Watch) -> Result<Option<Self>, Cancelled> {
         let Some((low, high)) = surface.domain() else { return Ok(None) };
         let (width, height) = (high[0] - low[0], high[1] - low[1]);
@@ -28,9 +28,9 @@ impl Grid {
         // one ring of nodes outside: there the tool touches nothing that was asked for
         let (columns, rows) = ((width / cell).ceil() as usize + 2, (height / cell).ceil() as usize + 2);
         let lattice = Lattice { origin: low.map(|low| low - ASIDE * cell), cell, columns, rows };
-        let places: Vec<[f64; 2]> = lattice.nodes().map(|node| lattice.point(node.map(|i| i as f64))).collect();
-        watch.begin("sampling", places.len());
-        let contacts = surface.envelope().contacts(&places, watch)?;
+        let positions: Vec<[f64; 2]> = lattice.nodes().map(|node| lattice.point(node.map(|i| i as f64))).collect();
+        watch.begin("sampling", positions.len());
+        let contacts = surface.envelope().contacts(&positions, watch)?;
         Ok(Some(Self { lattice, contacts }))
     }
 

@@ -14,21 +14,21 @@ use crate::{Pass, Surface};
 const LEAST: f64 = 0.02;
 /// Lowest tips over one floor differ by no more than this from one to the next, mm.
 const LEVEL: f64 = 1e-4;
-/// From a corner that the tool touches towards one that it does not: how often that way is halved.
+/// From a corner that the tool touches towards one that it does not: how often that distance is halved.
 const HALVINGS: usize = 12;
 
 /// A triangle with lowest and highest tip with which it is touched, mm.
 type Touched = (usize, (f64, f64));
 
 /// Bands of heights, lowest and highest tip in mm, that hold none of `heights`, the levels: those in which the tool touches a
-/// place of a selected upright wall, and those in which it touches a connected region of selected slopes that no pass touches;
+/// point of a selected upright wall, and those in which it touches a connected region of selected slopes that no pass touches;
 /// and where a selected upright wall ends on what is in front of it, what it is touched over there ([`feet`]).
 ///
-/// Walls are looked at in places `spacing` mm apart, slopes at the corners of their facets and along their sides as far
+/// Walls are looked at at positions `spacing` mm apart, slopes at the corners of their facets and along their sides as far
 /// as they are touched. Slopes beside some that a pass touches have their levels, a step apart.
 ///
 /// # Errors
-/// `Cancelled` when `watch` says so.
+/// `Cancelled` when `watch` is cancelled.
 pub fn left_out(
     surface: &Surface<'_>,
     (heights, passes): (&[f64], &[Pass]),
@@ -64,8 +64,9 @@ pub fn left_out(
     Ok(of_walls.into_iter().chain(of_slopes.filter(is_left)).chain(feet).collect())
 }
 
-/// Where upright walls end on a floor, or on whatever is in front of them at one height, over more than `length` mm: the lowest tip with which they are touched there, and
-/// what needs no level over it. The last level over it would leave a strip of the wall up to a step high.
+/// Where upright walls end on a floor, or on whatever is in front of them at one height, over more than `length` mm: the
+/// lowest tip with which they are touched there, and what needs no level over it. The last level over it would leave a
+/// strip of the wall up to a step high.
 fn feet(walls: &[walls::Touched], length: f64) -> Vec<(f64, f64)> {
     let mut ends: Vec<(f64, f64)> =
         walls.iter().filter(|wall| wall.is_stopped).map(|wall| (wall.tips.0, wall.length)).collect();

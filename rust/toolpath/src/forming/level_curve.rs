@@ -11,11 +11,11 @@ use crate::{PathPoint, Surface};
 const OVER: f64 = 1e-9;
 /// A point of the level is free this far beyond it, mm,
 const BEYOND: f64 = 1e-9;
-/// or, far from the origin, so many times what rounding makes of a place.
+/// or, far from the origin, so many times what rounding makes of a position.
 const ROUNDINGS: f64 = 2.0;
-/// Of the length of a chord: within this beside its middle the triangles touched at its ends are believed.
+/// Of the length of a chord: within this beside its middle the triangles touched at its ends are taken to be touched.
 const BEND: f64 = 0.25;
-/// Triangles met on the way to a point at most; two or three are usual.
+/// Triangles met on the travel to a point at most; two or three are usual.
 const STEPS: usize = 60;
 
 /// Whether a tip's height is over a level.
@@ -28,8 +28,8 @@ pub fn least_over(level: f64) -> f64 {
     level + 2.0 * OVER
 }
 
-/// A place in plan.
-pub type Place = [f64; 2];
+/// A position in plan.
+pub type PlanPosition = [f64; 2];
 type Plan = nalgebra::Vector2<f64>;
 
 /// The level set of one height, asked along straight lines in plan.
@@ -52,12 +52,12 @@ impl<'a> LevelCurve<'a> {
         self.z
     }
 
-    /// Whether the tip must stay above the level at a place.
-    pub fn is_above(&mut self, [x, y]: Place) -> bool {
+    /// Whether the tip must stay above the level at a position.
+    pub fn is_above(&mut self, [x, y]: PlanPosition) -> bool {
         self.surface.envelope().is_over(x, y, self.z + OVER, &mut self.hint)
     }
 
-    fn contact(&mut self, [x, y]: Place) -> Option<Contact> {
+    fn contact(&mut self, [x, y]: PlanPosition) -> Option<Contact> {
         self.surface.envelope().contact_near(x, y, &mut self.hint)
     }
 
@@ -66,18 +66,18 @@ impl<'a> LevelCurve<'a> {
     }
 
     /// Whether the tip must stay above the level everywhere in a box of the plan, or need not anywhere.
-    pub fn verdict(&self, corners: &[Place; 2]) -> Verdict {
+    pub fn verdict(&self, corners: &[PlanPosition; 2]) -> Verdict {
         self.surface.envelope().verdict(corners, self.z + OVER)
     }
 
     /// The point of the level between `above`, where the tip must stay higher, and `free`, where it need not.
     ///
-    /// `guess` is where to look first, as a share of the way. What is touched there lets the tool go at a place that is
+    /// `guess` is where to look first, as a share of the distance. What is touched there lets the tool go at a position that is
     /// known exactly; if nothing else keeps it off beyond, that is the point. Otherwise the next triangle is asked.
-    pub fn crossing(&mut self, above: Place, free: Place, guess: f64) -> Option<PathPoint> {
-        let way = Plan::new(free[0] - above[0], free[1] - above[1]);
-        let length = way.norm();
-        let line = Line { from: above, along: (way / length).into() };
+    pub fn crossing(&mut self, above: PlanPosition, free: PlanPosition, guess: f64) -> Option<PathPoint> {
+        let span = Plan::new(free[0] - above[0], free[1] - above[1]);
+        let length = span.norm();
+        let line = Line { from: above, along: (span / length).into() };
         // what was touched last is most often touched here as well
         if let Some(point) = self.hint.and_then(|last| self.freed_by(&[last], &line, 0.0..=length)) {
             return Some(point);
@@ -97,12 +97,12 @@ impl<'a> LevelCurve<'a> {
             } else {
                 high = at;
             }
-            let within = release.filter(|(way, _)| (low..=high).contains(way));
+            let within = release.filter(|(travel, _)| (low..=high).contains(travel));
             match within {
-                Some((way, contact)) if !self.is_above(line.at(way + self.beyond)) => {
-                    return self.point(&line, way, &contact)
+                Some((travel, contact)) if !self.is_above(line.at(travel + self.beyond)) => {
+                    return self.point(&line, travel, &contact)
                 }
-                Some((way, _)) => low = way + self.beyond,
+                Some((travel, _)) => low = travel + self.beyond,
                 None => {}
             }
             if high - low <= self.beyond {
@@ -117,14 +117,14 @@ impl<'a> LevelCurve<'a> {
     }
 
     /// The point of the level where the last of some triangles lets the tool go, if nothing else keeps it off there and the
-    /// way lies within the limits.
+    /// travel lies within the limits.
     fn freed_by(&mut self, triangles: &[u32], line: &Line, limits: RangeInclusive<f64>) -> Option<PathPoint> {
         let envelope = self.surface.envelope();
-        let ways = triangles.iter().filter_map(|triangle| envelope.release(*triangle, line, self.z + OVER));
-        let (way, contact) = ways.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        let is_last = limits.contains(&way) && !self.is_above(line.at(way + self.beyond));
+        let travels = triangles.iter().filter_map(|triangle| envelope.release(*triangle, line, self.z + OVER));
+        let (travel, contact) = travels.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let is_last = limits.contains(&travel) && !self.is_above(line.at(travel + self.beyond));
         if is_last {
-            self.point(line, way, &contact)
+            self.point(line, travel, &contact)
         } else {
             None
         }
@@ -135,8 +135,8 @@ impl<'a> LevelCurve<'a> {
         self.surface.envelope().release(contact.triangle, line, self.z + OVER)
     }
 
-    fn point(&self, line: &Line, way: f64, contact: &Contact) -> Option<PathPoint> {
-        let [x, y] = line.at(way);
+    fn point(&self, line: &Line, travel: f64, contact: &Contact) -> Option<PathPoint> {
+        let [x, y] = line.at(travel);
         let point = self.surface.path_point(x, y, contact);
         Some(PathPoint { tip: Vector::new(x, y, self.z), ..point })
     }
@@ -151,8 +151,8 @@ impl<'a> LevelCurve<'a> {
         // most often what is touched at an end is touched between, and the level bends little
         let near = BEND * length;
         if let Some(point) = self.freed_by(&[a.triangle, b.triangle], &line, -near..=near) {
-            let way = (point.tip.xy() - middle).dot(&across);
-            if way.abs() <= self.beyond || self.is_above(middle.into()) == (way > 0.0) {
+            let aside = (point.tip.xy() - middle).dot(&across);
+            if aside.abs() <= self.beyond || self.is_above(middle.into()) == (aside > 0.0) {
                 return Some(point);
             }
         }
@@ -162,18 +162,18 @@ impl<'a> LevelCurve<'a> {
             let is_above = contact.is_some_and(|contact| self.keeps_off(&contact));
             let release = contact.and_then(|contact| self.release(&contact, &line));
             let limits = if is_above { at - self.beyond..=length } else { -length..=at + self.beyond };
-            match release.filter(|(way, _)| limits.contains(way)) {
-                Some((way, contact)) if !self.is_above(line.at(way + self.beyond)) => {
-                    return self.point(&line, way, &contact)
+            match release.filter(|(travel, _)| limits.contains(travel)) {
+                Some((travel, contact)) if !self.is_above(line.at(travel + self.beyond)) => {
+                    return self.point(&line, travel, &contact)
                 }
-                Some((way, _)) if way + self.beyond > at => at = way + self.beyond,
+                Some((travel, _)) if travel + self.beyond > at => at = travel + self.beyond,
                 _ if is_above => return None,
                 _ => break,
             }
         }
         // free, and what is touched below does not rise to the level nearby: what does is searched for
         let back = Line { from: line.at(at), ..line.reversed() };
-        let (way, contact) = self.surface.envelope().push(&back, self.z + OVER, at + length)?;
-        self.point(&back, way.max(0.0), &contact)
+        let (travel, contact) = self.surface.envelope().push(&back, self.z + OVER, at + length)?;
+        self.point(&back, travel.max(0.0), &contact)
     }
 }

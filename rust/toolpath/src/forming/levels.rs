@@ -5,12 +5,12 @@ use crate::PlanError;
 
 /// Levels at most.
 const LIMIT: usize = 100_000;
-/// Share of a step that is none of its own; the judge takes levels this near for one pass.
+/// Share of a step that is none of its own; the verifier takes levels this near for one pass.
 const SHORT: f64 = 0.25;
 /// Where the last level has no pass, how far over it the next attempt is, in steps.
 const OVER_LAST: f64 = 0.2;
 const _: () = assert!(OVER_LAST < SHORT);
-/// Most that the lowest level over a tip lies above it, in units of the machine's last place.
+/// Most that the lowest level over a tip lies above it, in units of the machine's last decimal.
 const MOST_ABOVE: f64 = 1.26;
 
 /// Where levels begin and end, mm: the first one is a step below the top.
@@ -18,13 +18,13 @@ const MOST_ABOVE: f64 = 1.26;
 pub struct LevelRange {
     /// Height from which the steps count.
     pub top: f64,
-    /// Lowest height wanted.
+    /// Lowest height asked for.
     pub bottom: f64,
     /// Lowest height at which the tool still touches what was selected.
     pub reachable: f64,
     /// Distance between levels.
     pub step: f64,
-    /// One unit of the machine's last place: levels are multiples of it, so that they are posted unrounded.
+    /// One unit of the machine's last decimal: levels are multiples of it, so that they are posted unrounded.
     pub resolution: f64,
 }
 
@@ -43,7 +43,7 @@ impl LevelRange {
 
 /// Heights from the top down, each a step below the one before it, the last at the bottom.
 ///
-/// The last level stands at `bottom`, or where the tool cannot go as low, just above the lowest place that it
+/// The last level stands at `bottom`, or where the tool cannot go as low, just above the lowest position that it
 /// reaches. A last step of less than a quarter of the others is joined to the one before it. Where a level meets one of
 /// the `floors`, it stands just above that.
 ///
@@ -98,7 +98,7 @@ pub fn with_levels_at(heights: &[f64], bands: &[(f64, f64)], range: &LevelRange,
     (all.len() > heights.len()).then_some(all)
 }
 
-/// Puts the last level, where it had no pass, so little higher that the judge asks for none below.
+/// Puts the last level, where it had no pass, so little higher that the verifier expects none below.
 pub fn raise_last(heights: &mut [f64], range: &LevelRange, floors: &Floors) {
     let Some((last, others)) = heights.split_last_mut() else { return };
     let raised = range.stood(range.above(*last + OVER_LAST * range.step), floors);

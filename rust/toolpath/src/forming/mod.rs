@@ -1,4 +1,4 @@
-//! Strategies that ride on the envelope: Z-levels and zig-zag.
+//! Strategies that follow the envelope: Z-levels and zig-zag.
 
 mod bounds;
 mod contour;

@@ -9,7 +9,7 @@ pub(super) struct Pattern {
 }
 
 impl Pattern {
-    /// A place in plan, along and across the rows.
+    /// A position in plan, along and across the rows.
     pub fn along_across(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.along, self.across].map(|axis| x * axis[0] + y * axis[1])
     }
@@ -18,13 +18,13 @@ impl Pattern {
 /// A line of the pattern.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Row {
-    /// Its place across, mm.
-    pub place: f64,
+    /// Its position across, mm.
+    pub across: f64,
     /// From and to along it, mm.
     pub range: [f64; 2],
 }
 
-/// From where to where along it a triangle (along, across) is cut at a place across.
+/// From where to where along it a triangle (along, across) is cut at a position across.
 pub(super) fn share(corners: &[[f64; 2]; 3], across: f64) -> Option<[f64; 2]> {
     let mut cuts = (0..3).filter_map(|i| {
         let ([a, from], [b, to]) = (corners[i], corners[(i + 1) % 3]);

@@ -3,18 +3,18 @@
 use std::collections::HashMap;
 
 use super::grid::Grid;
-use super::level_curve::{self, LevelCurve, Place};
+use super::level_curve::{self, LevelCurve, PlanPosition};
 use super::square::{is_coarse, Edge, Square, PARTS};
 use crate::{lattice::Node, offset::Verdict};
 
 /// A cell in which something may hide is looked into down to squares of this size.
 pub const LOOKED_AT: usize = PARTS / 16;
 
-/// An edge that the level crosses, on the way along an outline.
+/// An edge that the level crosses, in order along an outline.
 #[derive(Clone, Copy, Debug)]
 pub struct Crossing {
     pub edge: Edge,
-    /// Whether the way leads to above the level.
+    /// Whether the outline leads to above the level there.
     pub rises: bool,
 }
 
@@ -50,7 +50,7 @@ impl<'a> Sides<'a> {
     pub fn find(&mut self, node: Node, curve: &mut LevelCurve<'_>) -> bool {
         let is_new = self.known(node).is_none();
         if is_new {
-            let is_above = curve.is_above(self.place(node));
+            let is_above = curve.is_above(self.position(node));
             self.fine.insert(node, is_above);
         }
         is_new
@@ -68,12 +68,12 @@ impl<'a> Sides<'a> {
         let (mut open, mut decided, mut asked) = (vec![*cell], Vec::new(), HashMap::new());
         while let Some(square) = open.pop() {
             let [low, _, high, _] = square.corners();
-            match curve.verdict(&[self.place(low), self.place(high)]) {
+            match curve.verdict(&[self.position(low), self.position(high)]) {
                 Verdict::Open if square.size > LOOKED_AT => open.extend(square.quarters()),
                 Verdict::Open => {
                     for node in square.corners() {
                         let above = self.known(node).or_else(|| asked.get(&node).copied());
-                        let above = above.unwrap_or_else(|| curve.is_above(self.place(node)));
+                        let above = above.unwrap_or_else(|| curve.is_above(self.position(node)));
                         asked.insert(node, above);
                     }
                 }
@@ -117,7 +117,7 @@ impl<'a> Sides<'a> {
         pairs.filter_map(crossing).collect()
     }
 
-    /// The known nodes on the way from one to another, without the last.
+    /// The known nodes from one to another, without the last.
     fn walk(&self, from: Node, to: Node, found: &mut Vec<Node>) {
         let middle = [0, 1].map(|i| usize::midpoint(from[i], to[i]));
         let is_divisible = from[0].abs_diff(to[0]) + from[1].abs_diff(to[1]) > 1;
@@ -130,12 +130,12 @@ impl<'a> Sides<'a> {
     }
 
     /// The ends of an edge in plan, the one above the level first.
-    pub fn ends(&self, edge: Edge) -> [Place; 2] {
+    pub fn ends(&self, edge: Edge) -> [PlanPosition; 2] {
         let (above, free) = if self.is_above(edge.from) { (edge.from, edge.to) } else { (edge.to, edge.from) };
-        [self.place(above), self.place(free)]
+        [self.position(above), self.position(free)]
     }
 
-    /// Where the level most likely is on an edge, as a share of the way down: on the straight line between the tips.
+    /// Where the level most likely is on an edge, as a share of the distance down: on the straight line between the tips.
     pub fn guess(&self, edge: Edge) -> f64 {
         let tip = |node: Node| if is_coarse(node) { self.grid.tip(node.map(|i| i / PARTS)) } else { None };
         match (tip(edge.from), tip(edge.to)) {
@@ -147,7 +147,7 @@ impl<'a> Sides<'a> {
     }
 
     /// A node in plan.
-    pub fn place(&self, node: Node) -> Place {
+    pub fn position(&self, node: Node) -> PlanPosition {
         self.grid.lattice().point(node.map(|i| i as f64 / PARTS as f64))
     }
 }

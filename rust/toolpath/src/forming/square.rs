@@ -5,7 +5,7 @@ use crate::lattice::Node;
 /// Parts into which a side of a cell is divided at most.
 pub const PARTS: usize = 1024;
 
-/// A cell of the grid or a part of one. Its nodes, and the smallest squares, are told in fine numbers: [`PARTS`] times
+/// A cell of the grid or a part of one. Its nodes, and the smallest squares, are given in fine numbers: [`PARTS`] times
 /// those of the grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Square {

@@ -1,12 +1,12 @@
 //! The course of a level through the cells of a grid.
 //!
 //! Marching squares, directed: every segment has the higher ground on its right; loops run counterclockwise inside a
-//! cup and clockwise round a hill. A segment is believed when exact points lie close along it, in its own square; else the
+//! cup and clockwise round a hill. A segment is accepted when exact points lie close along it, in its own square; else the
 //! square is quartered, down to a thousandth of a cell, and its neighbours follow; what is smaller than that is passed
-//! over. So narrow notches, two ways through a cell and what hides between the nodes are found without a finer grid.
+//! over. So narrow notches, two branches through a cell and what hides between the nodes are found without a finer grid.
 //!
-//! Marching squares (W. E. Lorensen, H. E. Cline, "Marching cubes", Computer Graphics 21, 1987, in the plane) with exact crossings.
-//! See docs/concepts/waterlines.md.
+//! Marching squares (W. E. Lorensen, H. E. Cline, "Marching cubes", Computer Graphics 21, 1987, in the plane) with exact
+//! crossings. See docs/concepts/waterlines.md.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -45,7 +45,7 @@ pub struct Trace<'a, 'c> {
 }
 
 impl<'a, 'c> Trace<'a, 'c> {
-    /// Chords between the points of segments stray by at most a share of `deviation` (mm), see [`fitting::densified`].
+    /// Chords between the points of segments deviate by at most a share of `deviation` (mm), see [`fitting::densified`].
     pub fn new(grid: &'a Grid, bounds: &'a Bounds, curve: &'c mut LevelCurve<'a>, deviation: f64) -> Self {
         Self {
             grid,
@@ -63,7 +63,7 @@ impl<'a, 'c> Trace<'a, 'c> {
     /// All segments, in the order of their squares.
     ///
     /// # Errors
-    /// `Cancelled` when `watch` says so.
+    /// `Cancelled` when `watch` is cancelled.
     pub fn segments(mut self, watch: &Watch) -> Result<Vec<Segment>, Cancelled> {
         let (lattice, bounds, z) = (self.grid.lattice(), self.bounds, self.curve.z());
         for (number, cell) in lattice.cells().iter().enumerate() {
@@ -103,8 +103,8 @@ impl<'a, 'c> Trace<'a, 'c> {
         if crossings.is_empty() {
             return;
         }
-        let place = self.sides.place(square.middle());
-        let is_middle_above = crossings.len() > 2 && square.size > 1 && self.curve.is_above(place);
+        let position = self.sides.position(square.middle());
+        let is_middle_above = crossings.len() > 2 && square.size > 1 && self.curve.is_above(position);
         let segments: Option<Vec<Segment>> =
             pairs(&crossings, is_middle_above).map(|(from, to)| self.segment(&square, from, to)).collect();
         match segments {
@@ -124,7 +124,7 @@ impl<'a, 'c> Trace<'a, 'c> {
         };
         let chord = [a, b];
         let points = if a.selected || b.selected {
-            let [low, _, high, _] = square.corners().map(|node| self.sides.place(node));
+            let [low, _, high, _] = square.corners().map(|node| self.sides.position(node));
             let slack = OUTSIDE * (high[0] - low[0]);
             let is_inside = |m: &PathPoint| (0..2).all(|i| m.tip[i] >= low[i] - slack && m.tip[i] <= high[i] + slack);
             let mut between = |a: &PathPoint, b: &PathPoint| self.curve.between(a, b).filter(is_inside);
@@ -145,7 +145,7 @@ impl<'a, 'c> Trace<'a, 'c> {
         })
     }
 
-    /// Puts quarters in the place of a square; what lies beside it is to be passed again where it learns of new nodes.
+    /// Replaces a square by its quarters; what lies beside it is to be passed again where it learns of new nodes.
     fn divide(&mut self, square: Square) {
         self.divided.insert(square);
         self.sides.find(square.middle(), self.curve);

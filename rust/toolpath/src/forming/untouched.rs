@@ -46,19 +46,19 @@ impl<'a> Untouched<'a> {
         !self.touched.contains(&self.regions[triangle])
     }
 
-    /// For each triangle with a place of the tip in plan, mm: how high the tip is there, if the tool touches the triangle's
+    /// For each triangle with a position of the tip in plan, mm: how high the tip is there, if the tool touches the triangle's
     /// region.
     ///
     /// # Errors
-    /// `Cancelled` when `watch` says so.
+    /// `Cancelled` when `watch` is cancelled.
     pub fn tips(&self, asked: &[(usize, [f64; 2])], watch: &Watch) -> Result<Vec<Option<f64>>, Cancelled> {
-        let places: Vec<[f64; 2]> = asked.iter().map(|(_, place)| *place).collect();
-        let contacts = self.surface.envelope().contacts(&places, watch)?;
-        let tips = asked.iter().zip(contacts).map(|((triangle, place), contact)| {
+        let positions: Vec<[f64; 2]> = asked.iter().map(|(_, position)| *position).collect();
+        let contacts = self.surface.envelope().contacts(&positions, watch)?;
+        let tips = asked.iter().zip(contacts).map(|((triangle, position), contact)| {
             let contact = contact?;
             let touched = self.surface.envelope().touched(&contact);
             let is_own = touched.iter().any(|t| self.region(*t as usize) == self.region(*triangle));
-            (is_own && self.surface.path_point(place[0], place[1], &contact).selected).then_some(contact.tip)
+            (is_own && self.surface.path_point(position[0], position[1], &contact).selected).then_some(contact.tip)
         });
         Ok(tips.collect())
     }
@@ -93,7 +93,7 @@ fn regions(surface: &Surface<'_>) -> Vec<u32> {
     regions
 }
 
-/// A place in plan.
+/// A position in plan.
 pub(super) fn in_plan(tip: Vector) -> [f64; 2] {
     [tip.x, tip.y]
 }

@@ -1,23 +1,23 @@
-//! Between which heights the tool touches upright walls: over the plan they are seen at their top only.
+//! Between which heights the tool touches upright walls: in plan only their top shows.
 
 use styluscam_geometry::Vector;
 use styluscam_motion::{Cancelled, Watch};
 
 use crate::Surface;
 
-/// Places looked at along one triangle at most.
+/// Positions looked at along one triangle at most.
 const PLACES: usize = 64;
 /// The tool stands this far off the wall, mm: where it touched the wall itself, it would meet the wall's top.
 const OFF: f64 = 1e-6;
-/// Or, far from the origin, so many times what rounding makes of a place.
+/// Or, far from the origin, so many times what rounding makes of a position.
 const ROUNDINGS: f64 = 4.0;
 /// What other triangles of the same wall may lie before or behind the one asked, mm.
 const UNEVEN: f64 = 0.01;
 
 /// Where the tool stands beside a wall.
 struct Stand {
-    /// Its place in plan where it touches the wall.
-    place: Vector,
+    /// Its position in plan where it touches the wall.
+    position: Vector,
     /// Out of the wall, level.
     outward: Vector,
     /// It is asked so far off the wall, mm.
@@ -25,28 +25,28 @@ struct Stand {
 }
 
 impl Stand {
-    /// The place so far off the wall, mm.
+    /// The position so far off the wall, mm.
     fn at(&self, off: f64) -> [f64; 2] {
-        let place = self.place + self.outward * off;
-        [place.x, place.y]
+        let position = self.position + self.outward * off;
+        [position.x, position.y]
     }
 }
 
-/// A place of a wall where the tool may stand beside it.
+/// A point of a wall beside which the tool may stand.
 struct Beside {
     stand: Stand,
     /// Lowest and highest tip with which its side touches the wall there, mm.
     tips: [f64; 2],
-    /// Length of the wall in plan that the place stands for, mm.
+    /// Length of the wall in plan that the point stands for, mm.
     length: f64,
 }
 
-/// A place of a wall that the tool touches.
+/// A point of a wall that the tool touches.
 pub(super) struct Touched {
     stand: Stand,
     /// Lowest and highest tip with which a triangle of the wall is touched there, mm.
     pub tips: (f64, f64),
-    /// Length of the wall in plan that the place stands for, mm.
+    /// Length of the wall in plan that the point stands for, mm.
     pub length: f64,
     /// Whether what lies before the wall keeps the tool from going lower, and not the triangle's lower end.
     pub is_stopped: bool,
@@ -73,7 +73,7 @@ impl Touched {
 /// Lowest and highest tip with which the tool touches selected upright walls, mm; none where it touches none.
 ///
 /// # Errors
-/// `Cancelled` when `watch` says so.
+/// `Cancelled` when `watch` is cancelled.
 pub(super) fn range(surface: &Surface<'_>, spacing: f64, watch: &Watch) -> Result<Option<(f64, f64)>, Cancelled> {
     let mesh = surface.envelope().mesh();
     let walls: Vec<usize> = surface.triangles().filter(|triangle| mesh.is_upright(*triangle)).collect();
@@ -83,18 +83,18 @@ pub(super) fn range(surface: &Surface<'_>, spacing: f64, watch: &Watch) -> Resul
 
 /// Where the tool touches upright triangles.
 ///
-/// Beside each of them, places `spacing` mm apart are asked how low the tool comes there; `phase` names this work to
+/// Beside each of them, positions `spacing` mm apart are asked how low the tool comes there; `phase` names this work to
 /// the watch.
 ///
 /// # Errors
-/// `Cancelled` when `watch` says so.
+/// `Cancelled` when `watch` is cancelled.
 pub(super) fn touched(
     surface: &Surface<'_>,
     triangles: &[usize],
     spacing: f64,
     (phase, watch): (&'static str, &Watch),
 ) -> Result<Vec<Touched>, Cancelled> {
-    let beside: Vec<Beside> = triangles.iter().flat_map(|triangle| places(surface, *triangle, spacing)).collect();
+    let beside: Vec<Beside> = triangles.iter().flat_map(|triangle| positions(surface, *triangle, spacing)).collect();
     let asked: Vec<[f64; 2]> = beside.iter().map(|beside| beside.stand.at(beside.stand.off)).collect();
     watch.begin(phase, asked.len());
     let contacts = surface.envelope().contacts(&asked, watch)?;
@@ -108,8 +108,8 @@ pub(super) fn touched(
     Ok(touched.collect())
 }
 
-/// Places beside an upright triangle, at the middles of equal shares of its length in plan.
-fn places(surface: &Surface<'_>, triangle: usize, spacing: f64) -> Vec<Beside> {
+/// Positions beside an upright triangle, at the middles of equal shares of its length in plan.
+fn positions(surface: &Surface<'_>, triangle: usize, spacing: f64) -> Vec<Beside> {
     let (envelope, mesh) = (surface.envelope(), surface.envelope().mesh());
     let normal = mesh.normal(triangle);
     let outward = Vector::new(normal.x, normal.y, 0.0).normalize();
@@ -123,13 +123,13 @@ fn places(surface: &Surface<'_>, triangle: usize, spacing: f64) -> Vec<Beside> {
         let at = first + (last - first) * (i as f64 + 0.5) / count as f64;
         let [foot, top] = heights(&corners, at)?;
         let wall = mesh.corners(triangle)[0] + along * (at - corners[0][0]);
-        let stand = Stand { place: wall - touching, outward, off };
+        let stand = Stand { position: wall - touching, outward, off };
         Some(Beside { stand, tips: [foot - touching.z, top - touching.z], length: (last - first) / count as f64 })
     });
     beside.collect()
 }
 
-/// Lower and upper height of a triangle (along, height) at a place along it.
+/// Lower and upper height of a triangle (along, height) at a position along it.
 fn heights(corners: &[[f64; 2]; 3], at: f64) -> Option<[f64; 2]> {
     let crossings = (0..3).filter_map(|i| {
         let ([a, za], [b, zb]) = (corners[i], corners[(i + 1) % 3]);

@@ -6,7 +6,7 @@ use styluscam_motion::Watch;
 use super::{bounds::Bounds, contour, gaps, grid::Grid, level_curve::LevelCurve, trace::Trace};
 use crate::{fitting, Pass, PathPoint, PlanError, Surface};
 
-/// All passes at the given heights, in their order; chords stray by at most `deviation` mm along the normal.
+/// All passes at the given heights, in their order; chords deviate by at most `deviation` mm along the normal.
 ///
 /// Within a level the loops stand in the grid's order. The higher ground is on the right of each. The tool stays down over
 /// what is not selected where that is no wider than the grid's smallest feature.
@@ -35,7 +35,7 @@ pub fn z_levels(
     Ok(levels?.into_iter().flatten().collect())
 }
 
-/// Passes at all `wanted` heights, of which those at some heights are `known`: only the others are looked for.
+/// Passes at all `asked` heights, of which those at some heights are `known`: only the others are looked for.
 ///
 /// # Errors
 /// As [`z_levels`].
@@ -43,14 +43,14 @@ pub fn z_levels_beside(
     known: (&[f64], Vec<Pass>),
     surface: &Surface<'_>,
     grid: &Grid,
-    wanted: &[f64],
+    asked: &[f64],
     deviation: f64,
     watch: &Watch,
 ) -> Result<Vec<Pass>, PlanError> {
     let (heights, passes) = known;
-    let others: Vec<f64> = wanted.iter().copied().filter(|z| !heights.contains(z)).collect();
+    let others: Vec<f64> = asked.iter().copied().filter(|z| !heights.contains(z)).collect();
     let found = z_levels(surface, grid, &others, deviation, watch)?;
-    let at = |z: f64| wanted.iter().position(|height| height.to_bits() == z.to_bits());
+    let at = |z: f64| asked.iter().position(|height| height.to_bits() == z.to_bits());
     let known = passes.into_iter().map(|pass| (at(heights[pass.group]), pass));
     let found = found.into_iter().map(|pass| (at(others[pass.group]), pass));
     let mut all: Vec<Pass> =

@@ -8,7 +8,7 @@ use super::pattern::{share, spread, Pattern, Row};
 use super::{stances::stances, untouched::Untouched};
 use crate::{fitting, fitting::Course, Pass, PathPoint, PlanError, Surface};
 
-/// Distance between samples where a selected facet could be touched between two places at which none is, mm.
+/// Distance between samples where a selected facet could be touched between two positions at which none is, mm.
 const FINE: f64 = 0.1;
 /// How far beside the middle the pattern lies, as a share of the stepover: no part is drawn so that the tool runs along its
 /// walls there, where the margin decides between the floor and the wall's top.
@@ -25,13 +25,13 @@ pub struct Rows {
     pub stepover: f64,
     /// First spacing of samples along a row, mm; refined where the tolerance asks for it.
     pub spacing: f64,
-    /// What is narrower may be passed over unseen, mm.
+    /// What is narrower may be missed, mm.
     pub narrow: f64,
 }
 
 /// All rows over the selected faces, side by side, each in the direction of `angle`.
 ///
-/// Chords stray by at most `deviation` mm along the normal. Rows are interrupted where the contact leaves the
+/// Chords deviate by at most `deviation` mm along the normal. Rows are interrupted where the contact leaves the
 /// selected faces. A region that no row touches, for it lies between two of them, gets rows of its own, and so does a level floor
 /// where no row lies at its height.
 ///
@@ -44,7 +44,7 @@ pub fn zig_zag(surface: &Surface<'_>, rows: &Rows, deviation: f64, watch: &Watch
     let extra = extra_rows(&untouched, &planned, &lines.pattern, (rows.spacing, deviation), watch)?;
     if !extra.is_empty() {
         planned.extend(Lines { rows: extra, ..lines }.planned(surface, deviation, watch)?);
-        planned.sort_by(|a, b| a.0.place.total_cmp(&b.0.place));
+        planned.sort_by(|a, b| a.0.across.total_cmp(&b.0.across));
     }
     let numbered = planned
         .into_iter()
@@ -79,7 +79,7 @@ impl Course for SurfaceCourse<'_> {
     }
 }
 
-/// Parallel lines in plan: along + across = place.
+/// Parallel lines in plan.
 struct Lines {
     pattern: Pattern,
     rows: Vec<Row>,
@@ -96,10 +96,10 @@ impl Lines {
         let (along, across) = ([cos, sin], [-sin, cos]);
         let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];
         let range = |axis: [f64; 2]| {
-            let places = corners.map(|c| c[0] * axis[0] + c[1] * axis[1]);
+            let positions = corners.map(|c| c[0] * axis[0] + c[1] * axis[1]);
             [
-                places.iter().copied().fold(f64::INFINITY, f64::min),
-                places.iter().copied().fold(-f64::INFINITY, f64::max),
+                positions.iter().copied().fold(f64::INFINITY, f64::min),
+                positions.iter().copied().fold(-f64::INFINITY, f64::max),
             ]
         };
         let [left, right] = range(across);
@@ -109,7 +109,7 @@ impl Lines {
         }
         let aside = ASIDE * stepover;
         let range = range(along);
-        let lines = spread([left, right], count, stepover).map(|place| Row { place: place + aside, range });
+        let lines = spread([left, right], count, stepover).map(|across| Row { across: across + aside, range });
         let pattern = Pattern { along, across, stepover };
         Ok(Some(Self { rows: lines.collect(), pattern, spacing, narrow }))
     }
@@ -150,7 +150,7 @@ impl Lines {
         passes
     }
 
-    /// Exact points of a row, in runs, as the tool meets something or nothing: from the first place at which it does to
+    /// Exact points of a row, in runs, as the tool meets something or nothing: from the first position at which it does to
     /// the last.
     fn met(
         &self,
@@ -162,7 +162,7 @@ impl Lines {
     ) -> Vec<Vec<PathPoint>> {
         let Pattern { along, across, .. } = self.pattern;
         let mut at = |s: f64| {
-            let [x, y] = [0, 1].map(|axis| s * along[axis] + row.place * across[axis]);
+            let [x, y] = [0, 1].map(|axis| s * along[axis] + row.across * across[axis]);
             surface.at(x, y, hint)
         };
         let mut runs = Vec::new();
@@ -187,9 +187,9 @@ impl Lines {
         runs
     }
 
-    /// Places along a row and what the tool meets there: the farther apart, the longer nothing changes.
+    /// Positions along a row and what the tool meets there: the farther apart, the longer nothing changes.
     ///
-    /// `plain` says of two points whether all between them is selected and on a straight line with them.
+    /// `plain` decides of two points whether all between them is selected and on a straight line with them.
     fn sampled(
         &self,
         [first, last]: [f64; 2],
@@ -241,15 +241,15 @@ impl Lines {
                 [on(self.pattern.along), on(self.pattern.across)]
             });
             let [low, high] = [f64::min, f64::max].map(|of| plan.map(|p| p[1]).into_iter().reduce(of).unwrap_or(0.0));
-            let first = self.rows.partition_point(|row| row.place < low);
-            let rows = self.rows.iter().zip(&mut found).skip(first).take_while(|(row, _)| row.place <= high);
-            rows.for_each(|(row, found)| found.extend(share(&plan, row.place)));
+            let first = self.rows.partition_point(|row| row.across < low);
+            let rows = self.rows.iter().zip(&mut found).skip(first).take_while(|(row, _)| row.across <= high);
+            rows.for_each(|(row, found)| found.extend(share(&plan, row.across)));
         }
         found
     }
 }
 
-/// The last place at which the tool meets something, on the way from one where it does to one where it does not.
+/// The last position at which the tool meets something, between one where it does and one where it does not.
 fn outermost(touching: f64, free: f64, at: &mut impl FnMut(f64) -> Option<PathPoint>) -> Option<PathPoint> {
     let (mut touching, mut free) = (touching, free);
     let mut found = None;

@@ -8,20 +8,20 @@ use styluscam_motion::{Cancelled, Watch};
 
 use super::{slope_matched_offset, Envelope};
 
-/// A place that something keeps from the tool's slope-matched position.
+/// A point of the part of which something keeps the tool's slope-matched position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stopped {
     /// The triangle on which it lies.
     pub triangle: u32,
     /// The point.
     pub point: Vector,
-    /// Whether the part is more curved there than the tool; else it lies beside something in the way.
+    /// Whether the part is more curved there than the tool; else it lies beside an obstacle.
     pub is_smooth: bool,
     /// Area that it stands for, mm^2.
     pub area: f64,
 }
 
-/// A place that no free position of the tool touches.
+/// A point of the part that no free position of the tool touches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bridge {
     /// The point of the mesh.
@@ -33,18 +33,18 @@ pub struct Bridge {
     pub excess: f64,
 }
 
-/// The places of a face.
+/// What stays untouched of a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bridges {
     /// The face.
     pub face: u32,
-    /// Share of the area of the places in corners that no free position touches, 0 to 1.
+    /// Share of the area of the points in corners that no free position touches, 0 to 1.
     pub share_left: f64,
     /// The worst of them.
     pub worst: Option<Bridge>,
 }
 
-/// What stays at a point of a triangle at most, mm, found in another way; it may say any number that is no more than the last
+/// What stays at a point of a triangle at most, mm, found by another method; it may give any number that is no more than the last
 /// argument where that is enough to know.
 pub type Left<'a> = dyn Fn(u32, Vector, f64) -> f64 + Sync + 'a;
 
@@ -57,7 +57,7 @@ const ON_TOOL: f64 = 1e-5;
 /// Along a normal the tool is at most so many times as far as in any direction: a ball in a square corner leaves its radius
 /// along either wall, and 0.414 of it between them.
 const ALONG_WALL: f64 = 2.5;
-/// Share of the way to a triangle's middle by which places are moved inside.
+/// Share of the distance to a triangle's middle by which points are moved inside.
 const INSIDE: f64 = 0.02;
 /// Steps of a climb at most: across a face of 200 samples it is one or two dozen.
 const CLIMB: usize = 200;
@@ -67,11 +67,11 @@ const DIRECTIONS: u32 = 24;
 /// What a step of a climb gains at least, as a share.
 const GAIN: f64 = 1e-3;
 
-/// What of `places` stays more than `limit` mm away from every free position, by face; the worst one
+/// What of `points` stays more than `limit` mm away from every free position, by face; the worst one
 /// is followed uphill from triangle to triangle.
 ///
-/// A place is touched where the envelope is as low as the slope-matched offset. Elsewhere the nearest free
-/// position is looked for along the steepest line through the place, on both sides, and by `left`.
+/// A point is touched where the envelope is as low as the slope-matched offset. Elsewhere the nearest free
+/// position is looked for along the steepest line through the point, on both sides, and by `left`.
 ///
 /// # Errors
 /// `Cancelled`.
@@ -79,42 +79,43 @@ pub fn bridges(
     envelope: &Envelope<'_>,
     tool: &Tool,
     sheet: Option<&Sheet>,
-    places: &[Stopped],
+    points: &[Stopped],
     limit: f64,
     left: &Left<'_>,
     watch: &Watch,
 ) -> Result<Vec<Bridges>, Cancelled> {
-    watch.begin("bridging", places.len());
+    watch.begin("bridging", points.len());
     let probe = Probe { envelope, tool, sheet, limit, left };
-    let found: Result<Vec<Option<Bridge>>, Cancelled> = places
+    let found: Result<Vec<Option<Bridge>>, Cancelled> = points
         .par_iter()
         .with_min_len(16)
-        .map(|place| {
+        .map(|stopped| {
             watch.advance(1)?;
-            let [a, b, c] = envelope.mesh().corners(place.triangle as usize);
-            Ok(probe.at(place.triangle, inside(place.point, (a + b + c) / 3.0), limit))
+            let [a, b, c] = envelope.mesh().corners(stopped.triangle as usize);
+            Ok(probe.at(stopped.triangle, inside(stopped.point, (a + b + c) / 3.0), limit))
         })
         .collect();
     let mut by_face: BTreeMap<u32, Candidates> = BTreeMap::new();
-    for (place, bridge) in places.iter().zip(found?) {
-        let of_face = by_face.entry(envelope.mesh().faces()[place.triangle as usize]).or_default();
-        let area = if place.is_smooth { 0.0 } else { place.area };
+    for (stopped, bridge) in points.iter().zip(found?) {
+        let of_face = by_face.entry(envelope.mesh().faces()[stopped.triangle as usize]).or_default();
+        let area = if stopped.is_smooth { 0.0 } else { stopped.area };
         of_face.corners += area;
         if let Some(bridge) = bridge {
             of_face.left += area;
-            of_face.worst = of_face.worst.filter(|(_, worst)| worst.excess >= bridge.excess).or(Some((*place, bridge)));
+            of_face.worst =
+                of_face.worst.filter(|(_, worst)| worst.excess >= bridge.excess).or(Some((*stopped, bridge)));
         }
     }
     watch.advance(0)?;
     let bridges = by_face.into_iter().collect::<Vec<_>>().into_par_iter().map(|(face, found)| Bridges {
         face,
         share_left: found.share_left(),
-        worst: found.worst.map(|(place, bridge)| probe.climbed(&place, bridge)),
+        worst: found.worst.map(|(stopped, bridge)| probe.climbed(&stopped, bridge)),
     });
     Ok(bridges.collect())
 }
 
-/// What a face's places came to.
+/// What a face's points came to.
 #[derive(Default)]
 struct Candidates {
     /// Area in corners, and of it the left, mm^2.
@@ -150,8 +151,8 @@ impl Probe<'_> {
         for triangle in triangles {
             let [a, b, c] = self.envelope.mesh().corners(triangle as usize);
             let middle = (a + b + c) / 3.0;
-            for place in [middle, inside(a, middle), inside(b, middle), inside(c, middle)] {
-                if let Some(bridge) = self.at(triangle, place, least) {
+            for point in [middle, inside(a, middle), inside(b, middle), inside(c, middle)] {
+                if let Some(bridge) = self.at(triangle, point, least) {
                     (least, worst) = (bridge.excess, Some((triangle, bridge)));
                 }
             }
@@ -159,7 +160,8 @@ impl Probe<'_> {
         worst
     }
 
-    /// From triangle to neighbour as long as the excess grows; of a smooth place the excess found is then measured along the normal.
+    /// From triangle to neighbour as long as the excess grows; of a smooth point the excess found is then measured along
+    /// the normal.
     fn climbed(&self, from: &Stopped, bridge: Bridge) -> Bridge {
         let faces = self.envelope.mesh().faces();
         let (mut triangle, mut best) = (from.triangle, bridge);
@@ -176,15 +178,15 @@ impl Probe<'_> {
     /// along a wall.
     fn along_normal(&self, triangle: u32, bridge: &Bridge) -> Option<f64> {
         let normal = self.envelope.mesh().normal(triangle as usize);
-        let mut way = bridge.excess;
+        let mut length = bridge.excess;
         for _ in 0..CLIMB {
-            let gap = self.nearest(triangle, bridge.point + normal * way)?;
+            let gap = self.nearest(triangle, bridge.point + normal * length)?;
             if gap < ON_TOOL {
                 break;
             }
-            way += gap;
+            length += gap;
         }
-        (way <= ALONG_WALL * bridge.excess).then_some(way)
+        (length <= ALONG_WALL * bridge.excess).then_some(length)
     }
 
     /// What stays between a point of a triangle and the nearest free position, if it is more than `least`, mm, which is the
@@ -197,15 +199,15 @@ impl Probe<'_> {
         if (free.tip - matched.z) * normal.z.abs() <= self.limit {
             return None;
         }
-        // the way along a line is quicker found, and no shorter
+        // the distance along a line is quicker found, and no shorter
         let excess = Some(self.nearest(triangle, point)?).filter(|excess| *excess > least)?;
         let excess = excess.min((self.left)(triangle, point, least));
         let excess = if excess > least { excess.min(self.around(point, least)) } else { excess };
         (excess > least).then(|| Bridge { point, face: mesh.faces()[triangle as usize], excess })
     }
 
-    /// The least distance from a point to the tool in free positions all around it, mm, or the first that is `enough`: the flat of a
-    /// tool touches a floor from the side on which there is room.
+    /// The least distance from a point to the tool in free positions all around it, mm, or the first that is `enough`: the
+    /// flat of a tool touches a floor from the side that is free.
     fn around(&self, point: Vector, enough: f64) -> f64 {
         let (reach, mut hint) = (self.envelope.cutter().max_radius(), None);
         let mut least = f64::INFINITY;
@@ -240,9 +242,9 @@ impl Probe<'_> {
     }
 }
 
-/// A place moved a little towards the middle of its triangle: at the very foot of a wall, rounding decides what is touched.
-fn inside(place: Vector, middle: Vector) -> Vector {
-    place + INSIDE * (middle - place)
+/// A point moved a little towards the middle of its triangle: at the very foot of a wall, rounding decides what is touched.
+fn inside(point: Vector, middle: Vector) -> Vector {
+    point + INSIDE * (middle - point)
 }
 
 /// The least value of a function that falls and then rises, by golden sections.

@@ -92,7 +92,7 @@ pub struct Chord {
 }
 
 impl Chord {
-    /// Place and height at a share of its length.
+    /// Position and height at a share of its length.
     pub fn at(&self, share: f64) -> ([f64; 2], f64) {
         ([0, 1].map(|i| self.from[i] + share * self.along[i]), self.tip + share * self.rise)
     }
@@ -100,7 +100,7 @@ impl Chord {
     /// The part of it between two shares of its length.
     pub fn part(&self, from: f64, to: f64) -> Self {
         let (begin, tip) = self.at(from);
-        Self { from: begin, along: self.along.map(|way| (to - from) * way), rise: (to - from) * self.rise, tip }
+        Self { from: begin, along: self.along.map(|rate| (to - from) * rate), rise: (to - from) * self.rise, tip }
     }
 }
 
@@ -136,9 +136,9 @@ impl Facet {
     }
 }
 
-/// The way in plan from a place to the nearest point of a segment.
-fn gap_to_segment(place: [f64; 2], a: Vector, b: Vector) -> [f64; 2] {
-    let (along, from) = ([b.x - a.x, b.y - a.y], [a.x - place[0], a.y - place[1]]);
+/// The vector in plan from a position to the nearest point of a segment.
+fn gap_to_segment(position: [f64; 2], a: Vector, b: Vector) -> [f64; 2] {
+    let (along, from) = ([b.x - a.x, b.y - a.y], [a.x - position[0], a.y - position[1]]);
     let square = along[0] * along[0] + along[1] * along[1];
     let share = if square > 0.0 { (-(along[0] * from[0] + along[1] * from[1]) / square).clamp(0.0, 1.0) } else { 0.0 };
     [from[0] + share * along[0], from[1] + share * along[1]]
@@ -159,17 +159,17 @@ fn apart_in_plan(corners: &[Vector; 3], [from, to]: [[f64; 2]; 2]) -> f64 {
         if side(p, q, from) * side(p, q, to) < 0.0 && side(from, to, p) * side(from, to, q) < 0.0 {
             return 0.0;
         }
-        let ways = [
+        let gaps = [
             gap_to_segment(p, a, b),
             gap_to_segment(from, corners[i], corners[(i + 1) % 3]),
             gap_to_segment(to, corners[i], corners[(i + 1) % 3]),
         ];
-        least = ways.iter().fold(least, |least, way| least.min(libm::hypot(way[0], way[1])));
+        least = gaps.iter().fold(least, |least, gap| least.min(libm::hypot(gap[0], gap[1])));
     }
     least
 }
 
-/// A triangle seen from a place and a height, mm.
+/// A triangle seen from a position and a height, mm.
 pub struct Seen {
     pub corners: [[f64; 3]; 3],
     /// The contact of a cutter on its plane.
@@ -217,14 +217,14 @@ impl<'a> Contacts<'a> {
     /// The contact with the facet's whole plane is at least as high as any with the triangle. Where it lies outside,
     /// the height, concave over the triangle, is largest on an edge that is seen from it, or on a wall anywhere.
     #[inline]
-    pub fn touch(&self, triangle: u32, place: [f64; 2], found: &mut Best) {
+    pub fn touch(&self, triangle: u32, position: [f64; 2], found: &mut Best) {
         if triangle == found.triangle {
             return;
         }
-        self.touch_owned(triangle, self.index.owned(triangle), place, found);
+        self.touch_owned(triangle, self.index.owned(triangle), position, found);
     }
 
-    /// A triangle seen from a place and a height.
+    /// A triangle seen from a position and a height.
     #[inline]
     pub fn seen(&self, triangle: u32, [x, y]: [f64; 2], zero: f64) -> Seen {
         let Facet { gradient: [gx, gy], share, height, bend } = self.facets[triangle as usize];
@@ -236,8 +236,8 @@ impl<'a> Contacts<'a> {
     }
 
     /// Tries all of a triangle, whether others try it too or not.
-    pub fn touch_whole(&self, triangle: u32, place: [f64; 2], found: &mut Best) {
-        self.touch_owned(triangle, ALL, place, found);
+    pub fn touch_whole(&self, triangle: u32, position: [f64; 2], found: &mut Best) {
+        self.touch_owned(triangle, ALL, position, found);
     }
 
     #[inline]
@@ -259,7 +259,7 @@ impl<'a> Contacts<'a> {
         self.touch_border(triangle, owned, &view, [x, y], found);
     }
 
-    /// Whether a contact lies in the box around a triangle in plan: a triangle that is a line there has no sides to tell.
+    /// Whether a contact lies in the box around a triangle in plan: a triangle that is a line there has no sides.
     #[inline]
     fn is_in_box(&self, [a, b, c]: &[Vector; 3], contact: [f64; 2]) -> bool {
         (0..2).all(|i| {
@@ -310,9 +310,9 @@ impl<'a> Contacts<'a> {
         found.improve(Best { tip, triangle, feature: Feature::Corner(number), at: [corner.x, corner.y] });
     }
 
-    fn touch_edge(&self, view: &View, triangle: u32, number: usize, place: [f64; 2], found: &mut Best) {
+    fn touch_edge(&self, view: &View, triangle: u32, number: usize, position: [f64; 2], found: &mut Best) {
         let (a, b) = (view.corners[number], view.corners[(number + 1) % 3]);
-        if let Some(touch) = edge::touch(self.cutter, [a, b], place, view.contact, found.tip) {
+        if let Some(touch) = edge::touch(self.cutter, [a, b], position, view.contact, found.tip) {
             let at = [a.x + touch.share * (b.x - a.x), a.y + touch.share * (b.y - a.y)];
             found.improve(Best { tip: touch.tip, triangle, feature: Feature::Edge(number as u8), at });
         }
@@ -330,9 +330,9 @@ impl<'a> Contacts<'a> {
     }
 
     /// What the tips that a triangle alone asks for do not exceed in a tile over which they rise `towards` somewhere;
-    /// infinite where that is not known. What stays below `enough` may be told as more than it is.
+    /// infinite where that is not known. What stays below `enough` may be overestimated.
     ///
-    /// They are concave over the plan. So they stay below their tangent over any place; over the corner to which they
+    /// They are concave over the plan. So they stay below their tangent over any position; over the corner to which they
     /// rise it is hardly higher than they are.
     pub fn greatest(&self, triangle: u32, middle: [f64; 2], half: [f64; 2], towards: [f32; 2], enough: f64) -> f64 {
         let plane = self.greatest_of_plane(triangle, middle, half);
@@ -405,7 +405,7 @@ impl<'a> Contacts<'a> {
 
     /// Whether the tips that a triangle alone asks for stay within `most` mm over a chord of tips.
     ///
-    /// Along the chord they are concave, so they stay below their tangents over its ends, and over any place between them:
+    /// Along the chord they are concave, so they stay below their tangents over its ends, and over any position between them:
     /// over the one where those meet, the highest that they allow. What is too high there is, or looks so after a few cuts.
     pub fn stays_under(&self, triangle: u32, chord: &Chord, most: f64) -> bool {
         let over_plane = |share: f64| {
@@ -415,7 +415,7 @@ impl<'a> Contacts<'a> {
         if [0.0, 1.0].map(over_plane).iter().all(|over| *over <= most) {
             return true; // never for a wall
         }
-        // most are far below: one tangent tells
+        // most are far below: one tangent decides
         if let Some([over, rise]) = self.over_chord(triangle, chord, 0.5) {
             if over > most || over + 0.5 * rise.abs() <= most {
                 return over <= most;
@@ -441,12 +441,12 @@ impl<'a> Contacts<'a> {
             (Some([first, rise]), Some([last, fall])) => {
                 // where the tangents meet; where they do not fall towards each other, they are one line but for rounding
                 let bend = rise - fall;
-                let way = if bend > 0.0 { (last - first - fall * (to - from)) / bend } else { 0.0 };
-                let way = way.clamp(0.0, to - from);
-                if first + rise * way <= most {
+                let step = if bend > 0.0 { (last - first - fall * (to - from)) / bend } else { 0.0 };
+                let step = step.clamp(0.0, to - from);
+                if first + rise * step <= most {
                     return true;
                 }
-                (from + way).clamp(from + LEAST_CUT * (to - from), to - LEAST_CUT * (to - from))
+                (from + step).clamp(from + LEAST_CUT * (to - from), to - LEAST_CUT * (to - from))
             }
             _ if self.is_out_of_reach(triangle, chord, [from, to], most) => return true,
             _ => 0.5 * (from + to),
@@ -480,21 +480,21 @@ impl<'a> Contacts<'a> {
         top - self.cutter.height_bound(apart.min(self.cutter.max_radius())) <= low.min(high) + most
     }
 
-    /// The tip that a triangle alone asks for over a place, and its gradient there: towards the contact.
-    fn tangent(&self, triangle: u32, place: [f64; 2]) -> Option<(f64, [f64; 2])> {
+    /// The tip that a triangle alone asks for over a position, and its gradient there: towards the contact.
+    fn tangent(&self, triangle: u32, position: [f64; 2]) -> Option<(f64, [f64; 2])> {
         let mut alone = Best::NOTHING;
-        self.touch_whole(triangle, place, &mut alone);
+        self.touch_whole(triangle, position, &mut alone);
         if !alone.is_something() {
             return None;
         }
-        let away = [0, 1].map(|i| alone.at[i] - place[i]);
+        let away = [0, 1].map(|i| alone.at[i] - position[i]);
         let distance = libm::hypot(away[0], away[1]);
         let by_table = match alone.feature {
             Feature::Facet => return Some((alone.tip, self.facets[triangle as usize].gradient)),
             Feature::Edge(i) => self.steepness_on_edge(triangle, i, away.map(|a| a / distance)),
             Feature::Corner(_) => self.cutter.height_with_derivatives(distance).map(|height| height.rise),
         };
-        let steep = by_table.unwrap_or_else(|| libm::tan(self.slope(&alone, place)));
+        let steep = by_table.unwrap_or_else(|| libm::tan(self.slope(&alone, position)));
         let rise = if distance > 0.0 { steep / distance } else { 0.0 };
         Some((alone.tip, away.map(|a| rise * a)))
     }

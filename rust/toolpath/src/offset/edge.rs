@@ -7,7 +7,7 @@ use styluscam_geometry::{Cutter, Straight, Vector};
 
 /// Steps of a climb at most: two or three do.
 const CLIMB: usize = 8;
-/// A climb ends where a step gains no more than this share of the place's radius and height: near a sharp tip a step sees
+/// A climb ends where a step gains no more than this share of the position's radius and height: near a sharp tip a step sees
 /// no farther than the radius.
 const FLAT: f64 = 1e-17;
 
@@ -24,11 +24,11 @@ pub struct EdgeContact {
     pub share: f64,
 }
 
-/// The contact inside the edge from `a` to `b` for the axis at (x, y), if it can be above `best`; `guess` is a place in
+/// The contact inside the edge from `a` to `b` for the axis at (x, y), if it can be above `best`; `guess` is a position in
 /// plan near it.
 ///
 /// Along the edge the tip's height is z0 + m s - Z(sqrt(q^2 + s^2)), q the line's distance in plan,
-/// s the place along it, m its steepness: concave in s. At its top tan(slope) s / r = m, which is
+/// s the position along it, m its steepness: concave in s. At its top tan(slope) s / r = m, which is
 /// solved as sin(slope) sqrt(r^2 - q^2) = m r cos(slope), increasing in the slope and finite at a
 /// vertical tangent. Tops beyond the ends belong to the vertices.
 pub fn touch(
@@ -67,7 +67,7 @@ pub fn slope(cutter: &Cutter, a: Vector, b: Vector, x: f64, y: f64) -> f64 {
 
 /// What became of a climb by polynomials.
 enum Climb {
-    /// The top: place along the line and the profile's height there.
+    /// The top: position along the line and the profile's height there.
     Top(f64, f64),
     /// The top is not inside the edge.
     Beyond,
@@ -75,18 +75,18 @@ enum Climb {
     Lost,
 }
 
-/// The place of the cutter that touches an edge's line.
+/// The position of the cutter that touches an edge's line.
 struct Top {
     slope: f64,
     radius: f64,
     height: f64,
 }
 
-/// An edge seen from the axis: places s along its line count from the foot of the axis on it.
+/// An edge seen from the axis: positions s along its line count from the foot of the axis on it.
 struct Line {
     /// Distance of the line from the axis in plan.
     q: f64,
-    /// Place of the edge's first end.
+    /// Position of the edge's first end.
     first: f64,
     /// Length in plan.
     run: f64,
@@ -119,7 +119,7 @@ impl Line {
         inside.then(|| EdgeContact { tip: self.foot + self.steep * along - height, share: from_first / self.run })
     }
 
-    /// The place along the line at which a radius of the cutter lies over it, on the rising side.
+    /// The position along the line at which a radius of the cutter lies over it, on the rising side.
     fn place_of(&self, radius: f64) -> f64 {
         (radius * radius - self.q * self.q).max(0.0).sqrt().copysign(self.steep)
     }
@@ -191,7 +191,7 @@ impl Line {
         top(cutter, self.q, self.steep.abs(), guess)
     }
 
-    /// A place of the edge near the top, by table.
+    /// A position of the edge near the top, by table.
     fn near_top(&self, cutter: &Cutter) -> f64 {
         let steep = self.steep.abs();
         let straight = cutter.radius_of_rise(steep);
@@ -212,7 +212,7 @@ impl Line {
     }
 }
 
-/// The place at which sin sqrt(r^2 - q^2) = steep r cos.
+/// The position at which sin sqrt(r^2 - q^2) = steep r cos.
 fn top(cutter: &Cutter, q: f64, steep: f64, guess: f64) -> Top {
     if steep == 0.0 {
         return Top { slope: cutter.slope_at_radius(q), radius: q, height: cutter.height_at_radius(q) };
@@ -224,7 +224,7 @@ fn top(cutter: &Cutter, q: f64, steep: f64, guess: f64) -> Top {
     Top { slope, radius, height: cutter.point_at(slope).1 }
 }
 
-/// The place if it lies on a straight part: there the slope is one and the radius runs.
+/// The position if it lies on a straight part: there the slope is one and the radius runs.
 fn top_on(straight: &Straight, q: f64, steep: f64) -> Option<Top> {
     let (sin, cos) = libm::sincos(straight.slope);
     let excess = |r: f64| sin * (r * r - q * q).max(0.0).sqrt() - steep * r * cos;

@@ -1,4 +1,4 @@
-//! The gouge-free envelope: how deep the tool's tip may go at a place, exactly, for any convex profile.
+//! The gouge-free envelope: how deep the tool's tip may go at a position, exactly, for any convex profile.
 //!
 //! The tip height at (x, y) is the largest over all triangles of three contacts: facet (the profile's point of
 //! equal slope), edge and vertex. A tree of boxes with planes over them rules out nearly all triangles.
@@ -19,16 +19,16 @@ use super::search::{Ground, Keeping, Searcher, Verdict};
 use super::tiles::Tiles;
 use crate::lattice::{Cells, Lattice, Node};
 
-/// Places put into tiles at a time: between blocks there is nothing that cannot be cancelled.
+/// Positions put into tiles at a time: between blocks there is nothing that cannot be cancelled.
 const BLOCK: usize = 1 << 20;
 /// Tiles handed to a thread at a time: fixed, so that the answer does not depend on the threads.
 const CHUNK: usize = 64;
 /// Tiles that share a survey of the index.
 const SURVEYED: usize = 16;
-/// Cells each way of the pieces of a lattice that share a survey of the index.
+/// Cells in each direction of the pieces of a lattice that share a survey of the index.
 const PIECE: usize = 16;
 
-/// The tool's lowest free position over a place, and what it touches there.
+/// The tool's lowest free position over a position, and what it touches there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     /// Height of the tool's tip, mm.
@@ -143,14 +143,14 @@ impl<'a> Envelope<'a> {
     /// [`contact_near`](Self::contact_near).
     #[must_use]
     pub fn is_over(&self, x: f64, y: f64, z: f64, hint: &mut Option<u32>) -> bool {
-        let near = hint.map(|number| self.index.place(number));
+        let near = hint.map(|number| self.index.position(number));
         let found = Searcher::with(|searcher| searcher.over(&self.ground(), [x, y], z - self.above, near));
         *hint = found.map(|triangle| self.index.number(triangle)).or(*hint);
         found.is_some()
     }
 
     fn found_near(&self, x: f64, y: f64, hint: &mut Option<u32>) -> Option<Best> {
-        let near = hint.map(|number| self.index.place(number));
+        let near = hint.map(|number| self.index.position(number));
         let found = Searcher::with(|searcher| searcher.one(&self.ground(), [x, y], near));
         if !found.is_something() {
             return None;
@@ -159,44 +159,44 @@ impl<'a> Envelope<'a> {
         Some(found)
     }
 
-    /// Where the tool, its tip at height `z` and standing free at the line's beginning, first touches on its way along
-    /// the line, up to `limit` mm: the way and the contact.
+    /// Where the tool, its tip at height `z` and standing free at the line's beginning, first touches on its path along
+    /// the line, up to `limit` mm: the travel and the contact.
     ///
-    /// The way is below 0 where the tool does not stand free at the beginning.
+    /// The travel is below 0 where the tool does not stand free at the beginning.
     #[must_use]
     pub fn push(&self, line: &Line, z: f64, limit: f64) -> Option<(f64, Contact)> {
         let (triangle, found) = push::first(self.index, &self.cutter, line, z - self.above, limit)?;
-        Some((found.way, self.contact_on(line, z, triangle, &found)))
+        Some((found.travel, self.contact_on(line, z, triangle, &found)))
     }
 
-    /// Ways of [`push`](Self::push) along many lines, in parallel: infinite where nothing is met, NaN where the tool does not
+    /// Travels of [`push`](Self::push) along many lines, in parallel: infinite where nothing is met, NaN where the tool does not
     /// stand free at the beginning.
     ///
     /// # Errors
-    /// `Cancelled` when `watch` says so.
+    /// `Cancelled` when `watch` is cancelled.
     pub fn pushes(&self, lines: &[Line], z: f64, watch: &Watch) -> Result<Vec<f64>, Cancelled> {
-        let way = |line: &Line| {
+        let travel = |line: &Line| {
             watch.advance(1)?;
             Ok(match self.push(line, z, f64::INFINITY) {
-                Some((way, _)) if way < 0.0 => f64::NAN,
-                Some((way, _)) => way,
+                Some((travel, _)) if travel < 0.0 => f64::NAN,
+                Some((travel, _)) => travel,
                 None => f64::INFINITY,
             })
         };
-        lines.par_iter().with_min_len(16).map(way).collect()
+        lines.par_iter().with_min_len(16).map(travel).collect()
     }
 
-    /// Where a triangle of the mesh lets the tool go, its tip at height `z`, in the direction of the line: the way and
+    /// Where a triangle of the mesh lets the tool go, its tip at height `z`, in the direction of the line: the travel and
     /// the contact, or none where it never keeps the tool off.
     #[must_use]
     pub fn release(&self, triangle: u32, line: &Line, z: f64) -> Option<(f64, Contact)> {
-        let triangle = self.index.place(triangle);
+        let triangle = self.index.position(triangle);
         let found = push::release(&self.cutter, &self.index.triangles().at(triangle), line, z - self.above)?;
-        Some((found.way, self.contact_on(line, z, triangle, &found)))
+        Some((found.travel, self.contact_on(line, z, triangle, &found)))
     }
 
     fn contact_on(&self, line: &Line, z: f64, triangle: u32, found: &Release) -> Contact {
-        let [x, y] = line.at(found.way);
+        let [x, y] = line.at(found.travel);
         Contact {
             tip: z,
             point: found.point,
@@ -206,27 +206,33 @@ impl<'a> Envelope<'a> {
         }
     }
 
-    /// Tip heights at many places, in parallel; NaN where the tool meets nothing.
+    /// Tip heights at many positions, in parallel; NaN where the tool meets nothing.
     ///
     /// # Errors
-    /// `Cancelled` when `watch` says so.
-    pub fn tips(&self, places: &[[f64; 2]], watch: &Watch) -> Result<Vec<f64>, Cancelled> {
-        self.map_places(places, watch, |found, _| if found.is_something() { found.tip + self.above } else { f64::NAN })
+    /// `Cancelled` when `watch` is cancelled.
+    pub fn tips(&self, positions: &[[f64; 2]], watch: &Watch) -> Result<Vec<f64>, Cancelled> {
+        self.map_positions(
+            positions,
+            watch,
+            |found, _| if found.is_something() { found.tip + self.above } else { f64::NAN },
+        )
     }
 
-    /// Contacts at many places, in parallel.
+    /// Contacts at many positions, in parallel.
     ///
     /// # Errors
-    /// `Cancelled` when `watch` says so.
-    pub fn contacts(&self, places: &[[f64; 2]], watch: &Watch) -> Result<Vec<Option<Contact>>, Cancelled> {
-        self.map_places(places, watch, |found, place| found.is_something().then(|| self.contact_of(&found, place)))
+    /// `Cancelled` when `watch` is cancelled.
+    pub fn contacts(&self, positions: &[[f64; 2]], watch: &Watch) -> Result<Vec<Option<Contact>>, Cancelled> {
+        self.map_positions(positions, watch, |found, position| {
+            found.is_something().then(|| self.contact_of(&found, position))
+        })
     }
 
     /// What no tip exceeds over each cell of a lattice where it may be higher than the cell's `limit`, in parallel, row by
     /// row; minus infinity where it is not. `limit` is asked of rectangles as well: the least of those of their cells.
     ///
     /// # Errors
-    /// `Cancelled` when `watch` says so.
+    /// `Cancelled` when `watch` is cancelled.
     pub fn ceilings(
         &self,
         lattice: &Lattice,
@@ -254,16 +260,16 @@ impl<'a> Envelope<'a> {
     }
 
     /// A height over which the tip must stay in all of a box of the plan (lower and upper corner), because of what is
-    /// touched at one place.
+    /// touched at one position.
     #[must_use]
     pub fn least(&self, contact: &Contact, corners: &[[f64; 2]; 2]) -> f64 {
         let ground = self.ground();
         let tile = ground.tile(corners, &[0, 1]);
-        ground.contacts.least(self.index.place(contact.triangle), tile.middle, tile.half) + self.above
+        ground.contacts.least(self.index.position(contact.triangle), tile.middle, tile.half) + self.above
     }
 
-    /// Whether the tip may stay within some height of the straight line between two tips all the way: no triangle asks
-    /// for more than `most` (mm) says of it over the line, which is never less than `least`.
+    /// Whether the tip may stay within some height of the straight line between two tips, along all of it: no triangle asks
+    /// for more than `most` (mm) gives for it over the line, which is never less than `least`.
     #[must_use]
     pub fn keeps_under(&self, line: [Vector; 2], least: f64, most: impl Fn(u32) -> f64) -> Keeping {
         let most = |triangle| most(self.index.number(triangle));
@@ -271,7 +277,7 @@ impl<'a> Envelope<'a> {
     }
 
     /// How far the tip may fall below the straight line between two tips at most, mm, because of the triangles that are
-    /// touched at its ends; infinite where they do not tell.
+    /// touched at its ends; infinite where that is not known.
     ///
     /// The tips that a triangle asks for are concave: nowhere lower than the line between two of them.
     #[must_use]
@@ -282,7 +288,7 @@ impl<'a> Envelope<'a> {
         let ground = self.ground();
         let below = |triangle: u32, at: Vector| {
             let mut alone = Best::NOTHING;
-            ground.contacts.touch_whole(self.index.place(triangle), [at.x, at.y], &mut alone);
+            ground.contacts.touch_whole(self.index.position(triangle), [at.x, at.y], &mut alone);
             (at.z - self.above - alone.tip).max(0.0)
         };
         let (first, last) = (below(touched[0], line[1]), below(touched[1], line[0]));
@@ -306,14 +312,14 @@ impl<'a> Envelope<'a> {
         Searcher::with(|searcher| searcher.verdict(&self.ground(), corners, z - self.above))
     }
 
-    fn map_places<T: Copy + Send + Sync>(
+    fn map_positions<T: Copy + Send + Sync>(
         &self,
-        places: &[[f64; 2]],
+        positions: &[[f64; 2]],
         watch: &Watch,
         keep: impl Fn(Best, [f64; 2]) -> T + Sync,
     ) -> Result<Vec<T>, Cancelled> {
-        let mut answers = Vec::with_capacity(places.len());
-        for block in places.chunks(BLOCK) {
+        let mut answers = Vec::with_capacity(positions.len());
+        for block in positions.chunks(BLOCK) {
             let tiles = Tiles::of(block, self.index.area_per_triangle());
             let by_tile = self.map_tiles(block, &tiles, watch, &keep)?;
             answers.par_extend(tiles.ranks.par_iter().map(|rank| by_tile[*rank as usize]));
@@ -324,7 +330,7 @@ impl<'a> Envelope<'a> {
     /// Answers for the members of tiles, one after the other.
     fn map_tiles<T: Copy + Send>(
         &self,
-        places: &[[f64; 2]],
+        positions: &[[f64; 2]],
         tiles: &Tiles,
         watch: &Watch,
         keep: &(impl Fn(Best, [f64; 2]) -> T + Sync),
@@ -341,13 +347,13 @@ impl<'a> Envelope<'a> {
                 let mut found = vec![Best::NOTHING; (starts[starts.len() - 1] - begin) as usize];
                 for piece in (0..starts.len() - 1).step_by(SURVEYED) {
                     let starts = &starts[piece..=(piece + SURVEYED).min(starts.len() - 1)];
-                    searcher.many(&ground, places, &tiles.members, starts, &mut |member, best| {
+                    searcher.many(&ground, positions, &tiles.members, starts, &mut |member, best| {
                         found[(tiles.ranks[member as usize] - begin) as usize] = best;
                     });
                     watch.advance((starts[starts.len() - 1] - starts[0]) as usize)?;
                 }
                 let members = &tiles.members[begin as usize..begin as usize + found.len()];
-                Ok(members.iter().zip(found).map(|(member, best)| keep(best, places[*member as usize])).collect())
+                Ok(members.iter().zip(found).map(|(member, best)| keep(best, positions[*member as usize])).collect())
             })
             .collect();
         Ok(chunks?.concat())
@@ -377,7 +383,8 @@ impl<'a> Envelope<'a> {
     pub fn depth(&self, point: Vector, tip: Vector) -> f64 {
         let radius = libm::hypot(point.x - tip.x, point.y - tip.y);
         let height = point.z - (tip.z - self.above);
-        // deep inside, the way out may be the bottom or the side instead of the nearest stretch of the profile
+        // deep inside, the shortest path out may lead through the bottom or the side instead of the nearest stretch of the
+        // profile
         let ends = [0.0, std::f64::consts::FRAC_PI_2].map(|slope| self.cutter.gap(radius, height, slope));
         -self.cutter.distance(radius, height).0.max(ends[0]).max(ends[1])
     }
@@ -413,12 +420,12 @@ impl<'a> Envelope<'a> {
     /// The triangles beyond the three edges of one; `u32::MAX` where the mesh ends.
     #[must_use]
     pub fn neighbours(&self, triangle: u32) -> Neighbours {
-        let beyond = self.index.neighbours(self.index.place(triangle));
-        beyond.map(|place| if place == NO_NEIGHBOUR { NO_NEIGHBOUR } else { self.index.number(place) })
+        let beyond = self.index.neighbours(self.index.position(triangle));
+        beyond.map(|position| if position == NO_NEIGHBOUR { NO_NEIGHBOUR } else { self.index.number(position) })
     }
 }
 
-/// The unit normal of a contact of some slope, from which the axis stands some way away in plan.
+/// The unit normal of a contact of some slope, from which the axis stands at some distance in plan.
 fn normal(slope: f64, [dx, dy]: [f64; 2]) -> Vector {
     let (sin, cos) = libm::sincos(slope);
     let distance = libm::hypot(dx, dy);

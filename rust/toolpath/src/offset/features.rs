@@ -29,7 +29,7 @@ const VALLEY: f64 = 1e-12;
 /// A facet stands upright when its normal rises by less: over its height it leans by less than counts as rounding.
 const UPRIGHT: f64 = 1e-13;
 
-/// Ownership and neighbours of all triangles; `firsts` says of each which corners no triangle before it has. None
+/// Ownership and neighbours of all triangles; `firsts` marks for each which corners no triangle before it has. None
 /// when `watch` is cancelled.
 pub fn of(triangles: &Triangles, firsts: &[u8], watch: &Watch) -> (Vec<Owned>, Vec<Neighbours>) {
     let neighbours = neighbours(triangles);
@@ -86,9 +86,9 @@ fn sides_by_corner(triangles: &Triangles) -> (Vec<u32>, Vec<Side>) {
     for (t, corners) in triangles.corners.iter().enumerate() {
         for i in 0..3 {
             let (from, to) = ends(corners, i);
-            let place = &mut next[from as usize];
-            sides[*place as usize] = Side { to, side: (3 * t + i) as u32 };
-            *place += 1;
+            let slot = &mut next[from as usize];
+            sides[*slot as usize] = Side { to, side: (3 * t + i) as u32 };
+            *slot += 1;
         }
     }
     (starts, sides)

@@ -19,7 +19,7 @@ pub enum SurfaceFlag {
     Interferes = 2,
     /// The surface is steeper than the profile, and not upright: the base's rim touches, and nothing stops the tool.
     Rim = 3,
-    /// The surface looks down: no vertical tool reaches it.
+    /// The surface faces down: no vertical tool reaches it.
     Undercut = 4,
 }
 

@@ -59,7 +59,7 @@ fn is_smooth(mesh: &Mesh, t: usize, other: usize, side: usize) -> bool {
     })
 }
 
-/// The first of a triangle's patch; ways are halved on the way (Tarjan and van Leeuwen).
+/// The first of a triangle's patch; paths are halved during the search (Tarjan and van Leeuwen).
 fn root(above: &mut [u32], triangle: u32) -> u32 {
     let mut t = triangle;
     while above[t as usize] != t {

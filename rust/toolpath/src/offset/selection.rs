@@ -45,18 +45,18 @@ impl Envelope<'_> {
     }
 
     /// Whether a selected wall that joins the triangle touched stands in the same upright line as the contact, as far as
-    /// the tool's side can tell.
+    /// the tool's side can decide.
     fn has_wall_beside(&self, contact: &Contact, selected: &[bool]) -> bool {
         let mesh = self.mesh();
         let stands = |triangle: u32| {
             let (normal, corners) = (mesh.normal(triangle as usize), mesh.corners(triangle as usize));
             let along = Vector::new(-normal.y, normal.x, 0.0);
-            let places = corners.map(|corner| (corner - contact.point).dot(&along));
+            let positions = corners.map(|corner| (corner - contact.point).dot(&along));
             let highest = corners.iter().map(|corner| corner.z).fold(f64::NEG_INFINITY, f64::max);
             normal.dot(&contact.normal) > 0.0
                 && (contact.point - corners[0]).dot(&normal).abs() <= TOGETHER
-                && places.iter().any(|place| *place <= TOGETHER)
-                && places.iter().any(|place| *place >= -TOGETHER)
+                && positions.iter().any(|position| *position <= TOGETHER)
+                && positions.iter().any(|position| *position >= -TOGETHER)
                 && highest >= contact.tip + self.side_height()
         };
         let is_wall = |t: &u32| *t != NO_NEIGHBOUR && selected[*t as usize] && mesh.is_upright(*t as usize);

@@ -12,7 +12,7 @@ pub enum OffsetFlag {
     Regular = 0,
     /// The surface is steeper than the profile: the base's rim touches.
     Rim = 1,
-    /// The surface looks down: no vertical tool reaches it.
+    /// The surface faces down: no vertical tool reaches it.
     Undercut = 2,
 }
 

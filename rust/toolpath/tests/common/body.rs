@@ -1,7 +1,7 @@
-//! A tool's body at a place, and the proof that a triangle touches it and does not enter it.
+//! A tool's body at a position, and the proof that a triangle touches it and does not enter it.
 //!
 //! The body is what lies behind all its supporting planes; of the engine it takes the bare profile's points by slope and
-//! nothing else. Two searches, each of which proves what it says, whatever path it took:
+//! nothing else. Two searches, each of which proves its result, whatever path it took:
 //! a plane that has the triangle on one side and the body, but for a depth, on the other, proves that the tool moved by
 //! that depth is free; a point of the triangle whose distance from the body is known proves that the tool moved by it touches.
 
@@ -123,7 +123,7 @@ impl<'a> Body<'a> {
     /// What the best of all separating planes leaves of the body on the triangle's side, mm, the tip at the origin.
     ///
     /// G(v) = min over the corners of v p - h(v), h the support function, is concave in v, any downward vector; a plane of
-    /// normal v leaves -G / |v|. Where the largest G is 0 its place does not depend on how long the vectors are, so in each
+    /// normal v leaves -G / |v|. Where the largest G is 0 its position does not depend on how long the vectors are, so in each
     /// quadrant they are led over a flat triangle: |vx| + |vy| + |vz| = 1.
     fn depth(&self, corners: [Vector; 3]) -> f64 {
         let mut best = f64::INFINITY;

@@ -1,4 +1,4 @@
-//! Random single triangles, and places to stand the tool at: all that is hard for a drop-cutter.
+//! Random single triangles, and positions to stand the tool at: all that is hard for a drop-cutter.
 
 use std::f64::consts::TAU;
 
@@ -68,8 +68,8 @@ fn triangle(dice: &mut Dice) -> [Vector; 3] {
     }
 }
 
-/// A place for a tool of a radius: over the triangle and beside it, over edges and corners, and with them at the rim.
-pub fn place(dice: &mut Dice, corners: &[Vector; 3], radius: f64) -> [f64; 2] {
+/// A position for a tool of a radius: over the triangle and beside it, over edges and corners, and with them at the rim.
+pub fn position(dice: &mut Dice, corners: &[Vector; 3], radius: f64) -> [f64; 2] {
     let [a, b, c] = corners;
     let (mut s, mut t) = (dice.share(), dice.share());
     if s + t > 1.0 {

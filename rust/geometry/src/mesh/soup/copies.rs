@@ -7,7 +7,7 @@ use super::triangles::{area_vector, retain};
 use super::union_find::Union;
 use crate::Vector;
 
-/// A triangle's corners in ascending order, and whether they are wound that way.
+/// A triangle's corners in ascending order, and whether they are wound in that order.
 fn key(triangle: [u32; 3]) -> ([u32; 3], bool) {
     let [a, b, c] = triangle;
     let mut sorted = triangle;

@@ -19,7 +19,7 @@ const FLATNESS: f64 = 2e-6;
 /// or within so many units of single precision at the part's farthest coordinate,
 const SINGLE: f64 = 4.0 / 16_777_216.0;
 /// and its triangles' normals within this angle of its own, rad.
-const STRAY: f64 = 0.035;
+const DEVIATION: f64 = 0.035;
 /// Facets that meet at a larger angle are different faces, rad: a circle of ten sides (36 degrees) is still round, a
 /// chamfer is a chamfer.
 const LARGEST_TURN: f64 = 0.646;
@@ -85,7 +85,7 @@ impl<'a> Surface<'a> {
         Self { vertices, triangles, given, edges, areas, flatness }
     }
 
-    /// Whether a triangle is so low that its normal says nothing.
+    /// Whether a triangle is so low that its normal is unreliable.
     fn is_sliver(&self, t: usize) -> bool {
         let [a, b, c] = self.triangles[t].map(|i| self.vertices[i as usize]);
         let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
@@ -117,7 +117,7 @@ fn facets(surface: &Surface) -> Vec<u32> {
             let corners = surface.triangles[t as usize].map(|i| surface.vertices[i as usize]);
             let area = surface.areas[t as usize];
             corners.iter().all(|corner| (normal.dot(corner) - height).abs() <= surface.flatness)
-                && (slivers[t as usize] || area.dot(&normal) >= libm::cos(STRAY) * area.norm())
+                && (slivers[t as usize] || area.dot(&normal) >= libm::cos(DEVIATION) * area.norm())
         };
         facet[*seed as usize] = next;
         stack.push(*seed);
@@ -367,7 +367,7 @@ fn rough_faces(corners: &[(u32, u32)], faces: &Faces) -> Vec<(u32, u32)> {
     };
     let mut joins = Vec::new();
     for at in by_corner().filter(|at| at.len() >= MANY) {
-        let of = |wanted: &dyn Fn(u32) -> bool| at.iter().map(|(_, f)| *f).filter(|f| wanted(*f)).collect::<Vec<u32>>();
+        let of = |keeps: &dyn Fn(u32) -> bool| at.iter().map(|(_, f)| *f).filter(|f| keeps(*f)).collect::<Vec<u32>>();
         let around = of(&|f| !faces.is_small(f) && faces.is_curved(f));
         let largest = around.into_iter().max_by(|a, b| faces.area[*a as usize].total_cmp(&faces.area[*b as usize]));
         let own = of(&is_rough);

@@ -19,14 +19,14 @@ pub struct Mending {
     pub duplicate: usize,
     /// Triangles that lay back to back between two bodies, both of each pair dropped.
     pub back_to_back: usize,
-    /// Triangles of which a copy wound the other way was dropped: a surface that has two sides in the file.
+    /// Triangles of which a copy of opposite winding was dropped: a surface that has two sides in the file.
     pub double_sided: usize,
-    /// Triangles turned over since their neighbours wind the other way.
+    /// Triangles turned over since their neighbours are wound in the opposite direction.
     pub turned: usize,
     /// Triangles of bodies that were inside out as a whole, turned over.
     pub inside_out: usize,
     /// Whether each edge is run as often in one direction as in the other.
     pub closed: bool,
-    /// A place where triangles cannot be made to agree, mm.
+    /// A point at which triangles cannot be made to agree, mm.
     pub unclear: Option<[f64; 3]>,
 }

@@ -1,6 +1,6 @@
 //! A file's triangles made a part: corners joined, copies dropped, wound outward, parted into faces.
 //!
-//! What is done to the triangles is counted: the reader says it. Nothing depends on the order in which a file has them,
+//! What is done to the triangles is counted, and the reader reports it. Nothing depends on the order in which a file has them,
 //! except the order of what is handed back.
 
 mod copies;

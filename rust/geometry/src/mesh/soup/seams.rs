@@ -48,7 +48,7 @@ pub fn cut(vertices: &[Vector], triangles: &mut Vec<[u32; 3]>, mending: &mut Men
     }
 }
 
-/// The corners at open edges, found by their place.
+/// The corners at open edges, found by position.
 struct Border<'a> {
     vertices: &'a [Vector],
     /// The other ends of the open edges at a corner.
@@ -88,17 +88,17 @@ impl<'a> Border<'a> {
     /// The corner on side `k` of a triangle nearest to that side's middle, and how far aside it lies, mm.
     fn middle(&self, corners: [u32; 3], k: usize) -> Option<(u32, f64)> {
         let [from, to, apex] = [0, 1, 2].map(|i| corners[(k + i) % 3]);
-        let (start, way) = (self.at(from), self.at(to) - self.at(from));
-        let length = way.norm();
+        let (start, span) = (self.at(from), self.at(to) - self.at(from));
+        let length = span.norm();
         let line = Line::through(start, self.at(to));
         let others = [from, to].map(|end| Line::through(self.at(end), self.at(apex)));
         // cut there, neither part is turned over
-        let flattest = LOW * line.place(self.at(apex)).1;
+        let flattest = LOW * line.along_and_aside(self.at(apex)).1;
         let mut best: Option<(f64, u32, f64)> = None;
-        for corner in self.near(start, way).filter(|corner| !corners.contains(corner)) {
-            let (at, aside) = line.place(self.at(corner));
+        for corner in self.near(start, span).filter(|corner| !corners.contains(corner)) {
+            let (at, aside) = line.along_and_aside(self.at(corner));
             let is_inside = aside <= self.distance.min(ASIDE * at.min(length - at)).min(flattest);
-            let is_inside = is_inside && others.iter().all(|other| aside <= other.place(self.at(corner)).1);
+            let is_inside = is_inside && others.iter().all(|other| aside <= other.along_and_aside(self.at(corner)).1);
             if is_inside && self.goes_on(corner, (from, to), &line) {
                 let found = ((at - 0.5 * length).abs(), corner, aside);
                 best = best.filter(|best| (best.0, best.1) <= (found.0, found.1)).or(Some(found));
@@ -109,15 +109,15 @@ impl<'a> Border<'a> {
 
     /// Whether an open edge at a corner runs along a side.
     fn goes_on(&self, corner: u32, (from, to): (u32, u32), line: &Line) -> bool {
-        let on_line = |end: &u32| *end == from || *end == to || line.place(self.at(*end)).1 <= self.distance;
+        let on_line = |end: &u32| *end == from || *end == to || line.along_and_aside(self.at(*end)).1 <= self.distance;
         self.beside.get(&corner).is_some_and(|ends| ends.iter().any(on_line))
     }
 
-    /// The corners in the cells along a way, some of them more than once.
-    fn near(&self, start: Vector, way: Vector) -> impl Iterator<Item = u32> + '_ {
-        let steps = (way.amax() / self.cell).ceil().max(1.0) as usize;
-        let on_way = (0..=steps).map(move |i| start + way * (i as f64 / steps as f64));
-        let around = on_way.flat_map(|point| {
+    /// The corners in the cells along a segment, some of them more than once.
+    fn near(&self, start: Vector, span: Vector) -> impl Iterator<Item = u32> + '_ {
+        let steps = (span.amax() / self.cell).ceil().max(1.0) as usize;
+        let on_span = (0..=steps).map(move |i| start + span * (i as f64 / steps as f64));
+        let around = on_span.flat_map(|point| {
             let [x, y, z] = self.cell_of(point);
             (0..27).map(move |i| [x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1])
         });
@@ -137,9 +137,9 @@ impl Line {
     }
 
     /// Where a point lies along the line, and how far aside, mm.
-    fn place(&self, point: Vector) -> (f64, f64) {
-        let way = point - self.start;
-        let at = way.dot(&self.along);
-        (at, (way - at * self.along).norm())
+    fn along_and_aside(&self, point: Vector) -> (f64, f64) {
+        let offset = point - self.start;
+        let at = offset.dot(&self.along);
+        (at, (offset - at * self.along).norm())
     }
 }

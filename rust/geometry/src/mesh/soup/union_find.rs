@@ -17,7 +17,7 @@ impl Union {
         i
     }
 
-    /// The smaller root stays: who is whose does not depend on the order of joining.
+    /// The smaller root stays: the representative does not depend on the order of joining.
     pub fn join(&mut self, a: u32, b: u32) {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b) as usize] = a.min(b);

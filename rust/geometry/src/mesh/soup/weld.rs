@@ -11,7 +11,7 @@ use crate::Vector;
 
 /// Corners on open edges are joined within this share of the part's size, and never farther than [`FARTHEST`],
 const SHARE: f64 = 1e-5;
-/// mm: the tolerance of a part where its job says none,
+/// mm: the tolerance of a part where its job states none,
 const FARTHEST: f64 = 1e-3;
 /// except that a coordinate of single precision is not known better than this share of itself (four of its units).
 const SINGLE: f64 = 4.0 / 8_388_608.0;
@@ -76,12 +76,12 @@ fn open_corners(triangles: &[[u32; 3]]) -> Vec<u32> {
 /// For each vertex that has an earlier one within `distance`: that one, which has none itself.
 fn nearest_before(vertices: &[Vector], candidates: &[u32], distance: f64) -> HashMap<u32, u32> {
     let cell = 2.0 * distance;
-    let place = |p: f64| (p / cell).floor() as i64;
+    let cell_index = |p: f64| (p / cell).floor() as i64;
     let mut kept: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
     let mut target = HashMap::new();
     for vertex in candidates {
         let point = vertices[*vertex as usize];
-        let (low, high) = (point.map(|x| place(x - distance)), point.map(|x| place(x + distance)));
+        let (low, high) = (point.map(|x| cell_index(x - distance)), point.map(|x| cell_index(x + distance)));
         let mut best: Option<(f64, u32)> = None;
         for x in low.x..=high.x {
             for y in low.y..=high.y {
@@ -99,7 +99,7 @@ fn nearest_before(vertices: &[Vector], candidates: &[u32], distance: f64) -> Has
             Some((_, other)) => {
                 target.insert(*vertex, other);
             }
-            None => kept.entry(point.map(place).into()).or_default().push(*vertex),
+            None => kept.entry(point.map(cell_index).into()).or_default().push(*vertex),
         }
     }
     target

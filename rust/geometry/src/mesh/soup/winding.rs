@@ -7,7 +7,7 @@ use super::union_find::Union;
 use crate::Vector;
 
 /// In a surface with a border, triangles that wind against their neighbours are turned where they are fewer than this
-/// share of its area: with more of them nobody can tell which side is meant.
+/// share of its area: with more of them it is unknown which side is meant.
 const MINORITY: f64 = 0.25;
 /// A border that could span no more than this share of a surface is a hole in a body: which side is out is plain.
 const SMALL_HOLE: f64 = 0.01;
@@ -61,11 +61,11 @@ fn followed(
     edges: &Edges,
     mending: &mut Mending,
 ) -> (Vec<u32>, Vec<bool>) {
-    const UNSEEN: u32 = u32::MAX;
-    let (mut patches, mut against) = (vec![UNSEEN; triangles.len()], vec![false; triangles.len()]);
+    const UNVISITED: u32 = u32::MAX;
+    let (mut patches, mut against) = (vec![UNVISITED; triangles.len()], vec![false; triangles.len()]);
     let (mut stack, mut count) = (Vec::new(), 0);
     for first in 0..triangles.len() as u32 {
-        if patches[first as usize] != UNSEEN {
+        if patches[first as usize] != UNVISITED {
             continue;
         }
         patches[first as usize] = count;
@@ -75,7 +75,7 @@ fn followed(
                 let Some(other) = edges.beyond(half) else { continue };
                 let agrees = ends(triangles, half).0 == ends(triangles, edges.twins[half as usize]).1;
                 let turned = against[t as usize] ^ !agrees;
-                if patches[other as usize] == UNSEEN {
+                if patches[other as usize] == UNVISITED {
                     (patches[other as usize], against[other as usize]) = (count, turned);
                     stack.push(other);
                 } else if against[other as usize] != turned && mending.unclear.is_none() {

@@ -1,12 +1,12 @@
 //! How far polynomials are from the formula that they follow: a bound that holds everywhere, not at points only.
 //!
-//! A piece of the polynomials P is cut into cells. The formula's curve is told by P's own parameter u as P + e, and e is
+//! A piece of the polynomials P is cut into cells. The formula's curve is written by P's own parameter u as P + e, and e is
 //! enclosed by Taylor's theorem: its terms about the middle of the cell, and one term about all of it at once, by
 //! intervals ([`super::series`]). For r(t), z(t), e is the difference itself. For z(r) and f(r, z) = 0 it is a step in
 //! r or z alone, |f(P)| over the derivative of f in that direction.
 //!
-//! From |e| <= place and |e'| <= turn x |P'| follows how far the points at one slope are apart: the arc over which P
-//! turns by `turn`, and `place`. Where P turns so little that rounding of the slope itself moves its point by more,
+//! From |e| <= distance and |e'| <= turn x |P'| follows how far the points at one slope are apart: the arc over which P
+//! turns by `turn`, and `distance`. Where P turns so little that rounding of the slope itself moves its point by more,
 //! that much is left to the slope ([`RELATIVE`]).
 
 use super::interval::Interval;
@@ -19,7 +19,7 @@ use crate::profile::fitted;
 /// What is aimed at, and what is let pass where rounding forbids more; in parts of the extent.
 const AIM: f64 = 1e-10;
 const MOST: f64 = 4e-10;
-/// Change of a slope, relative to itself, that is not told from rounding.
+/// Change of a slope, relative to itself, that cannot be distinguished from rounding.
 const RELATIVE: f64 = 1e-12;
 /// Within this of tip or base, in parts of the extent, r and z need hold, but not by slope.
 const NEAR_END: f64 = 3e-5;
@@ -36,10 +36,10 @@ const MOST_OPERATIONS: usize = 40_000;
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Bound {
     /// The curves are nowhere farther apart, mm.
-    pub place: f64,
+    pub distance: f64,
     /// Nor are their points at one slope (but for [`RELATIVE`] of it), mm.
     pub by_slope: f64,
-    /// Within this of the tip or base only `place` holds, mm.
+    /// Within this of the tip or base only `distance` holds, mm.
     pub except: f64,
 }
 
@@ -47,7 +47,7 @@ pub(super) struct Bound {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cell {
     u: [f64; 2],
-    place: f64,
+    distance: f64,
     /// Angle between the two tangents at one u, rad.
     turn: f64,
     /// Radius of curvature of P at most.
@@ -55,18 +55,18 @@ pub(super) struct Cell {
     length: f64,
     /// Slopes of P at its ends, rad.
     slopes: [f64; 2],
-    /// By slope nothing is said of it.
+    /// By slope nothing is known of it.
     except: f64,
 }
 
 impl Cell {
     /// Its tangents are off by more than rounding of a slope.
-    fn is_told_from_rounding(&self) -> bool {
+    fn exceeds_rounding(&self) -> bool {
         self.turn > RELATIVE * self.slopes[0]
     }
 
     /// How far P goes along the cell while it turns by an angle.
-    fn way(&self, turn: f64) -> f64 {
+    fn arc(&self, turn: f64) -> f64 {
         if turn <= 0.0 || self.except > 0.0 {
             return 0.0;
         }
@@ -75,14 +75,14 @@ impl Cell {
 
     /// How far apart points at one slope are, of its own; mm.
     fn off(&self) -> f64 {
-        self.place + if self.is_told_from_rounding() { self.way(self.turn) } else { 0.0 }
+        self.distance + if self.exceeds_rounding() { self.arc(self.turn) } else { 0.0 }
     }
 }
 
 /// Why a piece is not followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Fault {
-    /// The polynomials are off, or nothing can be said: a shorter piece may do.
+    /// The polynomials are off, or nothing is known: a shorter piece may do.
     Off,
     /// Rounding of the formula is larger than what is allowed.
     Rounding,
@@ -225,10 +225,10 @@ impl<'a> Ruler<'a> {
         if !whole && !part.ends[1] && part.halvings < MOST_HALVINGS_AT_END {
             return None;
         }
-        Some(Cell { place: 2.0 * less, turn: f64::INFINITY, length: dr + dz, except, ..*cell })
+        Some(Cell { distance: 2.0 * less, turn: f64::INFINITY, length: dr + dz, except, ..*cell })
     }
 
-    /// What is known of a cell, and how much of its place is rounding of the formula at its middle, mm.
+    /// What is known of a cell, and how much of its distance is rounding of the formula at its middle, mm.
     ///
     /// `size` is what counts of an interval: the largest of its numbers for a bound.
     fn measured(&self, piece: &Piece, u: [f64; 2], size: fn(Interval) -> f64) -> (Cell, f64) {
@@ -246,14 +246,14 @@ impl<'a> Ruler<'a> {
         let terms = terms.map(|terms| shifted(&terms, Interval::around_zero(half), ORDER));
         let (wide, [r, z]) = about(Interval::new(u[0], u[1]), &terms);
         let rests = [0, 1].map(|i| remainder(&centre[i], &wide[i], half, size));
-        let (mut place, mut rates) = (rests[0][0] + rests[1][0], [rests[0][1], rests[1][1]]);
+        let (mut distance, mut rates) = (rests[0][0] + rests[1][0], [rests[0][1], rests[1][1]]);
         let mut noise: f64 = centre.iter().map(|series| series.terms[0].hi - series.terms[0].lo).sum();
         let d = [r.terms[1], z.terms[1]];
         let two = Interval::exact(2.0);
         let turning = d[0] * (two * z.terms[2]) - (two * r.terms[2]) * d[1];
-        if let Some([step, rate]) = self.step(stretch, [r.terms[0], z.terms[0]], d, [place, rates[0]]) {
-            noise *= step / place;
-            place = step;
+        if let Some([step, rate]) = self.step(stretch, [r.terms[0], z.terms[0]], d, [distance, rates[0]]) {
+            noise *= step / distance;
+            distance = step;
             rates = if stretch == BY_RADIUS { [0.0, rate] } else { [rate, 0.0] };
         }
         let speed = (d[0].square() + d[1].square()).sqrt();
@@ -267,7 +267,7 @@ impl<'a> Ruler<'a> {
         });
         let cell = Cell {
             u,
-            place: if place.is_nan() { f64::INFINITY } else { place },
+            distance: if distance.is_nan() { f64::INFINITY } else { distance },
             // an arc is so much longer than its sine up to here
             turn: if turn <= 0.1 { turn } else { f64::INFINITY },
             radius: if radius >= 0.0 { radius } else { f64::INFINITY },
@@ -359,15 +359,15 @@ fn remainder(centre: &Series, wide: &Series, half: f64, size: fn(Interval) -> f6
 pub(super) fn bound(cells: &[Cell]) -> Bound {
     let mut bound = Bound::default();
     for (k, cell) in cells.iter().enumerate() {
-        bound.place = bound.place.max(cell.place);
+        bound.distance = bound.distance.max(cell.distance);
         bound.except = bound.except.max(cell.except);
         if cell.except > 0.0 {
             continue;
         }
-        let turn = if cell.is_told_from_rounding() { cell.turn } else { 0.0 };
-        let before = way(cells[..k].iter().rev(), turn);
-        let after = way(cells[k + 1..].iter(), turn);
-        bound.by_slope = bound.by_slope.max(cell.place + cell.way(turn) + before.max(after));
+        let turn = if cell.exceeds_rounding() { cell.turn } else { 0.0 };
+        let before = arc_through(cells[..k].iter().rev(), turn);
+        let after = arc_through(cells[k + 1..].iter(), turn);
+        bound.by_slope = bound.by_slope.max(cell.distance + cell.arc(turn) + before.max(after));
     }
     bound
 }
@@ -376,16 +376,16 @@ pub(super) fn bound(cells: &[Cell]) -> Bound {
 ///
 /// Slopes of the formula rise along it: one of a cell is not above that where the next cell begins, so that the next
 /// one is not entered by more than its own tangents are off.
-fn way<'a>(cells: impl Iterator<Item = &'a Cell>, turn: f64) -> f64 {
-    let (mut way, mut rest) = (0.0, turn);
+fn arc_through<'a>(cells: impl Iterator<Item = &'a Cell>, turn: f64) -> f64 {
+    let (mut arc, mut rest) = (0.0, turn);
     for cell in cells {
-        rest = if cell.is_told_from_rounding() { rest.min(cell.turn) } else { 0.0 };
-        way += cell.way(rest);
+        rest = if cell.exceeds_rounding() { rest.min(cell.turn) } else { 0.0 };
+        arc += cell.arc(rest);
         rest -= (cell.slopes[1] - cell.slopes[0]).max(0.0);
         // not so for NaN, of cells that count by their length
         if rest <= 0.0 {
             break;
         }
     }
-    way
+    arc
 }

@@ -36,7 +36,7 @@ const SMALL: f64 = 1e-6;
 /// Most evaluations over intervals, and most operators and functions in them: some 50 ms.
 const MOST_EVALUATIONS: usize = 30_000;
 const MOST_OPERATIONS: usize = 400_000;
-/// dz/dr of a cell in which radii are too coarse to tell heights by.
+/// dz/dr of a cell in which radii are too coarse to distinguish heights.
 const STEEP: f64 = 1e3;
 /// What to do about a curve without a proof.
 const HINT: &str = "it needs a continuous tangent and curvature, and a formula in which fewer large terms cancel";
@@ -65,7 +65,7 @@ impl fmt::Display for Proof {
     }
 }
 
-/// A place between two stretches where they do not quite meet.
+/// A position between two stretches where they do not quite meet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Joint {
     /// How much the slope falls there, rad.
@@ -236,14 +236,14 @@ impl Prover<'_> {
     }
 
     fn no_proof(&self, cell: &Cell) -> GeometryError {
-        let place = self.source.between(&cell.from, &cell.to).unwrap_or(cell.from);
+        let position = self.source.between(&cell.from, &cell.to).unwrap_or(cell.from);
         let [dr, dz] = extents(&cell.from, &cell.to);
         if dr <= TINY * self.size && dz > STEEP * dr {
             let reason = "the curve cannot be proved convex here: it is so nearly upright that z by r rounds too much";
             let hint = "write it as r(t), z(t) or as implicit, or end it at a slightly smaller diameter";
-            return self.source.refuse(&place, reason, hint);
+            return self.source.refuse(&position, reason, hint);
         }
-        self.source.refuse(&place, "the curve cannot be proved convex here", HINT)
+        self.source.refuse(&position, "the curve cannot be proved convex here", HINT)
     }
 
     /// A cell at the tip or base that is too small to matter.

@@ -100,7 +100,7 @@ impl Source for Explicit {
         self.z.operations
     }
 
-    fn place(&self, sample: &Sample) -> String {
+    fn position(&self, sample: &Sample) -> String {
         format!("r = {}", short(if sample.stretch == BY_RADIUS { sample.p } else { sample.point[0] }))
     }
 }

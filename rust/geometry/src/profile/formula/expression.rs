@@ -140,8 +140,8 @@ impl Expression {
         Operators: MakeOperators<T>,
     {
         let mut given = inputs;
-        for (place, &slot) in given.iter_mut().zip(&self.slots) {
-            *place = inputs[slot.min(1)];
+        for (value, &slot) in given.iter_mut().zip(&self.slots) {
+            *value = inputs[slot.min(1)];
         }
         parsed.eval(&given[..self.slots.len().min(2)]).ok()
     }
@@ -156,7 +156,7 @@ where
     })
 }
 
-/// The tokens as exmex reads them the way people do.
+/// The tokens as exmex reads them as people read them.
 fn canonical(tokens: &[Token]) -> String {
     let mut writer = Writer { text: String::new(), pending: vec![0], minus: false, operand_next: true };
     for token in tokens {

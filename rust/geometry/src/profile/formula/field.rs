@@ -6,7 +6,7 @@ use super::jet::Jet;
 use super::number::Number;
 use super::sample::short;
 
-/// The field f in the tool's coordinates, and places as the user knows them.
+/// The field f in the tool's coordinates, and positions as the user knows them.
 pub(super) struct Field {
     pub f: Expression,
     /// z of the tip in the formula's coordinates.
@@ -32,7 +32,7 @@ impl Field {
         jet
     }
 
-    pub fn place(&self, [r, z]: [f64; 2]) -> String {
+    pub fn position(&self, [r, z]: [f64; 2]) -> String {
         format!("r = {}, z = {}", short(r), short(self.origin + self.upwards * z))
     }
 }

@@ -12,8 +12,8 @@ const NODES: usize = TERMS - 1;
 const MOST_INTERVALS: usize = 300;
 
 /// What is allowed between the nodes, and what is met where halving no longer helps.
-const ALLOWED: Deviation = Deviation { place: 1e-12, slope: 1e-10, curvature: 1e-10, turn: 1e-11 };
-const ROUNDING: Deviation = Deviation { place: 1e-10, slope: 1e-8, curvature: 1e-6, turn: 1e-11 };
+const ALLOWED: Deviation = Deviation { distance: 1e-12, slope: 1e-10, curvature: 1e-10, turn: 1e-11 };
+const ROUNDING: Deviation = Deviation { distance: 1e-10, slope: 1e-8, curvature: 1e-6, turn: 1e-11 };
 /// No interval is shorter than this part of its stretch.
 const SHORTEST: f64 = 1e-12;
 /// Longest interval at a tip or base where the curvature is infinite, in parts of the size.
@@ -25,7 +25,7 @@ const FARTHEST: f64 = 1e-9;
 #[derive(Clone, Copy, Debug)]
 struct Deviation {
     /// r and z, in parts of the size.
-    place: f64,
+    distance: f64,
     /// The derivative's direction, rad.
     slope: f64,
     /// Radius of curvature, relative.
@@ -35,20 +35,20 @@ struct Deviation {
 }
 
 /// No deviation yet.
-const NONE: Deviation = Deviation { place: 0.0, slope: 0.0, curvature: 0.0, turn: 0.0 };
+const NONE: Deviation = Deviation { distance: 0.0, slope: 0.0, curvature: 0.0, turn: 0.0 };
 
 impl Deviation {
     /// The largest part of what is allowed.
     fn share_of(&self, allowed: &Self) -> f64 {
         let curvature = (self.curvature / allowed.curvature).min(self.turn / allowed.turn);
-        let shares = [self.place / allowed.place, self.slope / allowed.slope, curvature];
+        let shares = [self.distance / allowed.distance, self.slope / allowed.slope, curvature];
         // NaN is a whole share
         shares.into_iter().map(|x| if x.is_nan() { f64::INFINITY } else { x }).fold(0.0, f64::max)
     }
 
     fn worse(&self, other: &Self) -> Self {
         Self {
-            place: self.place.max(other.place),
+            distance: self.distance.max(other.distance),
             slope: self.slope.max(other.slope),
             curvature: self.curvature.max(other.curvature),
             turn: self.turn.max(other.turn),
@@ -128,7 +128,7 @@ pub(super) fn fit(route: &Route) -> Result<(Fitted, String), GeometryError> {
         fitter.stretch(from, to, index == 0, index + 1 == route.stretches.len())?;
     }
     let bound = bound(&fitter.cells);
-    if bound.place.max(bound.by_slope) > FARTHEST * extent {
+    if bound.distance.max(bound.by_slope) > FARTHEST * extent {
         return Err(fitter.too_far(route, &bound));
     }
     let note = fitter.note(&bound);
@@ -184,7 +184,7 @@ impl Fitter<'_> {
             let spent = self.intervals.len() + jobs.len() > MOST_INTERVALS || fault == Fault::Spent;
             if spent || fault == Fault::Rounding || job.to.p - job.from.p <= SHORTEST * whole.abs() {
                 // the derivatives agree, the values do not, however short the interval
-                let rounds = deviation.place > ROUNDING.place && deviation.slope <= ROUNDING.slope;
+                let rounds = deviation.distance > ROUNDING.distance && deviation.slope <= ROUNDING.slope;
                 return Err(self.refused(&middle, if rounds { Fault::Rounding } else { fault }));
             }
             let before = deviation.share_of(&ALLOWED);
@@ -194,7 +194,7 @@ impl Fitter<'_> {
         Ok(())
     }
 
-    fn refused(&self, place: &Sample, fault: Fault) -> GeometryError {
+    fn refused(&self, position: &Sample, fault: Fault) -> GeometryError {
         let (reason, hint) = match fault {
             Fault::Off => (
                 "the formula is not smooth here, or too rough to be followed",
@@ -209,14 +209,14 @@ impl Fitter<'_> {
                 "write the formula shorter, or smoother",
             ),
         };
-        self.source.refuse(place, reason, hint)
+        self.source.refuse(position, reason, hint)
     }
 
     fn too_far(&self, route: &Route, bound: &Bound) -> GeometryError {
-        let far = short(bound.place.max(bound.by_slope));
-        let place = route.samples.last().map_or_else(String::new, |sample| self.source.place(sample));
+        let far = short(bound.distance.max(bound.by_slope));
+        let position = route.samples.last().map_or_else(String::new, |sample| self.source.position(sample));
         let hint = "it needs a continuous tangent and curvature between tip and base";
-        refusal(place, format!("the polynomials before it are off the formula by up to {far} mm"), hint)
+        refusal(position, format!("the polynomials before it are off the formula by up to {far} mm"), hint)
     }
 
     /// What counts of a deviation that is small enough, or as small as rounding lets it be.
@@ -227,9 +227,9 @@ impl Fitter<'_> {
         }
         let [dr, dz] = [0, 1].map(|i| (job.to.point[i] - job.from.point[i]).abs());
         let tiny = dr.max(dz) <= SINGULAR * self.size;
-        let singular = (job.at_tip || job.at_base) && tiny && deviation.place <= ALLOWED.place;
+        let singular = (job.at_tip || job.at_base) && tiny && deviation.distance <= ALLOWED.distance;
         self.singular |= singular;
-        singular.then_some(Deviation { place: deviation.place, ..NONE })
+        singular.then_some(Deviation { distance: deviation.distance, ..NONE })
     }
 
     fn push(&mut self, interval: &Interval, job: &Job) {
@@ -257,7 +257,7 @@ impl Fitter<'_> {
     fn polynomial(&self, rates: [f64; NODES], middle: f64) -> [f64; TERMS] {
         let mut out = [0.0; TERMS];
         out[0] = middle;
-        // the coordinate by which the curve is told
+        // the coordinate of which the curve is a function
         if rates.iter().all(|rate| rate.to_bits() == rates[0].to_bits()) {
             out[1] = rates[0];
             return out;
@@ -281,7 +281,7 @@ impl Fitter<'_> {
             let off = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).abs().max((a[1] - b[1]).abs());
             let bend = (found.curvature() - exact.curvature()).abs();
             let here = Deviation {
-                place: off(found.point, exact.point) / self.size,
+                distance: off(found.point, exact.point) / self.size,
                 slope: off(found.d, exact.d) / exact.speed(),
                 curvature: bend / (exact.curvature().abs() + floor),
                 turn: bend * exact.speed() * 2.0 * half,
@@ -306,7 +306,7 @@ impl Fitter<'_> {
             "polynomials (intervals: {}) follow the formula to {} mm, and to {} mm by slope, by interval arithmetic; {} rad \
              in slope and {} in radius of curvature (relative) where compared{singular}{except}",
             self.intervals.len(),
-            short(bound.place),
+            short(bound.distance),
             short(bound.by_slope),
             short(slope),
             short(curvature),

@@ -76,7 +76,7 @@ fn forms(text: &str, diameter: f64) -> [FormulaDocument; 3] {
     ]
 }
 
-/// How high the formula z(r) goes over its chords, in parts of the size; at places and widths of all sizes.
+/// How high the formula z(r) goes over its chords, in parts of the size; at positions and widths of all sizes.
 fn highest_over_chords(text: &str, diameter: f64, random: &mut impl FnMut() -> f64) -> f64 {
     let parameters = BTreeMap::new();
     let names = Names { key: "z", variables: &["r"], parameters: &parameters };
@@ -123,7 +123,7 @@ proptest! {
     }
 }
 
-/// Peak of this process' memory, MB, where the system tells.
+/// Peak of this process' memory, MB, where the system reports it.
 fn peak_memory() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));

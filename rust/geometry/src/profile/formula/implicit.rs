@@ -34,7 +34,7 @@ impl Implicit {
         let scale = self.knots.last()?.point[other].abs() + if axis == 0 { self.field.origin.abs() } else { 0.0 };
         let bracket = bracket(&self.knots, axis, value, scale)?;
         let point = |x: f64| if axis == 0 { [value, x] } else { [x, value] };
-        // the end nearer to where this coordinate tells the curve apart
+        // the end nearer to where the curve is a function of this coordinate
         let sign = self.signs.get(bracket.index + axis.min(1)).or(self.signs.get(bracket.index))?[other];
         let (x, jet) = solve(&bracket, other, sign, |x| self.field.jet(point(x)))?;
         let rate = -jet.first[axis] / jet.first[other];
@@ -126,8 +126,8 @@ impl Source for Implicit {
         self.field.f.operations
     }
 
-    fn place(&self, sample: &Sample) -> String {
-        self.field.place(sample.point)
+    fn position(&self, sample: &Sample) -> String {
+        self.field.position(sample.point)
     }
 }
 
@@ -152,7 +152,7 @@ pub(super) fn route(f: Expression, start: [f64; 2], base: Option<f64>) -> Result
 }
 
 fn nothing(field: &Field, start: [f64; 2]) -> GeometryError {
-    refusal(field.place(start), "there is no curve here".to_owned(), "give a start point on the curve")
+    refusal(field.position(start), "there is no curve here".to_owned(), "give a start point on the curve")
 }
 
 /// A knot in the tool's coordinates, by arc length. Each is a stretch of its own: nothing lies between them yet.

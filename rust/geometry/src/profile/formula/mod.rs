@@ -122,7 +122,7 @@ pub enum TracedPart {
 /// Traces a formula from its tip to its base; the tip flat is the caller's.
 ///
 /// # Errors
-/// A formula that cannot be read, keys that do not go together, or a curve that is not a profile, with the place.
+/// A formula that cannot be read, keys that do not go together, or a curve that is not a profile, with the position.
 pub fn trace(document: &FormulaDocument) -> Result<Traced, GeometryError> {
     let mut route = route(document)?;
     proof::prove(&route)?;

@@ -119,7 +119,7 @@ impl Number for f64 {
 
 /// Whole powers up to here are multiplied out: quicker than `pow`, and the same everywhere.
 const MULTIPLIED_OUT: f64 = 32.0;
-/// Largest angle that has a sine worth the name: beyond, rounding eats it, and the reduction takes long.
+/// Largest angle whose sine is meaningful: beyond, rounding exceeds it, and the reduction takes long.
 const LARGEST_ANGLE: f64 = 1e6;
 
 /// The size of a whole exponent that is multiplied out.

@@ -57,7 +57,7 @@ impl Source for Parametric {
         self.r.operations + self.z.operations
     }
 
-    fn place(&self, sample: &Sample) -> String {
+    fn position(&self, sample: &Sample) -> String {
         format!("t = {}", short(self.direction * sample.p))
     }
 }

@@ -76,7 +76,7 @@ impl Source for Polynomials<'_> {
         OPERATIONS
     }
 
-    fn place(&self, sample: &Sample) -> String {
+    fn position(&self, sample: &Sample) -> String {
         format!("r = {}", short(sample.point[0]))
     }
 }

@@ -62,15 +62,15 @@ const DEFECTS: [Defect; 4] = [
     },
 ];
 
-/// Refuses a route with a defect, with the place where it begins.
+/// Refuses a route with a defect, with the position where it begins.
 pub(super) fn prove(route: &Route) -> Result<(), GeometryError> {
     has_none_of(&DEFECTS, route)?;
     ends_are_in_range(route)?;
     moves_everywhere(route)?;
-    is_of_this_world(route)
+    is_of_a_tools_size(route)
 }
 
-/// Refuses a route that does not rise; says nothing of its curvature.
+/// Refuses a route that does not rise; its curvature is not checked.
 pub(super) fn rises(route: &Route) -> Result<(), GeometryError> {
     has_none_of(&DEFECTS[..RISING], route)
 }
@@ -84,15 +84,15 @@ fn has_none_of(all: &[Defect], route: &Route) -> Result<(), GeometryError> {
         let defects = if index == 0 || index == last { &all[..1] } else { all };
         for defect in defects {
             if (defect.is_at)(sample, size) {
-                let place = beginning(route, index, |sample| (defect.is_at)(sample, size));
-                return Err(route.source.refuse(&place, defect.reason, defect.hint));
+                let position = beginning(route, index, |sample| (defect.is_at)(sample, size));
+                return Err(route.source.refuse(&position, defect.reason, defect.hint));
             }
         }
     }
     Ok(())
 }
 
-/// Refuses a point, the one before it being without defect, that has one for certain: with the place where it begins.
+/// Refuses a point, the one before it being without defect, that has one for certain: with the position where it begins.
 pub(super) fn refuse_defect(
     source: &dyn Source,
     before: &Sample,
@@ -102,8 +102,8 @@ pub(super) fn refuse_defect(
     for defect in DEFECTS.iter().filter(|defect| (defect.is_at)(point, size)) {
         let certain = source.enclose(point, point).is_none_or(|piece| (defect.is_certain)(&piece));
         if certain {
-            let place = between(source, *before, *point, |sample| (defect.is_at)(sample, size));
-            return Err(source.refuse(&place, defect.reason, defect.hint));
+            let position = between(source, *before, *point, |sample| (defect.is_at)(sample, size));
+            return Err(source.refuse(&position, defect.reason, defect.hint));
         }
     }
     Ok(())
@@ -117,9 +117,9 @@ fn values_rise(route: &Route, index: usize, size: f64) -> Result<(), GeometryErr
         ["r falls: the curve turns inwards", "z falls: the curve is not monotone"].into_iter().enumerate()
     {
         if falls(&route.samples[index], i) && route.samples[index].d[i] >= 0.0 {
-            let place = beginning(route, index, |sample| falls(sample, i));
+            let position = beginning(route, index, |sample| falls(sample, i));
             let hint = "r and z must rise all the way from tip to base (or z fall, then it is mirrored)";
-            return Err(route.source.refuse(&place, reason, hint));
+            return Err(route.source.refuse(&position, reason, hint));
         }
     }
     Ok(())
@@ -163,15 +163,15 @@ fn ends_are_in_range(route: &Route) -> Result<(), GeometryError> {
     }
     let passes = |sample: &Sample| !(-SLOPE_ROUNDING..=FRAC_PI_2 + SLOPE_ROUNDING).contains(&sample.slope());
     if passes(base) {
-        let place = beginning(route, route.samples.len() - 1, passes);
+        let position = beginning(route, route.samples.len() - 1, passes);
         let reason = "the slope at the base is not between 0 and 90 degrees";
-        return Err(route.source.refuse(&place, reason, "end the range there, or give a diameter"));
+        return Err(route.source.refuse(&position, reason, "end the range there, or give a diameter"));
     }
     Ok(())
 }
 
 /// Refuses a profile too small or too large for a tool.
-fn is_of_this_world(route: &Route) -> Result<(), GeometryError> {
+fn is_of_a_tools_size(route: &Route) -> Result<(), GeometryError> {
     let Some([_, base]) = route.stretches.last() else { return Ok(()) };
     let [radius, height] = base.point;
     if radius > SMALLEST && radius <= LARGEST && height <= LARGEST {

@@ -39,7 +39,7 @@ fn with_added(added: &str) -> [FormulaDocument; 3] {
 }
 
 /// The number in `r = ..` or `t = ..`.
-fn place(message: &str) -> f64 {
+fn position(message: &str) -> f64 {
     let number = message.split([' ', ',', ':']).nth(2);
     number.and_then(|number| number.parse().ok()).unwrap_or_else(|| panic!("{message}"))
 }
@@ -50,20 +50,20 @@ fn a_bump_between_the_points_that_are_looked_at_is_refused_with_its_place() {
         for document in with_added(&format!("1e-6*exp(-((r - 1.2345)/{width})^2)")) {
             let message = refused(&document);
             let named = message.contains("concave") || message.contains("z falls");
-            assert!(named && (place(&message) - 1.2345).abs() < 3e-4, "{document:?}: {message}");
+            assert!(named && (position(&message) - 1.2345).abs() < 3e-4, "{document:?}: {message}");
         }
     }
     // so high that z falls behind it
     for document in with_added("0.04*exp(-((r - 2.5597)/3e-6)^2)") {
         let message = refused(&document);
         let named = message.contains("concave") || message.contains("z falls");
-        assert!(named && (place(&message) - 2.5597).abs() < 1e-4, "{document:?}: {message}");
+        assert!(named && (position(&message) - 2.5597).abs() < 1e-4, "{document:?}: {message}");
     }
     // seen neither by the points of the route nor by those of the polynomials
     for document in with_added("1e-11*exp(-((r - 1.2345)/3e-6)^2)") {
         proof::prove(&route(&document).unwrap()).unwrap();
         let message = refused(&document);
-        assert!(message.contains("concave") && (place(&message) - 1.2345).abs() < 1e-5, "{document:?}: {message}");
+        assert!(message.contains("concave") && (position(&message) - 1.2345).abs() < 1e-5, "{document:?}: {message}");
     }
 }
 
@@ -104,7 +104,7 @@ fn loops_between_the_points_that_are_looked_at_are_refused() {
     assert!(!message.contains("not refused"), "{message}");
 }
 
-/// Shapes that must be proved, each with the words that tell it.
+/// Shapes that must be proved, each with the words of its message.
 fn shapes() -> Vec<(&'static str, FormulaDocument)> {
     vec![
         ("circle z(r)", explicit("5 - sqrt(25 - r^2)", 10.0)),

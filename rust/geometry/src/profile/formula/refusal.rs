@@ -3,6 +3,6 @@
 use crate::GeometryError;
 
 /// A defect with its position (key, parameter or character), its reason and a hint.
-pub(super) fn refusal(place: String, reason: String, hint: &str) -> GeometryError {
-    GeometryError::Profile { place, reason, hint: hint.to_owned() }
+pub(super) fn refusal(position: String, reason: String, hint: &str) -> GeometryError {
+    GeometryError::Profile { place: position, reason, hint: hint.to_owned() }
 }

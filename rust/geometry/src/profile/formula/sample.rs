@@ -123,15 +123,15 @@ pub(super) trait Source {
     }
 
     /// `t = 0.83`, `r = 4.1`: in the formula's own terms.
-    fn place(&self, sample: &Sample) -> String;
+    fn position(&self, sample: &Sample) -> String;
 
     /// An error at a point.
     fn refuse(&self, sample: &Sample, reason: &str, hint: &str) -> GeometryError {
-        refusal(self.place(sample), reason.to_owned(), hint)
+        refusal(self.position(sample), reason.to_owned(), hint)
     }
 }
 
-/// A formula on its way to a profile.
+/// A formula traced from tip to base.
 pub(super) struct Route {
     /// Where points come from.
     pub source: Box<dyn Source>,

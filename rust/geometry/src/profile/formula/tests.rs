@@ -48,8 +48,8 @@ fn agrees(document: &FormulaDocument, to: f64, shape: Shape) {
         let slope = to * f64::from(k) / 1000.0;
         let (r, z, rho) = shape(slope);
         let found = curve.point_at(slope);
-        let place = (found.0 - r).abs().max((found.1 - z).abs());
-        assert!(place <= 1e-9 * size, "{document:?} {notes:?} at {slope}: {found:?} {r} {z}: {place:e}");
+        let off_by = (found.0 - r).abs().max((found.1 - z).abs());
+        assert!(off_by <= 1e-9 * size, "{document:?} {notes:?} at {slope}: {found:?} {r} {z}: {off_by:e}");
         let radius = curve.curvature_radius_at(slope);
         assert!((radius - rho).abs() <= 1e-9 * rho, "{document:?} {notes:?} at {slope}: {radius} {rho}");
         assert!((curve.height_at_radius(r, [0.0, 1.6]) - z).abs() <= 1e-9 * size * (1.0 + slope.tan()), "{slope}");

@@ -1,4 +1,4 @@
-//! From a formula's text to tokens, within limits, every name known and every error with its place.
+//! From a formula's text to tokens, within limits, every name known and every error with its position.
 
 use std::collections::BTreeMap;
 

@@ -54,7 +54,7 @@ pub(super) fn trace(field: &Field, start: [f64; 2], base: Option<f64>) -> Result
 
 impl Tracer<'_> {
     fn refuse(&self, point: [f64; 2], reason: &str, hint: &str) -> GeometryError {
-        refusal(self.field.place(point), reason.to_owned(), hint)
+        refusal(self.field.position(point), reason.to_owned(), hint)
     }
 
     fn no_gradient(&self, point: [f64; 2]) -> GeometryError {

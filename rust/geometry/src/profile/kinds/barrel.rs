@@ -25,7 +25,7 @@ use crate::{
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Barrel {
-    /// Diameter at the widest place, mm.
+    /// Diameter where it is widest, mm.
     #[schemars(extend("x-unit" = "mm"))]
     pub diameter: f64,
     /// Radius of the generating arc, mm.

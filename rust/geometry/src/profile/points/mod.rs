@@ -29,7 +29,7 @@ pub struct Fit {
     pub profile: Profile,
     /// Largest distance of a given point from the finished profile, on either side, mm.
     pub deviation: f64,
-    /// What else there is to say, in sentences.
+    /// What else is to be reported, in sentences.
     pub notes: Vec<String>,
 }
 
@@ -41,7 +41,7 @@ pub struct Fit {
 ///
 /// # Errors
 /// Too few points, one that is not finite or turns back, a tip off the axis; points that no such curve follows: a
-/// hollow, a corner; each with the point's number and place.
+/// hollow, a corner; each with the point's number and position.
 pub fn fit(points: &[[f64; 2]], tolerance: f64, tip: &Builder) -> Result<Fit, GeometryError> {
     check(points, tolerance)?;
     let lowest = points.iter().map(|p| p[1]).fold(f64::INFINITY, f64::min);

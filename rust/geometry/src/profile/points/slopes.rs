@@ -111,7 +111,7 @@ impl<'a> Legs<'a> {
         slopes
     }
 
-    /// Whether a chord's points say that it is a line: an arc would pass them at a distance.
+    /// Whether a chord's points show that it is a line: an arc would pass them at a distance.
     fn is_line(&self, i: usize, tolerance: f64) -> bool {
         let chord = &self.chords[i];
         let turn = match i {
@@ -159,7 +159,7 @@ impl<'a> Legs<'a> {
     /// The share of a joint's turn that belongs to the leg after it, as on a smooth curve through the points.
     ///
     /// The circle through three points shares the turn by length. Where the curvature changes evenly, the legs' own
-    /// curvatures, told from their other ends, add a part that makes it exact to the third order; where it jumps, only
+    /// curvatures, taken from their other ends, add a part that makes it exact to the third order; where it jumps, only
     /// they count.
     fn share_of_the_next(&self, joint: usize) -> f64 {
         let length = |i: usize| self.chords[i].length;

@@ -65,7 +65,7 @@ fn a_line_that_rounding_has_bent_is_a_line() {
         let fit = fitted(&ARC_AND_LINE, tolerance);
         assert_eq!(fit.profile.base(), (2.7488635111133286, 6.862266628300773));
         assert!(fit.deviation < 1e-9, "{}", fit.deviation);
-        judge(&ARC_AND_LINE, tolerance, &fit);
+        check(&ARC_AND_LINE, tolerance, &fit);
     }
 }
 
@@ -74,7 +74,7 @@ fn lists_that_went_wrong_once() {
     let nearly_collinear = [[0.0, 0.0], [1.0, 0.1], [2.0, 0.6], [3.0, 1.1 + 1e-10], [4.0, 2.1]];
     let kinked = [[0.0, 0.0], [1.9, 0.3], [3.1, 0.9], [3.5, 1.1], [3.6, 1.2], [4.7, 2.3], [5.1, 2.8], [5.4, 3.4]];
     for (points, tolerance) in [(&nearly_collinear[..], 1e-3), (&kinked[..], 0.1)] {
-        judge(points, tolerance, &fitted(points, tolerance));
+        check(points, tolerance, &fitted(points, tolerance));
     }
 }
 
@@ -83,7 +83,7 @@ fn the_deviation_is_that_of_the_profile_on_both_sides() {
     let mut points = of_circle(19, 6.0);
     points[10][1] += 0.2;
     let fit = fitted(&points, 0.2);
-    judge(&points, 0.2, &fit);
+    check(&points, 0.2, &fit);
     // the ball itself is 0.1336 mm away
     assert!((0.12..0.15).contains(&fit.deviation), "{}", fit.deviation);
     assert!(refusal(&points, 0.1).contains("points[10]"));
@@ -106,7 +106,7 @@ fn a_wiggle_of_a_nanometre_is_repaired_or_refused() {
     points.extend((1..=20).map(|i| [5.0 + 0.1 * f64::from(i), 25.0 / 16.0 + 0.1 * f64::from(i) * 0.625]));
     points[110][1] += 1e-6;
     let fit = fitted(&points, 1e-5);
-    judge(&points, 1e-5, &fit);
+    check(&points, 1e-5, &fit);
     assert!(fit.deviation > 5e-7, "{}", fit.deviation);
     let error = refusal(&points, 1e-7);
     assert!(error.contains("points[110]") && error.contains("hollow"), "{error}");
@@ -144,11 +144,11 @@ fn corners_are_refused_with_their_place() {
     points = vec![[0.0, 0.0], [4.0, 0.0]];
     points.extend(line([4.0, 0.0], 45.0, 4));
     refused(&points, 1, "a corner of 45.000 degrees");
-    // where the points leave room, it is rounded: 4 mm of flank with a point at its middle
+    // where the points allow it, it is rounded: 4 mm of flank with a point at its middle
     points = vec![[0.0, 0.0]];
     points.extend(line([0.0, 0.0], 20.0, 2));
     points.extend(line(points[2], 25.0, 2));
-    judge(&points, 1e-3, &fitted(&points, 1e-3));
+    check(&points, 1e-3, &fitted(&points, 1e-3));
     refused(
         &[&points[..3], &line(points[2], 50.0, 2).collect::<Vec<_>>()[..]].concat(),
         2,
@@ -171,7 +171,7 @@ fn falls_and_repetitions_within_the_tolerance_are_no_matter() {
         .extend((0..=20).map(|i| FRAC_PI_2 * f64::from(i) / 20.0).map(|a| [2.7 + 2.0 * a.sin(), 2.0 - 2.0 * a.cos()]));
     points.push(points[30]);
     points.extend((1..10).map(|i| [4.7 - 1e-6 * f64::from(i % 3), 2.0 + 0.2 * f64::from(i)]));
-    judge(&points, 1e-5, &fitted(&points, 1e-5));
+    check(&points, 1e-5, &fitted(&points, 1e-5));
     assert!(refusal(&points, 1e-7).contains("points[2]"));
 }
 
@@ -206,13 +206,13 @@ fn a_hundred_thousand_points_take_no_time() {
 }
 
 /// Everything that an accepted list is promised, by other means than the fit's own: dense points of the finished curve.
-fn judge(points: &[[f64; 2]], tolerance: f64, fit: &Fit) {
-    if let Err(error) = judged(points, tolerance, fit) {
+fn check(points: &[[f64; 2]], tolerance: f64, fit: &Fit) {
+    if let Err(error) = checked(points, tolerance, fit) {
         panic!("{error}\n{points:?} {tolerance}");
     }
 }
 
-fn judged(points: &[[f64; 2]], tolerance: f64, fit: &Fit) -> Result<(), TestCaseError> {
+fn checked(points: &[[f64; 2]], tolerance: f64, fit: &Fit) -> Result<(), TestCaseError> {
     let profile = &fit.profile;
     let lowest = points.iter().map(|p| p[1]).fold(f64::INFINITY, f64::min);
     let most = points[1..].iter().fold([0.0_f64, 0.0], |m, p| [m[0].max(p[0]), m[1].max(p[1] - lowest)]);
@@ -270,7 +270,7 @@ fn judged(points: &[[f64; 2]], tolerance: f64, fit: &Fit) -> Result<(), TestCase
     Ok(())
 }
 
-/// Steps of each piece that the judge looks at.
+/// Steps of each piece that are checked.
 const SAMPLES: i32 = 48;
 
 fn from_line(a: (f64, f64), b: (f64, f64), p: (f64, f64)) -> f64 {
@@ -353,7 +353,7 @@ fn any_smooth_points() -> impl Strategy<Value = Vec<[f64; 2]>> {
                 1 => Part::Clothoid { length: size, turn, back },
                 _ => Part::Arc { radius: size, turn },
             };
-            // of two points alone nobody can tell a line
+            // two points alone do not determine a line
             let count = if kind == 0 && index > 0 { count + 1 } else { count + 3 };
             let more = part.sampled(points[points.len() - 1], slope, count);
             slope += part.turn();
@@ -414,7 +414,7 @@ proptest! {
     fn points_of_a_smooth_curve_are_followed(points in any_smooth_points(), tolerance in any_tolerance()) {
         let tolerance = tolerance.max(1e-9);
         match fit(&points, tolerance, &Builder::default()) {
-            Ok(fit) => judged(&points, tolerance, &fit)?,
+            Ok(fit) => checked(&points, tolerance, &fit)?,
             Err(error) => prop_assert!(false, "{error}"),
         }
     }
@@ -426,7 +426,7 @@ proptest! {
         let points: Vec<_> = points.iter().map(|p| p.map(|x| scale * x)).collect();
         let (points, tolerance) = (rounded(&points, digits), share * 10_f64.powi(-digits));
         match fit(&points, tolerance, &Builder::default()) {
-            Ok(fit) => judged(&points, tolerance, &fit)?,
+            Ok(fit) => checked(&points, tolerance, &fit)?,
             Err(error) => prop_assert!(error.to_string().contains(" points: 3 to"), "{error}"),
         }
     }
@@ -443,7 +443,7 @@ proptest! {
             [if i == 0 { 0.0 } else { r + size * noise.0 }, z + size * noise.1]
         }).collect();
         match fit(&points, share * size, &Builder::default()) {
-            Ok(fit) => judged(&points, share * size, &fit)?,
+            Ok(fit) => checked(&points, share * size, &fit)?,
             Err(error) => prop_assert!(false, "{error}"),
         }
     }
@@ -451,7 +451,7 @@ proptest! {
     #[test]
     fn what_is_accepted_of_rubbish_keeps_every_promise(points in any_rubbish(), tolerance in any_tolerance()) {
         match fit(&points, tolerance, &Builder::default()) {
-            Ok(fit) => judged(&points, tolerance, &fit)?,
+            Ok(fit) => checked(&points, tolerance, &fit)?,
             Err(error) => prop_assert!(!error.to_string().contains("NaN") && !error.to_string().contains("please report"), "{error}"),
         }
     }
@@ -459,7 +459,7 @@ proptest! {
     #[test]
     fn any_numbers_are_judged(points in any_numbers(), tolerance in any_tolerance()) {
         if let Ok(fit) = fit(&points, tolerance, &Builder::default()) {
-            judged(&points, tolerance, &fit)?;
+            checked(&points, tolerance, &fit)?;
         }
     }
 

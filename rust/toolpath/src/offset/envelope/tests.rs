@@ -44,22 +44,22 @@ fn terrain(heights: &[f64], columns: usize) -> Mesh {
     Mesh::new(vertices, &triangles, &[]).unwrap()
 }
 
-/// The highest of the tips that the triangles allow, each asked alone: nothing is left out for another's sake.
-fn highest_alone(ground: &Ground, place: [f64; 2]) -> f64 {
+/// The highest of the tips that the triangles allow, each asked alone: nothing is pruned.
+fn highest_alone(ground: &Ground, position: [f64; 2]) -> f64 {
     let tip = |triangle| {
         let mut alone = Best::NOTHING;
-        ground.contacts.touch_whole(triangle, place, &mut alone);
+        ground.contacts.touch_whole(triangle, position, &mut alone);
         alone.tip
     };
     let triangles = ground.index.triangles().corners.len() as u32;
     (0..triangles).map(tip).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// A raster over a surface and around it, turned; or places at random.
-fn places(dice: &mut Dice, side: usize) -> Vec<[f64; 2]> {
+/// A raster over a surface and around it, turned; or positions at random.
+fn positions(dice: &mut Dice, side: usize) -> Vec<[f64; 2]> {
     let (sin, cos) = libm::sincos(dice.within(0.0, 6.3));
     let (pitch, reach, is_raster) = (16.0 / side as f64, 8.0, dice.chance(0.7));
-    let place = |i: usize| {
+    let position = |i: usize| {
         let [x, y] = if is_raster {
             [pitch * (i % side) as f64 - reach, pitch * (i / side) as f64 - reach]
         } else {
@@ -67,22 +67,22 @@ fn places(dice: &mut Dice, side: usize) -> Vec<[f64; 2]> {
         };
         [MIDDLE + cos * x - sin * y, MIDDLE + sin * x + cos * y]
     };
-    (0..side * side).map(place).collect()
+    (0..side * side).map(position).collect()
 }
 
-/// Asks `side` squared places of a surface and compares every `each`th with all triangles.
+/// Asks `side` squared positions of a surface and compares every `each`th with all triangles.
 fn compare(surface: Surface, kind: &Kind, seed: u64, side: usize, each: usize) {
     let mut dice = Dice::new(seed);
     let (mesh, tool) = (surface.mesh(&mut dice), kind.tool(&mut dice));
     let index = Index::new(&mesh);
     let envelope = Envelope::new(&mesh, &index, &tool, None, 0.0);
-    let places = places(&mut dice, side);
-    let tips = envelope.tips(&places, &Watch::default()).unwrap();
+    let positions = positions(&mut dice, side);
+    let tips = envelope.tips(&positions, &Watch::default()).unwrap();
     let ground = envelope.ground();
-    for (place, tip) in places.iter().zip(tips).step_by(each) {
-        let truth = highest_alone(&ground, *place);
+    for (position, tip) in positions.iter().zip(tips).step_by(each) {
+        let truth = highest_alone(&ground, *position);
         let is_same = if truth.is_finite() { (tip - truth).abs() < 1e-11 } else { tip.is_nan() };
-        assert!(is_same, "{surface:?} {:?} seed {seed} at {place:?}: {tip} {truth}", tool.document().profile);
+        assert!(is_same, "{surface:?} {:?} seed {seed} at {position:?}: {tip} {truth}", tool.document().profile);
     }
 }
 
@@ -107,8 +107,8 @@ fn a_contact_near_the_rim_is_not_lost_to_a_higher_one() {
     let index = Index::new(&mesh);
     let envelope = Envelope::new(&mesh, &index, &tool, None, 0.0);
     let along = |i: usize| -0.6 + 0.22 * i as f64;
-    let places: Vec<[f64; 2]> = (0..24 * 24).map(|i| [along(i % 24), along(i / 24)]).collect();
-    let tips = envelope.tips(&places, &Watch::default()).unwrap();
+    let positions: Vec<[f64; 2]> = (0..24 * 24).map(|i| [along(i % 24), along(i / 24)]).collect();
+    let tips = envelope.tips(&positions, &Watch::default()).unwrap();
     let (tip, by_hand) = (tips[8 * 24 + 9], 1.0 - 0.46 / libm::tan(3.5_f64.to_radians()));
     assert!((tip - by_hand).abs() < 1e-9, "{tip} {by_hand}");
 }
@@ -137,14 +137,14 @@ fn tiles_lose_nothing_beside_cliffs() {
         let pitch = dice.within(0.1, 0.4);
         let columns = (7.0 / pitch) as usize;
         let from = [(); 2].map(|()| MIDDLE - 3.5 + dice.within(0.0, pitch));
-        let place = |i: usize| [from[0] + pitch * (i % columns) as f64, from[1] + pitch * (i / columns) as f64];
-        let places: Vec<[f64; 2]> = (0..columns * columns).map(place).collect();
-        let tips = envelope.tips(&places, &Watch::default()).unwrap();
+        let position = |i: usize| [from[0] + pitch * (i % columns) as f64, from[1] + pitch * (i / columns) as f64];
+        let positions: Vec<[f64; 2]> = (0..columns * columns).map(position).collect();
+        let tips = envelope.tips(&positions, &Watch::default()).unwrap();
         let ground = envelope.ground();
-        for (place, tip) in places.iter().zip(tips) {
-            let truth = highest_alone(&ground, *place);
+        for (position, tip) in positions.iter().zip(tips) {
+            let truth = highest_alone(&ground, *position);
             let is_same = if truth.is_finite() { (tip - truth).abs() < 1e-11 } else { tip.is_nan() };
-            assert!(is_same, "{:?} seed {seed} at {place:?}: {tip} {truth}", tool.document().profile);
+            assert!(is_same, "{:?} seed {seed} at {position:?}: {tip} {truth}", tool.document().profile);
         }
     }
 }
@@ -160,19 +160,19 @@ fn what_eight_triangles_do_not_exceed_is_hardly_higher_than_their_tips() {
         let envelope = Envelope::new(&mesh, &index, &tool, None, 0.0);
         let ground = envelope.ground();
         let count = index.triangles().corners.len() as f64;
-        for place in places(&mut dice, 12) {
+        for position in positions(&mut dice, 12) {
             let triangles = [(); 8].map(|()| dice.within(0.0, count) as u32);
             let mut eight = Eight::default();
             for (lane, triangle) in triangles.iter().enumerate() {
-                eight.put(lane, &ground.contacts.seen(*triangle, place, 0.5));
+                eight.put(lane, &ground.contacts.seen(*triangle, position, 0.5));
             }
             for (triangle, most) in triangles.into_iter().zip(eight.most(ground.lines).to_array()) {
                 let mut alone = Best::NOTHING;
-                ground.contacts.touch_whole(triangle, place, &mut alone);
+                ground.contacts.touch_whole(triangle, position, &mut alone);
                 let gap = f64::from(most) + 0.5 - alone.tip;
                 assert!(
                     gap >= -f64::from(ground.margin()),
-                    "{surface:?} {:?} seed {seed} at {place:?}: {gap}",
+                    "{surface:?} {:?} seed {seed} at {position:?}: {gap}",
                     tool.document().profile
                 );
                 if alone.is_something() {

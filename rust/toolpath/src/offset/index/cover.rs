@@ -42,27 +42,27 @@ pub struct Pieces<'a> {
 }
 
 impl Pieces<'_> {
-    fn corners(&self, place: usize) -> [Vector; 3] {
-        self.triangles.at(self.of_pieces[place])
+    fn corners(&self, piece: usize) -> [Vector; 3] {
+        self.triangles.at(self.of_pieces[piece])
     }
 
     /// Calls `visit` with the corners of a piece, relative to the centre.
     #[inline]
-    fn visit(&self, place: usize, mut visit: impl FnMut(Vector)) {
-        let corners = self.corners(place);
-        match &self.parts[place] {
+    fn visit(&self, piece: usize, mut visit: impl FnMut(Vector)) {
+        let corners = self.corners(piece);
+        match &self.parts[piece] {
             Some(part) => part.outline(corners).into_iter().for_each(|p| visit(p - self.centre)),
             None => corners.into_iter().for_each(|p| visit(p - self.centre)),
         }
     }
 
-    fn cover(&self, place: usize) -> Cover {
-        let corners = self.corners(place);
+    fn cover(&self, piece: usize) -> Cover {
+        let corners = self.corners(piece);
         let (slope, weight) = weighted_gradient(corners);
         let whole = || Part::whole(corners);
-        let Part { low, high } = self.parts[place].as_deref().cloned().unwrap_or_else(whole);
+        let Part { low, high } = self.parts[piece].as_deref().cloned().unwrap_or_else(whole);
         let cover = Cover::around([(low - self.centre, high - self.centre)], slope, weight);
-        cover.under(self, place..place + 1)
+        cover.under(self, piece..piece + 1)
     }
 }
 
@@ -71,7 +71,7 @@ pub fn of_pieces(pieces: &Pieces<'_>, watch: &Watch) -> Vec<Cover> {
     if watch.is_cancelled() {
         return Vec::new();
     }
-    (0..pieces.of_pieces.len()).into_par_iter().map(|place| pieces.cover(place)).collect()
+    (0..pieces.of_pieces.len()).into_par_iter().map(|piece| pieces.cover(piece)).collect()
 }
 
 /// Covers of groups of eight covers; each group holds `size` pieces.
@@ -96,8 +96,8 @@ pub fn lanes(covers: &[Cover]) -> Lanes {
     let mut lanes = Lanes::NOTHING;
     let row = |value: &dyn Fn(&Cover) -> f32, nothing: f32| {
         let mut row = [nothing; WIDTH];
-        for (place, cover) in row.iter_mut().zip(covers) {
-            *place = value(cover);
+        for (slot, cover) in row.iter_mut().zip(covers) {
+            *slot = value(cover);
         }
         f32x8::new(row)
     };
@@ -130,8 +130,8 @@ impl Cover {
     fn under(mut self, pieces: &Pieces<'_>, range: Range<usize>) -> Self {
         let [x, y] = self.middle();
         let [gx, gy] = self.gradient.map(f64::from);
-        for place in range {
-            pieces.visit(place, |p| self.lift = self.lift.max(p.z - gx * (p.x - x) - gy * (p.y - y)));
+        for piece in range {
+            pieces.visit(piece, |p| self.lift = self.lift.max(p.z - gx * (p.x - x) - gy * (p.y - y)));
         }
         self.flat_if_better()
     }

@@ -26,7 +26,7 @@ pub struct Matched {
     pub peak: f32x8,
 }
 
-/// The place for which bounds are asked, relative to the index's centre, mm.
+/// The position for which bounds are asked, relative to the index's centre, mm.
 #[derive(Clone, Copy, Debug)]
 pub struct Probe {
     pub x: f32,
@@ -98,7 +98,7 @@ impl Lanes {
         }
     }
 
-    /// The bounds over a probe, and what the tips do not exceed within `half` mm of it each way.
+    /// The bounds over a probe, and what the tips do not exceed within `half` mm of it in each direction.
     #[inline]
     pub fn bounds_about(&self, matched: &Matched, probe: &Probe, lines: &Lines, half: [f32; 2]) -> (Bounds, f32x8) {
         let [in_box, free] = self.both_bounds(matched, probe, lines);
@@ -112,7 +112,7 @@ impl Lanes {
     /// How far the tips lie over a straight line at most that is as high as the probe near it.
     #[inline]
     pub fn bounds_over(&self, matched: &Matched, probe: &Probe, lines: &Lines, line: &HalfLine) -> f32x8 {
-        let [[dx, dy], [ax, ay]] = [line.half, line.aside].map(|way| way.map(f32x8::splat));
+        let [[dx, dy], [ax, ay]] = [line.half, line.aside].map(|vector| vector.map(f32x8::splat));
         let most = self.both_bounds(matched, probe, lines).map(|Bounds { value, along: [gx, gy] }| {
             value + (gx * dx + gy * dy - f32x8::splat(line.rise)).abs() + gx.abs() * ax + gy.abs() * ay
         });

@@ -7,8 +7,8 @@ use super::width::WIDTH;
 
 /// Cells up to the cutter's radius; one more serves beyond.
 const CELLS: usize = 512;
-/// Room for them, a power of two: a number cut to it needs no check.
-const ROOM: usize = 1024;
+/// Entries for them, a power of two: a number cut to it needs no check.
+const ENTRIES: usize = 1024;
 /// Steepest line, dz/dr: steeper ones would only magnify rounding.
 pub const STEEPEST: f64 = 16.0;
 
@@ -16,7 +16,7 @@ pub const STEEPEST: f64 = 16.0;
 #[derive(Clone, Debug)]
 pub struct Lines {
     cells_per_mm: f64,
-    lines: Box<[[f32; 2]; ROOM]>,
+    lines: Box<[[f32; 2]; ENTRIES]>,
     /// Heights of the profile at the cells' borders, mm.
     heights: Vec<f64>,
 }
@@ -24,9 +24,9 @@ pub struct Lines {
 impl Lines {
     pub fn of(cutter: &Cutter) -> Self {
         let cells_per_mm = CELLS as f64 / cutter.max_radius();
-        let mut lines = Box::new([[0.0; 2]; ROOM]);
-        for (cell, place) in lines.iter_mut().enumerate().take(CELLS + 1) {
-            *place = line(cutter, (cell as f64 + 0.5) / cells_per_mm);
+        let mut lines = Box::new([[0.0; 2]; ENTRIES]);
+        for (cell, slot) in lines.iter_mut().enumerate().take(CELLS + 1) {
+            *slot = line(cutter, (cell as f64 + 0.5) / cells_per_mm);
         }
         let heights =
             (0..=CELLS).map(|cell| cutter.height_at_radius(cell as f64 / cells_per_mm).min(cutter.max_height()));
@@ -40,7 +40,7 @@ impl Lines {
         let cells = cells.fast_min(f32x8::splat(CELLS as f32)).fast_trunc_int().to_array();
         let (mut heights, mut rises) = ([0.0; WIDTH], [0.0; WIDTH]);
         for lane in 0..WIDTH {
-            [heights[lane], rises[lane]] = self.lines[cells[lane] as usize % ROOM];
+            [heights[lane], rises[lane]] = self.lines[cells[lane] as usize % ENTRIES];
         }
         let (heights, rises) = (f32x8::new(heights), f32x8::new(rises));
         (heights + rises * distance, rises)
@@ -59,10 +59,10 @@ impl Lines {
 
     /// A height that the profile does not exceed at a distance, mm: the chord over it. Infinite beyond the cutter.
     pub fn above(&self, distance: f64) -> f64 {
-        let place = distance * self.cells_per_mm;
-        let cell = place as usize;
+        let scaled = distance * self.cells_per_mm;
+        let cell = scaled as usize;
         match self.heights.get(cell..cell + 2) {
-            Some(ends) => ends[0] + (place - cell as f64) * (ends[1] - ends[0]),
+            Some(ends) => ends[0] + (scaled - cell as f64) * (ends[1] - ends[0]),
             None => f64::INFINITY,
         }
     }

@@ -26,7 +26,7 @@ use super::features::{self, Neighbours, Owned};
 /// Least area in plan, as a share of the square of the diagonal.
 const WALL: f64 = 1e-3;
 
-/// What rounding makes of a place, as a share of the coordinates.
+/// What rounding makes of a position, as a share of the coordinates.
 const ROUNDING: f64 = 1e-13;
 
 /// Stages of building that progress shows.
@@ -40,7 +40,7 @@ pub struct Index {
     of_pieces: Vec<u32>,
     /// The mesh's number of each triangle, and back.
     numbers: Vec<u32>,
-    places: Vec<u32>,
+    positions: Vec<u32>,
     owned: Vec<Owned>,
     neighbours: Vec<Neighbours>,
     /// From pieces of triangles (eight to a node) to the root.
@@ -60,7 +60,7 @@ impl Index {
     /// As [`new`](Self::new), and can be stopped.
     ///
     /// # Errors
-    /// `Cancelled` when `watch` says so.
+    /// `Cancelled` when `watch` is cancelled.
     pub fn watched(mesh: &Mesh, watch: &Watch) -> Result<Self, Cancelled> {
         watch.begin("index", STAGES);
         let index = Self::built(mesh, watch);
@@ -68,19 +68,19 @@ impl Index {
         Ok(index)
     }
 
-    /// The index; something of no use when `watch` is cancelled on the way.
+    /// The index; something of no use when `watch` is cancelled meanwhile.
     fn built(mesh: &Mesh, watch: &Watch) -> Self {
         let (low, high) = mesh.bounds();
         let centre = (low + high) * 0.5;
         let goes_on = || watch.advance(1).is_ok();
         let pieces = pieces::of(mesh, (low, high));
         let order = if goes_on() { order::of(&pieces, centre, watch) } else { Vec::new() };
-        let Owners { of_pieces, parts, numbers, places } = Owners::of(pieces, &order, mesh.triangles().len());
+        let Owners { of_pieces, parts, numbers, positions } = Owners::of(pieces, &order, mesh.triangles().len());
         let (triangles, firsts) = if goes_on() { renumbered(mesh, &numbers) } else { Default::default() };
         let pieces = cover::Pieces { triangles: &triangles, of_pieces: &of_pieces, parts: &parts, centre };
         let (levels, (owned, neighbours)) =
             rayon::join(|| levels(&pieces, watch), || features::of(&triangles, &firsts, watch));
-        Self { triangles, of_pieces, numbers, places, owned, neighbours, levels, centre, low, high }
+        Self { triangles, of_pieces, numbers, positions, owned, neighbours, levels, centre, low, high }
     }
 
     pub(super) fn triangles(&self) -> &Triangles {
@@ -108,7 +108,7 @@ impl Index {
         (self.low, self.high)
     }
 
-    /// What rounding makes of a place that lies on the mesh, mm.
+    /// What rounding makes of a position that lies on the mesh, mm.
     pub(super) fn rounding(&self) -> f64 {
         ROUNDING * self.low.amax().max(self.high.amax())
     }
@@ -137,9 +137,9 @@ impl Index {
         self.numbers[triangle as usize]
     }
 
-    /// The place of the mesh's triangle in the index; the first for one that there is not.
-    pub(super) fn place(&self, number: u32) -> u32 {
-        self.places.get(number as usize).copied().unwrap_or(0)
+    /// The position of the mesh's triangle in the index; the first for one that there is not.
+    pub(super) fn position(&self, number: u32) -> u32 {
+        self.positions.get(number as usize).copied().unwrap_or(0)
     }
 }
 
@@ -181,12 +181,12 @@ fn levels(pieces: &cover::Pieces<'_>, watch: &Watch) -> Vec<Vec<Lanes>> {
     }
 }
 
-/// Who is whose: triangles are numbered as their first pieces come.
+/// Pieces and their triangles: triangles are numbered as their first pieces come.
 struct Owners {
     of_pieces: Vec<u32>,
     parts: Vec<Option<Box<Part>>>,
     numbers: Vec<u32>,
-    places: Vec<u32>,
+    positions: Vec<u32>,
 }
 
 impl Owners {
@@ -196,16 +196,16 @@ impl Owners {
             of_pieces: Vec::with_capacity(order.len()),
             parts: Vec::with_capacity(order.len()),
             numbers: Vec::with_capacity(count),
-            places: vec![NONE; count],
+            positions: vec![NONE; count],
         };
         for piece in order {
             let Piece { triangle: number, part, .. } = &mut pieces[*piece as usize];
-            let place = &mut owners.places[*number as usize];
-            if *place == NONE {
-                *place = owners.numbers.len() as u32;
+            let position = &mut owners.positions[*number as usize];
+            if *position == NONE {
+                *position = owners.numbers.len() as u32;
                 owners.numbers.push(*number);
             }
-            owners.of_pieces.push(*place);
+            owners.of_pieces.push(*position);
             owners.parts.push(part.take());
         }
         owners

@@ -19,7 +19,7 @@ struct Key {
 }
 
 /// The pieces, halved again and again along their longest extent; the same whatever the number of threads. In some order
-/// when `watch` is cancelled on the way.
+/// when `watch` is cancelled meanwhile.
 pub fn of(pieces: &[Piece], centre: Vector, watch: &Watch) -> Vec<u32> {
     let key = |(number, piece): (usize, &Piece)| Key { middle: piece.middle(centre), piece: number as u32 };
     let mut keys: Vec<Key> = pieces.par_iter().enumerate().map(key).collect();

@@ -43,13 +43,13 @@ pub fn of(mesh: &Mesh, (low, high): (Vector, Vector)) -> Vec<Piece> {
     let mut heap: BinaryHeap<Waste> = (0..count).into_par_iter().filter_map(first).collect::<Vec<_>>().into();
     let most = count + (MORE * count as f64) as usize;
     while pieces.len() < most {
-        let Some(Waste { place, triangle, part, .. }) = heap.pop() else { break };
+        let Some(Waste { position, triangle, part, .. }) = heap.pop() else { break };
         let halves = part.halves(mesh.corners(triangle as usize));
-        let places = [place, pieces.len()];
+        let positions = [position, pieces.len()];
         pieces.push(Piece::whole(mesh, triangle));
-        for (place, half) in places.into_iter().zip(halves) {
-            pieces[place] = Piece::of(triangle, &half);
-            heap.extend(Waste::of(mesh, triangle, place, half, worth));
+        for (position, half) in positions.into_iter().zip(halves) {
+            pieces[position] = Piece::of(triangle, &half);
+            heap.extend(Waste::of(mesh, triangle, position, half, worth));
         }
     }
     pieces
@@ -137,19 +137,19 @@ fn cut(outline: &[Vector], inside: impl Fn(&Vector) -> f64) -> Vec<Vector> {
 /// A part whose box is worth a cut; the most wasteful first.
 struct Waste {
     area: f64,
-    place: usize,
+    position: usize,
     triangle: u32,
     part: Part,
 }
 
 impl Waste {
-    fn of(mesh: &Mesh, triangle: u32, place: usize, part: Part, worth: f64) -> Option<Self> {
+    fn of(mesh: &Mesh, triangle: u32, position: usize, part: Part, worth: f64) -> Option<Self> {
         let area = (part.high.x - part.low.x) * (part.high.y - part.low.y);
         if area <= worth {
             return None;
         }
         let area = area - part.area_in_plan(mesh.corners(triangle as usize));
-        (area > worth).then_some(Self { area, place, triangle, part })
+        (area > worth).then_some(Self { area, position, triangle, part })
     }
 }
 
@@ -163,7 +163,7 @@ impl Eq for Waste {}
 
 impl Ord for Waste {
     fn cmp(&self, other: &Self) -> Ordering {
-        self.area.total_cmp(&other.area).then(other.place.cmp(&self.place))
+        self.area.total_cmp(&other.area).then(other.position.cmp(&self.position))
     }
 }
 

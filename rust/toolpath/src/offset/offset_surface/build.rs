@@ -11,7 +11,7 @@ use super::{checks::Checks, corners::welded, splits::Splits, OffsetSurface};
 const FINE: f64 = 0.25;
 
 impl OffsetSurface {
-    /// The offset of some `triangles` of the envelope's mesh, every position judged against the whole mesh.
+    /// The offset of some `triangles` of the envelope's mesh, every position checked against the whole mesh.
     ///
     /// Triangles with a corner from which something keeps the tool, or with corners of several flags, are split until they
     /// are small beside the tool, as far as a budget of `most` points more goes: the longest first.
@@ -19,7 +19,8 @@ impl OffsetSurface {
     /// Positions are exact for the normals that the mesh knows at its corners, else for its facets'. A position is free
     /// if the tool, lifted off by `tolerance` (mm) along the normal, enters nothing: then it enters nothing deeper than
     /// that where it stands. (What it grazes beside it may move it by twice as much again.) So vertical walls, where
-    /// heights jump, are judged by the same measure as floors. The tolerance has to cover how far the triangles lie outside the surface that the normals belong to.
+    /// heights jump, are checked by the same measure as floors. The tolerance has to cover how far the triangles lie
+    /// outside the surface that the normals belong to.
     ///
     /// # Errors
     /// `Cancelled`.

@@ -20,7 +20,7 @@ pub const FARTHEST: f64 = 3.0;
 const WALK: usize = 32;
 /// How much further than free it steps, as a share of the tolerance.
 const FREE: f64 = 1e-3;
-/// Points judged between two looks at the watch.
+/// Points checked between two looks at the watch.
 const CHUNK: usize = 1024;
 
 pub struct Checks<'a> {
@@ -32,29 +32,30 @@ pub struct Checks<'a> {
 }
 
 impl Checks<'_> {
-    /// The positions for points of the part, judged.
+    /// The positions for points of the part, checked.
     pub fn points(&self, corners: &[Corner], watch: &Watch) -> Result<Vec<OffsetPoint>, Cancelled> {
         let mut points: Vec<OffsetPoint> =
             corners.par_iter().with_min_len(CHUNK).map(|corner| self.matched(corner)).collect();
         let asked: Vec<usize> = (0..points.len()).filter(|i| points[*i].flag != SurfaceFlag::Undercut).collect();
-        let places: Vec<[f64; 2]> = asked.iter().map(|i| self.lifted(&points[*i])).map(|tip| [tip.x, tip.y]).collect();
-        watch.begin("offset surface", places.len());
-        let met = self.envelope.contacts(&places, watch)?;
-        let judged: Result<Vec<Vec<OffsetPoint>>, Cancelled> = asked
+        let positions: Vec<[f64; 2]> =
+            asked.iter().map(|i| self.lifted(&points[*i])).map(|tip| [tip.x, tip.y]).collect();
+        watch.begin("offset surface", positions.len());
+        let met = self.envelope.contacts(&positions, watch)?;
+        let checked: Result<Vec<Vec<OffsetPoint>>, Cancelled> = asked
             .par_chunks(CHUNK)
             .zip(met.par_chunks(CHUNK))
             .map(|(asked, met)| {
                 watch.advance(0)?;
-                Ok(asked.iter().zip(met).map(|(i, met)| self.judged(points[*i], *met)).collect())
+                Ok(asked.iter().zip(met).map(|(i, met)| self.checked(points[*i], *met)).collect())
             })
             .collect();
-        for (i, point) in asked.into_iter().zip(judged?.into_iter().flatten()) {
+        for (i, point) in asked.into_iter().zip(checked?.into_iter().flatten()) {
             points[i] = point;
         }
         Ok(points)
     }
 
-    /// The slope-matched position, not yet judged.
+    /// The slope-matched position, not yet checked.
     fn matched(&self, corner: &Corner) -> OffsetPoint {
         let Corner { point, normal, triangle } = *corner;
         let (tip, _) = slope_matched_offset(self.tool, self.sheet, point, normal);
@@ -66,8 +67,17 @@ impl Checks<'_> {
         } else {
             SurfaceFlag::Contact
         };
-        let (place, place_triangle) = (point, triangle);
-        OffsetPoint { tip, contact: point, normal, slope, flag, depth: 0.0, place, triangle, place_triangle }
+        OffsetPoint {
+            tip,
+            contact: point,
+            normal,
+            slope,
+            flag,
+            depth: 0.0,
+            place: point,
+            triangle,
+            place_triangle: triangle,
+        }
     }
 
     /// Upright walls are touched by the tool's side, whatever its profile.
@@ -90,15 +100,15 @@ impl Checks<'_> {
     /// What the tool does not enter deeper than the tolerance, it may only graze, as a wall beside it: it steps aside and
     /// looks again, because the envelope shows what stops the tool first, not what it would enter deepest. If it is not free
     /// after a few small steps, that counts as stopped: the safe side.
-    fn judged(&self, point: OffsetPoint, met: Option<Contact>) -> OffsetPoint {
+    fn checked(&self, point: OffsetPoint, met: Option<Contact>) -> OffsetPoint {
         let (standing, mut stand, mut met, mut hint) = (self.standing(&point), self.lifted(&point), met, None);
         let mut worst = point;
         for _ in 0..=ASIDE {
             let Some(contact) = met.filter(|contact| contact.tip > stand.z) else { return point };
-            let (place, depth) = self.deepest(&contact, standing);
+            let (position, depth) = self.deepest(&contact, standing);
             if depth > worst.depth || !worst.flag.is_stopped() {
                 let flag = self.stopped_flag(&point, &contact);
-                worst = OffsetPoint { flag, depth, place, place_triangle: contact.triangle, ..point };
+                worst = OffsetPoint { flag, depth, place: position, place_triangle: contact.triangle, ..point };
             }
             let entered = self.envelope.depth(contact.point, stand).max(0.0);
             stand += contact.normal * (entered + FREE * self.tolerance);
@@ -115,8 +125,8 @@ impl Checks<'_> {
     /// It touches first with its tip higher: what lies deepest in it when it stands is found from there, facet by facet.
     fn deepest(&self, contact: &Contact, standing: Vector) -> (Vector, f64) {
         let touched = self.envelope.touched(contact);
-        let places = touched.into_iter().map(|triangle| self.deepest_from(triangle, standing));
-        let measured = std::iter::once(contact.point).chain(places).map(|p| (p, self.envelope.depth(p, standing)));
+        let positions = touched.into_iter().map(|triangle| self.deepest_from(triangle, standing));
+        let measured = std::iter::once(contact.point).chain(positions).map(|p| (p, self.envelope.depth(p, standing)));
         measured.fold((contact.point, f64::NEG_INFINITY), |best, other| if other.1 > best.1 { other } else { best })
     }
 
@@ -124,12 +134,12 @@ impl Checks<'_> {
     /// up to a ridge, on both sides of which it lies beyond.
     fn deepest_from(&self, triangle: u32, standing: Vector) -> Vector {
         let (mesh, mut triangle) = (self.envelope.mesh(), triangle as usize);
-        let (mut place, mut before) = (standing, triangle);
+        let (mut position, mut before) = (standing, triangle);
         for _ in 0..WALK {
             let (corners, normal) = (mesh.corners(triangle), mesh.normal(triangle));
             let below = self.envelope.touching_point(standing, normal);
             let foot = below - normal * (below - corners[0]).dot(&normal);
-            place = nearest_in_triangle(corners, foot);
+            position = nearest_in_triangle(corners, foot);
             let Some(side) = side_towards(corners, foot) else { break };
             let next = self.envelope.neighbours(triangle as u32)[side] as usize;
             // where the mesh ends there is no triangle of that number
@@ -138,7 +148,7 @@ impl Checks<'_> {
             }
             (before, triangle) = (triangle, next);
         }
-        place
+        position
     }
 
     fn stopped_flag(&self, point: &OffsetPoint, contact: &Contact) -> SurfaceFlag {

@@ -4,13 +4,13 @@
 //! too, and the triangle is cut through that one first.
 //!
 //! Why rounds of it come to an end, whatever the flags say. A round takes sides away, all longer than `fine`: with a side that is
-//! to be halved go the longest sides of the triangles beside it, which are no shorter. In their place it puts halves;
+//! to be halved go the longest sides of the triangles beside it, which are no shorter. Instead of them it puts halves;
 //! in each triangle beside them the median to its longest side c, at most sqrt(3)/2 c long (its square is
 //! (2 a^2 + 2 b^2 - c^2) / 4 with a, b <= c); and cuts from the middle of c to the middles of other sides, which are half as
-//! long as the third. So each new side can be written to the account of one that goes and is longer by 2 / sqrt(3) at least; a side
-//! has as many entries as its halves and the triangles beside it give, a finite number that halving does not raise; and
-//! what is no longer than `fine` never goes. Accounts opened from the first sides are trees of finite width and of a depth of
-//! log(longest / fine) / log(2 / sqrt(3)) at most: finite. Each round closes one account or more.
+//! long as the third. So each new side can be written to the account of one that goes and is longer by 2 / sqrt(3) at
+//! least; a side has as many entries as its halves and the triangles beside it give, a finite number that halving does not
+//! raise; and what is no longer than `fine` never goes. Accounts opened from the first sides are trees of finite width and
+//! of a depth of log(longest / fine) / log(2 / sqrt(3)) at most: finite. Each round closes one account or more.
 //!
 //! Without the propagation a neighbour is cut through a short side while its longest stays whole, and flattens for ever.
 
@@ -21,7 +21,7 @@ use rayon::prelude::*;
 use super::{corners::Corner, OffsetSurface};
 
 /// How much longer the sides of a triangle may stay that is stopped at all its corners: a
-/// reached place in it that is narrower than the tool's radius may be missed.
+/// reached region in it that is narrower than the tool's radius may be missed.
 const ALL_STOPPED: f64 = 4.0;
 
 /// A side by its ends, the lower first.
@@ -82,7 +82,7 @@ impl Splits {
         splits
     }
 
-    /// Puts the parts in the place of all triangles that have such a side; the middles are among the points by now.
+    /// Puts the parts instead of all triangles that have such a side; the middles are among the points by now.
     pub fn apply(&self, surface: &mut OffsetSurface) {
         let (mut triangles, mut numbers) = (Vec::new(), Vec::new());
         for (corners, number) in surface.triangles.iter().zip(&surface.numbers) {

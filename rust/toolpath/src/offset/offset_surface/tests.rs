@@ -141,7 +141,7 @@ fn walls_beside_the_tool_do_not_hide_what_it_enters() {
     let wall = found.points.iter().find(|p| p.normal.x > 0.5 && p.contact.z == 0.0).unwrap();
     assert!((wall.tip.z + 3.0).abs() < 1e-12);
     assert_eq!(wall.flag, SurfaceFlag::Interferes);
-    // its nearest way out of there is to the side
+    // the shortest path out of there is to the side
     assert!((wall.depth - 3.0).abs() < 1e-2, "{}", wall.depth);
 }
 
@@ -288,13 +288,13 @@ proptest! {
 }
 
 fn terrain(heights: &[f64], columns: usize) -> Mesh {
-    let place = |i: usize| Vector::new((i % columns) as f64, (i / columns) as f64, heights[i]);
+    let position = |i: usize| Vector::new((i % columns) as f64, (i / columns) as f64, heights[i]);
     let triangles: Vec<[i64; 3]> = (0..heights.len() - columns)
         .filter(|i| (i + 1) % columns != 0)
         .map(|i| [i, i + 1, i + columns, i + columns + 1].map(|k| k as i64))
         .flat_map(|[a, b, c, d]| [[a, b, c], [b, d, c]])
         .collect();
-    Mesh::new((0..heights.len()).map(place).collect(), &triangles, &[]).unwrap()
+    Mesh::new((0..heights.len()).map(position).collect(), &triangles, &[]).unwrap()
 }
 
 fn samples([a, b, c]: [Vector; 3]) -> Vec<Vector> {

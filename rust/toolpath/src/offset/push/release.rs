@@ -1,7 +1,7 @@
 //! How far a triangle keeps a tool off along a horizontal line: the push-cutter's three contacts.
 //!
 //! A tool that stands at a height and moves along a line is kept off by a point q of the triangle on an interval of the
-//! line: to the ends a(q) -+ sqrt(r(q)^2 - b(q)^2), with a the place of q along the line, b its distance beside it and r
+//! line: to the ends a(q) -+ sqrt(r(q)^2 - b(q)^2), with a the position of q along the line, b its distance beside it and r
 //! the tool's radius at the height of q. The far end is concave in q, so that it is largest on the facet where slopes
 //! match, or on an edge, or at a corner; the triangle keeps the tool off up to there.
 
@@ -29,8 +29,8 @@ pub struct Line {
 /// Where a tool gets free of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Release {
-    /// Place along the line, mm.
-    pub way: f64,
+    /// Position along the line, mm.
+    pub travel: f64,
     /// The point of the triangle that is touched last.
     pub point: Vector,
     /// Slope of the tool there, rad.
@@ -40,7 +40,7 @@ pub struct Release {
 }
 
 impl Line {
-    /// From a place in a direction of any length; none for a direction without one, or what is not finite.
+    /// From a position in a direction of any length; none for a direction without one, or what is not finite.
     #[must_use]
     pub fn new(from: [f64; 2], along: [f64; 2]) -> Option<Self> {
         let length = libm::hypot(along[0], along[1]);
@@ -48,10 +48,10 @@ impl Line {
         from.into_iter().chain(line.along).all(f64::is_finite).then_some(line)
     }
 
-    /// The place in plan some way along, mm.
+    /// The position in plan after a travel, mm.
     #[must_use]
-    pub fn at(&self, way: f64) -> [f64; 2] {
-        [self.from[0] + way * self.along[0], self.from[1] + way * self.along[1]]
+    pub fn at(&self, travel: f64) -> [f64; 2] {
+        [self.from[0] + travel * self.along[0], self.from[1] + travel * self.along[1]]
     }
 
     /// The same line in the other direction.
@@ -60,7 +60,7 @@ impl Line {
         Self { along: self.along.map(|a| -a), ..*self }
     }
 
-    /// Place along and distance beside the line of a vector from its beginning, mm.
+    /// Position along and distance beside the line of a vector from its beginning, mm.
     fn seen(&self, away: [f64; 2]) -> [f64; 2] {
         let [ux, uy] = self.along;
         [ux * away[0] + uy * away[1], ux * away[1] - uy * away[0]]
@@ -78,7 +78,7 @@ pub fn release(cutter: &Cutter, corners: &[Vector; 3], line: &Line, z: f64) -> O
     let ends = corners.map(|corner| End::of(corner, line, z));
     let mut best: Option<Release> = None;
     let mut keep = |found: Option<Release>| {
-        if let Some(found) = found.filter(|found| best.is_none_or(|best| found.way > best.way)) {
+        if let Some(found) = found.filter(|found| best.is_none_or(|best| found.travel > best.travel)) {
             best = Some(found);
         }
     };
@@ -92,7 +92,7 @@ pub fn release(cutter: &Cutter, corners: &[Vector; 3], line: &Line, z: f64) -> O
     best
 }
 
-/// A point as the moving tool sees it, mm: place along the line, distance beside it, height over the tip.
+/// A point as the moving tool sees it, mm: position along the line, distance beside it, height over the tip.
 struct End {
     along: f64,
     beside: f64,
@@ -121,10 +121,15 @@ fn of_facet(cutter: &Cutter, corners: &[Vector; 3], line: &Line, z: f64) -> Opti
     let [anchor, ..] = *corners;
     let [dx, dy] = [anchor.x - line.from[0], anchor.y - line.from[1]];
     let off = normal.x * dx + normal.y * dy + normal.z * (anchor.z - z - height);
-    let way = (off + across * radius) / leaves;
-    let [x, y] = line.at(way);
+    let travel = (off + across * radius) / leaves;
+    let [x, y] = line.at(travel);
     let point = Vector::new(x - share * normal.x, y - share * normal.y, z + height);
-    (way.is_finite() && is_inside(corners, point)).then_some(Release { way, point, slope, feature: Feature::Facet })
+    (travel.is_finite() && is_inside(corners, point)).then_some(Release {
+        travel,
+        point,
+        slope,
+        feature: Feature::Facet,
+    })
 }
 
 /// Whether a point of a triangle's plane lies in the triangle.
@@ -143,7 +148,7 @@ fn of_corner(cutter: &Cutter, corner: Vector, end: &End, number: u8) -> Option<R
     let beside = end.beside.abs();
     let ahead = ((radius - beside) * (radius + beside)).sqrt();
     (beside <= radius).then(|| Release {
-        way: end.along + ahead,
+        travel: end.along + ahead,
         point: corner,
         slope: libm::atan(rise),
         feature: Feature::Corner(number),
@@ -159,12 +164,12 @@ fn of_edge(cutter: &Cutter, corners: [Vector; 2], ends: [&End; 2], number: u8) -
         first: ends[0],
     };
     let share = edge.top(cutter)?;
-    let Standing { way, steep, .. } = edge.at(cutter, share);
+    let Standing { travel, steep, .. } = edge.at(cutter, share);
     let point = corners[0] + (corners[1] - corners[0]) * share;
-    way.map(|way| Release { way, point, slope: libm::atan(steep), feature: Feature::Edge(number) })
+    travel.map(|travel| Release { travel, point, slope: libm::atan(steep), feature: Feature::Edge(number) })
 }
 
-/// An edge as the moving tool sees it; its points are told by their share of it.
+/// An edge as the moving tool sees it; its points are given by their share of it.
 struct Edge<'a> {
     first: &'a End,
     along: f64,
@@ -175,11 +180,11 @@ struct Edge<'a> {
 /// What a point of an edge does to the tool.
 struct Standing {
     /// Where it lets the tool go, mm; none where it does not keep it off.
-    way: Option<f64>,
+    travel: Option<f64>,
     /// Steepness of the tool at its height.
     steep: f64,
     /// In which direction along the edge the tool is kept longer, or, where it is not kept off, in which it would be; a
-    /// rate of `way` by the share of the edge where there is a way.
+    /// rate of `travel` by the share of the edge where there is a travel.
     pull: f64,
 }
 
@@ -187,7 +192,7 @@ impl Edge<'_> {
     fn at(&self, cutter: &Cutter, share: f64) -> Standing {
         let height = self.first.height + share * self.rise;
         if height <= 0.0 {
-            return Standing { way: None, steep: 0.0, pull: self.rise };
+            return Standing { travel: None, steep: 0.0, pull: self.rise };
         }
         let (radius, steep) = cutter.at_height(height);
         let beside = self.first.beside + share * self.beside;
@@ -196,11 +201,11 @@ impl Edge<'_> {
         let square = (radius - beside) * (radius + beside);
         if square <= 0.0 {
             let pull = wider - self.beside.copysign(self.beside * beside);
-            return Standing { way: None, steep, pull };
+            return Standing { travel: None, steep, pull };
         }
         let ahead = square.sqrt();
         let pull = self.along + (radius * wider - beside * self.beside) / ahead;
-        Standing { way: Some(self.first.along + share * self.along + ahead), steep, pull }
+        Standing { travel: Some(self.first.along + share * self.along + ahead), steep, pull }
     }
 
     /// The share at which the edge keeps the tool longest, if it is inside the edge.
@@ -211,14 +216,14 @@ impl Edge<'_> {
         }
         let size = self.along.abs() + self.beside.abs() + self.rise.abs() + cutter.max_radius();
         for step in 0..STEPS {
-            let both = low.1.way.is_some() && high.1.way.is_some() && step < SECANTS && step % 3 != 2;
+            let both = low.1.travel.is_some() && high.1.travel.is_some() && step < SECANTS && step % 3 != 2;
             let part = if both { low.1.pull / (low.1.pull - high.1.pull) } else { 0.5 };
             // a secant never lands on an end
             let part = if part.is_nan() { 0.5 } else { part.clamp(1e-3, 1.0 - 1e-3) };
             let share = low.0 + part * (high.0 - low.0);
             let standing = self.at(cutter, share);
             let rest = if standing.pull > 0.0 { high.0 - share } else { share - low.0 };
-            if standing.way.is_some() && standing.pull.abs() * rest <= FLAT * size {
+            if standing.travel.is_some() && standing.pull.abs() * rest <= FLAT * size {
                 return Some(share);
             }
             if standing.pull > 0.0 {
@@ -231,6 +236,6 @@ impl Edge<'_> {
             }
         }
         // where the edge dips under the tip, only one side of the top keeps the tool off
-        Some(if low.1.way >= high.1.way { low.0 } else { high.0 })
+        Some(if low.1.travel >= high.1.travel { low.0 } else { high.0 })
     }
 }

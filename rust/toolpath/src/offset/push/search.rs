@@ -1,4 +1,4 @@
-//! The search for the triangle that stops a tool first on its way along a line.
+//! The search for the triangle that stops a tool first on its path along a line.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -8,7 +8,7 @@ use styluscam_geometry::{Cutter, Vector};
 use super::super::index::{Index, WIDTH};
 use super::{release, Line, Release};
 
-/// A node still to be opened, or a triangle still to be tried, and a way before which the tool cannot touch it.
+/// A node still to be opened, or a triangle still to be tried, and a travel before which the tool cannot touch it.
 #[derive(Clone, Copy, PartialEq)]
 struct Open {
     from: f64,
@@ -33,26 +33,26 @@ impl Ord for Open {
 }
 
 /// Where a cutter with its tip at `z`, coming along `line` from its beginning, first touches, up to `limit` mm: the
-/// triangle by its number in the index and the contact, `way` mm from the beginning.
+/// triangle by its number in the index and the contact, `travel` mm from the beginning.
 ///
-/// A way below 0: the cutter does not stand free at the beginning. A triangle that it leaves at once, to rounding,
+/// A travel below 0: the cutter does not stand free at the beginning. A triangle that it leaves at once, to rounding,
 /// does not stop it.
 pub fn first(index: &Index, cutter: &Cutter, line: &Line, z: f64, limit: f64) -> Option<(u32, Release)> {
     let corridor = Corridor { index, cutter, line, z };
     let mut open = BinaryHeap::from([Open { from: 0.0, level: Some(index.levels().len() - 1), lane: 0 }]);
     let mut found: Option<(u32, Release)> = None;
     while let Some(next) = open.pop() {
-        if next.from > found.as_ref().map_or(limit, |found| found.1.way) {
+        if next.from > found.as_ref().map_or(limit, |found| found.1.travel) {
             break;
         }
         match next.level {
             Some(level) => corridor.children(level, next.lane, |child| open.push(child)),
             None => {
                 let triangle = index.of_piece(next.lane as u32);
-                let stop = corridor.stop(triangle).filter(|stop| stop.way <= limit);
+                let stop = corridor.stop(triangle).filter(|stop| stop.travel <= limit);
                 let is_nearer = |stop: &Release| {
-                    let before = found.as_ref().map(|(t, found)| (found.way, *t));
-                    before.is_none_or(|(way, t)| stop.way < way || (stop.way <= way && triangle < t))
+                    let before = found.as_ref().map(|(t, found)| (found.travel, *t));
+                    before.is_none_or(|(travel, t)| stop.travel < travel || (stop.travel <= travel && triangle < t))
                 };
                 found = stop.filter(is_nearer).map(|stop| (triangle, stop)).or(found);
             }
@@ -90,7 +90,7 @@ impl Corridor<'_> {
         }
     }
 
-    /// A way before which the tool touches nothing in a box of the plan up to a height.
+    /// A travel before which the tool touches nothing in a box of the plan up to a height.
     fn earliest(&self, middle: [f64; 2], half: [f64; 2], top: f64) -> Option<f64> {
         let [ux, uy] = self.line.along;
         let (dx, dy) = (middle[0] - self.line.from[0], middle[1] - self.line.from[1]);
@@ -111,11 +111,11 @@ impl Corridor<'_> {
     fn stop(&self, triangle: u32) -> Option<Release> {
         let corners: [Vector; 3] = self.index.triangles().at(triangle);
         let entered = release(self.cutter, &corners, &self.line.reversed(), self.z)?;
-        let entered = Release { way: -entered.way, ..entered };
-        if entered.way >= 0.0 {
+        let entered = Release { travel: -entered.travel, ..entered };
+        if entered.travel >= 0.0 {
             return Some(entered);
         }
         let left = release(self.cutter, &corners, self.line, self.z)?;
-        (left.way > self.index.rounding()).then_some(entered)
+        (left.travel > self.index.rounding()).then_some(entered)
     }
 }

@@ -49,7 +49,7 @@ impl Candidates {
         }
     }
 
-    /// Calls `keep` with the triangles that may reach a height, over zero, at a place `away` from the tile's middle.
+    /// Calls `keep` with the triangles that may reach a height, over zero, at a position `away` from the tile's middle.
     #[inline]
     pub fn reaching(&self, height: f32, away: [f32; 2], mut keep: impl FnMut(u32)) {
         let [dx, dy] = away.map(f32x8::splat);

@@ -27,7 +27,7 @@ pub struct Ground<'a> {
     pub bottom: f64,
 }
 
-/// A piece of the plan in which places are answered together.
+/// A piece of the plan in which positions are answered together.
 #[derive(Clone, Copy, Debug)]
 pub struct Tile {
     pub middle: [f64; 2],
@@ -54,10 +54,10 @@ impl Floor {
 }
 
 /// The members of a tile by quarters.
-pub fn quarters(places: &[[f64; 2]], members: &[u32], tile: &Tile) -> [Vec<u32>; 4] {
+pub fn quarters(positions: &[[f64; 2]], members: &[u32], tile: &Tile) -> [Vec<u32>; 4] {
     let mut quarters: [Vec<u32>; 4] = Default::default();
     for member in members {
-        let [x, y] = places[*member as usize];
+        let [x, y] = positions[*member as usize];
         quarters[usize::from(x > tile.middle[0]) + 2 * usize::from(y > tile.middle[1])].push(*member);
     }
     quarters
@@ -75,14 +75,14 @@ impl Ground<'_> {
         level
     }
 
-    /// The tile around some places.
-    pub fn tile(&self, places: &[[f64; 2]], members: &[u32]) -> Tile {
+    /// The tile around some positions.
+    pub fn tile(&self, positions: &[[f64; 2]], members: &[u32]) -> Tile {
         let centre = self.index.centre();
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for member in members {
             for i in 0..2 {
-                low[i] = low[i].min(places[*member as usize][i]);
-                high[i] = high[i].max(places[*member as usize][i]);
+                low[i] = low[i].min(positions[*member as usize][i]);
+                high[i] = high[i].max(positions[*member as usize][i]);
             }
         }
         let exact = [0, 1].map(|i| (0.5 * (low[i] + high[i]) - centre[i]) as f32);
@@ -115,16 +115,16 @@ impl Ground<'_> {
     }
 
     /// From the last contact towards the triangle that holds its own: all of it is tried.
-    pub fn guess(&self, place: [f64; 2], last: Option<u32>) -> Best {
+    pub fn guess(&self, position: [f64; 2], last: Option<u32>) -> Best {
         let mut found = Best::NOTHING;
         let (mut before, mut triangle) = (NO_NEIGHBOUR, last.unwrap_or(0));
         for _ in 0..WALK {
-            match self.contacts.towards(triangle, place) {
+            match self.contacts.towards(triangle, position) {
                 Some(next) if next != NO_NEIGHBOUR && next != before => (before, triangle) = (triangle, next),
                 _ => break,
             }
         }
-        self.contacts.touch_whole(triangle, place, &mut found);
+        self.contacts.touch_whole(triangle, position, &mut found);
         found
     }
 

@@ -1,8 +1,8 @@
-//! The search for contacts: one walk through the index for a tile of neighbouring places.
+//! The search for contacts: one walk through the index for a tile of neighbouring positions.
 //!
 //! A contact found over the tile's middle is a floor for the whole tile: the cutter cannot be lower beside it than that
 //! point of the mesh lets it. What cannot rise above the floor anywhere in the tile is passed over; the triangles
-//! that are left are then tried for each place.
+//! that are left are then tried for each position.
 //!
 //! Branch and bound over a hierarchy of boxes; why the bounds hold: docs/concepts/search-bounds.md.
 
@@ -32,7 +32,7 @@ pub use tangents::Eight;
 const CROWDED: usize = 128;
 /// A quarter is quartered again only if it has fewer candidates than this share of its tile's.
 const WORTH_QUARTERING: f64 = 0.8;
-/// A survey of more branches than this says nothing.
+/// A survey of more branches than this saves no work.
 const MOST_BRANCHES: usize = 128;
 
 /// Chords are looked along in parts of at most so many times the cutter's radius.
@@ -68,10 +68,10 @@ pub enum Keeping {
 
 /// What a walk looks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Wanted {
-    /// The highest contact over the place.
+enum Goal {
+    /// The highest contact over the position.
     Highest,
-    /// Any contact over the place that is over a height.
+    /// Any contact over the position that is over a height.
     Over(f64),
     /// The highest contact, and what may be touched elsewhere in the tile.
     Candidates,
@@ -103,78 +103,78 @@ impl Searcher {
         })
     }
 
-    /// The highest contact over one place. `hint`: a triangle near it.
-    pub fn one(&mut self, ground: &Ground<'_>, place: [f64; 2], hint: Option<u32>) -> Best {
+    /// The highest contact over one position. `hint`: a triangle near it.
+    pub fn one(&mut self, ground: &Ground<'_>, position: [f64; 2], hint: Option<u32>) -> Best {
         self.last = hint.or(self.last);
-        self.one_among(ground, &Survey::whole(ground), place)
+        self.one_among(ground, &Survey::whole(ground), position)
     }
 
-    fn one_among(&mut self, ground: &Ground<'_>, survey: &Survey, place: [f64; 2]) -> Best {
-        let tile = ground.tile(&[place], &[0]);
-        let mut found = ground.guess(place, self.last);
-        self.explore(ground, survey, &tile, place, &mut found, Wanted::Highest);
+    fn one_among(&mut self, ground: &Ground<'_>, survey: &Survey, position: [f64; 2]) -> Best {
+        let tile = ground.tile(&[position], &[0]);
+        let mut found = ground.guess(position, self.last);
+        self.explore(ground, survey, &tile, position, &mut found, Goal::Highest);
         self.remember(&found);
         found
     }
 
-    /// A triangle over which the tip must stay higher than `z` at a place, if there is one. `hint`: a triangle near it.
-    pub fn over(&mut self, ground: &Ground<'_>, place: [f64; 2], z: f64, hint: Option<u32>) -> Option<u32> {
+    /// A triangle over which the tip must stay higher than `z` at a position, if there is one. `hint`: a triangle near it.
+    pub fn over(&mut self, ground: &Ground<'_>, position: [f64; 2], z: f64, hint: Option<u32>) -> Option<u32> {
         self.last = hint.or(self.last);
-        let mut found = ground.guess(place, self.last);
+        let mut found = ground.guess(position, self.last);
         if found.tip <= z {
             // what does not rise over the height is passed over
             found.tip = z;
-            let tile = ground.tile(&[place], &[0]);
-            self.explore(ground, &Survey::whole(ground), &tile, place, &mut found, Wanted::Over(z));
+            let tile = ground.tile(&[position], &[0]);
+            self.explore(ground, &Survey::whole(ground), &tile, position, &mut found, Goal::Over(z));
         }
         self.remember(&found);
         (found.tip > z).then_some(found.triangle)
     }
 
-    /// The highest contacts over the places of some tiles, one after the other in `members`, beginning at `starts`.
+    /// The highest contacts over the positions of some tiles, one after the other in `members`, beginning at `starts`.
     pub fn many(
         &mut self,
         ground: &Ground<'_>,
-        places: &[[f64; 2]],
+        positions: &[[f64; 2]],
         members: &[u32],
         starts: &[u32],
         keep: &mut impl FnMut(u32, Best),
     ) {
         let (Some(first), Some(last)) = (starts.first(), starts.last()) else { return };
-        let survey = self.survey(ground, &ground.tile(places, &members[*first as usize..*last as usize]));
+        let survey = self.survey(ground, &ground.tile(positions, &members[*first as usize..*last as usize]));
         for tile in starts.windows(2) {
-            self.many_among(ground, &survey, places, &members[tile[0] as usize..tile[1] as usize], usize::MAX, keep);
+            self.many_among(ground, &survey, positions, &members[tile[0] as usize..tile[1] as usize], usize::MAX, keep);
         }
     }
 
-    /// The highest contacts over the places named by `members`, which lie together; `before`: candidates of the tile that
+    /// The highest contacts over the positions named by `members`, which lie together; `before`: candidates of the tile that
     /// this one is a quarter of.
     fn many_among(
         &mut self,
         ground: &Ground<'_>,
         survey: &Survey,
-        places: &[[f64; 2]],
+        positions: &[[f64; 2]],
         members: &[u32],
         before: usize,
         keep: &mut impl FnMut(u32, Best),
     ) {
         if let [only] = members {
-            let found = self.one_among(ground, survey, places[*only as usize]);
+            let found = self.one_among(ground, survey, positions[*only as usize]);
             return keep(*only, found);
         }
-        let tile = ground.tile(places, members);
+        let tile = ground.tile(positions, members);
         let mut found = ground.guess(tile.middle, self.last);
-        self.explore(ground, survey, &tile, tile.middle, &mut found, Wanted::Candidates);
+        self.explore(ground, survey, &tile, tile.middle, &mut found, Goal::Candidates);
         self.remember(&found);
         let count = self.candidates.count();
         if count > CROWDED && (count as f64) < WORTH_QUARTERING * before as f64 {
             let leaves = self.surveyed(&tile);
-            for quarter in quarters(places, members, &tile).iter().filter(|quarter| !quarter.is_empty()) {
-                self.many_among(ground, &leaves, places, quarter, count, keep);
+            for quarter in quarters(positions, members, &tile).iter().filter(|quarter| !quarter.is_empty()) {
+                self.many_among(ground, &leaves, positions, quarter, count, keep);
             }
             return;
         }
-        self.settle(ground, &tile, places, members, keep);
+        self.settle(ground, &tile, positions, members, keep);
     }
 
     /// Looks for cells over which a tip may be higher than the `limit` of their rectangle, and calls `keep` with each of
@@ -259,7 +259,7 @@ impl Searcher {
     pub fn verdict(&mut self, ground: &Ground<'_>, corners: &[[f64; 2]; 2], z: f64) -> Verdict {
         let tile = ground.tile(corners, &[0, 1]);
         let mut found = ground.guess(tile.middle, self.last);
-        self.explore(ground, &Survey::whole(ground), &tile, tile.middle, &mut found, Wanted::Candidates);
+        self.explore(ground, &Survey::whole(ground), &tile, tile.middle, &mut found, Goal::Candidates);
         self.remember(&found);
         if found.tip > z {
             let above = ground.contacts.least(found.triangle, tile.middle, tile.half) > z;
@@ -275,7 +275,7 @@ impl Searcher {
         }
     }
 
-    /// Whether the tip may stay within some height of a chord all the way: no triangle asks for more than `most` says of it
+    /// Whether the tip may stay within some height of a chord along all of it: no triangle asks for more than `most` gives for it
     /// over the chord, which is never less than `least`.
     pub fn keeps_under(
         &mut self,
@@ -307,7 +307,7 @@ impl Searcher {
         let middle = chord.at(0.5).1;
         let view = View::of(ground, &tile, &Best { tip: middle, ..Best::NOTHING });
         let line = HalfLine {
-            half: chord.along.map(|way| 0.5 * way as f32),
+            half: chord.along.map(|part| 0.5 * part as f32),
             rise: 0.5 * chord.rise as f32,
             aside: [0, 1].map(|i| (tile.half[i] - 0.5 * chord.along[i].abs()) as f32),
         };
@@ -381,18 +381,18 @@ impl Searcher {
         Survey { branches, middle: tile.middle, zero: view.zero }
     }
 
-    /// Walks through the branches of a survey: `found` becomes the highest contact over `place`; what may be touched
+    /// Walks through the branches of a survey: `found` becomes the highest contact over `position`; what may be touched
     /// elsewhere in the tile is collected.
     fn explore(
         &mut self,
         ground: &Ground<'_>,
         survey: &Survey,
         tile: &Tile,
-        place: [f64; 2],
+        position: [f64; 2],
         found: &mut Best,
-        wanted: Wanted,
+        goal: Goal,
     ) {
-        let collect = wanted == Wanted::Candidates;
+        let collect = goal == Goal::Candidates;
         let view = View::of(ground, tile, found);
         let mut floor = ground.floor(tile, found, view.zero, collect);
         self.candidates.clear(view.zero);
@@ -426,8 +426,8 @@ impl Searcher {
                     if collect { view.margin - ((found.tip - view.zero) as f32 - floor.level) } else { more[lane] };
                 if f64::from(values[lane] + spare) + view.zero >= found.tip {
                     let before = found.tip;
-                    ground.contacts.touch(triangle, place, found);
-                    if matches!(wanted, Wanted::Over(z) if found.tip > z) {
+                    ground.contacts.touch(triangle, position, found);
+                    if matches!(goal, Goal::Over(z) if found.tip > z) {
                         return;
                     }
                     if found.tip > before {
@@ -455,32 +455,32 @@ impl Searcher {
                 value: values[lane],
                 along: along.map(|row| row[lane]),
             };
-            let mut place = self.stack.len();
+            let mut slot = self.stack.len();
             self.stack.push(child);
-            while place > begin && self.stack[place - 1].value > child.value {
-                self.stack[place] = self.stack[place - 1];
-                place -= 1;
+            while slot > begin && self.stack[slot - 1].value > child.value {
+                self.stack[slot] = self.stack[slot - 1];
+                slot -= 1;
             }
-            self.stack[place] = child;
+            self.stack[slot] = child;
         }
     }
 
-    /// The highest contacts over some places of a tile, among the candidates.
+    /// The highest contacts over some positions of a tile, among the candidates.
     fn settle(
         &mut self,
         ground: &Ground<'_>,
         tile: &Tile,
-        places: &[[f64; 2]],
+        positions: &[[f64; 2]],
         members: &[u32],
         keep: &mut impl FnMut(u32, Best),
     ) {
         self.trials.clear();
         for member in members {
-            let place = places[*member as usize];
-            let found = ground.guess(place, self.last);
+            let position = positions[*member as usize];
+            let found = ground.guess(position, self.last);
             self.remember(&found);
-            self.trials.begin(found, place);
-            let away = [0, 1].map(|i| (place[i] - tile.middle[i]) as f32);
+            self.trials.begin(found, position);
+            let away = [0, 1].map(|i| (position[i] - tile.middle[i]) as f32);
             let enough = ground.enough(found.tip, self.candidates.zero);
             let Self { candidates, trials, .. } = self;
             candidates.reaching(enough, away, |triangle| {

@@ -1,4 +1,4 @@
-//! What the tips of eight triangles do not exceed, told side by side.
+//! What the tips of eight triangles do not exceed, computed side by side.
 
 use wide::f32x8;
 
@@ -10,7 +10,7 @@ const ROUNDING: f32 = 2e-6;
 
 type Row = [f32; WIDTH];
 
-/// Triangles, each seen from a place.
+/// Triangles, each seen from a position.
 #[derive(Default)]
 pub struct Eight {
     corners: [[Row; 3]; 3],
@@ -39,7 +39,7 @@ impl Eight {
 
     /// Heights that the tips on the triangles do not exceed; infinite for walls.
     ///
-    /// The tip on a triangle is max of z(q) - Z(|q|) over its points q. With any plane below Z in the place of Z the
+    /// The tip on a triangle is max of z(q) - Z(|q|) over its points q. With any plane below Z instead of Z the
     /// maximum, now at a corner, is no lower. It is the higher by the less, the nearer to the contact the plane touches Z:
     /// here, at the point of the border nearest to the contact with the triangle's whole plane, as Z bends. That
     /// contact's own height is a bound as well.
