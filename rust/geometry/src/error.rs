@@ -8,7 +8,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum GeometryError {
     /// A number of a tool or sheet is out of its range. Correct the key named.
-    #[error("{key} = {value}: {allowed}")]
+    #[error("{key} = {value}: allowed is {allowed}")]
     OutOfRange {
         /// The key of the document.
         key: &'static str,
@@ -102,7 +102,7 @@ pub(crate) fn positive_area(key: &'static str, value: f64) -> Result<f64, Geomet
     if value > 1e-12 && value <= 1e8 {
         Ok(value)
     } else {
-        Err(GeometryError::OutOfRange { key, value, allowed: "must be above 0 and up to 1e8 mm^2" })
+        Err(GeometryError::OutOfRange { key, value, allowed: "an area above 0 and up to 1e8 mm^2" })
     }
 }
 

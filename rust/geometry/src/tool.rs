@@ -120,7 +120,7 @@ impl Tool {
         let height = profile.base().1 + document.base.map_or(Ok(0.0), |base| base.checked(&profile, &document))?;
         if let Some(value) = document.length {
             if length("length", value)? <= height {
-                let allowed = "more than profile and base are high";
+                let allowed = "more than the height of profile and base";
                 return Err(GeometryError::OutOfRange { key: "length", value, allowed });
             }
         }
@@ -128,7 +128,9 @@ impl Tool {
             positive_length("holder.diameter", holder.diameter)?;
             positive_length("holder.length", holder.length)?;
             if document.length.is_none() {
-                return Err(GeometryError::Keys("a holder needs the tool's length: from the tip to it".to_owned()));
+                return Err(GeometryError::Keys(
+                    "holder without the tool's length: add length, mm from the tip to the holder".to_owned(),
+                ));
             }
         }
         Ok(Self { document, profile, report })

@@ -67,7 +67,7 @@ pub fn round_tipped(mut tip: Builder, tip_radius: f64, slope: f64, base: f64) ->
         return Err(GeometryError::OutOfRange {
             key: "tip_radius",
             value: tip_radius,
-            allowed: "smaller: the ball alone is wider than the diameter where the cone begins",
+            allowed: "less: the ball alone is wider than the diameter where the cone begins",
         });
     }
     if tip_radius > 0.0 {

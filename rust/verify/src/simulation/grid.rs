@@ -29,7 +29,7 @@ impl Grid {
         let size = [0, 1].map(|k| high[k] - low[k]);
         let count = (size[0] / spacing + 2.0) * (size[1] / spacing + 2.0);
         if spacing <= 0.0 || count.is_nan() || count > Self::MOST {
-            let allowed = "a length above 0 is expected, at which the part has no more than forty million nodes";
+            let allowed = "a length above 0, at which the part has no more than forty million nodes";
             return Err(GeometryError::OutOfRange { key: "spacing", value: spacing, allowed });
         }
         let least = size.map(|size| (size / spacing * (1.0 - 1e-12)).ceil().max(1.0) as usize);

@@ -49,7 +49,7 @@ impl ProfileKind for Flat {
     fn build(&self, mut tip: Builder) -> Result<Built, GeometryError> {
         let radius = positive_length("diameter", self.diameter)? / 2.0;
         if self.tip_flat > radius {
-            let allowed = "must be at most half the diameter";
+            let allowed = "at most half the diameter";
             return Err(GeometryError::OutOfRange { key: "tip_flat", value: self.tip_flat, allowed });
         }
         tip.straight(radius);
