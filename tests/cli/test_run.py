@@ -15,6 +15,7 @@ import pytest
 
 import styluscam as sc
 from styluscam.cli.summary import lines_of
+from styluscam.programs.summary import Summary
 
 from .conftest import CHECKOUT, COARSE_CUP, changed
 
@@ -139,11 +140,11 @@ def test_of_many_faces_the_summary_lists_the_worst(coarse):
     sides = {"contact": 9.0, "bridged": 0.0, "rim": 0.0, "undercut": 0.0}
     faces = [{"face": number, **sides, "interferes": float(number % 10)} for number in range(1, 31)]
     many = {**summary, "operations": [{**operation, "reached": faces, "bridged": [], "undercut": []}]}
-    rows = [value for name, value in lines_of(many, job) if name == "reached"]
+    rows = [value for name, value in lines_of(Summary.of(many), job) if name == "reached"]
     assert [row.split(",")[0] for row in rows[:-1]] == [f"Face{n}" for n in (7, 8, 9, 17, 18, 19, 28, 29)]
     assert rows[-1].startswith("and 19 more faces")
     few = {**summary, "operations": [{**many["operations"][0], "reached": faces[:9]}]}
-    assert len([name for name, _ in lines_of(few, job) if name == "reached"]) == 9
+    assert len([name for name, _ in lines_of(Summary.of(few), job) if name == "reached"]) == 9
 
 
 def test_summary_equals_the_header(coarse):

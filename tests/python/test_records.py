@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import json
 import pickle
+from collections.abc import Callable
 from dataclasses import FrozenInstanceError, dataclass
 
 import pytest
+from conftest import job_document
 
+import styluscam as sc
 from styluscam.judging.results import FaceCoverage, Finding, Group
+from styluscam.programs.summary import OperationSummary, Summary, SurfaceSummary
 from styluscam.records import Record, plain
 
 FINDING = {
@@ -85,3 +89,32 @@ def test_what_a_face_asks_for() -> None:
 def test_groups_have_what_findings_have_and_more() -> None:
     assert set(Finding._names()) - set(Group._names()) == {"value_mm"}
     assert set(Group._names()) - set(Finding._names()) == {"count", "regions", "box", "findings"}
+
+
+@pytest.fixture(scope="module")
+def coarse_plan(part_of: Callable[[str], sc.Part]) -> sc.Plan:
+    document = job_document("cone_cup", "z-level", {"kind": "ball", "diameter": 10.0})
+    return sc.plan(sc.Job.from_dict(document, part=part_of("cone_cup")))
+
+
+def test_a_summary_is_what_the_engine_reports(coarse_plan: sc.Plan) -> None:
+    summary, notes = coarse_plan.summary()
+    scene, machine = coarse_plan.settings["main"]
+    document, lines = coarse_plan.engine.summary("main", scene, machine.engine)
+    assert json.dumps(summary, default=plain) == json.dumps(json.loads(document)) and notes == lines
+    (operation,) = summary.operations
+    assert isinstance(operation, SurfaceSummary) and summary["operations"][0]["faces"] == operation.faces == [
+        1,
+        2,
+        3,
+        4,
+    ]
+    assert operation.facts[0].fact == "levels" and summary.ok is None
+    assert Summary.of(summary.to_dict()) == summary and pickle.loads(pickle.dumps(summary)) == summary
+
+
+def test_an_operation_that_follows_no_faces_has_no_keys_of_faces(coarse_plan: sc.Plan) -> None:
+    document = coarse_plan.summary()[0].to_dict()
+    kept = {key: document["operations"][0][key] for key in ("id", "kind", "words", "facts")}
+    summary = Summary.of({**document, "operations": [kept]})
+    assert type(summary.operations[0]) is OperationSummary and summary.to_dict()["operations"] == [kept]

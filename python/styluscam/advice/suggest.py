@@ -25,6 +25,7 @@ from styluscam.advice.walls import BIN_DEG, Classes, Walls, walls_of
 from styluscam.errors import Cancelled, JobError, PlanError, ToolError
 from styluscam.programs import planning
 from styluscam.programs.job import Job
+from styluscam.programs.summary import BridgedFace, SurfaceSummary
 from styluscam.tools.scallop import scallop_of_spacing
 from styluscam.tools.tool import Tool
 from styluscam.types import Document, FloatArray, Progress
@@ -77,7 +78,7 @@ class Candidate:
     gap_square: float
     """The same of what stays in corners."""
     reasons: tuple[str, ...]
-    bridged: tuple[Document, ...] | None = None
+    bridged: tuple[BridgedFace, ...] | None = None
     """What planning found bridged; None where the job was not planned with it."""
     failure: str = ""
     """Why the job cannot be planned with it."""
@@ -97,7 +98,7 @@ class Candidate:
         """Most that stays anywhere: as planning found it, else as the profile has it."""
         if self.bridged is None:
             return self.gap_mm
-        return max((float(bridge["excess"]) for bridge in self.bridged), default=0.0)
+        return max((bridge.excess for bridge in self.bridged), default=0.0)
 
     @property
     def bridges(self) -> bool:
@@ -125,7 +126,7 @@ class Candidate:
             "over_rim_share": self.over_rim,
             "bridged_estimate_mm": self.gap_mm,
             "bridges": self.bridges,
-            "bridged": None if self.bridged is None else list(self.bridged),
+            "bridged": None if self.bridged is None else [bridge.to_dict() for bridge in self.bridged],
             "failure": self.failure,
             "reasons": list(self.reasons),
         }
@@ -412,13 +413,14 @@ def _planned(candidate: Candidate, job: Job, asked: list[_Asked], progress: Prog
         failure = str(error)
         reasons = (*candidate.reasons, f"the job cannot be planned with it: {failure}")
         return replace(candidate, failure=failure, reasons=reasons)
-    bridged = [bridge for operation in figures["operations"] for bridge in operation["bridged"]]
-    faces = sorted({int(bridge["face"]) for bridge in bridged})
-    worst = max(bridged, key=lambda bridge: float(bridge["excess"]), default=None)
-    square = _square_of(candidate, 0.0 if worst is None else float(worst["excess"]), faces, asked)
+    following = [one for one in figures.operations if isinstance(one, SurfaceSummary)]
+    bridged = [bridge for operation in following for bridge in operation.bridged]
+    faces = sorted({bridge.face for bridge in bridged})
+    worst = max(bridged, key=lambda bridge: bridge.excess, default=None)
+    square = _square_of(candidate, 0.0 if worst is None else worst.excess, faces, asked)
     result = "planned: it bridges nothing"
     if worst is not None:
-        result = f"planned: it bridges up to {worst['excess']:.3f} mm in Face{worst['face']}"
+        result = f"planned: it bridges up to {worst.excess:.3f} mm in Face{worst.face}"
         result += f" ({len(faces)} faces in all)" if len(faces) > 1 else ""
     return replace(candidate, bridged=tuple(bridged), gap_square=square, reasons=(*candidate.reasons, result))
 

@@ -6,33 +6,42 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+from styluscam.programs.summary import (
+    BridgedFace,
+    End,
+    OperationSummary,
+    ReachedFace,
+    Summary,
+    SurfaceSummary,
+    ToolLine,
+)
 from styluscam.types import Document
 from styluscam.words import clock, counted, position
 
 
-def lines_of(summary: Document, job: Document) -> list[tuple[str, str]]:
+def lines_of(summary: Summary, job: Document) -> list[tuple[str, str]]:
     """Names and values: zero, offset, box, depth, tools, sheet, units and machine; then operations and figures."""
     rows = [
-        ("zero", summary["zero"]),
-        ("work offset", summary["wcs"]),
+        ("zero", summary.zero),
+        ("work offset", summary.wcs),
         ("part box", _box(summary)),
-        ("deepest Z", f"{summary['deepest_z']:.3f}"),
-        *(("tool", _tool(tool)) for tool in summary["tools"]),
+        ("deepest Z", f"{summary.deepest_z:.3f}"),
+        *(("tool", _tool(tool)) for tool in summary.tools),
         *_sheet(job),
-        ("units", f"{summary['units']} in the program; here mm"),
-        ("machine", summary["machine"]),
+        ("units", f"{summary.units} in the program; here mm"),
+        ("machine", summary.machine),
     ]
-    for operation in summary["operations"]:
+    for operation in summary.operations:
         rows += _operation(operation)
-    counted = "acceleration counted" if summary["accelerates"] else "without acceleration"
-    rows.append(("length", f"{summary['length']:.0f} mm at feed, {clock(summary['duration'])}, {counted}"))
-    if summary["gouge_max"] is not None:
-        rows.append(("worst gouge", f"{summary['gouge_max']:.4f} mm"))
-        rows.append(("worst excess", f"{summary['excess_max']:.4f} mm where the tool should touch"))
+    counted = "acceleration counted" if summary.accelerates else "without acceleration"
+    rows.append(("length", f"{summary.length:.0f} mm at feed, {clock(summary.duration)}, {counted}"))
+    if summary.gouge_max is not None:
+        rows.append(("worst gouge", f"{summary.gouge_max:.4f} mm"))
+        rows.append(("worst excess", f"{summary.excess_max:.4f} mm where the tool should touch"))
     return rows
 
 
-def rows_of(summaries: Mapping[str, Document], job: Document) -> list[tuple[str, str]]:
+def rows_of(summaries: Mapping[str, Summary], job: Document) -> list[tuple[str, str]]:
     """As :func:`lines_of` for each channel, named where there are several."""
     rows: list[tuple[str, str]] = []
     for channel, summary in summaries.items():
@@ -54,8 +63,8 @@ def shown_path(path: Path) -> str:
         return str(path)
 
 
-def _box(summary: Document) -> str:
-    pairs = zip("XYZ", summary["part_min"], summary["part_max"], strict=True)
+def _box(summary: Summary) -> str:
+    pairs = zip("XYZ", summary.part_min, summary.part_max, strict=True)
     return ", ".join(f"{axis} {low:.3f} to {high:.3f}" for axis, low, high in pairs)
 
 
@@ -69,27 +78,27 @@ def _sheet(job: Document) -> list[tuple[str, str]]:
     return [("sheet", f"{sheet['thickness']:g} mm, {law} law; the model is its {face} face ({meaning[face]})")]
 
 
-def _tool(tool: Document) -> str:
-    return f"T{tool['number']} H{tool['length_offset']}: {tool['description']}, programmed at its {tool['reference']}"
+def _tool(tool: ToolLine) -> str:
+    return f"T{tool.number} H{tool.length_offset}: {tool.description}, programmed at its {tool.reference}"
 
 
-def _operation(operation: Document) -> list[tuple[str, str]]:
-    rows = [("operation", f"{operation['id']}: {operation['kind']}, {operation['words']}")]
-    if "faces" not in operation:
+def _operation(operation: OperationSummary) -> list[tuple[str, str]]:
+    rows = [("operation", f"{operation.id}: {operation.kind}, {operation.words}")]
+    if not isinstance(operation, SurfaceSummary):
         return rows  # it follows no faces
-    faces = ", ".join(f"Face{number}" for number in operation["faces"][:12])
-    more = len(operation["faces"]) - 12
+    faces = ", ".join(f"Face{number}" for number in operation.faces[:12])
+    more = len(operation.faces) - 12
     rows += [
         ("faces", f"{faces} and {more} more" if more > 0 else faces),
-        ("wall angle", f"{operation['wall_angle_max_deg']:.1f} deg at most"),
+        ("wall angle", f"{operation.wall_angle_max_deg:.1f} deg at most"),
     ]
-    if operation["ends"]:
-        rows.append(("ends at", _end(operation["ends"])))
-    rows += _worst("reached", operation["reached"], _lost_area, _reached)
-    if (coarse := operation["reached_coarsely"]) is not None:
+    if operation.ends:
+        rows.append(("ends at", _end(operation.ends)))
+    rows += _worst("reached", operation.reached, _lost_area, _reached)
+    if (coarse := operation.reached_coarsely) is not None:
         rows.append(("reached", f"areas are estimated from triangles of {coarse:.3g} mm"))
-    rows += _worst("bridged", operation["bridged"], lambda one: float(one["excess"]), _bridged)
-    rows += _worst("undercut", operation["undercut"], lambda one: float(one[1]), _undercut)
+    rows += _worst("bridged", operation.bridged, lambda one: one.excess, _bridged)
+    rows += _worst("undercut", operation.undercut, lambda one: float(one[1]), _undercut)
     return rows
 
 
@@ -106,18 +115,18 @@ def _worst(
     )
 
 
-def _bridged(bridge: Document) -> str:
-    return f"Face{bridge['face']} by up to {bridge['excess']:.3f} mm at {position(bridge['at'])}"
+def _bridged(bridge: BridgedFace) -> str:
+    return f"Face{bridge.face} by up to {bridge.excess:.3f} mm at {position(bridge.at)}"
 
 
 def _undercut(face: tuple[int, float]) -> str:
     return f"Face{face[0]}, {face[1]:.1f} mm2 are not reached"
 
 
-def _end(end: Document) -> str:
-    which = "the part's foot" if end["at_foot"] else "z_bottom"
-    lowest = f"the lowest {end['untouched']:.3f} mm of the walls are touched only by a deeper z_bottom"
-    return f"Z{end['z']:.3f}, {which}: {lowest}"
+def _end(end: End) -> str:
+    which = "the part's foot" if end.at_foot else "z_bottom"
+    lowest = f"the lowest {end.untouched:.3f} mm of the walls are touched only by a deeper z_bottom"
+    return f"Z{end.z:.3f}, {which}: {lowest}"
 
 
 LOST = {"bridged": "bridged", "interferes": "beside something in the way", "rim": "touched by the tool's rim alone"}
@@ -131,15 +140,15 @@ SHOWN = 8
 """Faces that are listed one by one."""
 
 
-def _lost_area(face: Document) -> float:
+def _lost_area(face: ReachedFace) -> float:
     """mm^2; 0 for what is too little to be shown."""
     return sum(float(face[key]) for key in LOST) if _lost(face) else 0.0
 
 
-def _lost(face: Document) -> list[str]:
+def _lost(face: ReachedFace) -> list[str]:
     return [f"{face[key]:.1f} {words}" for key, words in LOST.items() if face[key] >= LEAST_AREA]
 
 
-def _reached(face: Document) -> str:
+def _reached(face: ReachedFace) -> str:
     whole = sum(face[key] for key in (*LOST, "contact", "undercut"))
-    return f"Face{face['face']}, {face['contact']:.1f} of {whole:.1f} mm2; {', '.join(_lost(face))}"
+    return f"Face{face.face}, {face.contact:.1f} of {whole:.1f} mm2; {', '.join(_lost(face))}"

@@ -16,6 +16,7 @@ from styluscam.errors import MachineError, PlanError, StylusError
 from styluscam.programs.job import MAIN_CHANNEL, Job, JobLike
 from styluscam.programs.machine import Machine, MachineLike
 from styluscam.programs.program import Program
+from styluscam.programs.summary import Summary
 from styluscam.types import Document, Progress
 from styluscam.words import counted, shortened
 
@@ -95,7 +96,7 @@ class Plan:
 
     def summary(
         self, judgement: _engine.Judgement | None = None, channel: str = MAIN_CHANNEL
-    ) -> tuple[Document, list[str]]:
+    ) -> tuple[Summary, list[str]]:
         """A channel in numbers, and the lines on it in its program's header.
 
         Raises:
@@ -103,7 +104,7 @@ class Plan:
         """
         require_channel(channel, self.programs)
         document, notes = self._summaries[channel] if judgement is None else self._summed(channel, judgement)
-        return json.loads(document), list(notes)
+        return Summary.of(json.loads(document)), list(notes)
 
     @cached_property
     def _summaries(self) -> dict[str, tuple[str, list[str]]]:

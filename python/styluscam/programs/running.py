@@ -19,10 +19,11 @@ from styluscam.programs.job import MAIN_CHANNEL, Job, JobLike
 from styluscam.programs.planning import Plan, Posted, of_channel, output_name, plan, post
 from styluscam.programs.posting import VERDICT
 from styluscam.programs.program import Program
+from styluscam.programs.summary import Summary
 from styluscam.report.page import report_page
 from styluscam.report.subject import Subject
 from styluscam.report.templates import require_extra
-from styluscam.types import Document, Progress
+from styluscam.types import Progress
 from styluscam.words import shortened
 
 HEADER = 2**18
@@ -37,7 +38,7 @@ class ChannelResult:
     """What verification found in a channel's text, and the channel in numbers."""
 
     report: Report
-    summary: Document
+    summary: Summary
 
 
 @dataclass(frozen=True, repr=False)
@@ -60,7 +61,7 @@ class RunResult:
         return self.channels[MAIN_CHANNEL].report
 
     @property
-    def summary(self) -> Document:
+    def summary(self) -> Summary:
         """Of the main channel."""
         return self.channels[MAIN_CHANNEL].summary
 
@@ -123,7 +124,7 @@ class _Made(NamedTuple):
     """A channel, posted and verified."""
 
     report: Report
-    summary: Document
+    summary: Summary
     program: Program
     text: str
 

@@ -17,6 +17,7 @@ from styluscam._engine import Tool as EngineTool
 from styluscam.arguments import A_FILE, FileName, document_of, file_of, word_of
 from styluscam.errors import ToolError
 from styluscam.files import is_file, write_whole
+from styluscam.records import Record
 from styluscam.tools import fctb, library, pointsfile, toolfile
 from styluscam.types import Document, FloatArray, numbers
 
@@ -40,6 +41,19 @@ class OutlinePart:
     """Radius and height of its end nearer to the tip, mm."""
     outer: tuple[float, float]
     """Radius and height of its other end, mm."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ToolReport(Record):
+    """What building a tool reports.
+
+    Attributes:
+        notes: what a reader guessed and what was done to the curve, in sentences.
+        fit_deviation_mm: largest distance of a given point from the profile; None but for points.
+    """
+
+    notes: list[str]
+    fit_deviation_mm: float | None
 
 
 class Tool:
@@ -227,10 +241,10 @@ class Tool:
         names = {"name": self.name, "title": self.title}
         return {"schema": toolfile.SCHEMA} | {k: v for k, v in names.items() if v} | self.to_dict()
 
-    def report(self) -> Document:
-        """What building it reports: ``notes`` (sentences) and ``fit_deviation_mm`` (of points, else None)."""
+    def report(self) -> ToolReport:
+        """What building it reports."""
         report: Document = json.loads(self._engine.report())
-        return {**report, "notes": [*self.remarks, *report["notes"]]}
+        return ToolReport(**{**report, "notes": [*self.remarks, *report["notes"]]})
 
     @property
     def description(self) -> str:
