@@ -113,14 +113,16 @@ impl Lanes {
     #[inline]
     pub fn bounds_over(&self, matched: &Matched, probe: &Probe, lines: &Lines, line: &HalfLine) -> f32x8 {
         let [[dx, dy], [ax, ay]] = [line.half, line.aside].map(|vector| vector.map(f32x8::splat));
-        let most = self.both_bounds(matched, probe, lines).map(|Bounds { value, along: [gx, gy] }| {
+        let [in_box, free] = self.both_bounds(matched, probe, lines);
+        let most = |&Bounds { value, along: [gx, gy] }: &Bounds| {
             value + (gx * dx + gy * dy - f32x8::splat(line.rise)).abs() + gx.abs() * ax + gy.abs() * ay
-        });
-        most[0].fast_min(most[1])
+        };
+        most(&in_box).fast_min(most(&free))
     }
 
-    /// The bound by the tangent in the box and that by the whole plane.
-    #[inline]
+    /// The bound by the tangent in the box and that by the whole plane. Always inlined: as a call it costs rows a fifth of
+    /// their time.
+    #[inline(always)]
     fn both_bounds(&self, matched: &Matched, probe: &Probe, lines: &Lines) -> [Bounds; 2] {
         let [gx, gy] = self.gradient;
         let (x, y) = (f32x8::splat(probe.x), f32x8::splat(probe.y));
