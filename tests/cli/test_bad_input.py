@@ -121,7 +121,7 @@ IN_THE_DOCUMENT = {
     "empty faces list": ([('["Face6"]', "[]")], ["part.faces", "no face is named"]),
     "empty faces list of an operation": ([(ROW, ROW + "\nfaces = []")], ["operations[0].faces", "no face is named"]),
     "face that does not exist": ([("Face6", "Face99")], ["part.faces[0]", "Face99", "Face1 to Face6"]),
-    "face that looks down": ([("Face6", "Face5")], ["part.faces[0]", "Face5", "down", "setup.up"]),
+    "face that faces down": ([("Face6", "Face5")], ["part.faces[0]", "Face5", "down", "setup.up"]),
     "no such part": ([("box.step", "bx.step")], ["bx.step", "no such file"]),
     "part is a folder": ([("box.step", "folder")], ["folder", "not a file"]),
     "part is not STEP": ([("box.step", "text.step")], ["text.step", "STEP"]),
@@ -157,7 +157,7 @@ IN_THE_DOCUMENT = {
     ),
     "output below a file": ([("out.ngc", "text.doc/out.ngc")], ["out.ngc", "cannot be written", "text.doc"]),
     "output is a folder": ([("out.ngc", "folder")], ["folder", "cannot be written"]),
-    "all but nothing looks up": ([('["Face6"]', '"al"')], ["part.faces", "al", "all"]),
+    "all but nothing faces up": ([('["Face6"]', '"al"')], ["part.faces", "al", "all"]),
 }
 
 

@@ -302,7 +302,7 @@ def splined(height):
 
 
 def test_a_curved_upright_wall_is_a_wall(parts, cli):
-    """Its triangles lean by their deviation, to either side: it does not look down."""
+    """Its triangles lean by their deviation, to either side: it does not face down."""
     write_step(splined(12.0), parts / "splined.step")
     ran = cli("new", parts / "splined.step", "--force", "--json")
     assert ran.code == 0, ran.out

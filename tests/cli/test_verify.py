@@ -210,8 +210,8 @@ def test_a_bad_program_is_told_on_one_screen_errors_first(sound, cli):
     code, document = judged(cli, sound, text)
     assert code == 1 and sum(document["counts"].values()) > 500
     groups, findings = document["groups"], document["findings"]
-    for told in (groups, findings):
-        severities = [one["severity"] for one in told]
+    for listed in (groups, findings):
+        severities = [one["severity"] for one in listed]
         assert severities == sorted(severities), severities  # "error" before "warning"
     assert sorted(index for group in groups for index in group["findings"]) == list(range(len(findings)))
     for group in groups:

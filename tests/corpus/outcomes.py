@@ -38,7 +38,7 @@ REASONS = {
 CLASSES = re.compile(r"\b[A-Z]\w*(Error|Exception)\b|Traceback|Standard_|StdFail")
 TOLD = re.compile(r"[:;,] \S+")
 ACCEPTED = {"wall-angle"}
-"""Warnings that are true of some parts: sheets steeper than any material is sure to bear."""
+"""Warnings that are true of some parts: sheets steeper than any material is sure to withstand."""
 FEW = 10
 IN_PIECES = 0.05
 """Lifts for nothing that are many: more than these, and more than this share of all cuts."""

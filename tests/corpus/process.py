@@ -40,7 +40,7 @@ class Limit:
 
 
 class _Peak(threading.Thread):
-    """Watches how much memory a process holds at most, of its own: what wait4 tells begins with its parent's."""
+    """Watches how much memory a process holds at most, of its own: what wait4 reports begins with its parent's."""
 
     def __init__(self, pid: int) -> None:
         super().__init__(daemon=True)

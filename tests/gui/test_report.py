@@ -197,7 +197,7 @@ def test_the_path_has_its_colours(opened: Tab) -> None:
 
 
 def test_scrubbing_moves_the_tool_to_the_exact_place(opened: Tab, subject: Subject) -> None:
-    times, ends, moves = subject.times, subject.places, subject.program.moves
+    times, ends, moves = subject.times, subject.positions, subject.program.moves
     for move in (2, 3, len(times) // 3, len(times) // 2, len(times) - 1):
         opened.choose("#time", repr(float(times[move])))
         assert tip(opened) == pytest.approx(ends[move], abs=2e-5)
@@ -218,7 +218,7 @@ def test_every_number_of_the_path_is_exact(opened: Tab, subject: Subject) -> Non
     given = opened.run(
         f"(() => {{ const p = window.styluscam.player.path; return {moves.tolist()}.map(m => [...p.place(m), p.feeds[m]]) }})()"
     )
-    assert np.array_equal(np.array(given)[:, :3], subject.places[moves])
+    assert np.array_equal(np.array(given)[:, :3], subject.positions[moves])
     assert np.array_equal(np.array(given)[:, 3], subject.program.moves["feed"][moves])
 
 

@@ -389,7 +389,7 @@ class _Reader:
         return replace(move, centre=(centre[0], centre[1], centre[2]), sense=sense)
 
     def _too_far(self, apart: float, radius: float) -> bool:
-        """Whether an arc's radii differ by more than the controller bears; Marlin looks at nothing."""
+        """Whether an arc's radii differ by more than the controller allows; Marlin looks at nothing."""
         allowed = ARC_ERROR.get(self.family, math.inf)
         if self.family not in ("linuxcnc", "grbl"):
             return apart > allowed

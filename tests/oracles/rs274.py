@@ -32,7 +32,7 @@ MOVES = ("STRAIGHT_TRAVERSE", "STRAIGHT_FEED", "ARC_FEED")
 TEXTS = ("COMMENT", "MESSAGE")
 
 AXES = {"XY": ("x", "y", "z"), "YZ": ("y", "z", "x"), "XZ": ("z", "x", "y")}
-"""A plane's first and second axis, and its normal, as ARC_FEED orders them."""
+"""A plane's first and second axis, and its normal, in ARC_FEED's order."""
 
 LINE = re.compile(r"\s*(\d+) +N(?:\.+|(\d+)) *([A-Z][A-Z0-9_]*)\((.*)\)")
 

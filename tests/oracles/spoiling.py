@@ -34,7 +34,7 @@ class Dialect:
     imperial: str = "G20"
     wcs: str = r"^G5[4-6]\b"
     others: tuple[str, ...] = ("G57", "G58", "G59")
-    """Words of work offsets that no job here orders."""
+    """Words of work offsets that no job here selects."""
     tool: str = r"^T(\d+) M6"
     """The tool that a change brings."""
     change: str = r"^T\d+ M6"

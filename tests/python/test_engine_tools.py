@@ -50,7 +50,7 @@ def test_clothoid_is_fresnel_s_to_1e_12(diameter: float) -> None:
     assert relative(tool.radius_at(slopes), radii) < 1e-12
     assert relative(tool.height_at(slopes), heights) < 1e-12
     assert relative(tool.curvature_radius_at(slopes), curvatures) < 1e-12
-    # the other way round, where a radius still tells the slope
+    # the other way round, where a radius still determines the slope
     lower = slopes < np.radians(80.0)
     assert relative(tool.height_at_radius(np.array(radii)[lower]), np.array(heights)[lower].tolist()) < 1e-12
 

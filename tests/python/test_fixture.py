@@ -1,4 +1,4 @@
-"""Clamp frame, backing plate and what the sheet bears, against distances known by hand."""
+"""Clamp frame, backing plate and what the sheet withstands, against distances known by hand."""
 
 from __future__ import annotations
 

@@ -64,9 +64,9 @@ def test_the_flange_and_the_floor_of_a_tray_need_no_forming(face: str, law: str)
     totals = coverage.Totals.of(report.coverage())
     assert totals.flat == pytest.approx(FLANGE**2 - OPENING**2, rel=0.01)
     assert totals.share is not None and totals.share > 0.8
-    told = coverage.lines(report.coverage())
-    assert f"{totals.flat:.1f} mm2 need no forming: the blank lies there" in told[0]
-    assert not any(line.startswith("Face1") for line in told)
+    lines = coverage.lines(report.coverage())
+    assert f"{totals.flat:.1f} mm2 need no forming: the blank lies there" in lines[0]
+    assert not any(line.startswith("Face1") for line in lines)
 
 
 def test_a_floor_is_as_deep_as_the_passes_around_it() -> None:

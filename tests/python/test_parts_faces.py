@@ -1,4 +1,4 @@
-"""Meshes as people have them: mended with a note, their faces told apart, and planned as before."""
+"""Meshes as people have them: mended with a note, their faces distinguished, and planned as before."""
 
 from __future__ import annotations
 

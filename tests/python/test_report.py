@@ -166,14 +166,14 @@ def test_places_along_arcs_have_their_time_and_move(job: sc.Job) -> None:
     text = "G21 G90 G54 G17\nG0 X0 Y0 Z5\nG1 Z0 F60\nG4 P2.5\nG3 X20 Y0 I10 J0 F600\nG1 X30\nG0 Z5\nM2\n"
     program = sc.read_gcode(text, job.machine())
     subject = Subject("arc", "arc.ngc", program, job.machine())
-    assert len(subject.places) > 50 + len(program.moves)
+    assert len(subject.positions) > 50 + len(program.moves)
     assert (np.diff(subject.times) >= 0.0).all() and (np.diff(subject.owners) >= 0).all()
     ends = np.searchsorted(subject.owners, np.arange(len(program.moves)), side="right") - 1
     assert subject.times[ends] == pytest.approx(program.times(job.machine()), abs=1e-6)
-    assert np.array_equal(subject.places[ends], program.moves["end"])
+    assert np.array_equal(subject.positions[ends], program.moves["end"])
     (arc,) = np.flatnonzero(program.moves["kind"] == 3)
     on_it = np.flatnonzero(subject.owners == arc)
-    assert np.linalg.norm(subject.places[on_it, :2] - [10.0, 0.0], axis=1) == pytest.approx(10.0, abs=1e-3)
+    assert np.linalg.norm(subject.positions[on_it, :2] - [10.0, 0.0], axis=1) == pytest.approx(10.0, abs=1e-3)
     assert np.ptp(np.diff(subject.times[on_it[0] - 1 : on_it[-1] + 1])) < 1e-4
     data = given(report_page(subject))["path"]
     assert data["sag"] == 0.001 and data["count"] == len(program.moves)

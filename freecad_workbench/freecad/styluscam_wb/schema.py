@@ -89,7 +89,7 @@ class JobSchema:
         return self._table(entry)
 
     def _table(self, entry: Schema) -> Table:
-        """The table of an object, or of alternatives that a `kind` tells apart."""
+        """The table of an object, or of alternatives that a `kind` distinguishes."""
         alternatives = [self._resolved(one)[0] for one in entry.get("oneOf", ())]
         if not alternatives:
             keys = self._keys(entry, None)

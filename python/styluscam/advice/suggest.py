@@ -34,7 +34,7 @@ BEST = 3
 """Tools for which the job is planned, to see what they bridge."""
 
 PATIENCE = 2
-"""For each of them so many tools are planned at most: one that turns out to bridge more makes room for the next."""
+"""For each of them so many tools are planned at most: one that turns out to bridge more gives its turn to the next."""
 
 MARGIN = 0.02
 """Of the part's curvature and of its area: less is the mesh's own coarseness."""
@@ -383,7 +383,7 @@ def _reasons(candidate: Candidate, hollow: float | None, corner: str, asked: lis
     if hollow is not None and unreached > LEAST_SHARE:
         sentences.append(f"too flat for {100.0 * unreached:.2g} % of the area, near {math.degrees(hollow):.2g} deg")
     if tool.diameter > 2.0 * SNUG * most.fits:
-        sentences.append(f"wider than the part's narrow places: up to {2.0 * most.fits:.3g} mm fits nearly all")
+        sentences.append(f"wider than the part's narrow gaps: up to {2.0 * most.fits:.3g} mm fits nearly all")
     if candidate.gap_mm > LEAST_GAP:
         sentences.append(f"its profile leaves {candidate.gap_mm:.3f} mm in {corner}")
     if radius < 2.0 * most.thickness:

@@ -119,7 +119,7 @@ def _part(facts: Facts) -> list[tuple[str, str]]:
         *operations,
         ("wall angles", walls),
         ("most concave", "nowhere" if hollow is None else f"radius {hollow:.3g} mm"),
-        ("narrow places", "none" if fits is None else f"a tool of up to {2.0 * fits:.3g} mm fits nearly all"),
+        ("narrow gaps", "none" if fits is None else f"a tool of up to {2.0 * fits:.3g} mm fits nearly all"),
     ]
 
 

@@ -148,9 +148,9 @@ class Job:
         """
         if not isinstance(text, str):
             raise refused("text", text, "the text of a job file", JobError)
-        place = file_of(folder, "folder", "the name of a folder (str or Path)", JobError)
-        engine, files = _of_toml(text, place)
-        return cls._built(engine, place, tool_files=files)
+        origin = file_of(folder, "folder", "the name of a folder (str or Path)", JobError)
+        engine, files = _of_toml(text, origin)
+        return cls._built(engine, origin, tool_files=files)
 
     @classmethod
     def from_dict(cls, document: Document, folder: FileName = ".", part: PartLike | None = None) -> Job:
@@ -159,11 +159,11 @@ class Job:
         Raises:
             JobError: with the key, its value and what is allowed.
         """
-        place = file_of(folder, "folder", "the name of a folder (str or Path)", JobError)
-        document, files = _resolved(document_of(document, "document", "a dict with a job's keys", JobError), place)
+        origin = file_of(folder, "folder", "the name of a folder (str or Path)", JobError)
+        document, files = _resolved(document_of(document, "document", "a dict with a job's keys", JobError), origin)
         text = json_of(document, "document", JobError)
         known = None if part is None else Part.of(part)
-        return cls._built(_engine.Job.from_json(text), place, part=known, tool_files=files)
+        return cls._built(_engine.Job.from_json(text), origin, part=known, tool_files=files)
 
     @staticmethod
     def check(text: str) -> None:

@@ -120,9 +120,9 @@ class Machine:
         try:
             return cls._built(_engine.Machine.from_toml(text, str(path.parent)))
         except MachineError as error:
-            place = f"{path}: {error.where}" if error.where else str(path)
+            key_path = f"{path}: {error.where}" if error.where else str(path)
             message = str(error).removeprefix(f"{error.where}: ")
-            raise MachineError(f"{place}: {message}", code=error.code, where=place, hint=error.hint) from error
+            raise MachineError(f"{key_path}: {message}", code=error.code, where=key_path, hint=error.hint) from error
 
     @classmethod
     def find(cls, name: str) -> Machine:
@@ -253,9 +253,9 @@ def differences(one: Document, other: Document, path: str = "") -> list[tuple[st
         here, there = one.get(key), other.get(key)
         if here == there:
             continue
-        place = f"{path}.{key}" if path else key
+        key_path = f"{path}.{key}" if path else key
         if isinstance(here, dict) and isinstance(there, dict):
-            rows += differences(here, there, place)
+            rows += differences(here, there, key_path)
         else:
-            rows.append((place, here, there))
+            rows.append((key_path, here, there))
     return rows

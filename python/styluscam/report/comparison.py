@@ -41,6 +41,6 @@ def _plots(subjects: Sequence[Subject]) -> list[Plot]:
     series = []
     for subject in subjects:
         series.append(
-            Series(subject.times, subject.places[:, 2], subject.moves["feed"], subject.moves["kind"], subject.file)
+            Series(subject.times, subject.positions[:, 2], subject.moves["feed"], subject.moves["kind"], subject.file)
         )
     return [height_over_time(series), feed_over_time(series)]

@@ -103,8 +103,8 @@ def _shown(subject: Subject, progress: Progress | None) -> Shown | None:
 
 
 def _plots(subject: Subject, shown: Shown | None) -> list[plots.Plot]:
-    series = [plots.Series(subject.times, subject.places[:, 2], subject.moves["feed"], subject.moves["kind"])]
-    drawn = [plots.height_over_time(series), plots.feed_over_time(series)] if len(subject.places) else []
+    series = [plots.Series(subject.times, subject.positions[:, 2], subject.moves["feed"], subject.moves["kind"])]
+    drawn = [plots.height_over_time(series), plots.feed_over_time(series)] if len(subject.positions) else []
     if shown is not None and len(shown.scallops):
         drawn.append(plots.scallop_histogram(shown.scallops, shown.weights))
     return drawn
@@ -167,9 +167,9 @@ def _path(subject: Subject) -> Document:
     changes = np.zeros(len(moves), dtype=bool)
     for column in (subject.kinds, moves["operation"], moves["feed"]):
         changes[:-1] |= column[1:] != column[:-1]
-    drawn = thinned(subject.places, changes, SEGMENTS)
+    drawn = thinned(subject.positions, changes, SEGMENTS)
     return {
-        "places": packed(subject.places),
+        "places": packed(subject.positions),
         "times": packed(subject.times),
         "kinds": packed(subject.kinds),
         "moves": packed(subject.owners),

@@ -79,7 +79,7 @@ class Subject:
         return np.flatnonzero(np.isfinite(self.program.positions).all(axis=1))
 
     @cached_property
-    def places(self) -> FloatArray:
+    def positions(self) -> FloatArray:
         """Along the path, (N, 3), mm: the ends of the moves, and between those of arcs."""
         return self.program.positions[self._known]
 
@@ -96,10 +96,10 @@ class Subject:
     @cached_property
     def times(self) -> FloatArray:
         """When the tip is there, (N,), s, in whole microseconds; along an arc by its length."""
-        if not len(self.places):
+        if not len(self.positions):
             return np.zeros(0)
         ends = np.append(0.0, self.program.times(self.machine))
-        length_to = np.cumsum(np.linalg.norm(np.diff(self.places, axis=0, prepend=self.places[:1]), axis=1))
+        length_to = np.cumsum(np.linalg.norm(np.diff(self.positions, axis=0, prepend=self.positions[:1]), axis=1))
         last = np.searchsorted(self.owners, self.owners, side="right") - 1
         first = np.searchsorted(self.owners, self.owners) - 1
         begins = np.where(first >= 0, length_to[first], 0.0)
@@ -111,7 +111,7 @@ class Subject:
     @cached_property
     def kinds(self) -> IntArray:
         """What the move is for, (N,): :data:`RAPIDS`, :data:`UPRIGHT` or :data:`CUT`."""
-        steps = np.diff(self.places, axis=0, prepend=self.places[:1])
+        steps = np.diff(self.positions, axis=0, prepend=self.positions[:1])
         upright = (np.abs(steps[:, :2]) <= SAME).all(axis=1)
         return np.where(self.moves["kind"] == RAPID, RAPIDS, np.where(upright, UPRIGHT, CUT))
 
@@ -120,7 +120,7 @@ class Subject:
         """What verification found, each with its moment."""
         if self.report is None:
             return []
-        return placed(self.report.findings, self.moves["line"], self.places, self.times)
+        return placed(self.report.findings, self.moves["line"], self.positions, self.times)
 
     @cached_property
     def tools(self) -> list[tuple[Document, Tool | None]]:

@@ -48,7 +48,7 @@ class Figures(Record):
 
 def figures(subject: Subject) -> Figures:
     """A program's numbers."""
-    program, places = subject.program, subject.places
+    program, positions = subject.program, subject.positions
     at_feed = subject.kinds != RAPIDS
     report = subject.report
     faces = report.coverage() if report is not None else []
@@ -58,7 +58,7 @@ def figures(subject: Subject) -> Figures:
         length_mm=program.length,
         moves=len(program.moves),
         blocks=len(np.unique(program.moves["line"])),
-        lowest_z_mm=float(places[at_feed, 2].min()) if at_feed.any() else None,
+        lowest_z_mm=float(positions[at_feed, 2].min()) if at_feed.any() else None,
         findings=sum(report.to_dict()["counts"].values()) if report is not None else None,
         gouge_mm=report.gouge_max if report is not None else None,
         excess_mm=report.excess_max if report is not None else None,
