@@ -31,7 +31,7 @@ PERMANENT = {
 }
 """Saved documents hold these names and types."""
 
-NUMBER = {"type": "number", "x-unit": "mm"}
+NUMBER = {"type": "number", "x-unit": "mm", "minimum": 0.0}
 
 
 def by_name(document: dict[str, Any]) -> dict[str, Any]:
@@ -186,3 +186,10 @@ def test_a_process_states_whether_it_takes_a_sheet() -> None:
 def test_a_missing_table_is_an_error() -> None:
     with pytest.raises(schema.SchemaError, match=r"no setup\.shet"):
         schema.JobSchema(sc.job_schema()).table("setup", "shet")
+
+
+def test_a_length_without_a_range_is_an_error() -> None:
+    document = by_kind()
+    document["$defs"]["Operation"]["oneOf"][1]["properties"]["stepover"].pop("minimum")
+    with pytest.raises(fields.FieldError, match="without a minimum"):
+        by_name(document)

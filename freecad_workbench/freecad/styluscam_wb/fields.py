@@ -242,10 +242,12 @@ def _type(key: Key) -> tuple[str, bool]:
     entry = key.entry
     if key.choices:
         return CHOICE, False
-    plain = {"number": _number_type(entry), "integer": INTEGER, "string": TEXT}
+    stated = entry.get("type")
+    if stated == "number":
+        return _number_type(entry), False
+    plain = {"integer": INTEGER, "string": TEXT}
     if not key.nullable:
         plain["boolean"] = BOOL
-    stated = entry.get("type")
     if isinstance(stated, str) and stated in plain:
         return plain[stated], False
     if stated == "array" and ("$ref" in entry["items"] or entry["items"].get("type") == "string"):
@@ -255,7 +257,16 @@ def _type(key: Key) -> tuple[str, bool]:
 
 def _number_type(entry: Schema) -> str:
     type_ = UNITS.get(entry.get("x-unit", ""), FLOAT)
-    return DISTANCE if type_ == LENGTH and entry.get("minimum", 0.0) < 0.0 else type_
+    return DISTANCE if type_ == LENGTH and _lowest(entry) < 0.0 else type_
+
+
+def _lowest(entry: Schema) -> float:
+    """The least value of a length: whether its property may be negative depends on it, so it is never assumed."""
+    low = entry.get("exclusiveMinimum", entry.get("minimum"))
+    if low is None:
+        what = entry.get("description") or json.dumps(entry)
+        raise FieldError(f"a length without a minimum in the job schema ({what}): state its range in the engine's key")
+    return float(low)
 
 
 def _text(description: str, entry: Schema, *, optional: bool = False, is_json: bool = False) -> str:

@@ -74,8 +74,7 @@ def _sheet(job: Document) -> list[tuple[str, str]]:
     if not sheet or not face:
         return []
     meaning = {"tool": "facing the tool", "back": "away from the tool", "mid": "its middle"}
-    law = sheet.get("law", "constant")
-    return [("sheet", f"{sheet['thickness']:g} mm, {law} law; the model is its {face} face ({meaning[face]})")]
+    return [("sheet", f"{sheet['thickness']:g} mm, {sheet['law']} law; the model is its {face} face ({meaning[face]})")]
 
 
 def _tool(tool: ToolLine) -> str:
