@@ -9,6 +9,7 @@ use super::{
 };
 use crate::{
     faces::{chosen, Look},
+    resolve::selection_of,
     JobDocument, JobError, Scene, Selection,
 };
 
@@ -75,10 +76,7 @@ fn selected(job: &JobDocument, scene: &Scene, index: usize) -> Result<(Vec<bool>
         let hint = format!("the job has {}", job.operations.len());
         JobError::document("no-such-operation", "operations", format!("no operation {index}"), hint)
     })?;
-    let (selection, path) = match &section.common.faces {
-        Some(selection) => (selection, format!("operations[{index}].faces")),
-        None => (&job.part.faces, "part.faces".to_owned()),
-    };
+    let (selection, path) = selection_of(job, section, index);
     let faces = scene.mesh.faces();
     let selected = match selection {
         Selection::All => vec![true; faces.len()],

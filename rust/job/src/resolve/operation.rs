@@ -2,7 +2,16 @@
 
 use crate::faces::{chosen, Look};
 use crate::heights::TipHeights;
-use crate::{JobDocument, JobError, OperationSection, Scene};
+use crate::{JobDocument, JobError, OperationSection, Scene, Selection};
+
+/// The selection of an operation, its own or the part's, and its path in the document. `index` is the operation's number in
+/// the job.
+pub fn selection_of<'a>(job: &'a JobDocument, section: &'a OperationSection, index: usize) -> (&'a Selection, String) {
+    match &section.common.faces {
+        Some(selection) => (selection, format!("operations[{index}].faces")),
+        None => (&job.part.faces, "part.faces".to_owned()),
+    }
+}
 
 /// The faces that an operation is for, in order of their numbers: its own selection, or the part's. `index` is its number in
 /// the job.
@@ -15,10 +24,7 @@ pub fn faces_of(
     section: &OperationSection,
     index: usize,
 ) -> Result<Vec<u32>, JobError> {
-    let (selection, path) = match &section.common.faces {
-        Some(selection) => (selection, format!("operations[{index}].faces")),
-        None => (&job.part.faces, "part.faces".to_owned()),
-    };
+    let (selection, path) = selection_of(job, section, index);
     let all = match (job.process.process.as_kind().forms(), section.kind().cuts_upright_walls()) {
         (true, _) => Look::UpButRims,
         (false, true) => Look::UpOrAside,
