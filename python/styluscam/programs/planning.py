@@ -92,7 +92,8 @@ class Plan:
     @cached_property
     def programs(self) -> dict[str, Program]:
         """Programs by channel; ``"main"`` is always there."""
-        return {channel: Program(program) for channel, program in self.engine.programs.items()}
+        programs = self.engine.programs
+        return {channel: Program(programs[channel]) for channel in self.machines}
 
     def summary(
         self, judgement: _engine.Judgement | None = None, channel: str = MAIN_CHANNEL
