@@ -63,7 +63,9 @@ fn sound_arcs_pass_and_cover_as_chords_do() {
             let selected = vec![true; part.mesh.triangles().len()];
             let left = |program: &Program| {
                 let tools = std::slice::from_ref(&tool);
-                coverage(program, &part.subject(tools), &limits(), &selected, &Watch::default()).unwrap()[0].left.unwrap()
+                coverage(program, &part.subject(tools), &limits(), &selected, &Watch::default()).unwrap()[0]
+                    .left
+                    .unwrap()
             };
             assert!((left(&program) - left(&chorded(&program, 2000))).abs() < 2e-4);
         }
