@@ -27,14 +27,27 @@ PATHS = {
 """Where each section stands in the document."""
 
 HOST = {
-    OPERATION: {"id", "tool", "faces", "z_top", "z_bottom", "feeds", "spindle", "coolant"},
+    OPERATION: {"id", "tool", "faces", "channel", "z_top", "z_bottom", "feeds", "spindle", "coolant"},
     PROCESS: set[str](),
     SHEET: set[str](),
     PART: {"file", "faces", "units"},
     SETUP: {"up", "rotation", "zero", "wcs", "clearance", "retract", "sheet"},
-    JOB: {"schema", "title", "units", "part", "setup", "process", "tools", "operations", "machine", "output"},
+    JOB: {
+        "schema",
+        "title",
+        "units",
+        "part",
+        "setup",
+        "process",
+        "tools",
+        "operations",
+        "machine",
+        "machines",
+        "output",
+    },
 }
-"""Keys that follow from FreeCAD's own: label, tool controller, base geometry, depths, heights, feeds, coolant, model."""
+"""Keys that follow from FreeCAD's own: label, tool controller, base geometry, depths, heights, feeds, coolant, model. Channels
+are none of them: an operation there is one program."""
 
 NAMES = {
     (OPERATION, KIND): "Strategy",

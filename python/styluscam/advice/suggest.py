@@ -408,12 +408,13 @@ def _planned(candidate: Candidate, job: Job, asked: list[_Asked], progress: Prog
         section["reference"] = "tip"
     try:
         work = Job.from_dict(document, job.folder, job.part())
-        figures, _ = planning.plan(work, progress=progress).summary()
+        plan = planning.plan(work, progress=progress)
     except (PlanError, ToolError) as error:
         failure = str(error)
         reasons = (*candidate.reasons, f"the job cannot be planned with it: {failure}")
         return replace(candidate, failure=failure, reasons=reasons)
-    following = [one for one in figures.operations if isinstance(one, SurfaceSummary)]
+    operations = [one for channel in plan.programs for one in plan.summary(channel=channel)[0].operations]
+    following = [one for one in operations if isinstance(one, SurfaceSummary)]
     bridged = [bridge for operation in following for bridge in operation.bridged]
     faces = sorted({bridge.face for bridge in bridged})
     worst = max(bridged, key=lambda bridge: bridge.excess, default=None)

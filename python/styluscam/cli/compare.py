@@ -9,11 +9,11 @@ import typer
 
 from styluscam.cli import console, findings, pages, progress, summary
 from styluscam.cli.failures import FOUND, naming
-from styluscam.cli.options import Debug, ForJob, Json, Quiet
+from styluscam.cli.options import ChannelName, Debug, ForJob, Json, Quiet
 from styluscam.errors import VerifyError
 from styluscam.files import write_whole
 from styluscam.judging import verification
-from styluscam.programs.job import Job
+from styluscam.programs.job import MAIN_CHANNEL, Job
 from styluscam.report.comparison import comparison_page
 from styluscam.report.subject import Subject
 from styluscam.report.tables import figures, side_by_side
@@ -32,6 +32,7 @@ def compare(
     second: Second,
     job: ForJob,
     *,
+    channel: ChannelName = MAIN_CHANNEL,
     out: Out = None,
     json: Json = False,
     quiet: Quiet = False,
@@ -45,7 +46,7 @@ def compare(
     with naming(job), progress.shown(not (json or quiet)) as shown:
         work = Job.read(job)
         pages.require(out, None, inputs=[first, second, *work.inputs()])
-        subjects = [_verified(file, work, shown) for file in (first, second)]
+        subjects = [_verified(file, work, channel, shown) for file in (first, second)]
         if out is not None:
             write_whole(out, comparison_page(subjects))
     if json:
@@ -58,11 +59,11 @@ def compare(
     return 0 if all(subject.report is not None and subject.report.ok for subject in subjects) else FOUND
 
 
-def _verified(file: Path, job: Job, shown: Progress | None) -> Subject:
+def _verified(file: Path, job: Job, channel: str, shown: Progress | None) -> Subject:
     with naming(file, VerifyError):
-        report = verification.verify_file(file, job, progress=shown)
+        report = verification.verify_file(file, job, channel=channel, progress=shown)
         report.coverage(progress=shown)
-    return Subject.judged(report, job.machine(), file.name)
+    return Subject.judged(report, job.machine(channel), file.name)
 
 
 def _headings(first: Path, second: Path) -> dict[str, str]:

@@ -11,6 +11,7 @@ from pathlib import Path
 import typer
 
 from styluscam.errors import StylusError
+from styluscam.programs.job import job_schema
 
 FOUND, INPUT, CANCELLED, FAULT, INTERRUPTED = 1, 2, 3, 4, 130
 """Exit codes besides 0: verification found an error; wrong input; cancelled; a fault of ours; Ctrl-C."""
@@ -19,23 +20,6 @@ USAGE_ERROR: type[Exception] = typer.BadParameter.__bases__[0]
 """What typer raises for a command line that it cannot use; it is click's, or typer's own copy of it."""
 
 REPORT = "please report this, with --debug, at https://github.com/styluscam/styluscam/issues"
-
-
-_IN_DOCUMENT = (
-    "schema",
-    "title",
-    "part",
-    "setup",
-    "process",
-    "tools",
-    "operations",
-    "machine",
-    "output",
-    "units",
-    "accept",
-    "line",
-    "",
-)
 
 
 class JobFailedError(Exception):
@@ -86,7 +70,7 @@ def failure_of(error: BaseException) -> Failure:
     """What is reported of an error that came out of a command."""
     if isinstance(error, JobFailedError) and error.__cause__ is not None:
         failure = failure_of(error.__cause__)
-        in_document = failure.exit_code == INPUT and _top_key(failure.where) in _IN_DOCUMENT
+        in_document = failure.exit_code == INPUT and _is_in_document(failure.where)
         return replace(failure, file=str(error.job)) if in_document else failure
     if isinstance(error, KeyboardInterrupt | typer.Abort):
         return Failure(INTERRUPTED, "Cancelled", "interrupted", "", "interrupted", "")
@@ -116,9 +100,10 @@ def _known(error: StylusError) -> Failure:
     return Failure(exit_code, type(error).__name__, error.code, error.where, str(error), hint)
 
 
-def _top_key(where: str) -> str:
-    """The first key of a path in a document; ``line`` of ``line 3``."""
-    return where.replace("[", ".").replace(" ", ".").partition(".")[0] if where.strip(".") else where
+def _is_in_document(where: str) -> bool:
+    """Whether an error's location is a key of a job, a line of its text, or the whole of it."""
+    first = where.replace("[", ".").replace(" ", ".").partition(".")[0]
+    return where == "" or first == "line" or first in job_schema()["properties"]
 
 
 def _usage(error: Exception) -> Failure:

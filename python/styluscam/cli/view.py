@@ -9,12 +9,12 @@ import typer
 
 from styluscam.cli import console, pages, progress, summary
 from styluscam.cli.failures import naming
-from styluscam.cli.options import Debug, GcodeFile, Json, Picture, Quiet, Units
+from styluscam.cli.options import ChannelName, Debug, GcodeFile, Json, Picture, Quiet, Units
 from styluscam.drawing import viewing
 from styluscam.errors import JobError, StylusError, VerifyError
 from styluscam.files import is_file, read_gcode_text
 from styluscam.parts.part import Part
-from styluscam.programs.job import Job
+from styluscam.programs.job import MAIN_CHANNEL, Job
 from styluscam.programs.machine import Machine
 from styluscam.report.tables import figures, in_words
 
@@ -60,6 +60,7 @@ def view(
     *,
     machine: OnMachine = None,
     job: WithJob = None,
+    channel: ChannelName = MAIN_CHANNEL,
     part: WithPart = None,
     units: Units = None,
     subroutines: Subroutines = None,
@@ -84,7 +85,7 @@ def view(
         pages.require(page, picture, inputs=inputs)
         text = read_gcode_text(file)
         if work is not None:
-            subject = viewing.viewed_for_job(text, file.name, work, reader)
+            subject = viewing.viewed_for_job(text, file.name, work, reader, channel)
         else:
             solid = Part.read(part, SHOWN_TOLERANCE, units, shown) if part is not None else None
             find = viewing.subroutines_in((file.parent, *(subroutines or ())))

@@ -12,7 +12,7 @@ from styluscam import _engine
 from styluscam.errors import VerifyError
 from styluscam.files import read_gcode_text
 from styluscam.parts.part import Part
-from styluscam.programs.job import Job
+from styluscam.programs.job import MAIN_CHANNEL, Job
 from styluscam.programs.machine import Machine
 from styluscam.programs.program import Program
 from styluscam.report.subject import Subject
@@ -52,15 +52,18 @@ def viewed(
     return Subject(name, name, traced, machines[0], part=part, gaps=gaps)
 
 
-def viewed_for_job(text: str, name: str, job: Job, machine: Machine | None = None) -> Subject:
-    """A text as the job's machine reads it, or another, with the job's tools, over the job's part.
+def viewed_for_job(
+    text: str, name: str, job: Job, machine: Machine | None = None, channel: str = MAIN_CHANNEL
+) -> Subject:
+    """A channel's text as the job's machine reads it, or another, with the job's tools, over the job's part.
 
     Raises:
+        JobError: the job has no such channel.
         VerifyError: the machine would not take the text for this job.
     """
-    machine = machine or job.machine()
-    program = Program(_engine.read_back(job.engine, machine.engine, text))
-    scene = _engine.Scene(job.engine, job.part().engine)
+    machine = machine or job.machine(channel)
+    program = Program(_engine.read_back(job.engine, machine.engine, text, channel))
+    scene = job.scene(channel=channel)
     title = str(job.document["title"] or job.name)
     frame = np.array(scene.frame)
     return Subject(title, name, _going(program, name), machine, job, job.part(), frame, scene=scene)

@@ -215,8 +215,9 @@ def require_channel(channel: str, channels: Iterable[str]) -> None:
 
 
 def of_channel(path: Path, channel: str) -> Path:
-    """A file for a channel: the main one's as it is, another's with the channel before its ending."""
-    return path if channel == MAIN_CHANNEL else path.with_name(f"{path.stem}.{channel}{path.suffix}")
+    """A file for a channel: the main one's as it is, another's with the channel before its endings."""
+    stem, dot, endings = path.name.partition(".")
+    return path if channel == MAIN_CHANNEL else path.with_name(f"{stem}.{channel}{dot}{endings}")
 
 
 def output_name(job: Job, channel: str = MAIN_CHANNEL) -> str:

@@ -197,9 +197,10 @@ def _require_same_moves(report: Report, text: str) -> None:
 
 def _names(job: Job, channel: str) -> tuple[Path, Path]:
     """The G-code's file of a channel and the program's."""
-    gcode = job.folder / output_name(job, channel)
+    main = job.folder / output_name(job)
     named = job.document["output"]["program"]
-    return gcode, of_channel(job.folder / named, channel) if named else gcode.with_suffix(".program.json")
+    program = job.folder / named if named else main.with_suffix(".program.json")
+    return job.folder / output_name(job, channel), of_channel(program, channel)
 
 
 def _report_names(job: Job, given: Path | None) -> dict[str, Path]:

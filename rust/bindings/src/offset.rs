@@ -113,13 +113,13 @@ pub fn push_cutter<'py>(
     cancel: Option<&CancelToken>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let sheet = self::sheet(sheet)?;
-    let (z, places, ways) =
+    let (z, starts, directions) =
         (arrays::height(z, "z")?, arrays::places(&xy, "xy")?, arrays::rows::<f64, 2>(&directions, "directions")?);
-    one_each("directions", ways.len(), "places", places.len())?;
-    let mut lines = Vec::with_capacity(places.len());
-    for (i, (from, way)) in places.into_iter().zip(ways).enumerate() {
-        lines.push(Line::new(from, way).ok_or_else(|| {
-            let message = format!("a push from {from:?} towards {way:?}: a direction in plan expected");
+    one_each("directions", directions.len(), "points xy", starts.len())?;
+    let mut lines = Vec::with_capacity(starts.len());
+    for (i, (from, direction)) in starts.into_iter().zip(directions).enumerate() {
+        lines.push(Line::new(from, direction).ok_or_else(|| {
+            let message = format!("a push from {from:?} towards {direction:?}: a direction in plan expected");
             errors::raise("GeometryError", &message, "not-finite", &format!("directions[{i}]"), "")
         })?);
     }

@@ -45,6 +45,10 @@ impl Plan {
             let message = format!("no channel is called {channel:?}");
             raise("StylusError", &message, "argument", "channel", &format!("the plan has {}", known.join(", ")))
         })?;
+        if let Some(other) = judgement.map(|j| j.judgement.channel).filter(|other| *other != channel) {
+            let message = format!("judgement: of channel {other:?}, and {channel:?} is summed up");
+            return Err(raise("StylusError", &message, "argument", "judgement", "give that of the same channel"));
+        }
         let summary = Summary::new(planned, &scene.scene, &machine.machine, judgement.map(|j| &j.judgement));
         Ok((json(&summary)?, summary.notes()))
     }

@@ -160,7 +160,6 @@ fn machine(path: &str, section: &MachineSection) -> Result<(), JobError> {
 }
 
 fn tools(job: &JobDocument) -> Result<(), JobError> {
-    let mut numbers = std::collections::BTreeMap::new();
     for (name, tool) in &job.tools {
         if tool.profile.is_some() == tool.library.is_some() {
             let message = format!("tool {name} has either a profile or a library, and needs one");
@@ -172,6 +171,16 @@ fn tools(job: &JobDocument) -> Result<(), JobError> {
             let message = "length_offset = 0 means no length offset at all";
             return Err(JobError::document("out-of-range", path, message, "give 1 or more, or leave it out"));
         }
+    }
+    job.channels().iter().try_for_each(|channel| tool_numbers(job, channel))
+}
+
+/// No two tools of a machine have one number. A tool that no operation uses could be any machine's.
+fn tool_numbers(job: &JobDocument, channel: &str) -> Result<(), JobError> {
+    let used = |name: &str| job.operations.iter().any(|operation| operation.common.tool == name);
+    let used_here = |name: &str| job.operations_of(channel).any(|(_, operation)| operation.common.tool == name);
+    let mut numbers = std::collections::BTreeMap::new();
+    for (name, tool) in job.tools.iter().filter(|(name, _)| used_here(name) || !used(name)) {
         if let Some(other) = numbers.insert(tool.number, name) {
             let message = format!("tools {other} and {name} have the same number {}", tool.number);
             return Err(JobError::document("conflict", format!("tools.{name}.number"), message, "give each its own"));

@@ -24,6 +24,9 @@ const BRIDGED: f64 = 1.0;
 /// The verifier's report and the program that was read.
 #[derive(Clone, Debug, Serialize)]
 pub struct Judgement {
+    /// The channel that the text is for.
+    #[serde(skip)]
+    pub channel: &'static str,
     /// The report.
     pub report: Report,
     /// The moves as they were read back.
@@ -91,7 +94,7 @@ pub fn judge(
     let of_job = limits(job, scene, &against.tools, machine);
     let limits = Limits { excess_by_operation: excess(job, scene.channel, &program), found, ..of_job };
     let report = styluscam_verify::judge(&program, &subject, &limits, watch)?;
-    Ok(Judgement { report, program, unknown_positions, limits })
+    Ok(Judgement { channel: scene.channel, report, program, unknown_positions, limits })
 }
 
 /// A text as it was read.

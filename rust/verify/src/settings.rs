@@ -51,7 +51,7 @@ fn feed_fault(
         SegmentKind::Plunge if comes_down => operation.plunge,
         // a feed that goes nowhere or up is no faster than any other
         SegmentKind::Still | SegmentKind::Retract => feed.min(operation.cut.max(operation.plunge)),
-        _ => operation.cut,
+        SegmentKind::Plunge | SegmentKind::Lateral | SegmentKind::Rapid => operation.cut,
     };
     let same = (feed - expected).abs() <= unit + SAME_FEED * expected;
     (feed > 0.0 && !same).then(|| segment.fault(&faults::FEED).measured(feed, expected))
@@ -90,7 +90,15 @@ impl Machine {
             EventKind::SpindleOff => self.spindle = None,
             EventKind::Flood { on } => self.flood = on,
             EventKind::Mist { on } => self.mist = on,
-            _ => {}
+            // none of these turns spindle or coolant
+            EventKind::ToolChange { .. }
+            | EventKind::Stop { .. }
+            | EventKind::WorkOffset { .. }
+            | EventKind::Probe { .. }
+            | EventKind::Raw { .. }
+            | EventKind::Sync { .. }
+            | EventKind::Comment { .. }
+            | EventKind::Dwell { .. } => {}
         }
     }
 }

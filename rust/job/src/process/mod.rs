@@ -135,23 +135,40 @@ pub fn family() -> &'static Family {
 mod tests {
     use super::*;
 
+    /// Every process, with its own defaults.
+    fn every() -> impl Iterator<Item = (Process, About)> {
+        Process::ABOUT.iter().map(|(name, about)| {
+            let section = serde_json::json!({ tagged::COMMON: {}, tagged::OWN: { *name: {} } });
+            let section: ProcessSection = serde_json::from_value(section).unwrap_or_else(|e| panic!("{name}: {e}"));
+            (section.process, *about)
+        })
+    }
+
     #[test]
-    fn the_schema_states_which_process_takes_a_sheet() {
+    fn schema_starter_and_engine_agree_on_which_process_takes_a_sheet() {
         let schema = crate::schema();
         let alternatives = schema.pointer("/$defs/ProcessSection/oneOf").and_then(|all| all.as_array()).unwrap();
-        let processes = [Process::Spif(Spif::default()), Process::Milling(Milling {})];
-        assert_eq!(alternatives.len(), processes.len());
-        for (alternative, process) in alternatives.iter().zip(&processes) {
-            assert_eq!(alternative["title"], process.name());
-            let stated = alternative.get("x-takes-sheet") == Some(&true.into());
-            assert_eq!(stated, process.as_kind().takes_sheet(), "{}", process.name());
+        assert_eq!(alternatives.len(), every().count());
+        for (alternative, (process, about)) in alternatives.iter().zip(every()) {
+            let (name, takes_sheet) = (process.name(), process.as_kind().takes_sheet());
+            assert_eq!(alternative["title"], name);
+            assert_eq!(alternative.get("x-takes-sheet") == Some(&true.into()), takes_sheet, "{name}");
+            assert_eq!(about.for_sheets, takes_sheet, "{name}");
         }
     }
 
     #[test]
-    fn every_process_has_the_main_channel() {
-        for process in [Process::Spif(Spif::default()), Process::Milling(Milling {})] {
-            assert_eq!(process.as_kind().channels()[0], MAIN_CHANNEL);
+    fn the_first_channel_of_every_process_is_the_main_one() {
+        for (process, _) in every() {
+            let channels = process.as_kind().channels();
+            assert_eq!(channels[0], MAIN_CHANNEL);
+            let unique: std::collections::BTreeSet<_> = channels.iter().collect();
+            assert_eq!(unique.len(), channels.len(), "{}", process.name());
         }
+    }
+
+    #[test]
+    fn a_job_without_a_process_has_the_default_of_the_schema() {
+        assert_eq!(ProcessSection::default().process.name(), DEFAULT);
     }
 }

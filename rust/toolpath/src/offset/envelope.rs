@@ -133,12 +133,6 @@ impl<'a> Envelope<'a> {
         Some(self.contact_of(&found, [x, y]))
     }
 
-    /// The tip of [`contact_near`](Self::contact_near) alone, which is quicker.
-    #[must_use]
-    pub fn tip_near(&self, x: f64, y: f64, hint: &mut Option<u32>) -> Option<f64> {
-        self.found_near(x, y, hint).map(|found| found.tip + self.above)
-    }
-
     /// Whether the tip must stay higher than `z` at (x, y): quicker than its height. `hint` is as in
     /// [`contact_near`](Self::contact_near).
     #[must_use]
