@@ -198,7 +198,7 @@ def plan_picture(plan: Plan, path: str | Path, channel: str = MAIN_CHANNEL) -> N
     require_channel(channel, plan.programs)
     program = plan.programs[channel]
     tools = plan.job.tools()
-    tool = tools[program.tools[0]["name"]] if program.tools else None
+    tool = tools[program.tools[0].name] if program.tools else None
     program_picture(plan.job.part(), program, path, plan.settings[channel].scene.frame, tool)
 
 
@@ -528,11 +528,11 @@ def _rulers(axes: Axes, view: View, box: FloatArray) -> None:
 
 
 def _titles(figure: Figure, program: Program, title: str) -> None:
-    tools = ", ".join(dict.fromkeys(str(tool["description"]) for tool in program.tools))
-    strategies = ", ".join(dict.fromkeys(str(operation["kind"]) for operation in program.operations))
+    tools = ", ".join(dict.fromkeys(tool.description for tool in program.tools))
+    strategies = ", ".join(dict.fromkeys(operation.kind for operation in program.operations))
     extent = f"{program.length / 1000.0:.3g} m in {clock(program.duration)} at the ordered feeds"
     facts = [strategies, tools, extent]
-    title = title or str(program.setup.get("title", ""))
+    title = title or program.setup.title
     _heading(figure, 0.955, title, 18.0, color=INK, weight="bold")
     _heading(figure, 0.912, ", ".join(fact for fact in facts if fact), 12.5, color=SOFT)
 

@@ -51,7 +51,7 @@ def edited(program: Program, machine: Machine, edits: Edits) -> Program:
     Raises:
         JobError: there is no such line, operation or level, or the program cannot begin there.
     """
-    notes = _not_judged(program.setup["notes"])
+    notes = _not_judged(program.setup.notes)
     program = program.with_notes(notes)
     engine = program.engine
     if edits.start:
@@ -110,7 +110,7 @@ def _first_move(program: Program, machine: Machine, start: str) -> int:
     line = re.fullmatch(r"[Ll](\d+)", start)
     if line:
         return _move_at_line(program, machine, int(line.group(1)), start)
-    ids = [str(operation["id"]) for operation in program.operations]
+    ids = [operation.id for operation in program.operations]
     name, _, level = start.rpartition(":") if start not in ids else (start, "", "")
     if name not in ids or (level and not level.isdigit()):
         raise _no_start(start, f"the program has no operation of this name; it has {', '.join(ids)}")

@@ -12,6 +12,7 @@ from styluscam import _engine
 from styluscam.arguments import A_FILE, FileName, file_of, refused
 from styluscam.errors import JobError
 from styluscam.files import read_text, write_whole
+from styluscam.programs.contents import OperationRecord, SetupRecord, ToolRecord
 from styluscam.programs.machine import Machine, MachineLike
 from styluscam.types import Document, FloatArray
 from styluscam.words import clock, counted
@@ -48,11 +49,12 @@ class Program:
         if not isinstance(engine, _engine.Program):
             raise refused("program", engine, "a program of the engine", JobError, "Program.load(path) reads a file")
         self.engine = engine
-        self.events: list[Document]
-        self.tools: list[Document]
-        self.operations: list[Document]
-        self.setup: Document
-        self.events, self.tools, self.operations, self.setup = json.loads(engine.records())
+        events, tools, operations, setup = json.loads(engine.records())
+        self.events: list[Document] = events
+        """In order: each has ``before`` (the index of the next move) and ``kind``, and what its kind states."""
+        self.tools = [ToolRecord(**tool) for tool in tools]
+        self.operations = [OperationRecord(**operation) for operation in operations]
+        self.setup = SetupRecord(**setup)
 
     def __repr__(self) -> str:
         """How many moves it has, how long it is and how long it takes."""

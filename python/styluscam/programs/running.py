@@ -165,8 +165,8 @@ def _require_own(job: Job) -> None:
 def _title(program: Path) -> str | None:
     """The title of the job that wrote a program document; None of another file."""
     try:
-        return str(Program.load(program).setup["title"])
-    except (StylusError, KeyError):
+        return Program.load(program).setup.title
+    except StylusError:
         return None
 
 

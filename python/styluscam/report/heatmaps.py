@@ -94,8 +94,8 @@ def shown_judged(surface: Surface, report: Report, progress: Progress | None = N
     vertices = vertices_of(surface)
     asked = np.zeros(len(vertices.at), dtype=bool)
     asked[vertices.triangles[selected]] = True
-    used = {int(operation["tool"]) for operation in report.program.operations}
-    diameters = (float(tool["diameter"]) for number, tool in enumerate(report.program.tools) if number in used)
+    used = {operation.tool for operation in report.program.operations}
+    diameters = (tool.diameter for number, tool in enumerate(report.program.tools) if number in used)
     enough = COVERED * min(diameters, default=0.0)
     needs = report.needs(surface.points[vertices.at], vertices.normals, progress=progress)
     covered = asked & (needs != FLAT) & (left[vertices.at] <= enough)

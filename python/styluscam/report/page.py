@@ -10,6 +10,7 @@ import numpy as np
 from styluscam.drawing.decimation import thinned
 from styluscam.drawing.toolplot import tool_svg
 from styluscam.errors import VerifyError
+from styluscam.programs.contents import ToolRecord
 from styluscam.programs.program import SAG
 from styluscam.report import plots, tables
 from styluscam.report.columns import packed
@@ -136,7 +137,7 @@ def _data(subject: Subject, shown: Shown | None) -> Document:
         "path": _path(subject),
         "tools": [_tool(record, tool) for record, tool in subject.tools],
         "fixture": [{"opening": opening, "heights": heights} for _, opening, heights in subject.fixture],
-        "operations": [[str(one["id"] or one["kind"]), int(one["tool"])] for one in subject.program.operations],
+        "operations": [[one.id or one.kind, one.tool] for one in subject.program.operations],
         "findings": [{key: finding[key] for key in ("position", "time", "kind")} for finding in subject.findings],
         "colours": {"map": _colour_map("viridis"), "path": _colour_map("plasma")},
     }
@@ -184,13 +185,13 @@ def _path(subject: Subject) -> Document:
     }
 
 
-def _tool(record: Document, tool: Tool | None) -> Document:
+def _tool(record: ToolRecord, tool: Tool | None) -> Document:
     """What it is called, and its meridian from tip to top: radii and heights."""
     return {"name": _tool_name(record), "profile": [] if tool is None else _meridian(tool).round(5).tolist()}
 
 
-def _tool_name(record: Document) -> str:
-    return f"T{record['number']}: {record['description']}" if record["description"] else f"T{record['number']}"
+def _tool_name(record: ToolRecord) -> str:
+    return f"T{record.number}: {record.description}" if record.description else f"T{record.number}"
 
 
 def _meridian(tool: Tool) -> FloatArray:

@@ -13,6 +13,7 @@ from styluscam import _engine
 from styluscam.drawing.picture import arrays_of, program_picture, program_png
 from styluscam.judging.verification import Report
 from styluscam.parts.part import Part
+from styluscam.programs.contents import ToolRecord
 from styluscam.programs.job import Job
 from styluscam.programs.machine import Machine
 from styluscam.programs.program import RAPID, Program
@@ -123,10 +124,10 @@ class Subject:
         return placed(self.report.findings, self.moves["line"], self.positions, self.times)
 
     @cached_property
-    def tools(self) -> list[tuple[Document, Tool | None]]:
+    def tools(self) -> list[tuple[ToolRecord, Tool | None]]:
         """The program's tools as it records them, with the job's where there is one."""
         known = self.job.tools() if self.job is not None else {}
-        return [(record, known.get(str(record["name"]))) for record in self.program.tools]
+        return [(record, known.get(record.name)) for record in self.program.tools]
 
     def draw(self, path: Path) -> None:
         """Writes a picture, PNG."""

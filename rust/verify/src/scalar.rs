@@ -2,7 +2,8 @@
 //! across) or moving on by a step a turn (a spiral's height).
 //!
 //! A new order is one implementation of [`Scalar`]: its value and its gradient. All checks of passes ask the scalar, and
-//! none of them asks which one it is.
+//! none of them asks which one it is. Where contact lines cross a facet, the value is taken for linear between the facet's
+//! edges: a scalar that curves (a distance from a point) needs facets that are small against its radius.
 
 use std::fmt::Debug;
 
