@@ -191,9 +191,9 @@ def test_the_plan_says_what_becomes_of_each_face(
         "machine": {"name": "linuxcnc"},
     }
     part = part_of("cone_cup")
-    (operation,) = sc.plan(sc.Job.from_dict(document, part=part)).summary()[0]["operations"]
+    (operation,) = sc.plan(sc.Job.from_dict(document, part=part)).summary()[0].operations
     areas = {face["index"]: face["area"] for face in meridian_of("cone_cup").document["faces"]}
-    reached = {face.pop("face"): face for face in operation["reached"]}
+    reached = {face.face: {key: area for key, area in face.items() if key != "face"} for face in operation.reached}
     assert list(reached) == [1, 2, 3, 4]
     for face, row in reached.items():
         assert sum(row.values()) == pytest.approx(areas[face], rel=1e-3)
