@@ -4,6 +4,7 @@ use serde::Serialize;
 use styluscam_geometry::Vector;
 
 use crate::operations::Areas;
+use crate::resolve::selection_of;
 use crate::selection::face_number;
 use crate::{JobDocument, Part, Selection};
 
@@ -41,7 +42,7 @@ pub fn estimates(job: &JobDocument, part: &Part) -> Vec<Estimate> {
     let plan_box = (size.product() / size.dot(&up).abs()).abs();
     let sections = job.operations.iter().enumerate();
     let estimates = sections.filter_map(|(index, section)| {
-        let selection = section.common.faces.as_ref().unwrap_or(&job.part.faces);
+        let (selection, _) = selection_of(job, section, index);
         let (areas, count, mean) = areas(part, selection, up, if plan_box.is_finite() { plan_box } else { 0.0 });
         let effort = section.kind().effort(&areas)?;
         let spacing = section.common.smallest_feature / std::f64::consts::SQRT_2;

@@ -5,6 +5,7 @@ use styluscam_geometry::{ModelFace, Sheet};
 use styluscam_verify::FindingKind;
 
 use crate::body::{Body, Unformable};
+use crate::resolve::selection_of;
 use crate::{JobDocument, Scene, Selection};
 
 /// A model whose thickness differs from the sheet's by more than this share of it, and by more than so many mm, is
@@ -45,8 +46,8 @@ pub fn mismatches(job: &JobDocument, scene: &Scene) -> Vec<(FindingKind, String)
 
 /// Whether no face is chosen: all that faces up is to be formed.
 fn takes_all(job: &JobDocument) -> bool {
-    let mut chosen = job.operations.iter().map(|operation| operation.common.faces.as_ref().unwrap_or(&job.part.faces));
-    chosen.any(|selection| *selection == Selection::All)
+    let mut sections = job.operations.iter().enumerate();
+    sections.any(|(index, section)| *selection_of(job, section, index).0 == Selection::All)
 }
 
 fn other_thickness(measured: f64, sheet: Sheet) -> Option<(FindingKind, String)> {
