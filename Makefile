@@ -90,8 +90,9 @@ test: ## Everything: what CI runs
 	  PROPTEST_RNG_SEED=$(SEED) tests/timed.sh cargo cargo test --workspace --locked --quiet; \
 	  tests/timed.sh wheel $(MAKE) --no-print-directory wheel dev PROFILE=release; \
 	  wait $$roots || { cat $(ROOTS_LOG); [ -z "$${CI:-}" ] || exit 1; }; \
-	  tests/timed.sh pytest $(PYTEST) -n 2 --ignore=tests/freecad; \
-	  tests/timed.sh freecad $(PYTEST) tests/freecad
+	  tests/timed.sh pytest $(PYTEST) -n 2 --ignore=tests/freecad --ignore=tests/window; \
+	  tests/timed.sh freecad $(PYTEST) tests/freecad; \
+	  tests/timed.sh window $(PYTEST) tests/window
 	@tests/timed.sh --report
 
 .PHONY: test-long
@@ -119,6 +120,10 @@ operations: dev ## The page of operations and processes, written again
 test-freecad: wheel ## FreeCAD tests: V=1.1 K=name
 	$(PYTEST) tests/freecad $(if $(V)$(K),-k "$(V) $(K)")
 
+.PHONY: test-window
+test-window: wheel ## Tests in FreeCAD's window: V=1.1 K=name
+	$(PYTEST) tests/window $(if $(V)$(K),-k "$(V) $(K)")
+
 .PHONY: lint
 lint: $(VENV)/.ready ## All linters
 	rustfmt --check $(RUST_FILES)
@@ -142,11 +147,12 @@ bench: dev ## Measures ours and others side by side; writes docs/performance.md
 	$(BIN)/python bench/drop_cutter.py
 	$(BIN)/python bench/growth.py
 	$(BIN)/python bench/planning.py
-	$(BIN)/python bench/judging.py
+	$(BIN)/python bench/verification.py
 	$(BIN)/python bench/gouges.py
 	$(BIN)/python bench/report.py
 	$(BIN)/python bench/simulation.py
 	$(BIN)/python bench/posts.py
+	$(BIN)/python bench/addon.py
 
 .PHONY: fixtures
 fixtures: ## Rebuilds the STEP parts and their exact answers (Python 3.11 or later)
@@ -178,8 +184,12 @@ vendor: ## Bundles three.js for the report's page again (needs Node)
 
 .PHONY: addon
 addon: ## The FreeCAD addon as a zip with package.xml at its root
-	rm -rf target/addon && mkdir -p target/addon
-	cd freecad_workbench && $(PYTHON) -m zipfile -c ../target/addon/styluscam_wb.zip $$(ls)
+	rm -rf target/addon
+	$(PYTHON) freecad_workbench/scripts/addon_zip.py target/addon
+
+.PHONY: translations
+translations: dev ## Texts of the addon for translators, and their languages compiled
+	$(BIN)/python freecad_workbench/scripts/translations.py
 
 .PHONY: picture
 picture: dev ## The picture in the README
@@ -200,3 +210,7 @@ offset-picture: dev ## The picture of the offset surface in docs/guide.md
 .PHONY: report-picture
 report-picture: dev ## The picture of a report in docs/guide.md
 	$(BIN)/python docs/report_picture.py
+
+.PHONY: shot
+shot: dev ## The pictures of FreeCAD's window in docs/images/freecad
+	$(BIN)/python docs/freecad_pictures.py

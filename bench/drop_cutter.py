@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from meshes import places, wavy
+from meshes import positions, wavy
 from opencamlib_peer import answer, peer_python
 from page import machine, table, write
 
@@ -61,7 +61,7 @@ def ours(triangles: int, repeats: int) -> list[dict[str, Any]]:
         tool = sc.Tool.from_dict({"profile": profile})
         first, first_cpu = index_time(arrays, tool, repeats)
         for order in ORDERS:
-            chosen = places(order, POINTS)
+            chosen = positions(order, POINTS)
             setup, setup_cpu = best(lambda t=tool, p=chosen: sc.drop_cutter(part, t, p[:1]), repeats)
             wall, cpu = best(lambda t=tool, p=chosen: sc.drop_cutter(part, t, p), repeats)
             rows.append(
@@ -109,10 +109,10 @@ def main_job(repeats: int) -> list[tuple[str, float, float]]:
     plan = sc.plan(job)
     phases.append(("post", *best(lambda: sc.post(plan), repeats)))
     text = sc.post(plan).text
-    phases.append(("read back and judge", *best(lambda: judge_plan(plan, text), repeats)))
+    phases.append(("read back and verify", *best(lambda: judge_plan(plan, text), repeats)))
     with tempfile.TemporaryDirectory() as folder:
         whole = sc.Job.from_dict({**job.to_dict(), "output": {"file": f"{folder}/out.ngc"}}, job.folder, job.part())
-        phases.append(("plan, post, judge, write: all", *best(lambda: sc.run(whole), repeats)))
+        phases.append(("plan, post, verify, write: all", *best(lambda: sc.run(whole), repeats)))
     return phases
 
 
@@ -129,7 +129,7 @@ def peer(python: Path, triangles: int, order: str, threads: int, repeats: int) -
 def largest_difference(triangles: int, found: dict[str, Any]) -> float:
     """How far the two programs' tips are apart, mm: both must have done the same work."""
     part = sc.Part.from_mesh(*wavy(triangles))
-    tips = sc.drop_cutter(part, sc.Tool.from_dict({"profile": PROFILES["ball D6"]}), np.array(found["places"]))
+    tips = sc.drop_cutter(part, sc.Tool.from_dict({"profile": PROFILES["ball D6"]}), np.array(found["positions"]))
     return float(np.abs(tips - np.array(found["tips"])).max())
 
 

@@ -117,8 +117,8 @@ def triangles(rng: np.random.Generator, count: int) -> Floats:
     return corners
 
 
-def places(rng: np.random.Generator, corners: Floats, diameters: Floats) -> Floats:
-    """Places (N, 2) at most a tool's radius away from a random point of the triangle, corners and edges more often."""
+def positions(rng: np.random.Generator, corners: Floats, diameters: Floats) -> Floats:
+    """Positions (N, 2) at most a tool's radius away from a random point of the triangle, corners and edges more often."""
     shares = rng.dirichlet((0.3, 0.3, 0.3), len(corners))
     away = 0.5 * diameters * rng.choice([0.0, 1.0], len(corners), p=[0.1, 0.9]) * rng.uniform(0.0, 1.05, len(corners))
     angle = rng.uniform(0.0, 2.0 * np.pi, len(corners))
@@ -130,7 +130,9 @@ def our_tips(cutters: list[Cutter], of: list[int], corners: Floats, xy: Floats) 
     tools = [sc.Tool.from_dict({"profile": cutter.profile}) for cutter in cutters]
     parts = (sc.Part.from_mesh(triangle, [[0, 1, 2]]) for triangle in corners)
     each = zip(parts, of, xy, strict=True)
-    return np.array([sc.drop_cutter(part, tools[number], [place], floor=FLOOR)[0] for part, number, place in each])
+    return np.array(
+        [sc.drop_cutter(part, tools[number], [position], floor=FLOOR)[0] for part, number, position in each]
+    )
 
 
 def depths(rings: Floats, corners: Floats, xy: Floats, tips: Floats) -> Floats:
@@ -145,7 +147,7 @@ def row(name: str, count: int, python: Path | None) -> tuple[list[str], str]:
     cutters = [CUTTERS[name](rng, float(d)) for d in diameters]
     of = [i // BY_CUTTER for i in range(count)]
     corners = triangles(rng, count)
-    xy = places(rng, corners, diameters[of])
+    xy = positions(rng, corners, diameters[of])
     rings = np.array([cutters[i].rings for i in of])
     line, version = [name, f"{count:,}"], ""
     if python:
@@ -153,7 +155,7 @@ def row(name: str, count: int, python: Path | None) -> tuple[list[str], str]:
             "cutters": [cutter.peer for cutter in cutters],
             "cutter": of,
             "triangles": corners.tolist(),
-            "places": xy.tolist(),
+            "positions": xy.tolist(),
             "floor": FLOOR,
         }
         found = answer(python, "opencamlib_gouges.py", question=json.dumps(question))
@@ -187,9 +189,9 @@ def measured(count: int) -> str:
     who = f"OpenCAMLib {versions[0]}" if python else f"OpenCAMLib was left out: {reason}"
     return "\n\n".join(
         [
-            f"{who} (`dropCutter`) and styluscam {sc.__version__}, the same random triangles, places and tools of 1 to 20 mm, "
-            "judged by one truth that is neither's (`bench/rings.py`). A gouge is a triangle of which a point lies deeper in "
-            f"the tool than {THEIRS:g} mm (OpenCAMLib) or {OURS:g} mm (ours); beside it, by how much the tip is too low, to "
+            f"{who} (`dropCutter`) and styluscam {sc.__version__}, the same random triangles, positions and tools of 1 to 20 mm, "
+            "checked against one truth that is neither's (`bench/rings.py`). A gouge is a triangle of which a point lies deeper "
+            f"in the tool than {THEIRS:g} mm (OpenCAMLib) or {OURS:g} mm (ours); beside it, by how much the tip is too low, to "
             f"{-FLOOR:,.0f} mm where nothing was found under the tool at all.",
             table(heads, rows),
             "Two cones on one another are convex, but no kind of our profiles has their corner.",

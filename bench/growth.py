@@ -19,7 +19,7 @@ from typing import Any
 
 import matplotlib as mpl
 import numpy as np
-from meshes import places, wavy
+from meshes import positions, wavy
 from page import PAGE, machine, table, write
 
 import styluscam as sc
@@ -49,7 +49,7 @@ def measured(triangles: int, repeats: int) -> dict[str, Any]:
     """All figures of one size, in this process."""
     vertices, faces = wavy(triangles)
     tools = {name: sc.Tool.from_dict({"profile": profile}) for name, profile in PROFILES.items()}
-    xy = places("raster", POINTS)
+    xy = positions("raster", POINTS)
     before = peak_bytes()
     part = sc.Part.from_mesh(vertices, faces)
     first = seconds(lambda: sc.drop_cutter(part, tools["ball D6"], xy[:1]))
@@ -88,9 +88,9 @@ def page(rows: list[dict[str, Any]]) -> str:
         for row in rows
     ]
     words = (
-        f"Machine: {machine()}. The wavy surface of 100 x 100 mm, {POINTS:,} places 0.1 mm apart in raster order, "
+        f"Machine: {machine()}. The wavy surface of 100 x 100 mm, {POINTS:,} positions 0.1 mm apart in raster order, "
         'all threads, wall time. "Bytes a triangle" is what a call needs at most on top of the arrays given: part, '
-        "index, tool, places; the last column is the whole process, Python and the arrays among it."
+        "index, tool, positions; the last column is the whole process, Python and the arrays among it."
     )
     return f"{words}\n\n{table(heads, body)}\n\n![cost against triangles](images/growth.png)"
 

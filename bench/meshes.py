@@ -21,8 +21,8 @@ def wavy(triangles: int) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     return np.stack([x, y, z], axis=-1).reshape(-1, 3), faces
 
 
-def places(order: str, count: int) -> NDArray[np.float64]:
-    """Places (N, 2): "raster" in rows of `PITCH`, every other one backwards, in the surface's middle; or "random"."""
+def positions(order: str, count: int) -> NDArray[np.float64]:
+    """Positions (N, 2): "raster" in rows of `PITCH`, every other one backwards, in the surface's middle; or "random"."""
     if order == "random":
         return np.random.default_rng(1).uniform(1.0, SIDE - 1.0, (count, 2))
     columns = round((SIDE - 2.0) / PITCH)

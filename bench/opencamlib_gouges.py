@@ -1,6 +1,6 @@
 """OpenCAMLib's tips over single triangles; runs in its own environment, reads and prints one JSON document.
 
-In: {"cutters": [[class, *numbers], ..], "cutter": [i, ..], "triangles": [[[x, y, z] * 3], ..], "places": [[x, y], ..],
+In: {"cutters": [[class, *numbers], ..], "cutter": [i, ..], "triangles": [[[x, y, z] * 3], ..], "positions": [[x, y], ..],
 "floor": z}
 """
 
@@ -16,7 +16,7 @@ def main() -> None:
     asked = json.load(sys.stdin)
     cutters = [getattr(ocl, name)(*map(float, numbers)) for name, *numbers in asked["cutters"]]
     tips = []
-    for number, corners, (x, y) in zip(asked["cutter"], asked["triangles"], asked["places"], strict=True):
+    for number, corners, (x, y) in zip(asked["cutter"], asked["triangles"], asked["positions"], strict=True):
         point = ocl.CLPoint(x, y, asked["floor"])
         cutters[number].dropCutter(point, ocl.Triangle(*(ocl.Point(*corner) for corner in corners)))
         tips.append(point.z)

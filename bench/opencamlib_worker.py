@@ -10,7 +10,7 @@ import sys
 import time
 
 import opencamlib as ocl
-from meshes import places, wavy
+from meshes import positions, wavy
 
 
 def main() -> None:
@@ -21,7 +21,7 @@ def main() -> None:
         surface.addTriangle(ocl.Triangle(ocl.Point(*a), ocl.Point(*b), ocl.Point(*c)))
     cutter = ocl.BallCutter(6.0, 30.0)
     # a few from all over the raster: its order makes no difference to OpenCAMLib
-    chosen = places(order, 100_000)
+    chosen = positions(order, 100_000)
     chosen = chosen[:: max(len(chosen) // count, 1)][:count]
 
     def run(points: list[list[float]]) -> tuple[float, float, list[float]]:
@@ -46,7 +46,7 @@ def main() -> None:
                 "wall": min(r[0] for r in runs),
                 "cpu": min(r[1] for r in runs),
                 "setup_cpu": min(r[1] for r in setups),
-                "places": chosen.tolist(),
+                "positions": chosen.tolist(),
                 "tips": runs[0][2],
                 "version": str(ocl.version()),
             }

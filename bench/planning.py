@@ -61,8 +61,8 @@ def floor(width: float, depth: float) -> Mesh:
 
 
 def bosses(rows: int, pitch: float, radius: float, sides: int, height: float = 5.0) -> Mesh:
-    places = itertools.product(range(rows), repeat=2)
-    pins = (prism(circle((i + 0.5) * pitch, (j + 0.5) * pitch, radius, sides), 0.0, height) for i, j in places)
+    positions = itertools.product(range(rows), repeat=2)
+    pins = (prism(circle((i + 0.5) * pitch, (j + 0.5) * pitch, radius, sides), 0.0, height) for i, j in positions)
     return together(floor(rows * pitch, rows * pitch), *pins)
 
 

@@ -54,14 +54,14 @@ def program(job: sc.Job) -> str:
     along = np.round(np.linspace(0.0, SIDE, ROWS), 3)
     x = np.tile(along, (ROWS, 1))
     x[1::2] = x[1::2, ::-1]
-    tips = places(job, np.column_stack([x.reshape(-1), np.repeat(along, ROWS)]))
+    tips = positions(job, np.column_stack([x.reshape(-1), np.repeat(along, ROWS)]))
     start = tips[0]
     lines = ["G21 G90 G17 G94", "G54", "G64 P0.001 Q0", "T1 M6", "G43 H1", "G0 Z16", f"G0 X{start[0]} Y{start[1]}"]
     lines += [f"G1 Z{start[2]:.3f} F600", "F2000", *(f"X{a:.3f} Y{b:.3f} Z{c:.3f}" for a, b, c in tips)]
     return "\n".join([*lines, "G0 Z16", "M2", ""])
 
 
-def places(job: sc.Job, xy: NDArray[np.float64]) -> NDArray[np.float64]:
+def positions(job: sc.Job, xy: NDArray[np.float64]) -> NDArray[np.float64]:
     heights = sc.drop_cutter(job.part(), job.tools()["ball"], xy)
     return np.column_stack([xy, np.ceil(1000.0 * (heights + ABOVE)) / 1000.0])
 
@@ -75,7 +75,7 @@ def main() -> None:
         text = program(job)
         begun = time.monotonic()
         report = sc.verify(text, job)
-        judged = time.monotonic()
+        verified = time.monotonic()
         report.coverage()
         covered = time.monotonic()
         page = report_page(Subject.judged(report, job.machine(), "wavy.ngc"))
@@ -86,8 +86,8 @@ def main() -> None:
             opened = tab.open(folder / "wavy.html")
             seek = tab.run(SEEK)
     rows = [
-        ["judge", f"{judged - begun:.1f} s"],
-        ["coverage", f"{covered - judged:.1f} s"],
+        ["verify", f"{verified - begun:.1f} s"],
+        ["coverage", f"{covered - verified:.1f} s"],
         ["page, with what is left at 300,000 points", f"{made - covered:.1f} s"],
         ["size of the page", f"{len(page) / 1e6:.1f} MB"],
         ["open in headless Chromium, drawn without a graphics card", f"{opened:.1f} s"],

@@ -23,7 +23,7 @@ CASES = (("ball", 0.8), ("clothoid", 0.8), ("ball", 0.08), ("clothoid", 0.08))
 T = TypeVar("T")
 
 
-def judged(part: sc.Part, kind: str, stepover: float) -> sc.Report:
+def verified(part: sc.Part, kind: str, stepover: float) -> sc.Report:
     document: dict[str, Any] = {
         "schema": 1,
         "part": {"file": "wavy.stl", "units": "mm"},
@@ -49,7 +49,7 @@ def memory() -> str:
 
 
 def row(part: sc.Part, kind: str, stepover: float) -> list[str]:
-    report = judged(part, kind, stepover)
+    report = verified(part, kind, stepover)
     found, *simulating = timed(lambda: sc.simulate(report, 0.05))
     most = memory()
     _, *comparing = timed(found.compare)

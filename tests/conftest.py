@@ -1,8 +1,12 @@
-"""Long proofs run only where they are asked for: `pytest -m long`."""
+"""Long proofs run only where they are asked for: `pytest -m long`. What several folders of tests share."""
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
+
+import addon_zip
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
@@ -11,3 +15,9 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     long = [item for item in items if item.get_closest_marker("long")]
     config.hook.pytest_deselected(items=long)
     items[:] = [item for item in items if item not in long]
+
+
+@pytest.fixture(scope="session")
+def addon(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The addon's folder, from the zip that `make addon` makes."""
+    return addon_zip.unpacked(tmp_path_factory.mktemp("addon"))

@@ -8,12 +8,13 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TypeAlias
 
 import numpy as np
 
+from styluscam import _engine
 from styluscam.errors import GeometryError, StylusError, VerifyError
 from styluscam.files import is_file, read_gcode_text
 from styluscam.types import Document
@@ -62,6 +63,17 @@ def word_of(value: object, argument: str, wanted: str, failure: type[StylusError
     if not isinstance(value, str) or not value.strip() or _is_text(value):
         raise refused(argument, value, wanted, failure, hint)
     return value
+
+
+def channel_of(value: object, channels: Iterable[str], failure: type[StylusError]) -> str:
+    """A channel by its name, among those that there are.
+
+    Raises:
+        StylusError: of class ``failure``: it is no name, or none of theirs.
+    """
+    name = word_of(value, "channel", "the name of a channel", failure)
+    _engine.require_channel(name, list(channels), failure.__name__)
+    return name
 
 
 def document_of(value: object, argument: str, wanted: str, failure: type[StylusError]) -> Document:

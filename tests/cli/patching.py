@@ -8,15 +8,19 @@ from pathlib import Path
 
 from .conftest import CHECKOUT
 
-COPY = CHECKOUT / "target" / "howto"
+COPIES = CHECKOUT / "target" / "howto"
 """Where copies are, one for each page: what did not change since the last run need not be checked again."""
+TARGET = COPIES / "target"
+"""Where cargo builds all copies: what the engine depends on is compiled once."""
+SOON = ("--config", 'profile.dev.package."*".opt-level=0')
+"""For what is to be built soon and not to run fast; one profile, since each has its own builds of the dependencies."""
 
 
 def patched(text: str, diff: str) -> str:
     """A text with the added lines of a diff beside its context, which the text must hold once."""
     lines = diff.splitlines(keepends=True)
     before, after = ("".join(line[1:] for line in lines if line[0] in marks) for marks in (" -", " +"))
-    assert before.strip(), f"nothing says where this goes:\n{diff}"
+    assert before.strip(), f"nothing states where this goes:\n{diff}"
     assert text.count(before) == 1, f"not there, or not once:\n{before}"
     return text.replace(before, after)
 
@@ -40,14 +44,19 @@ class Change:
         self.files[file] = patched(text, diff)
 
     def copy(self) -> Path:
-        """A copy of the workspace with the change; files keep their times, so that cargo sees what is new."""
-        folder = COPY / self.name
+        """A copy of the workspace with the change; files keep their times, so that cargo sees what is new.
+
+        Its crates are in a folder of the page's name, not in `rust`: cargo distinguishes what it builds by the paths within
+        a workspace, so that in one target folder the crates of one copy would be taken for those of another.
+        """
+        folder = COPIES / self.name
         shutil.rmtree(folder, ignore_errors=True)
-        shutil.copytree(CHECKOUT / "rust", folder / "rust")
-        for name in ("Cargo.toml", "Cargo.lock"):
-            shutil.copy2(CHECKOUT / name, folder / name)
+        shutil.copytree(CHECKOUT / "rust", folder / self.name)
+        manifest = (CHECKOUT / "Cargo.toml").read_text(encoding="utf-8")
+        (folder / "Cargo.toml").write_text(manifest.replace('"rust/', f'"{self.name}/'), encoding="utf-8")
+        shutil.copy2(CHECKOUT / "Cargo.lock", folder)
         for file, text in self.files.items():
-            (folder / file).write_text(text, encoding="utf-8")
+            (folder / self.name / file.removeprefix("rust/")).write_text(text, encoding="utf-8")
         return folder
 
     def crate(self) -> str:
@@ -55,16 +64,13 @@ class Change:
         (crate,) = {file.split("/")[1] for file in self.files}
         return crate
 
-    @property
-    def target(self) -> Path:
-        """Where cargo builds the copy. Not the checkout's own: cargo names what it builds by the paths within a workspace, so
-        that a copy's crates would be taken for the checkout's.
-        """
-        return COPY / f"{self.name}-target"
+    def cargo(self, *words: str, crate: str = "") -> None:
+        """Runs cargo in a copy with the change, on a crate: the changed one where none is named."""
+        run_cargo(self.copy(), *words, "--package", f"styluscam-{crate or self.crate()}")
 
-    def cargo(self, *words: str) -> None:
-        """Runs cargo in a copy with the change, on the changed crate."""
-        command = ["cargo", *words, "--quiet", "--offline", "--target-dir", str(self.target)]
-        command += ["--package", f"styluscam-{self.crate()}"]
-        ran = subprocess.run(command, cwd=self.copy(), capture_output=True, text=True, check=False)
-        assert ran.returncode == 0 and "warning" not in ran.stderr, ran.stderr + ran.stdout
+
+def run_cargo(folder: Path, *words: str) -> None:
+    """Runs cargo in a copy; neither an error nor a warning may come of it."""
+    command = ["cargo", *words, "--quiet", "--offline", "--target-dir", str(TARGET)]
+    ran = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert ran.returncode == 0 and "warning" not in ran.stderr, ran.stderr + ran.stdout

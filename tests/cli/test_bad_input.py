@@ -1,4 +1,4 @@
-"""Bad input: one line that says what, where and what to do; exit code 2; nothing written."""
+"""Bad input: one line that states what, where and what to do; exit code 2; nothing written."""
 
 from __future__ import annotations
 
@@ -136,7 +136,7 @@ IN_THE_DOCUMENT = {
     "part tolerance 0": ([("[part]", "[part]\ntolerance = 0")], ["part.tolerance", "0.0001 to 1 mm"]),
     "outputs of one name": ([('"out.ngc"', '"out.ngc"\nprogram = "out.ngc"')], ["out.ngc", "another output"]),
     "output over the part": ([("out.ngc", "box.step")], ["box.step", "read by this very job"]),
-    "output over the part by another way": ([("out.ngc", "folder/../box.step")], ["read by this very job"]),
+    "output over the part by another path": ([("out.ngc", "folder/../box.step")], ["read by this very job"]),
     "output over the job": ([("out.ngc", "job.toml")], ["job.toml", "read by this very job"]),
     "output of no file name": ([("out.ngc", "\\u0000")], ["no file name"]),
     "array for a table": ([(ROW, ROW + "\nfeeds = [1500.0, 300.0]")], ["operations[0].feeds", "table"]),
@@ -147,7 +147,10 @@ IN_THE_DOCUMENT = {
         [("number = 1", "number = 1\nlength_offset = 0")],
         ["tools.stylus.length_offset", "leave it out"],
     ),
-    "retract that the judge refuses": ([('zero = "sheet-top"', "retract = 0.04")], ["setup.retract", "0.1 to 1000 mm"]),
+    "retract that the verifier refuses": (
+        [('zero = "sheet-top"', "retract = 0.04")],
+        ["setup.retract", "0.1 to 1000 mm"],
+    ),
     "two operations of one name": (
         [
             (ROW, ROW + '\nid = "a"'),

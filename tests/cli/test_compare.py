@@ -56,7 +56,7 @@ def test_a_program_with_itself(cli, programs):
     assert cli("compare", sound, sound, "--job", job, "--quiet").code == 0
 
 
-def test_bad_input_is_said_in_one_line(cli, programs, tmp_path):
+def test_bad_input_is_stated_in_one_line(cli, programs, tmp_path):
     job, sound, _ = programs
     for arguments, word in (
         ([sound, tmp_path / "none.ngc", "--job", job], "none.ngc"),

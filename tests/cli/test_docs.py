@@ -1,4 +1,4 @@
-"""Every block of code in the pages that users begin with does what it says: none is there for looks."""
+"""Every block of code in the pages that users begin with does what the page states: none is there for looks."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ import pytest
 import styluscam as sc
 
 from .conftest import CHECKOUT, FIXTURES, run_cli
-from .patching import Change, patched
+from .patching import SOON, Change, patched, run_cargo
 
 HOWTO = tuple(f"docs/howto/{page.name}" for page in sorted((CHECKOUT / "docs" / "howto").glob("add-*.md")))
 PAGES = ("README.md", "docs/guide.md", "docs/posts.md", "docs/profiles.md", *HOWTO)
@@ -66,7 +66,7 @@ def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def as_console(text: str, line: int, page: str) -> None:
-    """Commands of ours, as a shell would read them; a job that `new` wrote keeps its program, as the page says."""
+    """Commands of ours, as a shell would read them; a job that `new` wrote keeps its program, as the page states."""
     for number, command in enumerate(text.splitlines(), start=line + 1):
         words = shlex.split(command, comments=True)
         if words[:1] != ["styluscam"]:
@@ -153,7 +153,7 @@ def change_of(page: str) -> Change:
 @pytest.mark.parametrize("page", HOWTO)
 def test_what_a_page_adds_compiles(page: str) -> None:
     if (change := change_of(page)).files:
-        change.cargo("check")
+        change.cargo("check", *SOON)
 
 
 @pytest.mark.long
@@ -163,10 +163,22 @@ def test_what_a_page_adds_passes_the_tests_of_its_crate(page: str) -> None:
         change.cargo("test", "--lib")
 
 
+def test_copies_are_not_taken_for_one_another() -> None:
+    """They share the folder that cargo builds in, and both are older than what it builds of the first."""
+    sound, broken = Change("sound.md"), Change("broken.md")
+    file = "rust/motion/src/lib.rs"
+    text = (CHECKOUT / file).read_text(encoding="utf-8")
+    sound.files, broken.files = {file: text}, {file: text + "fn broken( {\n"}
+    folders = [change.copy() for change in (sound, broken)]
+    run_cargo(folders[0], "check", *SOON, "--package", "styluscam-motion")
+    with pytest.raises(AssertionError, match="fn broken"):
+        run_cargo(folders[1], "check", *SOON, "--package", "styluscam-motion")
+
+
 def test_a_change_that_fits_nowhere_is_found() -> None:
     assert patched("a\nb\nc\n", " a\n-b\n+d\n c\n") == "a\nd\nc\n"
     for text, diff in (("a\nc\n", " b\n+d\n"), ("b\nb\n", " b\n+d\n"), ("b\n", "+d\n")):
-        with pytest.raises(AssertionError, match=r"not there|nothing says"):
+        with pytest.raises(AssertionError, match=r"not there|nothing states"):
             patched(text, diff)
 
 

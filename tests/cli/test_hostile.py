@@ -1,4 +1,4 @@
-"""Odd places, odd values, odd ends of pipes: one line, the right exit code, never a traceback."""
+"""Odd folders, odd values, odd ends of pipes: one line, the right exit code, never a traceback."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def test_every_command_gives_json_errors_included(words, command, cli):
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="Linux alone")
 @pytest.mark.parametrize("words", ["$S machine list", "$S machine list --json", "$S schema", "$S --help"])
-def test_a_full_disk_behind_stdout_is_said_in_a_line(words):
+def test_a_full_disk_behind_stdout_is_stated_in_a_line(words):
     ran = styluscam(f"{words} >/dev/full")
     assert ran.returncode == 2, ran.stderr
     assert ran.stderr.endswith("cannot be written: No space left on device; redirect it elsewhere\n")
@@ -101,15 +101,15 @@ def test_devices_without_an_end_are_refused(desk, cli):
     "folder", ["a b", "ünï-çødé 漢字", "with'quote", 'with"double', "$HOME", "-dash", "new\nline", "a.b.c"]
 )
 def test_odd_folders_work(desk, cli, folder):
-    place = desk / folder
-    place.mkdir()
-    (place / "job.toml").write_text(JOB, encoding="utf-8")
-    (place / "plate.stl").write_bytes((desk / "plate.stl").read_bytes())
-    ran = cli("run", place / "job.toml", "--json")
+    target = desk / folder
+    target.mkdir()
+    (target / "job.toml").write_text(JOB, encoding="utf-8")
+    (target / "plate.stl").write_bytes((desk / "plate.stl").read_bytes())
+    ran = cli("run", target / "job.toml", "--json")
     assert ran.code == 0, ran.json
-    assert (place / "plate.ngc").is_file()
-    judged = cli("verify", place / "plate.ngc", "--job", place / "job.toml", "--json")
-    assert judged.code == 0 and judged.json["file"] == str(place / "plate.ngc")
+    assert (target / "plate.ngc").is_file()
+    verified = cli("verify", target / "plate.ngc", "--job", target / "job.toml", "--json")
+    assert verified.code == 0 and verified.json["file"] == str(target / "plate.ngc")
 
 
 ODD = {
@@ -132,9 +132,9 @@ ODD = {
 @pytest.mark.parametrize("odd", ODD)
 def test_odd_values_are_one_line(desk, cli, odd):
     assert cli("run", "job.toml", "--quiet").code == 0
-    words, said = ODD[odd]
+    words, stated = ODD[odd]
     ran = cli(*words)
-    assert ran.code == 2 and said in ran.err and ran.err.count("\n") == 1, ran.err
+    assert ran.code == 2 and stated in ran.err and ran.err.count("\n") == 1, ran.err
     assert json.loads(cli(*words, "--json").out)["error"]["message"]
     assert not Path("x.nc").exists()
 

@@ -13,7 +13,7 @@ import styluscam as sc
 NAMES = sc.Machine.names()
 
 
-def test_list_says_how_well_each_is_known(cli: Any) -> None:
+def test_list_states_how_well_each_is_known(cli: Any) -> None:
     ran = cli("machine", "list")
     assert ran.code == 0
     for name in NAMES:
@@ -57,7 +57,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize(("text", "words"), WRONG.values(), ids=WRONG)
-def test_a_wrong_file_is_one_line_that_says_where(text: str, words: list[str], cli: Any, tmp_path: Path) -> None:
+def test_a_wrong_file_is_one_line_that_states_where(text: str, words: list[str], cli: Any, tmp_path: Path) -> None:
     head = f"schema = 1\n{text}" if text.startswith("extends") else 'schema = 1\nextends = "grbl"\n'
     body = 'name = "ours"\ndescription = "ours"\n'
     file = tmp_path / "ours.toml"
@@ -116,7 +116,7 @@ def posted(cli: Any, program: Path, tmp_path: Path, *options: str) -> list[str]:
     return out.read_text().splitlines()
 
 
-def test_a_restart_at_a_level_has_tool_spindle_and_a_safe_way(cli: Any, program: Path, tmp_path: Path) -> None:
+def test_a_restart_at_a_level_has_tool_spindle_and_a_safe_path(cli: Any, program: Path, tmp_path: Path) -> None:
     lines = posted(cli, program, tmp_path, "--from", "fine:2")
     code = [line for line in lines if not line.startswith("(")]
     assert any("RESTART at fine:2" in line for line in lines)
@@ -201,12 +201,12 @@ def test_wrong_options_are_one_line(options: list[str], word: str, cli: Any, pro
     assert not out.exists()
 
 
-def test_a_text_that_nobody_judged_says_so(cli: Any, program: Path, tmp_path: Path) -> None:
+def test_a_text_that_nobody_verified_states_so(cli: Any, program: Path, tmp_path: Path) -> None:
     document = json.loads(program.read_text())
     document["setup"]["notes"] = ["judged from this text: passed, worst gouge 0.0000 mm"]
-    judged = tmp_path / "judged.json"
-    judged.write_text(json.dumps(document))
-    assert "(judged, not this text: passed, worst gouge 0.0000 mm)" in posted(cli, judged, tmp_path, "--air", "5")
+    verified = tmp_path / "verified.json"
+    verified.write_text(json.dumps(document))
+    assert "(judged, not this text: passed, worst gouge 0.0000 mm)" in posted(cli, verified, tmp_path, "--air", "5")
     assert "(this text was not judged)" in posted(cli, program, tmp_path)
 
 

@@ -136,7 +136,7 @@ def test_new_for_a_mesh_asks_for_units_and_takes_them(parts, cli):
     assert cli("run", parts / "block.toml").code == 0
 
 
-def test_new_for_a_mesh_says_how_large_it_would_be(parts, cli):
+def test_new_for_a_mesh_states_how_large_it_would_be(parts, cli):
     trimesh = pytest.importorskip("trimesh")
     trimesh.creation.box((4.0, 3.0, 1.0)).export(parts / "small.stl")
     ran = cli("new", parts / "small.stl")
@@ -327,8 +327,8 @@ def test_a_hole_across_is_named(parts, cli):
     across = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(30.0, 0.0, 15.0), gp_Dir(0.0, 1.0, 0.0)), 5.0, 40.0).Shape()
     write_step(BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(60.0, 40.0, 30.0).Shape(), across).Shape(), parts / "across.step")
     ran = cli("new", parts / "across.step", "--force", "--json")
-    (said,) = [reason for reason in ran.json["reasons"] if "lies under other faces" in reason]
-    (named,) = re.findall(r"Face\d+", said)
+    (stated,) = [reason for reason in ran.json["reasons"] if "lies under other faces" in reason]
+    (named,) = re.findall(r"Face\d+", stated)
     assert f"#   {named}: cylinder" in (parts / "across.toml").read_text(encoding="utf-8")
 
 

@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from .conftest import CHECKOUT
+from .patching import SOON, TARGET
 from .test_docs import change_of
 
 PAGE = "docs/howto/add-an-operation.md"
@@ -74,16 +75,12 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
     assert sorted(process.files) == ["rust/job/src/process/mod.rs", "rust/job/src/process/relay.rs"]
     change.files |= process.files
     change.name = "new-kind"  # the page's own test may run beside this one
-    folder = change.copy()
-    # built to be built soon, not to run fast
-    command = ["cargo", "build", "--quiet", "--offline", "--target-dir", str(change.target)]
-    command += ["--package", "styluscam-bindings", "--config", 'profile.dev.package."*".opt-level=0']
-    subprocess.run(command, cwd=folder, check=True)
+    change.cargo("build", *SOON, crate="bindings")
     package = tmp_path_factory.mktemp("new-kind")
     shutil.copytree(
         CHECKOUT / "python" / "styluscam", package / "styluscam", ignore=shutil.ignore_patterns("*.so", "__pycache__")
     )
-    shutil.copy(change.target / "debug" / "lib_engine.so", package / "styluscam" / "_engine.abi3.so")
+    shutil.copy(TARGET / "debug" / "lib_engine.so", package / "styluscam" / "_engine.abi3.so")
     return package
 
 
@@ -219,9 +216,11 @@ def test_every_channel_has_its_program_report_and_verification(
         ("machines.finish = {", 'machines.main = { name = "grbl" }\nmachines.finish = {', "conflict", "machines.main"),
         ('machines.finish = { name = "grbl" }', "machines.finish = {}", "conflict", "machines.finish"),
         ('kind = "relay"', 'kind = "milling"', "unknown", "operations[1].channel"),
+        ('name = "grbl"', 'name = "grbll"', "machine-unknown", "machines.finish.name"),
+        ('name = "grbl"', 'name = "grbl", options.foo = 1', "machine-unknown-option", "machines.finish.options.foo"),
     ],
 )
-def test_channels_that_the_process_does_not_have_are_refused(
+def test_channels_and_machines_that_there_are_not_are_refused(
     relay: Callable[..., subprocess.CompletedProcess[str]], before: str, after: str, code: str, where: str
 ) -> None:
     assert before in RELAY

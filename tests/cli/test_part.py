@@ -44,7 +44,7 @@ def test_quiet_shows_nothing(cli):
     assert cli("part", "show", FIXTURES / "cone_cup.step", "-q").out == ""
 
 
-def test_open_mesh_is_said_to_be_open(cli, tmp_path):
+def test_open_mesh_is_stated_to_be_open(cli, tmp_path):
     trimesh = pytest.importorskip("trimesh")
     block = trimesh.creation.box((40.0, 30.0, 10.0))
     block.update_faces(np.arange(len(block.faces)) > 1)

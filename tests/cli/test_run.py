@@ -1,4 +1,4 @@
-"""`styluscam run` and `plan`: what is written, what is said, and what other interpreters make of it."""
+"""`styluscam run` and `plan`: what is written, what is printed, and what other interpreters make of it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from styluscam.programs.summary import Summary
 
 from .conftest import CHECKOUT, COARSE_CUP, changed
 
-HALF_OF_THE_LAST_PLACE = 0.0005  # mm: shipped machines post three decimals
+HALF_OF_THE_LAST_DIGIT = 0.0005  # mm: shipped machines post three decimals
 PRINTED = 0.00005  # mm: rs274 prints four
 
 OPERATION = 'kind = "{}"\ntool = "stylus"\n{}\n'
@@ -62,18 +62,18 @@ def test_linuxcnc_moves_as_planned(coarse, changes):
     from rs274 import interpret
 
     run = coarse(*changes)
-    said = interpret(run.gcode.read_text())
-    assert said.returncode == 0 and said.ok, said.error
+    printed = interpret(run.gcode.read_text())
+    assert printed.returncode == 0 and printed.ok, printed.error
     planned = sc.Program.load(run.folder / "cup.program.json").moves
-    # the tool's place before the program is not known: the first rapid is posted as Z, then X and Y
-    up, *spoken = said.moves
+    # the tool's position before the program is not known: the first rapid is posted as Z, then X and Y
+    up, *spoken = printed.moves
     assert up.kind == "STRAIGHT_TRAVERSE" and up.mm[2] == pytest.approx(
-        planned["end"][0, 2], abs=HALF_OF_THE_LAST_PLACE
+        planned["end"][0, 2], abs=HALF_OF_THE_LAST_DIGIT
     )
     kinds = np.array([call.kind == "STRAIGHT_FEED" for call in spoken])
     assert np.array_equal(kinds, planned["kind"] == 1)
     ends = np.array([call.mm for call in spoken])
-    assert np.abs(ends - planned["end"]).max() <= HALF_OF_THE_LAST_PLACE + PRINTED
+    assert np.abs(ends - planned["end"]).max() <= HALF_OF_THE_LAST_DIGIT + PRINTED
     feeds = np.array([call.feed for call in spoken])
     cutting = planned["kind"] == 1
     assert np.array_equal(feeds[cutting], planned["feed"][cutting])
@@ -116,16 +116,16 @@ def test_rows_stay_between_the_heights_asked_for(coarse):
     assert -4.1 < tips.max() <= -4.0 + 0.005
 
 
-def test_summary_says_first_what_is_mis_zeroed(coarse, cli):
+def test_summary_states_first_what_is_mis_zeroed(coarse, cli):
     run = coarse()
     ran = cli("run", run.job)
     assert ran.code == 0 and ran.err == ""
     lines = ran.out.splitlines()
     assert lines[0] == "Coarse cup"
-    said = [line.split("  ")[0] for line in lines[1:]]
-    assert said[:8] == ["zero", "work offset", "part box", "deepest Z", "tool", "sheet", "units", "machine"]
+    printed = [line.split("  ")[0] for line in lines[1:]]
+    assert printed[:8] == ["zero", "work offset", "part box", "deepest Z", "tool", "sheet", "units", "machine"]
     for word in ("operation", "faces", "wall angle", "bridged", "length", "worst gouge", "worst excess", "written"):
-        assert word in said
+        assert word in printed
     assert "Z top of the sheet" in lines[1] and "G54" in lines[2]
     assert "X -50.000 to 50.000, Y -50.000 to 50.000, Z -31.000 to -1.000" in lines[3]
     assert "T1 H1: clothoid D10, programmed at its tip" in lines[5]
@@ -155,12 +155,12 @@ def test_summary_equals_the_header(coarse):
     assert f"worst gouge {summary['gouge_max']:.4f} mm, worst excess {summary['excess_max']:.4f} mm" in header
 
 
-def test_quiet_says_nothing(coarse, cli):
+def test_quiet_prints_nothing(coarse, cli):
     ran = cli("run", coarse().job, "--quiet")
     assert (ran.code, ran.out, ran.err) == (0, "", "")
 
 
-def test_quiet_says_warnings(tmp_path, cli):
+def test_quiet_prints_warnings(tmp_path, cli):
     job = tmp_path / "job.toml"
     too_steep = ("thickness = 1.0", "thickness = 1.0\nmax_wall_angle_deg = 30.0")
     job.write_text('accept = ["wall-angle"]\n' + changed(COARSE_CUP, too_steep))
@@ -179,7 +179,7 @@ def test_missing_output_folders_are_made(tmp_path, cli):
 
 @pytest.fixture
 def objecting(tmp_path, monkeypatch):
-    """A job whose posted text has one coordinate moved: the judge objects."""
+    """A job whose posted text has one coordinate moved: the verifier objects."""
     from styluscam.programs import running
 
     post = running.post
@@ -194,7 +194,7 @@ def objecting(tmp_path, monkeypatch):
     return job
 
 
-def test_nothing_is_written_where_the_judge_objects(objecting, cli):
+def test_nothing_is_written_where_the_verifier_objects(objecting, cli):
     ran = cli("run", objecting)
     assert ran.code == 1
     assert [path.name for path in objecting.parent.iterdir()] == ["job.toml"]

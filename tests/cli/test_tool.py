@@ -43,7 +43,7 @@ def test_list_names_every_tool(cli: Any, mine: Path) -> None:
     assert "mine: Two balls and a clothoid" in own.out and "ball:s" in own.out and "hemisphere" not in own.out
 
 
-def test_show_says_what_a_tool_is(cli: Any) -> None:
+def test_show_states_what_a_tool_is(cli: Any) -> None:
     ran = cli("tool", "show", "clothoid:medium")
     assert ran.code == 0
     rows = dict(line.strip().split("  ", 1) for line in ran.out.splitlines())
@@ -63,7 +63,7 @@ def test_show_reads_files_and_own_libraries(cli: Any, mine: Path, tmp_path: Path
 
 
 @pytest.mark.parametrize(
-    ("words", "says"),
+    ("words", "stated"),
     [
         (("show", "clotoid:small"), "did you mean 'clothoid:small'"),
         (("show", "clothoid"), "choose clothoid:small"),
@@ -76,10 +76,10 @@ def test_show_reads_files_and_own_libraries(cli: Any, mine: Path, tmp_path: Path
         (("plot", *["hemisphere-d10"] * 9, "--out", "x.svg"), "1 to 8"),
     ],
 )
-def test_slips_are_one_line(cli: Any, tmp_path: Path, monkeypatch: Any, words: Any, says: str) -> None:
+def test_slips_are_one_line(cli: Any, tmp_path: Path, monkeypatch: Any, words: Any, stated: str) -> None:
     monkeypatch.chdir(tmp_path)
     ran = cli("tool", *words)
-    assert ran.code == 2 and ran.out == "" and ran.err.count("\n") == 1 and says in ran.err
+    assert ran.code == 2 and ran.out == "" and ran.err.count("\n") == 1 and stated in ran.err
     assert cli("tool", *words, "--json").json["error"]["message"]
     assert not list(tmp_path.iterdir())
 
@@ -129,7 +129,7 @@ def test_a_job_takes_a_tool_from_one_s_own_library(cli: Any, mine: Path, tmp_pat
     job = sc.Job.read(tmp_path / "job.toml")
     assert job.to_dict()["tools"]["stylus"]["profile"] == {"kind": "ball", "diameter": 12.0, "tip_flat": 0.0}
     assert mine in job.inputs()
-    for name, says in (
+    for name, stated in (
         ("mine.json", "a library of 3 tools, not one tool; name one of them: "),
         ("mine.json:bal:l", "did you mean 'ball:l'"),
         ("mine.json:ball", "choose ball:s or ball:l"),
@@ -138,7 +138,7 @@ def test_a_job_takes_a_tool_from_one_s_own_library(cli: Any, mine: Path, tmp_pat
     ):
         (tmp_path / "job.toml").write_text(text.replace("mine.json:ball:l", name))
         ran = cli("plan", tmp_path / "job.toml")
-        assert ran.code == 2 and ran.err.count("\n") == 1 and says in ran.err, ran.err
+        assert ran.code == 2 and ran.err.count("\n") == 1 and stated in ran.err, ran.err
 
 
 def test_a_library_of_one_tool_is_a_tool_file(cli: Any, tmp_path: Path) -> None:
@@ -189,7 +189,7 @@ def test_any_name_can_be_drawn(cli: Any, tmp_path: Path, title: str) -> None:
         assert ran.code == 0, ran.err
 
 
-def test_places_that_cannot_be_are_the_user_s(cli: Any, tmp_path: Path) -> None:
+def test_positions_that_cannot_be_are_the_user_s(cli: Any, tmp_path: Path) -> None:
     long = tmp_path / ("a" * 300 + ".json")
     for words in (
         ("show", "a" * 5000),
@@ -374,7 +374,7 @@ def test_suggest_puts_last_what_cannot_be_planned(cli: Any, mine: Path, tmp_path
 ROWS = (('"z-level"', '"zig-zag"'), ("step = { height = 4.0 }", "stepover = 10.0\nangle_deg = 30.0"))
 
 
-def test_suggest_says_what_a_zig_zag_leaves(cli: Any, mine: Path, tmp_path: Path) -> None:
+def test_suggest_states_what_a_zig_zag_leaves(cli: Any, mine: Path, tmp_path: Path) -> None:
     job = tmp_path / "job.toml"
     job.write_text(changed(COARSE_CUP, *ROWS, ("tolerance = 0.001", "tolerance = 0.01")))
     document = cli("tool", "suggest", job, "--library", mine, "--plan", "0", "--json").json

@@ -58,7 +58,7 @@ def test_a_job_replaces_what_it_wrote(desk, cli, machine):
     Path("plate.ngc").write_text(
         Path("plate.ngc").read_text().replace("PLATE AE", "PLATE A").replace("Plate ae", "Plate a")
     )
-    assert cli("run", "job.toml", "--quiet").code == 0, "the header alone says whose it is"
+    assert cli("run", "job.toml", "--quiet").code == 0, "the header alone states whose it is"
 
 
 FOREIGN = {
@@ -78,8 +78,12 @@ def test_what_another_wrote_is_replaced_only_with_force(desk, cli, foreign):
     assert ran.code == 2 and f"{name}: the file is there already, and this job (Plate ä) did not write it" in ran.err
     assert "--force" in ran.err and ran.err.count("\n") == 1
     assert Path(name).read_text() == text
-    said = cli("run", "job.toml", "--json")
-    assert said.code == 2 and said.json["error"]["code"] == "exists" and said.json["error"]["where"].endswith(name)
+    printed = cli("run", "job.toml", "--json")
+    assert (
+        printed.code == 2
+        and printed.json["error"]["code"] == "exists"
+        and printed.json["error"]["where"].endswith(name)
+    )
     with pytest.raises(sc.JobError, match="did not write it"):
         sc.run("job.toml")
     assert cli("run", "job.toml", "--force", "--json").json["ok"]
@@ -175,7 +179,7 @@ def test_errors_are_in_inches_too(desk, cli):
     assert 'units: unknown value "inches"; did you mean "inch"?' in cli("plan", "job.toml").err
 
 
-def test_posting_inches_says_which_decimals_are_enough(desk, cli):
+def test_posting_inches_states_which_decimals_are_enough(desk, cli):
     fine = JOB.replace("tolerance = 0.01", "tolerance = 0.005")
     inches = fine.replace('name = "linuxcnc"', 'name = "linuxcnc", options = { units = "inch" }')
     Path("job.toml").write_text(inches, encoding="utf-8")
@@ -189,7 +193,7 @@ def test_posting_inches_says_which_decimals_are_enough(desk, cli):
     assert found, ran.err
     options = f'units = "inch", decimals = {found[1]} }}'
     Path("job.toml").write_text(re.sub(r'units = "inch"[^}]*\}', options, inches), encoding="utf-8")
-    assert cli("run", "job.toml", "--quiet").code == 0, "what the error says works"
+    assert cli("run", "job.toml", "--quiet").code == 0, "what the error proposes works"
     fewer = f'units = "inch", decimals = {int(found[1]) - 1} }}'
     Path("job.toml").write_text(re.sub(r'units = "inch"[^}]*\}', fewer, inches), encoding="utf-8")
     assert cli("run", "job.toml", "--quiet").code == 2, "and is the fewest"

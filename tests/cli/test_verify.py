@@ -19,8 +19,8 @@ def sound(coarse):
     return run
 
 
-def judged(cli, run, text, job=None):
-    """What `verify` says of a text: (exit code, document)."""
+def verified(cli, run, text, job=None):
+    """What `verify` reports of a text: (exit code, document)."""
     spoilt = run.folder / "spoilt.ngc"
     spoilt.write_text(text)
     ran = cli("verify", spoilt, "--job", job or run.job, "--json")
@@ -33,7 +33,7 @@ def test_sound_program_passes(sound, cli):
     assert ran.code == 0 and ran.err == ""
     assert "nothing was found" in ran.out.splitlines()[0]
     assert "worst gouge" in ran.out and "worst excess" in ran.out
-    code, document = judged(cli, sound, sound.gcode.read_text())
+    code, document = verified(cli, sound, sound.gcode.read_text())
     assert code == 0 and document["coverage"]
     for face in document["coverage"]:
         assert f"Face{face['face']}: {100 * face['covered']:.1f} % of" in ran.out
@@ -77,7 +77,7 @@ def test_one_coordinate_moved_into_the_part_is_named(sound, cli, share):
     lines = feed_lines(text, "X")
     number, word = next((n, w) for n, w in lines[int(share * len(lines)) :] if abs(float(w.group(1))) > 10.0)
     outwards = MOVED if float(word.group(1)) > 0.0 else -MOVED  # the wall is outside the loop
-    code, document = judged(cli, sound, shifted(text, number, word, outwards))
+    code, document = verified(cli, sound, shifted(text, number, word, outwards))
     assert code == 1 and not document["ok"]
     gouges = [finding for finding in document["findings"] if finding["kind"] == "gouge"]
     assert len(gouges) == 1
@@ -91,7 +91,7 @@ def test_one_coordinate_moved_into_the_part_is_named(sound, cli, share):
 def test_one_coordinate_moved_out_of_the_part_is_named(sound, cli):
     text = sound.gcode.read_text()
     number, word = next((n, w) for n, w in feed_lines(text, "X")[200:] if float(w.group(1)) > 15.0)
-    code, document = judged(cli, sound, shifted(text, number, word, -MOVED))
+    code, document = verified(cli, sound, shifted(text, number, word, -MOVED))
     assert code == 1
     assert any(
         finding["kind"] == "excess" and finding["first_line"] <= number <= finding["last_line"]
@@ -102,7 +102,7 @@ def test_one_coordinate_moved_out_of_the_part_is_named(sound, cli):
 def test_one_depth_moved_is_named(sound, cli):
     text = sound.gcode.read_text()
     number, word = next((n, w) for n, w in feed_lines(text, "Z") if float(w.group(1)) < -10.0)
-    code, document = judged(cli, sound, shifted(text, number, word, -MOVED))
+    code, document = verified(cli, sound, shifted(text, number, word, -MOVED))
     assert code == 1
     assert any(f["kind"] == "gouge" and number in (f["line"], f["first_line"]) for f in document["findings"])
 
@@ -110,13 +110,13 @@ def test_one_depth_moved_is_named(sound, cli):
 def test_rapid_through_the_part_is_named(sound, cli):
     text = changed(sound.gcode.read_text(), ("M2\n", "G0 X40 Y40 Z-5\nM2\n"))
     number = text.splitlines().index("G0 X40 Y40 Z-5") + 1
-    code, document = judged(cli, sound, text)
+    code, document = verified(cli, sound, text)
     assert code == 1
     assert any(finding["line"] == number and "rapid" in finding["kind"] for finding in document["findings"])
 
 
 def test_inch_for_mm_is_found(sound, cli):
-    code, document = judged(
+    code, document = verified(
         cli, sound, changed(sound.gcode.read_text(), ("G21", "G20"), ("G64 P0.001", "G64 P0.00003"))
     )
     assert code == 1 and document["findings"]
@@ -125,20 +125,20 @@ def test_inch_for_mm_is_found(sound, cli):
 def test_mm_for_inch_is_found(sound, cli):
     text = sound.gcode.read_text()
     small = re.sub(r"([XYZ])(-?\d+\.?\d*)", lambda word: f"{word[1]}{float(word[2]) / 25.4:.4f}", text)
-    code, _ = judged(cli, sound, small)
+    code, _ = verified(cli, sound, small)
     assert code == 1
 
 
 def test_tip_taken_for_centre_is_found(coarse, cli):
-    """A program for the ball's centre, run with the tip set to zero: 5 mm too high, and the other way round."""
+    """A program for the ball's centre, run with the tip set to zero: 5 mm too high; and the reverse."""
     ball = ('kind = "clothoid"', 'kind = "ball"')
     centre = ('reference = "tip"', 'reference = "center"')
     by_tip, by_centre = coarse(ball), coarse(ball, centre)
     assert by_tip.ran.code == 0 and by_centre.ran.code == 0
-    assert judged(cli, by_tip, by_centre.gcode.read_text())[0] == 1
-    assert judged(cli, by_centre, by_tip.gcode.read_text())[0] == 1
-    said = cli("run", by_centre.job).out
-    assert "programmed at its center, 5 above the tip" in said
+    assert verified(cli, by_tip, by_centre.gcode.read_text())[0] == 1
+    assert verified(cli, by_centre, by_tip.gcode.read_text())[0] == 1
+    printed = cli("run", by_centre.job).out
+    assert "programmed at its center, 5 above the tip" in printed
     depths = [run.ran.json["summary"]["deepest_z"] for run in (by_tip, by_centre)]
     assert depths[1] - depths[0] == pytest.approx(5.0, abs=0.002)
 
@@ -146,7 +146,7 @@ def test_tip_taken_for_centre_is_found(coarse, cli):
 @pytest.mark.parametrize(("face", "meaning"), [("tool", "facing the tool"), ("mid", "its middle")])
 def test_flipped_sheet_is_found_and_stands_in_the_summary(coarse, sound, cli, face, meaning):
     other = coarse(('model_face = "back"', f'model_face = "{face}"'))
-    code, document = judged(cli, sound, other.gcode.read_text())
+    code, document = verified(cli, sound, other.gcode.read_text())
     assert code == 1 and document["findings"]
     assert meaning in cli("run", other.job).out
     assert "away from the tool" in cli("run", sound.job).out
@@ -154,14 +154,14 @@ def test_flipped_sheet_is_found_and_stands_in_the_summary(coarse, sound, cli, fa
 
 def test_another_zero_is_found_and_stands_in_the_summary(coarse, sound, cli):
     other = coarse(('zero = "sheet-top"', "zero = [0.0, 0.0, 2.0]"))
-    assert judged(cli, sound, other.gcode.read_text())[0] == 1
+    assert verified(cli, sound, other.gcode.read_text())[0] == 1
     assert other.ran.json["summary"]["zero"] != sound.ran.json["summary"]["zero"]
 
 
 def test_program_of_another_part_is_found(sound, cli, tmp_path):
     job = tmp_path / "job.toml"
     job.write_text(changed(COARSE_CUP, ("cone_cup.step", "vwaf.step")))
-    assert judged(cli, sound, sound.gcode.read_text(), job)[0] == 1
+    assert verified(cli, sound, sound.gcode.read_text(), job)[0] == 1
 
 
 def without_line(text, start):
@@ -191,23 +191,23 @@ def test_modes_that_move_the_tip_elsewhere_are_named(sound, cli, spoil, words):
 
 
 def test_an_exact_path_needs_no_tolerance(sound, cli):
-    code, _ = judged(cli, sound, changed(sound.gcode.read_text(), ("G64 P0.001 Q0", "G61")))
+    code, _ = verified(cli, sound, changed(sound.gcode.read_text(), ("G64 P0.001 Q0", "G61")))
     assert code == 0
 
 
 def test_another_work_offset_is_found(sound, cli):
-    code, report = judged(cli, sound, changed(sound.gcode.read_text(), ("\nG54\n", "\nG55\n")))
+    code, report = verified(cli, sound, changed(sound.gcode.read_text(), ("\nG54\n", "\nG55\n")))
     assert code == 1 and [f["kind"] for f in report["findings"]] == ["work-offset"]
     assert "G55" in report["findings"][0]["message"]
 
 
-def test_a_bad_program_is_told_on_one_screen_errors_first(sound, cli):
-    """Every third place moved into the part or off it, other feeds: hundreds of moves with something wrong."""
+def test_a_bad_program_is_reported_on_one_screen_errors_first(sound, cli):
+    """Every third point moved into the part or off it, other feeds: hundreds of moves with something wrong."""
     text = sound.gcode.read_text()
     for number, word in feed_lines(text, "X")[::3]:
         text = shifted(text, number, word, MOVED if number % 2 else -MOVED)
     text = re.sub(r"F\d+", "F77", text)
-    code, document = judged(cli, sound, text)
+    code, document = verified(cli, sound, text)
     assert code == 1 and sum(document["counts"].values()) > 500
     groups, findings = document["groups"], document["findings"]
     for listed in (groups, findings):

@@ -87,7 +87,7 @@ def test_subroutines_come_from_the_folders_that_are_named(cli, tmp_path):
     assert faulty.code == 2 and "line 2 of slot: a division by zero" in faulty.err
 
 
-def test_json_says_figures_and_files(cli, foreign, tmp_path):
+def test_json_states_figures_and_files(cli, foreign, tmp_path):
     out, picture = tmp_path / "deep" / "page.html", tmp_path / "picture.png"
     ran = cli("view", foreign, "--out", out, "--picture", picture, "--json")
     assert ran.code == 0 and ran.err == ""
@@ -125,7 +125,7 @@ def test_our_program_with_its_job_or_a_part(cli, coarse, tmp_path, box_step):
         (["{foreign}", "--out", "{here}"], ["a folder has this name"]),
     ],
 )
-def test_what_cannot_be_shown_is_said_in_one_line(cli, foreign, tmp_path, arguments, words):
+def test_what_cannot_be_shown_is_stated_in_one_line(cli, foreign, tmp_path, arguments, words):
     (tmp_path / "text.ngc").write_text("Dear machine,\n")
     (tmp_path / "empty.ngc").write_text("G21\nM2\n")
     (tmp_path / "library.ngc").write_text(SLOT)
@@ -178,10 +178,10 @@ def test_run_writes_the_report_of_a_faulty_program_but_not_the_program(cli, tmp_
     job.write_text(COARSE_CUP)
     honest = running.judge_plan
 
-    def judge(plan, text, *rest):
+    def verified(plan, text, *rest):
         return honest(plan, text.replace("M2\n", "G1 X5 Y5 Z-30\nM2\n"), *rest)
 
-    monkeypatch.setattr(running, "judge_plan", judge)
+    monkeypatch.setattr(running, "judge_plan", verified)
     monkeypatch.setattr(running, "_require_same_moves", lambda *_: None)
     ran = cli("run", job, "--report", tmp_path / "r.html")
     assert ran.code == 1 and ran.err.splitlines()[-1].startswith("no program was written")

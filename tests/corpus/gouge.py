@@ -1,4 +1,4 @@
-"""Does a posted text enter the part as it was made? Sampled places of the path against all triangles near them.
+"""Does a posted text enter the part as it was made? Sampled positions of the path against all triangles near them.
 
 The text is read by `gcode`, the tool is `convex_tool`'s, the triangles are the modeller's own: nothing of the engine takes
 part. A triangle is entered where the signed distance to the tool, a convex function, is below zero on it: it is least on an
@@ -17,13 +17,13 @@ from typing import Any
 import numpy as np
 
 import gcode
-from brute_judge import least_on
+from brute_force import least_on
 from controllers import Family
 from convex_tool import Floats, Tool
 
 SAMPLES = 1600
 NEAR = 0.05
-"""mm: a place of the path nearer than this, and the job's tolerance, touches."""
+"""mm: a position of the path nearer than this, and the job's tolerance, touches."""
 LOOSE = 0.1
 """mm: tolerances count up to this: a path over a part of 10 m lies that far above it."""
 PLANES = 64
@@ -35,7 +35,7 @@ PARTED = 8
 HALVED = 12
 """Times that an edge over the tool is halved."""
 PAIRS = 400_000
-"""Pairs of a place and a triangle at a time."""
+"""Pairs of a position and a triangle at a time."""
 FEATURE = 1.0
 """mm: the smallest feature of an operation that names none."""
 
@@ -50,19 +50,19 @@ class Checked:
     at: tuple[float, float, float] | None = None
     line: int = 0
     touching: float = 0.0
-    """Share of the places at feed that are near the part."""
+    """Share of the positions at feed that are near the part."""
     refused: str = ""
     """Why a controller would not take the text, or why nothing could be checked."""
     path_box: list[list[float]] | None = None
     """Of the tips at feed."""
     cuts: int = 0
-    """Ways at feed between two rapids."""
+    """Paths at feed between two rapids."""
     lifts: int = 0
     """Times that the tool was lifted between two of them, nearer to each other than half the job's smallest feature."""
 
 
 def checked(text: str, job: dict[str, Any], corners: Floats, allowed: float, family: Family, seed: int) -> Checked:
-    """Judges a text; `corners` (T, 3, 3) in work coordinates, `allowed` the depth that is none."""
+    """Checks a text; `corners` (T, 3, 3) in work coordinates, `allowed` the depth that is none."""
     program = gcode.read(text, family)
     found = Checked()
     if program.refused is not None:
@@ -80,7 +80,7 @@ def checked(text: str, job: dict[str, Any], corners: Floats, allowed: float, fam
     gaps = [math.dist(a.end, b.begin) for a, b in itertools.pairwise(cuts) if a.tool == b.tool]
     found.cuts, found.lifts = len(cuts), sum(gap < 0.5 * min(features, default=FEATURE) for gap in gaps)
     tools = {tool.get("number", 1): tool for tool in job["tools"].values()}
-    tips, numbers, lines, feeding = _places(moves, seed)
+    tips, numbers, lines, feeding = _samples(moves, seed)
     tolerances = [operation.get("tolerance", 0.0) for operation in job.get("operations", ())]
     near, reach = 0, NEAR + min(max(tolerances, default=0.0), LOOSE)
     for number in np.unique(numbers):
@@ -91,16 +91,16 @@ def checked(text: str, job: dict[str, Any], corners: Floats, allowed: float, fam
         near += int(np.sum((depths < reach) & feeding[of_tool]))
         worst = int(depths.argmin())
         if depths[worst] < -allowed and -depths[worst] > found.deepest:
-            place = tips[of_tool][worst]
+            tip = tips[of_tool][worst]
             found.deepest, found.line = float(-depths[worst]), int(lines[of_tool][worst])
-            found.at = (float(place[0]), float(place[1]), float(place[2]))
+            found.at = (float(tip[0]), float(tip[1]), float(tip[2]))
     found.touching = near / max(1, int(feeding.sum()))
     return found
 
 
 @dataclass
 class Cut:
-    """A way at feed between two rapids, from its first move aside to its last."""
+    """Moves at feed between two rapids, from the first move aside to the last."""
 
     begin: gcode.Point
     end: gcode.Point
@@ -124,14 +124,14 @@ def _cuts(moves: list[gcode.Move]) -> list[Cut]:
     return cuts
 
 
-def _places(moves: list[gcode.Move], seed: int) -> tuple[Floats, np.ndarray, np.ndarray, np.ndarray]:
+def _samples(moves: list[gcode.Move], seed: int) -> tuple[Floats, np.ndarray, np.ndarray, np.ndarray]:
     """Tips (N, 3) spread over the path, the tool's number, the line, and whether it is at feed."""
     rng = np.random.default_rng(seed)
     lengths = np.array([move.length for move in moves])
     ends = np.cumsum(lengths)
-    places = (np.arange(SAMPLES) + rng.uniform(0, 1, SAMPLES)) / SAMPLES * ends[-1]
-    chosen = np.minimum(np.searchsorted(ends, places), len(moves) - 1)
-    shares = np.clip(1 - (ends[chosen] - places) / np.maximum(lengths[chosen], 1e-12), 0.0, 1.0)
+    samples = (np.arange(SAMPLES) + rng.uniform(0, 1, SAMPLES)) / SAMPLES * ends[-1]
+    chosen = np.minimum(np.searchsorted(ends, samples), len(moves) - 1)
+    shares = np.clip(1 - (ends[chosen] - samples) / np.maximum(lengths[chosen], 1e-12), 0.0, 1.0)
     corners = rng.choice(len(moves), min(len(moves), SAMPLES // 4), replace=False)
     chosen, shares = np.concatenate([chosen, corners]), np.concatenate([shares, np.ones(len(corners))])
     tips = np.array([moves[i].at(float(share)) for i, share in zip(chosen, shares, strict=True)])
@@ -206,7 +206,7 @@ class Scene:
         return least
 
     def _pairs(self, tips: Floats) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Places and triangles that may be near each other, whole places at a time."""
+        """Positions and triangles that may be near each other, whole positions at a time."""
         cells = (
             tips[:, None, :2] + np.array([(-1, -1), (-1, 1), (1, -1), (1, 1)]) * self.radius - self.origin
         ) // self.cell
@@ -230,13 +230,13 @@ class Scene:
         starts = np.repeat(np.where(keys >= 0, self.starts[keys], 0).reshape(-1), flat)
         within = np.arange(int(flat.sum())) - np.repeat(np.cumsum(flat) - flat, flat)
         triangles = self.held[starts + within]
-        places = np.repeat(np.repeat(rows, keys.shape[1]), flat)
-        tip = tips[places]
+        samples = np.repeat(np.repeat(rows, keys.shape[1]), flat)
+        tip = tips[samples]
         aside = np.maximum(np.maximum(self.low[triangles, :2] - tip[:, :2], tip[:, :2] - self.high[triangles, :2]), 0.0)
         apart = np.maximum(np.hypot(aside[:, 0], aside[:, 1]) - self.near, 0.0)
         bottom = np.interp(apart, self.bottom_r, self.bottom_z, right=np.inf) - 0.01 * self.tool.radius - 2 * self.near
         keep = self.high[triangles, 2] > tip[:, 2] + bottom
-        return places[keep], triangles[keep]
+        return samples[keep], triangles[keep]
 
     def _planes(self, points: Floats) -> Floats:
         """A distance from below of points (..., 3) that are relative to the tip."""
@@ -268,8 +268,8 @@ class Scene:
             r = np.hypot(points[:, 0], points[:, 1])
             best = (r[:, None] * self.sine - points[:, 2:] * self.cosine - self.offsets).argmax(axis=1)
             out = points[:, :2] / np.maximum(r, 1e-12)[:, None] * self.sine[best][:, None]
-            way = np.column_stack([out, -self.cosine[best]])
-            values = np.einsum("ijk,ik->ij", corners[left], way) - self.offsets[best][:, None]
+            direction = np.column_stack([out, -self.cosine[best]])
+            values = np.einsum("ijk,ik->ij", corners[left], direction) - self.offsets[best][:, None]
             keep = values.min(axis=1) < self.near
             left, points, values = left[keep], points[keep], values[keep]
             nearest = corners[left, values.argmin(axis=1)]
@@ -293,9 +293,9 @@ class Scene:
 
     def _over_disc(self, start: Floats, end: Floats) -> tuple[Floats, Floats]:
         """First share and width of the piece of each edge over the tool's disc; the nearest point where none is."""
-        way = (end - start)[:, :2]
-        square = np.maximum(np.einsum("ij,ij->i", way, way), 1e-30)
-        middle = -np.einsum("ij,ij->i", start[:, :2], way) / square
+        direction = (end - start)[:, :2]
+        square = np.maximum(np.einsum("ij,ij->i", direction, direction), 1e-30)
+        middle = -np.einsum("ij,ij->i", start[:, :2], direction) / square
         off = np.einsum("ij,ij->i", start[:, :2], start[:, :2]) - middle**2 * square
         half = np.sqrt(np.maximum(self.radius**2 - off, 0.0) / square)
         low, high = np.clip(middle - half, 0.0, 1.0), np.clip(middle + half, 0.0, 1.0)

@@ -16,8 +16,8 @@ import numpy as np
 from gouge import Checked, checked
 from process import Ended, Limit, styluscam
 
-JUDGED = 0.001
-"""The depth from which the engine's own judge calls an entry a gouge, mm."""
+GOUGE_DEPTH = 0.001
+"""The depth from which the engine's own verifier calls an entry a gouge, mm."""
 AS_WRITTEN = "as-written"
 THICKEST_SHEET = 6.0
 """mm: thicker ones are pressed; a corpus part of 2 m is a small one made larger."""
@@ -34,9 +34,8 @@ REASONS = {
     "damaged": r"empty|not a whole|holds no|damaged|not numbers|no area",
     "mesh": r"cannot mesh|overlap|fold",
 }
-"""What a refusal's sentence says where it is of a kind."""
+"""What the sentence of a refusal matches, by the reason."""
 CLASSES = re.compile(r"\b[A-Z]\w*(Error|Exception)\b|Traceback|Standard_|StdFail")
-TOLD = re.compile(r"[:;,] \S+")
 ACCEPTED = {"wall-angle"}
 """Warnings that are true of some parts: sheets steeper than any material is sure to withstand."""
 FEW = 10
@@ -125,8 +124,8 @@ def _run(part: dict[str, Any], variant: str, start: Outcome, home: Path, folder:
     _ended(row, ended, part)
     if row.outcome == "done":
         if variant == AS_WRITTEN:
-            row.wrong = _misjudged(job, part)
-        _judge(row, json.loads(ended.out), job, part, home, folder)
+            row.wrong = _mistaken(job, part)
+        _check(row, json.loads(ended.out), job, part, home, folder)
     return row
 
 
@@ -161,7 +160,7 @@ def unexpected(row: Outcome, expect: list[str]) -> str:
     if CLASSES.search(row.detail):
         return "the sentence names a class"
     if len(row.detail) < 30:
-        return "the sentence says nothing to do"
+        return "the sentence states nothing to do"
     reasons = [word.partition(":")[2] for word in expect if word.startswith("refused")]
     if not reasons:
         return f"refused, expected {wanted}"
@@ -182,7 +181,7 @@ def _json(text: str) -> dict[str, Any]:
     return document if isinstance(document, dict) else {}
 
 
-def _judge(
+def _check(
     row: Outcome, document: dict[str, Any], job: dict[str, Any], part: dict[str, Any], home: Path, folder: Path
 ) -> None:
     """The independent check of a done program: gouges, and whether it is where the part is."""
@@ -191,7 +190,7 @@ def _judge(
     corners = _corners(folder / part["truth"])
     placed = _in_work(corners, job)
     text = (home / job["output"]["file"]).read_text(encoding="utf-8")
-    allowed = JUDGED + float(job["part"].get("tolerance", 0.001)) + 1.5 * part["deviation"]
+    allowed = GOUGE_DEPTH + float(job["part"].get("tolerance", 0.001)) + 1.5 * part["deviation"]
     found = checked(text, job, placed, allowed, "linuxcnc", zlib.crc32(part["name"].encode()))
     row.gouge, row.touching, row.samples = found.deepest, found.touching, found.samples
     if found.refused:
@@ -204,7 +203,7 @@ def _judge(
     row.wrong = row.wrong or unexpected(row, part["expect"])
 
 
-def _misjudged(job: dict[str, Any], part: dict[str, Any]) -> str:
+def _mistaken(job: dict[str, Any], part: dict[str, Any]) -> str:
     """Where `new` takes a sheet for a block, a block for a sheet, or a sheet for another one."""
     kind = job.get("process", {}).get("kind", "spif")
     if part["body"] == "solid" and kind != "milling":
@@ -216,9 +215,9 @@ def _misjudged(job: dict[str, Any], part: dict[str, Any]) -> str:
         cannot_be_formed = True
     if part["body"] == "sheet" and "done" in part["expect"] and kind == "milling" and not cannot_be_formed:
         return "a sheet part is milled"
-    said = job.get("setup", {}).get("sheet", {}).get("thickness")
-    if part["body"] == "sheet" and said is not None and abs(said - part["thickness"]) > 0.05 * part["thickness"]:
-        return f"the sheet is {part['thickness']:.3f} mm thick, the job says {said:g}"
+    stated = job.get("setup", {}).get("sheet", {}).get("thickness")
+    if part["body"] == "sheet" and stated is not None and abs(stated - part["thickness"]) > 0.05 * part["thickness"]:
+        return f"the sheet is {part['thickness']:.3f} mm thick, the job states {stated:g}"
     return ""
 
 
@@ -237,7 +236,7 @@ def _in_work(corners: np.ndarray, job: dict[str, Any]) -> np.ndarray:
 
 
 def turn_up(up: str, about_z_deg: float) -> np.ndarray:
-    """The rotation (3, 3) that brings an axis of the model upright by the shortest way (down: about X), and turns it then."""
+    """The rotation (3, 3) that brings an axis of the model upright by the least angle (down: about X), and turns it then."""
     axis = np.zeros(3)
     axis["xyz".index(up[-1])] = -1.0 if up[0] == "-" else 1.0
     if axis[2] == -1.0:
@@ -260,9 +259,9 @@ def _misplaced(found: Checked, placed: np.ndarray, document: dict[str, Any]) -> 
     """Where path and part do not lie together (a wrong unit, a wrong zero), or the path is cut to pieces."""
     points = placed.reshape(-1, 3)
     low, high = points.min(axis=0), points.max(axis=0)
-    said = document.get("summary", {})
-    if "part_min" in said:
-        off = max(np.abs(np.array(said["part_min"]) - low).max(), np.abs(np.array(said["part_max"]) - high).max())
+    stated = document.get("summary", {})
+    if "part_min" in stated:
+        off = max(np.abs(np.array(stated["part_min"]) - low).max(), np.abs(np.array(stated["part_max"]) - high).max())
         if off > 0.01 + 1e-3 * float(np.max(high - low)):
             return f"the summary's box is off the part's by {off:.3f} mm"
     if found.touching == 0.0:

@@ -3,7 +3,7 @@
     python tests/corpus/run.py [--slice N] [--jobs 2] [--only NAME] [--all] [--base] [--limit 60] [--patience 1] [--out TABLE]
 
 `styluscam new PART`, then `styluscam run` on the job that it wrote, then the same job with other strategies and tools: two a
-part that its name chooses, or all eight. Each command is a process with a limit. Done programs are judged by `gouge` against
+part that its name chooses, or all eight. Each command is a process with a limit. Done programs are checked by `gouge` against
 the triangles that the modeller made. TABLE.jsonl has a line a run, TABLE.md the summary.
 """
 

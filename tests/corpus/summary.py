@@ -29,7 +29,7 @@ def markdown(rows: list[Outcome]) -> str:
         f"peak memory {max((row.peak_mb for row in rows), default=0):.0f} MB",
         f"done with warnings: {sum(row.outcome == 'done' and bool(row.kinds) for row in rows)}",
         f"programs checked against the modeller's triangles: {sum(row.samples > 0 for row in rows)}, "
-        f"{sum(row.samples for row in rows)} places",
+        f"{sum(row.samples for row in rows)} positions",
         "",
     ]
     lines += _by_variant(rows) + _unexpected(rows) + _warned(rows) + _slow(rows) + _sentences(rows)

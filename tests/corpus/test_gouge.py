@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from gouge import NEAR, Scene, checked
 
-from brute_judge import Solid
+from brute_force import Solid
 from convex_tool import Tool
 
 PROFILES = {
@@ -78,8 +78,8 @@ def test_a_text_that_a_controller_refuses_is_not_checked():
 
 def test_lifts_for_nothing_are_counted():
     cut = "G0 X{x} Y0\nG1 Z0\nG1 X{x1} Y0.05\nG1 X{end}\nG0 Z20\n"
-    ways = [(-15, -14.9), (-14.7, -12), (0, 4), (6, 6.1), (6.2, 9)]
-    body = "".join(cut.format(x=x, x1=x + 0.05, end=end) for x, end in ways)
+    spans = [(-15, -14.9), (-14.7, -12), (0, 4), (6, 6.1), (6.2, 9)]
+    body = "".join(cut.format(x=x, x1=x + 0.05, end=end) for x, end in spans)
     text = f"G21 G90 G17 G54\nT1 M6\nG43 H1\nG0 Z20\nF500\n{body}M2\n"
     document = job(PROFILES["ball"]) | {"operations": [{"smallest_feature": 0.6}, {"smallest_feature": 0.5}]}
     found = checked(text, document, TRIANGLES[:2], 0.002, "linuxcnc", 1)

@@ -44,11 +44,13 @@ def linuxcnc() -> Callable[[str], rs274.Interpretation]:
 
 
 @pytest.fixture(scope="session", params=["1.1", "1.0"])
-def freecad(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, engine: Path) -> FreeCad:
+def freecad(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, engine: Path, addon: Path
+) -> FreeCad:
     """Each FreeCAD that the addon is made for."""
     with needed(f"FreeCAD {request.param}"):
         roots.freecadcmd(request.param)
-    return FreeCad(request.param, engine, tmp_path_factory.mktemp(f"freecad-{request.param}"))
+    return FreeCad(request.param, engine, addon, tmp_path_factory.mktemp(f"freecad-{request.param}"))
 
 
 @pytest.fixture(scope="session")
@@ -72,6 +74,13 @@ def example(freecad: FreeCad) -> Example:
 def session(freecad: FreeCad) -> Session:
     """All scenarios, in one FreeCAD."""
     return _session(freecad, "scenarios.py", ["--", str(EXAMPLE), str(STEP), str(freecad.folder), str(COARSE)])
+
+
+@pytest.fixture(scope="session")
+def mixed_job(freecad: FreeCad) -> Any:
+    """A job of FreeCAD's operations and ours, in a FreeCAD of its own: it is posted for every machine."""
+    arguments = ["--", str(EXAMPLE), str(STEP), str(freecad.folder), str(COARSE), "mixed job"]
+    return _session(freecad, "scenarios.py", arguments)["mixed job"]
 
 
 @pytest.fixture(scope="session")

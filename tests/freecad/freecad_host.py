@@ -36,6 +36,7 @@ class FreeCad:
 
     version: str
     engine: Path
+    addon: Path
     folder: Path
 
     def run(
@@ -47,7 +48,7 @@ class FreeCad:
             script,
             *args,
             python_path=[self.engine] if engine else [],
-            mod_path=[ADDON],
+            mod_path=[self.addon],
             binds=[roots.Bind.same(self.folder, writable=True)],
             timeout=timeout,
         )

@@ -171,7 +171,7 @@ def test_a_value_that_is_no_json_is_named() -> None:
         by_name(by_kind())["Ring"].document_value("[3, ")
 
 
-def test_keys_of_one_name_in_two_sections_are_told_apart() -> None:
+def test_keys_of_one_name_in_two_sections_are_kept_apart() -> None:
     document = by_kind()
     document["$defs"]["PartSection"]["properties"]["lift"] = NUMBER
     found = by_name(document)

@@ -7,7 +7,7 @@ import sys
 
 from freecad_host import ADDON
 
-PURE = ("schema", "fields", "path_words", "posts")
+PURE = ("schema", "fields", "posts")
 """Modules that need neither FreeCAD nor the engine."""
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import pytest
@@ -31,6 +32,19 @@ def test_a_saved_document_keeps_its_path(session: Any) -> None:
     assert "Invalid" not in seen["state"]
     assert seen["bit"][0] == '{"kind": "clothoid", "diameter": 10.0}'
     assert seen["bit"][1] > 1000.0
+
+
+def test_its_path_is_the_same_when_it_is_opened_and_computed_again(session: Any) -> None:
+    computed, opened, again = session["saved"]["texts"]
+    assert computed == opened == again
+    assert computed.splitlines()[0] == "(cup [1] of München)"
+
+
+def test_its_path_is_written_as_freecad_writes_numbers(session: Any) -> None:
+    """FreeCAD keeps the sign of what it rounds to zero until a document is opened again; here there is none."""
+    seen = session["saved"]
+    _, _, *moves, _ = seen["texts"][0].splitlines()  # without the comment, the rapid up, and FreeCAD's last retract
+    assert moves == re.sub(r"-(0\.0+\b)", r"\1", seen["as_commands"]).splitlines()
 
 
 def test_a_restored_operation_computes(session: Any) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 import styluscam as sc
@@ -83,7 +84,7 @@ def test_a_native_job_moves_as_by_freecads_own_post(session: Any, linuxcnc: Any)
     ours, theirs = moves_of(texts["ours"], linuxcnc), moves_of(texts["theirs"], linuxcnc)
     assert [kind for kind, _ in ours] == [kind for kind, _ in theirs]
     assert len(ours) > 1000 and sum(kind == "ARC_FEED" for kind, _ in ours) > 10
-    # each is rounded to three places; halves go up here and to the even digit there
+    # each is rounded to three decimals; halves go up here and to the even digit there
     farthest = max(
         abs(a - b) for (_, one), (_, other) in zip(ours, theirs, strict=True) for a, b in zip(one, other, strict=True)
     )
@@ -108,6 +109,37 @@ def test_arguments_of_the_post(session: Any, linuxcnc: Any) -> None:
     assert any(len(word.partition(".")[2]) == 5 for line in lines for word in line.split() if word[0] in "XYZ")
     linuxcnc(texts["arguments"])
     assert "does not know the argument --no-heder; it knows --inches" in texts["unknown argument"]
+
+
+def positions(text: str, machine: str) -> Any:
+    return sc.read_gcode(text, sc.Machine.shipped(machine)).positions
+
+
+@pytest.mark.parametrize("machine", sc.Machine.names())
+def test_a_job_of_native_operations_and_ours_is_posted(mixed_job: Any, machine: str) -> None:
+    """Each machine gets all of it in one text, or refuses two tools in one program and gets a text for each."""
+    seen = mixed_job
+    assert seen["operations"] == ["ObjectPocket", *["ObjectDrilling"] * 3, "ObjectStylus"]
+    expected = positions(seen["texts"]["linuxcnc"], "linuxcnc")
+    texts = [seen["texts"][machine]]
+    if machine in seen["apart"]:
+        assert "this machine takes one tool per program: post one program per tool" in texts[0]
+        texts = seen["apart"][machine]
+        assert len(texts) > 1
+    found = np.concatenate([positions(text, machine) for text in texts])
+    assert len(found) > 200
+    for extreme in (np.min, np.max):
+        assert extreme(found, axis=0) == pytest.approx(extreme(expected, axis=0), abs=0.003)
+
+
+def test_holes_are_drilled_by_cycles_where_a_machine_has_them(mixed_job: Any) -> None:
+    """And by moves elsewhere: three kinds of holes, twice each, to the same depths."""
+    texts = mixed_job["texts"]
+    for code in ("G81", "G82", "G83"):
+        assert code in texts["linuxcnc"] and code not in texts["fluidnc"]
+    depths = [positions(texts[machine], machine)[:, 2] for machine in ("linuxcnc", "fluidnc")]
+    lowest = [np.count_nonzero(np.isclose(depth, depth.min())) for depth in depths]
+    assert lowest[0] == lowest[1] > 0
 
 
 @pytest.mark.parametrize("machine", ["grbl", "fanuc", "heidenhain", "siemens", "okuma", "marlin"])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import shutil
 from pathlib import Path
 from typing import Any
@@ -53,6 +54,18 @@ def test_our_file_loads_exactly(loaded: dict[str, dict[str, Any]], name: str) ->
     wide = max(diameter, shank)
     assert seen["box"] == pytest.approx([wide, wide, 0.0, length], abs=1e-6)
     assert 0.0 < seen["volume"] < 3.1416 * wide**2 / 4.0 * length
+
+
+@pytest.mark.parametrize("name", sorted(documents()))
+def test_the_solid_is_the_profile_revolved(loaded: dict[str, dict[str, Any]], name: str) -> None:
+    seen = loaded[name]
+    assert "broke" not in seen, seen["broke"]
+    assert seen["distance"] <= 1e-5
+    diameter, height, length, shank = seen["lengths"]
+    cone = max(0.0, shank - diameter) / 2.0
+    above = math.pi * cone / 3.0 * (shank**2 + shank * diameter + diameter**2) / 4.0
+    shaft = math.pi * shank**2 / 4.0 * (length - height - cone)
+    assert seen["volume"] == pytest.approx(seen["tip volume"] + above + shaft, rel=1e-7)
 
 
 @pytest.mark.parametrize("name", sorted(documents()))

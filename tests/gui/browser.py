@@ -89,7 +89,7 @@ class Tab:
         self.call("Emulation.setEmulatedMedia", media=media, features=features)
 
     def open(self, page: Path, ready: str = "document.documentElement?.dataset.ready === 'yes'") -> float:
-        """Opens a file and waits until it is ready: a report's script says when; the seconds that took."""
+        """Opens a file and waits until it is ready: a report's script reports when; the seconds that took."""
         begun = time.monotonic()
         self.call("Page.navigate", url=page.as_uri())
         self.until(ready)
@@ -97,10 +97,10 @@ class Tab:
 
     def run(self, script: str) -> Any:
         """The value of an expression in the page; promises are waited for."""
-        said = self.call("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True)
-        if "exceptionDetails" in said:
-            raise PageError(said["exceptionDetails"].get("exception", {}).get("description", script))
-        return said["result"].get("value")
+        answered = self.call("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True)
+        if "exceptionDetails" in answered:
+            raise PageError(answered["exceptionDetails"].get("exception", {}).get("description", script))
+        return answered["result"].get("value")
 
     def until(self, condition: str) -> None:
         """Waits until an expression is true."""
@@ -172,7 +172,7 @@ def _process(command: Sequence[str], log: IO[bytes]) -> Iterator[subprocess.Pope
 
 
 def _address(process: subprocess.Popen[bytes], log: Path) -> str:
-    """Where the browser listens, as it says itself."""
+    """Where the browser listens, as it reports itself."""
     end = time.monotonic() + PATIENCE
     while time.monotonic() < end and process.poll() is None:
         found = re.search(r"DevTools listening on (ws://\S+)", log.read_text(errors="replace"))

@@ -120,8 +120,8 @@ def tip(tab: Tab) -> np.ndarray:
     )
 
 
-def said(tab: Tab, key: str) -> str:
-    """What the readout says."""
+def readout(tab: Tab, key: str) -> str:
+    """The text of the readout."""
     return str(tab.run(f"document.querySelector('#readout [data-key={key}]').textContent"))
 
 
@@ -167,7 +167,7 @@ def test_maps_change_what_is_seen(opened: Tab) -> None:
     assert opened.complaints == []
 
 
-def test_the_fixture_stands_where_the_job_says_and_can_be_hidden(opened: Tab) -> None:
+def test_the_fixture_stands_where_the_job_states_and_can_be_hidden(opened: Tab) -> None:
     boxes = np.array(
         opened.run(
             """window.styluscam.fixture.group.children.map(({ geometry }) => {
@@ -196,21 +196,21 @@ def test_the_path_has_its_colours(opened: Tab) -> None:
     assert len(seen) == 4
 
 
-def test_scrubbing_moves_the_tool_to_the_exact_place(opened: Tab, subject: Subject) -> None:
+def test_scrubbing_moves_the_tool_to_the_exact_position(opened: Tab, subject: Subject) -> None:
     times, ends, moves = subject.times, subject.positions, subject.program.moves
     for move in (2, 3, len(times) // 3, len(times) // 2, len(times) - 1):
         opened.choose("#time", repr(float(times[move])))
         assert tip(opened) == pytest.approx(ends[move], abs=2e-5)
-        assert [float(said(opened, axis)) for axis in "xyz"] == pytest.approx(ends[move].tolist(), abs=5.1e-5)
-        assert int(said(opened, "line")) == moves["line"][move]
-        assert said(opened, "tool") == "T1: clothoid D10" and said(opened, "operation") == "cup"
+        assert [float(readout(opened, axis)) for axis in "xyz"] == pytest.approx(ends[move].tolist(), abs=5.1e-5)
+        assert int(readout(opened, "line")) == moves["line"][move]
+        assert readout(opened, "tool") == "T1: clothoid D10" and readout(opened, "operation") == "cup"
     half = float(times[-2] + times[-3]) / 2.0
     opened.choose("#time", repr(half))
     assert tip(opened) == pytest.approx((ends[-2] + ends[-3]) / 2.0, abs=2e-5)
     opened.click("#forth")
-    assert float(said(opened, "z")) == pytest.approx(ends[-2][2], abs=5.1e-5)
+    assert float(readout(opened, "z")) == pytest.approx(ends[-2][2], abs=5.1e-5)
     opened.click("#back")
-    assert float(said(opened, "z")) == pytest.approx(ends[-3][2], abs=5.1e-5)
+    assert float(readout(opened, "z")) == pytest.approx(ends[-3][2], abs=5.1e-5)
 
 
 def test_every_number_of_the_path_is_exact(opened: Tab, subject: Subject) -> None:
@@ -224,13 +224,13 @@ def test_every_number_of_the_path_is_exact(opened: Tab, subject: Subject) -> Non
 
 def test_steps_go_from_move_to_move(opened: Tab) -> None:
     opened.choose("#time", "0")
-    assert said(opened, "move").startswith("1 of")
+    assert readout(opened, "move").startswith("1 of")
     opened.run("window.styluscam.player.path.times.fill(0, 0, 4)")  # moves that take no time are met too
     for move in (2, 3, 4, 5):
         opened.click("#forth")
-        assert said(opened, "move").startswith(f"{move} of")
+        assert readout(opened, "move").startswith(f"{move} of")
     opened.click("#back")
-    assert said(opened, "move").startswith("4 of")
+    assert readout(opened, "move").startswith("4 of")
 
 
 def test_play_moves_on_and_pauses(opened: Tab) -> None:
@@ -253,7 +253,7 @@ def test_a_click_in_a_plot_goes_to_its_moment(opened: Tab, subject: Subject) -> 
     assert opened.run("window.styluscam.player.time") == pytest.approx(0.25 * subject.times[-1], rel=0.01)
 
 
-def test_a_finding_jumps_to_its_place_and_moment(opened: Tab, subject: Subject) -> None:
+def test_a_finding_jumps_to_its_position_and_moment(opened: Tab, subject: Subject) -> None:
     before = opened.picture("#stage")
     finding = subject.findings[0]
     opened.click(".finding")
@@ -264,7 +264,7 @@ def test_a_finding_jumps_to_its_place_and_moment(opened: Tab, subject: Subject) 
         "(({ stage }) => stage.controls.target.toArray().map((x, k) => x + stage.origin[k]))(window.styluscam)"
     )
     assert target == pytest.approx(finding["position"], abs=1e-3)
-    assert int(said(opened, "line")) == finding["line"]
+    assert int(readout(opened, "line")) == finding["line"]
     assert opened.picture("#stage") != before
     assert opened.run("document.querySelectorAll('#ticks i').length") == len(subject.findings)
 

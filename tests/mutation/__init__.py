@@ -1,1 +1,1 @@
-"""The judge is judged: seeded defects must be found where they are, sound programs must pass."""
+"""The verifier is tested: seeded defects must be found where they are, sound programs must pass."""

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 import styluscam as sc
 from arcs import with_arcs
-from brute_judge import Solid
+from brute_force import Solid
 from controllers import FAMILIES, ONE_TOOL, Family
 from convex_tool import Floats, Tool
 from matters import Wanted
@@ -46,7 +46,7 @@ def stack(sides: int, profile: list[tuple[float, float]], turn: float = 0.0) -> 
 
 
 def terrain(seed: int, side: int = 5, pitch: float = 4.0, height: float = 1.5) -> Mesh:
-    """A net of places of random height."""
+    """A grid of points of random height."""
     heights = np.random.default_rng(seed).uniform(0.0, height, (side, side))
     vertices = np.array([[pitch * i, pitch * j, heights[i, j]] for i in range(side) for j in range(side)])
     cells = [side * i + j for i in range(side - 1) for j in range(side - 1)]
@@ -185,7 +185,7 @@ def document(
         made["process"] = {"kind": "spif"}
         made["part"]["model_face"] = sheet[1]
         made["setup"]["sheet"] = copy.deepcopy(sheet[0]) | {"max_wall_angle_deg": 75.0}
-        # rows alone form no sheet; bumps are no trays: what is judged here is the program
+        # rows alone form no sheet; bumps are no trays: what is checked here is the program
         made["accept"] = ["flange", "bridged", "unreached", *(["punch"] if kind == "zig-zag" else [])]
     return made
 

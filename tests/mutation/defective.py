@@ -1,4 +1,4 @@
-"""Draws defective programs and faulty inputs by their numbers, and asks the judge and the oracle about them."""
+"""Draws defective programs and faulty inputs by their numbers, and asks the verifier and the oracle about them."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ POOL = 200
 TRIES = 60
 SHARE_WITH_ARCS = 0.15
 NEAR = 1
-"""Lines by which a finding may miss: what is wrong in a place is wrong on the way to it and from it."""
+"""Lines by which a finding may miss: a wrong point makes the moves to it and from it wrong."""
 
 ARCS = ("arc turned", "arc centre", "arc centre sign", "arc straightened")
 """Kinds that need a program with arcs."""
@@ -47,12 +47,12 @@ SUITS: dict[str, Callable[[Case], bool]] = {
 
 
 WARNED_OF = ("missing-pass", "missing-level", "missing-row", "forming-order")
-"""What is left undone, or done in another order, breaks nothing: the judge warns of it."""
+"""What is left undone, or done in another order, breaks nothing: the verifier warns of it."""
 
 
 @dataclass(frozen=True)
 class Trial:
-    """A defect: what was spoilt, whether that matters, and what the judge said."""
+    """A defect: what was spoilt, whether that matters, and what the verifier reported."""
 
     kind: str
     seed: int
@@ -60,16 +60,16 @@ class Trial:
     text: str
     verdict: Verdict
     found: bool
-    said: str
+    reported: str
 
     def __str__(self) -> str:
         first = min(self.verdict.lines, default=0)
         why = "; ".join(self.verdict.reasons[:2])
-        return f"{self.kind} #{self.seed} ({self.case.name}) at line {first}: {why} | judge: {self.said}"
+        return f"{self.kind} #{self.seed} ({self.case.name}) at line {first}: {why} | verifier: {self.reported}"
 
 
 def text_defect(kind: str, seed: int, folder: Path, family: Family | None = None) -> Trial | None:
-    """A sound program, of a family where one is asked for, spoilt in one way; none where the kind finds no place in any."""
+    """A sound program, of a family where one is asked for, with one defect; none where the kind fits no program."""
     draw = random.Random(f"{kind} {seed} {family or ''}")
     if family is None and FAMILIES_OF[kind] != FAMILIES:
         family = draw.choice(FAMILIES_OF[kind])
@@ -82,12 +82,12 @@ def text_defect(kind: str, seed: int, folder: Path, family: Family | None = None
         changed = KINDS[kind](Text(case.text, case.family), draw)
         if changed is not None:
             verdict = matters.weigh(case.text, changed, case.wanted)
-            return Trial(kind, seed, case, changed, verdict, *_judged(changed, case, verdict))
+            return Trial(kind, seed, case, changed, verdict, *_verified(changed, case, verdict))
     return None
 
 
 def input_fault(name: str, seed: int, folder: Path) -> Trial | None:
-    """A program made from a spoilt input, judged against the right one."""
+    """A program made from a spoilt input, verified against the right one."""
     draw = random.Random(f"{name} {seed}")
     for _ in range(TRIES):
         case = made_case(draw.randrange(POOL), folder)
@@ -100,19 +100,19 @@ def input_fault(name: str, seed: int, folder: Path) -> Trial | None:
             continue  # a fault that planning refuses never becomes a program
         verdict = matters.weigh(case.text, text, case.wanted)
         verdict.whole = True
-        return Trial(name, seed, case, text, verdict, *_judged(text, case, verdict))
+        return Trial(name, seed, case, text, verdict, *_verified(text, case, verdict))
     return None
 
 
-def _judged(text: str, case: Case, verdict: Verdict) -> tuple[bool, str]:
-    """Whether the judge objects at the right place, and its words."""
+def _verified(text: str, case: Case, verdict: Verdict) -> tuple[bool, str]:
+    """Whether the verifier objects at the right line or position, and what it reports."""
     try:
         report = sc.verify(text, case.job)
     except sc.VerifyError as error:
         return _names_line(str(error.where), verdict), f"{error}"
     telling = [f for f in report.findings if f["severity"] == "error" or f["kind"] in WARNED_OF]
-    said = "; ".join(f"{f['severity']} {f['kind']} {f['first_line']}-{f['last_line']}" for f in report.findings[:3])
-    return any(_is_there(finding, verdict) for finding in telling), said or "nothing"
+    reported = "; ".join(f"{f['severity']} {f['kind']} {f['first_line']}-{f['last_line']}" for f in report.findings[:3])
+    return any(_is_there(finding, verdict) for finding in telling), reported or "nothing"
 
 
 def _is_there(finding: dict[str, Any], verdict: Verdict) -> bool:
@@ -120,13 +120,13 @@ def _is_there(finding: dict[str, Any], verdict: Verdict) -> bool:
     if finding["line"] and any(first <= line <= last for line in verdict.lines):
         return True
     position = finding.get("position")
-    if position is not None and verdict.places:
-        return bool(min(np.linalg.norm(np.array(position) - place) for place in verdict.places) < 3.0)
+    if position is not None and verdict.positions:
+        return bool(min(np.linalg.norm(np.array(position) - known) for known in verdict.positions) < 3.0)
     return finding["line"] == 0 and verdict.whole
 
 
 def _names_line(where: str, verdict: Verdict) -> bool:
-    """A text that cannot be read: its place ends in line and column."""
+    """A text that cannot be read: its error names line and column."""
     number = re.search(r"line (\d+)", where)
     return number is None or any(abs(int(number[1]) - line) <= NEAR for line in verdict.lines)
 

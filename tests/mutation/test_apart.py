@@ -1,4 +1,4 @@
-"""The oracles share no code with what they judge."""
+"""The oracles share no code with what they check."""
 
 from __future__ import annotations
 

@@ -91,7 +91,7 @@ def test_arcs_of_the_manuals() -> None:
     assert half.sense == -1 and half.length == pytest.approx(10 * math.pi)
 
 
-def test_places_of_the_machine() -> None:
+def test_machine_positions() -> None:
     """Z at the top is above everything; where the others are is not known."""
     texts: dict[Family, str] = {
         "linuxcnc": "G0 X1 Y1 Z1\nG53 G0 Z0\n",
@@ -105,7 +105,7 @@ def test_places_of_the_machine() -> None:
         assert program.at_end.length_offset == (1 if family == "heidenhain" else 0)
 
 
-def test_home_goes_by_way_of_a_place_of_the_work() -> None:
+def test_home_goes_through_a_work_position() -> None:
     moves = read(HEADS["fanuc"] + "G0 X1. Y1. Z5.\nG28 Z0.\n", "fanuc").moves
     assert [move.end[2] for move in moves] == [5.0, 0.0, math.inf]
 

@@ -23,7 +23,7 @@ TAKEN = [kind for kind in KINDS if "linuxcnc" in FAMILIES_OF[kind] and kind not 
 SPOILT = [kind for number, kind in enumerate(TAKEN) if number % 4 == 0 or kind in ARCS]
 CALLED = {"STRAIGHT_TRAVERSE": "rapid", "STRAIGHT_FEED": "feed", "ARC_FEED": "arc"}
 ROUNDED = 0.0026
-"""mm: half of the last place that the interpreter prints, in inches, and what its sums lose."""
+"""mm: half of the last digit that the interpreter prints, in inches, and what its sums lose."""
 
 
 def linuxcnc_case(draw: random.Random, folder: Path, *, arcs: bool) -> Case:

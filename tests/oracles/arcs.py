@@ -59,20 +59,20 @@ def _arcs(loop: list[Move], axis: tuple[float, float], inside: bool, pieces: int
     def rounded(value: float) -> float:
         return round(value / scale, decimals) + 0.0
 
-    places = []
+    points = []
     for piece in range(pieces + 1):
         turn = first + sense * 2 * math.pi * (piece % pieces) / pieces
-        places.append((rounded(axis[0] + radius * math.cos(turn)), rounded(axis[1] + radius * math.sin(turn))))
+        points.append((rounded(axis[0] + radius * math.cos(turn)), rounded(axis[1] + radius * math.sin(turn))))
     code = "G3" if sense > 0 else "G2"
-    words = [f"X{places[0][0]:g} Y{places[0][1]:g}"]
-    for (x, y), (end_x, end_y) in itertools.pairwise(places):
+    words = [f"X{points[0][0]:g} Y{points[0][1]:g}"]
+    for (x, y), (end_x, end_y) in itertools.pairwise(points):
         i, j = rounded(axis[0] - x * scale), rounded(axis[1] - y * scale)
         words.append(f"{code} X{end_x:g} Y{end_y:g} I{i:g} J{j:g}")
     return words
 
 
 def _put(lines: list[str], loop: list[Move], arrival: Move, words: list[str]) -> None:
-    """The arcs in the place of the loop's lines; the arrival ends where they start, and what follows says G1 again."""
+    """The arcs instead of the loop's lines; the arrival ends where they start, and what follows states G1 again."""
     feed = re.search(r"F\S+", lines[loop[0].line - 1])
     first, last = loop[0].line - 1, loop[-1].line
     arcs = [words[1] + (f" {feed[0]}" if feed else ""), *words[2:]]
@@ -82,8 +82,8 @@ def _put(lines: list[str], loop: list[Move], arrival: Move, words: list[str]) ->
     lines[arrival.line - 1] = _placed(lines[arrival.line - 1], words[0])
 
 
-def _placed(line: str, place: str) -> str:
+def _placed(line: str, point: str) -> str:
     """The line with another X and Y."""
     rest = re.sub(r"[XY]\S+ ?", "", line).strip()
     code = re.match(r"G[01]\b", rest)
-    return f"{code[0]} {place} {rest[code.end() :].strip()}".strip() if code else f"{place} {rest}".strip()
+    return f"{code[0]} {point} {rest[code.end() :].strip()}".strip() if code else f"{point} {rest}".strip()

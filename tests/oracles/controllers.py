@@ -1,4 +1,4 @@
-"""The families of controllers, and what a reader of their texts says when one of them would stop."""
+"""The families of controllers, and what a reader of their texts reports when one of them would stop."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ ARC_ERROR: dict[Family, float] = {
 Fanuc's parameter 3410 and Siemens' MD21000 are the builder's: the least of what is usual is asked for.
 """
 ENDLESS: tuple[Family, ...] = ("grbl", "marlin")
-"""Families whose texts may end without a word that says so."""
+"""Families whose texts may end without a word that states so."""
 ONE_TOOL: tuple[Family, ...] = ("grbl", "marlin")
 """Families that do not change tools."""
 REPEATS: tuple[Family, ...] = ("marlin", "heidenhain")

@@ -18,7 +18,7 @@ from meridian import Profile
 Floats: TypeAlias = NDArray[np.float64]
 
 TABLE = 17
-"""Places of a clothoid from which its nearest point is searched."""
+"""Positions of a clothoid from which its nearest point is searched."""
 HIGH = 1e4
 """Where the cylinder above the base ends, mm."""
 
@@ -99,7 +99,7 @@ class Clothoid:
         nearest = ((r[:, None] - table_r) ** 2 + (z[:, None] - table_z) ** 2).argmin(axis=1)
         low, high = grid[np.maximum(nearest - 1, 0)], grid[np.minimum(nearest + 1, TABLE - 1)]
         u = grid[nearest]
-        for _ in range(30):  # the way ahead along the tangent falls from one end to the other
+        for _ in range(30):  # the path ahead along the tangent falls from one end to the other
             at_r, at_z = self.profile.at(u)
             slope = 0.5 * np.pi * u * u
             ahead = (r - at_r) * np.cos(slope) + (z - at_z) * np.sin(slope)

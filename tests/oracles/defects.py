@@ -1,7 +1,7 @@
 """Seeded defects of posted text: one function per kind, each of which spoils one thing as people and programs do.
 
-A function takes the text and a random generator, and gives the spoilt text, or nothing where the text has no place for
-it. Which places matter is not asked here (`matters` says it), but none is chosen that cannot.
+A function takes the text and a random generator, and gives the spoilt text, or nothing where the text has no line for
+it. Which lines matter is not asked here (`matters` decides it), but none is chosen that cannot.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Defects of words that only some families have: places of the machine, compensation, kinds of a tolerance, names."""
+"""Defects of words that only some families have: machine positions, compensation, kinds of a tolerance, names."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ def _to_top(text: Text) -> list[int]:
 
 @kind_of("siemens", "heidenhain")
 def machine_place_lost(text: Text, random_: random.Random) -> str | None:
-    """The word of the machine's place is lost: Z goes to zero of the work."""
+    """The word of the machine position is lost: Z goes to zero of the work."""
     number = chosen(random_, _to_top(text))
     return None if number is None else text.replaced(number, "SUPA | M91", "")
 
 
 @kind_but("okuma", "marlin")
 def machine_place_added(text: Text, random_: random.Random) -> str | None:
-    """A rapid across goes to a place of the machine instead of the work."""
+    """A rapid across goes to a machine position instead of the work."""
     top = text.dialect.top
-    ways = [m for m in text.moves if m.kind == "rapid" and m.start[:2] != m.end[:2] and m.end[2] == m.start[2]]
-    number = chosen(random_, [m.line for m in ways])
+    rapids = [m for m in text.moves if m.kind == "rapid" and m.start[:2] != m.end[:2] and m.end[2] == m.start[2]]
+    number = chosen(random_, [m.line for m in rapids])
     if number is None:
         return None
     line = text.lines[number - 1]
@@ -35,7 +35,7 @@ def machine_place_added(text: Text, random_: random.Random) -> str | None:
 
 @kind_of("fanuc")
 def home_by_way_of_zero(text: Text, random_: random.Random) -> str | None:
-    """G28 Z0. without G91: by way of zero of the work."""
+    """G28 Z0. without G91: through zero of the work."""
     return respelt(text, random_, r"^G91 G28", "G91 ", "")
 
 
@@ -51,8 +51,8 @@ def absolute_missing(text: Text, random_: random.Random) -> str | None:
 def radius_compensation(text: Text, random_: random.Random) -> str | None:
     """The path is taken for the part's edge."""
     if text.family == "heidenhain":
-        places = [m.line for m in text.contacts if text.is_bare(m.line)]
-        number = chosen(random_, places)
+        numbers = [m.line for m in text.contacts if text.is_bare(m.line)]
+        number = chosen(random_, numbers)
         return None if number is None else text.with_line(number, f"{text.lines[number - 1]} RL")
     return header(text, r"\bG40\b", "G41")
 
@@ -67,7 +67,7 @@ def tolerance_switched_off(text: Text, random_: random.Random) -> str | None:
 
 @kind_of("fanuc", "okuma", "siemens")
 def first_change_missing(text: Text, random_: random.Random) -> str | None:
-    """The whole block of the first tool's change, its way to the top included."""
+    """The whole block of the first tool's change, its path to the top included."""
     changes = text.numbers_of(text.dialect.change)
     contacts = text.contacts
     if not changes or not contacts:
@@ -81,7 +81,7 @@ def first_change_missing(text: Text, random_: random.Random) -> str | None:
 
 @kind_of("fanuc", "siemens", "heidenhain")
 def retract_and_lift_missing(text: Text, random_: random.Random) -> str | None:
-    """Neither the lift nor the way to the machine's top before a tool change or the end."""
+    """Neither the lift nor the path to the machine's top before a tool change or the end."""
     pairs = [
         (lift.line, home.line)
         for contact, lift, home in zip(text.moves, text.moves[1:], text.moves[2:], strict=False)
@@ -97,8 +97,8 @@ def retract_and_lift_missing(text: Text, random_: random.Random) -> str | None:
 def motion_word_missing(text: Text, random_: random.Random) -> str | None:
     """A cut without its G1 or L, where every line needs one."""
     pattern = r"^G1 "
-    places = [m.line for m in text.contacts if re.match(pattern, text.lines[m.line - 1])]
-    number = chosen(random_, places)
+    numbers = [m.line for m in text.contacts if re.match(pattern, text.lines[m.line - 1])]
+    number = chosen(random_, numbers)
     return None if number is None else text.replaced(number, pattern, "")
 
 

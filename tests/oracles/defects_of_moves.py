@@ -13,11 +13,11 @@ from gcode import Move
 from spoiling import MOTION, NUMBER, Text, chosen, kind, kind_but, respelt, shifted, without
 
 ONE_ROW = 0.02
-"""Contacts whose places across differ by less, mm, are on one row."""
+"""Contacts whose positions across differ by less, mm, are on one row."""
 
 
 def _across(move: Move) -> int:
-    """Axis, of X and Y, that is more nearly square to the way of a move."""
+    """Axis, of X and Y, that is more nearly square to the path of a move."""
     return 0 if abs(move.end[0] - move.start[0]) < abs(move.end[1] - move.start[1]) else 1
 
 
@@ -26,7 +26,7 @@ def _across(move: Move) -> int:
 
 @kind
 def coordinate_off(text: Text, random_: random.Random) -> str | None:
-    """By 0.02 mm, in height where the move changes it, else square to its way."""
+    """By 0.02 mm, in height where the move changes it, else square to its path."""
     moves = [m for m in text.contacts if math.dist(m.start, m.end) > 0.05]
     if not moves:
         return None
@@ -67,7 +67,7 @@ def digit_dropped(text: Text, random_: random.Random) -> str | None:
 
 @kind
 def digits_turned(text: Text, random_: random.Random) -> str | None:
-    """Two neighbouring digits after the point change places."""
+    """Two neighbouring digits after the point are swapped."""
     return respelt(text, random_, r"[XY]-?\d+\.([02468][13579]|[13579][02468])", r"([XY]-?\d+\.)(\d)(\d)", r"\1\3\2")
 
 
@@ -102,11 +102,11 @@ def rapid_for_feed(text: Text, random_: random.Random) -> str | None:
 @kind
 def feed_for_rapid(text: Text, random_: random.Random) -> str | None:
     """Any that goes across, or down where the word holds on."""
-    ways = [m for m in text.moves if m.kind == "rapid" and m.placed and not _lifts(m)]
+    rapids = [m for m in text.moves if m.kind == "rapid" and m.placed and not _lifts(m)]
     if text.family in REPEATS:
-        ways = [m for m in ways if m.start[:2] != m.end[:2]]
-    said = [_said(text, m.line) for m in ways]
-    number = chosen(random_, [line for line in said if line])
+        rapids = [m for m in rapids if m.start[:2] != m.end[:2]]
+    stated = [_stated(text, m.line) for m in rapids]
+    number = chosen(random_, [line for line in stated if line])
     return None if number is None else text.replaced(number, r"\bG0\b", "G1")
 
 
@@ -114,7 +114,7 @@ def _lifts(move: Move) -> bool:
     return move.start[:2] == move.end[:2] and move.end[2] > move.start[2]
 
 
-def _said(text: Text, number: int) -> int:
+def _stated(text: Text, number: int) -> int:
     """The line on which the G0 of a rapid stands; 0 where other words stand with it."""
     while number > 1 and not re.search(r"\bG\d+\b", text.lines[number - 1]):
         number -= 1
@@ -128,7 +128,7 @@ def plunge_in_rapid(text: Text, random_: random.Random) -> str | None:
 
 @kind
 def rapid_too_deep(text: Text, random_: random.Random) -> str | None:
-    """A rapid comes down to a tenth of a millimetre above the place where the plunge ends."""
+    """A rapid comes down to a tenth of a millimetre above the position where the plunge ends."""
     pairs = [
         (a, b)
         for a, b in itertools.pairwise(text.moves)
@@ -153,8 +153,8 @@ def plunge_missing(text: Text, random_: random.Random) -> str | None:
 @kind
 def approach_missing(text: Text, random_: random.Random) -> str | None:
     """A rapid across is left out."""
-    ways = [m for m in text.moves if m.kind == "rapid" and m.start[:2] != m.end[:2] and math.isfinite(m.end[0])]
-    return without(text, random_, [m.line for m in ways])
+    rapids = [m for m in text.moves if m.kind == "rapid" and m.start[:2] != m.end[:2] and math.isfinite(m.end[0])]
+    return without(text, random_, [m.line for m in rapids])
 
 
 @kind
@@ -229,9 +229,9 @@ def line_strayed(text: Text, random_: random.Random) -> str | None:
     contacts = [m.line for m in text.contacts if "X" in text.lines[m.line - 1] and "Y" in text.lines[m.line - 1]]
     if len(contacts) < 6:
         return None
-    place = random_.randrange(len(contacts))
+    offset = random_.randrange(len(contacts))
     lines = list(text.lines)
-    lines.insert(contacts[(place + len(contacts) // 3) % len(contacts)], lines[contacts[place] - 1])
+    lines.insert(contacts[(offset + len(contacts) // 3) % len(contacts)], lines[contacts[offset] - 1])
     return "\n".join(lines) + "\n"
 
 
@@ -257,12 +257,12 @@ def _in_step(text: Text, blocks: list[tuple[int, int]]) -> list[tuple[int, int]]
         return blocks
     longest = max(text.contacts, key=lambda move: move.length)
     along = math.atan2(longest.end[1] - longest.start[1], longest.end[0] - longest.start[0])
-    places = []
+    offsets = []
     for first, last in blocks:
         tips = [tip for m in text.contacts if first <= m.line <= last for tip in (m.start, m.end)]
         across = [tip[1] * math.cos(along) - tip[0] * math.sin(along) for tip in tips]
-        places.append(min(across) if across and max(across) - min(across) < ONE_ROW else math.nan)
-    rows = sorted(place for place in places if not math.isnan(place))
+        offsets.append(min(across) if across and max(across) - min(across) < ONE_ROW else math.nan)
+    rows = sorted(offset for offset in offsets if not math.isnan(offset))
     steps = [b - a for a, b in itertools.pairwise(rows) if b - a > ONE_ROW]
     if not steps:
         return blocks
@@ -272,7 +272,7 @@ def _in_step(text: Text, blocks: list[tuple[int, int]]) -> list[tuple[int, int]]
         return abs(a - b - step * round((a - b) / step)) <= ONE_ROW
 
     most = max(rows, key=lambda row: sum(in_step(row, other) for other in rows))
-    return [block for block, place in zip(blocks, places, strict=True) if math.isnan(place) or in_step(place, most)]
+    return [block for block, offset in zip(blocks, offsets, strict=True) if math.isnan(offset) or in_step(offset, most)]
 
 
 def _ends_of_levels(moves: list[Move]) -> list[int]:
@@ -335,7 +335,7 @@ def cut_short(text: Text, random_: random.Random) -> str | None:
 
 @kind_but("heidenhain")
 def arc_turned(text: Text, random_: random.Random) -> str | None:
-    """G2 for G3, or the other way round, where that is not the same circle."""
+    """G2 for G3, or the reverse, where that is not the same circle."""
     arcs = [m for m in text.moves if m.kind == "arc" and m.start != m.end]
     if not arcs:
         return None

@@ -50,7 +50,7 @@ def units_removed(text: Text, random_: random.Random) -> str | None:
 
 @kind
 def units_swapped(text: Text, random_: random.Random) -> str | None:
-    """Both where Klartext says it, at its beginning and its end."""
+    """Both where Klartext states it, at its beginning and its end."""
     words = (text.dialect.metric, text.dialect.imperial)
     for word, other in (words, words[::-1]):
         numbers = text.numbers_of(rf"{word}(?=$| )")
@@ -71,7 +71,7 @@ def units_change(text: Text, random_: random.Random) -> str | None:
 
 @kind_but("heidenhain")
 def incremental(text: Text, random_: random.Random) -> str | None:
-    """From the last place before the cuts on where it is said that they are absolute."""
+    """From the last line before the cuts on that states that they are absolute."""
     contacts = text.contacts
     numbers = [n for n in text.numbers_of(r"\bG90\b") if contacts and n < contacts[0].line]
     return text.replaced(numbers[-1], r"\bG90\b", "G91") if numbers else None
@@ -147,8 +147,8 @@ def length_offset_missing(text: Text, random_: random.Random) -> str | None:
 @kind_of("linuxcnc", "fanuc", "okuma", "siemens")
 def length_cancelled(text: Text, random_: random.Random) -> str | None:
     """The length is taken away among the cuts."""
-    places = [m.line for m in text.contacts]
-    return before(text, random_, places, text.dialect.length_off)
+    numbers = [m.line for m in text.contacts]
+    return before(text, random_, numbers, text.dialect.length_off)
 
 
 @kind_of("linuxcnc", "siemens", "heidenhain")
@@ -217,7 +217,7 @@ def dwell(text: Text, random_: random.Random) -> str | None:
 
 @kind_but("marlin")
 def end_missing(text: Text, random_: random.Random) -> str | None:
-    """The line that says it; Klartext loses END PGM too, as a file that was cut off does."""
+    """The line that states it; Klartext loses END PGM too, as a file that was cut off does."""
     numbers = text.numbers_of(text.dialect.ends)
     if not numbers:
         return None
@@ -279,8 +279,8 @@ def newline_lost(text: Text, random_: random.Random) -> str | None:
 @kind
 def commented_out(text: Text, random_: random.Random) -> str | None:
     """A lift, from which no other follows, or a rapid across is a remark."""
-    ways = [m for m in text.moves if m.kind == "rapid" and m.start[:2] != m.end[:2] and math.isfinite(m.end[0])]
-    number = chosen(random_, [m.line for m in [*ways, *(lift for _, lift in text.lifts)]])
+    rapids = [m for m in text.moves if m.kind == "rapid" and m.start[:2] != m.end[:2] and math.isfinite(m.end[0])]
+    number = chosen(random_, [m.line for m in [*rapids, *(lift for _, lift in text.lifts)]])
     return None if number is None else text.with_line(number, text.remark(text.lines[number - 1]))
 
 
@@ -288,8 +288,8 @@ def commented_out(text: Text, random_: random.Random) -> str | None:
 def word_commented_out(text: Text, random_: random.Random) -> str | None:
     """The last word of a contact move of two axes is in a remark."""
     pattern = rf"^(.*[XYZ]{NUMBER}) ([XYZ]{NUMBER})$"
-    places = [m.line for m in text.contacts if re.match(pattern, text.lines[m.line - 1])]
-    number = chosen(random_, places)
+    numbers = [m.line for m in text.contacts if re.match(pattern, text.lines[m.line - 1])]
+    number = chosen(random_, numbers)
     return None if number is None else text.replaced(number, pattern, lambda m: f"{m[1]} {text.remark(m[2])}")
 
 

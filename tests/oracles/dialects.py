@@ -23,7 +23,7 @@ Translator: TypeAlias = Callable[[str], str]
 
 WORD = re.compile(r"\s*([A-Z])\s*([+-]?(?:\d+\.?\d*|\.\d+))")
 PARENS = re.compile(r"\([^()]*\)")
-PLACES = [f"G{number}" for number in (54, 55, 56, 57, 58, 59)] + ["G59.1", "G59.2", "G59.3"]
+OFFSETS = [f"G{number}" for number in (54, 55, 56, 57, 58, 59)] + ["G59.1", "G59.2", "G59.3"]
 """Words of LinuxCNC for the work offsets from 1."""
 MODES = {"G17", "G18", "G19", "G40", "G90", "G91", "G93", "G94"}
 MOTIONS = {"G0", "G1", "G2", "G3"}
@@ -45,14 +45,14 @@ def translator(family: Family) -> Translator:
 
 def words_of(code: str) -> list[Word]:
     """Letters and numbers, as written, of a line without its remarks."""
-    found, place = [], 0
+    found, read = [], 0
     code = code.strip().upper()
-    while place < len(code):
-        match = WORD.match(code, place)
+    while read < len(code):
+        match = WORD.match(code, read)
         if match is None:
-            raise Refused(f"not a word: {code[place:]}")
+            raise Refused(f"not a word: {code[read:]}")
         found.append((match[1], match[2]))
-        place = match.end()
+        read = match.end()
     return found
 
 
@@ -103,7 +103,7 @@ class _Fanuc:
     """Series 0i to 30i. A block with / before it runs or does not, as a switch stands: here it does not."""
 
     KNOWN = (
-        MOTIONS | MODES | SWITCHES | set(PLACES[:6]) | {"G4", "G20", "G21", "G28", "G43", "G49", "G53", "G80", "G92"}
+        MOTIONS | MODES | SWITCHES | set(OFFSETS[:6]) | {"G4", "G20", "G21", "G28", "G43", "G49", "G53", "G80", "G92"}
     )
     POINTED = "XYZIJKF"
 
@@ -172,9 +172,9 @@ class _Okuma(_Fanuc):
         taken = [{"G56": "G43", "G53": "G49"}.get(code, code) for code in codes]
         if "G15" in codes:
             number = int(values.pop("H", "0"))
-            if not 1 <= number <= len(PLACES):
+            if not 1 <= number <= len(OFFSETS):
                 raise Refused("no such work offset")
-            taken[codes.index("G15")] = PLACES[number - 1]
+            taken[codes.index("G15")] = OFFSETS[number - 1]
         return _joined(taken, values)
 
 
@@ -189,7 +189,7 @@ def marlin(line: str) -> str:
     """Marlin 2.1 on the worst build: with spindle, coolant and inches, and rapids at a rate of their own or at the last F.
 
     A line is one command; a second one on it is not looked at, and a line that is not known is reported and not run. Numbers
-    end where they cannot go on, words that stand twice count as the last says. M30 deletes a file and G28 homes: that is
+    end where they cannot go on, words that stand twice count as the last of them. M30 deletes a file and G28 homes: that is
     refused, no program means it. F0 is passed over.
     """
     code = line.split(";", maxsplit=1)[0].strip()[:MARLIN_MOST]
@@ -223,7 +223,7 @@ class _Siemens:
     ready. G71 is G710 where feeds are metric anyway; G70 would leave them so, and is refused.
     """
 
-    KNOWN = MOTIONS | MODES | SWITCHES | set(PLACES[:4]) | {"G4", "G53", "G60", "G64", "G153", "G500", "G700", "G710"}
+    KNOWN = MOTIONS | MODES | SWITCHES | set(OFFSETS[:4]) | {"G4", "G53", "G60", "G64", "G153", "G500", "G700", "G710"}
     KNOWN |= {"G71", "M17"}
 
     def line(self, line: str) -> str:
@@ -253,10 +253,10 @@ class _Siemens:
         if "G4" in codes:
             return _seconds(values, "F")
         numbers = [int(code[1:]) - 500 for code in offsets]
-        if any(not 5 <= number <= len(PLACES) for number in numbers):
+        if any(not 5 <= number <= len(OFFSETS) for number in numbers):
             raise Refused(f"{offsets[0]} is no work offset")
         taken = [SIEMENS_WORDS.get(code, code) for code in codes if code not in offsets]
-        taken += [PLACES[number - 1] for number in numbers]
+        taken += [OFFSETS[number - 1] for number in numbers]
         if "D" in values:
             edge = int(values.pop("D"))
             taken += ["G43" if edge else "G49"]

@@ -189,7 +189,7 @@ def zero_at_another_place(mesh: Mesh, document: Document) -> tuple[Mesh, Documen
 
 @fault
 def zero_on_the_model(mesh: Mesh, document: Document) -> tuple[Mesh, Document] | None:
-    """The model's origin for the sheet's top, or the other way round."""
+    """The model's origin for the sheet's top, or the reverse."""
     if isinstance(document["setup"].get("zero"), list):
         document["setup"].pop("zero")
     elif "sheet" in document["setup"]:

@@ -4,7 +4,7 @@ Only what 3-axis programs use: G0 to G4, G17 to G19, G20, G21, G40, G43, G49, G5
 M0 to M9, M30, F, S, T, H, comments; G28 of Fanuc. Other families are translated to these words line by line (`dialects`).
 Lengths are mm, feeds mm/min, times s; positions are the point that the text moves.
 
-An axis sent to a place of the machine (G53, G28, SUPA, M91) is at a place that the text does not know: not a number. Only Z
+An axis sent to a machine position (G53, G28, SUPA, M91) is at a position that the text does not know: not a number. Only Z
 sent to the machine's zero, or above it, is known to be above everything, and is infinite: machines have their Z zero at the top.
 
 Sources: LinuxCNC documentation, "G Codes", "M Codes", "G Code Overview"; Grbl v1.1 Commands, gcode.c of grbl 1.1h.
@@ -107,7 +107,7 @@ class Move:
 
     kind: Literal["rapid", "feed", "arc"]
     start: Point
-    """Not a number where an axis has not been placed yet, or stands at a place of the machine; Z at its top is infinite."""
+    """Not a number where an axis has not been placed yet, or stands at a machine position; Z at its top is infinite."""
     end: Point
     line: int
     state: State
@@ -127,7 +127,7 @@ class Move:
 
     @property
     def angle(self) -> float:
-        """An arc's angle, rad, above 0; from a place back to itself it is a full turn."""
+        """An arc's angle, rad, above 0; from a position back to itself it is a full turn."""
         a, b, _ = PLANE_AXES[self.state.plane]
         turn = self.sense * (
             math.atan2(self.end[b] - self.centre[b], self.end[a] - self.centre[a])
@@ -147,7 +147,7 @@ class Move:
         return math.hypot(radius * self.angle, self.end[c] - self.start[c])
 
     def at(self, share: float) -> Point:
-        """The place after a share of the way."""
+        """The position after a share of the move."""
         if self.kind != "arc":
             x, y, z = (p + share * (q - p) for p, q in zip(self.start, self.end, strict=True))
             return x, y, z
@@ -156,11 +156,11 @@ class Move:
         last = math.hypot(self.end[a] - self.centre[a], self.end[b] - self.centre[b])
         radius = (1 - share) * math.hypot(*out) + share * last
         turn = math.atan2(out[1], out[0]) + self.sense * share * self.angle
-        place = [0.0, 0.0, 0.0]
-        place[a] = self.centre[a] + radius * math.cos(turn)
-        place[b] = self.centre[b] + radius * math.sin(turn)
-        place[c] = self.start[c] + share * (self.end[c] - self.start[c])
-        return place[0], place[1], place[2]
+        position = [0.0, 0.0, 0.0]
+        position[a] = self.centre[a] + radius * math.cos(turn)
+        position[b] = self.centre[b] + radius * math.sin(turn)
+        position[c] = self.start[c] + share * (self.end[c] - self.start[c])
+        return position[0], position[1], position[2]
 
     def seconds(self, family: Family) -> float:
         """Length by speed and the dwell before it: nothing of acceleration. Marlin's rapids run at the last F."""
@@ -218,7 +218,7 @@ class _Reader:
         self.known = KNOWN_G | ({"28"} if family == "fanuc" else set())
         self.begun = False
         self.framed = False
-        self.place = [math.nan, math.nan, math.nan]
+        self.position = [math.nan, math.nan, math.nan]
         self.program = Program(family)
 
     def take(self, line: str, number: int) -> None:
@@ -315,11 +315,11 @@ class _Reader:
                 return
         if self.motion not in ("G0", "G1", "G2", "G3"):
             raise Refused("axis words without a motion")
-        start, scale = list(self.place), _mm(self.state)
+        start, scale = list(self.position), _mm(self.state)
         for axis in named:
             index = "XYZ".index(axis)
-            before = self.place[index] if self.state.distance == "G91" else 0.0
-            self.place[index] = before + scale * values[axis]
+            before = self.position[index] if self.state.distance == "G91" else 0.0
+            self.position[index] = before + scale * values[axis]
         if self.motion != "G0" and self.state.feed <= 0.0:
             raise Refused("a feed move without a feed")
         if self.motion != "G0" and self.state.feed_mode == "G93" and "F" not in values:
@@ -327,7 +327,7 @@ class _Reader:
         move = Move(
             "arc" if arc else "rapid" if self.motion == "G0" else "feed",
             (start[0], start[1], start[2]),
-            (self.place[0], self.place[1], self.place[2]),
+            (self.position[0], self.position[1], self.position[2]),
             number,
             self.state,
         )
@@ -335,35 +335,37 @@ class _Reader:
         self.state = replace(self.state, paused=0.0)
 
     def _go_to_machine(self, codes: list[str], values: dict[str, float], number: int) -> None:
-        """G53 to a place of the machine; G28 there by way of a place of the work."""
+        """G53 to a machine position; G28 there through a work position."""
         named = [axis for axis in "XYZ" if axis in values]
         home = "G28" in codes
         if not named or (not home and (self.motion not in ("G0", "G1") or self.state.distance == "G91")):
-            raise Refused("a place of the machine without axes or motion, or incremental")
+            raise Refused("a machine position without axes or motion, or incremental")
         if home:
             between = [values.get(axis, math.nan) * _mm(self.state) for axis in "XYZ"]
             if self.state.distance == "G91":
-                between = [place + way for place, way in zip(self.place, between, strict=True)]
-            self._rapid_by_way([a if math.isnan(b) else b for a, b in zip(self.place, between, strict=True)], number)
+                between = [position + step for position, step in zip(self.position, between, strict=True)]
+            self._rapid_through(
+                [a if math.isnan(b) else b for a, b in zip(self.position, between, strict=True)], number
+            )
         if "Z" in named and self.family in DROPS_LENGTH:
             self.state = replace(self.state, length_offset=0)
-        places = list(self.place)
+        positions = list(self.position)
         for axis in named:
             top = axis == "Z" and (home or values["Z"] >= 0.0)
-            places["XYZ".index(axis)] = math.inf if top else math.nan
+            positions["XYZ".index(axis)] = math.inf if top else math.nan
         kind: Literal["rapid", "feed"] = "rapid" if home or self.motion == "G0" else "feed"
         if kind == "feed" and self.state.feed <= 0.0:
             raise Refused("a feed move without a feed")
-        self._append(kind, places, number)
+        self._append(kind, positions, number)
 
-    def _rapid_by_way(self, places: list[float], number: int) -> None:
-        if any(not math.isnan(b) and a != b for a, b in zip(self.place, places, strict=True)):
-            self._append("rapid", places, number)
+    def _rapid_through(self, positions: list[float], number: int) -> None:
+        if any(not math.isnan(b) and a != b for a, b in zip(self.position, positions, strict=True)):
+            self._append("rapid", positions, number)
 
-    def _append(self, kind: Literal["rapid", "feed"], places: list[float], number: int) -> None:
-        start = self.place
-        self.place = places
-        ends = (start[0], start[1], start[2]), (places[0], places[1], places[2])
+    def _append(self, kind: Literal["rapid", "feed"], positions: list[float], number: int) -> None:
+        start = self.position
+        self.position = positions
+        ends = (start[0], start[1], start[2]), (positions[0], positions[1], positions[2])
         self.program.moves.append(Move(kind, *ends, number, self.state))
         self.state = replace(self.state, paused=0.0)
 
@@ -382,7 +384,7 @@ class _Reader:
         last = math.hypot(move.end[a] - centre[a], move.end[b] - centre[b])
         apart = abs(first - last)
         if math.isnan(apart):
-            raise Refused("an arc from a place that is not known")
+            raise Refused("an arc from a position that is not known")
         if not first > 0 or self._too_far(apart, first):
             raise Refused(f"the arc's radii differ by {apart:.4f} mm")
         sense = -1 if self.motion == "G2" else 1

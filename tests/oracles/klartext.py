@@ -36,7 +36,7 @@ class Klartext:
         self.awaited = ""
         """How the next line must begin."""
         self.pole: tuple[float, float] | None = None
-        self.place: dict[str, float] = {}
+        self.position: dict[str, float] = {}
 
     def line(self, line: str) -> str:
         """Its translation."""
@@ -120,9 +120,9 @@ class Klartext:
         if len({match[1] for match in axes}) > 1:
             raise Refused("absolute and incremental words in one block")
         incremental = any(match[1] for match in axes)
-        start = dict(self.place)
+        start = dict(self.position)
         for axis, value in named.items():
-            self.place[axis] = value + (start.get(axis, 0.0) if incremental else 0.0)
+            self.position[axis] = value + (start.get(axis, 0.0) if incremental else 0.0)
         turn = self._turn(rest, start) if kind == "C" else ""
         rapid = "FMAX" in rest
         if rapid and kind == "C":
@@ -141,7 +141,7 @@ class Klartext:
         return f"{code} I{self.pole[0] - start['X']:.9f} J{self.pole[1] - start['Y']:.9f}"
 
     def _rest(self, words: list[str]) -> list[str]:
-        """Feed and switches; R0 says that the radius is not compensated."""
+        """Feed and switches; R0 states that the radius is not compensated."""
         found = []
         for word in words:
             if word in ("R0", "FMAX"):
@@ -156,7 +156,7 @@ class Klartext:
 
 
 def _number(text: str) -> float:
-    """Files are said to carry points, and commas too."""
+    """Files carry, by the manual, points, and commas too."""
     value = float(text.replace(",", "."))
     if abs(value) > LARGEST:
         raise Refused(f"{text} is too large")

@@ -1,10 +1,10 @@
 """Whether a changed program matters: for the part, for safety, for the time or for the machine's state.
 
-The sound program is the measure of what was wanted, the part and the job's limits of what is allowed. Nothing is asked
-of the judge that is tested. What changed is looked at, and of much that changed a dozen places.
+The sound program is the measure of what was intended, the part and the job's limits of what is allowed. Nothing is asked
+of the verifier that is tested. What changed is looked at, and of much that changed a dozen positions.
 
 Z at the machine's top is above every clearance height: a rapid may go there straight up from wherever the tool is, go across
-there, and come down from there as from the clearance height. Any other place of the machine is an unknown one: no feed may go
+there, and come down from there as from the clearance height. Any other machine position is an unknown one: no feed may go
 there or come from there, and no rapid below the clearance height.
 """
 
@@ -19,24 +19,24 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from brute_judge import ROUGH, Solid
+from brute_force import ROUGH, Solid
 from controllers import Family
 from convex_tool import Floats, Tool
 from gcode import Move, Program, State, read
 
-PLACES = 12
+MOST = 12
 """Changed moves that are looked at, at most."""
 FEED_SHARE = 0.02
 """Share by which a feed may miss the wanted one."""
 TIME_SHARE = 0.02
 """Share of the whole time that may be lost or won."""
 SURE = 2e-4
-"""What rough searches may miss, mm: nearer to a limit nothing is said to matter."""
+"""What rough searches may miss, mm: nearer to a limit nothing is counted as mattering."""
 GOUGE = 0.001
 BLOCK_NUMBER = re.compile(r"^\d+ ")
 """Of Klartext: they count on behind a line that is new."""
 ROUNDED = 0.002
-"""What the last place of an inch may take off a height, mm."""
+"""What the last digit of an inch may take off a height, mm."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class Wanted:
     """Height down to which rapids may come, mm."""
     family: Family
     axes: tuple[tuple[float, float], ...] | None
-    """Lowest and highest place of X, Y and Z, mm, where the machine says so."""
+    """Lowest and highest position of X, Y and Z, mm, where the machine states so."""
     forming: bool
     """Whether levels must come one below the other."""
 
@@ -70,12 +70,12 @@ class Verdict:
     """Lines of the changed text: those that were changed, and the moves that are not those of the sound text."""
     whole: bool = False
     """Whether most of the program is affected: no one line is to blame."""
-    places: list[Floats] = field(default_factory=list)
+    positions: list[Floats] = field(default_factory=list)
     """Where the part is left unfinished, mm."""
 
     @property
     def matters(self) -> bool:
-        """Whether a judge must object."""
+        """Whether a verifier must object."""
         return bool(self.reasons)
 
 
@@ -99,14 +99,14 @@ def weigh(sound: str, changed: str, wanted: Wanted) -> Verdict:
     _weigh_order(before, after, wanted, verdict)
     _weigh_ends(after, wanted, verdict)
     _weigh_range(after, wanted, verdict)
-    comparable = _unplaced(before) == _unplaced(after)
+    comparable = _unknown(before) == _unknown(after)
     if comparable and before.seconds and abs(after.seconds / before.seconds - 1) > TIME_SHARE:
         verdict.reasons.append(f"time {before.seconds:.1f} s becomes {after.seconds:.1f} s")
     verdict.whole = len(verdict.lines) > 0.5 * len(after.moves)
     return verdict
 
 
-def _unplaced(program: Program) -> int:
+def _unknown(program: Program) -> int:
     """Moves whose length, and with it their time, is not known."""
     return sum(not move.placed for move in program.moves)
 
@@ -175,13 +175,13 @@ def weigh_moves(new: list[Move], wanted: Wanted, verdict: Verdict) -> None:
     for move in _some(new):
         tool = wanted.tools.get(move.state.tool) or next(iter(wanted.tools.values()))
         if not move.placed:
-            verdict.reasons += [f"line {move.line}: {reason}" for reason in _faults_of_unplaced(move, wanted)]
+            verdict.reasons += [f"line {move.line}: {reason}" for reason in _faults_of_unknown(move, wanted)]
             continue
         verdict.reasons += [f"line {move.line}: {reason}" for reason in _faults(move, tool, wanted)]
 
 
-def _faults_of_unplaced(move: Move, wanted: Wanted) -> list[str]:
-    """A move from or to a place that the text does not know: it may only lift, or cross at a height that is known.
+def _faults_of_unknown(move: Move, wanted: Wanted) -> list[str]:
+    """A move from or to a position that the text does not know: it may only lift, or cross at a height that is known.
 
     From the machine's top straight down a feed is only slow.
     """
@@ -189,7 +189,7 @@ def _faults_of_unplaced(move: Move, wanted: Wanted) -> list[str]:
         straight = math.isinf(move.start[2]) and move.start[:2] == move.end[:2] and math.isfinite(move.end[2])
         if move.kind == "feed" and straight:
             return []
-        return [f"a {move.kind} move from or to an unknown place"]
+        return [f"a {move.kind} move from or to an unknown position"]
     low, high = sorted((move.start[2], move.end[2]))
     still = all(a == b or (math.isnan(a) and math.isnan(b)) for a, b in zip(move.start[:2], move.end[:2], strict=True))
     clear = wanted.clearance - ROUNDED
@@ -200,7 +200,7 @@ def _faults_of_unplaced(move: Move, wanted: Wanted) -> list[str]:
         return [] if move.end[2] >= least else ["a rapid from the machine's top, down"]
     lifts = still and math.isnan(move.start[0]) and math.isnan(move.start[1]) and move.end[2] >= clear
     across = not math.isnan(low + high) and low >= clear
-    return [] if lifts or across else ["a rapid from or to an unknown place, low"]
+    return [] if lifts or across else ["a rapid from or to an unknown position, low"]
 
 
 def _faults(move: Move, tool: Tool, wanted: Wanted) -> list[str]:
@@ -228,7 +228,7 @@ def _faults(move: Move, tool: Tool, wanted: Wanted) -> list[str]:
 
 
 def _weigh_left(gone: list[Move], after: Program, wanted: Wanted, verdict: Verdict) -> None:
-    """Places of the part that only missing moves touched: how far the changed program stays from them."""
+    """Positions of the part that only missing moves touched: how far the changed program stays from them."""
     contacts = [m for m in gone if m.kind == "arc" or (m.kind == "feed" and math.dist(m.start[:2], m.end[:2]) > 1e-6)]
     tips = _tips([m for m in after.moves if m.kind != "rapid" and m.placed])
     for move in _some(contacts):
@@ -240,11 +240,11 @@ def _weigh_left(gone: list[Move], after: Program, wanted: Wanted, verdict: Verdi
         left = float(tool.distance(spot - tips[near]).min(initial=math.inf))
         if left > 2 * wanted.excess + SURE:
             verdict.reasons.append(f"{left:.4f} mm are left at X{spot[0]:.2f} Y{spot[1]:.2f} Z{spot[2]:.2f}")
-            verdict.places.append(spot)
+            verdict.positions.append(spot)
 
 
 def _tips(moves: list[Move]) -> Floats:
-    """Places along moves, no farther apart than a twentieth of a millimetre, or two hundred to a move."""
+    """Positions along moves, no farther apart than a twentieth of a millimetre, or two hundred to a move."""
     tips = [np.empty((0, 3))]
     for move in moves:
         shares = np.linspace(0.0, 1.0, 2 + min(200, int(move.length / 0.05)))
@@ -278,7 +278,7 @@ def _weigh_ends(after: Program, wanted: Wanted, verdict: Verdict) -> None:
 
 
 def _weigh_range(after: Program, wanted: Wanted, verdict: Verdict) -> None:
-    """Places beyond the machine's axes."""
+    """Positions beyond the machine's axes."""
     if wanted.axes is None:
         return
     for move in after.moves:
@@ -305,6 +305,6 @@ def _rises(program: Program) -> dict[object, int]:
 
 def _some(moves: list[Move]) -> list[Move]:
     """A dozen of them, spread evenly, the first and the last among them."""
-    if len(moves) <= PLACES:
+    if len(moves) <= MOST:
         return moves
-    return [moves[round(i * (len(moves) - 1) / (PLACES - 1))] for i in range(PLACES)]
+    return [moves[round(i * (len(moves) - 1) / (MOST - 1))] for i in range(MOST)]

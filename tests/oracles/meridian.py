@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 Floats: TypeAlias = NDArray[np.float64]
 
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
-SETTLED = 1e-11  # mm: what a solved slope match may miss its place by
+SETTLED = 1e-11  # mm: the largest error of a solved slope match's position
 
 
 def fresnel(u: Floats) -> tuple[Floats, Floats]:
@@ -124,7 +124,7 @@ class Meridian:
         return np.asarray(np.linalg.norm(np.maximum(away, 0.0), axis=1) + np.minimum(away.max(axis=1), 0.0))
 
     def envelope(self, xy: Floats, tool: str, sheet: str) -> Envelope:
-        """Exact envelope over the places (N, 2): the tool's tip in the model's frame."""
+        """Exact envelope over the positions (N, 2): the tool's tip in the model's frame."""
         section = self.document["sheets"][sheet]
         thickness = section["thickness"] if section else 0.0
         grown = thickness if section and section["law"] == "constant" else 0.0
@@ -157,13 +157,13 @@ def _end(end: list[float], profile: Profile, axis: Floats) -> tuple[Floats, Floa
 
 
 def _arc(piece: dict[str, Any], profile: Profile, axis: Floats) -> list[tuple[Floats, Floats]]:
-    """Matches on each stretch of the arc over which the tool's place D(u) is monotonic."""
+    """Matches on each stretch of the arc over which the tool's position D(u) is monotonic."""
     reach = piece["radius"] * (1 if piece["bend"] == "concave" else -1)
     (d_centre, z_centre), slopes = piece["centre"], np.radians(piece["signed_slope_deg"])
     sign = 1.0 if slopes.sum() > 0 else -1.0
     ends = np.sort(np.sqrt(np.abs(slopes) * 2 / np.pi))
 
-    def place(u: Floats) -> Floats:
+    def position(u: Floats) -> Floats:
         phi = 0.5 * np.pi * u * u
         return np.asarray(d_centre + sign * (reach * np.sin(phi) - profile.at(u)[0]))
 
@@ -175,16 +175,16 @@ def _arc(piece: dict[str, Any], profile: Profile, axis: Floats) -> list[tuple[Fl
     found = []
     for low, high in itertools.pairwise(knots):
         grid = np.linspace(low, high, 4001)
-        places = place(grid)
-        order = slice(None, None, 1 if places[-1] > places[0] else -1)
-        u = np.interp(axis, places[order], grid[order])
-        inside = (axis >= places.min()) & (axis <= places.max())
+        positions = position(grid)
+        order = slice(None, None, 1 if positions[-1] > positions[0] else -1)
+        u = np.interp(axis, positions[order], grid[order])
+        inside = (axis >= positions.min()) & (axis <= positions.max())
         for _ in range(8):
             slope = rate(u)
-            step = np.where(np.abs(slope) > 1e-12, (place(u) - axis) / np.where(slope == 0, 1.0, slope), 0.0)
+            step = np.where(np.abs(slope) > 1e-12, (position(u) - axis) / np.where(slope == 0, 1.0, slope), 0.0)
             u = np.clip(u - step, low, high)
         # unsettled only beside the turn, where the tool cannot rest: it is held elsewhere
-        inside &= np.abs(place(u) - axis) < SETTLED
+        inside &= np.abs(position(u) - axis) < SETTLED
         phi = 0.5 * np.pi * u * u
         z = z_centre - reach * np.cos(phi)
         found.append((np.where(inside, z - profile.at(u)[1], -np.inf), _speed(u)))

@@ -13,7 +13,7 @@ Word = Callable[[random.Random], str]
 def program(draw: random.Random) -> str:
     """A program of a few dozen blocks; it turns coordinate systems, or has offsets within them and every plane, not both.
 
-    LinuxCNC 2.9.4 loses the place of the tip where both meet.
+    LinuxCNC 2.9.4 loses the position of the tip where both meet.
     """
     blocks = [*EVERYWHERE, *(TURNED if draw.random() < 0.5 else SHIFTED)]
     return START + "".join(f"{draw.choice(blocks)(draw)}\n" for _ in range(draw.randint(5, 25))) + "M2\n"
@@ -40,7 +40,7 @@ def _zero(draw: random.Random) -> str:
     return f"G10 {draw.choice(['L2', 'L20'])} P{draw.randint(0, 4)} {_axes(draw)}"
 
 
-def _machine_place(draw: random.Random) -> str:
+def _machine_position(draw: random.Random) -> str:
     return f"G90 G53 G0 {_axes(draw)}"
 
 
@@ -96,7 +96,7 @@ def _local(draw: random.Random) -> str:
 
 
 EVERYWHERE: tuple[Word, ...] = (
-    *(_line, _line, _mode, _zero, _machine_place, _home, _tool_length, _helix),
+    *(_line, _line, _mode, _zero, _machine_position, _home, _tool_length, _helix),
     *(_arc_by_radius("X", "Y", 17), _cycle, _row, _polar, _computed),
 )
 TURNED: tuple[Word, ...] = (_turned_zero, _turned_zero)

@@ -1,4 +1,4 @@
-"""Builds and enters root file systems in which foreign programs (FreeCAD, LinuxCNC, a browser) judge our work.
+"""Builds and enters root file systems in which foreign programs (FreeCAD, LinuxCNC, a browser) check our work.
 
 Everything is in `${STYLUSCAM_CACHE:-~/.cache/styluscam}`; nothing is installed on the host.
 
@@ -21,29 +21,39 @@ from rootfs.entering import INSIDE, Bind, enter, run
 from rootfs.freecad import (
     FREECADCMD_ENV,
     FreeCadCmd,
+    freecad_words,
     freecadcmd,
     host_commands,
     host_version,
     install_wheel,
     run_freecad,
 )
-from rootfs.places import ROOTS, Root, RootsError, Unavailable, cache_dir, roots_dir, say
+from rootfs.paths import ROOTS, Root, RootsError, Unavailable, cache_dir, roots_dir, say
+from rootfs.user_data import installed, user_data
+from rootfs.window import PREFERENCES, Preferences, ready_window, run_window
 
 __all__ = [
     "FREECADCMD_ENV",
     "INSIDE",
+    "PREFERENCES",
     "ROOTS",
     "Bind",
     "FreeCadCmd",
+    "Preferences",
     "Root",
     "RootsError",
     "Unavailable",
     "ensure",
+    "freecad_words",
     "freecadcmd",
     "install_wheel",
+    "installed",
+    "ready_window",
     "roots_dir",
     "run",
     "run_freecad",
+    "run_window",
+    "user_data",
     "why_not",
 ]
 
@@ -63,7 +73,7 @@ os._exit(0)
 
 
 def program_line(name: str) -> str:
-    """What the program that a root is for says of itself."""
+    """What the program that a root is for reports of itself."""
     if ROOTS[name].freecad:
         return freecad_line(name)
     done = run(name, ["chromium", "--version"], timeout=120)
@@ -71,7 +81,7 @@ def program_line(name: str) -> str:
 
 
 def freecad_line(name: str) -> str:
-    """What the FreeCAD in a root says of itself: `FreeCAD 1.0.0 Python 3.13.5 numpy 2.2.4`."""
+    """What the FreeCAD in a root reports of itself: `FreeCAD 1.0.0 Python 3.13.5 numpy 2.2.4`."""
     script = f"printf %s {shlex.quote(VERSION_SCRIPT)} > v.py && exec freecadcmd v.py"
     done = run(name, ["sh", "-c", script], timeout=120)
     lines = [line for line in done.stdout.splitlines() if line.startswith(("FreeCAD ", "failed: "))]
@@ -79,7 +89,7 @@ def freecad_line(name: str) -> str:
 
 
 def _size(path: Path) -> str:
-    """How much disk a tree takes, as du says it."""
+    """How much disk a tree takes, as du reports it."""
     done = subprocess.run(["du", "-sh", str(path)], capture_output=True, text=True, check=False)
     return done.stdout.split("\t")[0]
 

@@ -6,7 +6,7 @@ What the interpreter's numbers are, as tried on LinuxCNC 2.9.4:
 
 * Lengths come in the units in force (`Call.unit`), rounded to four decimals; `Call.mm` converts.
 * They are program coordinates: work offsets and tool lengths are not added to a word that is given.
-  But G43, G49, G10, G52 and G92 change the coordinates of the place where the tool stands, and an
+  But G43, G49, G10, G52 and G92 change the coordinates of the position where the tool stands, and an
   axis that the next move does not name keeps that changed value.
 * Every program starts in mm at the origin with feed 0 and ends with resets (feed 0, spindle off).
 * The exit code is 1 after the first bad line, a tool not in the table, or no end (M2, M30, %).
@@ -42,7 +42,7 @@ class Call:
     """One canonical call, with what was in force when it was made."""
 
     number: int
-    """The call's place in the interpreter's output, from 1."""
+    """The call's index in the interpreter's output, from 1."""
     line: int | None
     """The N word of the program's line."""
     kind: str
@@ -80,7 +80,7 @@ class Call:
 
 @dataclasses.dataclass(frozen=True)
 class Interpretation:
-    """All that the interpreter said about a program."""
+    """All that the interpreter printed about a program."""
 
     calls: tuple[Call, ...]
     returncode: int
@@ -163,8 +163,8 @@ def interpret(
     """Lets LinuxCNC read a program on a machine whose native unit is mm, or inch.
 
     The machine's unit is that of the tool lengths in `tools`, not that of the program: a program
-    that has neither G20 nor G21 is read in mm either way. `subroutines` are folders inside the root. A program that does not end
-    within `timeout` seconds raises subprocess.TimeoutExpired.
+    that has neither G20 nor G21 is read in mm in both cases. `subroutines` are folders inside the root. A program that does not
+    end within `timeout` seconds raises subprocess.TimeoutExpired.
     """
     with tempfile.TemporaryDirectory(prefix="rs274-") as name:
         job = Path(name)

@@ -19,7 +19,7 @@ Spoil: TypeAlias = Callable[["Text", random.Random], "str | None"]
 KINDS: dict[str, Spoil] = {}
 """Every kind of defect by its name."""
 FAMILIES_OF: dict[str, tuple[Family, ...]] = {}
-"""The families whose programs have a place for it."""
+"""The families whose programs can have the defect."""
 NUMBER = plain.NUMBER
 MOTION = re.compile(rf"(G[0-3] ?)?([XYZIJ]{NUMBER} ?)+(F{NUMBER})?")
 """A line of nothing but motion and feed: it can stand elsewhere."""
@@ -27,7 +27,7 @@ MOTION = re.compile(rf"(G[0-3] ?)?([XYZIJ]{NUMBER} ?)+(F{NUMBER})?")
 
 @dataclass(frozen=True)
 class Dialect:
-    """Patterns and words of a family; an empty pattern says that it has no such thing."""
+    """Patterns and words of a family; an empty pattern states that it has no such thing."""
 
     units: str = r"\bG2[01]\b ?"
     metric: str = "G21"
@@ -57,7 +57,7 @@ class Dialect:
     early: str = "M2"
     """The end among the cuts; empty where that is taken for something else."""
     top: str = ""
-    """The word that sends an axis to a place of the machine."""
+    """The word that sends an axis to a machine position."""
 
 
 FANUC = Dialect(dwell_unit=1000.0, pointed=True, early="M30", top="G53 ")
@@ -166,7 +166,7 @@ class Text:
         ]
 
     def with_line(self, number: int, line: str | None) -> str:
-        """The text with a line in the place of another, or without it; a line may be several."""
+        """The text with a line instead of another, or without it; a line may be several."""
         lines = list(self.lines)
         lines[number - 1 : number] = [] if line is None else [line]
         return "\n".join(lines) + "\n"
@@ -194,7 +194,7 @@ class Text:
         return self.with_line(number, re.sub(pattern, by, self.lines[number - 1], count=1))
 
     def is_bare(self, number: int) -> bool:
-        """Whether a line is a move that says no mode: without it the next one means the same."""
+        """Whether a line is a move that states no mode: without it the next one means the same."""
         repeated = "(G1 )?" if self.family in REPEATS else ""
         return re.fullmatch(rf"{repeated}([XYZ]{NUMBER} ?)+", self.lines[number - 1]) is not None
 
@@ -251,9 +251,9 @@ def respelt(
     return None if number is None else text.replaced(number, pattern, by)
 
 
-def chosen(random_: random.Random, places: list[int]) -> int | None:
+def chosen(random_: random.Random, numbers: list[int]) -> int | None:
     """One of the lines, if there are any."""
-    return random_.choice(places) if places else None
+    return random_.choice(numbers) if numbers else None
 
 
 def shifted(text: Text, move: Move, axis: int, by_mm: float) -> str:
@@ -266,20 +266,20 @@ def shifted(text: Text, move: Move, axis: int, by_mm: float) -> str:
     return text.with_line(move.line, re.sub(pattern, word, line) if re.search(pattern, line) else f"{line} {word}")
 
 
-def without(text: Text, random_: random.Random, places: list[int]) -> str | None:
+def without(text: Text, random_: random.Random, numbers: list[int]) -> str | None:
     """The text without one of the lines."""
-    number = chosen(random_, places)
+    number = chosen(random_, numbers)
     return None if number is None else text.with_line(number, None)
 
 
-def before(text: Text, random_: random.Random, places: list[int], line: str) -> str | None:
+def before(text: Text, random_: random.Random, numbers: list[int], line: str) -> str | None:
     """The text with a line before one of the lines."""
-    number = chosen(random_, places)
+    number = chosen(random_, numbers)
     return None if number is None else text.with_before(number, line)
 
 
 def header(text: Text, pattern: str, by: str) -> str | None:
-    """The first place of a pattern replaced; a line that becomes empty is left out."""
+    """The first match of a pattern replaced; a line that becomes empty is left out."""
     numbers = text.numbers_of(pattern)
     if not numbers:
         return None

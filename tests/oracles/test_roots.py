@@ -77,7 +77,7 @@ def freecad(request: pytest.FixtureRequest) -> str:
 
 
 def refused(text: str) -> str:
-    """What the interpreter says of a program that it must refuse."""
+    """What the interpreter reports of a program that it must refuse."""
     result = rs274.interpret(text)
     assert not result.ok
     assert result.returncode == 1

@@ -88,7 +88,7 @@ CELL = 6.0
 def made_part(rows: int, widths: Floats, shifts: Floats, depth: float, wall_deg: float) -> Mesh:
     """Vertices and triangles of a plate of square cells, each with a square pit (`depth` < 0 in odd cells) or bump.
 
-    `widths` (N,) are the squares' half sides at half their depth, `shifts` (N, 2) their places off the cells' middles.
+    `widths` (N,) are the squares' half sides at half their depth, `shifts` (N, 2) their positions off the cells' middles.
     """
     run = 0.5 * depth / np.tan(np.radians(wall_deg))
     square = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]], dtype=float)

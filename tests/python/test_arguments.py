@@ -22,15 +22,15 @@ WRONG = [None, 5, 1.5, True, b"ball", [], ["ball"], (1, 2), object(), {1, 2}, El
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A part, a tool, a machine and a job in files, in a folder with a blank and an umlaut in its name."""
     trimesh = pytest.importorskip("trimesh", reason="needs the mesh extra")
-    place = tmp_path_factory.mktemp("a shöp")
-    trimesh.Trimesh(*ROOF, process=False).export(place / "roof.stl")
-    sc.Tool.from_dict(BALL).write(place / "ball.json")
-    (place / "mine.toml").write_text('schema = 1\nextends = "grbl"\nname = "mine"\n', encoding="utf-8")
+    made = tmp_path_factory.mktemp("a shöp")
+    trimesh.Trimesh(*ROOF, process=False).export(made / "roof.stl")
+    sc.Tool.from_dict(BALL).write(made / "ball.json")
+    (made / "mine.toml").write_text('schema = 1\nextends = "grbl"\nname = "mine"\n', encoding="utf-8")
     document = milling_document("zig-zag", BALL["profile"], tolerance=0.01)
     document["part"] = {"file": "roof.stl", "units": "mm", "faces": "all"}
     document["setup"] = {"zero": "model"}
-    (place / "job.json").write_text(json.dumps(document), encoding="utf-8")
-    return place
+    (made / "job.json").write_text(json.dumps(document), encoding="utf-8")
+    return made
 
 
 @pytest.fixture
@@ -109,7 +109,7 @@ def test_a_job_by_dict_path_text_and_object(here):
         sc.Job.from_toml(toml)
 
 
-def test_texts_and_paths_are_told_apart(here):
+def test_texts_and_paths_are_kept_apart(here):
     job = sc.Job.read("job.json")
     posted = sc.post(sc.plan(job))
     Path("out").mkdir(exist_ok=True)
@@ -205,8 +205,8 @@ def test_a_wrong_type_is_named_with_what_is_wanted(call, value):
     wanted = named.get(argument, argument.rpartition(".")[2])
     if "." not in argument:
         assert error.where == wanted and str(error).startswith(f"{wanted}: ")
-    said = "None" if value is None else type(value).__name__
-    assert said in str(error) and " is wanted" in str(error), str(error)
+    given = "None" if value is None else type(value).__name__
+    assert given in str(error) and " is wanted" in str(error), str(error)
 
 
 @pytest.mark.parametrize("value", ["a", [], [[1.0]], object(), b"1"], ids=lambda value: type(value).__name__)

@@ -28,9 +28,9 @@ BAD: dict[str, tuple[str, Callable[[], object]]] = {
     "index beyond": ("vertex 3", lambda: sc.Part.from_mesh(CORNERS, [[0, 1, 3]])),
     "normals": ("normals", lambda: sc.Part.from_mesh(CORNERS, [[0, 1, 2]], normals=np.zeros((3, 3)))),
     "ids": ("face_ids", lambda: sc.Part.from_mesh(CORNERS, [[0, 1, 2]], face_ids=[[1]])),
-    "places in space": ("xy", lambda: sc.drop_cutter(PART, TOOL, [[1.0, 2.0, 3.0]])),
-    "no place": ("xy", lambda: sc.drop_cutter(PART, TOOL, [[np.nan, 2.0]])),
-    "a place beyond everything": ("xy", lambda: sc.drop_cutter(PART, TOOL, [[1e39, 2.0]])),
+    "positions in space": ("xy", lambda: sc.drop_cutter(PART, TOOL, [[1.0, 2.0, 3.0]])),
+    "no position": ("xy", lambda: sc.drop_cutter(PART, TOOL, [[np.nan, 2.0]])),
+    "a position beyond everything": ("xy", lambda: sc.drop_cutter(PART, TOOL, [[1e39, 2.0]])),
     "directions": ("directions", lambda: sc.push_cutter(PART, TOOL, [[1.0, 2.0]], [[1.0]], 0.0)),
     "a height beyond everything": ("z", lambda: sc.push_cutter(PART, TOOL, [[1.0, 2.0]], [[1.0, 0.0]], 1e300)),
     "table of heights": ("heights", lambda: sc.waterlines(PART, TOOL, [[1.0, 2.0]])),
@@ -47,7 +47,7 @@ def test_bad_arrays_are_named(name: str) -> None:
     assert caught.value.code
 
 
-def test_no_places_have_no_tips() -> None:
+def test_no_positions_have_no_tips() -> None:
     assert sc.drop_cutter(PART, TOOL, []).shape == (0,)
 
 

@@ -13,7 +13,7 @@ RADIUS = 3.0
 TOLERANCE = 0.005
 
 
-def judged(mesh: Mesh, stepover: float = STEPOVER) -> sc.Report:
+def verified(mesh: Mesh, stepover: float = STEPOVER) -> sc.Report:
     profile = {"kind": "ball", "diameter": 2 * RADIUS}
     document = milling_document("zig-zag", profile, stepover=stepover, angle_deg=0.0, tolerance=TOLERANCE)
     job = sc.Job.from_dict(document, part=sc.Part.from_mesh(*mesh))
@@ -28,7 +28,7 @@ PLATE = (
 
 
 def test_the_scallop_between_rows_is_that_of_a_circle() -> None:
-    report = judged(PLATE)
+    report = verified(PLATE)
     (face,) = report.coverage()
     height = RADIUS - np.sqrt(RADIUS**2 - 0.25 * STEPOVER**2)
     # the path stands up to the tolerance off
@@ -40,7 +40,7 @@ def test_the_scallop_between_rows_is_that_of_a_circle() -> None:
 
 
 def test_walls_that_rows_pass_by_are_left() -> None:
-    (face,) = judged(box([0.0, 0.0, -5.0], [30.0, 20.0, 0.0])).coverage()
+    (face,) = verified(box([0.0, 0.0, -5.0], [30.0, 20.0, 0.0])).coverage()
     assert face["area"] == pytest.approx(600.0 + 500.0)
     assert face["covered"] * face["area"] < 700.0
     assert face["left"] > 1.0
@@ -48,7 +48,7 @@ def test_walls_that_rows_pass_by_are_left() -> None:
 
 
 def test_it_can_be_stopped() -> None:
-    report = judged(PLATE, stepover=0.05)  # long enough to be asked
+    report = verified(PLATE, stepover=0.05)  # long enough to be asked
     token = sc.CancelToken()
     token.cancel()
     with pytest.raises(sc.Cancelled):

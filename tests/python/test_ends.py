@@ -1,4 +1,4 @@
-"""Where operations end: one rule for planner, judge and summary."""
+"""Where operations end: one rule for planner, verifier and summary."""
 
 from __future__ import annotations
 
@@ -47,8 +47,8 @@ def job(mesh: Mesh, profile: dict[str, Any], faces: list[int] | None = None, **o
     return sc.Job.from_dict(document, part=sc.Part.from_mesh(*mesh, face_ids=faces))
 
 
-def judged(of: sc.Job) -> tuple[sc.Report, dict[str, Any]]:
-    """The judgement of a job's text, and what the summary says of its operation."""
+def verified(of: sc.Job) -> tuple[sc.Report, dict[str, Any]]:
+    """The verification of a job's text, and what the summary reports of its operation."""
     plan = sc.plan(of)
     return sc.verify(sc.post(plan).text, of), plan.summary()[0]["operations"][0]
 
@@ -64,20 +64,20 @@ def lowest(report: sc.Report) -> float:
     "operation", [{"kind": "z-level", "step": {"height": 1.0}}, {"kind": "zig-zag", "stepover": 1.0}]
 )
 def test_a_cube_is_milled_to_its_foot(operation: dict[str, Any], tool: str, angle: float) -> None:
-    report, _ = judged(job(tilted(box((-5, -5, 0), (5, 5, 10)), angle), TOOLS[tool], **operation))
+    report, _ = verified(job(tilted(box((-5, -5, 0), (5, 5, 10)), angle), TOOLS[tool], **operation))
     assert report.ok
     assert not report.findings
     assert lowest(report) > -1e-3
     assert lowest(report) < 0.01 or operation["kind"] == "zig-zag"
 
 
-def test_what_the_foot_leaves_is_said_and_z_bottom_goes_deeper() -> None:
+def test_what_the_foot_leaves_is_stated_and_z_bottom_goes_deeper() -> None:
     cube = box((-5, -5, 0), (5, 5, 10))
     levels: dict[str, Any] = {"kind": "z-level", "step": {"height": 1.0}}
-    _, summary = judged(job(cube, BALL, **levels))
+    _, summary = verified(job(cube, BALL, **levels))
     assert summary["ends"]["at_foot"]
     assert summary["ends"]["untouched"] == pytest.approx(3.0)
-    report, deeper = judged(job(cube, BALL, z_bottom=-3.0, **levels))
+    report, deeper = verified(job(cube, BALL, z_bottom=-3.0, **levels))
     assert report.ok
     assert lowest(report) == pytest.approx(-3.0, abs=0.01)
     assert deeper["ends"] is None
@@ -97,7 +97,7 @@ def test_walls_alone_are_levels_too() -> None:
     faces = np.repeat([1, 2, 3, 4, 5, 6], 2)
     of = job(cube, BALL, faces=faces, kind="z-level", step={"height": 1.0})
     document = of.to_dict() | {"part": of.to_dict()["part"] | {"faces": ["Face4"]}}
-    report, summary = judged(sc.Job.from_dict(document, part=sc.Part.from_mesh(*cube, face_ids=faces)))
+    report, summary = verified(sc.Job.from_dict(document, part=sc.Part.from_mesh(*cube, face_ids=faces)))
     assert report.ok
     assert not report.findings
     assert summary["faces"] == [4]
@@ -112,6 +112,6 @@ def test_a_floor_far_below_the_walls_wants_no_level() -> None:
     faces = np.array([1] * 2 + [2] * 10 + [3] * 12)
     of = job(mesh, BALL, faces=faces, kind="z-level", step={"height": 2.0})
     document = of.to_dict() | {"part": of.to_dict()["part"] | {"faces": ["Face2", "Face3"], "allow_undercuts": True}}
-    report, _ = judged(sc.Job.from_dict(document, part=sc.Part.from_mesh(*mesh, face_ids=faces)))
+    report, _ = verified(sc.Job.from_dict(document, part=sc.Part.from_mesh(*mesh, face_ids=faces)))
     assert report.ok
     assert not [f for f in report.findings if f["severity"] == "error"]

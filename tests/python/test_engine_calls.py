@@ -36,7 +36,7 @@ def wide_part() -> sc.Part:
 
 @pytest.fixture(scope="module")
 def many() -> Floats:
-    """Places for some tens of seconds of work."""
+    """Positions for some tens of seconds of work."""
     return np.random.default_rng(7).uniform(5.0, 115.0, (20_000_000, 2))
 
 
@@ -55,8 +55,8 @@ for document in json.loads(sys.argv[2]):
     for text in (program, sc.post(plan).text):
         print(len(text), hashlib.sha256(text.encode()).hexdigest())
 tool = sc.Tool.from_dict({"profile": {"kind": "clothoid", "diameter": 10.0}})
-places = np.random.default_rng(8).uniform(-60.0, 60.0, (20000, 2))
-print(hashlib.sha256(sc.drop_cutter(part, tool, places).tobytes()).hexdigest())
+points = np.random.default_rng(8).uniform(-60.0, 60.0, (20000, 2))
+print(hashlib.sha256(sc.drop_cutter(part, tool, points).tobytes()).hexdigest())
 loops = sc.waterline(part, tool, -8.0)
 print(len(loops), hashlib.sha256(b"".join(loop.tobytes() for loop in loops)).hexdigest())
 """
@@ -224,14 +224,14 @@ import styluscam as sc
 corners = [[0.0, 0.0, 0.0], [100.0, 0.0, 0.0], [0.0, 100.0, 1.0]]
 part = sc.Part.from_mesh(corners, [[0, 1, 2]])
 tool = sc.Tool.from_dict({"profile": {"kind": "clothoid", "diameter": 6.0}})
-places = np.random.default_rng(1).uniform(-1.0, 101.0, (40_000_000, 2))
+points = np.random.default_rng(1).uniform(-1.0, 101.0, (40_000_000, 2))
 asked = []
 def interrupt():
     asked.append(time.monotonic())
     os.kill(os.getpid(), signal.SIGINT)
 threading.Timer(0.3, interrupt).start()
 try:
-    sc.drop_cutter(part, tool, places)
+    sc.drop_cutter(part, tool, points)
 except KeyboardInterrupt:
     print("interrupted", time.monotonic() - asked[0])
 """
@@ -284,10 +284,10 @@ def test_calls_from_several_threads_do_not_disturb_each_other(wide_part: sc.Part
 
 def test_what_comes_in_need_not_be_contiguous_or_float(wide_part: sc.Part) -> None:
     tool = sc.Tool.from_dict(TOOL)
-    places: NDArray[np.int64] = np.stack(np.meshgrid(np.arange(5, 60), np.arange(5, 60)), axis=-1).reshape(-1, 2)
-    as_floats = sc.drop_cutter(wide_part, tool, np.ascontiguousarray(places, dtype=np.float64))
-    assert (sc.drop_cutter(wide_part, tool, places) == as_floats).all()
-    assert (sc.drop_cutter(wide_part, tool, np.asfortranarray(places)) == as_floats).all()
-    # other places, other neighbours to begin the search from: the same to rounding
-    assert np.abs(sc.drop_cutter(wide_part, tool, places[::2]) - as_floats[::2]).max() < 1e-13
-    assert (sc.drop_cutter(wide_part, tool, places.tolist()) == as_floats).all()
+    points: NDArray[np.int64] = np.stack(np.meshgrid(np.arange(5, 60), np.arange(5, 60)), axis=-1).reshape(-1, 2)
+    as_floats = sc.drop_cutter(wide_part, tool, np.ascontiguousarray(points, dtype=np.float64))
+    assert (sc.drop_cutter(wide_part, tool, points) == as_floats).all()
+    assert (sc.drop_cutter(wide_part, tool, np.asfortranarray(points)) == as_floats).all()
+    # other positions, other neighbours to begin the search from: the same to rounding
+    assert np.abs(sc.drop_cutter(wide_part, tool, points[::2]) - as_floats[::2]).max() < 1e-13
+    assert (sc.drop_cutter(wide_part, tool, points.tolist()) == as_floats).all()

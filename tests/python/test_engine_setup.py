@@ -1,4 +1,4 @@
-"""The set-up: a model turned, turned over or moved in its file gives the same path once the job says so."""
+"""The set-up: a model turned, turned over or moved in its file gives the same path once the job states so."""
 
 from __future__ import annotations
 

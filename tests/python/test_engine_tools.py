@@ -50,7 +50,7 @@ def test_clothoid_is_fresnel_s_to_1e_12(diameter: float) -> None:
     assert relative(tool.radius_at(slopes), radii) < 1e-12
     assert relative(tool.height_at(slopes), heights) < 1e-12
     assert relative(tool.curvature_radius_at(slopes), curvatures) < 1e-12
-    # the other way round, where a radius still determines the slope
+    # the reverse, where a radius still determines the slope
     lower = slopes < np.radians(80.0)
     assert relative(tool.height_at_radius(np.array(radii)[lower]), np.array(heights)[lower].tolist()) < 1e-12
 
@@ -144,7 +144,7 @@ def test_tools_that_cannot_be_are_refused(profile: dict[str, object]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("document", "place", "words"),
+    ("document", "where", "words"),
     [
         ({"profile": {"kind": "ball", "diameter": "10"}}, "profile.diameter", "a number is expected"),
         ({"profile": {"kind": "ball", "diameter": None}}, "profile.diameter", "a number is expected"),
@@ -155,9 +155,9 @@ def test_tools_that_cannot_be_are_refused(profile: dict[str, object]) -> None:
         ({"profile": {"kind": "ball", "diameter": 3.0}, "base": {"kind": "chamfered"}}, "base.kind", "chamfered"),
     ],
 )
-def test_a_key_of_the_wrong_type_is_named(document: dict[str, Any], place: str, words: str) -> None:
+def test_a_key_of_the_wrong_type_is_named(document: dict[str, Any], where: str, words: str) -> None:
     with pytest.raises(sc.ToolError) as caught:
         sc.Tool.from_dict(document)
-    assert caught.value.where == place
+    assert caught.value.where == where
     assert words in str(caught.value)
     assert "column" not in str(caught.value)

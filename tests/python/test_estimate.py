@@ -1,4 +1,4 @@
-"""What a plan is said to take before it is made, against what it takes."""
+"""The seconds that are estimated for a plan, against those that it takes."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def test_length_and_moves_are_right_within_a_factor(part: str, kind: str, part_o
     assert too_long(job) == []
 
 
-def test_what_takes_long_is_said_with_what_shortens_it(tmp_path: Path) -> None:
+def test_what_takes_long_is_stated_with_what_shortens_it(tmp_path: Path) -> None:
     # a wavy square metre in steps of a hundredth
     count = 60
     x, y = np.meshgrid(np.arange(count), np.arange(count))

@@ -23,7 +23,7 @@ def tool_of(profile: dict[str, object]) -> sc.Tool:
 
 
 @pytest.mark.parametrize("part", PARTS)
-def test_the_judge_of_envelopes_agrees_with_the_fixtures(part: str, meridian_of: Callable[[str], Meridian]) -> None:
+def test_the_oracle_of_envelopes_agrees_with_the_fixtures(part: str, meridian_of: Callable[[str], Meridian]) -> None:
     meridian = meridian_of(part)
     for entry in meridian.document["envelope"]:
         xy = np.array([s["xy"] for s in entry["samples"]])
@@ -190,7 +190,7 @@ def test_where_nothing_is_met_there_is_the_floor_or_nan() -> None:
     assert sc.drop_cutter(part, tool, xy, floor=-9.0).tolist() == [*bare[:2].tolist(), -9.0, -9.0]
 
 
-def test_places_and_normals_that_do_not_fit_are_refused() -> None:
+def test_positions_and_normals_that_do_not_fit_are_refused() -> None:
     part = sc.Part.from_mesh([[0, 0, 0], [10, 0, 0], [0, 10, 0]], [[0, 1, 2]])
     tool = tool_of(PROFILES[0])
     for xy in ([[np.nan, 0.0]], [[np.inf, 0.0]], [[1.0, 2.0, 3.0]]):

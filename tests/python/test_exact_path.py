@@ -40,7 +40,7 @@ def cutting(program: sc.Program) -> tuple[Floats, Floats]:
 
 
 def clearances(program: sc.Program, meridian: Meridian, tool: str) -> dict[float, Floats]:
-    """Distance from the exact envelope along its normal, by share of the way along each move."""
+    """Distance from the exact envelope along its normal, by share of the path along each move."""
     begins, ends = cutting(program)
     top = meridian.document["box"][1][2] + SHEET
     found = {}
@@ -69,13 +69,15 @@ def test_posted_path_lies_within_1_under_and_5_over(
     for share, clearance in found.items():
         assert clearance.min() > LOWEST, share
         assert clearance.max() < HIGHEST, share
-    # half a unit of the posted last place between the program and its text, which begins by going up
+    # half a unit of the posted last digit between the program and its text, which begins by going up
     wanted = plan.programs["main"].positions
     assert (read.moves["kind"][: -len(wanted)] == RAPID).all()
     assert np.abs(read.positions[-len(wanted) :] - wanted).max() <= 0.5 * plan.machine.resolution_mm + 1e-12
 
 
-def test_this_judge_says_no(planned: Callable[..., sc.Plan], meridian_of: Callable[[str], Meridian]) -> None:
+def test_a_moved_path_is_off_the_envelope(
+    planned: Callable[..., sc.Plan], meridian_of: Callable[[str], Meridian]
+) -> None:
     meridian = meridian_of("cone_cup")
     tips = np.concatenate(cutting(planned("cone_cup", "z-level", "ball-10").programs["main"]))
     tips[:, 2] += meridian.document["box"][1][2] + SHEET
@@ -86,7 +88,7 @@ def test_this_judge_says_no(planned: Callable[..., sc.Plan], meridian_of: Callab
 
 
 @pytest.mark.parametrize("machine", ("linuxcnc", "grbl"))
-def test_a_run_writes_the_text_that_was_judged(
+def test_a_run_writes_the_text_that_was_verified(
     machine: str, tmp_path: Path, part_of: Callable[[str], sc.Part], meridian_of: Callable[[str], Meridian]
 ) -> None:
     document = job_document("cone_cup", "z-level", {"kind": "clothoid", "diameter": 10.0}, machine=machine)
@@ -100,19 +102,19 @@ def test_a_run_writes_the_text_that_was_judged(
     for clearance in clearances(read, meridian_of("cone_cup"), "clothoid-10").values():
         assert clearance.min() > LOWEST
         assert clearance.max() < HIGHEST
-    # the judge looked at the same path: its figures are those of these probes
+    # the verifier looked at the same path: its figures are those of these probes
     assert result.summary["excess_max"] < HIGHEST
     assert sc.Program.load(next(p for p in result.written if p != gcode)).engine.same_moves(
         result.plan.engine.programs["main"]
     )
 
 
-# --- bridged places ---------------------------------------------------------------------------------------------
+# --- bridged positions ---------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("tool", ("ball-10", "clothoid-10"))
 @pytest.mark.parametrize("part", ("cone_cup", "cap_r60", "vwaf"))
-def test_bridged_places_have_the_exact_gap(
+def test_bridged_positions_have_the_exact_gap(
     part: str, tool: str, planned: Callable[..., sc.Plan], meridian_of: Callable[[str], Meridian]
 ) -> None:
     answers = [b for b in meridian_of(part).document["bridges"] if b["tool"] == tool and b["sheet"] == "constant"]
@@ -124,10 +126,10 @@ def test_bridged_places_have_the_exact_gap(
         return
     worst = operation["bridged"][0]
     assert worst["excess"] == pytest.approx(exact, rel=0.05, abs=0.002)
-    (place,) = [b["gap_normal_at"] for b in answers if b["gap_normal"] == exact]
+    (position,) = [b["gap_normal_at"] for b in answers if b["gap_normal"] == exact]
     x, y, z = worst["at"]
-    assert np.hypot(x, y) == pytest.approx(place["d"], abs=1.5)
-    assert z + meridian_of(part).document["box"][1][2] + SHEET == pytest.approx(place["z"], abs=1.5)
+    assert np.hypot(x, y) == pytest.approx(position["d"], abs=1.5)
+    assert z + meridian_of(part).document["box"][1][2] + SHEET == pytest.approx(position["z"], abs=1.5)
 
 
 # --- waterlines -------------------------------------------------------------------------------------------------
@@ -209,9 +211,9 @@ def test_rows_alternate(planned: Callable[..., sc.Plan]) -> None:
     step = (ends - begins)[:, :2]
     in_row = np.abs(step @ across) < 0.002
     row = np.round(begins[in_row, :2] @ across / 2.5 * 2).astype(int)
-    ways = [np.sign((step[in_row] @ along)[row == r].sum()) for r in sorted(set(row))]
-    assert len(ways) > 30
-    assert all(a == -b for a, b in itertools.pairwise(ways))
+    directions = [np.sign((step[in_row] @ along)[row == r].sum()) for r in sorted(set(row))]
+    assert len(directions) > 30
+    assert all(a == -b for a, b in itertools.pairwise(directions))
 
 
 def test_no_loop_is_lost_above_the_smallest_feature() -> None:

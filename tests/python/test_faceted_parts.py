@@ -1,4 +1,4 @@
-"""Plans on coarse triangles, where what a path does between two places is not smooth."""
+"""Plans on coarse triangles, where what a path does between two positions is not smooth."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def job(mesh: Mesh, profile: dict[str, Any] | None = None, **operation: Any) -> 
 
 
 def net(x: Floats, y: Floats, z: Floats) -> Mesh:
-    """Two triangles for each cell of a net of places (N, M)."""
+    """Two triangles for each cell of a grid of points (N, M)."""
     columns = z.shape[1]
     corner = np.arange(z.size).reshape(z.shape)[:-1, :-1].reshape(-1)
     right, up = corner + 1, corner + columns
@@ -69,7 +69,7 @@ SHARP = {
 @pytest.mark.parametrize("profile", SHARP)
 @pytest.mark.parametrize("kind", ["z-level", "zig-zag"])
 def test_rims_and_tips_ride_over_corners(profile: str, kind: str, turn_deg: float) -> None:
-    """They meet a corner of the triangles for a tenth of a millimetre of their way: links and rows rise over it."""
+    """They meet a corner of the triangles for a tenth of a millimetre of their path: links and rows rise over it."""
     axis = np.linspace(-20.0, 20.0, 31)
     x, y = np.meshgrid(axis, axis)
     turn = np.radians(turn_deg)

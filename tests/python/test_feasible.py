@@ -41,7 +41,7 @@ def found(
     process: dict[str, Any] | None = None,
     accept: tuple[str, ...] = (),
 ) -> dict[str, str]:
-    """What the judge finds in the job's own program: kinds and severities."""
+    """What the verifier finds in the job's own program: kinds and severities."""
     job = sc.Job.from_dict(
         {
             "schema": 1,
@@ -74,7 +74,7 @@ def test_rows_finish_what_levels_have_formed() -> None:
     assert "punch" not in found(tray(), LEVELS, ROWS)
 
 
-def test_what_is_formed_beside_a_place_is_not_formed_there() -> None:
+def test_what_is_formed_beside_a_position_is_not_formed_there() -> None:
     trays, first = tray(count=2), {**LEVELS, "faces": ["Face1", "Face2", "Face3"]}
     assert not found(trays)
     assert not found(trays, first)
@@ -91,7 +91,7 @@ def test_levels_of_the_floor_alone_go_straight_into_flat_sheet() -> None:
 
 
 @pytest.mark.parametrize(("wall_deg", "operation"), [(82.0, LEVELS), (90.0, ROWS)])
-def test_a_wall_that_no_sheet_bears_is_refused(wall_deg: float, operation: dict[str, Any]) -> None:
+def test_a_wall_that_no_sheet_withstands_is_refused(wall_deg: float, operation: dict[str, Any]) -> None:
     assert found(tray(wall_deg), operation)["wall-angle"] == "error"
     assert found(tray(wall_deg), operation, accept=("wall-angle",))["wall-angle"] == "warning"
 
@@ -105,7 +105,7 @@ def test_the_jobs_own_wall_angle_goes_before_what_is_known() -> None:
     ("wall_deg", "material", "severity"),
     [(58.0, None, None), (66.0, None, "warning"), (72.0, None, "error"), (66.0, "PVC", "error"), (64.0, "pvc", None)],
 )
-def test_a_material_says_what_it_bears(wall_deg: float, material: str | None, severity: str | None) -> None:
+def test_a_material_states_what_it_withstands(wall_deg: float, material: str | None, severity: str | None) -> None:
     process = {"material": material} if material else {}
     assert found(tray(wall_deg), process=process).get("wall-angle") == severity
 

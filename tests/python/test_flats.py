@@ -100,8 +100,8 @@ def test_the_map_has_a_colour_for_what_stays_flat(tmp_path: Path) -> None:
         shown = heatmaps.shown_judged(Surface.of(arrays_of(job.part()), np.array(report.scene.frame)), report)
     left = next(one for one in shown.maps if one.key == "left")
     unformed = left.values == heatmaps.UNFORMED
-    places, level = shown.points[shown.vertices.at], shown.vertices.normals[:, 2] > 0.999
-    off = np.abs(places[:, :2]).max(axis=1)
+    positions, level = shown.points[shown.vertices.at], shown.vertices.normals[:, 2] > 0.999
+    off = np.abs(positions[:, :2]).max(axis=1)
     flange, floor = level & (off > OPENING / 2 + 0.1), level & (off < FLOOR / 2 - 6.0)
     assert flange.any() and unformed[flange].all() and left.unformed
     assert floor.any() and unformed[floor].all()

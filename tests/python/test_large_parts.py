@@ -64,14 +64,14 @@ def test_an_arc_is_as_deep_as_it_is_however_large(radius: float) -> None:
     ]
     lid = np.stack([np.full(count, 3 * count), here, on], axis=1)
     post = np.concatenate([*flat, [[0.0, 0.0, 50.0]]]), np.concatenate([lid, *quads])
-    way = radius + 10.0 - depth
-    text = f"{HEAD}X{way:.4f} Y0\nG1 Z20 F300\nG3 I{-way:.4f} J0 F1500\nG0 Z150\nM2\n"
+    travel = radius + 10.0 - depth
+    text = f"{HEAD}X{travel:.4f} Y0\nG1 Z20 F300\nG3 I{-travel:.4f} J0 F1500\nG0 Z150\nM2\n"
     report = sc.verify(text, job(post, 20.0))
     assert report.gouge_max == pytest.approx(depth, abs=1e-7)
     assert "gouge" not in {finding["kind"] for finding in report.findings}
 
 
-def test_a_tool_that_touches_nothing_says_nothing_of_what_is_covered() -> None:
+def test_a_tool_that_touches_nothing_reports_nothing_as_covered() -> None:
     plate = strip([(0.0, 0.0), (20.0, 0.0)], 20.0)
     rows = "".join(f"G0 X0 Y{y}\nG1 Z0 F300\nX20 F1500\nG0 Z150\n" for y in range(0, 21, 2))
     shares = [

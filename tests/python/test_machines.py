@@ -38,7 +38,7 @@ def test_every_shipped_machine_passes_its_trial(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", sc.Machine.names())
-def test_what_is_not_confirmed_is_said_in_the_header(name: str) -> None:
+def test_what_is_not_confirmed_is_stated_in_the_header(name: str) -> None:
     machine = sc.Machine.shipped(name)
     text = dict(trials(name))["rapids and lines"].lower()
     assert ("unverified" in text) == (machine.evidence == "unverified")
@@ -67,7 +67,7 @@ def test_files_extend_files_beside_them(tmp_path: Path) -> None:
     (tmp_path / "ours.toml").write_text('schema = 1\nextends = "base.toml"\nname = "ours"\n[coolant]\nflood = "M80"\n')
     machine = sc.Machine.read(tmp_path / "ours.toml")
     assert (machine.document["line"]["max_chars"], machine.document["coolant"]["flood"]) == (60, "M80")
-    assert machine.evidence == "unverified", "what was read for haas says nothing about this one"
+    assert machine.evidence == "unverified", "what was read for haas is no evidence about this one"
 
 
 def test_pages_and_golden_programs_are_those_of_the_files() -> None:
@@ -80,7 +80,7 @@ SPEAK_ALIKE = [name for name in sc.Machine.names() if name not in ("okuma", "sie
 """Machines whose programs LinuxCNC's interpreter understands, but for what `common` takes out."""
 
 OTHERS_ONLY = re.compile(r"^(O\d+|G91 G28 .*|(G90 )?G53 .*|M226)$", re.MULTILINE)
-"""Lines that mean nothing to it, or a place that is not the program's: program numbers, returns, RepRapFirmware's stop."""
+"""Lines that mean nothing to it, or go to a position that is not the program's: program numbers, returns, RepRap's stop."""
 
 
 def common(text: str, machine: str) -> str:
@@ -92,9 +92,9 @@ def common(text: str, machine: str) -> str:
     return code if re.search(r"^(M2|M30)$", code, re.MULTILINE) else f"{code}M2\n"
 
 
-def distinct(places: FloatArray) -> FloatArray:
-    """Places without those that repeat the one before."""
-    return places[np.r_[True, np.abs(np.diff(places, axis=0)).max(axis=1) > 1e-9]]
+def distinct(positions: FloatArray) -> FloatArray:
+    """Positions without those that repeat the one before."""
+    return positions[np.r_[True, np.abs(np.diff(positions, axis=0)).max(axis=1) > 1e-9]]
 
 
 EVERY_TIME = ("linuxcnc", "fanuc", "marlin")
@@ -105,10 +105,10 @@ EVERY_TIME = ("linuxcnc", "fanuc", "marlin")
     "machine", [pytest.param(name, marks=[] if name in EVERY_TIME else pytest.mark.long) for name in SPEAK_ALIKE]
 )
 def test_linuxcnc_moves_as_the_trials_say(machine: str) -> None:
-    """A second reader, other people's: its moves are those of ours, to the last place."""
+    """A second reader, other people's: its moves are those of ours, to the last digit."""
     compared = 0
     for name, text in trials(machine):
-        # other zero points and places that nobody knows; a spindle that does not turn there
+        # other zero points and positions that nobody knows; a spindle that does not turn there
         if name.startswith(("another", "work offset", "probing", "feeds per revolution", "waiting")):
             continue
         code = common(text, machine)
@@ -124,7 +124,7 @@ def test_linuxcnc_moves_as_the_trials_say(machine: str) -> None:
         if name.startswith("holes"):  # each shows cycles in its own way
             assert np.abs(ours.min(axis=0) - theirs.min(axis=0)).max() < 1e-6, name
         else:
-            # the first moves are to places that LinuxCNC learns axis by axis
+            # the first moves are to positions that LinuxCNC learns axis by axis
             count = min(len(ours), len(theirs)) - 2
             assert np.abs(ours[-count:] - theirs[-count:]).max() < 1e-4, name
             assert abs(len(ours) - len(theirs)) <= 2, name

@@ -64,16 +64,16 @@ def job_of(part: str, kind: str, smallest_feature: float) -> sc.Job:
 
 
 def without(text: str, kind: str, low: float, high: float) -> tuple[str, int]:
-    """A text without the moves at feed whose tip lies between two places, and how many there were.
+    """A text without the moves at feed whose tip lies between two positions, and how many there were.
 
     What else those lines say, G1 and F, holds for the lines after them and stays.
     """
     axis = "Y" if kind == "missing-row" else "Z"
-    place, kept, left = np.inf, [], 0
+    position, kept, left = np.inf, [], 0
     for line in text.splitlines():
         words = [] if line.startswith("(") else line.split()
-        place = next((float(word[1:]) for word in words if word.startswith(axis)), place)
-        inside = low < place < high and any(word[0] in "XYZ" for word in words)
+        position = next((float(word[1:]) for word in words if word.startswith(axis)), position)
+        inside = low < position < high and any(word[0] in "XYZ" for word in words)
         left += inside
         kept.append(" ".join(word for word in words if word[0] not in "XYZ") if inside else line)
     return "\n".join(kept) + "\n", left
@@ -142,7 +142,7 @@ def levels_job(
 
 
 def test_levels_of_a_wall_lower_than_the_smallest_feature_are_asked_for() -> None:
-    """How wide the smallest loop is says nothing about how high a wall is."""
+    """How wide the smallest loop has nothing to do with how high a wall is."""
     vertices, triangles = turned([(0.01, 0.9), (10.0, 0.9), (10.0, 0.0), (30.0, 0.0)], sides=4)
     job = levels_job((vertices, triangles, np.repeat([1, 2, 3], 8)), ["Face2"], 0.1, 1.0, "flat")
     text = sc.post(sc.plan(job)).text

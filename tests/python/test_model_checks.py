@@ -41,7 +41,7 @@ def bracket(x: Any, _: Any) -> Any:
 
 
 def found(part: sc.Part, *, thickness: float = 1.0, face: str = "tool", faces: Any = "all", accept: Any = ()) -> Any:
-    """Severity and sentence of what the judge has against the model, by kind."""
+    """Severity and sentence of what the verifier has against the model, by kind."""
     job = sc.Job.from_dict(
         {
             "schema": 1,
@@ -69,27 +69,27 @@ def test_a_sheet_that_agrees_is_not_spoken_of() -> None:
 
 
 def test_a_sheet_of_another_thickness() -> None:
-    said = found(sheet(cup, 1.0), thickness=3.0)
-    assert list(said) == ["sheet-thickness"]
-    severity, words = said["sheet-thickness"]
+    reported = found(sheet(cup, 1.0), thickness=3.0)
+    assert list(reported) == ["sheet-thickness"]
+    severity, words = reported["sheet-thickness"]
     assert severity == "error" and "3 mm" in words and "thickness = 1.0" in words and 'accept = ["thickness"]' in words
     assert found(sheet(cup, 1.0), thickness=3.0, accept=["thickness"])["sheet-thickness"][0] == "warning"
 
 
 @pytest.mark.parametrize("face", ["back", "mid"])
 def test_a_sheet_with_both_faces_shows_the_tool_its_upper_one(face: str) -> None:
-    said = found(sheet(cup, 1.0), face=face)
-    assert list(said) == ["sheet-face"]
-    severity, words = said["sheet-face"]
+    reported = found(sheet(cup, 1.0), face=face)
+    assert list(reported) == ["sheet-face"]
+    severity, words = reported["sheet-face"]
     assert severity == "error" and 'model_face = "tool"' in words
     assert found(sheet(cup, 1.0), face=face, accept=["model-face"])["sheet-face"][0] == "warning"
 
 
 def test_a_solid_is_no_sheet() -> None:
     solid = between(bracket, lambda x, _: 0.0 * x)
-    said = found(solid)
-    assert list(said) == ["solid-formed"]
-    severity, words = said["solid-formed"]
+    reported = found(solid)
+    assert list(reported) == ["solid-formed"]
+    severity, words = reported["solid-formed"]
     assert severity == "error" and "5.0" in words and 'process.kind = "milling"' in words
     assert found(solid, accept=["solid"])["solid-formed"][0] == "warning"
     # a block that the cup's surface is cut into shows a face of the sheet
@@ -98,8 +98,8 @@ def test_a_solid_is_no_sheet() -> None:
 
 @pytest.mark.parametrize("part", [sheet(lambda x, y: -cup(x, y), 1.0), between(lambda x, y: -cup(x, y))])
 def test_a_border_below_what_is_formed_cannot_be_clamped(part: sc.Part) -> None:
-    said = found(part)
-    assert list(said) == ["flange-height"]
-    severity, words = said["flange-height"]
+    reported = found(part)
+    assert list(reported) == ["flange-height"]
+    severity, words = reported["flange-height"]
     assert severity == "error" and "5.0" in words and "setup.up" in words
     assert found(part, accept=["flange"])["flange-height"][0] == "warning"

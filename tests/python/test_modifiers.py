@@ -29,11 +29,11 @@ TOOLS = {
 
 
 class Case(NamedTuple):
-    """A mesh, places (N, 2) and heights of waterlines, and how much higher all is than it was."""
+    """A mesh, positions (N, 2) and heights of waterlines, and how much higher all is than it was."""
 
     vertices: Floats
     triangles: Triangles
-    places: Floats
+    positions: Floats
     raised: float = 0.0
 
 
@@ -43,16 +43,16 @@ class Case(NamedTuple):
 def turned(case: Case, rng: np.random.Generator) -> Case:
     vertices = case.vertices.copy()
     vertices[:, :2] = vertices[:, :2] @ TURN.T
-    return case._replace(vertices=vertices, places=case.places @ TURN.T)
+    return case._replace(vertices=vertices, positions=case.positions @ TURN.T)
 
 
 def mirrored(case: Case, rng: np.random.Generator) -> Case:
     flip = np.array([-1.0, 1.0, 1.0])
-    return Case(case.vertices * flip, case.triangles[:, ::-1], case.places * flip[:2])
+    return Case(case.vertices * flip, case.triangles[:, ::-1], case.positions * flip[:2])
 
 
 def moved(case: Case, rng: np.random.Generator) -> Case:
-    return Case(case.vertices + FAR, case.triangles, case.places + FAR[:2], float(FAR[2]))
+    return Case(case.vertices + FAR, case.triangles, case.positions + FAR[:2], float(FAR[2]))
 
 
 def shuffled(case: Case, rng: np.random.Generator) -> Case:
@@ -136,7 +136,7 @@ def with_nothings(case: Case, rng: np.random.Generator) -> Case:
 def far_away(case: Case, rng: np.random.Generator) -> Case:
     """100 m from the origin: coordinates are good to 1.5e-11 mm there."""
     off = np.array([-1e5, 1e5, 0.0])
-    return Case(case.vertices + off, case.triangles, case.places + off[:2])
+    return Case(case.vertices + off, case.triangles, case.positions + off[:2])
 
 
 CONNECTED = (turned, mirrored, moved, shuffled, split_in_the_middle, inverted_in_part, with_nothings, far_away)
@@ -150,7 +150,7 @@ MODIFIERS = (*CONNECTED, *DISCONNECTED)
 
 @pytest.fixture(scope="module")
 def plate(small_part: tuple[Floats, Triangles]) -> Case:
-    """Pits and bumps, and places on and beside them."""
+    """Pits and bumps, and positions on and beside them."""
     vertices, triangles = small_part
     low, high = vertices.min(axis=0)[:2] - 3.0, vertices.max(axis=0)[:2] + 3.0
     return Case(vertices, triangles, np.random.default_rng(3).uniform(low, high, (5000, 2)))
@@ -166,13 +166,13 @@ def rubble() -> Case:
     corner = np.arange(rows * columns).reshape(rows, columns)[:-1, :-1].reshape(-1)
     right, up = corner + 1, corner + columns
     triangles = np.concatenate([np.stack([corner, right, up + 1], axis=1), np.stack([corner, up + 1, up], axis=1)])
-    places = rng.uniform([-2.0, -2.0], [x.max() + 2.0, y.max() + 2.0], (5000, 2))
-    return Case(np.stack([x, y, z], axis=-1).reshape(-1, 3), triangles.astype(np.int64), places)
+    positions = rng.uniform([-2.0, -2.0], [x.max() + 2.0, y.max() + 2.0], (5000, 2))
+    return Case(np.stack([x, y, z], axis=-1).reshape(-1, 3), triangles.astype(np.int64), positions)
 
 
 def tips(case: Case, tool: str) -> Floats:
     part = sc.Part.from_mesh(case.vertices, case.triangles)
-    return sc.drop_cutter(part, sc.Tool.from_dict({"profile": TOOLS[tool]}), case.places) - case.raised
+    return sc.drop_cutter(part, sc.Tool.from_dict({"profile": TOOLS[tool]}), case.positions) - case.raised
 
 
 @pytest.mark.parametrize("tool", TOOLS)
@@ -184,7 +184,7 @@ def test_drop_cutter_moves_with_the_shape(
     case: Case = request.getfixturevalue(name)
     before, after = tips(case, tool), tips(modifier(case, np.random.default_rng(5)), tool)
     assert 1000 < np.isfinite(before).sum() < len(before)
-    # places are rounded out there, and beside a rim heights are a hundred times as steep
+    # positions are rounded out there, and beside a rim heights are a hundred times as steep
     atol = 1e-8 if modifier is far_away else EXACT
     np.testing.assert_allclose(after, before, rtol=0.0, atol=atol)
 

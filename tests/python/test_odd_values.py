@@ -18,7 +18,7 @@ ROOF = ([[-20, -20, -5], [20, -20, -5], [20, 20, -5], [-20, 20, -5], [0, -20, 0]
         [[0, 4, 5], [0, 5, 3], [4, 1, 2], [4, 2, 5]])  # fmt: skip
 ODD = [math.nan, math.inf, -math.inf, -1.0, 0.0, 1e300, 1e-300]
 LONGEST = 400
-"""Characters of what is said of a number."""
+"""Characters of a message about a number."""
 
 
 @pytest.fixture(scope="module")
@@ -43,7 +43,7 @@ NUMBERS: dict[str, Callable[[sc.Part, sc.Report, float], Any]] = {
         part, BALL, -3.0, tolerance=max(x, 1e-4) if x > 0 else x
     ),
     "height of a waterline": lambda part, _, x: sc.waterline(part, BALL, x),
-    "place": lambda part, _, x: sc.drop_cutter(part, BALL, [[x, 0.0]]),
+    "position": lambda part, _, x: sc.drop_cutter(part, BALL, [[x, 0.0]]),
     "floor": lambda part, _, x: sc.drop_cutter(part, BALL, [[99.0, 0.0]], floor=x),
     "height of a push": lambda part, _, x: sc.push_cutter(part, BALL, [[0.0, 0.0]], [[1.0, 0.0]], x),
     "direction of a push": lambda part, _, x: sc.push_cutter(part, BALL, [[0.0, 0.0]], [[x, 0.0]], -3.0),
@@ -128,10 +128,10 @@ DOCUMENTS: dict[str, tuple[type[sc.StylusError], str, Callable[[sc.Job], Any]]] 
 
 @pytest.mark.parametrize("what", DOCUMENTS)
 def test_odd_documents(what, job):
-    failure, said, call = DOCUMENTS[what]
+    failure, stated, call = DOCUMENTS[what]
     with pytest.raises(failure) as caught:
         call(job)
-    assert said in str(caught.value), caught.value
+    assert stated in str(caught.value), caught.value
 
 
 def test_names_of_files_keep_their_digits():

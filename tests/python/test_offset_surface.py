@@ -49,7 +49,7 @@ def test_flags_are_those_of_the_exact_envelope(
     assert np.isin(found.faces, formed).all()
     nodes = nodes_of(part_of(name), found)
     assert np.abs(found.points - closed_form(found, profile, document))[nodes].max() < 1e-9
-    # the exact envelope says how deep each position lies in the free side's complement
+    # the exact envelope gives how deep each position lies in the free side's complement
     inside = -meridian.envelope(found.points[:, :2], tool, sheet).clearance(found.points[:, 2])
     stopped = np.isin(found.flags, (BRIDGED, INTERFERES))
     assert (inside[stopped] > TOLERANCE - 0.002).all()
@@ -179,7 +179,7 @@ def test_the_same_bytes_for_any_thread_count(part_of: Callable[[str], sc.Part]) 
     assert [FLAGS[flag] for flag in np.unique(first.flags)][:2] == ["contact", "bridged"]
 
 
-def test_the_plan_says_what_becomes_of_each_face(
+def test_the_plan_states_what_becomes_of_each_face(
     part_of: Callable[[str], sc.Part], meridian_of: Callable[[str], Meridian]
 ) -> None:
     document = {

@@ -24,8 +24,8 @@ SIDES = np.array(
 )
 
 
-def boxes(*places: tuple[float, float, float]) -> np.ndarray:
-    return np.concatenate([(BOX + place)[SIDES] for place in places])
+def boxes(*corners: tuple[float, float, float]) -> np.ndarray:
+    return np.concatenate([(BOX + corner)[SIDES] for corner in corners])
 
 
 def written(triangles: np.ndarray, folder: Path) -> Path:
@@ -80,7 +80,7 @@ MENDED = {
 
 
 @pytest.mark.parametrize("name", MENDED)
-def test_what_is_mended_is_said(name: str, tmp_path: Path) -> None:
+def test_what_is_mended_is_stated(name: str, tmp_path: Path) -> None:
     triangles, note, size = MENDED[name]
     part = read(triangles, tmp_path)
     assert part.is_closed and volume(part) == pytest.approx(size, rel=1e-5)

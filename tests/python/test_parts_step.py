@@ -167,7 +167,7 @@ def test_face_order_and_areas_are_the_kernels(kinds: PartArrays, kinds_file: Pat
 
 
 def test_deviation_bound_holds_by_kernel_projection(kinds: PartArrays, kinds_file: Path) -> None:
-    """Denser, random samples, judged by the kernel's projection, stay within the bound that we report."""
+    """Denser, random samples, measured by the kernel's projection, stay within the bound that we report."""
     assert max(kinds.deviation_inward, kinds.deviation_outward) <= 0.005
     random = np.random.default_rng(5)
     worst = 0.0
@@ -285,7 +285,7 @@ def test_units_become_mm(tmp_path: Path) -> None:
 
 
 def test_two_placed_copies_and_a_turned_body(tmp_path: Path) -> None:
-    """Copies of one body share a triangulation: each must stand at its own place."""
+    """Copies of one body share a triangulation: each must stand at its own position."""
     builder, both = BRep_Builder(), TopoDS_Compound()
     builder.MakeCompound(both)
     body = BRepAlgoAPI_Cut(box(), BRepPrimAPI_MakeCylinder(at(5, 10, -1), 3.0, 50.0).Shape()).Shape()
@@ -503,7 +503,7 @@ def test_edges_off_their_surface_are_read_with_a_note(tmp_path: Path) -> None:
 
 
 def test_damage_is_named(tmp_path: Path) -> None:
-    """The text is judged before the kernel: it would read a part of the file without a word."""
+    """The text is checked before the kernel reads it: it would read a part of the file without a word."""
     with pytest.raises(GeometryError, match="cut short"):
         read_part(truncated(tmp_path))
     with pytest.raises(GeometryError, match="does not begin with ISO"):

@@ -93,7 +93,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("name", REFUSED)
-def test_refused_with_the_place(name: str, tmp_path: Path) -> None:
+def test_refused_with_the_position(name: str, tmp_path: Path) -> None:
     content, words = REFUSED[name]
     file = tmp_path / "part.stl"
     file.write_bytes(content.encode("latin-1"))

@@ -129,12 +129,12 @@ def test_feet_are_found_round_a_pole_and_across_a_seam() -> None:
 
     ours = parametric(GeomConvert.SurfaceToBSplineSurface_s(Geom_SphericalSurface(gp_Ax3(), 5.0)), 20)
     random = np.random.default_rng(5)
-    ways = np.concatenate([random.normal(size=(300, 3)), random.normal(size=(300, 3)) * (0.1, 0.1, 1.0)])
-    ways[:100, 1] *= 0.01  # beside the seam, and opposite
-    ways /= np.linalg.norm(ways, axis=1)[:, None]
-    lifts = random.uniform(-1.0, 1.0, len(ways))
-    assert np.abs(ours.distance((5.0 + lifts)[:, None] * ways) - lifts).max() < 1e-8
-    assert np.abs(ours.normal((5.0 + lifts)[:, None] * ways) - ways).max() < 1e-4
+    directions = np.concatenate([random.normal(size=(300, 3)), random.normal(size=(300, 3)) * (0.1, 0.1, 1.0)])
+    directions[:100, 1] *= 0.01  # beside the seam, and opposite
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    lifts = random.uniform(-1.0, 1.0, len(directions))
+    assert np.abs(ours.distance((5.0 + lifts)[:, None] * directions) - lifts).max() < 1e-8
+    assert np.abs(ours.normal((5.0 + lifts)[:, None] * directions) - directions).max() < 1e-4
 
 
 def test_freeform_distance_agrees_with_the_kernel() -> None:

@@ -127,15 +127,15 @@ def test_the_check_is_seen_to_move() -> None:
         shares.append,
     )
     assert shares == sorted(shares) and len(shares) > 5 and 0.5 < shares[-1] <= 1.0
-    said: list[tuple[str, float]] = []
-    steps = AttemptSteps(lambda phase, fraction: said.append((phase, fraction)))
+    reported: list[tuple[str, float]] = []
+    steps = AttemptSteps(lambda phase, fraction: reported.append((phase, fraction)))
     for _ in range(3):
         steps.begin()
         for share in np.linspace(0.0, 1.0, 2000):
             steps.checked(share)
-    fractions = [fraction for _, fraction in said]
+    fractions = [fraction for _, fraction in reported]
     assert fractions == sorted(fractions) and fractions[0] == pytest.approx(0.3) and 0.88 < fractions[-1] < 0.9
-    assert len(said) < 130 and {phase for phase, _ in said} == {"mesh", "check"}
+    assert len(reported) < 130 and {phase for phase, _ in reported} == {"mesh", "check"}
 
 
 def test_mesher_that_never_holds_is_an_error() -> None:
@@ -146,7 +146,7 @@ def test_mesher_that_never_holds_is_an_error() -> None:
 
 
 def test_edges_off_the_surface_are_allowed_what_they_are_off() -> None:
-    """A file whose edges lie 2.6 um off its surfaces is not made better by refusing it: it is said."""
+    """A file whose edges lie 2.6 um off its surfaces is not made better by refusing it: it is reported."""
     found = refine_until(lambda d: [ring(d)], [Cylinder((0, 0, 0), (0, 0, 1), 10.0026)], 0.001)
     assert found.edge_gaps == (pytest.approx(0.0026, abs=1e-6),)
     assert 0.0026 < found.deviations[0].inward <= 0.001 + 1.25 * 0.0026
@@ -169,7 +169,7 @@ def square(overlap: float = 0.0, missing: float = 0.0) -> FaceMesh:
 
 
 @pytest.mark.parametrize(
-    ("mesh", "said"),
+    ("mesh", "reported"),
     [
         (square(), ""),
         (square(overlap=0.08), "overlap, they cover 4.0 % more"),
@@ -177,19 +177,19 @@ def square(overlap: float = 0.0, missing: float = 0.0) -> FaceMesh:
         (square(missing=0.04), "a part of it would not be machined"),
     ],
 )
-def test_triangles_that_overlap_a_little_are_a_note(mesh: FaceMesh, said: str) -> None:
+def test_triangles_that_overlap_a_little_are_a_note(mesh: FaceMesh, reported: str) -> None:
     found = Tessellation((mesh,), (Deviation(0.0, 0.0),), (0.0,), 1e-3, 1)
     areas = [(1.0, (0.5, 0.5, 0.0))]
-    if said.startswith("overlap"):
-        assert said in check_areas(Path("a.step"), found, areas)[0]
-    elif said:
-        with pytest.raises(GeometryError, match=said) as caught:
+    if reported.startswith("overlap"):
+        assert reported in check_areas(Path("a.step"), found, areas)[0]
+    elif reported:
+        with pytest.raises(GeometryError, match=reported) as caught:
             check_areas(Path("a.step"), found, areas)
         assert caught.value.where == "a.step:Face1" and caught.value.hint
     else:
         assert check_areas(Path("a.step"), found, areas) == ()
-    coarse = [(1.04 if not said else 1.0, (0.5, 0.5, 0.0))]
-    if not said:  # a quadrature of few points is not the face's fault
+    coarse = [(1.04 if not reported else 1.0, (0.5, 0.5, 0.0))]
+    if not reported:  # a quadrature of few points is not the face's fault
         assert check_areas(Path("a.step"), found, coarse, lambda _: 1.0) == ()
 
 

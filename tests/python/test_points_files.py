@@ -42,7 +42,7 @@ def test_points_are_read(tmp_path: Path, data: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "says"),
+    ("text", "stated"),
     [
         ("0,0\n1,1,1\n", "line 2: '1,1,1'"),
         ("r,z\n0,0\n\n1,x\n", "line 4: '1,x'"),
@@ -57,12 +57,12 @@ def test_points_are_read(tmp_path: Path, data: Any) -> None:
         ("# nothing\nr,z\n", "no points"),
     ],
 )
-def test_slips_are_named_with_their_line(tmp_path: Path, text: str, says: str) -> None:
+def test_slips_are_named_with_their_line(tmp_path: Path, text: str, stated: str) -> None:
     path = tmp_path / "p.csv"
     path.write_text(text)
     with pytest.raises(sc.ToolError) as caught:
         read_points(path)
-    assert says in str(caught.value) and "p.csv" in str(caught.value) and caught.value.hint
+    assert stated in str(caught.value) and "p.csv" in str(caught.value) and caught.value.hint
 
 
 def test_a_file_that_is_not_there_or_too_long(tmp_path: Path) -> None:

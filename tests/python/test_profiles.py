@@ -79,7 +79,7 @@ def test_closed_forms_to_1e_12(profile, exact):
     expected = np.array([[float(x) for x in exact(mp.mpf(s))] for s in slopes])
     found = np.stack([tool.radius_at(slopes), tool.height_at(slopes), tool.curvature_radius_at(slopes)], axis=1)
     np.testing.assert_allclose(found, expected, rtol=1e-12)
-    # Z(d): where the wall is steep, a radius in float64 says less about the height
+    # Z(d): where the wall is steep, a radius in float64 determines less of the height
     gentle = slopes < 1.3
     heights = tool.height_at_radius(expected[gentle, 0])
     np.testing.assert_allclose(heights, expected[gentle, 1], rtol=2e-12)
@@ -154,7 +154,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize(("profile", "word"), REFUSED.values(), ids=REFUSED)
-def test_what_is_no_profile_is_refused_with_its_place(profile, word):
+def test_what_is_no_profile_is_refused_with_its_position(profile, word):
     with pytest.raises(sc.ToolError, match=re.escape(word)):
         sc.Tool.from_dict({"profile": profile})
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import styluscam as sc
+from styluscam.types import FloatArray
 
 BALL = {"kind": "ball", "diameter": 6.0}
 FLOOR = [[-20.0, -20.0, 0.0], [20.0, -20.0, 0.0], [20.0, 20.0, 0.0], [-20.0, 20.0, 0.0]]
@@ -47,14 +48,14 @@ def outline(loop: np.ndarray) -> float:
     ],
 )
 def test_a_wall_stops_the_tool_where_it_stands(profile: dict[str, object], z: float, gap: float) -> None:
-    ways = sc.push_cutter(box(), tool_of(profile), [[-15.0, 1.0], [0.3, 15.0]], [[2.0, 0.0], [0.0, -0.1]], z)
-    assert np.abs(ways - (10.0 - gap)).max() < 1e-9
+    travels = sc.push_cutter(box(), tool_of(profile), [[-15.0, 1.0], [0.3, 15.0]], [[2.0, 0.0], [0.0, -0.1]], z)
+    assert np.abs(travels - (10.0 - gap)).max() < 1e-9
 
 
-def test_what_meets_nothing_goes_on_and_what_does_not_stand_free_is_told() -> None:
-    ways = sc.push_cutter(box(), tool_of(BALL), [[-15.0, 9.0], [0.0, 0.0], [-15.0, 0.0]], [[1.0, 0.0]] * 3, 4.0)
-    assert np.isposinf(ways[0])
-    assert np.isnan(ways[1])
+def test_what_meets_nothing_goes_on_and_what_does_not_stand_free_is_reported() -> None:
+    travels = sc.push_cutter(box(), tool_of(BALL), [[-15.0, 9.0], [0.0, 0.0], [-15.0, 0.0]], [[1.0, 0.0]] * 3, 4.0)
+    assert np.isposinf(travels[0])
+    assert np.isnan(travels[1])
     # a floor at the tool's height lets it pass
     assert np.isposinf(sc.push_cutter(on_floor([], []), tool_of(BALL), [[-19.0, 0.0]], [[1.0, 0.0]], 0.0)[0])
 
@@ -86,12 +87,16 @@ def test_the_drop_cutter_agrees_on_both_sides_of_a_touch(profile: dict[str, obje
     angles = random.uniform(0.0, 2.0 * np.pi, 400)
     directions = np.stack([np.cos(angles), np.sin(angles)], 1)
     starts = random.uniform(-12.0, 12.0, (400, 2))
-    ways = sc.push_cutter(part, tool, starts, directions, 1.0)
+    travels = sc.push_cutter(part, tool, starts, directions, 1.0)
     tips = sc.drop_cutter(part, tool, starts)
-    assert (np.isnan(ways) == (tips > 1.0)).all()
-    met = np.isfinite(ways)
+    assert (np.isnan(travels) == (tips > 1.0)).all()
+    met = np.isfinite(travels)
     assert met.sum() > 60
-    at = lambda way: sc.drop_cutter(part, tool, starts[met] + (ways[met] + way)[:, None] * directions[met], floor=-50.0)  # noqa: E731
+
+    def at(more: float) -> FloatArray:
+        beyond = starts[met] + (travels[met] + more)[:, None] * directions[met]
+        return sc.drop_cutter(part, tool, beyond, floor=-50.0)
+
     assert (at(-1e-7) <= 1.0 + 1e-9).all()
     assert (at(1e-6) > 1.0).all()
 
@@ -125,8 +130,8 @@ def test_floors_at_the_level_have_no_loop_of_their_own() -> None:
     [{"kind": "flat", "diameter": 6.0}, {"kind": "bull-nose", "diameter": 6.0, "corner_radius": 1.0}, BALL],
     ids=lambda profile: profile["kind"],
 )
-def test_the_way_to_a_touch_is_free_over_rough_ground(profile: dict[str, object]) -> None:
-    """Edges that dip under the tip end there: only one side of the place where they do keeps the tool off."""
+def test_the_path_to_a_touch_is_free_over_rough_ground(profile: dict[str, object]) -> None:
+    """Edges that dip under the tip end there: only one side of the position where they do keeps the tool off."""
     rng = np.random.default_rng(8)
     u = np.linspace(-30.0, 30.0, 31)
     x, y = np.meshgrid(u, u)
@@ -134,13 +139,13 @@ def test_the_way_to_a_touch_is_free_over_rough_ground(profile: dict[str, object]
     first = np.arange(31 * 31).reshape(31, 31)[:-1, :-1].reshape(-1, 1)
     triangles = np.concatenate([np.add(first, ring) for ring in ([0, 1, 32], [0, 32, 31])])
     part, tool = sc.Part.from_mesh(vertices, triangles), tool_of(profile)
-    places = rng.uniform(-36.0, 36.0, (20_000, 2))
-    angle = rng.uniform(0.0, 2.0 * np.pi, len(places))
+    points = rng.uniform(-36.0, 36.0, (20_000, 2))
+    angle = rng.uniform(0.0, 2.0 * np.pi, len(points))
     directions = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    ways = sc.push_cutter(part, tool, places, directions, 3.3)
-    touches = np.isfinite(ways)
+    travels = sc.push_cutter(part, tool, points, directions, 3.3)
+    touches = np.isfinite(travels)
     assert touches.sum() > 1000
     share = rng.uniform(0.0, 1.0 - 1e-9, (touches.sum(), 30))
-    on_way = places[touches][:, None] + (share * ways[touches][:, None])[..., None] * directions[touches][:, None]
-    tips = sc.drop_cutter(part, tool, on_way.reshape(-1, 2), floor=-1.0)
+    on_path = points[touches][:, None] + (share * travels[touches][:, None])[..., None] * directions[touches][:, None]
+    tips = sc.drop_cutter(part, tool, on_path.reshape(-1, 2), floor=-1.0)
     assert tips.max() <= 3.3 + 1e-9

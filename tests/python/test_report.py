@@ -145,7 +145,7 @@ def test_rounded_columns_are_within_half_a_step() -> None:
     assert np.abs(unpacked(packed(values, 1e-4)) - values).max() <= 0.5e-4 * (1.0 + 1e-9)
 
 
-def test_a_thinned_path_says_how_far_it_is_off() -> None:
+def test_a_thinned_path_states_how_far_it_is_off() -> None:
     turn = np.linspace(0.0, 40.0 * np.pi, 20_001)
     points = np.stack([10.0 * np.cos(turn), 10.0 * np.sin(turn), -turn / 50.0], axis=1)
     keep = np.zeros(len(points), dtype=bool)
@@ -162,7 +162,7 @@ def test_a_thinned_path_says_how_far_it_is_off() -> None:
     assert thinned(points[:1], keep[:1], 10).error_mm == 0.0
 
 
-def test_places_along_arcs_have_their_time_and_move(job: sc.Job) -> None:
+def test_positions_along_arcs_have_their_time_and_move(job: sc.Job) -> None:
     text = "G21 G90 G54 G17\nG0 X0 Y0 Z5\nG1 Z0 F60\nG4 P2.5\nG3 X20 Y0 I10 J0 F600\nG1 X30\nG0 Z5\nM2\n"
     program = sc.read_gcode(text, job.machine())
     subject = Subject("arc", "arc.ngc", program, job.machine())
@@ -252,7 +252,7 @@ def test_left_at_a_point_is_its_distance_from_what_is_swept(subjects: tuple[Subj
         report.left(np.random.default_rng(3).uniform(0.0, 20.0, (400_000, 3)), cancel=token)
 
 
-def test_maps_say_what_the_judge_says(subjects: tuple[Subject, Subject]) -> None:
+def test_maps_say_what_the_verifier_states(subjects: tuple[Subject, Subject]) -> None:
     subject = subjects[1]
     assert subject.surface is not None and subject.report is not None
     shown = heatmaps.shown_judged(subject.surface, subject.report)
@@ -271,7 +271,7 @@ def test_maps_say_what_the_judge_says(subjects: tuple[Subject, Subject]) -> None
 # --- the page ------------------------------------------------------------------------------------------------------
 
 
-def test_the_page_says_the_verdict(pages: tuple[str, str], subjects: tuple[Subject, Subject]) -> None:
+def test_the_page_states_the_verdict(pages: tuple[str, str], subjects: tuple[Subject, Subject]) -> None:
     sound, faulty = (Page(page) for page in pages)
     assert "Nothing was found" in sound.text and "Must not run" not in sound.text
     assert "Must not run" in faulty.text and "gouge (1, along " in faulty.text
@@ -378,7 +378,7 @@ def test_a_page_without_part_and_job(job: sc.Job) -> None:
     assert np.array_equal(unpacked(data["path"]["places"]), program.positions)
 
 
-def test_without_the_extra_it_says_what_to_install(
+def test_without_the_extra_it_states_what_to_install(
     subjects: tuple[Subject, Subject], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "jinja2", None)

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import styluscam as sc
-from styluscam.tools.scallop import scallop_of_rows, scallop_of_spacing, scallop_of_step
+from styluscam.tools import starters
+from styluscam.tools.scallop import scallop_of_rows, scallop_of_spacing, scallop_of_step, spacing_of_scallop
 
 WALLS = np.array([15.0, 30.0, 45.0, 60.0, 75.0])
 
@@ -183,3 +184,13 @@ def test_passes_too_far_apart_leave_a_strip_untouched():
 def test_shapes_follow_the_arguments():
     assert scallop_of_spacing(ball(5.0), 30.0, 0.5).shape == ()
     assert scallop_of_step(ball(5.0), WALLS[:, None], [0.2, 0.5]).shape == (5, 2)
+
+
+@pytest.mark.parametrize("kind", ["ball", "clothoid", "cone"])
+def test_the_spacing_of_a_scallop_is_the_inverse(kind: str) -> None:
+    tool = sc.Tool.from_dict({"profile": starters.profiles()[kind]})
+    walls, heights = np.array([15.0, 45.0, 75.0]), np.array([0.001, 0.01, 0.05])
+    spacing = spacing_of_scallop(tool, walls, heights)
+    assert scallop_of_spacing(tool, walls, spacing) == pytest.approx(heights, rel=1e-9)
+    with pytest.raises(sc.ToolError, match="height = 0"):
+        spacing_of_scallop(tool, 45.0, 0.0)

@@ -1,4 +1,4 @@
-"""Other people's readers of other dialects than LinuxCNC's: they see the places that our reader sees, block by block."""
+"""Other people's readers of other dialects than LinuxCNC's: they see the positions that our reader sees, block by block."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def block_number(line: str) -> int:
 
 @pytest.mark.world
 @pytest.mark.parametrize("units", ["mm", "inch"])
-def test_sinumerik_blocks_end_where_the_other_reader_says(units: str) -> None:
+def test_sinumerik_blocks_end_where_the_other_reader_states(units: str) -> None:
     machine = sc.Machine.shipped("siemens").with_options({"block_numbers": True, "units": units})
     compared = 0
     for trial in machine.check():
@@ -46,11 +46,11 @@ def test_sinumerik_blocks_end_where_the_other_reader_says(units: str) -> None:
             scale = INCH if state["gg13_wp_measure"] == "G700" else 1.0
             for axis, ours in zip("XYZ", move["end"], strict=True):
                 theirs = state[axis]
-                # our first moves take the first place that an axis is given
+                # our first moves take the first position that an axis is given
                 if theirs is not None and state["gg09_frame_tool_suppress"] is None:
                     assert abs(scale * theirs - ours) <= SINGLE * abs(ours) + 1e-9, (trial.name, state)
                     compared += 1
             assert KINDS[state["gg01_motion"]] == ("feed" if move["feed"] > 0 else "rapid"), (trial.name, state)
             if move["feed"] > 0 and state["gg15_feed_type"] == "G94":
                 assert abs(scale * state["F"] - move["feed"]) <= SINGLE * move["feed"], (trial.name, state)
-    assert compared > 1000, "too few places to say anything"
+    assert compared > 1000, "too few positions to say anything"

@@ -25,11 +25,11 @@ RADIUS = 60.0
 class Shape:
     """A wall around a core square (a point for 0) by its slope: distance from the core, height; where its normal leans.
 
-    `leans` is +1 outwards (a bump), -1 inwards (a pit). `bends` says on which side of the surface chords lie: -1 inside
+    `leans` is +1 outwards (a bump), -1 inwards (a pit). `bends` is the side on which side of the surface chords lie: -1 inside
     the material, +1 outside, 0 both.
     """
 
-    place: Callable[[Floats], tuple[Floats, Floats]]
+    point: Callable[[Floats], tuple[Floats, Floats]]
     leans: float
     bends: int
     core: float = 0.0
@@ -71,9 +71,9 @@ SHAPES = {
     "bowl": Shape(arc, -1, +1),
     "cap": Shape(raised(arc, 0.0, -1.0), +1, -1),  # type: ignore[arg-type]
     **{
-        f"{curve.__name__}-{side}": Shape(place, leans, bends)  # type: ignore[arg-type]
+        f"{curve.__name__}-{side}": Shape(point, leans, bends)  # type: ignore[arg-type]
         for curve in (arc, ellipse, parabola)
-        for side, place, leans, bends in (
+        for side, point, leans, bends in (
             ("frustum-hollow-pit", raised(curve, 15.0, 1.0), -1, +1),
             ("frustum-hollow-bump", turned(curve, 1.0), +1, 0),
             ("frustum-round-pit", turned(curve, -1.0), -1, 0),
@@ -97,7 +97,7 @@ def slope_of(name: str, phi: Floats) -> Floats:
 
 def around(shape: Shape, phi: Floats, turn: Floats) -> tuple[Floats, Floats]:
     """Points (N, 3), and the horizontal directions (N, 2) in which the distance from the core grows."""
-    distance, height = shape.place(phi)
+    distance, height = shape.point(phi)
     away = np.column_stack([np.cos(turn), np.sin(turn)])
     corner = shape.core * np.where(np.abs(away) < 1e-12, 0.0, np.sign(away))
     return np.column_stack([corner + distance[:, None] * away, height]), away
@@ -130,7 +130,7 @@ def samples(name: str) -> tuple[Floats, Floats, Floats]:
     if shape.core:
         straight, away[:100] = np.arange(100) % 2, 0.0
         away[np.arange(100), straight] = 1.0
-        points[:100, :2] = (shape.core + shape.place(phi[:100])[0])[:, None] * away[:100]
+        points[:100, :2] = (shape.core + shape.point(phi[:100])[0])[:, None] * away[:100]
         points[np.arange(100), 1 - straight] = rng.uniform(-0.9, 0.9, 100) * shape.core
     slope = slope_of(name, phi)
     normals = np.column_stack([shape.leans * np.sin(slope)[:, None] * away, np.cos(slope)])

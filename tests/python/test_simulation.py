@@ -74,9 +74,9 @@ def test_rows_leave_their_grooves() -> None:
 def test_a_sound_program_takes_nothing_out_of_the_part() -> None:
     pytest.importorskip("OCP", reason="needs the step extra")
     job = sc.Job.read(EXAMPLE)
-    judged = sc.verify(sc.post(sc.plan(job), job.machine()), job)
-    assert judged.ok
-    compared = sc.simulate(judged, 0.2).compare()
+    verified = sc.verify(sc.post(sc.plan(job), job.machine()), job)
+    assert verified.ok
+    compared = sc.simulate(verified, 0.2).compare()
     assert compared.touched.mean() > 0.2
     # gouge limit and what the triangles are off the part
     assert compared.gouge_max <= 0.001 + 0.001 + 1e-6

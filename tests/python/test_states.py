@@ -119,7 +119,7 @@ def test_operations_come_in_the_jobs_order() -> None:
     assert kinds(text_of(other), of)["operation-order"] == "error"
 
 
-@pytest.mark.parametrize("where", ["before all", "half way"])
+@pytest.mark.parametrize("where", ["before all", "halfway"])
 def test_the_sheet_is_not_punched_through(where: str) -> None:
     of = job(forming=True)
     lines = text_of(of).splitlines()

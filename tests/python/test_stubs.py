@@ -6,8 +6,8 @@ import subprocess
 import sys
 
 
-def test_the_engine_is_what_its_stub_says():
-    said = subprocess.run(
+def test_the_engine_is_what_its_stub_states():
+    ran = subprocess.run(
         [sys.executable, "-m", "mypy.stubtest", "styluscam._engine"], capture_output=True, text=True, check=False
     )
-    assert said.returncode == 0, said.stdout + said.stderr
+    assert ran.returncode == 0, ran.stdout + ran.stderr

@@ -58,7 +58,7 @@ def test_a_tool_that_is_rounder_leaves_nothing() -> None:
     assert gaps(ball, corner(0.0, 60.0, 6.0), 1.1)[0][0] > 0.0
 
 
-def test_rows_are_told_by_how_they_meet_the_walls() -> None:
+def test_rows_are_distinguished_by_how_they_meet_the_walls() -> None:
     slopes, areas = np.radians([45.0, 45.0, 1.0]), np.ones(3)
     walls = Walls(slopes, np.radians([30.0, -60.0, 0.0]), areas, np.zeros((3, 3)), NONE, np.array([1, 2, 3]))
     angles, turns, found, *_ = walls.classes(rows_deg=30.0)

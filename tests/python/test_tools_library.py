@@ -38,7 +38,7 @@ def refused(function: Any, *arguments: Any) -> sc.ToolError:
 
 
 @pytest.mark.parametrize("name", library.names())
-def test_every_shipped_tool_builds_and_has_the_size_that_it_says(name: str) -> None:
+def test_every_shipped_tool_builds_and_has_the_size_that_it_states(name: str) -> None:
     document = library.find(name)
     tool = sc.Tool.library(name)
     assert tool.name == name and tool.title
@@ -121,7 +121,7 @@ def test_a_library_of_one_s_own(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("document", "says", "hint"),
+    ("document", "stated", "hint"),
     [
         ("", "not a library", "JSON"),
         ("[1]", "JSON object", ""),
@@ -151,9 +151,9 @@ def test_a_library_of_one_s_own(tmp_path: Path) -> None:
         (shelf({"name": "a\nb", "profile": BALL}), "one line of text", ""),
     ],
 )
-def test_slips_in_a_library_are_named(tmp_path: Path, document: Any, says: str, hint: str) -> None:
+def test_slips_in_a_library_are_named(tmp_path: Path, document: Any, stated: str, hint: str) -> None:
     error = refused(library.read_library, written(tmp_path / "mine.json", document))
-    assert says in str(error) and hint in error.hint and "mine.json" in str(error)
+    assert stated in str(error) and hint in error.hint and "mine.json" in str(error)
 
 
 def test_a_library_that_is_not_there(tmp_path: Path) -> None:
@@ -192,7 +192,7 @@ def test_random_documents_keep_every_bit(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("document", "says", "hint"),
+    ("document", "stated", "hint"),
     [
         ({"profile": {"kind": "clotoid", "diameter": 5}}, "unknown kind 'clotoid'", "'clothoid'"),
         ({"profile": {**BALL, "tipflat": 5}}, "unknown key 'tipflat'", "'tip_flat'"),
@@ -206,9 +206,9 @@ def test_random_documents_keep_every_bit(tmp_path: Path) -> None:
         ({"profile": BALL, "name": 5}, "name must be", ""),
     ],
 )
-def test_slips_in_a_tool_file_are_named(tmp_path: Path, document: Any, says: str, hint: str) -> None:
+def test_slips_in_a_tool_file_are_named(tmp_path: Path, document: Any, stated: str, hint: str) -> None:
     error = refused(sc.Tool.read, written(tmp_path / "t.json", document))
-    assert says in str(error) and hint in error.hint and "t.json" in str(error)
+    assert stated in str(error) and hint in error.hint and "t.json" in str(error)
 
 
 def test_a_tool_file_appears_whole_or_not_at_all(tmp_path: Path) -> None:
@@ -358,7 +358,7 @@ def test_freecad_s_bits_are_read_as_the_nearest_kind(tmp_path: Path, bit: Any, p
 
 
 @pytest.mark.parametrize(
-    ("bit", "says"),
+    ("bit", "stated"),
     [
         (native("probe", Diameter="6 mm"), "no profile is known for a bit of shape 'probe'"),
         (native("ballend"), "without Diameter"),
@@ -371,9 +371,9 @@ def test_freecad_s_bits_are_read_as_the_nearest_kind(tmp_path: Path, bit: Any, p
         ("<xml/>", "not a tool bit"),
     ],
 )
-def test_bits_that_are_no_tools_are_refused(tmp_path: Path, bit: Any, says: str) -> None:
+def test_bits_that_are_no_tools_are_refused(tmp_path: Path, bit: Any, stated: str) -> None:
     error = refused(sc.Tool.read, written(tmp_path / "bit.fctb", bit))
-    assert says in str(error) and "bit.fctb" in str(error)
+    assert stated in str(error) and "bit.fctb" in str(error)
 
 
 def test_a_length_changed_in_freecad_counts(tmp_path: Path) -> None:
@@ -421,15 +421,15 @@ def test_a_bit_keeps_the_tool_s_name_and_a_high_base(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("exact", "says"),
+    ("exact", "stated"),
     [
         ('{"profile": {"kind": "ball", "kind": "flat", "diameter": 6}}', "'kind' is given twice"),
         (json.dumps({"schema": 9, "profile": BALL}), "newer StylusCAM"),
     ],
 )
-def test_slips_in_a_bit_s_document_are_named(tmp_path: Path, exact: str, says: str) -> None:
+def test_slips_in_a_bit_s_document_are_named(tmp_path: Path, exact: str, stated: str) -> None:
     bit = {"shape": "stylus.fcstd", "parameter": {"Profile": exact}, "attribute": {}}
-    assert says in str(refused(sc.Tool.read, written(tmp_path / "b.fctb", bit)))
+    assert stated in str(refused(sc.Tool.read, written(tmp_path / "b.fctb", bit)))
 
 
 def test_a_diameter_changed_in_freecad_is_noted(tmp_path: Path) -> None:
@@ -439,7 +439,7 @@ def test_a_diameter_changed_in_freecad_is_noted(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("document", "says"),
+    ("document", "stated"),
     [
         ({"profile": {"kind": "ball", "diameter": math.nan}}, "profile.diameter: float nan came"),
         (
@@ -450,8 +450,8 @@ def test_a_diameter_changed_in_freecad_is_noted(tmp_path: Path) -> None:
         ({"profile": {"kind": "ball", "diameter": {3.0}}}, "profile.diameter: a value of type set came"),
     ],
 )
-def test_what_is_no_document_is_named(document: Any, says: str) -> None:
-    assert says in str(refused(sc.Tool.from_dict, document))
+def test_what_is_no_document_is_named(document: Any, stated: str) -> None:
+    assert stated in str(refused(sc.Tool.from_dict, document))
 
 
 def test_a_tool_file_may_begin_with_a_byte_order_mark(tmp_path: Path) -> None:

@@ -21,18 +21,18 @@ from styluscam.errors import VerifyError
 
 pytestmark = pytest.mark.world
 
-Place: TypeAlias = tuple[float, float, float]
-Offsets: TypeAlias = tuple[Place, Place, float]
+Position: TypeAlias = tuple[float, float, float]
+Offsets: TypeAlias = tuple[Position, Position, float]
 """Zero of the work coordinates and of those within them, mm, and their turn, rad."""
 
 SHARED = Path("usr/share")
 FOLDERS = ("linuxcnc/ncfiles", "doc/linuxcnc/examples", "axis/images")
-ZERO: Place = (0.0, 0.0, 0.0)
+ZERO: Position = (0.0, 0.0, 0.0)
 UNKNOWN_TOOLS = dict.fromkeys(range(1, 100), 0.0)
 """As the tracer takes them: without length, and without diameter: compensation changes nothing."""
 
 ROUNDED = 0.003
-"""mm: half of the last place that the interpreter prints, in inches, and what offsets add."""
+"""mm: half of the last digit that the interpreter prints, in inches, and what offsets add."""
 
 REFUSED = {"nestedcall.ngc": "this O-word is not known"}
 """Faults that LinuxCNC finds too."""
@@ -44,7 +44,7 @@ ELSEWHERE = {
     "smartprobe.ngc": "the interpreter alone has its probes end 0.254 mm before their ends",
     "x-trim.ngc": "the interpreter alone has its probes end 0.254 mm before their ends",
 }
-"""Programs that go other ways, and why."""
+"""Programs that are traced otherwise, and why."""
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +70,7 @@ def libraries() -> list[Path]:
 
 
 @cache
-def traced(path: Path) -> list[Place] | str:
+def traced(path: Path) -> list[Position] | str:
     """Where the moves end, or what keeps the program from being shown: a stable name."""
     try:
         program, _ = _engine.trace_gcode(path.read_text(encoding="utf-8"), subroutines_in([path.parent, *libraries()]))
@@ -79,20 +79,25 @@ def traced(path: Path) -> list[Place] | str:
     return _ends(program)
 
 
-def _ends(program: _engine.Program) -> list[Place]:
+def _ends(program: _engine.Program) -> list[Position]:
     return [(float(x), float(y), float(z)) for x, y, z in program.columns()[1]]
 
 
 def test_they_are_shown_or_only_define_subroutines_or_move_nothing(samples: list[Path]) -> None:
     found: dict[str, list[str]] = {}
     for path in samples:
-        way = traced(path)
-        kind = way.split(": ")[0] if isinstance(way, str) else "shown"
+        path_of_ours = traced(path)
+        kind = path_of_ours.split(": ")[0] if isinstance(path_of_ours, str) else "shown"
         found.setdefault(kind, []).append(path.name)
     print({kind: len(names) for kind, names in found.items()})
     still, libraries_only, shown = (found.pop(kind) for kind in ("trace-no-moves", "trace-only-subroutines", "shown"))
     assert [name for names in found.values() for name in names] == list(REFUSED)
-    assert all(way.endswith(REFUSED[path.name]) for path in samples if path.name in REFUSED for way in [traced(path)])
+    assert all(
+        path_of_ours.endswith(REFUSED[path.name])
+        for path in samples
+        if path.name in REFUSED
+        for path_of_ours in [traced(path)]
+    )
     assert len(shown) >= 75 and len(still) <= 40 and len(libraries_only) <= 230
 
 
@@ -103,8 +108,8 @@ def test_they_go_where_linuxcnc_goes(samples: list[Path]) -> None:
         if isinstance(ours, str):
             continue
         folders = [f"/{folder.relative_to(_share().parents[1])}" for folder in (path.parent, *libraries())]
-        said = rs274.interpret(path.read_text(encoding="utf-8"), tools=UNKNOWN_TOOLS, subroutines=folders)
-        theirs = list(places_of(said))
+        interpreted = rs274.interpret(path.read_text(encoding="utf-8"), tools=UNKNOWN_TOOLS, subroutines=folders)
+        theirs = list(positions_of(interpreted))
         compared += bool(theirs)
         if not goes_along(ours, theirs):
             elsewhere.add(path.name)
@@ -115,44 +120,44 @@ def test_they_go_where_linuxcnc_goes(samples: list[Path]) -> None:
 @pytest.mark.parametrize("seed", range(40))
 def test_random_programs_go_where_linuxcnc_goes(samples: list[Path], seed: int) -> None:
     text = ngc_words.program(random.Random(seed))
-    said = rs274.interpret(text, tools=UNKNOWN_TOOLS)
+    interpreted = rs274.interpret(text, tools=UNKNOWN_TOOLS)
     try:
         program, _ = _engine.trace_gcode(text, lambda _: None)
     except VerifyError:
-        assert not said.ok, text
+        assert not interpreted.ok, text
     else:
-        assert goes_along(_ends(program), list(places_of(said))), text
+        assert goes_along(_ends(program), list(positions_of(interpreted))), text
 
 
-def goes_along(ours: Sequence[Place], theirs: Sequence[Place | None]) -> bool:
-    """Whether our places are theirs, as far as those go; None stands for any number of places."""
+def goes_along(ours: Sequence[Position], theirs: Sequence[Position | None]) -> bool:
+    """Whether our positions are theirs, as far as those go; None stands for any number of positions."""
     mine, open_end = iter(moved(ours)), False
-    for place in moved(theirs):
-        if place is None:
+    for position in moved(theirs):
+        if position is None:
             open_end = True
             continue
         candidates = mine if open_end else [next(mine, None)]
         open_end = False
-        if not any(one is not None and math.dist(one, place) <= ROUNDED for one in candidates):
+        if not any(one is not None and math.dist(one, position) <= ROUNDED for one in candidates):
             return False
     return True
 
 
-def moved(places: Sequence[Place | None]) -> Iterator[Place | None]:
-    """The places without those where nothing moves, from the machine's zero on."""
-    last: Place | None = ZERO
-    for place in places:
-        if place is None or last is None or math.dist(place, last) > ROUNDED:
-            yield place
-            last = place
+def moved(positions: Sequence[Position | None]) -> Iterator[Position | None]:
+    """The positions without those where nothing moves, from the machine's zero on."""
+    last: Position | None = ZERO
+    for position in positions:
+        if position is None or last is None or math.dist(position, last) > ROUNDED:
+            yield position
+            last = position
 
 
-def places_of(said: rs274.Interpretation) -> Iterator[Place | None]:
+def positions_of(interpreted: rs274.Interpretation) -> Iterator[Position | None]:
     """Where the interpreter's moves end, in the coordinates of the first one, mm; None for curves, whose ends it hides."""
     work, local, turn = ZERO, ZERO, 0.0
     first: Offsets | None = None
     last = ZERO
-    for call in said:
+    for call in interpreted:
         scale = 25.4 if call.unit == "inch" else 1.0
         if call.kind == "SET_G5X_OFFSET":
             work = _scaled(call.numbers[1:4], scale)
@@ -165,9 +170,9 @@ def places_of(said: rs274.Interpretation) -> Iterator[Place | None]:
         elif call.kind == "NURBS_FEED":
             yield None
         elif call.kind in (*rs274.MOVES, "STRAIGHT_PROBE", "RIGID_TAP"):
-            place = call.mm if call.kind in rs274.MOVES else _scaled(call.numbers[:3], scale)
+            position = call.mm if call.kind in rs274.MOVES else _scaled(call.numbers[:3], scale)
             first = first or (work, local, turn)
-            shown = _called(_in_space(place, (work, local, turn)), first)
+            shown = _called(_in_space(position, (work, local, turn)), first)
             yield shown
             if call.kind == "RIGID_TAP":
                 yield last  # back again
@@ -175,25 +180,25 @@ def places_of(said: rs274.Interpretation) -> Iterator[Place | None]:
                 last = shown
 
 
-def _scaled(numbers: Sequence[float], scale: float) -> Place:
+def _scaled(numbers: Sequence[float], scale: float) -> Position:
     x, y, z = numbers
     return x * scale, y * scale, z * scale
 
 
-def _turned(place: Place, angle: float) -> Place:
-    x, y, z = place
+def _turned(position: Position, angle: float) -> Position:
+    x, y, z = position
     return x * math.cos(angle) - y * math.sin(angle), x * math.sin(angle) + y * math.cos(angle), z
 
 
-def _sum(a: Place, b: Place, sign: float = 1.0) -> Place:
+def _sum(a: Position, b: Position, sign: float = 1.0) -> Position:
     return a[0] + sign * b[0], a[1] + sign * b[1], a[2] + sign * b[2]
 
 
-def _in_space(place: Place, offsets: Offsets) -> Place:
+def _in_space(position: Position, offsets: Offsets) -> Position:
     work, local, turn = offsets
-    return _sum(_turned(_sum(place, local), turn), work)
+    return _sum(_turned(_sum(position, local), turn), work)
 
 
-def _called(place: Place, offsets: Offsets) -> Place:
+def _called(position: Position, offsets: Offsets) -> Position:
     work, local, turn = offsets
-    return _sum(_turned(_sum(place, work, -1.0), -turn), local, -1.0)
+    return _sum(_turned(_sum(position, work, -1.0), -turn), local, -1.0)

@@ -25,7 +25,7 @@ CUBE = ([[x, y, z] for z in (-5.0, 0.0) for y in (0.0, 8.0) for x in (0.0, 10.0)
         [[0, 1, 5], [0, 5, 4], [1, 3, 7], [1, 7, 5], [3, 2, 6], [3, 6, 7], [2, 0, 4], [2, 4, 6],
          [4, 5, 7], [4, 7, 6], [0, 3, 1], [0, 2, 3]])  # fmt: skip
 LONGEST = 160
-"""Characters of what a value says of itself."""
+"""Characters of a value's text."""
 
 
 def _job(stepover: float = 2.0) -> sc.Job:
@@ -71,23 +71,23 @@ NAMES = [
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_value_says_in_a_line_what_it_is(made, name):
-    said = repr(made[name])
-    assert "\n" not in said and len(said) <= LONGEST, said
-    assert "0x" not in said and type(made[name]).__name__ in said
+def test_a_value_states_in_a_line_what_it_is(made, name):
+    shown = repr(made[name])
+    assert "\n" not in shown and len(shown) <= LONGEST, shown
+    assert "0x" not in shown and type(made[name]).__name__ in shown
 
 
 def test_what_values_say(made):
-    said = {name: repr(value) for name, value in made.items()}
-    assert said["tool"] == "<Tool 'clothoid:small': clothoid D6>"
-    assert said["part"] == "<Part: 12 triangles, 10 x 8 x 5 mm>"
-    assert said["job"] == '<Job "A cube\'s top": made.stl, 1 operation (zig-zag), for linuxcnc>'
-    assert said["machine"].startswith("<Machine 'linuxcnc': LinuxCNC")
-    assert "1 operation" in said["plan"] and " moves" in said["plan"] and "mm at feed" in said["program"]
-    assert "job.ngc" in said["posted"] and " lines" in said["posted"]
-    assert said["report"].startswith("<Report: ok, nothing found, worst gouge 0.0")
-    assert "nothing written" in said["run"]
-    assert "nodes" in said["simulation"] and "contact" in said["offset"]
+    shown = {name: repr(value) for name, value in made.items()}
+    assert shown["tool"] == "<Tool 'clothoid:small': clothoid D6>"
+    assert shown["part"] == "<Part: 12 triangles, 10 x 8 x 5 mm>"
+    assert shown["job"] == '<Job "A cube\'s top": made.stl, 1 operation (zig-zag), for linuxcnc>'
+    assert shown["machine"].startswith("<Machine 'linuxcnc': LinuxCNC")
+    assert "1 operation" in shown["plan"] and " moves" in shown["plan"] and "mm at feed" in shown["program"]
+    assert "job.ngc" in shown["posted"] and " lines" in shown["posted"]
+    assert shown["report"].startswith("<Report: ok, nothing found, worst gouge 0.0")
+    assert "nothing written" in shown["run"]
+    assert "nodes" in shown["simulation"] and "contact" in shown["offset"]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -116,10 +116,10 @@ COPIES: dict[str, Callable[[Any], Any]] = {
 }
 
 
-@pytest.mark.parametrize("way", COPIES)
+@pytest.mark.parametrize("how", COPIES)
 @pytest.mark.parametrize("name", NAMES)
-def test_values_are_copied(made, name, way):
-    again = COPIES[way](made[name])
+def test_values_are_copied(made, name, how):
+    again = COPIES[how](made[name])
     assert again == made[name] and repr(again) == repr(made[name]) and type(again) is type(made[name])
 
 
@@ -158,8 +158,8 @@ def test_values_and_errors_travel_to_workers(made):
 @pytest.mark.parametrize("kind", [sc.StylusError, sc.JobError, sc.Cancelled])
 def test_errors_are_copied(kind):
     error = kind("what, where", code="a-code", where="here", hint="do that")
-    for way in COPIES.values():
-        again = way(error)
+    for how in COPIES.values():
+        again = how(error)
         assert type(again) is kind and str(again) == "what, where"
         assert (again.code, again.where, again.hint) == ("a-code", "here", "do that")
 
@@ -189,7 +189,7 @@ def test_a_surface_that_only_the_kernel_knows_travels():
         assert np.array_equal(one, other)
 
 
-def test_a_job_says_title_and_operations(made):
+def test_a_job_states_title_and_operations(made):
     job = made["job"]
     assert job.title == "A cube's top"
     assert [(one["id"], one["kind"], one["stepover"]) for one in job.operations] == [("zig-zag-1", "zig-zag", 2.0)]
@@ -204,8 +204,8 @@ def test_only_public_names_are_listed():
         assert name not in dir(sc)
     listed = [name for name in sc.__all__ if not name.startswith("__")]
     assert all(hasattr(sc, name) for name in listed)
-    said = pydoc.render_doc(sc, renderer=pydoc.plaintext)
-    assert "drop_cutter" in said
+    shown = pydoc.render_doc(sc, renderer=pydoc.plaintext)
+    assert "drop_cutter" in shown
     code = """
 import styluscam.advice.suggest, styluscam.report
 from styluscam.programs import planning

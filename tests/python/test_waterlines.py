@@ -66,10 +66,10 @@ def drawn(
     return sc.Part.from_mesh(vertices, triangles), tool, vertices.min(axis=0), vertices.max(axis=0)
 
 
-def crossed(places: Floats, loops: list[Floats]) -> NDArray[np.int64]:
-    """How often the way from each place towards +X crosses the loops."""
-    counts = np.zeros(len(places), dtype=np.int64)
-    x, y = places.T[:, :, None]
+def crossed(points: Floats, loops: list[Floats]) -> NDArray[np.int64]:
+    """How often the ray from each point towards +X crosses the loops."""
+    counts = np.zeros(len(points), dtype=np.int64)
+    x, y = points.T[:, :, None]
     for loop in loops:
         (ax, ay), (bx, by) = loop[:-1, :2].T, loop[1:, :2].T
         between = (ay > y) != (by > y)
@@ -84,20 +84,20 @@ def test_loops_close_gouge_nothing_and_part_the_plan(kind: Callable[[np.random.G
     rng = np.random.default_rng(seed)
     part, tool, low, high = drawn(kind, rng)
     heights = low[2] + (high[2] - low[2]) * np.array([0.013, 0.31, 0.62, 0.93])
-    places = rng.uniform(low[:2] - 3, high[:2] + 3, (2000, 2))
-    tips = np.nan_to_num(sc.drop_cutter(part, tool, places), nan=-np.inf)
+    points = rng.uniform(low[:2] - 3, high[:2] + 3, (2000, 2))
+    tips = np.nan_to_num(sc.drop_cutter(part, tool, points), nan=-np.inf)
     sheet = {"thickness": TOLERANCE, "law": "constant", "model_face": "back"}
-    grown = np.nan_to_num(sc.drop_cutter(part, tool, places, sheet), nan=-np.inf)
+    grown = np.nan_to_num(sc.drop_cutter(part, tool, points, sheet), nan=-np.inf)
     for z, loops in zip(heights, sc.waterlines(part, tool, heights, tolerance=TOLERANCE), strict=True):
         assert loops
         for loop in loops:
             assert (loop[0] == loop[-1]).all()
             share = np.linspace(0, 1, 8)[:, None, None]
-            way = (loop[:-1] + share * np.diff(loop, axis=0)).reshape(-1, 3)
-            assert (np.nan_to_num(sc.drop_cutter(part, tool, way[:, :2]), nan=-np.inf) <= z + 1e-9).all()
-        is_inside = crossed(places, loops) % 2 == 1
+            path = (loop[:-1] + share * np.diff(loop, axis=0)).reshape(-1, 3)
+            assert (np.nan_to_num(sc.drop_cutter(part, tool, path[:, :2]), nan=-np.inf) <= z + 1e-9).all()
+        is_inside = crossed(points, loops) % 2 == 1
         assert is_inside[tips > z + 1e-9].all()
-        # free places within the loops are within the tolerance of the level
+        # free positions within the loops are within the tolerance of the level
         assert (grown[is_inside & (tips <= z)] > z - TOLERANCE).all()
 
 

@@ -1,7 +1,8 @@
-"""The pages use the field's words: none of those that CONTRIBUTING.md replaces."""
+"""Pages, texts and names use the field's words: none of those that CONTRIBUTING.md replaces."""
 
 from __future__ import annotations
 
+import ast
 import re
 import tokenize
 from collections.abc import Iterator
@@ -35,10 +36,10 @@ REPLACED = {
 """Patterns of those words of the list that have no other meaning in a page, by how the list begins with them."""
 
 
-def found(text: str) -> list[str]:
-    """The words of the list in a text, code and addresses left out."""
-    bare = CODE.sub("", text)
-    return [word for pattern in REPLACED.values() for word in re.findall(rf"\b(?:{pattern})\b", bare, re.IGNORECASE)]
+def found(text: str, *more: str) -> list[str]:
+    """The words of the list and of `more` patterns in a text, code and addresses left out."""
+    bare, patterns = CODE.sub("", text), [*REPLACED.values(), *more]
+    return [word for pattern in patterns for word in re.findall(rf"\b(?:{pattern})\b", bare, re.IGNORECASE)]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(CHECKOUT).as_posix())
@@ -59,28 +60,40 @@ def test_words_are_found() -> None:
 PACKAGE = CHECKOUT / "python" / "styluscam"
 KEPT = re.compile(
     r"judging\.\w+|^\W*judgement\W*$|judged from this text|judged, not this text|what was judged is|was not judged"
-    r"|not judged: operations|unsaid-mode"
+    r"|not judged: operations|^\W*not judged\W*$|unsaid-mode"
 )
 """Names, and remarks that programs carry."""
+TEXTS = (tokenize.COMMENT, tokenize.STRING, getattr(tokenize, "FSTRING_MIDDLE", tokenize.STRING))
+"""Tokens that are text; from Python 3.12 on the text of an f-string is a token of its own."""
+SPOKEN = r"says|said"
+"""In tests, fixtures and measurements no person speaks: a text states, a program prints, a check reports."""
+PARTS_OF_NAMES = frozenset(
+    {"said", "says", "unsaid", "told", "tells", "judge", "judges", "judged", "judging", "judgement"}
+    | {"stray", "strays", "strayed", "straying", "legs", "flown", "ridden", "bears"}
+)
+"""Words of the list that no name needs."""
+WHOLE_NAMES = frozenset({"place", "places", "way", "ways"})
+"""Words that mean something else within a name (`both_ways`), but not as the whole of one."""
+SEEDS = frozenset({"line_strayed"})
+"""Defects whose names seed the draw of their programs: under another name other programs would be tested."""
 
 
 def texts(file: Path) -> Iterator[tuple[int, str]]:
     """Comments and strings of a file with their lines: messages, help texts, docstrings."""
     with file.open("rb") as stream:
         for token in tokenize.tokenize(stream.readline):
-            if token.type in (tokenize.COMMENT, tokenize.STRING):
+            if token.type in TEXTS:
                 yield token.start[0], KEPT.sub("", token.string)
 
 
-def left_in(folder: Path, allowed: frozenset[str] = frozenset()) -> dict[str, list[str]]:
-    """The words of the list in the texts of a folder's files, but for those allowed."""
-    return {
-        f"{file.relative_to(folder)}:{line}": words
-        for file in sorted(folder.rglob("*.py"))
-        if file != Path(__file__)
-        for line, text in texts(file)
-        if (words := [word for word in found(text) if word.lower() not in allowed])
-    }
+def left_in(folder: Path, *more: str) -> dict[str, list[str]]:
+    """The words of the list and of `more` patterns in the texts of a folder's files, by file and line."""
+    lines: dict[str, list[str]] = {}
+    for file in sorted(folder.rglob("*.py")):
+        for line, text in texts(file) if file != Path(__file__) else ():
+            if words := found(text, *more):
+                lines.setdefault(f"{file.relative_to(folder)}:{line}", []).extend(words)
+    return lines
 
 
 def test_the_package_uses_the_fields_words() -> None:
@@ -91,12 +104,54 @@ def test_the_addon_uses_the_fields_words() -> None:
     assert left_in(CHECKOUT / "freecad_workbench") == {}
 
 
-@pytest.mark.parametrize("folder", ("tests", "bench"))
-def test_tests_and_measurements_use_the_fields_words(folder: str) -> None:
-    judged = frozenset({"judge", "judges", "judged", "judging", "judgement"})
-    assert left_in(CHECKOUT / folder, judged) == {}
+FOLDERS = ("tests", "fixtures", "bench")
+
+
+@pytest.mark.parametrize("folder", FOLDERS)
+def test_tests_fixtures_and_measurements_use_the_fields_words(folder: str) -> None:
+    assert left_in(CHECKOUT / folder, SPOKEN) == {}
+
+
+@pytest.mark.parametrize("folder", FOLDERS)
+def test_names_use_the_fields_words(folder: str) -> None:
+    assert {
+        f"{file.relative_to(CHECKOUT)}:{line}": name
+        for file in sorted((CHECKOUT / folder).rglob("*.py"))
+        for line, name in names(file.read_text(encoding="utf-8"))
+        if is_replaced(name) and name not in SEEDS
+    } == {}
+
+
+def names(source: str) -> Iterator[tuple[int, str]]:
+    """Names that a source gives to something, with their lines: functions, classes, arguments, variables, attributes."""
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            yield node.lineno, node.name
+        elif isinstance(node, ast.arg):
+            yield node.lineno, node.arg
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.lineno, node.id
+        elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
+            yield node.lineno, node.attr
+
+
+def is_replaced(name: str) -> bool:
+    words = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower().split("_")
+    return bool(PARTS_OF_NAMES & set(words)) or name.strip("_").lower() in WHOLE_NAMES
+
+
+def test_words_are_found_in_names() -> None:
+    source = "def is_told(way, both_ways):\n    for place in way:\n        way.said = other.legs\nclass TheJudge: ...\n"
+    assert [name for _, name in sorted(names(source)) if is_replaced(name)] == [
+        "is_told",
+        "way",
+        "place",
+        "said",
+        "TheJudge",
+    ]
 
 
 def test_words_are_found_in_a_file(tmp_path: Path) -> None:
-    (tmp_path / "a.py").write_text("told = 1  # the legs\n")
-    assert left_in(tmp_path) == {"a.py:1": ["legs"]} and left_in(tmp_path, frozenset({"legs"})) == {}
+    (tmp_path / "a.py").write_text("told = 1  # the legs\nprint(f'{1} tells')  # what it says\n")
+    assert left_in(tmp_path) == {"a.py:1": ["legs"], "a.py:2": ["tells"]}
+    assert left_in(tmp_path, SPOKEN) == {"a.py:1": ["legs"], "a.py:2": ["tells", "says"]}

@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from . import engine, machines, properties, tools
-from .fields import JOB, OPERATION, PART, PROCESS, SETUP, SHEET
+from .fields import JOB, OPERATION, PART, PROCESS, SECONDS, SETUP, SHEET
 
 if TYPE_CHECKING:
     from styluscam import Part as EnginePart
@@ -86,9 +86,13 @@ def machine_section(job: Any, machine: str) -> Document:
     Raises:
         machines.ArgumentError: an argument that is not known.
     """
+    return {**machines.section(machine), "options": machines.options(post_arguments(job))}
+
+
+def post_arguments(job: Any) -> str:
+    """The arguments of the job's post, where that is ours: another post's are none of ours."""
     post = str(getattr(job, "PostProcessor", "") or "")
-    arguments = str(getattr(job, "PostProcessorArgs", "") or "") if post.startswith(machines.POST_PREFIX) else ""
-    return {**machines.section(machine), "options": machines.options(arguments)}
+    return str(getattr(job, "PostProcessorArgs", "") or "") if post.startswith(machines.POST_PREFIX) else ""
 
 
 def _accepted(operations: list[Any]) -> Document:
@@ -124,7 +128,7 @@ def operation_section(obj: Any) -> Document:
         "id": obj.Label,
         "tool": tool_name(controller),
         "faces": face_names(obj),
-        "feeds": {"cut": controller.HorizFeed.Value * 60.0, "plunge": controller.VertFeed.Value * 60.0},
+        **_feeds(controller),
         "spindle": _spindle(controller),
         "coolant": {"None": "off"}.get(obj.CoolantMode, str(obj.CoolantMode).lower()),
     }
@@ -142,6 +146,21 @@ def face_names(obj: Any) -> list[str] | str:
     if obj.WholeModel:
         return "all"
     return [name for _, names in obj.Base for name in names if name]
+
+
+def _feeds(controller: Any) -> Document:
+    """The tool controller's feeds, mm/min; the engine's defaults where it states none, which FreeCAD writes as 0."""
+    stated = {"cut": controller.HorizFeed.Value * SECONDS, "plunge": controller.VertFeed.Value * SECONDS}
+    feeds = {key: feed for key, feed in stated.items() if feed != 0.0}
+    return {"feeds": feeds} if feeds else {}
+
+
+def notes_on_feeds(controller: Any) -> list[str]:
+    """A sentence where the tool controller states no feed."""
+    missing = [name for name in ("HorizFeed", "VertFeed") if getattr(controller, name).Value == 0.0]
+    if not missing:
+        return []
+    return [f"{controller.Label} states no {' and no '.join(missing)}: the engine's default feed is used"]
 
 
 def _spindle(controller: Any) -> Document:

@@ -12,7 +12,7 @@ import re
 from dataclasses import dataclass, replace
 from typing import Any
 
-from .schema import KIND, JobSchema, Key, Schema, Table
+from .schema import KIND, Choice, JobSchema, Key, Schema, Table
 
 OPERATION, PROCESS, PART, SHEET, SETUP, JOB = "operation", "process", "part", "sheet", "setup", "job"
 
@@ -74,12 +74,34 @@ UNITS = {"mm": LENGTH, "deg": ANGLE, "mm/min": SPEED}
 EXAMPLE = "x-example"
 """What the schema states of a key as an example: TOML."""
 
+ADVANCED = "x-advanced"
+"""What the schema states of a key that is rarely changed."""
+
 SECONDS = 60.0
 """FreeCAD's speeds are mm/s, the document's mm/min."""
 
 
 class FieldError(ValueError):
     """A property whose value is none for its key; the message names it."""
+
+
+@dataclass(frozen=True)
+class Range:
+    """The least and the greatest value of a number, in the schema's unit."""
+
+    low: float
+    high: float
+    is_open: bool
+    """Whether the least value itself is none."""
+
+    def holds(self, value: float) -> bool:
+        """Whether a value lies in it."""
+        return self.low <= value <= self.high and not (self.is_open and value == self.low)
+
+    def in_words(self, unit: str) -> str:
+        """The range as text: `above 0 to 100 mm`."""
+        above = "above " if self.is_open else ""
+        return f"{above}{self.low:g} to {self.high:g} {unit}".rstrip()
 
 
 @dataclass(frozen=True)
@@ -104,10 +126,29 @@ class Field:
     """0, or nothing, leaves the key out."""
     is_json: bool = False
     """A text that holds the value as JSON."""
+    is_advanced: bool = False
+    """Rarely changed."""
+    range: Range | None = None
+    """Of a number."""
+    unit: str = ""
+    """The schema's unit; empty for words and pure numbers."""
+    words: tuple[Choice, ...] = ()
+    """What an enumeration, or the items of a list, may be, with what each means."""
+
+    @property
+    def title(self) -> str:
+        """Its name as words: `Sheet max wall angle`."""
+        return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", self.name).capitalize()
 
     def is_of(self, kind: str) -> bool:
         """Whether a kind of its section owns the key."""
         return self.kinds is None or kind in self.kinds
+
+    def is_at(self, where: str) -> bool:
+        """Whether a path of the job document names its key: `operations[0].step`, or something inside it."""
+        names = re.sub(r"\[\d+\]", "", where).split(".")
+        own = [*PATHS[self.section], self.key]
+        return names[: len(own)] == own
 
     def document_value(self, value: Any) -> Any:
         """The key's value for a property's, None where the key is left out.
@@ -190,6 +231,9 @@ def _fields(section: str, table: Table, key: Key) -> list[Field]:
                 kinds=key.kinds,
                 variant=variant,
                 optional=True,
+                is_advanced=bool(entry.get(ADVANCED)),
+                range=_range(merged),
+                unit=_unit(merged),
             )
         )
     return found
@@ -212,6 +256,10 @@ def _field(section: str, key: Key, type_: str, *, is_json: bool) -> Field:
         key.kinds,
         optional=optional,
         is_json=is_json,
+        is_advanced=bool(entry.get(ADVANCED)),
+        range=_range(entry),
+        unit=_unit(entry),
+        words=key.choices or key.item_choices,
     )
 
 
@@ -282,14 +330,24 @@ def _lowest(entry: Schema) -> float:
     return float(low)
 
 
+def _range(entry: Schema) -> Range | None:
+    low = entry.get("exclusiveMinimum", entry.get("minimum"))
+    if low is None or "maximum" not in entry:
+        return None
+    return Range(float(low), float(entry["maximum"]), "exclusiveMinimum" in entry)
+
+
+def _unit(entry: Schema) -> str:
+    unit = str(entry.get("x-unit", ""))
+    return "" if unit == "1" else unit
+
+
 def _text(description: str, entry: Schema, *, optional: bool = False, is_json: bool = False) -> str:
     """The tool tip: what it is, its range, its form, its words."""
-    low = entry.get("exclusiveMinimum", entry.get("minimum"))
     lines = [description]
-    if low is not None and "maximum" in entry:
-        above = "above " if "exclusiveMinimum" in entry else ""
-        unit = {"1": ""}.get(entry.get("x-unit", ""), entry.get("x-unit", ""))
-        lines.append(f"Range: {above}{low:g} to {entry['maximum']:g} {unit}".rstrip())
+    allowed = _range(entry)
+    if allowed:
+        lines.append(f"Range: {allowed.in_words(_unit(entry))}")
     if is_json:
         lines.append("As JSON")
     if optional:

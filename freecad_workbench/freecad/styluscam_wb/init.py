@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from importlib.abc import MetaPathFinder
 from typing import Any
 
-from . import compat, post_list
+from . import compat, post_list, restored
 
 NEED_POSTS = ("Path.Main.Job", "Path.Post.Processor")
 """FreeCAD's modules that look for posts, and before which no job and no tool is read.
@@ -28,3 +28,4 @@ class _InTime(MetaPathFinder):
 
 
 sys.meta_path.insert(0, _InTime())
+restored.watch()

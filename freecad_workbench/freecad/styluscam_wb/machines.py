@@ -3,14 +3,20 @@
 
 from __future__ import annotations
 
+import os
 import shlex
 from pathlib import Path as FilePath
 from typing import Any
 
 import FreeCAD
 
+from . import settings
+
 POST_PREFIX = "styluscam_"
 """FreeCAD's name of a post is this and the machine's."""
+
+SHIPPED_POSTS = FilePath(__file__).parent / "posts"
+"""The posts of the machines that are shipped."""
 
 POST_FILE = """\
 # Written by StylusCAM for {path}; it is written again when that file is there, and removed when it is not.
@@ -35,6 +41,9 @@ ARGUMENTS = {
 VALUES = {"--precision": "decimals", "--feed-mode": "feed_mode", "--program-number": "program_number"}
 """Those with a value."""
 
+VERIFY = {"--no-verify": False, "--verify": True}
+"""Whether what is posted is verified, whatever the preferences state."""
+
 FOR_OTHERS = ("--show-editor", "--no-show-editor")
 """Arguments of FreeCAD's own posts that say nothing about the text."""
 
@@ -45,7 +54,7 @@ class ArgumentError(ValueError):
 
 def user_folder() -> FilePath:
     """Where a user's machine files are looked for."""
-    return FilePath(FreeCAD.getUserAppDataDir()) / "StylusCAM" / "machines"
+    return settings.machine_folder()
 
 
 def user_posts() -> FilePath:
@@ -54,7 +63,12 @@ def user_posts() -> FilePath:
 
 
 def write_user_posts() -> None:
-    """One post for every machine file in the user's folder, and none for files that are gone."""
+    """One post for every machine file in the user's folder, and none for files that are gone.
+
+    A folder that was chosen and is gone is reported in FreeCAD's report view.
+    """
+    if problem := settings.machine_folder_problem(settings.chosen_machine_folder()):
+        FreeCAD.Console.PrintWarning(f"StylusCAM: {problem}\n")
     files = {path.stem: path for path in user_folder().glob("*.toml")} if user_folder().is_dir() else {}
     expected = {f"{POST_PREFIX}{stem}_post.py": (stem, path) for stem, path in files.items()}
     if not expected and not user_posts().is_dir():
@@ -62,12 +76,20 @@ def write_user_posts() -> None:
     user_posts().mkdir(parents=True, exist_ok=True)
     for old in user_posts().glob(f"{POST_PREFIX}*_post.py"):
         if old.name not in expected:
-            old.unlink()
+            old.unlink(missing_ok=True)  # another FreeCAD may start at the same time
     for name, (stem, path) in expected.items():
         text = POST_FILE.format(path=path.name, name=f"{POST_PREFIX}{stem}", machine=stem)
         target = user_posts() / name
         if not target.is_file() or target.read_text(encoding="utf-8") != text:
-            target.write_text(text, encoding="utf-8")
+            unfinished = target.with_suffix(f".{os.getpid()}")  # no other FreeCAD reads half a post
+            unfinished.write_text(text, encoding="utf-8")
+            unfinished.replace(target)
+
+
+def names() -> list[str]:
+    """The machines of the posts that FreeCAD lists: shipped ones and those of the user's files, in order."""
+    files = [*SHIPPED_POSTS.glob(f"{POST_PREFIX}*_post.py"), *user_posts().glob(f"{POST_PREFIX}*_post.py")]
+    return sorted({file.name.removeprefix(POST_PREFIX).removesuffix("_post.py") for file in files})
 
 
 def section(machine: str) -> dict[str, str]:
@@ -83,21 +105,38 @@ def options(arguments: str) -> dict[str, Any]:
         ArgumentError: an argument that is not known.
     """
     chosen: dict[str, Any] = {}
-    try:
-        words = shlex.split(arguments)
-    except ValueError as error:
-        raise ArgumentError(f"the post's arguments cannot be read: {error}") from error
-    for word in words:
+    for word in _words(arguments):
         name, equals, value = word.partition("=")
         if word in ARGUMENTS:
             key, setting = ARGUMENTS[word]
             chosen[key] = setting
         elif name in VALUES and equals:
             chosen[VALUES[name]] = _value(value)
-        elif word not in FOR_OTHERS:
-            known = ", ".join([*ARGUMENTS, *(f"{one}=..." for one in VALUES)])
-            raise ArgumentError(f"the post does not know the argument {word}; it knows {known}")
+        elif word not in (*VERIFY, *FOR_OTHERS):
+            raise ArgumentError(f"the post does not know the argument {word}; it knows {', '.join(known_arguments())}")
     return chosen
+
+
+def verifies(arguments: str) -> bool | None:
+    """Whether what is posted with these arguments is to be verified: the last that states it counts; None where none does.
+
+    Raises:
+        ArgumentError: arguments that are no words.
+    """
+    stated = [VERIFY[word] for word in _words(arguments) if word in VERIFY]
+    return stated[-1] if stated else None
+
+
+def known_arguments() -> list[str]:
+    """What a job's arguments for its post may be."""
+    return [*ARGUMENTS, *VERIFY, *(f"{name}=..." for name in VALUES)]
+
+
+def _words(arguments: str) -> list[str]:
+    try:
+        return shlex.split(arguments)
+    except ValueError as error:
+        raise ArgumentError(f"the post's arguments cannot be read: {error}") from error
 
 
 def _value(text: str) -> float | str:

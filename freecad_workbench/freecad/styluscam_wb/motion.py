@@ -10,13 +10,9 @@ from typing import TYPE_CHECKING, Any
 import Path
 
 from . import engine, tools
-from .path_words import words_of
 
 if TYPE_CHECKING:
     from styluscam import Program
-
-MOTIONS = ("G0", "G00", "G1", "G01", "G2", "G02", "G3", "G03")
-"""Commands that move the tool."""
 
 COOLANTS = ("None", "Flood", "Mist")
 
@@ -31,9 +27,28 @@ def comment(text: str) -> str:
     return f"({words})"
 
 
-def commands_of(program: Program) -> list[Any]:
-    """A planned program's moves as path commands; what happens between them is the tool controller's and the post's."""
-    return [Path.Command(name, words) for name, words in words_of(program)]
+def path_of(comments: list[str], program: Program, last: list[Any]) -> Any:
+    """Comments, a planned program's moves and last commands as a path.
+
+    What happens between the moves is the tool controller's and the post's. FreeCAD reads text faster than it takes
+    commands from Python; the text has the decimals that FreeCAD saves and posts (docs/performance.md).
+
+    Raises:
+        styluscam.JobError: a move that has no command.
+    """
+    lines = [*map(comment, comments), begun_upwards(program.path_text()), *(command.toGCode() for command in last)]
+    return Path.Path("\n".join(lines))
+
+
+def begun_upwards(text: str) -> str:
+    """The commands after a rapid straight up to the height of the first, as FreeCAD's own operations begin.
+
+    Its dressups take the first command that names X and Y for the first move of the path: without this one, the
+    boundary's would cut from the origin.
+    """
+    name, *words = text.partition("\n")[0].split(" ")
+    height = [word for word in words if word.startswith("Z")]
+    return f"{name} {height[0]}\n{text}" if height else text
 
 
 @dataclass

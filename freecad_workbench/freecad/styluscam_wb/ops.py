@@ -14,29 +14,34 @@ import Path
 import Path.Op.Base as PathOp
 from PathScripts import PathUtils
 
-from . import documents, engine, motion, post_list, properties, tools
+from . import compat, documents, engine, motion, post_list, properties, quiet, setup_sheet, tools, views
+from .long_work import Run, long_work
+from .mistakes import OperationError, is_fault, reason
 from .part import part_of
 
 if TYPE_CHECKING:
     from styluscam import Part as EnginePart
 
 post_list.register()
+setup_sheet.register()
 
-NAME = "Stylus"
+MODEL = "PlannedModel"
+"""The property through which FreeCAD knows that a path depends on its model, whether faces are selected or not."""
 
 WHOLE_MODEL = "All faces that face up, when no face is selected"
 """Tool tip."""
 
 
-class OperationError(ValueError):
-    """An operation that cannot be computed; the message states why and what to do."""
-
-
 class ObjectStylus(PathOp.ObjectOp):
     """An operation of the engine's, whatever its strategy."""
 
+    error: BaseException | None = None
+    """Why the last computation failed; None where it did not."""
+
     _choosing = False
     _chosen: Any = None
+    _program: Any = None
+    """What was planned, until it is in the path."""
 
     def __init__(self, obj: Any, name: str, parentJob: Any = None) -> None:
         # Without a window nobody can be asked, and FreeCAD's search fails over two suitable tools (its issue 31849):
@@ -45,7 +50,17 @@ class ObjectStylus(PathOp.ObjectOp):
         super().__init__(obj, name, parentJob)
         self._choosing = False
 
+    @property
+    def failed_key(self) -> str:
+        """Where in the job document the last computation found its error: `operations[0].step`; empty where it found none."""
+        return str(getattr(self.error, "where", "") or "")
+
     # What FreeCAD asks of an operation
+
+    def onDocumentRestored(self, obj: Any) -> None:
+        """Gives an operation that was made without a window its view."""
+        super().onDocumentRestored(obj)
+        views.attach(obj)
 
     def opFeatures(self, obj: Any) -> int:
         """Which of FreeCAD's standard properties it has."""
@@ -104,33 +119,59 @@ class ObjectStylus(PathOp.ObjectOp):
 
     def execute(self, obj: Any) -> Any:
         """Computes the path; whatever goes wrong, none of an older one stays."""
+        self.error = None
         if not obj.Active:
             return super().execute(obj)
+        quiet.restore()
         obj.Path = _only_comment("not computed")
+        self._program = None
         try:
             check(obj)
             update_properties(obj)
-            return super().execute(obj)
+            _depend_on_model(obj)
+            result = super().execute(obj)
+            self._insert_moves(obj)
+            return result
         except BaseException as error:
-            obj.Path = _only_comment(reason(error))
+            text = reason(error)
+            self.error = error
+            obj.Path = _only_comment(text)
             obj.CycleTime = ""
             obj.Notes = []
-            raise
+            if is_fault(error):
+                raise
+            quiet.without_traceback()
+            raise OperationError(text) from None
 
     def opExecute(self, obj: Any) -> None:
-        """Plans the operation and fills the command list."""
+        """Plans the operation; its moves come into the path that FreeCAD makes around them."""
         sc = engine.styluscam()
-        part = engine_part(obj)
-        document = documents.job_document(self.job, [obj], part, documents.machine_of(self.job))
-        plan = sc.plan(sc.Job.from_dict(document, part=part))
-        self.commandlist.extend(motion.commands_of(plan.programs["main"]))
-        obj.Notes = plan.summary()[1][:-1]  # the last line is for a verified text
+        with long_work(obj.Label) as run:
+            part = engine_part(obj, run)
+            document = documents.job_document(self.job, [obj], part, documents.machine_of(self.job))
+            job = sc.Job.from_dict(document, part=part)
+            plan = run(lambda report: sc.plan(job, progress=report))
+        self._program = plan.programs["main"]
+        notes = plan.summary()[1][:-1]  # the last line is for a verified text
+        obj.Notes = [*notes, *documents.notes_on_feeds(obj.ToolController)]
+
+    def _insert_moves(self, obj: Any) -> None:
+        """Puts the planned moves before FreeCAD's last retract, and its comments before them."""
+        program, self._program = self._program, None
+        if program is None:
+            return
+        comments = [text for text in (obj.Label, obj.Comment) if text]
+        obj.Path = motion.path_of(comments, program, obj.Path.Commands[-1:])
+        obj.CycleTime = compat.cycle_time(self, obj)
+        self.job.Proxy.getCycleTime()
 
 
-def engine_part(obj: Any) -> EnginePart:
+def engine_part(obj: Any, run: Run) -> EnginePart:
     """The engine's part of the model that an operation works on."""
     model = documents.model_of(obj)
-    return part_of(model.Shape, obj.ModelTolerance.Value, model.Label)
+    shape, tolerance, name = model.Shape, obj.ModelTolerance.Value, model.Label
+    part: EnginePart = run(lambda report: part_of(shape, tolerance, name, report))
+    return part
 
 
 # --- properties --------------------------------------------------------------------------------------------------
@@ -141,9 +182,19 @@ def update_properties(obj: Any) -> None:
     properties.update(obj)
     if not hasattr(obj, "WholeModel"):
         obj.addProperty("App::PropertyBool", "WholeModel", properties.GROUP, WHOLE_MODEL)
+    if not hasattr(obj, MODEL):
+        obj.addProperty("App::PropertyLink", MODEL, "Path", "The model that the path is for")
+        obj.setEditorMode(MODEL, ["Hidden"])
     if not hasattr(obj, "Notes"):
         obj.addProperty("App::PropertyStringList", "Notes", properties.GROUP, "Summary and warnings of planning")
         obj.setEditorMode("Notes", 1)
+
+
+def _depend_on_model(obj: Any) -> None:
+    """Makes an edit of the model touch the operation."""
+    model = documents.model_of(obj)
+    if getattr(obj, MODEL) != model:
+        setattr(obj, MODEL, model)
 
 
 # --- checks ------------------------------------------------------------------------------------------------------
@@ -206,11 +257,15 @@ def _selected_faces(obj: Any) -> list[Any]:
     return selected
 
 
-def reason(error: BaseException) -> str:
-    """An error's message, and its hint what to do."""
-    hint = getattr(error, "hint", "")
-    message = str(error) or type(error).__name__
-    return f"{message}: {hint}" if hint and hint not in message else message
+def failure(obj: Any) -> str:
+    """Why an operation has no path; empty where it has one, or was never computed."""
+    commands = [] if has_motion(obj) else obj.Path.Commands
+    return str(commands[0].Name.strip("()")) if commands else ""
+
+
+def has_motion(obj: Any) -> bool:
+    """Whether an operation's path moves the tool."""
+    return bool(obj.Path.Length > 0.0)  # in FreeCAD's own code: a list of all commands takes longer than posting them
 
 
 def _only_comment(text: str) -> Any:
@@ -221,15 +276,11 @@ def _only_comment(text: str) -> Any:
 
 
 def SetupProperties() -> list[str]:
-    """Properties that a job's setup sheet may set for new operations.
-
-    Raises:
-        EngineMissingError: there is no engine.
-    """
-    return [field.name for field in properties.fields()]
+    """Properties that a job's setup sheet may set for new operations."""
+    return setup_sheet.property_names()
 
 
-def Create(name: str = NAME, obj: Any = None, parentJob: Any = None) -> Any:
+def Create(name: str = setup_sheet.NAME, obj: Any = None, parentJob: Any = None) -> Any:
     """A new operation in a job, the only one of the document unless it is given.
 
     Raises:
@@ -238,7 +289,8 @@ def Create(name: str = NAME, obj: Any = None, parentJob: Any = None) -> Any:
     engine.styluscam()
     if obj is None:
         obj = FreeCAD.ActiveDocument.addObject("Path::FeaturePython", name)
-    obj.Proxy = ObjectStylus(obj, name, parentJob)
+    obj.Proxy = ObjectStylus(obj, setup_sheet.NAME, parentJob)
+    views.attach(obj)
     return obj
 
 

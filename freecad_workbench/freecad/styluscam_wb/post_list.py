@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Our posts among those that FreeCAD lists."""
+"""Our posts among those that FreeCAD lists, and the one that a new job begins with."""
 
 from __future__ import annotations
 
-from pathlib import Path as FilePath
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 from . import machines
-
-POSTS = FilePath(__file__).parent / "posts"
 
 
 def register() -> None:
@@ -21,7 +20,21 @@ def register() -> None:
     machines.write_user_posts()
 
     def search_paths() -> list[str]:
-        return [str(POSTS), str(machines.user_posts()), *theirs()]
+        return [str(machines.SHIPPED_POSTS), str(machines.user_posts()), *theirs()]
 
     search_paths.styluscam = True  # type: ignore[attr-defined]
     Preferences.searchPathsPost = search_paths
+
+
+@contextmanager
+def beginning_with(machine: str) -> Iterator[None]:
+    """Jobs that are made meanwhile begin with the machine's post; with CAM's own default where none is named."""
+    from Path import Preferences
+
+    theirs = Preferences.defaultPostProcessor
+    if machine:
+        Preferences.defaultPostProcessor = lambda: machines.POST_PREFIX + machine
+    try:
+        yield
+    finally:
+        Preferences.defaultPostProcessor = theirs

@@ -70,13 +70,16 @@ def update(obj: Any) -> None:
 
 
 def _set_choices(obj: Any, field: Field) -> None:
+    """The engine's words, and the operation's own where a later version knew more: the engine refuses it by name."""
     known = obj.getEnumerationsOfProperty(field.name)
+    value = str(getattr(obj, field.name)) if known else ""
     choices = list(field.choices)
+    if known and value not in choices:
+        choices.append(value)
     if known == choices:
         return
-    value = getattr(obj, field.name) if known else None
     setattr(obj, field.name, choices)
-    if value in choices:
+    if known:
         setattr(obj, field.name, value)
 
 
@@ -86,14 +89,16 @@ def show_owned(obj: Any) -> None:
         return
     if not are_complete(obj):
         return  # its properties are being added
-    known = fields()
-    kinds = _kinds_of(obj, known)
-    sheet = takes_sheet(obj)
-    for field in known:
-        shown = field.is_of(kinds.get(field.section, "")) and (sheet or not _is_of_sheet(field))
-        mode, words = SHOWN if shown else HIDDEN
+    for field in fields():
+        mode, words = SHOWN if is_shown(obj, field) else HIDDEN
         if list(obj.getEditorMode(field.name)) != words:
             obj.setEditorMode(field.name, mode)
+
+
+def is_shown(obj: Any, field: Field) -> bool:
+    """Whether a field applies to the operation as it stands: to its kind, its process and whether that takes a sheet."""
+    kinds = _kinds_of(obj, fields())
+    return field.is_of(kinds.get(field.section, "")) and (takes_sheet(obj) or not _is_of_sheet(field))
 
 
 def are_complete(obj: Any) -> bool:

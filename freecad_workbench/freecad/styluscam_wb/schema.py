@@ -7,7 +7,7 @@ a kind, each with its own keys. Both read the same here.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 Schema = dict[str, Any]
@@ -42,6 +42,8 @@ class Key:
     required: bool
     kinds: tuple[str, ...] | None
     """The kinds that own it; None: every kind, or a table without kinds."""
+    item_choices: tuple[Choice, ...] = ()
+    """The words that the items of a list may be; none where it is no list of words."""
 
     @property
     def has_default(self) -> bool:
@@ -71,11 +73,29 @@ class JobSchema:
         self._document = document
 
     def table(self, *path: str) -> Table:
-        """The table at a path of the document: `table("setup", "sheet")`; of a list, that of its items.
+        """The table at a path of the document: `table("setup", "sheet")`; of a list, or of tables by name, that of each.
 
         Raises:
             SchemaError: there is none.
         """
+        return self._table(self._entry(path))
+
+    def tables(self, *path: str) -> dict[str, Table]:
+        """The table at a path for each of its kinds, with that kind's own texts; one without kinds under an empty word.
+
+        Raises:
+            SchemaError: there is none.
+        """
+        entry = self._entry(path)
+        alternatives = [self._resolved(one)[0] for one in entry.get("oneOf", ())]
+        if not alternatives:
+            return {"": self._table(entry)}
+        kinds = [_kind_of(one) for one in alternatives]
+        return {
+            kind.word: Table(self._keys(one, kind.word), (kind,)) for one, kind in zip(alternatives, kinds, strict=True)
+        }
+
+    def _entry(self, path: tuple[str, ...]) -> Schema:
         entry = self._document
         for name in path:
             found = self._table(entry).keys.get(name)
@@ -86,7 +106,9 @@ class JobSchema:
             entry = found.entry
             if entry.get("type") == "array":
                 entry = self._resolved(entry["items"])[0]
-        return self._table(entry)
+            elif isinstance(entry.get("additionalProperties"), dict):
+                entry = self._resolved(entry["additionalProperties"])[0]
+        return entry
 
     def _table(self, entry: Schema) -> Table:
         """The table of an object, or of alternatives that a `kind` distinguishes."""
@@ -102,7 +124,7 @@ class JobSchema:
             owners = [part[name] for part in parts if name in part]
             every = len(owners) == len(parts)
             names = None if every else tuple(owner.kinds[0] for owner in owners if owner.kinds)
-            keys[name] = Key(name, owners[0].entry, owners[0].nullable, owners[0].required, names)
+            keys[name] = replace(owners[0], kinds=names)
         defaults = [one["properties"][KIND]["default"] for one in alternatives if "default" in one["properties"][KIND]]
         entry = {"description": entry.get("description", ""), "oneOf": [kind.stated for kind in kinds]}
         entry |= {"default": defaults[0]} if defaults else {}
@@ -113,7 +135,8 @@ class JobSchema:
         keys = {}
         for name, stated in entry.get("properties", {}).items():
             found, nullable = self._resolved(stated)
-            keys[name] = Key(name, found, nullable, name in required, None if kind is None else (kind,))
+            items = choices_of(self._resolved(found["items"])[0]) if found.get("type") == "array" else ()
+            keys[name] = Key(name, found, nullable, name in required, None if kind is None else (kind,), items)
         return keys
 
     def _resolved(self, stated: Schema) -> tuple[Schema, bool]:

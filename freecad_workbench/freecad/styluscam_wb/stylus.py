@@ -24,8 +24,11 @@ SHAPE_PROPERTIES = {
 }
 """Properties of a stylus bit: type and description by name."""
 
-PROFILE_POINTS = 33
-"""Points of the meridian that the shown solid goes through."""
+FOLLOWING = (PROFILE, "Diameter", "CuttingEdgeHeight")
+"""Properties that are not typed: the profile, which the panel edits, and what follows from it."""
+
+SHANK_OVER_PROFILE = 40.0
+"""Length of the shank over profile and base unless it is given, mm."""
 
 
 class ToolError(ValueError):
@@ -34,8 +37,55 @@ class ToolError(ValueError):
 
 def derived_lengths(profile: str) -> dict[str, float]:
     """Diameter and height (mm) of a profile, or a tool document, given as JSON."""
-    tool = engine.styluscam().Tool.from_dict(exact_document(profile))
-    return {"Diameter": tool.diameter, "CuttingEdgeHeight": float(tool.height_at(tool.max_slope))}
+    lengths = lengths_of(exact_document(profile))
+    return {name: lengths[name] for name in ("Diameter", "CuttingEdgeHeight")}
+
+
+def lengths_of(document: dict[str, Any]) -> dict[str, float]:
+    """All lengths (mm) of a tool document, by property; with usual ones where it states none.
+
+    Raises:
+        styluscam.ToolError: the engine refuses it.
+    """
+    tool = engine.styluscam().Tool.from_dict(document)
+    height = float(tool.height_at(tool.max_slope))
+    above = float((document.get("base") or {}).get("height", 0.0)) + SHANK_OVER_PROFILE
+    return {
+        "Diameter": tool.diameter,
+        "CuttingEdgeHeight": height,
+        "Length": float(document.get("length") or height + above),
+        "ShankDiameter": float(document.get("shank_diameter") or tool.diameter),
+    }
+
+
+def properties_of(document: dict[str, Any]) -> dict[str, Any]:
+    """The values of `SHAPE_PROPERTIES` for a tool document.
+
+    Raises:
+        styluscam.ToolError: the engine refuses it.
+    """
+    return {PROFILE: json.dumps(document), **lengths_of(document)}
+
+
+def is_replayed(obj: Any) -> bool:
+    """Whether FreeCAD sets the bit's properties back, all of them: nothing follows from one then."""
+    return "Restore" in obj.State or bool(obj.Document.Transacting)
+
+
+def following_lengths(bit: Any) -> dict[str, float]:
+    """The lengths (mm) that follow from a bit's edited profile; none, and a sentence in the report view, where it is wrong.
+
+    FreeCAD would print the trace of an error that is raised while a property changes.
+    """
+    try:
+        return derived_lengths(bit.Profile)
+    except Exception as error:
+        if not (isinstance(error, (ToolError, engine.EngineMissingError)) or hasattr(error, "hint")):
+            raise
+        import FreeCAD
+
+        FreeCAD.Console.PrintError(f"{bit.Label}: {error}\n")
+        return {}
 
 
 def exact_document(profile: str) -> dict[str, Any]:
@@ -77,17 +127,17 @@ def solid_of(parameters: dict[str, Any]) -> Any:
 
     document = exact_document(parameters[PROFILE])
     tool = engine.styluscam().Tool.from_dict(document)
-    from styluscam.tools.outline import pieces, transition
+    from styluscam.tools.outline import transition
+    from styluscam.tools.spans import spans
 
     shank, top = float(parameters["ShankDiameter"]) / 2.0, float(parameters["Length"])
-    edges, rim = [], Vector()
-    for piece in pieces(tool, PROFILE_POINTS):
-        points = [Vector(float(r), 0.0, float(z)) for r, z in piece.points]
-        edges.append(Part.makeLine(*points) if piece.straight else _curve(points))
-        rim = points[-1]
-    above = transition(document.get("base"), (rim.x, rim.z), shank)[1:]
-    base = [Vector(float(r), 0.0, float(z)) for r, z in above]
-    corners = [rim, *base, Vector(shank, 0.0, top), Vector(0.0, 0.0, top), Vector()]
+    found = spans(tool)
+    edges, rim = [_edge(span) for span in found], _vector(found[-1].end)
+    above = [_vector(point) for point in transition(document.get("base"), found[-1].end, shank)]
+    if len(above) > CORNERS:
+        edges.append(_upright_curve(above))
+        rim, above = above[-1], above[-1:]
+    corners = [rim, *above[1:], Vector(shank, 0.0, top), Vector(0.0, 0.0, top), Vector()]
     for a, b in itertools.pairwise(corners):
         if a.distanceToPoint(b) > 1e-7:
             edges.append(Part.makeLine(a, b))
@@ -95,10 +145,44 @@ def solid_of(parameters: dict[str, Any]) -> Any:
     return turned if math.isfinite(turned.Volume) and turned.Volume > 0.0 else turned.reversed()
 
 
-def _curve(points: list[Any]) -> Any:
-    """An edge through points."""
+ON_AXIS = 1e-9
+"""A centre nearer to the axis (mm) makes a sphere."""
+
+CORNERS = 3
+"""Points of the longest transition to the shank that has corners; a smooth one has more."""
+
+
+def _vector(point: Any) -> Any:
+    from FreeCAD import Vector
+
+    return Vector(float(point[0]), 0.0, float(point[1]))
+
+
+def _edge(span: Any) -> Any:
+    """A line, an arc about the axis, or a conic as a rational curve of Bezier, exact as well.
+
+    OpenCASCADE's boxes around a part of a torus are too wide; those around a revolved curve are not.
+    """
     import Part
 
+    start, end = _vector(span.start), _vector(span.end)
+    if span.control is None:
+        return Part.makeLine(start, end)
+    if span.middle is not None:
+        through = start, _vector(span.middle), end
+        if abs(Part.Circle(*through).Center.x) < ON_AXIS:
+            return Part.Arc(*through).toShape()
+    curve = Part.BezierCurve()
+    curve.setPoles([start, _vector(span.control), end])
+    curve.setWeight(2, span.weight)
+    return curve.toShape()
+
+
+def _upright_curve(points: list[Any]) -> Any:
+    """A smooth edge through points, upright at both ends."""
+    import Part
+    from FreeCAD import Vector
+
     curve = Part.BSplineCurve()
-    curve.interpolate(points)
+    curve.interpolate(Points=points, InitialTangent=Vector(0.0, 0.0, 1.0), FinalTangent=Vector(0.0, 0.0, 1.0))
     return curve.toShape()

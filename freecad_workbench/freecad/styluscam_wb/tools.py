@@ -7,10 +7,7 @@ import json
 from typing import Any
 
 from . import compat, engine
-from .stylus import PROFILE, ToolError, derived_lengths, exact_document, profile_kinds
-
-SHANK_OVER_PROFILE = 40.0
-"""Length of the shank over the profile unless it is given, mm."""
+from .stylus import PROFILE, ToolError, derived_lengths, exact_document, lengths_of, profile_kinds, properties_of
 
 ROUNDED = 0.01
 """Tool files hold lengths with the user's decimals: more than this (mm) is another tool."""
@@ -29,9 +26,8 @@ def create_stylus(
     Raises:
         EngineMissingError, styluscam.ToolError: there is no engine, or it refuses the profile.
     """
-    lengths = derived_lengths(json.dumps(profile))
-    lengths["Length"] = lengths["CuttingEdgeHeight"] + SHANK_OVER_PROFILE if length is None else length
-    lengths["ShankDiameter"] = lengths["Diameter"] if shank_diameter is None else shank_diameter
+    stated = {"length": length, "shank_diameter": shank_diameter}
+    lengths = lengths_of({"profile": profile, **{key: value for key, value in stated.items() if value is not None}})
     return compat.make_toolbit(document, label, {PROFILE: json.dumps(profile), **lengths})
 
 
@@ -96,6 +92,18 @@ def write_toolbit(bit: Any, path: str) -> None:
     """
     tool = engine.styluscam().Tool.from_dict({"title": bit.Label, **tool_document(bit)})
     tool.write(path)
+
+
+def read_tool_file(document: Any, path: str) -> Any:
+    """The tool of a file in the document: a tool bit of FreeCAD (`.fctb`), or a tool file of StylusCAM's (`.json`).
+
+    Raises:
+        ToolError, styluscam.ToolError: it is none.
+    """
+    tool = engine.styluscam().Tool.read(path)
+    if not path.lower().endswith(".json"):
+        return compat.load_toolbit(document, path)
+    return compat.make_toolbit(document, tool.title or tool.name or "Stylus", properties_of(tool.to_dict()))
 
 
 def _millimetres(bit: Any, name: str) -> float:

@@ -19,6 +19,7 @@ from styluscam.cli import (
     compare,
     console,
     doctor,
+    freecad,
     machine,
     material,
     new,
@@ -54,6 +55,7 @@ app.command("view")(view.view)
 app.command("compare")(compare.compare)
 app.command("schema")(schema.schema)
 app.command("doctor")(doctor.doctor)
+app.add_typer(freecad.app, name="freecad")
 app.add_typer(part.app, name="part")
 app.add_typer(machine.app, name="machine")
 app.add_typer(material.app, name="material")

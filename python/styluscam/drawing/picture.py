@@ -11,15 +11,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from styluscam.arguments import channel_of
 from styluscam.drawing.decimation import thinned
 from styluscam.drawing.raster import Raster, View, rasterise
-from styluscam.errors import GeometryError
+from styluscam.errors import GeometryError, PlanError
 from styluscam.extras import require
 from styluscam.files import drawn_whole
 from styluscam.parts.arrays import PartArrays
 from styluscam.parts.part import Part
 from styluscam.programs.job import MAIN_CHANNEL
-from styluscam.programs.planning import Plan, require_channel
+from styluscam.programs.planning import Plan
 from styluscam.programs.program import RAPID, Program
 from styluscam.tools.tool import Tool
 from styluscam.types import FloatArray, IntArray
@@ -195,7 +196,7 @@ def plan_picture(plan: Plan, path: str | Path, channel: str = MAIN_CHANNEL) -> N
     Raises:
         PlanError: the plan has no such channel.
     """
-    require_channel(channel, plan.programs)
+    channel_of(channel, plan.programs, PlanError)
     program = plan.programs[channel]
     tools = plan.job.tools()
     tool = tools[program.tools[0].name] if program.tools else None

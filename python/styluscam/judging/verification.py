@@ -9,14 +9,14 @@ import numpy as np
 import numpy.typing as npt
 
 from styluscam import _engine
-from styluscam.arguments import A_FILE, FileName, file_of, refused
+from styluscam.arguments import A_FILE, FileName, channel_of, file_of, refused
 from styluscam.errors import GeometryError, JobError, PlanError, VerifyError
 from styluscam.files import read_gcode_text
 from styluscam.judging.brep import recheck
 from styluscam.judging.results import FaceCoverage, Finding, Group
 from styluscam.programs.job import MAIN_CHANNEL, Job, JobLike
 from styluscam.programs.machine import Machine, MachineLike
-from styluscam.programs.planning import Plan, Setting, TextLike, require_channel, text_of_channel
+from styluscam.programs.planning import Plan, Setting, TextLike, text_of_channel
 from styluscam.programs.program import Program
 from styluscam.types import Document, FloatArray, Progress, shaped
 from styluscam.types import points as rows
@@ -243,7 +243,7 @@ def check_program(
         return _verified(text, work, machine, channel, progress=progress, cancel=cancel)
     if not isinstance(plan, Plan):
         raise refused("plan", plan, "a Plan or a Program", PlanError, "sc.plan(job) makes one")
-    require_channel(channel, plan.programs)
+    channel_of(channel, plan.programs, PlanError)
     text = _engine.post(plan.engine.programs[channel], plan.machines[channel].engine)
     return judge_plan(plan, text, progress, cancel, channel)
 

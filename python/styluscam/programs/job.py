@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
 from styluscam import _engine
-from styluscam.arguments import A_FILE, FileName, document_of, file_of, json_of, refused
-from styluscam.errors import JobError, MachineError, ToolError
+from styluscam.arguments import A_FILE, FileName, channel_of, document_of, file_of, json_of, refused
+from styluscam.errors import JobError, ToolError
 from styluscam.files import reason, require_end
 from styluscam.parts.arrays import PartArrays
 from styluscam.parts.formats import BREP_ENDINGS, MESH_ENDINGS
@@ -224,14 +224,8 @@ class Job:
         Raises:
             JobError: the job has no such channel.
         """
-        self._require_channel(channel)
+        channel_of(channel, self.channels, JobError)
         return _engine.Scene(self.engine, self.part(progress).engine, channel)
-
-    def _require_channel(self, channel: str) -> None:
-        """Refuses what is none of the job's channels."""
-        if channel not in self.channels:
-            message = f"channel: the job has no channel {shortened(repr(channel), 40)}"
-            raise JobError(message, code="argument", where="channel", hint=f"it has {', '.join(self.channels)}")
 
     def tools(self) -> dict[str, Tool]:
         """The job's tools by name: profile, base, shank and holder."""
@@ -245,17 +239,9 @@ class Job:
         Raises:
             JobError: the job has no such channel.
         """
-        self._require_channel(channel)
-        section = json.loads(self.engine.machine_of(channel))
-        if channel == MAIN_CHANNEL:
-            return Machine.of_section(section, self.folder)
-        try:
-            return Machine.of_section(section, self.folder)
-        except MachineError as error:
-            key, message = f"machines.{channel}", str(error)
-            where = key + error.where.removeprefix("machine") if error.where.startswith("machine") else error.where
-            message = message.replace(error.where, where, 1) if error.where else f"{key}: {message}"
-            raise MachineError(message, code=error.code, where=where, hint=error.hint) from error
+        section = json.loads(self.engine.machine_of(channel_of(channel, self.channels, JobError)))
+        path = "machine" if channel == MAIN_CHANNEL else f"machines.{channel}"
+        return Machine.of_section(section, self.folder, path)
 
 
 PROGRAMS = (".ngc", ".nc", ".gcode", ".tap", ".cnc", ".mpf", ".h")

@@ -91,14 +91,15 @@ class Machine:
         if isinstance(source, Mapping):
             document = document_of(source, argument, WANTED, MachineError)
             named = {"name", "file"} & set(document) and set(document) <= SECTION
-            return cls.of_section(document, Path()) if named else cls.from_dict(document)
+            return cls.of_section(document, Path(), argument) if named else cls.from_dict(document)
         path = file_of(source, argument, WANTED, MachineError)
         return cls.find(source) if isinstance(source, str) else cls.read(path)
 
     @classmethod
     def shipped(cls, name: str) -> Machine:
         """A shipped machine: see :meth:`names`."""
-        return cls._built(_engine.Machine.shipped(word_of(name, "name", "the name of a shipped machine", MachineError)))
+        name = word_of(name, "name", "the name of a shipped machine", MachineError)
+        return cls._built(_engine.Machine.shipped(name, "machine"))
 
     @classmethod
     def from_dict(cls, document: Document, folder: str | Path = ".") -> Machine:
@@ -132,19 +133,21 @@ class Machine:
         return cls.read(name) if is_file else cls.shipped(name)
 
     @classmethod
-    def of_section(cls, section: Document, folder: Path) -> Machine:
-        """The machine that a job's ``[machine]`` names; files are relative to ``folder``."""
+    def of_section(cls, section: Document, folder: Path, path: str = "machine") -> Machine:
+        """The machine that a section of a job names; files are relative to ``folder``.
+
+        ``path`` is that of the section, ``machine`` or ``machines.support``: errors name its keys by it.
+        """
         file, name = section.get("file"), section.get("name")
         if (file is None) == (name is None):
-            hint = "leave one of them out"
-            raise MachineError(
-                "machine: name and file: one of them is wanted", code="argument", where="machine", hint=hint
-            )
-        machine = (
-            cls.shipped(str(name)) if file is None else cls.read(folder / file_of(file, "file", A_FILE, MachineError))
-        )
+            hint = "state one of them" if file is None else "leave one of them out"
+            raise MachineError(f"{path}: name and file: one of them is wanted", code="argument", where=path, hint=hint)
+        if file is None:
+            machine = cls._built(_engine.Machine.shipped(str(name), path))
+        else:
+            machine = cls.read(folder / file_of(file, f"{path}.file", A_FILE, MachineError))
         options = section.get("options")
-        return machine.with_options(options) if options else machine
+        return machine._with_options(options, path) if options else machine
 
     @staticmethod
     def names() -> list[str]:
@@ -153,12 +156,17 @@ class Machine:
 
     def with_options(self, options: Document) -> Machine:
         """The same machine with other values for its options: ``units``, ``decimals``, ``block_numbers``, ..."""
-        options = document_of(options, "options", "a dict of options and their values", MachineError)
+        return self._with_options(options)
+
+    def _with_options(self, options: Document, section: str = "") -> Machine:
+        """As :meth:`with_options`; ``section`` is the path of what sets them, empty outside a document."""
+        path = f"{section}.options" if section else "options"
+        options = document_of(options, path, "a dict of options and their values", MachineError)
         values = {key: value for key, value in options.items() if isinstance(value, str | bool | int | float)}
         if values != options:
             key, value = next((key, value) for key, value in options.items() if key not in values)
-            raise refused(f"options[{key!r}]", value, "a number, a text, True or False", MachineError)
-        return Machine._built(self.engine.with_options(json.dumps(values)))
+            raise refused(f"{path}.{key}", value, "a number, a text, True or False", MachineError)
+        return Machine._built(self.engine.with_options(json.dumps(values), section))
 
     def check(self) -> list[Trial]:
         """Posts a torture program, reads it back and compares; one entry for everything that was tried."""

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
 from styluscam import _engine
-from styluscam.arguments import document_of, gcode_of, refused
+from styluscam.arguments import channel_of, document_of, gcode_of, refused
 from styluscam.errors import MachineError, PlanError, StylusError
 from styluscam.programs.job import MAIN_CHANNEL, Job, JobLike
 from styluscam.programs.machine import Machine, MachineLike
@@ -103,7 +102,7 @@ class Plan:
         Raises:
             PlanError: the plan has no such channel.
         """
-        require_channel(channel, self.programs)
+        channel_of(channel, self.programs, PlanError)
         document, notes = self._summaries[channel] if judgement is None else self._summed(channel, judgement)
         return Summary.of(json.loads(document)), list(notes)
 
@@ -204,14 +203,6 @@ def post(plan: Plan | Program, machine: MachineLike | None = None, notes: list[s
         machine_of = target or plan.machines[channel]
         files[output_name(plan.job, channel)] = _engine.post(program.with_notes(lines).engine, machine_of.engine)
     return Posted(files)
-
-
-def require_channel(channel: str, channels: Iterable[str]) -> None:
-    """Refuses a channel that is not among those of a plan."""
-    known = list(channels)
-    if channel not in known:
-        message = f"channel: no channel is called {channel!r}"
-        raise PlanError(message, code="argument", where="channel", hint=f"the plan has {', '.join(known)}")
 
 
 def of_channel(path: Path, channel: str) -> Path:

@@ -147,6 +147,16 @@ class Program:
         """
         return cls(_engine.program_of_path(sections, tools, setup))
 
+    def path_text(self) -> str:
+        """The moves as FreeCAD's path commands, one a line, for its ``Path.Path(text)`` (mm, mm/s, six decimals).
+
+        Arcs are G2 and G3, with G18 and G19 where they turn in another plane. What happens between the moves is left out.
+
+        Raises:
+            JobError: a tilted tool axis, a feed that is not in mm/min, or an arc with an unknown start.
+        """
+        return _engine.path_text(self.engine)
+
     def save(self, path: FileName) -> None:
         """Writes the program as JSON, whole or not at all."""
         write_whole(file_of(path, "path", A_FILE, JobError), self.engine.to_json())

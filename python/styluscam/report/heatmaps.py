@@ -81,15 +81,15 @@ def shown_plain(surface: Surface) -> Shown:
     return Shown(surface.points, surface.borders(), vertices, (_wall_angle(vertices),), none, none, merged)
 
 
-def shown_judged(surface: Surface, report: Report, progress: Progress | None = None) -> Shown:
-    """A part and what a verified program leaves on it, refined so that the passes show."""
-    surface, merged = surface.coarsened(LIMIT)
+def shown_judged(surface: Surface, report: Report, progress: Progress | None = None, limit: int = LIMIT) -> Shown:
+    """A part and what a verified program leaves on it, refined so that the passes show; at most ``limit`` points."""
+    surface, merged = surface.coarsened(limit)
     selected = np.isin(surface.faces, [face.face for face in report.coverage(progress=progress)]) & surface.looks_up
     area = float(surface.areas[selected].sum())
     between = area / max(report.program.length, 1e-9)
-    spacing = max(between / PER_PASS, float(np.sqrt(2.0 * area / LIMIT)))
+    spacing = max(between / PER_PASS, float(np.sqrt(2.0 * area / limit)))
     borders = surface.borders()
-    surface, selected = surface.refined(selected, spacing, LIMIT)
+    surface, selected = surface.refined(selected, spacing, limit)
     left = report.left(surface.points, progress=progress)
     vertices = vertices_of(surface)
     asked = np.zeros(len(vertices.at), dtype=bool)

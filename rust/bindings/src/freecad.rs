@@ -23,6 +23,13 @@ pub fn program_of_path(py: Python<'_>, sections: Vec<PathSection>, tools: &str, 
     Ok(Program { program })
 }
 
+/// A program's moves as the text of FreeCAD's path commands.
+#[pyfunction]
+pub fn path_text(py: Python<'_>, program: &Program) -> PyResult<String> {
+    py.detach(|| styluscam_post::path_text(&program.program))
+        .map_err(|e| raise("JobError", &e.to_string(), e.code(), "", &e.hint()))
+}
+
 fn path_section((label, kind, coolant, text): PathSection) -> styluscam_post::PathSection {
     let coolant = match coolant.as_str() {
         "Flood" => Some(EventKind::Flood { on: true }),

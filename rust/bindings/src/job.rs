@@ -3,11 +3,7 @@
 use pyo3::prelude::*;
 use styluscam_job::JobDocument;
 
-use crate::{
-    errors::{of_job, raise},
-    json::json,
-    part::Part,
-};
+use crate::{channel::channel_of, errors::of_job, json::json, part::Part};
 
 /// A checked job document; see `styluscam.Job`.
 #[pyclass(frozen, module = "styluscam._engine")]
@@ -70,11 +66,7 @@ impl Job {
 impl Job {
     /// The name of a channel, if the job has it.
     pub(crate) fn channel(&self, name: &str) -> PyResult<&'static str> {
-        let channels = self.document.channels();
-        channels.iter().copied().find(|channel| *channel == name).ok_or_else(|| {
-            let message = format!("channel: the job has no {name:?}");
-            raise("JobError", &message, "argument", "channel", &format!("it has {}", channels.join(", ")))
-        })
+        channel_of(name, self.document.channels().iter().map(|channel| (*channel, *channel)), "JobError")
     }
 }
 

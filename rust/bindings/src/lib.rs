@@ -3,6 +3,7 @@
 //! Documents cross as JSON text, arrays as numpy; the Python package gives both their types.
 
 mod arrays;
+mod channel;
 mod errors;
 mod freecad;
 mod freeform;
@@ -29,7 +30,9 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _engine {
     #[pymodule_export]
-    use crate::freecad::program_of_path;
+    use crate::channel::require_channel;
+    #[pymodule_export]
+    use crate::freecad::{path_text, program_of_path};
     #[pymodule_export]
     use crate::freeform::{Nurbs, Search};
     #[pymodule_export]

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use pyo3::prelude::*;
-use styluscam_post::{Outcome, Trial};
+use styluscam_post::{MachineError, Outcome, Trial};
 
 use crate::{
     errors::{of_job, raise},
@@ -16,15 +16,34 @@ pub struct Machine {
     pub(crate) machine: styluscam_post::Machine,
 }
 
+/// A machine's error where a section names it and sets its options: keys of the section begin with its path.
+fn of_section(error: &MachineError, section: &str) -> PyErr {
+    if !error.is_of_section() {
+        return of_job(error.clone());
+    }
+    let path = within(section, &error.location());
+    raise("MachineError", &format!("{path}: {error}"), error.code(), &path, &error.hint())
+}
+
+/// A key of a section: its path from the document on.
+fn within(section: &str, key: &str) -> String {
+    if section.is_empty() {
+        key.to_owned()
+    } else {
+        format!("{section}.{key}")
+    }
+}
+
 /// Name, outcome ("passed", "without", "failed"), what is reported about it, code, position, the posted line, what to do, the text.
 type Tried = (String, &'static str, String, &'static str, String, String, String, String);
 
 #[pymethods]
 impl Machine {
-    /// A shipped machine.
+    /// A shipped machine; `section` is the path of what names it.
     #[staticmethod]
-    fn shipped(name: &str) -> PyResult<Self> {
-        let machine = styluscam_post::Machine::shipped(name).map_err(of_job)?;
+    #[pyo3(signature = (name, section=""))]
+    fn shipped(name: &str, section: &str) -> PyResult<Self> {
+        let machine = styluscam_post::Machine::shipped(name).map_err(|error| of_section(&error, section))?;
         Ok(Self { machine })
     }
 
@@ -51,12 +70,13 @@ impl Machine {
         self.machine.to_toml().map_err(of_job)
     }
 
-    /// The same machine with values for the options that it declares, as a JSON object.
-    fn with_options(&self, options: &str) -> PyResult<Self> {
+    /// The same machine with values for the options that it declares, as a JSON object; `section` is the path of what sets them.
+    #[pyo3(signature = (options, section=""))]
+    fn with_options(&self, options: &str, section: &str) -> PyResult<Self> {
         let options: std::collections::BTreeMap<String, styluscam_post::OptionValue> = serde_json::from_str(options)
-            .map_err(|e| raise("MachineError", &e.to_string(), "document", "machine.options", ""))?;
+            .map_err(|e| raise("MachineError", &e.to_string(), "document", &within(section, "options"), ""))?;
         let mut machine = self.machine.clone();
-        machine.set_options(options).map_err(of_job)?;
+        machine.set_options(options).map_err(|error| of_section(&error, section))?;
         Ok(Self { machine })
     }
 

@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 use styluscam_job::{Setting, Summary};
 
 use crate::{
+    channel::channel_of,
     errors::{of_job, raise},
     job::Job,
     json::json,
@@ -40,11 +41,8 @@ impl Plan {
         machine: &Machine,
         judgement: Option<&Judgement>,
     ) -> PyResult<(String, Vec<String>)> {
-        let planned = self.plan.channels.get(channel).ok_or_else(|| {
-            let known: Vec<&str> = self.plan.channels.keys().copied().collect();
-            let message = format!("no channel is called {channel:?}");
-            raise("StylusError", &message, "argument", "channel", &format!("the plan has {}", known.join(", ")))
-        })?;
+        let planned =
+            channel_of(channel, self.plan.channels.iter().map(|(name, planned)| (*name, planned)), "PlanError")?;
         if let Some(other) = judgement.map(|j| j.judgement.channel).filter(|other| *other != channel) {
             let message = format!("judgement: of channel {other:?}, and {channel:?} is summed up");
             return Err(raise("StylusError", &message, "argument", "judgement", "give that of the same channel"));

@@ -23,6 +23,7 @@ pub struct JobDocument {
     pub title: String,
     /// Risks that are taken: what the verifier would report for them as an error becomes a warning.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(extend("x-advanced" = true))]
     pub accept: Vec<Risk>,
     /// The unit of every length in this document: "mm" or "inch", and feeds in it per minute. What is left out is as in mm; a
     /// part's file, tool files and machine files have units of their own.
@@ -79,10 +80,11 @@ pub struct PartSection {
     pub model_face: Option<ModelFace>,
     /// Largest deviation of the triangles from the model's surfaces, mm; checked by sampling.
     #[serde(default = "part_tolerance")]
-    #[schemars(extend("x-unit" = "mm", "minimum" = 0.0001, "maximum" = 1.0))]
+    #[schemars(extend("x-advanced" = true, "x-unit" = "mm", "minimum" = 0.0001, "maximum" = 1.0))]
     pub tolerance: f64,
     /// Plan what can be reached of named faces that partly face down.
     #[serde(default)]
+    #[schemars(extend("x-advanced" = true))]
     pub allow_undercuts: bool,
 }
 
@@ -132,7 +134,7 @@ pub struct SetupSection {
     pub sheet: Option<SheetSection>,
     /// What holds it.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-example" = "{ clamp = { opening = [200.0, 150.0], height = 8.0 } }"))]
+    #[schemars(extend("x-advanced" = true, "x-example" = "{ clamp = { opening = [200.0, 150.0], height = 8.0 } }"))]
     pub fixture: Option<FixtureSection>,
 }
 
@@ -200,18 +202,18 @@ impl From<Zero> for ZeroText {
 #[serde(deny_unknown_fields)]
 pub struct SheetSection {
     /// Thickness, mm.
-    #[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 50.0))]
+    #[schemars(extend("x-example" = "1.0", "x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 50.0))]
     pub thickness: f64,
     /// How the thickness behaves as the sheet is formed.
     #[serde(default)]
     pub law: SheetLaw,
     /// Thinnest that the sheet may become, by the sine law, mm; not checked when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 50.0))]
+    #[schemars(extend("x-advanced" = true, "x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 50.0))]
     pub min_thickness: Option<f64>,
     /// Steepest wall that may be formed, degrees; when left out, what is known of `process.material`, or of any sheet, decides.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "deg", "minimum" = 1.0, "maximum" = 90.0))]
+    #[schemars(extend("x-advanced" = true, "x-unit" = "deg", "minimum" = 1.0, "maximum" = 90.0))]
     pub max_wall_angle_deg: Option<f64>,
 }
 

@@ -74,7 +74,14 @@ fn options() {
         assert!(matches!(machine.set_option(name, value), Err(MachineError::Option { .. })));
     }
     let error = machine.set_option("vacum", OptionValue::Number(1.0)).unwrap_err();
-    assert_eq!(error, MachineError::UnknownOption { name: "vacum".into(), similar: Some("vacuum".into()) });
+    assert!(matches!(&error, MachineError::UnknownOption { name, similar, .. }
+        if name == "vacum" && similar.as_deref() == Some("vacuum")));
+    assert_eq!(error.location(), "options.vacum");
+    assert_eq!(
+        error.hint(),
+        "did you mean \"vacuum\"? Otherwise: the machine's options: vacuum, header, units, smoothing_tolerance, decimals, \
+         block_numbers, comments, split_rapids, feed_mode, program_number"
+    );
     assert!(error.hint().starts_with("did you mean \"vacuum\"?"));
     assert!(matches!(
         grbl().set_option("smoothing_tolerance", OptionValue::Number(0.1)),
@@ -85,7 +92,8 @@ fn options() {
 #[test]
 fn unknown_machines() {
     let error = Machine::shipped("linuxnc").unwrap_err();
-    assert_eq!(error, MachineError::UnknownMachine { name: "linuxnc".into(), similar: Some("linuxcnc".into()) });
+    let similar = Some("linuxcnc".into());
+    assert_eq!(error, MachineError::UnknownMachine { key: "name", name: "linuxnc".into(), similar });
     assert!(error.hint().contains("grbl, grblhal"));
 }
 

@@ -28,6 +28,42 @@ def native_job() -> dict[str, Any]:
     return {"texts": texts, "commands": counts}
 
 
+def mixed_job() -> dict[str, Any]:
+    """Pocket, drilling of three kinds and an operation of ours in one job, posted for every machine that is shipped."""
+    import styluscam
+    from freecad.styluscam_wb import machines, ops
+
+    document = FreeCAD.newDocument("mixed")
+    job = job_of(document, ("Pocket", "Drilling", "Pecks", "Dwells"))
+    operation = ops.Create("Ours", parentJob=job)
+    operation.ToolController = job.Tools.Group[0]
+    operation.Process, operation.Strategy, operation.Stepover = "milling", "zig-zag", 2.0
+    operation.Base = [(job.Model.Group[0], faces_at(job.Model.Group[0], 20.0))]
+    drill = second_tool(job)
+    for native in job.Operations.Group[1:4]:
+        native.ToolController = drill
+    document.recompute()
+    texts = {name: text(job, machines.POST_PREFIX + name, "") for name in styluscam.Machine.names()}
+    job.OrderOutputBy, job.SplitOutput = "Tool", True
+    apart = {name: files(job, machines.POST_PREFIX + name) for name, whole in texts.items() if "refused" in whole}
+    kinds = [type(op.Proxy).__name__ for op in job.Operations.Group]
+    FreeCAD.closeDocument(document.Name)
+    return {"texts": texts, "apart": apart, "operations": kinds}
+
+
+def second_tool(job: Any) -> Any:
+    """Another tool controller, number 2; it comes after the operations: FreeCAD cannot choose between two by itself."""
+    from Path.Tool import Controller
+
+    from freecad.styluscam_wb import tools
+
+    bit = tools.create_stylus(job.Document, "Six", {"kind": "ball", "diameter": 6.0})
+    controller = Controller.Create("Other", tool=bit, toolNumber=2)
+    controller.HorizFeed, controller.VertFeed, controller.SpindleSpeed = 10, 5, 3000
+    job.Proxy.addToolController(controller)
+    return controller
+
+
 def write_shop() -> None:
     """A machine file in the user's folder, as it would be there before FreeCAD starts."""
     from freecad.styluscam_wb import machines
@@ -51,46 +87,75 @@ def text(job: Any, post: str, arguments: str) -> str:
     return str(sections[0][1])
 
 
-def job_of(document: Any) -> Any:
-    """A block with a pocket, two through holes and a round recess, and operations for each."""
+ALL = ("Profile", "Pocket", "Drilling", "Pecks", "Dwells", "Helix", "Adaptive")
+
+
+def files(job: Any, post: str) -> list[str]:
+    """The texts that a post makes of a job whose output is split."""
+    from Path.Post.Processor import PostProcessorFactory
+
+    job.PostProcessor = post
+    return [text for _, text in PostProcessorFactory.get_post_processor(job, post).export()]
+
+
+def job_of(document: Any, wanted: tuple[str, ...] = ALL) -> Any:
+    """A block with a pocket, two through holes and a round recess, and the wanted operations."""
     import Path.Main.Job as PathJob
-    import Path.Op.PocketShape as Pocket
-    from Path.Op import Adaptive, Drilling, Helix, Profile
 
     body = document.addObject("Part::Feature", "Body")
     body.Shape = block()
     document.recompute()
     job = PathJob.Create("Job", [body])
-    model, controller = job.Model.Group[0], job.Tools.Group[0]
+    controller = job.Tools.Group[0]
     controller.HorizFeed, controller.VertFeed, controller.SpindleSpeed = 10, 5, 3000
-    faces = {f"Face{i}": face for i, face in enumerate(model.Shape.Faces, 1)}
-    pocket = [name for name, face in faces.items() if abs(face.CenterOfMass.z - 12) < 1e-6 and level(face)]
-    recess = [name for name, face in faces.items() if abs(face.CenterOfMass.z - 10) < 1e-6 and level(face)]
-    holes = [name for name, face in faces.items() if abs(getattr(face.Surface, "Radius", 0.0) - 3) < 1e-6]
-
-    def add(operation: Any, base: list[str]) -> Any:
+    for name in wanted:
+        operation, base = operation_of(job, name)
         operation.ToolController = controller
         if base:
-            operation.Base = [(model, base)]
-        return operation
-
-    def bare(proxy: Any, name: str) -> Any:
-        """FreeCAD 1.0 looks for holes on its own at creation, which fails without a window."""
-        operation = document.addObject("Path::FeaturePython", name)
-        operation.Proxy = proxy(operation, name, job)
-        return operation
-
-    add(Profile.Create("Profile", parentJob=job), [])
-    add(Pocket.Create("Pocket", parentJob=job), pocket)
-    add(bare(Drilling.ObjectDrilling, "Drilling"), holes)
-    pecks = add(bare(Drilling.ObjectDrilling, "Pecks"), holes)
-    pecks.PeckEnabled, pecks.PeckDepth = True, 3
-    dwells = add(bare(Drilling.ObjectDrilling, "Dwells"), holes)
-    dwells.DwellEnabled, dwells.DwellTime = True, 0.5
-    add(bare(Helix.ObjectHelix, "Helix"), recess)
-    add(Adaptive.Create("Adaptive", parentJob=job), pocket)
+            operation.Base = [(job.Model.Group[0], base)]
     document.recompute()
     return job
+
+
+def operation_of(job: Any, name: str) -> tuple[Any, list[str]]:
+    """A new operation and the faces that it is for; none for the whole model."""
+    import Path.Op.PocketShape as Pocket
+    from Path.Op import Adaptive, Drilling, Helix, Profile
+
+    model = job.Model.Group[0]
+    if name == "Profile":
+        return Profile.Create(name, parentJob=job), []
+    if name == "Pocket":
+        return Pocket.Create(name, parentJob=job), faces_at(model, 12.0)
+    if name == "Adaptive":
+        return Adaptive.Create(name, parentJob=job), faces_at(model, 12.0)
+    if name == "Helix":
+        return bare(Helix.ObjectHelix, name, job), faces_at(model, 10.0)
+    operation = bare(Drilling.ObjectDrilling, name, job)
+    if name == "Pecks":
+        operation.PeckEnabled, operation.PeckDepth = True, 3
+    if name == "Dwells":
+        operation.DwellEnabled, operation.DwellTime = True, 0.5
+    return operation, holes(model)
+
+
+def bare(proxy: Any, name: str, job: Any) -> Any:
+    """An operation without what its module does at creation: FreeCAD 1.0 looks for holes there, which fails without a window."""
+    operation = job.Document.addObject("Path::FeaturePython", name)
+    operation.Proxy = proxy(operation, name, job)
+    return operation
+
+
+def faces_at(model: Any, height: float) -> list[str]:
+    """Horizontal faces at a height, mm."""
+    faces = enumerate(model.Shape.Faces, 1)
+    return [f"Face{i}" for i, face in faces if abs(face.CenterOfMass.z - height) < 1e-6 and level(face)]
+
+
+def holes(model: Any) -> list[str]:
+    """The walls of the through holes."""
+    faces = enumerate(model.Shape.Faces, 1)
+    return [f"Face{i}" for i, face in faces if abs(getattr(face.Surface, "Radius", 0.0) - 3) < 1e-6]
 
 
 def block() -> Any:

@@ -146,8 +146,6 @@ TOOL = {
 
 def arcs() -> dict[str, Any]:
     """Arcs of programs as FreeCAD's path: its own box around them, and the program that is read back."""
-    import Path as CamPath
-
     import styluscam
     from freecad.styluscam_wb import engine, motion
 
@@ -156,7 +154,7 @@ def arcs() -> dict[str, Any]:
     for name, lines in LINES.items():
         text = "\n".join(["G21 G90 G94 G17 G54", "G0 X0 Y0 Z5", "G0 Z0", *lines, "M2", ""])
         program = styluscam.read_gcode(text, linuxcnc)
-        path = CamPath.Path(motion.commands_of(program))
+        path = motion.path_of([], program, [])
         setup = {**program.setup, "wcs": "G54"}
         sections = [("tool", None, "None", "M6 T1\n"), ("arcs", "arcs", "None", path.toGCode())]
         again = engine.program_of_path(sections, json.dumps([TOOL]), json.dumps(setup))

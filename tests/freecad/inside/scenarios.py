@@ -35,15 +35,11 @@ def example() -> Any:
     return module_of("first_light", EXAMPLE)
 
 
-def native_job() -> dict[str, Any]:
-    return module_of("native", Path(__file__).with_name("native_job.py")).native_job()
-
-
-def own(name: str, *needs: Callable[[], Any]) -> Scenario:
-    """A function of `properties.py` beside this file, with what it needs."""
+def own(name: str, *needs: Callable[[], Any], file: str = "properties.py") -> Scenario:
+    """A function of a file beside this one, with what it needs."""
 
     def scenario() -> dict[str, Any]:
-        module = module_of("stylus_properties", Path(__file__).with_name("properties.py"))
+        module = module_of(f"stylus_{file.removesuffix('.py')}", Path(__file__).with_name(file))
         return getattr(module, name)(*[need() for need in needs])
 
     return scenario
@@ -474,13 +470,17 @@ def saved() -> dict[str, Any]:
     import FreeCAD
 
     stage = Stage()
+    stage.operation.Label = "cup (1) of München"
+    stage.again()
     before = [[c.Name, c.Parameters] for c in stage.operation.Path.Commands]
+    texts = [stage.operation.Path.toGCode()]
     path = str(Path(FOLDER) / "saved.FCStd")
     stage.document.saveAs(path)
     text = posted(stage.job)
     stage.close()
     document = FreeCAD.openDocument(path)
-    operation = next(o for o in document.Objects if o.Label == "cup")
+    operation = next(o for o in document.Objects if o.Label.startswith("cup"))
+    texts.append(operation.Path.toGCode())
     after = [[c.Name, c.Parameters] for c in operation.Path.Commands]
     job = next(o for o in document.Objects if o.Name == "Job")
     result = {
@@ -490,12 +490,35 @@ def saved() -> dict[str, Any]:
         "posts_the_same": posted(job) == text,
         "bit": [operation.ToolController.Tool.Profile, operation.ToolController.Tool.Shape.Volume],
     }
+    operation.touch()
+    document.recompute()
+    result["texts"] = [*texts, operation.Path.toGCode()]
+    result["as_commands"] = as_commands(operation)
     operation.Step = 10.0
     document.recompute()
     result["recomputed"] = list(operation.State)
     result["commands"] = len(operation.Path.Commands)
     FreeCAD.closeDocument(document.Name)
     return result
+
+
+def as_commands(operation: Any) -> str:
+    """The program's moves as text when they go into the path as numbers, one command at a time."""
+    import Path as CamPath
+
+    import styluscam
+    from freecad.styluscam_wb import documents, part
+
+    job, model = operation.Proxy.job, documents.model_of(operation)
+    read = part.part_of(model.Shape, operation.ModelTolerance.Value, model.Label)
+    document = documents.job_document(job, [operation], read, documents.machine_of(job))
+    moves = styluscam.plan(styluscam.Job.from_dict(document, part=read)).programs["main"].moves
+    commands = []
+    for move in moves:
+        words = dict(zip("XYZ", (float(value) for value in move["end"]), strict=True))
+        feed = {"F": float(move["feed"]) / 60.0} if move["kind"] == 1 else {}
+        commands.append(CamPath.Command(f"G{move['kind']}", words | feed))
+    return CamPath.Path(commands).toGCode()
 
 
 SCENARIOS: dict[str, Scenario] = {
@@ -530,17 +553,22 @@ SCENARIOS: dict[str, Scenario] = {
     "native probe": with_native("G0 X0 Y0 Z20", "G38.2 Z-5 F2", "G0 Z20"),
     "native axis": with_native("G0 X0 Y0 Z20 A10"),
     "two fixtures": two_fixtures,
-    "native job": native_job,
+    "native job": own("native_job", file="native_job.py"),
     "earlier document": own("earlier_document"),
     "new kind": own("new_kind", Stage),
     "arcs": own("arcs"),
     "native tool": own("native_tool"),
 }
 
+SHARED = tuple(SCENARIOS)
+"""What runs where none is chosen; the others have a FreeCAD of their own."""
+
+SCENARIOS["mixed job"] = own("mixed_job", file="native_job.py")
+
 
 def main() -> None:
     for name, scenario in SCENARIOS.items():
-        if CHOSEN and name not in CHOSEN:
+        if name not in (CHOSEN or SHARED):
             continue
         try:
             result = scenario()

@@ -29,6 +29,26 @@ def described(bit: Any) -> dict[str, Any]:
     }
 
 
+def compared(bit: Any) -> dict[str, float]:
+    """The solid and the engine's profile: the largest distance (mm) of the profile's points, and the volume that it bounds."""
+    import numpy as np
+    import Part
+
+    import styluscam as sc
+    from freecad.styluscam_wb import tools
+
+    tool = sc.Tool.from_dict(tools.tool_document(bit))
+    slopes = np.linspace(0.0, tool.max_slope, 121)
+    turned = np.arange(len(slopes)) * 0.7
+    radii, heights = tool.radius_at(slopes), tool.height_at(slopes)
+    shell = bit.Shape.Shells[0]
+    points = zip(radii * np.cos(turned), radii * np.sin(turned), heights, strict=True)
+    distance = max(shell.distToShape(Part.Vertex(*map(float, point)))[0] for point in points)
+    fine = np.linspace(0.0, tool.diameter / 2.0, 200001)
+    under = 2.0 * np.pi * fine * (heights[-1] - tool.height_at_radius(fine))
+    return {"distance": distance, "tip volume": float(np.sum(0.5 * (under[1:] + under[:-1])) * (fine[1] - fine[0]))}
+
+
 def load(document: Any, path: Path) -> Any:
     """By FreeCAD's own reader, with nothing of ours imported for it: its start-up makes the stylus known."""
     import Path.Main.Job  # noqa: F401
@@ -60,7 +80,7 @@ def one(path: Path) -> dict[str, Any]:
     document = FreeCAD.newDocument("Bits")
     bit = load(document, path)
     document.recompute()
-    seen = described(bit)
+    seen = described(bit) | compared(bit)
     saved_by_freecad(bit, path.with_suffix(".freecad.fctb"))
     tools.write_toolbit(bit, str(path.with_suffix(".ours.fctb")))
     seen["again"] = described(compat.load_toolbit(document, str(path.with_suffix(".freecad.fctb"))))

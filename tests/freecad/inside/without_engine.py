@@ -24,7 +24,7 @@ def main() -> None:
 
     report("started", {"early": early, "posts": Path.Preferences.allAvailablePostProcessors()})
     document = FreeCAD.openDocument(DOCUMENT)
-    operation = next(o for o in document.Objects if o.Label == "cup")
+    operation = next(o for o in document.Objects if o.Label.startswith("cup"))
     report(
         "opened",
         {

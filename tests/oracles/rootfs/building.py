@@ -15,13 +15,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import IO
 
-from rootfs.places import CAGE, ROOTS, Root, RootsError, Unavailable, locked, roots_dir, say
+from rootfs.paths import CAGE, ROOTS, Root, RootsError, Unavailable, locked, roots_dir, say
 
 MIRROR_ENV = "STYLUSCAM_DEBIAN_MIRROR"
 
 
 def why_not() -> str | None:
-    """Says in one sentence why root file systems cannot work on this machine, or None."""
+    """States in one sentence why root file systems cannot work on this machine, or None."""
     if not sys.platform.startswith("linux"):
         return "Root file systems need Linux."
     if os.geteuid() != 0:
@@ -35,14 +35,14 @@ def why_not() -> str | None:
 
 
 def why_no_build() -> str | None:
-    """Says in one sentence why root file systems cannot be built here, or None."""
+    """States in one sentence why root file systems cannot be built here, or None."""
     missing = [tool for tool in ("perl", "apt-get", "dpkg", "dpkg-deb") if not shutil.which(tool)]
     if missing:
         return f"Building a root file system needs {', '.join(missing)}."
     return why_not()
 
 
-def _apt(arguments: Sequence[str], state: Path, cwd: Path | None = None) -> str:
+def apt(arguments: Sequence[str], state: Path, cwd: Path | None = None) -> str:
     """Runs apt-get with lists and caches of our own, so that the host's stay as they are."""
     for part in ("lists/partial", "archives/partial"):
         (state / part).mkdir(parents=True, exist_ok=True)
@@ -90,7 +90,7 @@ def _mirror(state: Path) -> str:
     named = os.environ.get(MIRROR_ENV)
     if named:
         return named
-    listing = _apt(["indextargets", "--format", "$(LABEL) $(COMPONENT) $(REPO_URI)"], state)
+    listing = apt(["indextargets", "--format", "$(LABEL) $(COMPONENT) $(REPO_URI)"], state)
     for line in listing.splitlines():
         words = line.split()
         if words[:2] == ["Debian", "main"] and len(words) == 3:
@@ -110,8 +110,8 @@ def builder() -> Builder:
             say("fetching mmdebstrap")
             shutil.rmtree(tools, ignore_errors=True)
             state.mkdir(parents=True)
-            _apt(["update"], state)
-            _apt(["download", "mmdebstrap", "debian-archive-keyring"], state, cwd=tools)
+            apt(["update"], state)
+            apt(["download", "mmdebstrap", "debian-archive-keyring"], state, cwd=tools)
             for package in tools.glob("*.deb"):
                 subprocess.run(["dpkg-deb", "-x", str(package), str(unpacked)], check=True)
             (state / "mirror").write_text(_mirror(state))
@@ -178,7 +178,7 @@ def _follow(name: str, output: IO[str], record: IO[str]) -> None:
 
 
 def _fill(name: str, target: Path, tools: Builder) -> None:
-    """Runs mmdebstrap, shows its main steps, and says what went wrong when it fails."""
+    """Runs mmdebstrap, shows its main steps, and reports what went wrong when it fails."""
     root = ROOTS[name]
     log = roots_dir() / f"{name}.log"
     temporary = roots_dir() / f"{name}.tmp"
@@ -215,7 +215,7 @@ def _fill(name: str, target: Path, tools: Builder) -> None:
     shutil.rmtree(temporary, ignore_errors=True)
     if code:
         tail = "\n".join(log.read_text().splitlines()[-15:])
-        raise RootsError(f"Building {name} failed (mmdebstrap said {code}; all of it in {log}):\n{tail}")
+        raise RootsError(f"Building {name} failed (mmdebstrap ended with {code}; all of it in {log}):\n{tail}")
 
 
 def _remove(path: Path) -> None:

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from rootfs.building import ensure, why_not
-from rootfs.places import CAGE, CHECKOUT, RootsError, Unavailable, locked, roots_dir
+from rootfs.paths import CAGE, CHECKOUT, RootsError, Unavailable, locked, roots_dir
 
 SHARED = ("usr", "etc", "var")
 """Directories of a root that are seen inside, read-only."""
@@ -51,7 +51,7 @@ class Bind:
         return f"{self.source}:{self.target}:{'rw' if self.writable else 'ro'}"
 
     def checked(self) -> Bind:
-        """The same bind with an absolute source, or a RootsError that says what is wrong."""
+        """The same bind with an absolute source, or a RootsError that states what is wrong."""
         source = self.source.expanduser().resolve()
         target = os.path.normpath(self.target)
         if not source.exists():
@@ -59,7 +59,7 @@ class Bind:
         top, _, rest = target.removeprefix("/").partition("/")
         taken = top in KERNEL or (top in SHARED and not rest)
         if not target.startswith("/") or not top or taken:
-            raise RootsError(f"Cannot bind to {self.target!r}: name a place like /out or /mnt/x.")
+            raise RootsError(f"Cannot bind to {self.target!r}: name a folder like /out or /mnt/x.")
         return Bind(source, target, self.writable)
 
 

@@ -20,7 +20,7 @@ from pathlib import Path
 
 from rootfs.building import ensure
 from rootfs.entering import Bind, ready
-from rootfs.places import CHECKOUT, ROOTS, RootsError, Unavailable, cache_dir, roots_dir
+from rootfs.paths import CHECKOUT, ROOTS, RootsError, Unavailable, cache_dir, roots_dir
 
 FREECADCMD_ENV = "STYLUSCAM_FREECADCMD"
 
@@ -92,32 +92,33 @@ def freecad_argv(
 
     `python_path` takes directories to import from (an unzipped wheel), `mod_path` takes addon
     directories themselves (the one with package.xml, not its parent). Only they, the checkout and
-    the script's directory are seen inside, read-only: give a place to write as
+    the script's directory are seen inside, read-only: give a folder to write as
     `binds=[Bind.same(directory, writable=True)]`. FreeCAD hides exceptions: the script has to end
     with flushing and `os._exit(code)`.
     """
-    found = freecadcmd(version)
     script = script.resolve()
     pythons = [path.resolve() for path in python_path]
     mods = [path.resolve() for path in mod_path]
-    program = list(found.command)
+    options: list[str] = []
     for path in pythons:
-        program += ["-P", str(path)]
+        options += ["-P", str(path)]
     for path in mods:
-        program += ["-M", str(path)]
-    program += [str(script), *args]
+        options += ["-M", str(path)]
+    return [*freecad_words(version, [script.parent, *pythons, *mods], binds), *options, str(script), *args]
+
+
+def freecad_words(version: str, seen: Sequence[Path] = (), binds: Sequence[Bind] = ()) -> list[str]:
+    """The words that start FreeCAD, to which its arguments are added; `seen` and `binds` as for freecad_argv."""
+    found = freecadcmd(version)
     if found.root is None:
         home = cache_dir() / "freecad-user" / version
         home.mkdir(parents=True, exist_ok=True)
-        return ["env", f"FREECAD_USER_HOME={home}", *program]
-    seen = [
-        CHECKOUT,
-        *(p for p in (script.parent, *pythons, *mods) if not p.is_relative_to(CHECKOUT)),
-    ]
-    everything = [*(Bind.same(path) for path in dict.fromkeys(seen)), *binds]
+        return ["env", f"FREECAD_USER_HOME={home}", *found.command]
+    shown = [CHECKOUT, *(path for path in seen if not path.is_relative_to(CHECKOUT))]
+    everything = [*(Bind.same(path) for path in dict.fromkeys(shown)), *binds]
     options = [word for bind in everything for word in ("--bind", str(bind))]
     here = str(Path(__file__).resolve().parents[1] / "roots.py")
-    return [sys.executable, here, "enter", found.root, *options, "--", *program]
+    return [sys.executable, here, "enter", found.root, *options, "--", *found.command]
 
 
 def run_freecad(
@@ -131,7 +132,7 @@ def run_freecad(
 ) -> subprocess.CompletedProcess[str]:
     """Runs a script in FreeCAD, its output captured; the arguments are those of freecad_argv.
 
-    FreeCAD says 0 after an uncaught exception and after a script that is not there: here it is 1.
+    FreeCAD ends with 0 after an uncaught exception and after a script that is not there: here it is 1.
     """
     command = freecad_argv(version, script, *args, python_path=python_path, mod_path=mod_path, binds=binds)
     done = subprocess.run(

@@ -38,7 +38,7 @@ pub struct OperationKeys {
     pub tolerance: f64,
     /// No loop is missed whose inside or surroundings hold a disc of this diameter, mm.
     #[serde(default = "smallest_feature")]
-    #[schemars(extend("x-unit" = "mm", "minimum" = 0.01, "maximum" = 100.0))]
+    #[schemars(extend("x-advanced" = true, "x-unit" = "mm", "minimum" = 0.01, "maximum" = 100.0))]
     pub smallest_feature: f64,
     /// Feeds.
     #[serde(default)]

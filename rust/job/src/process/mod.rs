@@ -62,10 +62,10 @@ pub struct ProcessKeys {
     /// Most that may be left on the faces where the tool cannot get, mm; 1 mm of a sheet, and not checked in milling, when left
     /// out.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "mm", "minimum" = 0.0, "maximum" = 1000.0))]
+    #[schemars(extend("x-advanced" = true, "x-unit" = "mm", "minimum" = 0.0, "maximum" = 1000.0))]
     pub max_bridged: Option<f64>,
     /// Share of the faces, 0 to 1, that the tool may be unable to get to.
-    #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 1.0))]
+    #[schemars(extend("x-advanced" = true, "x-unit" = "1", "minimum" = 0.0, "maximum" = 1.0))]
     pub max_unreached: f64,
 }
 

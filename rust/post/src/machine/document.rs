@@ -21,11 +21,9 @@ impl Machine {
     /// # Errors
     /// [`MachineError::UnknownMachine`] when there is none.
     pub fn shipped_text(name: &str) -> Result<&'static str, MachineError> {
-        SHIPPED
-            .iter()
-            .find(|(known, _)| *known == name)
-            .map(|(_, text)| *text)
-            .ok_or_else(|| MachineError::UnknownMachine { name: name.into(), similar: most_similar(name, shipped()) })
+        SHIPPED.iter().find(|(known, _)| *known == name).map(|(_, text)| *text).ok_or_else(|| {
+            MachineError::UnknownMachine { key: "name", name: name.into(), similar: most_similar(name, shipped()) }
+        })
     }
 
     /// Reads a machine file and checks it. It may extend a shipped machine: `extends = "fanuc"`.

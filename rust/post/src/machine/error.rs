@@ -12,6 +12,8 @@ pub enum MachineError {
     /// No machine of this name is shipped. Take one of the names listed, or give a file.
     #[error("there is no machine {name:?}")]
     UnknownMachine {
+        /// The key that names it: `name` of what takes a machine, `extends` of a machine file.
+        key: &'static str,
         /// The name asked for.
         name: String,
         /// The shipped name most like it.
@@ -60,6 +62,8 @@ pub enum MachineError {
         name: String,
         /// The option most like it.
         similar: Option<String>,
+        /// The options that the machine has.
+        known: Vec<String>,
     },
     /// An option was given a value that it does not take.
     #[error("option {name}: {problem}")]
@@ -86,17 +90,23 @@ impl MachineError {
         }
     }
 
-    /// Where: a key of the machine file, or a line of it.
+    /// Where: a key of the machine file, or a line of it; an option's key is that of the section that sets it.
     #[must_use]
     pub fn location(&self) -> String {
         match self {
-            Self::UnknownMachine { .. } => "machine.name".into(),
+            Self::UnknownMachine { key, .. } => (*key).into(),
             Self::Document { place, .. } => place.clone(),
             Self::Schema { .. } => "schema".into(),
             Self::Value { key, .. } => key.clone(),
             Self::Template { name, line, .. } => format!("{name}, line {line}"),
-            Self::UnknownOption { name, .. } | Self::Option { name, .. } => format!("machine.{name}"),
+            Self::UnknownOption { name, .. } | Self::Option { name, .. } => format!("options.{name}"),
         }
+    }
+
+    /// Whether the name or an option is at fault, keys of the section that takes a machine, not of the machine's file.
+    #[must_use]
+    pub fn is_of_section(&self) -> bool {
+        matches!(self, Self::UnknownMachine { .. } | Self::UnknownOption { .. } | Self::Option { .. })
     }
 
     /// What to do, in a sentence.
@@ -110,7 +120,7 @@ impl MachineError {
             Self::Schema { .. } => "update StylusCAM, or write the file for this release".into(),
             Self::Value { .. } => "correct this key of the machine file".into(),
             Self::Template { .. } => "correct the template at this line".into(),
-            Self::UnknownOption { .. } => "take an option that the machine has".into(),
+            Self::UnknownOption { known, .. } => format!("the machine's options: {}", known.join(", ")),
             Self::Option { .. } => "give a value that the option takes".into(),
         };
         match self.similar() {

@@ -35,7 +35,7 @@ fn with_parents(
     let Some(depth) = depth.checked_sub(1) else { return Err(wrong("files extend one another without end".into())) };
     let parent_text = match file(&name) {
         Some(text) => text,
-        None => Machine::shipped_text(&name)?.to_owned(),
+        None => Machine::shipped_text(&name).map_err(extended)?.to_owned(),
     };
     let parent: Table = toml::from_str(&parent_text).map_err(|e| wrong(format!("{name}: {}", e.message())))?;
     let mut whole = with_parents(parent, &parent_text, file, depth)?;
@@ -46,6 +46,16 @@ fn with_parents(
     }
     lay_over(&mut whole, own);
     Ok(whole)
+}
+
+/// The error of a machine that a file extends.
+fn extended(error: MachineError) -> MachineError {
+    match error {
+        MachineError::UnknownMachine { name, similar, .. } => {
+            MachineError::UnknownMachine { key: EXTENDS, name, similar }
+        }
+        other => other,
+    }
 }
 
 fn unread(parent: &str) -> Table {

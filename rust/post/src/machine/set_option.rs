@@ -35,10 +35,11 @@ impl Machine {
     }
 
     fn set_own_option(&mut self, name: &str, value: OptionValue) -> Result<(), MachineError> {
-        let built_in = BUILT_IN_OPTIONS.iter().map(|(name, _)| *name);
-        let similar = most_similar(name, self.options.keys().map(String::as_str).chain(built_in));
         let Some(rule) = self.options.get_mut(name) else {
-            return Err(MachineError::UnknownOption { name: name.into(), similar });
+            let built_in = BUILT_IN_OPTIONS.iter().map(|(name, _)| (*name).to_owned());
+            let known: Vec<String> = self.options.keys().cloned().chain(built_in).collect();
+            let similar = most_similar(name, known.iter().map(String::as_str));
+            return Err(MachineError::UnknownOption { name: name.into(), similar, known });
         };
         if let Some(problem) = rule.refuses(&value) {
             return Err(MachineError::Option { name: name.into(), problem });

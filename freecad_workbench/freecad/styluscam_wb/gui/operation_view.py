@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""How an operation appears in the window: its icon, its path, its panel on a double click."""
+
+from __future__ import annotations
+
+from pathlib import Path as FilePath
+from typing import Any
+
+import FreeCADGui
+import Path.Op.Gui.Base as PathOpGui
+
+from .. import defaults, ops, properties
+from ..fields import OPERATION, kind_field
+from . import operation_panel, path_colours
+from .command import ICONS
+
+GENERIC = "operation"
+"""The icon of kinds that have none of their own."""
+
+
+class FaceGate:
+    """Lets faces alone be selected."""
+
+    def allow(self, document: Any, obj: Any, sub: str) -> bool:
+        """Whether an element may be selected."""
+        return bool(sub) and sub.rpartition(".")[2].startswith("Face")
+
+
+class ViewProviderStylus(PathOpGui.ViewProvider):
+    """CAM's view provider of operations with our icon, our page and a selection of faces."""
+
+    _colours: Any = None
+    """There while FreeCAD shows the operation."""
+
+    def attach(self, vobj: Any) -> None:
+        """FreeCAD begins to show the operation: its path in colours by kind."""
+        super().attach(vobj)
+        self._colours = path_colours.begin(vobj)
+
+    def onChanged(self, vobj: Any, prop: str) -> None:
+        """Follows the view's properties."""
+        if self._colours is not None:
+            self._colours.watch()
+        path_colours.changed(vobj, prop)
+
+    def updateData(self, obj: Any, prop: str) -> None:
+        """Follows the operation's properties."""
+        super().updateData(obj, prop)
+        if self._colours is not None:
+            self._colours.watch()
+
+    def getIcon(self) -> str:
+        """The kind's icon; CAM's own where the operation is switched off."""
+        if not self.Object.Active:
+            return str(super().getIcon())
+        return icon_of(self.Object)
+
+    def getSelectionFactory(self) -> Any:
+        """What begins the selection of faces when the panel opens."""
+        return lambda: FreeCADGui.Selection.addSelectionGate(FaceGate())
+
+    def setEdit(self, vobj: Any = None, mode: int = 0) -> bool:
+        """Opens the panel; what is wrong with it is shown, and the panel stays closed."""
+        from . import messages
+
+        with messages.shown("StylusCAM"):
+            self.OpIcon = icon_of((vobj or self.vobj).Object)
+            return bool(super().setEdit(vobj, mode))
+        return False
+
+    def setupTaskPanel(self, panel: Any) -> None:
+        """A new operation without faces begins with all of them."""
+        is_new = panel.deleteOnReject
+        super().setupTaskPanel(panel)
+        if is_new and not self.Object.Base:
+            self.Object.WholeModel = True
+
+
+def icon_of(obj: Any) -> str:
+    """The file of an operation's icon."""
+    kind = getattr(obj, kind_field(properties.fields(), OPERATION).name, "") if ops.engine.is_there() else ""
+    own: FilePath = ICONS / f"{GENERIC}-{kind}.svg"
+    return str(own if own.is_file() else ICONS / f"{GENERIC}.svg")
+
+
+def attach(obj: Any) -> None:
+    """Gives an operation that was made without a window its view."""
+    view = obj.ViewObject
+    if not isinstance(view.Proxy, ViewProviderStylus):
+        view.Proxy = ViewProviderStylus(view, _resources(obj.Label))
+        view.Proxy.setDeleteObjectsOnReject(False)
+
+
+def create(kind: str, title: str, job: Any) -> Any:
+    """A new operation of a kind in a job, its panel open.
+
+    Raises:
+        EngineMissingError, mistakes.OperationError: it cannot be made; the document is as it was.
+    """
+    document = job.Document
+    document.openTransaction(f"Create {title}")
+    try:
+        obj = ops.Create(title.replace(" ", ""), parentJob=job)
+        obj.Label = _unique(title, document)
+        defaults.fill(obj, kind)
+    except BaseException:
+        document.abortTransaction()
+        raise
+    obj.ViewObject.Proxy.OpName = title
+    obj.ViewObject.Proxy.setDeleteObjectsOnReject(True)
+    obj.ViewObject.Visibility = True
+    document.commitTransaction()
+    obj.ViewObject.Document.setEdit(obj.ViewObject, 0)
+    return obj
+
+
+def _unique(title: str, document: Any) -> str:
+    taken = {obj.Label for obj in document.Objects}
+    if title not in taken:
+        return title
+    return next(name for number in range(2, len(taken) + 3) if (name := f"{title} {number}") not in taken)
+
+
+def _resources(title: str) -> Any:
+    """What CAM's view provider is made from."""
+    words = {"menuText": title, "accelKey": None, "toolTip": ""}
+    return PathOpGui.CommandResources(title, ops.Create, operation_panel.OperationPage, "CAM_OpActive", *words.values())

@@ -1,0 +1,1449 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" sourcelanguage="en">
+<context>
+    <name>App::Property</name>
+    <message>
+        <source>Direction of rows from +X, degrees.
+Range: -360 to 360 deg</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Distance between levels.
+Range: above 0 to 100 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Distance between rows in plan, mm.
+Range: above 0 to 100 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
+Range: 0.0001 to 1 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How the thickness behaves as the sheet is formed.
+constant: The same thickness everywhere, along the normal.
+sine: Pure shear: a vertical column keeps its height, so a wall of slope phi is t cos(phi) thick.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Largest deviation of the triangles from the model's surfaces, mm; checked by sampling.
+Range: 0.0001 to 1 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Most that may be left on the faces where the tool cannot get, mm; 1 mm of a sheet, and not checked in milling, when left
+out.
+Range: 0 to 1000 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>No loop is missed whose inside or surroundings hold a disc of this diameter, mm.
+Range: 0.01 to 100 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>One operation: what is common to all kinds.
+z-level: Loops at constant heights, from the top down.
+zig-zag: Parallel rows over the surface.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Plan what can be reached of named faces that partly face down.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Risks that are taken: what the verifier would report for them as an error becomes a warning.
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Share of the faces, 0 to 1, that the tool may be unable to get to.
+Range: 0 to 1</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Steepest wall that may be formed, degrees; when left out, what is known of `process.material`, or of any sheet, decides.
+Range: 1 to 90 deg
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Thickness, mm.
+Range: above 0 to 50 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Thinnest that the sheet may become, by the sine law, mm; not checked when left out.
+Range: above 0 to 50 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What holds it.
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What is done to it.
+spif: Single-point incremental forming: a sheet, no die.
+milling: Milling: no sheet.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What the sheet is made of, by the name of a shipped material: it sets the steepest wall that the sheet withstands.
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Whether every other level or row is run in the other direction.
+alternate: Every other one in the other direction: counters the twist of a formed sheet.
+same: All in the same direction: the higher ground on the right of levels, rows along `angle_deg`.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Which face of the sheet the model shows; required with a sheet.
+0 or empty: not stated
+tool: The face that the tool touches.
+back: The face away from the tool.
+mid: The middle of the sheet.</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>StylusCAM</name>
+    <message>
+        <source>(r, z) from the tip outwards, mm; moved so that the first is the tip.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A V-shaped engraver with a flat tip.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A ball that runs tangentially into an arc of a larger circle.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A ball with a conical side.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A cone to the shank's diameter.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A cone, its tip rounded by a ball unless `tip_radius` is 0.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A convex curve through measured points.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A curve by formula: explicit, parametric or implicit.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A cylinder of the base's diameter.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A dome milled with FreeCAD's own ball end mill, row by row</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A flat end with a sharp corner.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A flat with a rounded corner, as the milling cutter.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A function of r and z that is zero on the curve.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A half circle, the ball-end tool; or with `radius` the part of a larger circle that the diameter cuts off.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A point [r, z] of the curve that `implicit` describes, or near it.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A rectangle with rounded corners, as the forming stylus: flat, arc, vertical side.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A sheet formed with a clothoid stylus, level by level</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A smooth transition to the shank's diameter, with one tangent at both ends.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Accepted risks</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Adds a tool of any convex shape to the job in front; its spindle stays off</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Adds the selected tool to FreeCAD's tool library, with exact numbers</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Adds the tool of a file (.fctb of FreeCAD, .json of StylusCAM) to the job in front</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Advanced</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>All faces that face up, when no face is selected</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>All in the same direction: the higher ground on the right of levels, rows along `angle_deg`.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Allow undercuts</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Angle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Angle between axis and side, degrees.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Apex radius</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Axial</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Ball</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Barrel</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Base</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Bull nose</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Cancelling...</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Chamfer</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Choose...</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Clothoid</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Coefficient</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Colours the job's paths by the kind of move, with a legend; again for FreeCAD's own two colours</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Colours the model by what the job leaves on it, gouges, wall angle or thickness; again to take it away</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Colours the path by the kind of move; else rapids have one colour and feed moves another</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Cone</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Contact track</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Coolant</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Coolant or lubricant during this operation</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Corner radius</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Curvature grows linearly with arc length from the tip: R L = A.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Cycloid</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Cylindrical</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Diameter</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Diameter of the base, mm, if the ellipse ends before its equator.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Diameter of the base, mm, where the curve ends; `z` alone needs it.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Diameter of the base, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Diameter of the base, mm; leave it out when `scale` is given.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Diameter of the cutter, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Diameter of the shank, mm; the base's when left out.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Diameter of the tip, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Diameter where it is widest, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Direction</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Direction of rows from +X, degrees.
+Range: -360 to 360 deg</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Distance between levels.
+Range: above 0 to 100 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Distance between rows in plan, mm.
+Range: above 0 to 100 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Draws where the tool touches the model along the job's paths; again to take it away</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Each machine file NAME.toml in this folder is a post of every job. Without a folder of your own it is the one in FreeCAD's user data</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Edit</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Ellipse</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>End slope</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Engine missing</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Every other one in the other direction: counters the twist of a formed sheet.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Example</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Exponent</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Finding</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Fit tolerance</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Fixture</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Flat</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Flat at the tip: its radius, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Folder of machine files</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Formed cup</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Formula</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>General</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Half an ellipse.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Half angle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Heat map</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Height</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Height: of r when it stands alone, of t beside `r`.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Holder</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
+Range: 0.0001 to 1 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far the points may be from the profile, inside or outside, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How the thickness behaves as the sheet is formed.
+constant: The same thickness everywhere, along the normal.
+sine: Pure shear: a vertical column keeps its height, so a wall of slope phi is t cos(phi) thick.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Implicit</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Included angle, degrees.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Its diameter, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Its height, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Its length, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Job</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Largest deviation of the triangles from the model's surfaces, mm; checked by sampling.
+Range: 0.0001 to 1 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Left out</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Length</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Length from tip to holder, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Line</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Load tool file...</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Loops at constant heights, from the top down.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Machine of new jobs</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Machines</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Makes a CAM job of the selected model</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Material</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Max bridged</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Max unreached</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Milled dome</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Milling</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Milling: no sheet.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Model</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Model face</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Model tolerance</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Most that may be left on the faces where the tool cannot get, mm; 1 mm of a sheet, and not checked in milling, when left
+out.
+Range: 0 to 1000 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Move tool</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Moves the tool along an operation's path, with its position, feed and line</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>New job</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>No loop is missed whose inside or surroundings hold a disc of this diameter, mm.
+Range: 0.01 to 100 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>None</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Not verified, because they are not StylusCAM's: {labels}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Numbers by name, for use in the formulas.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>One operation: what is common to all kinds.
+z-level: Loops at constant heights, from the top down.
+zig-zag: Parallel rows over the surface.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Opens FreeCAD's own simulator, which cuts the job's stock</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Parabola</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Parallel rows over the surface.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Parameters</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Part of the end, which is flat as a whole: at most half the diameter, and without effect.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Path</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Path colours</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Paths for tools of any convex shape</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Plan what can be reached of named faces that partly face down.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Play</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Points</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Post</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Posts the job's StylusCAM operations in memory, holds every move against the model and lists what it finds</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Power</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Preferences</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Process</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Profile</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Programs</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Pure shear: a vertical column keeps its height, so a wall of slope phi is t cos(phi) thick.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Radial</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Radius</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Radius as a function of t.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Radius of a flat that is added at the tip, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Radius of curvature</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Radius of curvature at the tip (R0), mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Radius of the ball at the tip, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Radius of the circle, mm; half the diameter when left out.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Radius of the corners, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Radius of the flat at the tip, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Radius of the generating arc, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Range of t; either end may be the tip.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Reads each posted program back and compares it with the model, and writes it only if no error is found. Without it the program's header states that it was not verified</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Report</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Risks that are taken: what the verifier would report for them as an error becomes a warning.
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Rounded rectangle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Save tool file...</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Save tool to library</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Scale</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Scallop height by wall angle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Semi-axis across the tool's axis, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Semi-axis along the tool's axis, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Set-up</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Shank</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Shank diameter</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Share of the faces, 0 to 1, that the tool may be unable to get to.
+Range: 0 to 1</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Sheet</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Sheet law</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Sheet max wall angle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Sheet min thickness</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Sheet thickness</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Simulate</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Single-point incremental forming: a sheet, no die.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Slope at which the curve ends, degrees; 90 unless given.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Smallest feature</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Spif</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Start</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>States how the StylusCAM engine is installed</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Steepest wall that may be formed, degrees; when left out, what is known of `process.material`, or of any sheet, decides.
+Range: 1 to 90 deg
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Step</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Stepover</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Strategy</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Stylus</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Stylus tool</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>StylusCAM check and post</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>StylusCAM job</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>StylusCAM operations</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>StylusCAM path</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Tangent</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Tapered ball</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The coefficient c, mm^(1 - p).</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The constant A, mm^2; needs `end_slope_deg`.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The curve from tip to base; this or `library`.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The exponent p, above 1.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The face away from the tool.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The face that the tool touches.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The folder of your machine files, the machine of new jobs, verification</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The holder above it.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The machine for which the jobs of the command New job are posted, and whose decimals and units planning takes into account; not stated: CAM's own default post</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The middle of the sheet.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The model is a solid, and no sheet of nearly constant thickness.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The model is thicker or thinner than the sheet.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The model shows another face of the sheet than model_face states.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The model's flange does not lie where the sheet is clamped.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The same thickness everywhere, along the normal.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The sheet becomes thinner than min_thickness.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The tool bridges faces by more than it may: it is less curved than they are.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The tool goes deeper into sheet that is not formed yet than a step.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The tool has no name: give it one</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The tool reaches less of the faces than it should.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Thickness, mm.
+Range: above 0 to 50 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Thinnest that the sheet may become, by the sine law, mm; not checked when left out.
+Range: above 0 to 50 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Times the machine's speed; by length, times 10 mm/s</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Tip diameter</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Tip flat</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Tip radius</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Tolerance</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Tool</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Tool along</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Tool bits (*.fctb)</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Tool controller: the tool, its number and its feeds</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Tool number</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Toolpaths for tools of any convex shape</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Tools (*.fctb *.json)</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Value</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Values that are rarely changed</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Verification</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Verifies the job and writes its report, one page for the browser, beside the document</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Verify</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Verify programs before they are written</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Walls steeper than the material bears in one pass.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Web pages (*.html)</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What holds it.
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What is done to it.
+spif: Single-point incremental forming: a sheet, no die.
+milling: Milling: no sheet.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What joins the profile's base to the shank.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What the sheet is made of, by the name of a shipped material: it sets the steepest wall that the sheet withstands.
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Whether every other level or row is run in the other direction.
+alternate: Every other one in the other direction: counters the twist of a formed sheet.
+same: All in the same direction: the higher ground on the right of levels, rows along `angle_deg`.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Whether this is stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Which face of the sheet the model shows; required with a sheet.
+0 or empty: not stated
+tool: The face that the tool touches.
+back: The face away from the tool.
+mid: The middle of the sheet.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Whole model</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Worst gouge {gouge:.4f} mm, worst excess {excess:.4f} mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Writes the machine's program of the job; paths of StylusCAM are verified before</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Writes the selected tool as FreeCAD's .fctb, with exact numbers</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Z level</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Zig zag</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>alternate</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>at</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>back</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>between rows</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>bounds</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>bridged</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>bridging</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>by length, mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>by time, s</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>check</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>comparing</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>constant</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>coverage</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>cut, or link along the part</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>down at a feed</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>drop-cutter</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>flange</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>hidden</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>index</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>largest</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>levels</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>line</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>linking</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>measuring</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>mesh</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>mid</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>milling</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>missing passes</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>mm^2</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>model-face</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>must be {}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>nowhere</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>offset surface</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>preferences/preferences-styluscam</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>preparing</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>punch</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>push-cutter</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>r = a (t + sin t), z = a (1 - cos t).</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>r, z in mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>radius, height</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>rapid</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>reach</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>reading</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>rows</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>same</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>sampling</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>simulating</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>sine</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>slope of the surface, °</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>slopes between levels</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>smallest</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>solid</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>spif</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>stepover along the wall, mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>thickness</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>thinning</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>tool</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>unreached</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>up at a feed</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>verifying</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>wall-angle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>what is left</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>what stays flat</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>z-level</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>zig-zag</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{count} measured contacts; between them along the path</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>Workbench</name>
+    <message>
+        <source>StylusCAM check and post</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>StylusCAM job</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>StylusCAM operations</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>StylusCAM path</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+</TS>
