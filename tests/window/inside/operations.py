@@ -36,7 +36,7 @@ def made_with_the_button() -> Any:
     operation = job.Operations.Group[-1]
     yield from stage.typed(operation, STEP, "5 mm", 5.0)
     yield from stage.ok(operation)
-    FreeCADGui.SendMsgToActiveView("ViewFit")
+    stage.show_all()
     yield driver.settled(10)
     return {
         **stage.seen(operation),

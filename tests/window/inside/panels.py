@@ -9,6 +9,7 @@ from typing import Any
 sys.path.insert(0, str(Path(__file__).parent))
 
 import driver
+import stage
 import walk
 from driver import QtCore, QtWidgets, until
 
@@ -29,9 +30,7 @@ def example(number: int = 0) -> Any:
     FreeCADGui.activateWorkbench("StylusCamWorkbench")
     job = examples.EXAMPLES[number].make()
     FreeCAD.ActiveDocument.recompute()
-    view = FreeCADGui.activeDocument().activeView()
-    view.viewIsometric()
-    FreeCADGui.SendMsgToActiveView("ViewFit")
+    stage.show_all(isometric=True)
     yield driver.settled(10)
     return job
 

@@ -29,7 +29,7 @@ def formed_cup() -> tuple[Any, Any]:
     operation.Step = STEP
     operation.ViewObject.Visibility = True
     FreeCAD.ActiveDocument.recompute()
-    FreeCADGui.SendMsgToActiveView("ViewFit")
+    stage.show_all()
     return job, operation
 
 

@@ -39,8 +39,7 @@ def job_of(document: Any, model: Any, profile: dict[str, Any]) -> Any:
     controller.HorizFeed = controller.VertFeed = "1000 mm/min"
     document.recompute()
     document.clearUndos()
-    FreeCADGui.activeDocument().activeView().viewIsometric()
-    FreeCADGui.SendMsgToActiveView("ViewFit")
+    show_all(isometric=True)
     return job
 
 
@@ -104,6 +103,13 @@ def lowest(operation: Any) -> float:
 
 def motions(operation: Any) -> int:
     return sum(command.Name in ("G0", "G1", "G2", "G3") for command in operation.Path.Commands)
+
+
+def show_all(*, isometric: bool = False) -> None:
+    """All of the document in the view in front, at once."""
+    from freecad.styluscam_wb.gui import camera
+
+    camera.show_all(isometric=isometric)
 
 
 def seen(operation: Any) -> dict[str, Any]:

@@ -18,7 +18,6 @@ PROGRAM = driver.FOLDER / "cup.ngc"
 def model() -> Any:
     """Step 1: a block with a round cup, as the Part workbench makes it."""
     import FreeCAD
-    import FreeCADGui
     import Part
 
     document = FreeCAD.newDocument("Cup")
@@ -37,8 +36,7 @@ def model() -> Any:
     document.recompute()
     for hidden in (block, cone, cut):
         hidden.ViewObject.Visibility = False
-    FreeCADGui.activeDocument().activeView().viewIsometric()
-    FreeCADGui.SendMsgToActiveView("ViewFit")
+    stage.show_all(isometric=True)
     return fillet
 
 
@@ -100,7 +98,7 @@ def tutorial() -> Any:
     driver.click(driver.panel_button(QtWidgets.QDialogButtonBox.Ok))
     yield until(stage.panel_is_closed, "a closed panel")
     FreeCADGui.Selection.clearSelection()
-    FreeCADGui.SendMsgToActiveView("ViewFit")
+    stage.show_all()
     yield driver.settled(10)
     wall = next(face for face in job.Model.Group[0].Shape.Faces if type(face.Surface).__name__ == "Cone")
     u, v = ((a + b) / 2 for a, b in (wall.ParameterRange[:2], wall.ParameterRange[2:]))
@@ -121,7 +119,7 @@ def tutorial() -> Any:
     yield driver.settled(5)
     driver.shot("tutorial-4-operation")
     yield from stage.ok(operation)
-    FreeCADGui.SendMsgToActiveView("ViewFit")
+    stage.show_all()
     yield driver.settled(10)
     driver.shot("tutorial-5-path")
     job.PostProcessorOutputFile = str(PROGRAM)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import FreeCAD
 
 from .. import examples
+from . import camera
 from .command import Command
 from .messages import translated
 
@@ -36,8 +37,7 @@ class OpenExample(Command):
 
         job = self._example.make()
         FreeCAD.ActiveDocument.recompute()
-        FreeCADGui.activeDocument().activeView().viewIsometric()
-        FreeCADGui.SendMsgToActiveView("ViewFit")
+        camera.show_all(isometric=True)
         FreeCADGui.Selection.clearSelection()
         FreeCADGui.Selection.addSelection(job)
 
