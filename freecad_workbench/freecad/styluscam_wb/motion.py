@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +17,9 @@ if TYPE_CHECKING:
 
 COOLANTS = ("None", "Flood", "Mist")
 
+_MOTION = re.compile(r"^G0?[0-3] ", re.MULTILINE)
+"""A line of FreeCAD's that moves the tool."""
+
 
 class MotionError(ValueError):
     """Commands that cannot become a program; the message names the operation and what to do."""
@@ -25,6 +29,11 @@ def comment(text: str) -> str:
     """A text as a comment command: one line, no brackets inside."""
     words = " ".join(text.split()).replace("(", "[").replace(")", "]")
     return f"({words})"
+
+
+def moves(text: str) -> bool:
+    """Whether a path's text moves the tool."""
+    return _MOTION.search(text) is not None
 
 
 def path_of(comments: list[str], program: Program, last: list[Any]) -> Any:
@@ -67,8 +76,8 @@ class Builder:
         self._tool = int(controller.ToolNumber)
         self._add(controller, None, "None")
 
-    def add_operation(self, obj: Any, controller: Any, kind: str, coolant: str) -> None:
-        """An operation's commands, and its coolant around them; its tool is loaded first where it is not yet.
+    def add_operation(self, obj: Any, controller: Any, kind: str, coolant: str) -> str:
+        """An operation's commands, which it returns, and its coolant around them; its tool is loaded first where it is not yet.
 
         FreeCAD leaves the tool change out of a file that begins with the tool of the file before it.
         """
@@ -78,7 +87,7 @@ class Builder:
             raise MotionError(f"{obj.Label}: no tool is loaded before it: give it a tool controller")
         if coolant not in COOLANTS:
             raise MotionError(f"{obj.Label}: coolant {coolant} cannot be posted: choose one of {', '.join(COOLANTS)}")
-        self._add(obj, kind, coolant)
+        return self._add(obj, kind, coolant)
 
     def add_fixture(self, obj: Any) -> None:
         """The commands that change to a work offset."""
@@ -95,10 +104,11 @@ class Builder:
         document = {"wcs": "G54", **setup}
         return engine.program_of_path(self.sections, json.dumps(records), json.dumps(document))
 
-    def _add(self, obj: Any, kind: str | None, coolant: str) -> None:
-        text = obj.Path.toGCode()
+    def _add(self, obj: Any, kind: str | None, coolant: str) -> str:
+        text = str(obj.Path.toGCode())  # once: FreeCAD copies all commands whenever it is asked for the path
         title = f"{comment(obj.Label)}\n"  # the post writes it itself
         self.sections.append((obj.Label, kind, coolant, text.removeprefix(title) if kind else text))
+        return text
 
     def _record(self, number: int, controller: Any) -> dict[str, Any]:
         if controller.Tool is None:

@@ -45,19 +45,26 @@ def refuse_unfinished(job: Any) -> None:
         PostError: it names the operation.
     """
     for obj in active_operations(job):
-        for ours in filter(ops.is_ours, (obj, getattr(obj, "Base", None))):
-            _refuse_unfinished(ours)
+        if ops.is_ours(obj):
+            _refuse_unfinished(obj)
+        base = getattr(obj, "Base", None)  # of a dressup
+        if ops.is_ours(base):
+            _refuse_unfinished(base)
+            _refuse_motionless(base, ops.has_motion(base))
 
 
 def _refuse_unfinished(obj: Any) -> None:
-    why = ops.failure(obj) or NO_REASON
     if "Invalid" in obj.State:
-        raise PostError(f"{obj.Label} has failed ({why}): correct it before posting")
+        raise PostError(f"{obj.Label} has failed ({ops.failure(obj) or NO_REASON}): correct it before posting")
     if "Touched" in obj.State:
         raise PostError(f"{obj.Label} has changed since it was computed: recompute the document before posting")
     if obj.ToolController is None or obj.ToolController.Tool is None:
         raise PostError(f"{obj.Label} has no tool: choose one and recompute before posting")
-    if not ops.has_motion(obj):
+
+
+def _refuse_motionless(obj: Any, has_motion: bool) -> None:
+    if not has_motion:
+        why = ops.failure(obj) or NO_REASON
         raise PostError(f"{obj.Label} has no path ({why}): recompute the document before posting")
 
 
@@ -129,7 +136,9 @@ def draft_of(job: Any, items: list[Any], machine: str) -> Draft:
             if is_active(item):
                 operations.append(item)
                 controller, coolant = (PathUtil.opProperty(item, name) for name in ("ToolController", "CoolantMode"))
-                builder.add_operation(item, controller, _kind(item), str(coolant or "None"))
+                text = builder.add_operation(item, controller, _kind(item), str(coolant or "None"))
+                if ops.is_ours(item):
+                    _refuse_motionless(item, motion.moves(text))
         else:
             builder.add_fixture(item)
     if not operations:
