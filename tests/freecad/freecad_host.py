@@ -40,7 +40,7 @@ class FreeCad:
     folder: Path
 
     def run(
-        self, script: Path, *args: str, engine: bool = True, timeout: float = 170.0
+        self, script: Path, *args: str, engine: bool = True, timeout: float = 400.0
     ) -> subprocess.CompletedProcess[str]:
         """Runs a script with the addon, and with the engine unless it is to do without."""
         return roots.run_freecad(

@@ -319,7 +319,7 @@ def test_what_a_later_version_knows_is_noted(documents: Documents) -> None:
 def test_many_documents_and_one_json(documents: Documents, cli: Cli) -> None:
     names = [CONE, "missing.FCStd", "mixed.FCStd"]
     process = cli("--addon", str(ADDON), *names, "--jobs", "2", "--json", cwd=documents.folder)
-    out, err = process.communicate(timeout=170)
+    out, err = process.communicate(timeout=400)
     assert (process.returncode, err) == (2, "")
     report = json.loads(out)
     assert [each["file"] for each in report["files"]] == names and not report["ok"]
@@ -364,7 +364,7 @@ def test_findings_and_no_addon_write_nothing(documents: Documents, cli: Cli) -> 
         (bare, 2, "error: cöne 1.FCStd: FreeCAD has no addon StylusCAM: install it"),
     ):
         with process:
-            _, err = process.communicate(timeout=170)
+            _, err = process.communicate(timeout=400)
         assert process.returncode == code and message in err and "Traceback" not in err
     assert not out.exists()
 

@@ -33,7 +33,7 @@ def seen(freecad: FreeCad) -> dict[str, dict[str, Any]]:
             python_path=[freecad.engine] if has_addon else [],
             mod_path=[ADDON] if has_addon else [],
             binds=[roots.Bind.same(freecad.folder, writable=True)],
-            timeout=170.0,
+            timeout=400.0,
         )
         lines = [line for line in done.stdout.splitlines() if line.startswith("RESULT ")]
         assert lines, done.stdout[-3000:] + done.stderr[-3000:]

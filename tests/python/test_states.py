@@ -114,6 +114,17 @@ def test_without_remarks_operations_are_known_by_their_tools() -> None:
     assert kinds(swapped, of)["unnamed-operations"] == "error"
 
 
+def test_an_operation_that_the_job_lacks_is_found() -> None:
+    of = job(*TWO)
+    text = text_of(of)
+    second = re.findall(r"\(operation ([^:]+):", text)[1]
+    renamed = re.sub(r"F\d+", "F9000", text.replace(f"(operation {second}:", "(operation other:"))
+    found = kinds(renamed, of)
+    assert (found["unknown-operation"], found["missing-operation"]) == ("error", "error")
+    more = text.replace("M2\n", "") + text[text.index(f"(operation {second}:") :].replace(second, "other")
+    assert kinds(more, of)["unknown-operation"] == "error"
+
+
 def test_operations_come_in_the_jobs_order() -> None:
     of, other = job(*TWO), job(*reversed(TWO))
     assert kinds(text_of(other), of)["operation-order"] == "error"

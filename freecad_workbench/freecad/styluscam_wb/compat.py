@@ -246,6 +246,8 @@ def _add_to_library_of_1_0(bit: Any, write: Callable[[Any, str], None]) -> str:
     """A library is a file of names; its tools are files in a folder beside its own."""
     import Path.Preferences
 
+    from styluscam.files import write_whole
+
     folder = FilePath(Path.Preferences.lastPathToolLibrary())
     if folder == FilePath(Path.Preferences.pathDefaultToolsPath("Library")) or not folder.is_dir():
         raise ToolError("CAM has no folder for your tools yet; open CAM's tool library once, it asks for one")
@@ -258,7 +260,7 @@ def _add_to_library_of_1_0(bit: Any, write: Callable[[Any, str], None]) -> str:
     if file.name not in [tool["path"] for tool in content["tools"]]:
         number = max((int(tool["nr"]) for tool in content["tools"]), default=0) + 1
         content["tools"].append({"nr": number, "path": file.name})
-        library.write_text(json.dumps(content, indent=2, sort_keys=True), encoding="utf-8")
+        write_whole(library, json.dumps(content, indent=2, sort_keys=True))  # half a library would be a lost one
     return f"{bit.Label} stands in the tool library {library}"
 
 

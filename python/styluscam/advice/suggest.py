@@ -199,7 +199,7 @@ class _Passes:
 
     def __init__(self, spacing: Document) -> None:
         self.pitch, self.words = float(spacing["pitch"]), str(spacing["words"])
-        self.rows_deg: float | None = spacing.get("direction_deg")
+        self.rows_deg = None if spacing["in"] == "height" else float(spacing["direction_deg"])
 
     def scallops(self, tool: Tool, walls: Classes) -> FloatArray:
         """Scallop height (mm) by class of walls: on the plane, and by what the part's curvature adds or takes."""

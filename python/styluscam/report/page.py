@@ -38,6 +38,9 @@ LENGTH_STEP, UNIT_STEP = 1e-4, 1e-3
 VALUE_STEPS = {"mm": 1e-5, "°": 1e-2}
 """To which the numbers of heat maps are rounded."""
 
+SHOWN_STEP = 0.5
+"""Distance of levels, mm, for which a tool is drawn where no operation has levels."""
+
 COLOURS = 64
 """Steps of the colour map."""
 
@@ -113,10 +116,18 @@ def _plots(subject: Subject, shown: Shown | None) -> list[plots.Plot]:
 
 def _tool_pictures(subject: Subject) -> list[tuple[str, str]]:
     """Name and SVG of each tool that is known."""
-    steps = [float(operation["step"]["height"]) for operation in _operations(subject) if operation.get("step")]
-    step = min(steps, default=0.5)
+    step = min(_level_distances(subject), default=SHOWN_STEP)
     known = [(record, tool) for record, tool in subject.tools if tool is not None]
     return [(_tool_name(record), plots.element(tool_svg([tool], step))) for record, tool in known]
+
+
+def _level_distances(subject: Subject) -> list[float]:
+    """How far the levels of each operation that has any lie apart, mm."""
+    if subject.job is None:
+        return []
+    spacings = [subject.job.engine.spacing(index) for index in range(len(_operations(subject)))]
+    known = [json.loads(spacing) for spacing in spacings if spacing is not None]
+    return [float(spacing["pitch"]) for spacing in known if spacing["in"] == "height"]
 
 
 def _operations(subject: Subject) -> list[Document]:

@@ -14,7 +14,7 @@ pub fn program_of_path(py: Python<'_>, sections: Vec<PathSection>, tools: &str, 
     let document = |e: serde_json::Error| raise("JobError", &e.to_string(), "document", "", "");
     let tools: Vec<styluscam_motion::ToolRecord> = serde_json::from_str(tools).map_err(document)?;
     let setup: styluscam_motion::SetupRecord = serde_json::from_str(setup).map_err(document)?;
-    let sections: Vec<_> = sections.into_iter().map(path_section).collect();
+    let sections: Vec<_> = sections.into_iter().map(path_section).collect::<PyResult<_>>()?;
     let program = py.detach(|| styluscam_post::read_path(&sections, &tools, setup));
     let program = program.map_err(|e| {
         let (message, hint) = (e.to_string(), e.error.hint());
@@ -30,11 +30,15 @@ pub fn path_text(py: Python<'_>, program: &Program) -> PyResult<String> {
         .map_err(|e| raise("JobError", &e.to_string(), e.code(), "", &e.hint()))
 }
 
-fn path_section((label, kind, coolant, text): PathSection) -> styluscam_post::PathSection {
+fn path_section((label, kind, coolant, text): PathSection) -> PyResult<styluscam_post::PathSection> {
     let coolant = match coolant.as_str() {
+        "None" => None,
         "Flood" => Some(EventKind::Flood { on: true }),
         "Mist" => Some(EventKind::Mist { on: true }),
-        _ => None,
+        unknown => {
+            let message = format!("{label}: coolant {unknown:?} is not known");
+            return Err(raise("JobError", &message, "unknown-coolant", &label, "choose None, Flood or Mist"));
+        }
     };
-    styluscam_post::PathSection { label, kind, text, coolant }
+    Ok(styluscam_post::PathSection { label, kind, text, coolant })
 }

@@ -45,12 +45,6 @@ impl Frame {
         self.rotation * n
     }
 
-    /// Where a point of work coordinates lies in the file.
-    #[must_use]
-    pub fn inverse_point(&self, p: Vector) -> Vector {
-        self.rotation.transpose() * (p - self.translation)
-    }
-
     /// The rotation's rows, then the translation: twelve numbers.
     #[must_use]
     pub fn rows(&self) -> [[f64; 4]; 3] {
@@ -80,7 +74,7 @@ mod tests {
             let frame = Frame::turning_up(up, 0.0);
             assert_eq!(frame.direction(up), Vector::z());
             let p = Vector::new(1.0, 2.0, 3.0);
-            assert_eq!(frame.inverse_point(frame.point(p)), p);
+            assert_eq!(frame.rotation.transpose() * (frame.point(p) - frame.translation), p);
         }
     }
 }

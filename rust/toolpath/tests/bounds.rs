@@ -10,7 +10,14 @@ use styluscam_toolpath::Lattice;
 
 const DIAMETER: f64 = 6.0;
 
+/// Tools of every kind of profile: the registry's own examples among them.
 fn any_tool() -> impl Strategy<Value = Tool> {
+    let registered = prop::sample::select(ProfileDocument::starters())
+        .prop_map(|text| Tool::new(ToolDocument::of(serde_json::from_str(text).unwrap())).unwrap());
+    prop_oneof![3 => varied_tool(), 1 => registered]
+}
+
+fn varied_tool() -> impl Strategy<Value = Tool> {
     (0..5_u8, 0.1..0.9_f64).prop_map(|(kind, a)| {
         let (diameter, tip_flat) = (DIAMETER, 0.0);
         let profile = match kind {

@@ -10,8 +10,15 @@ use styluscam_toolpath::offset::{Envelope, Index, Line};
 const EXACT: f64 = 1e-9;
 const DIAMETER: f64 = 12.0;
 
-/// Tools with curves, kinks, cones and flats.
+/// Tools of every kind of profile: the registry's own examples among them.
 fn any_tool() -> impl Strategy<Value = Tool> {
+    let registered = prop::sample::select(ProfileDocument::starters())
+        .prop_map(|text| Tool::new(ToolDocument::of(serde_json::from_str(text).unwrap())).unwrap());
+    prop_oneof![3 => varied_tool(), 1 => registered]
+}
+
+/// Curves, kinks, cones and flats.
+fn varied_tool() -> impl Strategy<Value = Tool> {
     let flat = prop_oneof![Just(0.0), 0.1..2.0_f64];
     (0..9_u8, 0.05..0.95_f64, 0.05..0.95_f64, flat).prop_map(|(kind, a, b, tip_flat)| {
         let (diameter, beyond) = (DIAMETER, 0.5 * DIAMETER - tip_flat);

@@ -1,6 +1,6 @@
 //! Which of the job's operations each operation of a text is, and what that leaves over.
 
-use styluscam_motion::Program;
+use styluscam_motion::{OperationRecord, Program};
 
 use crate::expectation::{ExpectedOperation, Passes};
 use crate::findings::{Finding, FindingKind, Severity};
@@ -41,6 +41,7 @@ impl<'a> Assignment<'a> {
     pub fn findings(&self, program: &Program, subject: &Subject) -> Vec<Finding> {
         let mut findings = missing(program, subject);
         findings.extend(self.unnamed(subject));
+        findings.extend(self.unknown(program, subject));
         findings.extend(self.out_of_order(program, subject));
         findings.extend(self.not_checked(subject));
         findings
@@ -71,6 +72,26 @@ impl<'a> Assignment<'a> {
             subject.expected.len()
         );
         (!known).then(|| Finding::of_all(FindingKind::UnnamedOperations, Severity::Error, message))
+    }
+
+    /// The findings of operations that the job does not have, where others are known.
+    fn unknown(&self, program: &Program, subject: &Subject) -> Vec<Finding> {
+        if self.0.iter().all(Option::is_none) {
+            return Vec::new(); // nothing is compared then: that is one finding
+        }
+        let known: Vec<&str> = subject.expected.iter().map(|operation| operation.id.as_str()).collect();
+        let unknown = (0_u32..).zip(&program.operations).filter(|(index, _)| self.of(*index).is_none());
+        let finding = |(index, operation): (u32, &OperationRecord)| {
+            let line = program.moves.iter().find(|step| step.operation == index)?.line;
+            let message = format!(
+                "line {line}: the job has no operation {:?} (it has {}): its feeds, tool, spindle and passes are not \
+                 checked; post the job again, or add the operation to the job",
+                operation.id,
+                known.join(", ")
+            );
+            Some(Finding::of_all(FindingKind::UnknownOperation, Severity::Error, message).at_line(line))
+        };
+        unknown.filter_map(finding).collect()
     }
 
     /// Notes of the operations whose passes are not checked.

@@ -393,8 +393,20 @@ pub(crate) mod tests {
         Body::new(&tool(ProfileDocument::from(kinds::Ball { diameter, radius: None, tip_flat: 0.0 })), None)
     }
 
-    /// Curves, kinks, cones and flats, with a sheet.
+    /// Tools of every kind of profile, with a sheet: the registry's own examples among them.
     pub fn any_body() -> impl Strategy<Value = Body> {
+        let thickness = prop_oneof![Just(None), (0.2..2.0_f64).prop_map(Some)];
+        let starters = prop::sample::select(ProfileDocument::starters());
+        let registered = (starters, thickness).prop_map(|(text, sheet)| {
+            let sheet =
+                sheet.map(|thickness| Sheet { thickness, law: SheetLaw::Constant, model_face: ModelFace::Back });
+            Body::new(&tool(serde_json::from_str(text).unwrap()), sheet.as_ref())
+        });
+        prop_oneof![3 => varied_body(), 1 => registered]
+    }
+
+    /// Curves, kinks, cones and flats of random sizes, with a sheet.
+    fn varied_body() -> impl Strategy<Value = Body> {
         let flat = prop_oneof![Just(0.0), 0.0..0.3_f64];
         let thickness = prop_oneof![Just(None), (0.2..2.0_f64).prop_map(Some)];
         (0..8_u8, 2.0..20.0_f64, 0.1..0.9_f64, 0.1..0.9_f64, flat, thickness).prop_map(

@@ -73,6 +73,8 @@ pub enum FindingKind {
     UnknownTool,
     /// An operation of the job is not in the text.
     MissingOperation,
+    /// The text has an operation that the job does not have.
+    UnknownOperation,
     /// An operation comes after one that the job has behind it.
     OperationOrder,
     /// The program begins with a move across before it has gone up, or goes across below the clearance height.

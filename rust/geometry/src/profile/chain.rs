@@ -154,6 +154,7 @@ impl Profile {
     }
 
     /// Slopes at which the profile is not smooth, rad: the ends of its pieces.
+    #[cfg(test)]
     pub fn breaks(&self) -> impl Iterator<Item = f64> + '_ {
         self.pieces.iter().flat_map(|p| [p.from, p.to])
     }
