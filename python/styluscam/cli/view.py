@@ -21,7 +21,7 @@ from styluscam.report.tables import figures, in_words
 OnMachine = Annotated[
     str | None,
     typer.Option(
-        "--machine", metavar="NAME|FILE", help="Who reads it; any that can, when left out.", show_default=False
+        "--machine", metavar="NAME|FILE", help="Machine that reads it; default: the first that can.", show_default=False
     ),
 ]
 WithJob = Annotated[
@@ -37,13 +37,15 @@ Subroutines = Annotated[
     typer.Option(
         "--subroutines",
         metavar="FOLDER",
-        help="Where else O-words find their files; besides the program's own.",
+        help="Another folder with files of O-words, besides the program's own.",
         show_default=False,
     ),
 ]
 Out = Annotated[
     Path | None,
-    typer.Option("--out", metavar="FILE.html", help="The page; beside the G-code when left out.", show_default=False),
+    typer.Option(
+        "--out", metavar="FILE.html", help="The page to write; default: beside the G-code.", show_default=False
+    ),
 ]
 
 GENERATOR = '<meta name="generator" content="StylusCAM">'
@@ -115,7 +117,7 @@ def _own_page(file: Path) -> Path:
     page = file.with_suffix(".html")
     if is_file(page) and not _is_ours(page):
         raise StylusError(
-            f"{page}: is there already, and no page of StylusCAM's",
+            f"{page}: exists and was not written by StylusCAM",
             code="exists",
             where=str(page),
             hint="name the page with --out",

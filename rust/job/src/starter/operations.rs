@@ -279,12 +279,12 @@ fn left(narrow: &[&FaceLook], tool: &Cutter) -> Option<String> {
     let (holes, slots): (Vec<&FaceLook>, Vec<&FaceLook>) = narrow.iter().partition(|face| face.hole.is_some());
     let mut sentences = Vec::new();
     if !holes.is_empty() {
-        let (plural, are) = if holes.len() == 1 { ("", "is") } else { ("s", "are") };
-        sentences.push(format!("the hole{plural} {} {are} for a drill", names(&holes)));
+        let plural = if holes.len() == 1 { "" } else { "s" };
+        sentences.push(format!("the hole{plural} {} must be drilled", names(&holes)));
     }
     if !slots.is_empty() {
-        let are = if slots.len() == 1 { "is" } else { "are" };
-        sentences.push(format!("{} {are} narrower than the tool and for a smaller one", names(&slots)));
+        let need = if slots.len() == 1 { "needs" } else { "need" };
+        sentences.push(format!("{} {need} a smaller tool", names(&slots)));
     }
     let diameter = tool.diameter;
     (!sentences.is_empty())
