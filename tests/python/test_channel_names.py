@@ -45,7 +45,7 @@ def test_a_channel_that_there_is_not_is_refused_in_one_sentence(call: str, plan:
     with pytest.raises(sc.StylusError) as caught:
         CALLS[call](plan, "side")
     error = caught.value
-    assert (str(error), error.hint) == ('channel: there is none called "side"', "channels: main")
+    assert (str(error), error.hint) == ('unknown channel "side"', "channels: main")
     assert (error.code, error.where) == ("argument", "channel")
 
 

@@ -50,7 +50,6 @@ def test_every_kind_of_finding_has_words_that_people_read() -> None:
     assert len(words) == len(set(words.values())) > 50
     for code, shown in words.items():
         assert spoken(code) == shown and "-" not in shown and shown.strip() == shown != "", code
-        assert not re.search(r"unsaid|unplaced|place\b|dog leg", shown), shown
     assert (spoken("unsaid-mode"), spoken("of-tomorrow")) == ("modal code not stated", "of tomorrow")
 
 

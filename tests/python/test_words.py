@@ -92,7 +92,7 @@ def texts(file: Path) -> Iterator[tuple[int, str]]:
 
 RUST = CHECKOUT / "rust"
 PAGES_OF_REPORTS = PACKAGE / "report" / "page"
-QUOTED = r'"(?:\\.|[^"\\])*"'
+QUOTED = r'"(?:\\(?s:.)|[^"\\])*"'
 RUST_TOKEN = re.compile(
     rf"""(?P<text>//[/!][^\n]*|\bb?r(?P<hashes>\#*)"(?s:.*?)"(?P=hashes)|{QUOTED})|//[^\n]*|'(?:\\.|[^'\\\n])'"""
 )
@@ -198,7 +198,7 @@ def test_words_are_found_in_names() -> None:
 
 def test_words_are_found_in_every_kind_of_file(tmp_path: Path) -> None:
     texts_by_name = {
-        "a.rs": """/// The legs.\n// the legs\nlet c = '"'; say("told {legs}");\n\n#[cfg(test)]\nmod t {\n"legs" """,
+        "a.rs": """/// The legs.\n// the legs\nlet c = '"'; say("told \\\n {legs}");\n\n#[cfg(test)]\nmod t {\n"legs" """,
         "a.js": "let legs = `a ${1}\n bears`; // the legs\n",
         "a.html.jinja": "{{ legs }}{# legs #}<p>A judge\n{% if legs %}tells</p>",
         "a.toml": 'legs = "legs"\n# flown\n',

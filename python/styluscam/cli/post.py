@@ -95,10 +95,12 @@ def post(
 ) -> int:
     """Post a program for a machine.
 
-    The text is not verified: `styluscam verify` does that, and `styluscam run` writes nothing that it objects to.
+    The text is not verified: `styluscam verify` does that, and `styluscam run` writes only verified text.
     """
     if not 0.0 <= air <= HIGHEST:
-        raise JobError(f"--air {air:g}", code="usage", where="--air", hint=f"a height of 0 to {HIGHEST:g} mm")
+        raise JobError(
+            f"--air {air:g} is out of range", code="usage", where="--air", hint=f"give a height of 0 to {HIGHEST:g} mm"
+        )
     if support is not None and (start or air or cl):
         raise JobError(
             "two synchronised programs are posted whole, as the machines' text",
@@ -143,7 +145,12 @@ def _options(words: list[str]) -> Document:
     for word in words:
         name, equals, value = word.partition("=")
         if not equals or not name:
-            raise JobError(f"--set {word}", code="usage", where="--set", hint="write NAME=VALUE, as in units=inch")
+            raise JobError(
+                f"--set {word}: an option and its value expected",
+                code="usage",
+                where="--set",
+                hint="write NAME=VALUE, as in units=inch",
+            )
         try:
             options[name] = json_module.loads(value)
         except ValueError:

@@ -1,4 +1,4 @@
-"""``styluscam view``: a G-code file as a page, ours or not, with a part or without."""
+"""``styluscam view``: any G-code file as a page, with a part or without."""
 
 from __future__ import annotations
 
@@ -72,13 +72,18 @@ def view(
     quiet: Quiet = False,
     debug: Debug = False,
 ) -> int:
-    """Show a G-code file as a page, ours or not.
+    """Show any G-code file as a page.
 
-    Path, tool and times, and a part if you name one. What no machine here reads is traced: loops, subroutines, cycles and
+    Path, tool and times, and a part if one is given. What no shipped machine reads is traced: loops, subroutines, cycles and
     parameters are run as LinuxCNC does. Nothing is verified; `styluscam verify` does that.
     """
     if job is not None and part is not None:
-        raise JobError("--job and --part: a job has its part", code="usage", where="--part", hint="give one of them")
+        raise JobError(
+            "--part cannot be given with --job: the job names its part",
+            code="usage",
+            where="--part",
+            hint="give one of them",
+        )
     page = out or _own_page(file)
     reader = Machine.find(machine) if machine is not None else None
     with naming(job or file), naming(file, VerifyError), progress.shown(not (json or quiet)) as shown:
