@@ -26,6 +26,7 @@ __all__ = [
     "__version__",
     "cl_text",
     "drop_cutter",
+    "finding_kinds",
     "job_schema",
     "judge",
     "lines_of_moves",
@@ -311,6 +312,7 @@ def trace_gcode(
     cancel: CancelToken | None = None,
 ) -> tuple[Program, list[str]]: ...
 def read_back(job: Job, machine: Machine, text: str, channel: str = "main") -> Program: ...
+def finding_kinds() -> str: ...
 def judge(
     job: Job,
     scene: Scene,

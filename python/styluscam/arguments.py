@@ -23,7 +23,7 @@ FileName: TypeAlias = "str | os.PathLike[str]"
 """A file by its name."""
 
 A_FILE = "the name of a file (str or Path)"
-"""What is wanted where only a file can be meant."""
+"""What is expected where only a file can be meant."""
 
 ENDING = re.compile(r"[^;(%].*\.[A-Za-z]{1,8}[0-9]?")
 """A line that ends as file names do."""
@@ -36,8 +36,8 @@ SHOWN = 40
 
 
 def refused(argument: str, value: object, wanted: str, failure: type[StylusError], hint: str = "") -> StylusError:
-    """The error for an argument that is none: it names the argument, what came and what is wanted."""
-    message = f"{argument}: {_described(value)} came, {wanted} is wanted"
+    """The error for an argument that is none: it names the argument, what it must be and what it is."""
+    message = f"{argument}: expected {wanted}, got {_described(value)}"
     return failure(message, code="argument", where=argument, hint=hint)
 
 

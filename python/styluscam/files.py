@@ -193,11 +193,11 @@ def require_new(path: Path, force: bool, failure: type[StylusError], otherwise: 
     """Asks whether a file would be replaced without leave to replace it; ``otherwise`` is what else can be done.
 
     Raises:
-        StylusError: of class ``failure``: it is there already.
+        StylusError: of class ``failure``: the file exists.
     """
     if is_file(path) and not force:
         hint = f"add --force to replace it, or {otherwise}"
-        raise failure(f"{path}: the file is there already", code="exists", where=str(path), hint=hint)
+        raise failure(f"{path}: the file exists", code="exists", where=str(path), hint=hint)
 
 
 def is_file(path: Path) -> bool:

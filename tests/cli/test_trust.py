@@ -75,7 +75,7 @@ def test_what_another_wrote_is_replaced_only_with_force(desk, cli, foreign):
     name, text = FOREIGN[foreign]
     Path(name).write_text(text)
     ran = cli("run", "job.toml")
-    assert ran.code == 2 and f"{name}: the file is there already, and this job (Plate ä) did not write it" in ran.err
+    assert ran.code == 2 and f"{name}: the file exists, and this job (Plate ä) did not write it" in ran.err
     assert "--force" in ran.err and ran.err.count("\n") == 1
     assert Path(name).read_text() == text
     printed = cli("run", "job.toml", "--json")

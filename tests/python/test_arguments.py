@@ -193,7 +193,7 @@ CALLS = {
 
 @pytest.mark.parametrize("value", WRONG, ids=lambda value: type(value).__name__)
 @pytest.mark.parametrize("call", CALLS)
-def test_a_wrong_type_is_named_with_what_is_wanted(call, value):
+def test_a_wrong_type_is_named_with_what_is_expected(call, value):
     failure, function = CALLS[call]
     if call == "sheet" and value is None:
         return
@@ -206,7 +206,7 @@ def test_a_wrong_type_is_named_with_what_is_wanted(call, value):
     if "." not in argument:
         assert error.where == wanted and str(error).startswith(f"{wanted}: ")
     given = "None" if value is None else type(value).__name__
-    assert given in str(error) and " is wanted" in str(error), str(error)
+    assert "expected " in str(error) and ", got " in str(error) and given in str(error), str(error)
 
 
 @pytest.mark.parametrize("value", ["a", [], [[1.0]], object(), b"1"], ids=lambda value: type(value).__name__)

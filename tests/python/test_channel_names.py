@@ -45,14 +45,14 @@ def test_a_channel_that_there_is_not_is_refused_in_one_sentence(call: str, plan:
     with pytest.raises(sc.StylusError) as caught:
         CALLS[call](plan, "side")
     error = caught.value
-    assert (str(error), error.hint) == ('channel: there is none called "side"', "channels: main")
+    assert (str(error), error.hint) == ('unknown channel "side"', "channels: main")
     assert (error.code, error.where) == ("argument", "channel")
 
 
 @pytest.mark.parametrize("name", (5, None, "", ["main"]))
 def test_what_is_no_name_of_a_channel_is_refused(name: Any, plan: sc.Plan) -> None:
     for call in ("scene", "machine", "summary", "picture", "check"):
-        with pytest.raises(sc.StylusError, match="the name of a channel is wanted") as caught:
+        with pytest.raises(sc.StylusError, match="expected the name of a channel, got") as caught:
             CALLS[call](plan, name)
         assert caught.value.where == "channel"
 

@@ -86,7 +86,7 @@ REFUSED = {
     "cut in a number": (text()[: text().rfind("vertex") + 12], "the last facet is cut short"),
     "two corners": (text().replace("vertex", "corner", 1), "line 2: a facet that has not three corners"),
     "a word": (text().replace("0.000000e+00", "zero", 1), "line 2: a facet that has not three corners"),
-    "a header's lie": (binary()[:300].decode("latin-1"), "announces 12 triangles, 4 are there"),
+    "a header's lie": (binary()[:300].decode("latin-1"), "states 12 triangles, the file holds 4"),
     "another format": ("ISO-10303-21;\nHEADER;\n" * 20, "it is a STEP file"),
     "too short": ("\0" * 40, "long enough"),
 }

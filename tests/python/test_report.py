@@ -16,9 +16,11 @@ import pytest
 from conftest import Floats, Mesh, box, milling_document
 
 import styluscam as sc
+from styluscam import _engine
 from styluscam.drawing.decimation import thinned
 from styluscam.report import Subject, comparison_page, figures, heatmaps, report_page
 from styluscam.report.columns import packed
+from styluscam.report.findings import spoken
 from styluscam.report.surface import Surface, vertices_of
 
 RADIUS, STEPOVER = 3.0, 0.6
@@ -41,6 +43,14 @@ def job_of(folder: Path, mesh: Mesh = BLOCK, title: str = "") -> sc.Job:
 DEPTH = 0.25
 SCRATCH = f"G0 Z10\nG0 X15 Y10\nG1 Z{-DEPTH} F300\nG1 X16 F1500\nG0 Z10\nM2\n"
 """The end of a program that enters the block's top."""
+
+
+def test_every_kind_of_finding_has_words_that_people_read() -> None:
+    words = json.loads(_engine.finding_kinds())
+    assert len(words) == len(set(words.values())) > 50
+    for code, shown in words.items():
+        assert spoken(code) == shown and "-" not in shown and shown.strip() == shown != "", code
+    assert (spoken("unsaid-mode"), spoken("of-tomorrow")) == ("modal code not stated", "of tomorrow")
 
 
 @pytest.fixture(scope="module")

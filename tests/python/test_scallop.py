@@ -1,4 +1,4 @@
-"""Scallops held against closed forms and the published tables; profiles here are formulas, not the engine's."""
+"""Scallops compared with closed forms and the published tables; profiles here are formulas, not the engine's."""
 
 from __future__ import annotations
 

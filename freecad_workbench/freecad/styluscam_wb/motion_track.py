@@ -57,7 +57,7 @@ def track_of(job: Any, operation: Any) -> MotionTrack:
     """The track of one operation.
 
     Raises:
-        PostError, MotionError, ToolError, styluscam.StylusError: it cannot be posted, or goes nowhere.
+        PostError, MotionError, ToolError, styluscam.StylusError: it cannot be posted, or has no moves.
     """
     from styluscam.report import Subject
 

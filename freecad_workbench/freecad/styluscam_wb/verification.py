@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""From a CAM job to a verified text: what may be posted, the program of its objects, its text held against the model."""
+"""From a CAM job to a verified text: what may be posted, the program of its objects, its text compared with the model."""
 
 from __future__ import annotations
 

@@ -268,7 +268,7 @@ def _asked_by(job: Job, progress: Progress | None) -> list[_Asked]:
             tolerance = float(document["operations"][index]["tolerance"])
             found.append(_Asked(name, walls, passes, classes, ball, thickness, tolerance, fits))
     if not found:
-        hint = "rows (zig-zag) over floors can be compared; for upright walls any tool will do that fits their gaps and fillets"
+        hint = "rows over floors can be compared; for upright walls any tool will do that fits their gaps and fillets"
         message = "the selected faces have no sloping walls: no profile leaves more there than another"
         raise JobError(message, code="no-walls", where="part.faces", hint=hint)
     return found

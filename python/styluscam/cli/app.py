@@ -40,7 +40,7 @@ app = typer.Typer(
     name="styluscam",
     help="Toolpaths for tools of any convex shape: from CAD faces to verified G-code.",
     epilog="Exit codes: 0 done, 1 verification found an error, 2 the input is wrong, 3 cancelled (130 by Ctrl-C), "
-    "4 a fault of ours.",
+    "4 an internal error.",
     add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,

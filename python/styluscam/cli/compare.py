@@ -19,11 +19,11 @@ from styluscam.report.subject import Subject
 from styluscam.report.tables import figures, side_by_side
 from styluscam.types import Document, Progress
 
-First = Annotated[Path, typer.Argument(metavar="A.ngc", help="A program.", show_default=False)]
-Second = Annotated[Path, typer.Argument(metavar="B.ngc", help="Another.", show_default=False)]
+First = Annotated[Path, typer.Argument(metavar="A.ngc", help="The first program.", show_default=False)]
+Second = Annotated[Path, typer.Argument(metavar="B.ngc", help="The second program.", show_default=False)]
 Out = Annotated[
     Path | None,
-    typer.Option("--out", metavar="FILE.html", help="Also write a page, with both pictures.", show_default=False),
+    typer.Option("--out", metavar="FILE.html", help="Also write a page with both pictures.", show_default=False),
 ]
 
 

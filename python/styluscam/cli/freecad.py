@@ -21,7 +21,9 @@ app = typer.Typer(help="Run FreeCAD documents without a window.", rich_markup_mo
 Files = Annotated[list[Path], typer.Argument(metavar="FILE.FCStd", help="The documents.", show_default=False)]
 Post = Annotated[
     str | None,
-    typer.Option("--post", metavar="MACHINE", help="The machine; else each job's own post.", show_default=False),
+    typer.Option(
+        "--post", metavar="MACHINE", help="The machine; default: each job's own post processor.", show_default=False
+    ),
 ]
 Set = Annotated[
     list[str] | None,
@@ -38,16 +40,18 @@ Jobs = Annotated[
 ]
 Out = Annotated[
     Path | None,
-    typer.Option("--out", "-o", metavar="FILE", help="The file; else the job's own output file.", show_default=False),
+    typer.Option(
+        "--out", "-o", metavar="FILE", help="The file to write; default: the job's own output file.", show_default=False
+    ),
 ]
-Save = Annotated[bool, typer.Option("--save", help="Save the computed document too, where nothing is wrong.")]
+Save = Annotated[bool, typer.Option("--save", help="Also save the computed document if no error was found.")]
 Addon = Annotated[
     Path | None,
     typer.Option(
-        "--addon", metavar="DIR", help="The addon's folder, where FreeCAD's Mod has none.", show_default=False
+        "--addon", metavar="DIR", help="The addon's folder, if it is not in FreeCAD's Mod folder.", show_default=False
     ),
 ]
-Workers = Annotated[int, typer.Option("--jobs", metavar="N", min=1, help="So many documents at a time.")]
+Workers = Annotated[int, typer.Option("--jobs", metavar="N", min=1, help="Number of documents processed at a time.")]
 
 
 @app.callback(invoke_without_command=True)

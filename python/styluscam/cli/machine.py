@@ -17,7 +17,7 @@ from styluscam.errors import MachineError
 from styluscam.programs.machine import Machine, Trial, differences, starter
 from styluscam.types import Document
 
-app = typer.Typer(help="Look at machines, make files of your own, and try them out.", rich_markup_mode=None)
+app = typer.Typer(help="Describe machines, write machine files and check them.", rich_markup_mode=None)
 
 MACHINE_HELP = "A shipped machine, or a machine file."
 Name = Annotated[str, typer.Argument(metavar="NAME|FILE", help=MACHINE_HELP, show_default=False)]

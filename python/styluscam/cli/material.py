@@ -38,7 +38,7 @@ class Material(Record):
         return cls(**{**document, "angles": tuple(WallAngle(**angle) for angle in document["angles"])})
 
 
-app = typer.Typer(help="Look at the materials of sheets.", rich_markup_mode=None)
+app = typer.Typer(help="List materials of sheets.", rich_markup_mode=None)
 
 
 @app.callback(invoke_without_command=True)

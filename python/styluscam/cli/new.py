@@ -31,7 +31,9 @@ LIKELY_INCH = 12.0
 
 Out = Annotated[
     Path | None,
-    typer.Option("--out", metavar="FILE.toml", help="The job file; beside the part when left out.", show_default=False),
+    typer.Option(
+        "--out", metavar="FILE.toml", help="The job file to write; default: beside the part.", show_default=False
+    ),
 ]
 
 

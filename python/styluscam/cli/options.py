@@ -40,9 +40,14 @@ ForJob: TypeAlias = Annotated[
     Path, typer.Option("--job", metavar="JOB.toml", help="The job that it is for.", show_default=False)
 ]
 ChannelName: TypeAlias = Annotated[
-    str, typer.Option("--channel", metavar="NAME", help="The job's channel that the text is for, of several.")
+    str,
+    typer.Option(
+        "--channel", metavar="NAME", help="The channel of the job that the text is for, where it has several."
+    ),
 ]
 Json: TypeAlias = Annotated[bool, typer.Option("--json", help="Print one JSON document, errors included.")]
-Quiet: TypeAlias = Annotated[bool, typer.Option("--quiet", "-q", help="No progress, and no summary of what may run.")]
-Debug: TypeAlias = Annotated[bool, typer.Option("--debug", help="Show the traceback of a fault.")]
-Force = Annotated[bool, typer.Option("--force", help="Replace a file that is there.")]
+Quiet: TypeAlias = Annotated[
+    bool, typer.Option("--quiet", "-q", help="No progress, and no summary when nothing was found.")
+]
+Debug: TypeAlias = Annotated[bool, typer.Option("--debug", help="Show the traceback of an error.")]
+Force = Annotated[bool, typer.Option("--force", help="Replace a file that exists.")]

@@ -16,9 +16,11 @@ from styluscam.parts.arrays import FaceInfo, PartArrays
 from styluscam.parts.reading import read_part
 from styluscam.types import Document
 
-app = typer.Typer(help="Look at parts.", rich_markup_mode=None)
+app = typer.Typer(help="Show parts.", rich_markup_mode=None)
 
-Tolerance = Annotated[float, typer.Option("--tolerance", help="Deviation of the triangles that are looked at, mm.")]
+Tolerance = Annotated[
+    float, typer.Option("--tolerance", help="Largest deviation of the shown triangles from the surfaces, mm.")
+]
 
 
 @app.callback(invoke_without_command=True)

@@ -31,7 +31,7 @@ def plan(
     quiet: Quiet = False,
     debug: Debug = False,
 ) -> int:
-    """Plan a job and sum it up.
+    """Plan a job and print its summary.
 
     Nothing is posted or verified, and only the files that options ask for are written.
     """

@@ -38,7 +38,7 @@ Start = Annotated[
         show_default=False,
     ),
 ]
-Air = Annotated[float, typer.Option("--air", metavar="MM", help="Everything so much higher, mm.", show_default=False)]
+Air = Annotated[float, typer.Option("--air", metavar="MM", help="Raise all moves by this, mm.", show_default=False)]
 Stops = Annotated[bool, typer.Option("--optional-stops", help="An optional stop between operations.")]
 Set = Annotated[
     list[str] | None,
@@ -49,16 +49,24 @@ Support = Annotated[
     typer.Option(
         "--support",
         metavar="PROGRAM.json",
-        help="The program that this one waits for and that waits.",
+        help="Program of the second channel, synchronised with this one.",
         show_default=False,
     ),
 ]
 SupportMachine = Annotated[
     str | None,
-    typer.Option("--support-machine", metavar="NAME|FILE", help="Its machine; the same one else.", show_default=False),
+    typer.Option(
+        "--support-machine",
+        metavar="NAME|FILE",
+        help="Machine of the second program (default: the same).",
+        show_default=False,
+    ),
 ]
 SupportOut = Annotated[
-    Path | None, typer.Option("--support-out", metavar="FILE", help="The file for its text.", show_default=False)
+    Path | None,
+    typer.Option(
+        "--support-out", metavar="FILE", help="The file for the text of the second program.", show_default=False
+    ),
 ]
 Cl = Annotated[bool, typer.Option("--cl", help="Write cutter locations (APT) instead of the machine's text.")]
 
@@ -87,19 +95,26 @@ def post(
 ) -> int:
     """Post a program for a machine.
 
-    The text is not verified: `styluscam verify` does that, and `styluscam run` writes nothing that it objects to.
+    The text is not verified: `styluscam verify` does that, and `styluscam run` writes only verified text.
     """
     if not 0.0 <= air <= HIGHEST:
-        raise JobError(f"--air {air:g}", code="usage", where="--air", hint=f"a height of 0 to {HIGHEST:g} mm")
+        raise JobError(
+            f"--air {air:g} is out of range", code="usage", where="--air", hint=f"give a height of 0 to {HIGHEST:g} mm"
+        )
     if support is not None and (start or air or cl):
         raise JobError(
-            "a pair starts together, at its own heights, as the machines' text",
+            "two synchronised programs are posted whole, as the machines' text",
             code="usage",
             where="--support",
             hint="leave --from, --air and --cl out",
         )
     if (support is None) != (support_out is None):
-        raise JobError("a pair has two files", code="usage", where="--support", hint="give --support and --support-out")
+        raise JobError(
+            "two synchronised programs need two output files",
+            code="usage",
+            where="--support",
+            hint="give --support and --support-out",
+        )
     outputs = [path for path in (out, support_out) if path is not None]
     for path in outputs:
         files.require_new(path, force, JobError, "choose another name")
@@ -130,7 +145,12 @@ def _options(words: list[str]) -> Document:
     for word in words:
         name, equals, value = word.partition("=")
         if not equals or not name:
-            raise JobError(f"--set {word}", code="usage", where="--set", hint="write NAME=VALUE, as in units=inch")
+            raise JobError(
+                f"--set {word}: an option and its value expected",
+                code="usage",
+                where="--set",
+                hint="write NAME=VALUE, as in units=inch",
+            )
         try:
             options[name] = json_module.loads(value)
         except ValueError:

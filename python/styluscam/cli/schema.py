@@ -12,7 +12,7 @@ from styluscam.cli import console
 from styluscam.cli.options import Debug, Json
 from styluscam.programs.job import job_schema
 
-OfMachine = Annotated[bool, typer.Option("--machine", help="That of machine files.")]
+OfMachine = Annotated[bool, typer.Option("--machine", help="Print the schema of machine files.")]
 
 
 def schema(machine: OfMachine = False, json: Json = False, debug: Debug = False) -> int:

@@ -23,15 +23,15 @@ LibraryFile = Annotated[
     typer.Option(
         "--library",
         metavar="FILE.json",
-        help="A library of your own; else the shipped one for the job's process.",
+        help="A library of your own; default: the shipped one for the job's process.",
         show_default=False,
     ),
 ]
-Best = Annotated[int, typer.Option("--plan", min=0, max=50, help="Plan the job with so many of the best.")]
+Best = Annotated[int, typer.Option("--plan", min=0, max=50, help="Plan the job with this many of the best.")]
 Operation = Annotated[
     str | None, typer.Option("--operation", metavar="ID", help="Rank for one operation alone.", show_default=False)
 ]
-Rows = Annotated[int, typer.Option("--rows", min=1, help="Show so many tools.")]
+Rows = Annotated[int, typer.Option("--rows", min=1, help="Number of tools to show.")]
 
 
 def suggest(

@@ -19,7 +19,7 @@ from styluscam.tools import library, pointsfile, starters, toolfile
 from styluscam.tools.tool import Tool
 from styluscam.types import Document
 
-app = typer.Typer(help="Look at tools, compare them, and make new ones.", rich_markup_mode=None)
+app = typer.Typer(help="Describe, compare and make tools.", rich_markup_mode=None)
 
 TOOL_HELP = "A tool of a library (clothoid:medium, shop.json:a), or a tool file (.json, FreeCAD's .fctb)."
 Name = Annotated[str, typer.Argument(metavar="NAME|FILE", help=TOOL_HELP, show_default=False)]
@@ -39,7 +39,7 @@ Points = Annotated[
     typer.Option("--points", metavar="FILE.csv", help="Measured points: radius, height (mm).", show_default=False),
 ]
 FitTolerance = Annotated[
-    float, typer.Option("--fit-tolerance", metavar="MM", help="How near the curve comes to the points, mm.")
+    float, typer.Option("--fit-tolerance", metavar="MM", help="Largest distance of the curve from the points, mm.")
 ]
 Out = Annotated[Path, typer.Option("--out", metavar="FILE.svg|.png", help="The picture to write.", show_default=False)]
 StepDown = Annotated[float, typer.Option("--step-mm", help="Step down between Z-levels, for the scallops, mm.")]
@@ -97,7 +97,7 @@ def new(
     quiet: Quiet = False,
     debug: Debug = False,
 ) -> int:
-    """Write a tool file: sensible numbers of a kind to be edited, a tool that there is, or points that were measured.
+    """Write a tool file: typical numbers of a kind, an existing tool, or measured points.
 
     The ending chooses the format: this also turns a tool file into FreeCAD's, and back.
     """
@@ -107,7 +107,9 @@ def new(
         raise ToolError(f"{file}: a tool file ends in .json or .fctb", code="ending", where=str(file), hint=hint)
     if sum(choice is not None for choice in (kind, from_, points)) != 1:
         hint = "give one of --kind, --from and --points"
-        raise ToolError("what the new tool begins with", code="usage", where="tool new", hint=hint)
+        raise ToolError(
+            "the source of the new tool is not stated, or stated twice", code="usage", where="tool new", hint=hint
+        )
     name = toolfile.file_name(file.stem)
     if from_ is not None:
         document = find(from_, own).to_file()

@@ -73,7 +73,7 @@ def _print(report: verification.Report, file: Path) -> None:
         [
             ("worst gouge", f"{report.gouge_max:.4f} mm{_at(document['gouge_at'])}"),
             ("worst excess", f"{report.excess_max:.4f} mm{_at(document['excess_at'])}"),
-            ("probed", f"{document['samples']} points, {document['brep_checked']} held against the exact model"),
+            ("probed", f"{document['samples']} points, {document['brep_checked']} compared with the exact model"),
             *(("coverage", line) for line in coverage.lines(report.coverage())),
         ]
     )

@@ -1,4 +1,4 @@
-"""``styluscam view``: a G-code file as a page, ours or not, with a part or without."""
+"""``styluscam view``: any G-code file as a page, with a part or without."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from styluscam.report.tables import figures, in_words
 OnMachine = Annotated[
     str | None,
     typer.Option(
-        "--machine", metavar="NAME|FILE", help="Who reads it; any that can, when left out.", show_default=False
+        "--machine", metavar="NAME|FILE", help="Machine that reads it; default: the first that can.", show_default=False
     ),
 ]
 WithJob = Annotated[
@@ -37,13 +37,15 @@ Subroutines = Annotated[
     typer.Option(
         "--subroutines",
         metavar="FOLDER",
-        help="Where else O-words find their files; besides the program's own.",
+        help="Another folder with files of O-words, besides the program's own.",
         show_default=False,
     ),
 ]
 Out = Annotated[
     Path | None,
-    typer.Option("--out", metavar="FILE.html", help="The page; beside the G-code when left out.", show_default=False),
+    typer.Option(
+        "--out", metavar="FILE.html", help="The page to write; default: beside the G-code.", show_default=False
+    ),
 ]
 
 GENERATOR = '<meta name="generator" content="StylusCAM">'
@@ -70,13 +72,18 @@ def view(
     quiet: Quiet = False,
     debug: Debug = False,
 ) -> int:
-    """Show a G-code file as a page, ours or not.
+    """Show any G-code file as a page.
 
-    Path, tool and times, and a part if you name one. What no machine here reads is traced: loops, subroutines, cycles and
+    Path, tool and times, and a part if one is given. What no shipped machine reads is traced: loops, subroutines, cycles and
     parameters are run as LinuxCNC does. Nothing is verified; `styluscam verify` does that.
     """
     if job is not None and part is not None:
-        raise JobError("--job and --part: a job has its part", code="usage", where="--part", hint="give one of them")
+        raise JobError(
+            "--part cannot be given with --job: the job names its part",
+            code="usage",
+            where="--part",
+            hint="give one of them",
+        )
     page = out or _own_page(file)
     reader = Machine.find(machine) if machine is not None else None
     with naming(job or file), naming(file, VerifyError), progress.shown(not (json or quiet)) as shown:
@@ -115,7 +122,7 @@ def _own_page(file: Path) -> Path:
     page = file.with_suffix(".html")
     if is_file(page) and not _is_ours(page):
         raise StylusError(
-            f"{page}: is there already, and no page of StylusCAM's",
+            f"{page}: exists and was not written by StylusCAM",
             code="exists",
             where=str(page),
             hint="name the page with --out",

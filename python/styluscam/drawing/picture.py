@@ -147,7 +147,7 @@ def program_picture(
 
     Raises:
         StylusError: matplotlib is missing, or the file cannot be written.
-        GeometryError: the part is nothing but an engine's mesh; without a part, a program that goes nowhere.
+        GeometryError: the part is nothing but an engine's mesh; without a part, a program without moves.
     """
     _save(_program_figure(part, program, frame, tool, title), Path(path))
 
@@ -389,7 +389,7 @@ def _path_box(program: Program) -> FloatArray:
     at_feed = known & (kinds != RAPID)
     ends = ends[at_feed if at_feed.any() else known]
     if not len(ends):
-        raise GeometryError("the program goes nowhere: nothing to draw", code="nothing-to-draw", hint="check the file")
+        raise GeometryError("the program has no moves: nothing to draw", code="nothing-to-draw", hint="check the file")
     box = np.array([ends.min(axis=0), ends.max(axis=0)])
     least = max(0.02 * float(np.linalg.norm(box[1] - box[0])), 1e-3)
     flat = np.maximum(least - (box[1] - box[0]), 0.0) / 2.0

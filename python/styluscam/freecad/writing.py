@@ -72,7 +72,7 @@ class Writer:
                 path = path.with_name(f"{path.stem}-1{path.suffix}")
         elif policy == "ask" and is_file(path) and not self._force:
             raise StylusError(
-                f"{path}: the file is there already, and FreeCAD is set to ask before it replaces files",
+                f"{path}: the file exists, and FreeCAD is set to ask before it replaces files",
                 code="exists",
                 where=str(path),
                 hint="add --force, or change FreeCAD's preference for output files",

@@ -1,4 +1,4 @@
-"""Contacts held against the exact model: what triangles, planning and verification share could be wrong for all three."""
+"""Contacts compared with the exact model: what triangles, planning and verification share could be wrong for all three."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The material as a verified program leaves it: heights over the plan, as a mesh, and held against the part."""
+"""The material as a verified program leaves it: heights over the plan, as a mesh, and compared with the part."""
 
 from __future__ import annotations
 

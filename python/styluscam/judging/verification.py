@@ -236,7 +236,7 @@ def check_program(
     if isinstance(plan, Program):
         if job is None:
             hint = "give one: check_program(program, job)"
-            raise JobError("job: a program names none", code="argument", where="job", hint=hint)
+            raise JobError("job: not given, and a program names none", code="argument", where="job", hint=hint)
         work = Job.of(job)
         machine = work.machine(channel)
         text = _engine.post(plan.engine, machine.engine)

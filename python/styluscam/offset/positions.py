@@ -126,7 +126,7 @@ def push_cutter(
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
 ) -> FloatArray:
-    """Lengths (N,) mm that the tool, its tip at height ``z``, goes from ``xy`` (N, 2) in ``directions`` (N, 2) before it touches.
+    """Distances (N,), mm, travelled from ``xy`` (N, 2) in ``directions`` (N, 2), the tip at ``z``, until the tool touches.
 
     Exact for the triangles, on vertical walls too, where :func:`drop_cutter` jumps; the part's checked inward
     deviation is added. Infinite where the tool meets nothing, NaN where it does not stand free at the beginning.

@@ -54,7 +54,7 @@ def kernel_failures(file: Path) -> Iterator[None]:
     except thrown_by_kernel() as error:
         cure = "open the part in a CAD system, check its geometry there and export it again"
         raise GeometryError(
-            f"{file}: the CAD kernel gives up on its geometry: {cure}",
+            f"{file}: the CAD kernel cannot process its geometry: {cure}",
             code="part-kernel",
             where=str(file),
             hint=cure,

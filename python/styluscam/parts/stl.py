@@ -60,7 +60,7 @@ def read_stl(file: Path) -> tuple[Floats, Ints, tuple[str, ...]]:
     elif size < 0:
         raise _damaged(file, "it is neither text nor long enough for a header")
     else:
-        raise _damaged(file, f"its header announces {count} triangles, {size // RECORD.itemsize} are there")
+        raise _damaged(file, f"its header states {count} triangles, the file holds {size // RECORD.itemsize}")
     return points, np.arange(len(points), dtype=np.int64).reshape(-1, 3), notes
 
 

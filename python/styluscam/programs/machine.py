@@ -140,8 +140,8 @@ class Machine:
         """
         file, name = section.get("file"), section.get("name")
         if (file is None) == (name is None):
-            hint = "state one of them" if file is None else "leave one of them out"
-            raise MachineError(f"{path}: name and file: one of them is wanted", code="argument", where=path, hint=hint)
+            given, hint = ("neither is stated", "add one") if file is None else ("both are stated", "remove one")
+            raise MachineError(f"{path}: give either name or file, {given}", code="argument", where=path, hint=hint)
         if file is None:
             machine = cls._built(_engine.Machine.shipped(str(name), path))
         else:

@@ -143,9 +143,7 @@ class Posted:
         texts = list(self.files.values())
         if len(texts) != 1:
             names = ", ".join(self.files) or "none"
-            raise StylusError(
-                f"text: of one file, and there are {len(texts)} ({names})", code="files", hint="see .files"
-            )
+            raise StylusError(f"text: expected one file, got {len(texts)} ({names})", code="files", hint="use .files")
         return texts[0]
 
 
@@ -184,7 +182,7 @@ def post(plan: Plan | Program, machine: MachineLike | None = None, notes: list[s
     if isinstance(plan, Program):
         if target is None:
             raise MachineError(
-                "machine: a program names none",
+                "machine: not given, and a program names none",
                 code="argument",
                 where="machine",
                 hint="give one: post(program, machine)",
@@ -194,7 +192,9 @@ def post(plan: Plan | Program, machine: MachineLike | None = None, notes: list[s
     if not isinstance(plan, Plan):
         raise refused("plan", plan, "a Plan or a Program", PlanError, "sc.plan(job) makes one")
     if target is not None and len(plan.programs) > 1:
-        message = f"machine: of one channel, and the plan has {len(plan.programs)} ({', '.join(plan.programs)})"
+        message = (
+            f"machine: expected one for each channel, the plan has {len(plan.programs)} ({', '.join(plan.programs)})"
+        )
         hint = "leave it out, or post each of plan.programs"
         raise MachineError(message, code="argument", where="machine", hint=hint)
     files = {}

@@ -157,7 +157,7 @@ def _require_own(job: Job) -> None:
         posted = not is_file(gcode) or _is_verified(gcode, title, is_file(program) and described)
         for path, own in ((gcode, posted), (program, described)):
             if not own:
-                message = f"{path}: the file is there already, and this job ({job.title}) did not write it"
+                message = f"{path}: the file exists, and this job ({job.title}) did not write it"
                 hint = "add --force (in Python force=True) to replace it, or name another output.file"
                 raise JobError(message, code="exists", where=str(path), hint=hint)
 

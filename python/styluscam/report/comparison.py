@@ -17,7 +17,7 @@ def comparison_page(subjects: Sequence[Subject]) -> str:
 
     Raises:
         StylusError: jinja2 or matplotlib are missing.
-        GeometryError: a part that keeps no triangles to draw, or a program that goes nowhere.
+        GeometryError: a part that keeps no triangles to draw, or a program without moves.
     """
     page = template("comparison.html.jinja")
     return str(

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from styluscam import _engine
 from styluscam.judging.results import Finding, Group
 from styluscam.judging.verification import Report
 from styluscam.types import Document, FloatArray, IntArray
+
+_WORDS: dict[str, str] = json.loads(_engine.finding_kinds())
+"""Words for the kinds of findings, by their codes."""
 
 
 @dataclass(frozen=True)
@@ -29,12 +34,12 @@ def verdict_of(report: Report | None, traced: bool = False) -> Verdict:
             if traced
             else "as the machine reads it"
         )
-        explained = f"The program is shown {shown}. Nothing was held against a part."
+        explained = f"The program is shown {shown}. It was not compared with a part."
         return Verdict("unjudged", "Not verified", explained)
     document = report.to_dict()
     exact = f", {document['brep_checked']} contacts against the exact model" if document["brep_checked"] else ""
     checked = (
-        "The text was read back as the machine reads it; every move was held against the whole part, "
+        "The text was read back as the machine reads it; every move was compared with the whole part, "
         f"{document['samples']} points measured{exact}."
     )
     kinds = dict.fromkeys(group.kind for group in report.groups)
@@ -66,8 +71,8 @@ def _extent(document: Document, kind: str) -> str:
 
 
 def spoken(kind: str) -> str:
-    """A finding's kind as words."""
-    return kind.replace("-", " ")
+    """The words for a finding's kind; those of a kind that this engine does not know are its code's."""
+    return _WORDS.get(kind, kind.replace("-", " "))
 
 
 def measured(value: float, unit: str) -> str:

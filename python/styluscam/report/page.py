@@ -50,7 +50,7 @@ def report_page(subject: Subject, progress: Progress | None = None) -> str:
 
     Raises:
         StylusError: jinja2 or matplotlib are missing.
-        GeometryError: a part that keeps no triangles to draw, or a program that goes nowhere.
+        GeometryError: a part that keeps no triangles to draw, or a program without moves.
         VerifyError: a program that turns the tool's axis, which the page would draw upright.
     """
     _require_upright(subject)
@@ -192,7 +192,7 @@ def _path(subject: Subject) -> Document:
         "drawnError": drawn.error_mm,
         "sag": SAG if len(moves) > known else 0.0,
         "count": len(subject.program.moves),
-        "unplaced": len(subject.program.moves) - known,
+        "unknown": len(subject.program.moves) - known,
     }
 
 

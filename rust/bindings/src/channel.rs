@@ -13,7 +13,7 @@ pub fn channel_of<'a, T>(name: &str, channels: impl Iterator<Item = (&'a str, T)
         let shown: String = name.chars().take(SHOWN).collect();
         let known: Vec<&str> = channels.map(|(channel, _)| channel).collect();
         let hint = format!("channels: {}", known.join(", "));
-        raise(class, &format!("channel: there is none called {shown:?}"), "argument", "channel", &hint)
+        raise(class, &format!("unknown channel {shown:?}"), "argument", "channel", &hint)
     })
 }
 

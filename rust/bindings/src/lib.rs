@@ -60,7 +60,7 @@ mod _engine {
     #[pymodule_export]
     use crate::tool::{profile_starters, Tool};
     #[pymodule_export]
-    use crate::verification::{judge, Judgement};
+    use crate::verification::{finding_kinds, judge, Judgement};
     #[pymodule_export]
     use crate::waiting::CancelToken;
 

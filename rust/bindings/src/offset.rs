@@ -96,8 +96,8 @@ pub fn drop_cutter<'py>(
     Ok(PyArray1::from_vec(py, tips.into_iter().map(floored).collect()))
 }
 
-/// Ways (N,) that the tool goes from places (N, 2) in directions (N, 2), its tip at `z`, before it touches; infinite where it
-/// meets nothing, NaN where it does not stand free.
+/// Distances (N,), mm, travelled from positions (N, 2) in directions (N, 2), the tip at `z`, until the tool touches; infinite
+/// where it touches nothing, NaN where it begins within the part.
 #[pyfunction]
 #[pyo3(signature = (part, tool, xy, directions, z, sheet=None, progress=None, cancel=None))]
 #[allow(clippy::too_many_arguments, clippy::needless_pass_by_value)]

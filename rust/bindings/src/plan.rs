@@ -44,8 +44,14 @@ impl Plan {
         let planned =
             channel_of(channel, self.plan.channels.iter().map(|(name, planned)| (*name, planned)), "PlanError")?;
         if let Some(other) = judgement.map(|j| j.judgement.channel).filter(|other| *other != channel) {
-            let message = format!("judgement: of channel {other:?}, and {channel:?} is summed up");
-            return Err(raise("StylusError", &message, "argument", "judgement", "give that of the same channel"));
+            let message = format!("judgement: the verification is of channel {other:?}, the summary of {channel:?}");
+            return Err(raise(
+                "StylusError",
+                &message,
+                "argument",
+                "judgement",
+                "give the verification of the same channel",
+            ));
         }
         let summary = Summary::new(planned, &scene.scene, &machine.machine, judgement.map(|j| &j.judgement));
         Ok((json(&summary)?, summary.notes()))

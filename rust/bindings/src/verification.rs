@@ -1,8 +1,10 @@
 //! Posted texts, checked against a job's part.
 
+use std::collections::BTreeMap;
+
 use numpy::{PyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
-use styluscam_verify::Need;
+use styluscam_verify::{FindingKind, Need};
 
 use crate::{
     arrays,
@@ -111,6 +113,12 @@ impl Judgement {
     fn program(&self) -> Program {
         Program { program: self.judgement.program.clone() }
     }
+}
+
+/// The kinds of findings, as JSON: their words for people by their codes, in the order in which a report lists them.
+#[pyfunction]
+pub fn finding_kinds() -> PyResult<String> {
+    json(&FindingKind::all().map(|kind| (kind, kind.words())).collect::<BTreeMap<_, _>>())
 }
 
 /// Checks a text against a job's part.

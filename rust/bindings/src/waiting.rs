@@ -48,7 +48,7 @@ pub fn watched<T: Send>(
 ) -> PyResult<T> {
     if let Some(given) = progress.filter(|given| !given.is_callable()) {
         let message =
-            format!("progress: a value of type {} came, a function of phase and fraction is wanted", given.get_type());
+            format!("progress: expected a function of phase and fraction, got a value of type {}", given.get_type());
         return Err(errors::raise("StylusError", &message, "argument", "progress", ""));
     }
     let watch = Watch::default();

@@ -72,7 +72,7 @@ pub struct PartSection {
     /// Unit of a file that does not state one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub units: Option<Units>,
-    /// "all" (the faces that face up; for levels in milling upright walls too), or names: ["Face3", "Face4"].
+    /// "all" (the faces that face up; levels that mill take upright walls too), or names: ["Face3", "Face4"].
     #[serde(default)]
     pub faces: Selection,
     /// Which face of the sheet the model shows; required with a sheet.

@@ -1,4 +1,4 @@
-//! Posted text, checked: read back, held against the part, limits taken from the job. A text is one channel's, and a scene
+//! Posted text, checked: read back, compared with the part, limits taken from the job. A text is one channel's, and a scene
 //! states whose.
 
 use std::ops::Range;
@@ -40,7 +40,7 @@ pub struct Judgement {
     limits: Limits,
 }
 
-/// What a channel's text is held against.
+/// What a channel's text is compared with.
 struct Against<'a> {
     scene: &'a Scene,
     wcs: &'a str,

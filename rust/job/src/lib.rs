@@ -1,4 +1,4 @@
-//! The job document: one schema, filled in alike by CLI, Python and FreeCAD; plans and judges, touches no files.
+//! The job document: one schema, filled in alike by CLI, Python and FreeCAD; plans and verifies, touches no files.
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // what tests expect may come from std
 

@@ -23,7 +23,7 @@ pub struct Material {
     pub name: String,
     /// What it is.
     pub title: String,
-    /// How steep a wall it bears, in the order of the thicknesses.
+    /// How steep a wall it withstands, in the order of the thicknesses.
     pub angles: Vec<Angle>,
 }
 
@@ -47,7 +47,7 @@ pub fn materials() -> &'static [Material] {
     &SHIPPED
 }
 
-/// What a sheet bears.
+/// The wall angle that a sheet withstands.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct WallAngle {
     /// Steepest wall, degrees.
@@ -85,8 +85,11 @@ pub(crate) fn check(name: &str) -> Result<(), JobError> {
     Err(JobError::document(
         "unknown",
         "process.material",
-        format!("nothing is known of a material called {name:?}"),
-        format!("write {}, or give what your sheet bears as setup.sheet.max_wall_angle_deg", known.join(" or ")),
+        format!("unknown material {name:?}"),
+        format!(
+            "write {}, or give the wall angle that your sheet withstands as setup.sheet.max_wall_angle_deg",
+            known.join(" or ")
+        ),
     ))
 }
 

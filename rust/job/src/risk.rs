@@ -8,7 +8,7 @@ use styluscam_verify::FindingKind;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Risk {
-    /// Walls steeper than the material bears in one pass.
+    /// Walls steeper than the material withstands in one pass.
     WallAngle,
     /// The sheet becomes thinner than min_thickness.
     Thinning,

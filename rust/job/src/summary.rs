@@ -60,7 +60,7 @@ pub struct ToolLine {
 }
 
 impl Summary {
-    /// Sums up a channel's plan for its machine, with the judgement of its text once there is one.
+    /// Sums up a channel's plan for its machine, with the verification of its text once there is one.
     #[must_use]
     pub fn new(channel: &Channel, scene: &Scene, machine: &Machine, judgement: Option<&Judgement>) -> Self {
         let program = &channel.program;
@@ -111,7 +111,7 @@ impl Summary {
 }
 
 impl Summary {
-    /// As long before the judgement as after it: the lines of the text keep their numbers.
+    /// As long before the verification as after it: the lines of the text keep their numbers.
     fn verdict(&self) -> String {
         let figure = |value: Option<f64>| value.map_or("-.----".to_owned(), |v| format!("{v:.4}"));
         let [gouge, excess] = [self.gouge_max, self.excess_max].map(figure);

@@ -134,7 +134,7 @@ struct Stretch {
     length: f64,
     /// Highest speed, mm/s.
     speed: f64,
-    /// Direction at both ends; none when it goes nowhere.
+    /// Direction at both ends; none when its length is 0.
     from: Option<[f64; 3]>,
     to: Option<[f64; 3]>,
     /// Whether the machine stands before it.

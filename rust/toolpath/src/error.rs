@@ -11,7 +11,7 @@ pub enum PlanError {
     NothingReached(String),
     /// Levels exist, but no loop lies on the selected faces at any of them. Check z_top, z_bottom and the faces.
     #[error(
-        "no level meets the selected faces between Z {bottom:.3} and Z {top:.3}: flat faces need zig-zag; else check \
+        "no level meets the selected faces between Z {bottom:.3} and Z {top:.3}: flat faces need rows; else check \
          z_top, z_bottom, step and the faces"
     )]
     Empty {

@@ -181,7 +181,9 @@ pub(crate) static NO_ROW: FaultKind = FaultKind::on_part(
     FindingKind::MissingRow,
     |fault| {
         let (value, limit) = (fault.value(), fault.limit());
-        format!("{value:.3} mm without a row beside this one (stepover {limit:.3}), where the tool could touch")
+        format!(
+            "{value:.3} mm without a row beside this one (expected every {limit:.3} mm), where the tool could touch"
+        )
     },
     REPOST,
 );
@@ -210,7 +212,7 @@ pub(crate) static PUNCH: FaultKind = FaultKind::on_part(
         let (value, limit) = (fault.value(), fault.limit());
         format!("the tool goes down to Z{value:.3}, and the sheet stands at Z{limit:.3} there: it punches through")
     },
-    "form level by level from the top down (z-level), and finish with rows after that; or accept = [\"punch\"]",
+    "form level by level from the top down, and finish with rows after that; or accept = [\"punch\"]",
 );
 pub(crate) static FORMING_ORDER: FaultKind = FaultKind::in_text(
     FindingKind::FormingOrder,

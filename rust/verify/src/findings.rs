@@ -127,6 +127,93 @@ pub enum FindingKind {
     NotChecked,
 }
 
+/// Every kind with its words, in the order of [`FindingKind`].
+const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
+    use FindingKind as Kind;
+    [
+        (Kind::NoFeedMoves, "no feed moves"),
+        (Kind::NoContact, "no contact with the part"),
+        (Kind::WorkOffset, "wrong work offset"),
+        (Kind::Gouge, "gouge"),
+        (Kind::ShankCollision, "shank collision"),
+        (Kind::HolderCollision, "holder collision"),
+        (Kind::ClampCollision, "clamp frame collision"),
+        (Kind::BackingCollision, "backing plate collision"),
+        (Kind::RapidIntoMaterial, "rapid into the part"),
+        (Kind::RapidPlunge, "rapid plunge"),
+        (Kind::DogLegRapid, "diagonal rapid below the clearance height"),
+        (Kind::LowRapid, "rapid across below the clearance height"),
+        (Kind::Excess, "excess"),
+        (Kind::MissingPass, "missing pass"),
+        (Kind::MissingLevel, "missing level"),
+        (Kind::MissingRow, "missing row"),
+        (Kind::WallAngle, "wall angle above the limit"),
+        (Kind::Thinning, "thinning below the limit"),
+        (Kind::Punch, "punch through the sheet"),
+        (Kind::Bridged, "bridged faces"),
+        (Kind::Unreached, "unreached faces"),
+        (Kind::SheetThickness, "sheet thickness differs from the model"),
+        (Kind::SheetFace, "face of the sheet differs from the model"),
+        (Kind::SolidFormed, "solid instead of a sheet"),
+        (Kind::FlangeHeight, "flange height differs from the clamping height"),
+        (Kind::FormingOrder, "forming order"),
+        (Kind::DeepRapid, "rapid below the retract height"),
+        (Kind::StopBelow, "stop below the clearance height"),
+        (Kind::MissingFeed, "feed not stated"),
+        (Kind::UnplacedFeed, "feed move from an unknown position"),
+        (Kind::MissingToolChange, "tool change missing"),
+        (Kind::UnknownTool, "tool not in the job"),
+        (Kind::MissingOperation, "missing operation"),
+        (Kind::UnknownOperation, "unknown operation"),
+        (Kind::OperationOrder, "order of operations"),
+        (Kind::UnsafeStart, "unsafe start"),
+        (Kind::UnsafeEnd, "unsafe end"),
+        (Kind::UnknownPlace, "rapid from an unknown position"),
+        (Kind::MachinePlace, "unsafe move in machine coordinates"),
+        (Kind::UnsaidMode, "modal code not stated"),
+        (Kind::OptionalLines, "optional lines"),
+        (Kind::UnnamedOperations, "operations not named"),
+        (Kind::NoEnd, "program end missing"),
+        (Kind::FeedDiffers, "feed differs from the job"),
+        (Kind::SpindleDiffers, "spindle differs from the job"),
+        (Kind::CoolantDiffers, "coolant differs from the job"),
+        (Kind::ToolDiffers, "tool differs from the job"),
+        (Kind::Dwell, "dwell below the clearance height"),
+        (Kind::WorkPlane, "working plane is not G17"),
+        (Kind::XLimit, "position beyond the X limit"),
+        (Kind::YLimit, "position beyond the Y limit"),
+        (Kind::ZLimit, "position beyond the Z limit"),
+        (Kind::Travel, "travel longer than the machine's"),
+        (Kind::FeedLimit, "feed above the machine's limit"),
+        (Kind::SpindleLimit, "spindle speed outside the machine's range"),
+        (Kind::NotFinite, "invalid coordinate"),
+        (Kind::ToolAxis, "tool axis is not +Z"),
+        (Kind::FeedMode, "feed is not in mm/min"),
+        (Kind::NotChecked, "not checked"),
+    ]
+};
+
+const _: () = {
+    let mut index = 0;
+    while index < KINDS.len() {
+        assert!(KINDS[index].0 as usize == index, "KINDS has the kinds in their order");
+        index += 1;
+    }
+};
+
+impl FindingKind {
+    /// All kinds, in the order in which a report lists them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        KINDS.into_iter().map(|(kind, _)| kind)
+    }
+
+    /// Its words for people; its code is for scripts and stays.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        KINDS[self as usize].1
+    }
+}
+
 /// How bad it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -201,5 +288,20 @@ impl Finding {
     /// The same, reported at a line.
     pub(crate) fn at_line(self, line: u32) -> Self {
         Self { line, first_line: line, last_line: line, ..self }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_has_words_of_its_own() {
+        let schema = serde_json::to_value(schemars::schema_for!(FindingKind)).unwrap();
+        let codes: Vec<_> = schema["oneOf"].as_array().unwrap().iter().map(|kind| kind["const"].clone()).collect();
+        let listed: Vec<_> = FindingKind::all().map(|kind| serde_json::to_value(kind).unwrap()).collect();
+        assert_eq!(listed, codes);
+        let words: std::collections::BTreeSet<_> = FindingKind::all().map(FindingKind::words).collect();
+        assert!(words.len() == codes.len() && words.iter().all(|words| !words.is_empty() && !words.contains('-')));
     }
 }

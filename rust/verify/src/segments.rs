@@ -23,7 +23,7 @@ pub(crate) enum SegmentKind {
     Plunge,
     /// Straight up at a feed.
     Retract,
-    /// A feed move that goes nowhere.
+    /// A feed move of length 0.
     Still,
     /// Any other feed move: it should touch the part.
     Lateral,

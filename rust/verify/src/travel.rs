@@ -94,7 +94,7 @@ pub(crate) fn optional_lines(subject: &Subject) -> Option<Finding> {
     let (line, last_line) = (*lines.first()?, *lines.last()?);
     let count = lines.len();
     let message = format!(
-        "line {line}: {count} of the text's lines begin with / and run only as a switch at the machine is set; \
+        "line {line}: {count} of the text's lines begin with / and run only while block delete is off at the machine; \
          remove them, or their marks"
     );
     let finding = Finding::of_all(FindingKind::OptionalLines, Severity::Error, message).at_line(line);

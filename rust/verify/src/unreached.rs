@@ -224,7 +224,7 @@ fn findings_of(positions: &[Spot], asked: usize, area_each: f64, subject: &Subje
     let [x, y, z]: [f64; 3] = worst.probe.point.into();
     if worst.left > limits.bridged {
         let message = format!(
-            "X{x:.3} Y{y:.3} Z{z:.3}: the tool does not get into Face{}: {} are left there, and {:.3} mm may be left \
+            "X{x:.3} Y{y:.3} Z{z:.3}: the tool does not reach into Face{}: {} are left there, and {:.3} mm may be left \
              (process.max_bridged); take a smaller tool or a larger radius there, leave the face out, or \
              accept = [\"bridged\"]",
             face(worst),
@@ -244,7 +244,7 @@ fn findings_of(positions: &[Spot], asked: usize, area_each: f64, subject: &Subje
     if share > limits.unreached {
         let [unreached, whole] = [unreached, asked].map(|points| points as f64 * area_each);
         let message = format!(
-            "the tool does not get to {unreached:.1} of {whole:.1} mm2, {:.0} % of the faces: more than {:.3} mm are left there, \
+            "the tool does not reach {unreached:.1} of {whole:.1} mm2, {:.0} % of the faces: more than {:.3} mm are left there, \
              and that may be {:.0} % (process.max_unreached); take a smaller tool, leave those faces out, or \
              accept = [\"unreached\"]",
             100.0 * share,

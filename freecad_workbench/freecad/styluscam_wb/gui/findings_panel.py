@@ -57,7 +57,7 @@ class FindingsPanel:
         for finding in self._verified.report.findings:
             value = "" if finding.value is None else measured(finding.value, finding.unit)
             item = QtWidgets.QTreeWidgetItem([spoken(finding.kind), value, str(finding.line or "")])
-            item.setToolTip(0, f"{finding.severity}: {finding.kind}")
+            item.setToolTip(0, f"{finding.severity}, code {finding.kind}")
             icon = QtWidgets.QStyle.SP_MessageBoxCritical if finding.severity == "error" else _MILDER
             item.setIcon(0, tree.style().standardIcon(icon))
             tree.addTopLevelItem(item)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The command "Verify": the job's operations of ours, posted in memory and held against the model."""
+"""The command "Verify": the job's operations of ours, posted in memory and compared with the model."""
 
 from __future__ import annotations
 

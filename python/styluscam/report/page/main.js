@@ -62,13 +62,13 @@ function wire(stage, part, lines, fixture) {
 }
 
 function note(path) {
-  const { drawnError, sag, unplaced, count } = given.path;
+  const { drawnError, sag, unknown, count } = given.path;
   const sentences = [`${count} moves`];
   if (sag) sentences.push(`arcs as chords, at most ${sag} mm off`);
   if (path.drawn.length < path.known) {
     sentences.push(`drawn through ${path.drawn.length} of ${path.known} points, at most ${short(drawnError)} mm off; the readout has them all`);
   }
-  if (unplaced) sentences.push(`${unplaced} of them end at unknown positions`);
+  if (unknown) sentences.push(`${unknown} of them end at unknown positions`);
   if (given.part?.merged) sentences.push(`the part is drawn coarser: its points are merged in cells of ${short(given.part.merged)} mm`);
   document.getElementById("path-note").textContent = `${sentences.join("; ")}.`;
 }

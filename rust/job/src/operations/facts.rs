@@ -86,7 +86,7 @@ pub struct ReachedFace {
     pub interferes: f64,
     /// Steeper than the tool's profile: touched by its rim.
     pub rim: f64,
-    /// Looks down.
+    /// Faces down.
     pub undercut: f64,
 }
 

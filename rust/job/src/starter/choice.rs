@@ -150,7 +150,7 @@ fn formed(lying: &Turned, thickness: Option<f64>, ups: &[UpAxis]) -> Result<Form
             Err(why) => first = first.or(Some(why.to_string())),
         }
     }
-    Err(first.unwrap_or_else(|| "most of it looks neither up nor down".to_owned()))
+    Err(first.unwrap_or_else(|| "most of it faces neither up nor down".to_owned()))
 }
 
 fn form(found: Formed, thickness: Option<f64>, mut reasons: Vec<String>) -> Choice {

@@ -112,7 +112,7 @@ pub fn milling(body: &Body<'_>, looks: &Hollows) -> Milled {
     while left > SURE * allowed && in_vain < TRIED {
         let Some(smaller) = sizes::next_smaller(diameter, body.mesh()) else { break };
         diameter = smaller;
-        let words = format!("the tool, {diameter} mm wide: wider ones get to less of the faces");
+        let words = format!("the tool, {diameter} mm wide: wider tools reach less of the faces");
         let smaller = worked(&by_face, &seen, Cutter { diameter, ..fitting }, words);
         let share = by_face.share_left(&smaller);
         in_vain += 1;
@@ -126,12 +126,12 @@ pub fn milling(body: &Body<'_>, looks: &Hollows) -> Milled {
         let limit = (100.0 * (left + (1.0 - SURE) * allowed)).ceil() / 100.0;
         milled.max_unreached = Some(limit).filter(|_| left <= MOST_LEFT);
         let passes = if left <= MOST_LEFT {
-            format!("max_unreached = {limit} lets that pass")
+            format!("max_unreached = {limit} accepts that")
         } else {
             "`styluscam run` refuses the job as it is".to_owned()
         };
         milled.reasons.push(format!(
-            "the tool does not get to {} of these faces, which lie under others or between walls: {passes}; leave faces out, or \
+            "the tool does not reach {} of these faces, which lie under others or between walls: {passes}; leave faces out, or \
              cut them from another side",
             sizes::percent(left)
         ));
@@ -165,10 +165,10 @@ fn worked(by_face: &ByFace<'_>, seen: &[&FaceLook], tool: Cutter, words: String)
             vec![levels(numbers(&open)), rows(numbers(&floors))],
             "levels for the walls, rows for floors and gentle slopes: each face in one of the two",
         ),
-        (true, false) => (vec![levels(numbers(&open))], "levels: all that is worth cutting is walls"),
+        (true, false) => (vec![levels(numbers(&open))], "levels: all faces to be cut are walls"),
         (false, _) if !few => (vec![rows(None)], "rows over the whole part: it has too many faces to name them"),
         (false, _) if !open.is_empty() || !narrow.is_empty() || !low.is_empty() => {
-            (vec![rows(None)], "rows over the whole part: too little of its walls is for levels")
+            (vec![rows(None)], "rows over the whole part: few of its walls suit levels")
         }
         (false, _) => (vec![rows(None)], "rows: they serve floors and slopes; no face is all wall"),
     };
@@ -248,7 +248,7 @@ fn under_others(looks: &Hollows) -> Option<String> {
     faces.sort_by(|a, b| b.area.total_cmp(&a.area).then(a.face.cmp(&b.face)));
     (!faces.is_empty()).then(|| {
         format!(
-            "no tool from above gets to what lies under other faces: {}; a second job from another side may",
+            "no tool from above reaches what lies under other faces: {}; a second job from another side may",
             names(&faces)
         )
     })
@@ -279,12 +279,12 @@ fn left(narrow: &[&FaceLook], tool: &Cutter) -> Option<String> {
     let (holes, slots): (Vec<&FaceLook>, Vec<&FaceLook>) = narrow.iter().partition(|face| face.hole.is_some());
     let mut sentences = Vec::new();
     if !holes.is_empty() {
-        let (plural, are) = if holes.len() == 1 { ("", "is") } else { ("s", "are") };
-        sentences.push(format!("the hole{plural} {} {are} for a drill", names(&holes)));
+        let plural = if holes.len() == 1 { "" } else { "s" };
+        sentences.push(format!("the hole{plural} {} must be drilled", names(&holes)));
     }
     if !slots.is_empty() {
-        let are = if slots.len() == 1 { "is" } else { "are" };
-        sentences.push(format!("{} {are} narrower than the tool and for a smaller one", names(&slots)));
+        let need = if slots.len() == 1 { "needs" } else { "need" };
+        sentences.push(format!("{} {need} a smaller tool", names(&slots)));
     }
     let diameter = tool.diameter;
     (!sentences.is_empty())

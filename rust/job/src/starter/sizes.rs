@@ -101,12 +101,12 @@ fn fitting(mesh: &Mesh, bound: Option<f64>, widest: f64, least: f64) -> (f64, St
     let fits = at_most(2.0 * SLACK * radius);
     let wide = DIAMETERS.into_iter().rev().find(|d| *d >= thinnest).unwrap_or(widest).min(widest);
     if fits >= wide {
-        let words = format!("the tool, {fits} mm wide, fits the narrowest areas, but for {} of the area: a radius of {radius:.2} mm has room there", percent(LEFT));
+        let words = format!("the tool, {fits} mm wide, fits the narrowest areas, but for {} of the area: a radius of {radius:.2} mm fits there", percent(LEFT));
         return (fits, words);
     }
     let words = format!(
-        "the part has concave areas with room for a radius of {radius:.2} mm and less; the tool, {wide} mm wide, is the smallest \
-         that makes sense for its size and leaves something there"
+        "the part has concave areas with radii of {radius:.2} mm and less; the tool, {wide} mm wide, is the smallest \
+         that suits its size and leaves material there"
     );
     (wide, words)
 }

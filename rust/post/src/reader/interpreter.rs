@@ -193,7 +193,7 @@ impl<'m> Interpreter<'m> {
         in_force.take_path(block, |word| self.mm(word))?;
         self.in_force = in_force;
         if let Some(code) = block.smoothing().filter(|_| self.loose) {
-            let text = format!("G{} left out, the machine's file says how the path is kept", code.number.value());
+            let text = format!("G{} left out, the path mode is set by the machine file", code.number.value());
             self.event(EventKind::Comment { text });
         }
         Ok(())

@@ -4,6 +4,7 @@ use styluscam_motion::{Cycle, CycleKind, Event, EventKind, Move, MoveKind, Progr
 
 use crate::machine::{FeedMode, Machine, ToolChange};
 use crate::reader::Reading;
+use crate::trial::words;
 use crate::writer::Posted;
 
 /// Feeds are compared with this slack over and above their rounding, as a share.
@@ -26,7 +27,7 @@ const TINY_SWEEP: f64 = 0.6;
 pub fn difference(program: &Program, posted: &Posted, reading: &Reading, machine: &Machine) -> Option<(u32, String)> {
     if reading.program.setup.wcs != program.setup.wcs {
         let (sent, came) = (&program.setup.wcs, &reading.program.setup.wcs);
-        return Some((0, format!("work offset {sent} became {came}")));
+        return Some((0, format!("work offset {sent} was posted and {came} was read")));
     }
     event_difference(program, posted, reading, machine)
         .or_else(|| cycle_difference(program, posted, reading, machine))
@@ -39,7 +40,9 @@ fn cycle_difference(program: &Program, posted: &Posted, reading: &Reading, machi
     let mut came = reading.program.cycles.iter();
     for cycle in program.cycles.iter().filter(|cycle| machine.takes_cycle(cycle)) {
         let line = posted.line_of_move.get(cycle.first).copied().unwrap_or(0);
-        let Some(found) = came.next() else { return Some((line, "the cycle is not there".into())) };
+        let Some(found) = came.next() else {
+            return Some((line, format!("{} was posted and not read", words::cycle(cycle))));
+        };
         let at_once = is_in_one(cycle, machine) || is_in_one(found, machine);
         let (cycle, found) = if at_once { (&in_one(cycle), &in_one(found)) } else { (cycle, found) };
         let lengths = |c: &Cycle| [c.at[0], c.at[1], c.retract, c.bottom, c.peck];
@@ -47,12 +50,12 @@ fn cycle_difference(program: &Program, posted: &Posted, reading: &Reading, machi
         let feeds = (cycle.feed - found.feed).abs()
             <= feed_slack(machine, cycle.feed, f64::INFINITY, rpm_at(program, cycle.first));
         if !near || !feeds || cycle.kind != found.kind || (cycle.dwell - found.dwell).abs() > 5.1e-4 {
-            return Some((line, format!("{cycle:?} became {found:?}")));
+            return Some((line, format!("{} was posted and {} was read", words::cycle(cycle), words::cycle(found))));
         }
     }
     came.next().map(|found| {
         let line = reading.program.moves.get(found.first).map_or(0, |m| m.line);
-        (line, format!("{found:?} was not posted"))
+        (line, format!("{} was read and not posted", words::cycle(found)))
     })
 }
 
@@ -73,18 +76,22 @@ fn event_difference(program: &Program, posted: &Posted, reading: &Reading, machi
     let sent_line = |index: usize| posted.line_of_move.get(index).copied();
     let came_line = |index: usize| reading.program.moves.get(index).map(|m| m.line);
     let (sent, came) = (states(program, machine, sent_line), states(&reading.program, machine, came_line));
+    let event = |kind| words::event(kind, program);
     for (index, (line, kind)) in sent.iter().enumerate() {
         match came.get(index) {
             Some((there, found)) if same_event(kind, found, machine) => {
                 if there != line {
-                    return Some((*there, format!("{kind:?} comes elsewhere, not after line {line}")));
+                    return Some((*there, format!("{} is not after line {line}", event(kind))));
                 }
             }
-            Some((_, found)) => return Some((*line, format!("{kind:?} became {found:?}"))),
-            None => return Some((*line, format!("{kind:?} is not there"))),
+            Some((_, found)) => {
+                let what = format!("{} was posted and {} was read", event(kind), event(found));
+                return Some((*line, what));
+            }
+            None => return Some((*line, format!("{} was posted and not read", event(kind)))),
         }
     }
-    came.get(sent.len()).map(|(line, kind)| (*line, format!("{kind:?} was not posted")))
+    came.get(sent.len()).map(|(line, kind)| (*line, format!("{} was read and not posted", event(kind))))
 }
 
 /// The events that the text must state, each with the line of the move before it, without those that state nothing new; a
@@ -146,7 +153,7 @@ fn coolant_state(state: &mut (bool, bool), change: impl Fn(&mut (bool, bool))) -
 }
 
 fn coolant_said((mist, flood): (bool, bool)) -> EventKind {
-    EventKind::Raw { text: format!("mist {mist}, flood {flood}") }
+    EventKind::Raw { text: format!("mist {}, flood {}", words::switched(mist), words::switched(flood)) }
 }
 
 /// What the text need not state.
@@ -221,18 +228,20 @@ fn move_difference(program: &Program, posted: &Posted, reading: &Reading, machin
         if again && arrived.is_none() || cycle_at(program, index, machine).is_some() {
             continue; // rounds to no motion, or is one of a cycle's
         }
-        let Some(found) = arrived else { return Some((*line, "the move is not there".into())) };
+        let Some(found) = arrived else {
+            return Some((*line, format!("a move to {} was posted and not read", words::position(step.end.tip))));
+        };
         let (from, found) = found;
         if let Some(what) = end_difference(step, found, machine) {
             return Some((*line, what));
         }
         let slack = feed_slack(machine, step.feed, found.length(from.unwrap_or(found.end.tip)), rpm_at(program, index));
         if step.kind == MoveKind::Feed && (step.feed - found.feed).abs() > slack {
-            return Some((*line, format!("its feed is {} instead of {} mm/min", found.feed, step.feed)));
+            return Some((*line, format!("a feed of {} mm/min was posted and {} was read", step.feed, found.feed)));
         }
     }
     let unneeded = reading.planes_not_needed.iter().find_map(|run| reading.program.moves.get(run.start));
-    let more = read.next().map(|(_, found)| (found.line, format!("a move to {:?} was not posted", found.end.tip)));
+    let more = read.next().map(|(_, found)| (found.line, not_posted(found)));
     more.or(unneeded.map(|found| (found.line, "another plane than G17 is in force and no arc uses it".into())))
 }
 
@@ -254,7 +263,7 @@ fn low_crossing(
     let height = before.map_or(cycle.retract, |step| step.end.tip[2].max(cycle.retract));
     let across = from.is_some_and(|from| (0..2).any(|axis| (from[axis] - found.end.tip[axis]).abs() > SLACK));
     let low = across && found.end.tip[2] < height - machine.resolution_mm() / 2.0 - SLACK;
-    low.then(|| format!("it goes to {:?} mm before a hole", found.end.tip))
+    low.then(|| format!("it goes to {} before a hole, below Z{height:.3}", words::position(found.end.tip)))
 }
 
 /// Whether a move that was read goes to a position that its step does not have: templates must not move an axis.
@@ -268,14 +277,19 @@ fn detour(start: Option<[f64; 3]>, step: &Move, found: &Move, line: u32, machine
         (tip - end).abs() <= slack || (tip - begin).abs() <= slack
     });
     let split = step.kind == MoveKind::Rapid && found.kind == MoveKind::Rapid && between;
-    (!split).then(|| format!("a move to {:?} was not posted", found.end.tip))
+    (!split).then(|| not_posted(found))
+}
+
+fn not_posted(found: &Move) -> String {
+    format!("a move to {} was read and not posted", words::position(found.end.tip))
 }
 
 fn end_difference(step: &Move, found: &Move, machine: &Machine) -> Option<String> {
     let slack = machine.resolution_mm() / 2.0 + SLACK;
     let near = step.end.tip.iter().zip(found.end.tip).all(|(a, b)| (a - b).abs() <= slack);
     if !near || step.kind != found.kind {
-        return Some(format!("it goes to {:?} instead of {:?} mm", found.end.tip, step.end.tip));
+        let move_to = |m: &Move| format!("{} to {}", words::motion(m.kind), words::position(m.end.tip));
+        return Some(format!("a {} was posted and a {} was read", move_to(step), move_to(found)));
     }
     None
 }
@@ -331,6 +345,7 @@ fn path_difference(
     let worst = positions.map(off).fold(0.0, f64::max);
     let sweep = found.path(from).map_or(0.0, |w| w.sweep().abs());
     let too_far = sweep > path.sweep().abs() + TINY_SWEEP;
-    (worst > slack || too_far)
-        .then(|| format!("it leaves the arc by {worst:.4} mm, over {:.0} degrees", sweep.to_degrees()))
+    (worst > slack || too_far).then(|| {
+        format!("the move deviates from the posted arc by {worst:.4} mm, over {:.0} degrees", sweep.to_degrees())
+    })
 }

@@ -2,6 +2,7 @@
 
 mod cases;
 mod compare;
+mod words;
 
 pub use compare::difference;
 

@@ -195,7 +195,7 @@ fn notes(chords: &[Chord], slopes: &[f64]) -> Vec<String> {
     }
     let straight = slopes.windows(2).filter(|ends| ends[0].total_cmp(&ends[1]).is_eq()).count();
     notes.push(format!(
-        "a curve of {} legs, {straight} of them straight; the radius of curvature jumps from leg to leg, as the points do",
+        "a curve of {} segments, {straight} of them straight; the radius of curvature jumps between segments, as the points do",
         chords.len(),
     ));
     notes

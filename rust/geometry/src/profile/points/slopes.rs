@@ -1,4 +1,4 @@
-//! The slope at each corner of the hull: how the turn there is shared by the two legs that meet.
+//! The slope at each corner of the hull: how the turn there is shared by the two segments that meet.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -7,13 +7,13 @@ use super::leg::corner_at_start;
 
 /// A leg takes at most this many times the turn at its other end: more would bend it at one end only.
 const MOST_UNEVEN: f64 = 8.0;
-/// Neither of two legs takes less than this share of their turn for its length alone.
+/// Neither of two segments takes less than this share of their turn for its length alone.
 const LEAST_SHARE: f64 = 1.0 / 64.0;
 /// The least turn of a leg's end, rad, some bits above rounding of a slope.
 const LEAST_TURN: f64 = 1e-14;
 /// Points on a chord mean a line if they would be off an arc by more than this share of the tolerance.
 const STRAIGHT: f64 = 0.5;
-/// A larger turn (rad) between two legs that may not bend is a corner: the round that the tolerance leaves for it is less
+/// A larger turn (rad) between two segments that may not bend is a corner: the round that the tolerance leaves for it is less
 /// than sixteen times the tolerance.
 const SHARP: f64 = 0.35;
 /// What the bend may take of the tolerance that a leg's points leave.
@@ -26,7 +26,7 @@ pub fn at_corners(chords: &[Chord], tolerance: f64, size: f64) -> Vec<f64> {
     let mut legs = Legs::new(chords, tolerance);
     let most = legs.most.clone();
     legs.share_turns();
-    // some legs must bend sharply at their end: again, with less at their start
+    // some segments must bend sharply at their end: again, with less at their start
     if let Some(less) = legs.bent_late(most) {
         legs.most = less;
         legs.share_turns();
@@ -57,7 +57,7 @@ impl<'a> Legs<'a> {
         legs
     }
 
-    /// Shares the turn at each corner between the legs that meet there.
+    /// Shares the turn at each corner between the segments that meet there.
     fn share_turns(&mut self) {
         for joint in 1..self.chords.len() {
             let turn = self.turn(joint);
@@ -72,7 +72,7 @@ impl<'a> Legs<'a> {
         }
     }
 
-    /// What legs may turn, less at the start of those that turn more at their end than they may at both; if there are any.
+    /// What segments may turn, less at the start of those that turn more at their end than they may at both; if there are any.
     fn bent_late(&self, mut most: Vec<[f64; 2]>) -> Option<Vec<[f64; 2]>> {
         let mut any = false;
         for joint in 1..self.chords.len() {
@@ -158,7 +158,7 @@ impl<'a> Legs<'a> {
 
     /// The share of a joint's turn that belongs to the leg after it, as on a smooth curve through the points.
     ///
-    /// The circle through three points shares the turn by length. Where the curvature changes evenly, the legs' own
+    /// The circle through three points shares the turn by length. Where the curvature changes evenly, the segments' own
     /// curvatures, taken from their other ends, add a part that makes it exact to the third order; where it jumps, only
     /// they count.
     fn share_of_the_next(&self, joint: usize) -> f64 {

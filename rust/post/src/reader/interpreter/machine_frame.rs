@@ -40,7 +40,7 @@ impl Interpreter<'_> {
         }
         let coordinates = std::array::from_fn(|axis| block.axes()[axis].map(|_| home[axis]));
         self.series = None;
-        self.leave_work("G28, place in the work unknown".into(), coordinates, line);
+        self.leave_work("G28, work position unknown".into(), coordinates, line);
         Ok(())
     }
 
@@ -53,7 +53,7 @@ impl Interpreter<'_> {
         if block.any_axis().is_none() {
             return Err((ReadFault::MissingWord { what: "an axis word of G53" }, Some(code)));
         }
-        let mut text = String::from("G53, place in the work unknown:");
+        let mut text = String::from("G53, work position unknown:");
         let mut coordinates = [None; 3];
         for (index, (word, name)) in block.axes().iter().zip(AXES).enumerate() {
             let Some(word) = *word else { continue };
