@@ -25,3 +25,11 @@ pub struct Pass {
     /// Number of the level or row, from 0.
     pub group: usize,
 }
+
+impl Pass {
+    /// Whether it ends lower than it begins.
+    #[must_use]
+    pub fn descends(&self) -> bool {
+        self.points.first().zip(self.points.last()).is_some_and(|(first, last)| last.tip.z < first.tip.z)
+    }
+}

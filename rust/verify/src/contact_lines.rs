@@ -47,9 +47,18 @@ pub(crate) fn spread(
 fn values(passes: &OrderedPasses, segments: &[&Segment]) -> Vec<f64> {
     let scalar = &*passes.scalar;
     let value = |tip: [f64; 3]| scalar.value(tip.into());
+    let mut begun = f64::NAN;
+    // by the value at the chain's start: on a spiral each move lies nearly on the value of the one before it
     let chains = segments.chunk_by(|a, b| {
         let joined = b.start == Some(a.end);
-        joined && holds(scalar, a) && holds(scalar, b) && (value(a.end) - value(b.end)).abs() <= scalar.same()
+        if begun.is_nan() {
+            begun = value(a.end);
+        }
+        let goes_on = joined && holds(scalar, a) && holds(scalar, b) && (begun - value(b.end)).abs() <= scalar.same();
+        if !goes_on {
+            begun = value(b.end);
+        }
+        goes_on
     });
     let length = |chain: &[&Segment]| chain.iter().map(|segment| segment.length()).sum::<f64>();
     let long = chains.filter(|chain| holds(scalar, chain[0]) && length(chain) > LONG * passes.step);

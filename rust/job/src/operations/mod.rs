@@ -17,6 +17,7 @@ mod effort;
 mod facts;
 mod keys;
 mod kind;
+mod levels;
 mod reached;
 mod surface;
 #[cfg(test)]
@@ -32,6 +33,7 @@ kinds! {
     /// The kinds of operations, each with its own keys.
     Operation: OperationKind, About {
         z_level::ZLevel = "z-level",
+        spiral::Spiral = "spiral",
         zig_zag::ZigZag = "zig-zag",
     }
 }

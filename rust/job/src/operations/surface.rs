@@ -7,7 +7,7 @@ use styluscam_toolpath::{
 };
 
 use super::budget;
-use super::{reached, Context, Direction, End, Fact, Planned, SurfaceFacts};
+use super::{reached, Context, Direction, End, Fact, OperationKeys, Planned, SurfaceFacts};
 use crate::{JobError, Scene};
 
 /// What links along the surface and rows look for, as a share of the distance between the grid's nodes: the tool's rim and its
@@ -28,6 +28,11 @@ pub trait FollowsSurface {
 
     /// How far above the lowest allowed height the last pass may lie by the kind's own rule, mm.
     fn lowest_rest(&self) -> f64;
+
+    /// Whether every other group of its passes is turned round.
+    fn alternates(&self, common: &OperationKeys) -> bool {
+        common.direction == Direction::Alternate
+    }
 
     /// Its passes.
     ///
@@ -90,10 +95,10 @@ impl Task<'_> {
         }
     }
 
-    fn links(&self) -> Links {
+    fn links(&self, alternate: bool) -> Links {
         let (scene, common) = (self.context.scene, self.context.common);
         Links {
-            alternate: common.direction == Direction::Alternate,
+            alternate,
             heights: Heights { clearance: scene.clearance, retract: scene.retract },
             rates: Rates { cut: common.feeds.cut, plunge: common.feeds.plunge },
             operation: self.context.operation,
@@ -133,7 +138,12 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
         note: kind.note(groups, passes),
         facts: kind.facts(groups, &traced),
         surface: Some(facts),
-        moves: link(&traced.passes, &task.along(&surface, kind.pitch()), &task.links(), watch)?,
+        moves: link(
+            &traced.passes,
+            &task.along(&surface, kind.pitch()),
+            &task.links(kind.alternates(context.common)),
+            watch,
+        )?,
     })
 }
 

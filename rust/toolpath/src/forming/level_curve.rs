@@ -47,6 +47,12 @@ impl<'a> LevelCurve<'a> {
         Self { surface, z, beyond, hint: None }
     }
 
+    /// The same for another height, mm; what was touched last is looked at first there too.
+    pub fn at_height(&mut self, z: f64) -> &mut Self {
+        self.z = z;
+        self
+    }
+
     /// Height of the level, mm.
     pub fn z(&self) -> f64 {
         self.z

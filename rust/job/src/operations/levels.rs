@@ -1,0 +1,57 @@
+//! The loops of levels, which several kinds begin with.
+
+use styluscam_toolpath::{
+    forming::{
+        left_out, levels, raise_last, selected_range, with_levels_at, z_levels, z_levels_beside, Floors, Grid,
+        LevelRange,
+    },
+    Pass, PlanError, Surface,
+};
+
+use super::surface::Task;
+
+/// Loops of levels, and the grid on which they were found.
+pub struct TracedLevels {
+    /// In the order of their levels.
+    pub passes: Vec<Pass>,
+    /// The grid.
+    pub grid: Grid,
+}
+
+/// The loops of levels `step` mm apart, with more where these leave out a wall, and above floors.
+///
+/// # Errors
+/// Nothing is reached, no level meets the faces, too many levels, `Cancelled`.
+pub fn trace(step: f64, task: &Task<'_>, surface: &Surface<'_>) -> Result<TracedLevels, PlanError> {
+    let (watch, deviation) = (task.context.watch, task.budget.deviation);
+    let nothing = || PlanError::NothingReached(task.why_nothing());
+    let grid = Grid::sample(surface, task.context.node_spacing(), watch)?.ok_or_else(nothing)?;
+    let resolution = task.context.machine.resolution_mm();
+    let (lowest, highest) = selected_range(surface, &grid, resolution, watch)?.ok_or_else(nothing)?;
+    // the flat top lies margin below what the envelope shows
+    let top = task.context.heights.top.unwrap_or_else(|| rounded(highest - task.budget.margin, resolution));
+    let bottom = task.context.heights.bottom;
+    let range = LevelRange { top, bottom, reachable: lowest, step: step, resolution };
+    let floors = Floors::of(surface.envelope());
+    let heights = levels(&range, &floors)?;
+    let mut passes = z_levels(surface, &grid, &heights, deviation, watch)?;
+    let bands = left_out(surface, (&heights, &passes), grid.spacing(), watch)?;
+    let mut more = with_levels_at(&heights, &bands, &range, &floors).unwrap_or_else(|| heights.clone());
+    let is_at = |z: f64| passes.iter().flat_map(|pass| pass.points.first()).any(|p| (p.tip.z - z).abs() < resolution);
+    // rims that rise and fall leave stretches of it that are too short
+    if heights.last().is_some_and(|z| more.last() == Some(z) && !is_at(*z)) {
+        raise_last(&mut more, &range, &floors);
+    }
+    if more != heights {
+        let known = (&*heights, passes);
+        passes = z_levels_beside(known, surface, &grid, &more, deviation, watch)?;
+    }
+    if passes.is_empty() {
+        return Err(PlanError::Empty { top, bottom: bottom.max(lowest) });
+    }
+    Ok(TracedLevels { passes, grid })
+}
+
+fn rounded(z: f64, unit: f64) -> f64 {
+    (z / unit).round() * unit
+}

@@ -1,0 +1,113 @@
+//! Spiral: one descent along the walls, without the marks that steps between levels leave.
+
+use std::sync::Arc;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use styluscam_toolpath::{forming::spirals, PlanError, Surface};
+use styluscam_verify::{Contact, Height, OrderedPasses, Passes};
+
+use super::facts::counted;
+use super::levels;
+use super::surface::{self, FollowsSurface, Task, Traced};
+use super::{About, Areas, Context, Effort, Fact, OperationKind, PassSpacing, Planned, Serves};
+use crate::{JobError, OperationKeys};
+
+/// One descent along the walls: a loop at the top, turns that fall evenly along their length, a loop at the bottom. Where a
+/// wall's loops part (two pockets in one cup) each part has a spiral of its own. It runs one way: the higher ground on its right.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Spiral {
+    /// How far a turn goes down, mm.
+    #[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 100.0, "x-example" = "0.5"))]
+    pub pitch: f64,
+}
+
+impl Spiral {
+    pub(super) const ABOUT: About = About {
+        purpose: "for walls without step marks",
+        serves: Serves::OnRequest,
+        starter: |passes| format!("pitch = {:?}                 # how far a turn goes down\n", passes.pitch),
+    };
+}
+
+impl OperationKind for Spiral {
+    fn check(&self, _common: &OperationKeys, _path: &str) -> Result<(), JobError> {
+        Ok(()) // its only key stands alone
+    }
+
+    fn cuts_upright_walls(&self) -> bool {
+        true
+    }
+
+    fn plan(&self, context: &Context<'_>) -> Result<Planned, JobError> {
+        surface::plan(self, context)
+    }
+
+    fn contact(&self) -> Contact {
+        Contact::Touch
+    }
+
+    fn passes(&self, smallest_feature: f64) -> Passes {
+        let scalar = Arc::new(Height);
+        Passes::Ordered(OrderedPasses { scalar, step: self.pitch, continuous: true, smallest_feature })
+    }
+
+    fn spacing(&self) -> Option<PassSpacing> {
+        Some(PassSpacing::Height { pitch: self.pitch })
+    }
+
+    fn effort(&self, areas: &Areas) -> Option<Effort> {
+        Some(Effort {
+            key: "pitch",
+            pitch: self.pitch,
+            length: areas.elevation / self.pitch,
+            samples_grid: true,
+            seconds_per_point: 160e-6, // the loops of levels first, then the descents between them
+        })
+    }
+}
+
+impl FollowsSurface for Spiral {
+    /// Levels choose their own heights.
+    fn tip_range(&self, _task: &Task<'_>) -> [f64; 2] {
+        [f64::NEG_INFINITY, f64::INFINITY]
+    }
+
+    fn pitch(&self) -> f64 {
+        self.pitch
+    }
+
+    fn lowest_rest(&self) -> f64 {
+        self.pitch
+    }
+
+    /// A spiral that is turned round would climb.
+    fn alternates(&self, _common: &OperationKeys) -> bool {
+        false
+    }
+
+    fn trace(&self, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError> {
+        let levels = levels::trace(self.pitch, task, surface)?;
+        let (deviation, longest) = (task.budget.deviation, task.context.node_spacing());
+        let passes = spirals(surface, &levels.passes, deviation, longest, task.context.watch)?;
+        Ok(Traced { passes, smallest_feature: levels.grid.smallest_feature() })
+    }
+
+    fn words(&self, _groups: usize, passes: usize) -> String {
+        counted(passes, "descent", "descents")
+    }
+
+    fn facts(&self, _groups: usize, traced: &Traced) -> Vec<Fact> {
+        let turning = traced.passes.iter().filter(|pass| pass.descends()).count();
+        vec![
+            Fact::count(turning, "spiral", "spirals"),
+            Fact::count(traced.passes.len() - turning, "level pass", "level passes"),
+            Fact::length("smallest_feature", traced.smallest_feature, "no loop is missed that holds a disc of"),
+        ]
+    }
+
+    fn note(&self, _groups: usize, passes: usize) -> String {
+        format!("{passes} descents")
+    }
+}
