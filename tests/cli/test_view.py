@@ -120,7 +120,7 @@ def test_our_program_with_its_job_or_a_part(cli, coarse, tmp_path, box_step):
         (["{foreign}", "--machine", "linuxnc"], ["linuxnc", "linuxcnc"]),
         (["{foreign}", "--machine", "{missing}.toml"], ["missing.ngc.toml", "cannot be read"]),
         (["{foreign}", "--part", "{missing}"], ["missing.ngc"]),
-        (["{foreign}", "--part", "{foreign}", "--job", "{foreign}"], ["--job and --part"]),
+        (["{foreign}", "--part", "{foreign}", "--job", "{foreign}"], ["--part cannot be given with --job"]),
         (["{foreign}", "--out", "{foreign}"], ["is read by this very job"]),
         (["{foreign}", "--out", "{here}"], ["a folder has this name"]),
     ],

@@ -95,7 +95,7 @@ pub(crate) fn optional_lines(subject: &Subject) -> Option<Finding> {
     let count = lines.len();
     let message = format!(
         "line {line}: {count} of the text's lines begin with / and run only while block delete is off at the machine; \
-         remove them, or their marks"
+         remove them, or their /"
     );
     let finding = Finding::of_all(FindingKind::OptionalLines, Severity::Error, message).at_line(line);
     Some(Finding { last_line, ..finding })

@@ -1088,7 +1088,7 @@ Range: above 0 to 50 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Walls steeper than the material bears in one pass.</source>
+        <source>Walls steeper than the material withstands in one pass.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
