@@ -100,11 +100,12 @@ impl FollowsSurface for Spiral {
 
     fn facts(&self, _groups: usize, traced: &Traced) -> Vec<Fact> {
         let turning = traced.passes.iter().filter(|pass| pass.descends()).count();
-        vec![
-            Fact::count(turning, "spiral", "spirals"),
-            Fact::count(traced.passes.len() - turning, "level pass", "level passes"),
-            Fact::length("smallest_feature", traced.smallest_feature, "no loop is missed that holds a disc of"),
-        ]
+        let level = traced.passes.len() - turning;
+        let spirals = (turning > 0).then(|| Fact::count(turning, "spiral", "spirals"));
+        let levels = (level > 0).then(|| Fact::count(level, "level pass", "level passes"));
+        let feature =
+            Fact::length("smallest_feature", traced.smallest_feature, "no loop is missed that holds a disc of");
+        spirals.into_iter().chain(levels).chain([feature]).collect()
     }
 
     fn note(&self, _groups: usize, passes: usize) -> String {
