@@ -111,7 +111,7 @@ def test_a_material_states_what_it_withstands(wall_deg: float, material: str | N
 
 
 def test_a_material_that_is_not_known_is_an_error() -> None:
-    with pytest.raises(sc.JobError, match='a material called "oak"') as caught:
+    with pytest.raises(sc.JobError, match='unknown material "oak"') as caught:
         found(tray(), process={"material": "oak"})
     assert caught.value.where == "process.material"
     assert "sheet-metal" in caught.value.hint

@@ -73,7 +73,7 @@ def test_one_name_takes_one_program(tmp_path: Path) -> None:
         Writer([], out, False).write(made(tmp_path / "a.FCStd", tmp_path / "a.nc", tmp_path / "b.nc"))
     Writer([], out, False).write(made(tmp_path / "a.FCStd", tmp_path / "a.nc"))
     assert out.read_text() == "G0 X0\n" and not (tmp_path / "a.nc").exists()
-    with pytest.raises(sc.StylusError, match="there already"):
+    with pytest.raises(sc.StylusError, match="the file exists"):
         Writer([], out, False).write(made(tmp_path / "a.FCStd", tmp_path / "a.nc"))
     Writer([], out, True).write(made(tmp_path / "a.FCStd", tmp_path / "a.nc"))
 

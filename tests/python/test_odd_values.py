@@ -85,22 +85,22 @@ def test_numpy_and_pathlib_in_documents(job, tmp_path):
 DOCUMENTS: dict[str, tuple[type[sc.StylusError], str, Callable[[sc.Job], Any]]] = {
     "nan in a job": (
         sc.JobError,
-        "operations[0].stepover: float nan",
+        "operations[0].stepover: expected a text, a finite number, a list or a dict, got float nan",
         lambda job: sc.Job.from_dict({**job.to_dict(), "operations": [{**job.operations[0], "stepover": math.nan}]}),
     ),
     "an object in a job": (
         sc.JobError,
-        "title: a value of type object",
+        "title: expected a text, a finite number, a list or a dict, got a value of type object",
         lambda job: sc.plan({**job.to_dict(), "title": object()}),
     ),
     "nan in a tool": (
         sc.ToolError,
-        "profile.diameter: float nan",
+        "profile.diameter: expected a text, a finite number, a list or a dict, got float nan",
         lambda _: sc.Tool({"profile": {"kind": "ball", "diameter": math.nan}}),
     ),
     "an object in a machine": (
         sc.MachineError,
-        "name: a value of type object",
+        "name: expected a text, a finite number, a list or a dict, got a value of type object",
         lambda _: sc.Machine({"schema": 1, "name": object()}),
     ),
     "an unknown key of a sheet": (
@@ -113,16 +113,28 @@ DOCUMENTS: dict[str, tuple[type[sc.StylusError], str, Callable[[sc.Job], Any]]] 
         "thickness is missing",
         lambda _: sc.slope_matched_offset(BALL, [[0, 0, 0]], [[0, 0, 1]], {}),
     ),
-    "no texts": (sc.StylusError, "files: None came", lambda job: sc.verify(sc.Posted(None), job)),
-    "no text": (sc.StylusError, "files['a']: int 1 came", lambda _: sc.Posted({"a": 1})),
-    "two texts for one": (sc.StylusError, "there are 2", lambda _: sc.Posted({"a": "", "b": ""}).text),
+    "no texts": (
+        sc.StylusError,
+        "files: expected a dict of texts by their names, got None",
+        lambda job: sc.verify(sc.Posted(None), job),
+    ),
+    "no text": (sc.StylusError, "files['a']: expected a text, got int 1", lambda _: sc.Posted({"a": 1})),
+    "two texts for one": (
+        sc.StylusError,
+        "text: expected one file, got 2",
+        lambda _: sc.Posted({"a": "", "b": ""}).text,
+    ),
     "a line for lines": (sc.JobError, "a list of lines", lambda job: sc.post(sc.plan(job), notes="abc")),
     "a huge face": (
         sc.GeometryError,
         "no face",
         lambda _: sc.offset_surface(sc.Part.from_mesh(*ROOF), BALL, faces=[10**30]),
     ),
-    "progress": (sc.StylusError, "progress: a value of type", lambda job: sc.plan(job, progress=5)),
+    "progress": (
+        sc.StylusError,
+        "progress: expected a function of phase and fraction, got a value of type int",
+        lambda job: sc.plan(job, progress=5),
+    ),
 }
 
 

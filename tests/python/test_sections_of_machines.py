@@ -28,8 +28,8 @@ GRBL_S = (
         ({"name": "grbl", "options": {"units": None}}, "argument", ".options.units", ""),
         ({"name": "grbl", "options": ["units"]}, "argument", ".options", ""),
         ({"file": 5}, "argument", ".file", ""),
-        ({"name": "grbl", "file": "mine.toml"}, "argument", "", "leave one of them out"),
-        ({}, "argument", "", "state one of them"),
+        ({"name": "grbl", "file": "mine.toml"}, "argument", "", "remove one"),
+        ({}, "argument", "", "add one"),
     ),
 )
 def test_what_is_wrong_in_a_section_is_named_by_its_path(

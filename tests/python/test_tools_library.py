@@ -441,13 +441,22 @@ def test_a_diameter_changed_in_freecad_is_noted(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("document", "stated"),
     [
-        ({"profile": {"kind": "ball", "diameter": math.nan}}, "profile.diameter: float nan came"),
+        (
+            {"profile": {"kind": "ball", "diameter": math.nan}},
+            "profile.diameter: expected a text, a finite number, a list or a dict, got float nan",
+        ),
         (
             {"profile": {"kind": "points", "points": [[0.0, 0.0], [1.0, math.inf]]}},
-            "profile.points[1][1]: float inf came",
+            "profile.points[1][1]: expected a text, a finite number, a list or a dict, got float inf",
         ),
-        ({"profile": {"kind": "points", "points": object()}}, "profile.points: a value of type object came"),
-        ({"profile": {"kind": "ball", "diameter": {3.0}}}, "profile.diameter: a value of type set came"),
+        (
+            {"profile": {"kind": "points", "points": object()}},
+            "profile.points: expected a text, a finite number, a list or a dict, got a value of type object",
+        ),
+        (
+            {"profile": {"kind": "ball", "diameter": {3.0}}},
+            "profile.diameter: expected a text, a finite number, a list or a dict, got a value of type set",
+        ),
     ],
 )
 def test_what_is_no_document_is_named(document: Any, stated: str) -> None:

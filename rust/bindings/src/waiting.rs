@@ -47,8 +47,10 @@ pub fn watched<T: Send>(
     work: impl FnOnce(&Watch) -> T + Send,
 ) -> PyResult<T> {
     if let Some(given) = progress.filter(|given| !given.is_callable()) {
-        let message =
-            format!("progress: expected a function of phase and fraction, got a value of type {}", given.get_type());
+        let message = format!(
+            "progress: expected a function of phase and fraction, got a value of type {}",
+            given.get_type().name()?
+        );
         return Err(errors::raise("StylusError", &message, "argument", "progress", ""));
     }
     let watch = Watch::default();
