@@ -87,7 +87,7 @@ def main() -> None:
         print(" | ".join(rows[-1]), flush=True)
     if not wanted:
         heads = ["case", "lines", "s", "CPU s", "slowest phases, s", "goes on after a cancel, s"]
-        text = "Seconds from a text to its report, contacts held against the exact model included.\n\n" + table(
+        text = "Seconds from a text to its report, contacts compared with the exact model included.\n\n" + table(
             heads, rows
         )
         write("verification", f"{text}\n\n{machine()}")

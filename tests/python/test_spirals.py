@@ -114,7 +114,9 @@ def test_two_pockets_in_a_basin_part_cleanly(forming: bool) -> None:
 def without_a_turn(text: str) -> str:
     """The text of a descent without the moves of two turns in its middle."""
     lines = text.splitlines()
-    heights = [(number, float(found[1])) for number, line in enumerate(lines) if (found := re.search(r"Z(-[\d.]+)", line))]
+    heights = [
+        (number, float(found[1])) for number, line in enumerate(lines) if (found := re.search(r"Z(-[\d.]+)", line))
+    ]
     cut = [number for number, z in heights if -12.0 < z < -11.0]
     return "\n".join([*lines[: cut[0]], *lines[cut[-1] :]])
 

@@ -64,9 +64,8 @@ PACKAGE = CHECKOUT / "python" / "styluscam"
 KEPT = re.compile(
     r"judging\.\w+|^\W*judgement\W*$|judged from this text|judged, not this text|what was judged is|was not judged"
     r"|not judged: operations|^\W*not judged\W*$|unsaid-mode|^\"unsaid\"$|read-stray-word|judgement: the verification"
-    r"|contacts held against the exact model included"
 )
-"""Names, remarks that programs carry, and a line of a page of measurements."""
+"""Names, and remarks that programs carry."""
 TEXTS = (tokenize.COMMENT, tokenize.STRING, getattr(tokenize, "FSTRING_MIDDLE", tokenize.STRING))
 """Tokens that are text; from Python 3.12 on the text of an f-string is a token of its own."""
 SPOKEN = r"says|said"

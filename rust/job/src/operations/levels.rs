@@ -31,7 +31,7 @@ pub fn trace(step: f64, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced
     // the flat top lies margin below what the envelope shows
     let top = task.context.heights.top.unwrap_or_else(|| rounded(highest - task.budget.margin, resolution));
     let bottom = task.context.heights.bottom;
-    let range = LevelRange { top, bottom, reachable: lowest, step: step, resolution };
+    let range = LevelRange { top, bottom, reachable: lowest, step, resolution };
     let floors = Floors::of(surface.envelope());
     let heights = levels(&range, &floors)?;
     let mut passes = z_levels(surface, &grid, &heights, deviation, watch)?;

@@ -130,7 +130,7 @@ fn is_far(beside: &[Beside], [first, second]: [&[PathPoint]; 2]) -> bool {
     let is_far = |(near, point): (&Beside, &PathPoint)| {
         let Some(other) = first.get(near.side) else { return true };
         let expected = (other.tip.z - point.tip.z).abs() * flat(other).max(flat(point)).max(LEAST);
-        near.square > (FAR * expected).powi(2)
+        near.square.sqrt() > FAR * expected
     };
     beside.iter().zip(second).any(is_far)
 }

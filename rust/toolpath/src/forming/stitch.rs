@@ -136,7 +136,7 @@ mod tests {
             let beside = beside(&pairs(&outer, &inner), [&outer, &inner]);
             let carried = carried(&beside, &by_length(&outer), &inner);
             prop_assert_eq!(carried.len(), below + 1);
-            prop_assert!(carried[0] == 0.0 && carried[below] == 1.0);
+            prop_assert!(carried[0].abs() < 1e-15 && (carried[below] - 1.0).abs() < 1e-15);
             prop_assert!(carried.windows(2).all(|pair| pair[0] < pair[1]), "{:?}", carried);
         }
     }
