@@ -20,6 +20,11 @@ Range: above 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>How far a turn goes down, mm.
+Range: above 0 to 100 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
 Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
@@ -50,6 +55,8 @@ Range: 0.01 to 100 mm</source>
     <message>
         <source>One operation: what is common to all kinds.
 z-level: Loops at constant heights, from the top down.
+spiral: One descent along the walls: a loop at the top, turns that fall evenly along their length, a loop at the bottom. Where a
+wall's loops part (two pockets in one cup) each part has a spiral of its own. It runs one way: the higher ground on its right.
 zig-zag: Parallel rows over the surface.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -475,6 +482,11 @@ Range: above 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>How far a turn goes down, mm.
+Range: above 0 to 100 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
 Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
@@ -631,8 +643,15 @@ Range: 0.01 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>One descent along the walls: a loop at the top, turns that fall evenly along their length, a loop at the bottom. Where a
+wall's loops part (two pockets in one cup) each part has a spiral of its own. It runs one way: the higher ground on its right.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>One operation: what is common to all kinds.
 z-level: Loops at constant heights, from the top down.
+spiral: One descent along the walls: a loop at the top, turns that fall evenly along their length, a loop at the bottom. Where a
+wall's loops part (two pockets in one cup) each part has a spiral of its own. It runs one way: the higher ground on its right.
 zig-zag: Parallel rows over the surface.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -666,6 +685,10 @@ zig-zag: Parallel rows over the surface.</source>
     </message>
     <message>
         <source>Paths for tools of any convex shape</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Pitch</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -860,6 +883,10 @@ Range: 0 to 1</source>
     </message>
     <message>
         <source>Spif</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Spiral</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1372,6 +1399,14 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>spif</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>spiral</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>spirals</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
