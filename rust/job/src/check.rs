@@ -3,8 +3,8 @@
 use crate::fixture::FixtureSection;
 use crate::resolve::check_channels;
 use crate::{
-    JobDocument, JobError, LengthUnit, MachineSection, OperationKeys, OperationSection, Process, ProcessSection,
-    Selection, SheetSection, Zero,
+    Direction, JobDocument, JobError, LengthUnit, MachineSection, OperationKeys, OperationSection, Process,
+    ProcessSection, Selection, SheetSection, Zero,
 };
 
 /// Checks combinations of keys.
@@ -198,7 +198,23 @@ fn operation(job: &JobDocument, path: &str, section: &OperationSection) -> Resul
         some_face(&format!("{path}.faces"), selection)?;
     }
     heights(path, common, job.units)?;
+    direction(path, common)?;
     section.kind().check(common, path)
+}
+
+/// Climb and conventional are about a tool that turns.
+fn direction(path: &str, common: &OperationKeys) -> Result<(), JobError> {
+    let word = match common.direction {
+        Direction::Alternate | Direction::Same => return Ok(()),
+        Direction::Climb => "climb",
+        Direction::Conventional => "conventional",
+    };
+    if common.spindle.direction().is_some() {
+        return Ok(());
+    }
+    let message = format!("direction = {word:?} needs a tool that turns, and the spindle is off");
+    let hint = "set direction = \"same\", or a spindle: spindle = { mode = \"fixed\", rpm = 8000 }";
+    Err(JobError::document("conflict", format!("{path}.direction"), message, hint))
 }
 
 /// The error of an operation at `path` whose tool the job does not have.

@@ -27,11 +27,35 @@ pub struct Rates {
     pub plunge: f64,
 }
 
+/// In which of their two directions passes are followed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sense {
+    /// As the strategy lays them out.
+    #[default]
+    Forward,
+    /// Each the other way round.
+    Reversed,
+    /// Every other level or row the other way round.
+    Alternate,
+}
+
+impl Sense {
+    /// Whether the passes of a group are turned round, by its number in their order.
+    #[must_use]
+    pub fn turns(self, group: usize) -> bool {
+        match self {
+            Self::Forward => false,
+            Self::Reversed => true,
+            Self::Alternate => group % 2 == 1,
+        }
+    }
+}
+
 /// How passes follow each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Links {
-    /// Turn round every other level or row.
-    pub alternate: bool,
+    /// The direction of levels or rows.
+    pub sense: Sense,
     /// Heights of links over clearance.
     pub heights: Heights,
     /// Feeds.
@@ -145,7 +169,7 @@ pub fn link(
 ) -> Result<Vec<Move>, Cancelled> {
     // ordered, then joined
     watch.begin("linking", 2 * passes.len());
-    let passes = nearest::ordered(passes, links.alternate, watch)?;
+    let passes = nearest::ordered(passes, links.sense, watch)?;
     let runs: Vec<Run<PathPoint>> = passes.iter().filter_map(|pass| run_of(pass, links.rates.cut)).collect();
     let segments = join(&runs, rules, links, watch)?;
     Ok(segments.iter().map(|segment| segment.to_move(links.operation)).collect())

@@ -4,7 +4,7 @@ use rstar::{PointDistance, RTree, RTreeObject, AABB};
 use styluscam_geometry::Vector;
 use styluscam_motion::{Cancelled, Watch};
 
-use crate::{Pass, PathPoint};
+use crate::{Pass, PathPoint, Sense};
 
 /// Groups of more passes are searched in a tree: for fewer it does not pay.
 const FEW: usize = 16;
@@ -13,15 +13,15 @@ const STRETCH: usize = 16;
 
 /// All passes in the order and direction in which they are followed, groups (levels or rows) one after the other.
 ///
-/// Every other group is turned round if they `alternate`. Within a group the nearest pass comes next, the first of
+/// Groups are turned round as the `sense` has it. Within a group the nearest pass comes next, the first of
 /// equals; a loop begins where it is nearest. In n log n of the points, or nearly.
 ///
 /// # Errors
 /// `Cancelled`.
-pub fn ordered(passes: &[Pass], alternate: bool, watch: &Watch) -> Result<Vec<Pass>, Cancelled> {
+pub fn ordered(passes: &[Pass], sense: Sense, watch: &Watch) -> Result<Vec<Pass>, Cancelled> {
     let mut ordered: Vec<Pass> = Vec::with_capacity(passes.len());
     for (number, group) in passes.chunk_by(|a, b| a.group == b.group).enumerate() {
-        let turned = alternate && number % 2 == 1;
+        let turned = sense.turns(number);
         let mut left = Left::of(group, turned);
         for _ in group {
             watch.advance(1)?;
@@ -153,10 +153,10 @@ mod tests {
     }
 
     /// Always the nearest of all, by looking at all.
-    fn ordered_slowly(passes: &[Pass], alternate: bool) -> Vec<Pass> {
+    fn ordered_slowly(passes: &[Pass], sense: Sense) -> Vec<Pass> {
         let mut ordered: Vec<Pass> = Vec::new();
         for (number, group) in passes.chunk_by(|a, b| a.group == b.group).enumerate() {
-            let (turned, mut left): (bool, Vec<&Pass>) = (alternate && number % 2 == 1, group.iter().collect());
+            let (turned, mut left): (bool, Vec<&Pass>) = (sense.turns(number), group.iter().collect());
             while !left.is_empty() {
                 let last = ordered.last().and_then(|pass| pass.points.last()).map(|point| point.tip);
                 let distance = |pass: &Pass| last.map_or(0.0, |from| least(entries(pass, turned), from));
@@ -180,9 +180,12 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(100))]
         #[test]
-        fn the_nearest_comes_next_and_the_first_of_equals(passes in any_passes(), alternate in any::<bool>()) {
-            let ordered = ordered(&passes, alternate, &Watch::default()).unwrap();
-            prop_assert_eq!(ordered, ordered_slowly(&passes, alternate));
+        fn the_nearest_comes_next_and_the_first_of_equals(
+            passes in any_passes(),
+            sense in prop::sample::select(vec![Sense::Forward, Sense::Reversed, Sense::Alternate]),
+        ) {
+            let ordered = ordered(&passes, sense, &Watch::default()).unwrap();
+            prop_assert_eq!(ordered, ordered_slowly(&passes, sense));
         }
     }
 
@@ -195,7 +198,7 @@ mod tests {
         let loops: Vec<Pass> =
             (0..6400).map(|i| pass(&std::array::from_fn::<_, 60, _>(|k| corner(i, k)), true, 0)).collect();
         let began = std::time::Instant::now();
-        assert_eq!(ordered(&loops, false, &Watch::default()).unwrap().len(), loops.len());
+        assert_eq!(ordered(&loops, Sense::Forward, &Watch::default()).unwrap().len(), loops.len());
         // half a second of work; to look at all of them takes 40, and machines are busy
         assert!(began.elapsed().as_secs_f64() < 30.0, "{:?}", began.elapsed());
     }
@@ -204,6 +207,6 @@ mod tests {
     fn it_can_be_cancelled() {
         let watch = Watch::default();
         watch.cancel();
-        assert_eq!(ordered(&[pass(&[[0.0; 3]; 2], false, 0)], false, &watch), Err(Cancelled));
+        assert_eq!(ordered(&[pass(&[[0.0; 3]; 2], false, 0)], Sense::Forward, &watch), Err(Cancelled));
     }
 }

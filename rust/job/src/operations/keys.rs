@@ -29,7 +29,7 @@ pub struct OperationKeys {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "mm", "minimum" = -10000.0, "maximum" = 10000.0))]
     pub z_bottom: Option<f64>,
-    /// Whether every other level or row is run in the other direction.
+    /// In which direction levels and rows are run.
     #[serde(default)]
     pub direction: Direction,
     /// How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
@@ -62,6 +62,10 @@ pub enum Direction {
     Alternate,
     /// All in the same direction: the higher ground on the right of levels, rows along `angle_deg`.
     Same,
+    /// All so that the turning tool meets the material from its uncut side: on the right of a tool that turns clockwise.
+    Climb,
+    /// All the other way round than `climb`.
+    Conventional,
 }
 
 /// Feeds, mm/min.
@@ -98,6 +102,17 @@ pub enum Spindle {
         #[serde(default = "clockwise")]
         direction: SpindleDirection,
     },
+}
+
+impl Spindle {
+    /// Its sense; none while it stands.
+    #[must_use]
+    pub fn direction(&self) -> Option<SpindleDirection> {
+        match self {
+            Self::Off => None,
+            Self::Fixed { direction, .. } => Some(*direction),
+        }
+    }
 }
 
 /// Coolant or lubricant.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use styluscam_toolpath::{forming::spirals, PlanError, Surface};
+use styluscam_toolpath::{forming::spirals, PlanError, Sense, Surface};
 use styluscam_verify::{Contact, Height, OrderedPasses, Passes};
 
 use super::facts::counted;
@@ -32,8 +32,13 @@ impl Spiral {
 }
 
 impl OperationKind for Spiral {
-    fn check(&self, _common: &OperationKeys, _path: &str) -> Result<(), JobError> {
-        Ok(()) // its only key stands alone
+    fn check(&self, common: &OperationKeys, path: &str) -> Result<(), JobError> {
+        if surface::sense(common, true) != Sense::Reversed {
+            return Ok(()); // levels may alternate: a spiral has none
+        }
+        let message =
+            "a spiral runs with the higher ground on its right, which is the other direction with this spindle";
+        Err(JobError::document("conflict", format!("{path}.direction"), message, "set direction = \"same\""))
     }
 
     fn cuts_upright_walls(&self) -> bool {
@@ -82,9 +87,14 @@ impl FollowsSurface for Spiral {
         self.pitch
     }
 
-    /// A spiral that is turned round would climb.
-    fn alternates(&self, _common: &OperationKeys) -> bool {
-        false
+    /// The higher ground.
+    fn has_material_on_right(&self) -> bool {
+        true
+    }
+
+    /// A spiral that is turned round would go up: `check` refuses what asks for that.
+    fn sense(&self, _common: &OperationKeys) -> Sense {
+        Sense::Forward
     }
 
     fn trace(&self, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError> {

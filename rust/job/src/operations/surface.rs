@@ -2,8 +2,9 @@
 //! and they are linked; what becomes of the faces is measured beside.
 
 use styluscam_geometry::Tool;
+use styluscam_motion::SpindleDirection;
 use styluscam_toolpath::{
-    budget::Budget, link, offset::Envelope, AlongSurface, Heights, Links, Pass, PlanError, Rates, Surface,
+    budget::Budget, link, offset::Envelope, AlongSurface, Heights, Links, Pass, PlanError, Rates, Sense, Surface,
 };
 
 use super::budget;
@@ -29,9 +30,12 @@ pub trait FollowsSurface {
     /// How far above the lowest allowed height the last pass may lie by the kind's own rule, mm.
     fn lowest_rest(&self) -> f64;
 
-    /// Whether every other group of its passes is turned round.
-    fn alternates(&self, common: &OperationKeys) -> bool {
-        common.direction == Direction::Alternate
+    /// Whether the material that still stands lies on the right of its passes as they are traced, else on the left.
+    fn has_material_on_right(&self) -> bool;
+
+    /// In which direction its passes are followed.
+    fn sense(&self, common: &OperationKeys) -> Sense {
+        sense(common, self.has_material_on_right())
     }
 
     /// Its passes.
@@ -48,6 +52,24 @@ pub trait FollowsSurface {
 
     /// Its extent for the program's header.
     fn note(&self, groups: usize, passes: usize) -> String;
+}
+
+/// In which direction passes are followed that have the standing material on their right, or on their left, as they are traced.
+pub fn sense(common: &OperationKeys, material_on_right: bool) -> Sense {
+    let is_climb = match common.direction {
+        Direction::Alternate => return Sense::Alternate,
+        Direction::Same => return Sense::Forward,
+        Direction::Climb => true,
+        Direction::Conventional => false,
+    };
+    // climb milling: the edges of a tool that turns clockwise, seen from above, move forwards on its left, so the material
+    // stands on its right
+    let is_clockwise = common.spindle.direction() != Some(SpindleDirection::Counterclockwise);
+    if (is_climb == is_clockwise) == material_on_right {
+        Sense::Forward
+    } else {
+        Sense::Reversed
+    }
 }
 
 /// Traced passes.
@@ -95,10 +117,10 @@ impl Task<'_> {
         }
     }
 
-    fn links(&self, alternate: bool) -> Links {
+    fn links(&self, sense: Sense) -> Links {
         let (scene, common) = (self.context.scene, self.context.common);
         Links {
-            alternate,
+            sense,
             heights: Heights { clearance: scene.clearance, retract: scene.retract },
             rates: Rates { cut: common.feeds.cut, plunge: common.feeds.plunge },
             operation: self.context.operation,
@@ -141,7 +163,7 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
         moves: link(
             &traced.passes,
             &task.along(&surface, kind.pitch()),
-            &task.links(kind.alternates(context.common)),
+            &task.links(kind.sense(context.common)),
             watch,
         )?,
     })

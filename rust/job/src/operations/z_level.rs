@@ -86,6 +86,11 @@ impl FollowsSurface for ZLevel {
         [f64::NEG_INFINITY, f64::INFINITY]
     }
 
+    /// The higher ground.
+    fn has_material_on_right(&self) -> bool {
+        true
+    }
+
     fn pitch(&self) -> f64 {
         self.height()
     }

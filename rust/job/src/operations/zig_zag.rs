@@ -86,6 +86,11 @@ impl FollowsSurface for ZigZag {
         [task.context.heights.bottom, task.context.heights.top.map_or(f64::INFINITY, |z| z + tolerance)]
     }
 
+    /// Rows go on to the left of their direction.
+    fn has_material_on_right(&self) -> bool {
+        false
+    }
+
     fn pitch(&self) -> f64 {
         self.stepover
     }

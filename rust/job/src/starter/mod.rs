@@ -227,7 +227,7 @@ fn operation(work: &Work, choice: &Choice, tolerance: f64) -> String {
 id = "{}"
 kind = "{kind}"            # {kinds}
 {faces}tool = "{}"
-{distance}direction = "alternate"     # or "same"
+{distance}direction = "alternate"     # or "same", "climb", "conventional"
 tolerance = {}           # the posted path lies at most this far above the exact one
 smallest_feature = {}     # no loop is missed that holds a disc of this diameter
 feeds = {{ cut = {cut}, plunge = {plunge} }}

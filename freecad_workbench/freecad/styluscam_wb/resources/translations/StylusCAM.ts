@@ -36,6 +36,14 @@ sine: Pure shear: a vertical column keeps its height, so a wall of slope phi is 
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>In which direction levels and rows are run.
+alternate: Every other one in the other direction: counters the twist of a formed sheet.
+same: All in the same direction: the higher ground on the right of levels, rows along `angle_deg`.
+climb: All so that the turning tool meets the material from its uncut side: on the right of a tool that turns clockwise.
+conventional: All the other way round than `climb`.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Largest deviation of the triangles from the model's surfaces, mm; checked by sampling.
 Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
@@ -106,12 +114,6 @@ milling: Milling: no sheet.</source>
     <message>
         <source>What the sheet is made of, by the name of a shipped material: it sets the steepest wall that the sheet withstands.
 0 or empty: not stated</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Whether every other level or row is run in the other direction.
-alternate: Every other one in the other direction: counters the twist of a formed sheet.
-same: All in the same direction: the higher ground on the right of levels, rows along `angle_deg`.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -223,6 +225,14 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>All in the same direction: the higher ground on the right of levels, rows along `angle_deg`.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>All so that the turning tool meets the material from its uncut side: on the right of a tool that turns clockwise.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>All the other way round than `climb`.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -503,6 +513,14 @@ sine: Pure shear: a vertical column keeps its height, so a wall of slope phi is 
     </message>
     <message>
         <source>Implicit</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>In which direction levels and rows are run.
+alternate: Every other one in the other direction: counters the twist of a formed sheet.
+same: All in the same direction: the higher ground on the right of levels, rows along `angle_deg`.
+climb: All so that the turning tool meets the material from its uncut side: on the right of a tool that turns clockwise.
+conventional: All the other way round than `climb`.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1144,12 +1162,6 @@ milling: Milling: no sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Whether every other level or row is run in the other direction.
-alternate: Every other one in the other direction: counters the twist of a formed sheet.
-same: All in the same direction: the higher ground on the right of levels, rows along `angle_deg`.</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
         <source>Whether this is stated</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1226,11 +1238,19 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>climb</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>comparing</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
         <source>constant</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>conventional</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
