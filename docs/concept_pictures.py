@@ -281,6 +281,54 @@ def waterlines() -> Figure:
     return figure
 
 
+def basin() -> sc.Part:
+    """A shallow basin with two deep pockets in its floor, from heights over a grid of 100 x 60 mm."""
+    x, y = np.meshgrid(np.arange(-50.0, 50.5, 0.5), np.arange(-30.0, 30.5, 0.5))
+    z = np.clip(np.maximum(np.abs(x) - 42.0, np.abs(y) - 22.0), -4.0, 0.0)
+    for middle in (-20.0, 20.0):
+        z += np.clip(np.hypot(x - middle, y) - 14.0, -8.0, 0.0)
+    across = x.shape[1]
+    corner = (np.arange(x.shape[0] - 1)[:, None] * across + np.arange(across - 1)).ravel()
+    first = np.column_stack([corner, corner + 1, corner + across + 1])
+    second = np.column_stack([corner, corner + across + 1, corner + across])
+    return sc.Part.from_mesh(np.column_stack([x.ravel(), y.ravel(), z.ravel()]), np.concatenate([first, second]))
+
+
+def spirals() -> Figure:
+    """Pairs of points of two loops with the turn between them, and the descents of a basin with two pockets."""
+    figure, (pane, descents) = plt.subplots(1, 2, figsize=(11.4, 4.6), width_ratios=(1.0, 1.35))
+    turns = np.radians(np.linspace(0.0, 360.0, 37))
+    share = np.linspace(0.0, 1.0, 37)[:, None]
+    outer = np.stack([11.0 * np.cos(turns), 8.0 * np.sin(turns)], axis=1)
+    inner = np.stack([7.0 * np.cos(turns), 4.6 * np.sin(turns)], axis=1)
+    for above, below in zip(outer, inner, strict=True):
+        pane.plot(*np.array([above, below]).T, color="#c9d1dc", lw=0.9, zorder=1)
+    pane.plot(*outer.T, color=BLUE, lw=1.6, marker="o", ms=3, label="loop of a level")
+    pane.plot(*inner.T, color=SKY, lw=1.6, marker="o", ms=3, label="loop of the next level")
+    pane.plot(*(outer + share * (inner - outer)).T, color=ORANGE, lw=2.2, label="turn between them")
+    plain(pane, (-13.0, 13.0), (-10.0, 13.5))
+    pane.legend(loc="upper center", frameon=False, fontsize=9.5, ncol=2)
+    document = {
+        "schema": 1,
+        "part": {"file": "basin.stl", "units": "mm"},
+        "process": {"kind": "milling"},
+        "setup": {"zero": "model"},
+        "tools": {"ball": {"number": 1, "profile": {"kind": "ball", "diameter": 6.0}}},
+        "operations": [{"kind": "spiral", "tool": "ball", "pitch": 1.0}],
+        "machine": {"name": "linuxcnc"},
+    }
+    moves = sc.plan(sc.Job.from_dict(document, part=basin())).programs["main"].moves
+    starts = np.flatnonzero(np.diff((moves["kind"] == 1).astype(int)) == 1) + 1
+    for number, run in enumerate(np.split(moves["end"], starts)[1:]):
+        down = run[moves["kind"][starts[number] : starts[number] + len(run)] == 1]
+        colour = (BLUE, ORANGE, GREEN, PINK)[number % 4]
+        descents.plot(down[:, 0], down[:, 1], color=colour, lw=1.0)
+        descents.plot(*down[0, :2], "o", color=colour, ms=6)
+    plain(descents, (-52.0, 52.0), (-31.0, 36.0))
+    descents.set_title("each part of a wall has one descent; dots: where they begin", fontsize=11, y=0.93)
+    return figure
+
+
 def crossed(loop: FloatArray, axis: int, at: float) -> list[FloatArray]:
     """Where a loop crosses a line of the grid."""
     first, last = loop[:-1, :2], loop[1:, :2]
@@ -459,6 +507,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "bounds": bounds,
     "push-cutter": push_cutter,
     "waterlines": waterlines,
+    "spirals": spirals,
     "fitting": fitting,
     "verifier": verifier,
     "convexity": convexity,
