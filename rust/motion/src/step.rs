@@ -15,8 +15,8 @@ pub enum MoveKind {
     Feed,
 }
 
-/// What a feed move is for the work. A planned program leaves it out until the posted text can carry it: what is
-/// checked is the text, and a role that only the plan knows would be lost there.
+/// What a feed move is for the work. Posted texts state it in remarks; one without remarks states none, and its moves are checked as
+/// if they were passes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Role {

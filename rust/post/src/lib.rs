@@ -20,6 +20,7 @@ mod post_error;
 mod read_error;
 mod reader;
 mod repost;
+mod role;
 mod rounded;
 mod template;
 mod trial;

@@ -5,11 +5,11 @@
 mod support;
 
 use proptest::prelude::*;
-use styluscam_motion::{Event, EventKind, Move, MoveKind, Program, SpindleDirection, ToolRecord};
+use styluscam_motion::{Event, EventKind, Move, MoveKind, Program, Role, SpindleDirection, ToolRecord};
 use styluscam_post::machine::{
     BlockNumber, CommentForm, LengthUnit, LineEnd, Point, Repeat, Separator, ToolChange, TrailingZeros,
 };
-use styluscam_post::{post, read, Machine, Posted, Reading};
+use styluscam_post::{post, read, shipped, Machine, Posted, Reading};
 use support::{ball_by_center, grbl, grbl_with_pauses, linuxcnc, program, stylus};
 
 /// What the text states, in order: events, and moves that move.
@@ -352,4 +352,44 @@ fn the_pause_machine_is_grbl_otherwise() {
     let mut machine = grbl_with_pauses();
     machine.tool.change = ToolChange::LoadBeforeStart;
     assert_eq!(machine, grbl());
+}
+
+/// The roles of the moves that a text has when it is read.
+fn roles_read(program: &Program, machine: &Machine) -> Vec<Option<Role>> {
+    let text = post(program, machine).unwrap().text;
+    read(&text, machine, &program.tools).unwrap().program.moves.iter().map(|step| step.role).collect()
+}
+
+#[test]
+fn roles_of_feed_moves_are_stated_and_read() {
+    let feed = |x: f64| Move::feed([x, 0.0, -1.0], 500.0);
+    let moves = vec![
+        Move::rapid([0.0, 0.0, 10.0]),
+        Move::rapid([1.0, 0.0, 10.0]),
+        feed(2.0).role(Role::Lead),
+        feed(3.0).role(Role::Cut),
+        feed(4.0).role(Role::Cut),
+        Move::rapid([4.0, 0.0, 10.0]),
+        feed(5.0).role(Role::Link),
+        feed(6.0),
+        feed(7.0).role(Role::Ramp),
+        Move::rapid([7.0, 0.0, 10.0]),
+    ];
+    let tool_change = Event { before: 0, kind: EventKind::ToolChange { tool: 0 } };
+    let mut program = program(moves, vec![tool_change], vec![stylus(1)]);
+    let stated: Vec<Option<Role>> = program.moves.iter().map(|step| step.role).collect();
+    let cut = &Some(Role::Cut);
+    for machine in shipped().into_iter().map(|name| Machine::shipped(name).unwrap()) {
+        let read = roles_read(&program, &machine);
+        let expected = if machine.comment.form == CommentForm::None { 0 } else { 2 };
+        assert_eq!(read.iter().filter(|role| *role == cut).count(), expected, "{}", machine.name);
+    }
+    let (linuxcnc, mut silent) = (linuxcnc(), linuxcnc());
+    let found: Vec<_> = roles_read(&program, &linuxcnc).into_iter().flatten().collect();
+    assert_eq!(found, stated.iter().copied().flatten().collect::<Vec<_>>());
+    silent.comment.form = CommentForm::None;
+    assert!(roles_read(&program, &silent).iter().all(Option::is_none));
+    // without roles no text has a word of them
+    program.moves.iter_mut().for_each(|step| step.role = None);
+    assert!(!post(&program, &linuxcnc).unwrap().text.contains("role"));
 }

@@ -1,6 +1,6 @@
 //! Feeds, spindle, coolant and tool of the moves, compared with what the job states for their operations.
 
-use styluscam_motion::{EventKind, Program, SpindleDirection};
+use styluscam_motion::{EventKind, Program, Role, SpindleDirection};
 
 use crate::assignment::Assignment;
 use crate::expectation::ExpectedOperation;
@@ -26,7 +26,7 @@ pub(crate) fn faults(program: &Program, segments: &[Segment], assignment: &Assig
         let comes_down = before.is_none_or(|kind| kind == SegmentKind::Rapid);
         let step = &program.moves[segment.index];
         let Some(operation) = assignment.of(segment.operation) else { continue };
-        faults.extend(feed_fault(operation, segment, comes_down, step.feed, limits.feed_unit));
+        faults.extend(feed_fault(operation, (segment, step.role), comes_down, step.feed, limits.feed_unit));
         faults.extend(spindle_fault(operation, segment, machine.spindle));
         if machine.flood != operation.flood || machine.mist {
             faults.push(segment.fault(&faults::COOLANT));
@@ -39,15 +39,18 @@ pub(crate) fn faults(program: &Program, segments: &[Segment], assignment: &Assig
 }
 
 /// From a rapid the tool comes down at the plunge's feed; on its path along the part straight down is as good as any
-/// other direction.
+/// other direction. Leads, ramps and links are no faster than the faster of both.
 fn feed_fault(
     operation: &ExpectedOperation,
-    segment: &Segment,
+    (segment, role): (&Segment, Option<Role>),
     comes_down: bool,
     feed: f64,
     unit: f64,
 ) -> Option<Fault> {
     let expected = match segment.kind {
+        _ if matches!(role, Some(Role::Lead | Role::Ramp | Role::Link)) => {
+            feed.min(operation.cut.max(operation.plunge))
+        }
         SegmentKind::Plunge if comes_down => operation.plunge,
         // a feed that goes nowhere or up is no faster than any other
         SegmentKind::Still | SegmentKind::Retract => feed.min(operation.cut.max(operation.plunge)),

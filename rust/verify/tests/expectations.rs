@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use common::{ball, limits, tip_on_cone, Levels, Part, Path, CLEARANCE};
 use styluscam_geometry::{Tool, Vector};
-use styluscam_motion::{Program, Watch};
+use styluscam_motion::{Move, Program, Role, Watch};
 use styluscam_verify::{
     judge, Contact, Expectation, ExpectedOperation, FindingKind, Height, OrderedPasses, Passes, Report, Scalar,
     Severity, Subject,
@@ -218,4 +218,24 @@ fn passes_that_are_not_checked_are_reported_with_the_reason() {
     let [note] = &report.findings[..] else { panic!("{:?}", report.findings) };
     assert!(report.ok && note.severity == Severity::Note, "{note:?}");
     assert_eq!(note.message, format!("operation \"walls\": its passes are not checked, {reason}"));
+}
+
+#[test]
+fn leads_and_links_need_not_touch_and_must_not_enter() {
+    let (part, tool) = (dome(), ball(2.0 * BALL));
+    let expected = expected(&part, Contact::Touch, [-100.0, 100.0], ordered(Arc::new(FromAxis), false));
+    let rings = rings(&tool, |_| 1.0);
+    // aslant down from clearance to beside the dome's top, this high over it
+    let with = |height: f64, role: Option<Role>| {
+        let mut program = rings.clone();
+        program.moves.push(Move { role, ..Move::feed([1.0, 2.0, height], 600.0) });
+        program.moves.push(Move::rapid([1.0, 2.0, CLEARANCE]));
+        judged(&part, &tool, &expected, &program)
+    };
+    assert!(kinds(&with(3.0, None)).contains(&FindingKind::Excess));
+    for role in [Role::Lead, Role::Ramp, Role::Link] {
+        assert!(!kinds(&with(3.0, Some(role))).contains(&FindingKind::Excess), "{role:?}");
+    }
+    assert!(kinds(&with(3.0, Some(Role::Cut))).contains(&FindingKind::Excess));
+    assert!(kinds(&with(-3.0, Some(Role::Link))).contains(&FindingKind::Gouge));
 }

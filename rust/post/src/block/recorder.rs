@@ -2,7 +2,9 @@
 
 use std::collections::HashMap;
 
-use styluscam_motion::{Event, EventKind, Move, OperationRecord, Program, SetupRecord, ToolRecord, ToolReference};
+use styluscam_motion::{
+    Event, EventKind, Move, MoveKind, OperationRecord, Program, Role, SetupRecord, ToolRecord, ToolReference,
+};
 
 /// A program that grows move by move.
 pub(crate) struct Recorder {
@@ -14,6 +16,8 @@ pub(crate) struct Recorder {
     /// Id and kind of the operation that begins with the next move, where the text states them.
     label: Option<(String, String)>,
     operation_due: bool,
+    /// What the next feed moves are for.
+    role: Option<Role>,
 }
 
 impl Recorder {
@@ -30,7 +34,13 @@ impl Recorder {
             tools: indices,
             label: None,
             operation_due: true,
+            role: None,
         }
+    }
+
+    /// What the next feed moves are for, as far as their operation goes.
+    pub fn set_role(&mut self, role: Option<Role>) {
+        self.role = role;
     }
 
     pub fn event(&mut self, kind: EventKind) {
@@ -41,6 +51,7 @@ impl Recorder {
     pub fn start_operation(&mut self, id: &str, kind: &str) {
         self.label = Some((id.into(), kind.into()));
         self.operation_due = true;
+        self.role = None;
     }
 
     /// The index of a tool that is known.
@@ -61,12 +72,14 @@ impl Recorder {
     pub fn load(&mut self, index: u32) {
         self.tool = Some(index);
         self.operation_due = true;
+        self.role = None;
     }
 
     /// Adds a move, to the operation that it belongs to.
     pub fn push(&mut self, step: Move) {
         let operation = self.operation();
-        self.program.moves.push(step.of_operation(operation));
+        let role = self.role.filter(|_| step.kind == MoveKind::Feed);
+        self.program.moves.push(Move { role, ..step.of_operation(operation) });
     }
 
     fn operation(&mut self) -> u32 {

@@ -24,6 +24,7 @@ use crate::block::arc::Ends;
 use crate::block::{Code, Modes, Motion, Recorder};
 use crate::machine::Machine;
 use crate::read_error::ReadFault;
+use crate::role;
 
 const AXES: [char; 3] = ['X', 'Y', 'Z'];
 const Z: usize = 2;
@@ -124,6 +125,10 @@ impl<'m> Interpreter<'m> {
 
     /// Notes a remark; one as the shipped templates write them, `operation ID: KIND`, names what follows.
     pub(crate) fn remark(&mut self, text: &str) {
+        if let Some(role) = role::of_remark(text) {
+            self.record.set_role(role);
+            return;
+        }
         if let Some((id, kind)) = text.strip_prefix("operation ").and_then(|t| t.split_once(": ")) {
             self.record.start_operation(id, kind);
         }

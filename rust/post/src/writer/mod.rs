@@ -13,12 +13,15 @@ mod words;
 use std::collections::BTreeMap;
 use std::io;
 
-use styluscam_motion::{Event, EventKind, Move, MoveKind, OperationRecord, Program, SpindleDirection, ToolRecord};
+use styluscam_motion::{
+    Event, EventKind, Move, MoveKind, OperationRecord, Program, Role, SpindleDirection, ToolRecord,
+};
 
 use crate::inspect::Inspector;
 use crate::machine::{Family, FeedMode, Lathe, Machine};
 use crate::number::NumberFormat;
 use crate::post_error::PostError;
+use crate::role;
 use crate::template::{Facts, Templater};
 use dialect::{Dialect, Position};
 pub(crate) use lines::counted_length;
@@ -93,6 +96,8 @@ pub struct Poster<'a> {
     tip: Option<[f64; 3]>,
     tool: Option<&'a ToolRecord>,
     operation: Option<u32>,
+    /// What the text states that its feed moves are for.
+    role: Option<Role>,
     /// Speed, rev/min, and sense of the spindle, while it turns.
     spindle: Option<(f64, SpindleDirection)>,
     mist: bool,
@@ -148,6 +153,7 @@ impl<'a> Poster<'a> {
             tip: None,
             tool: None,
             operation: None,
+            role: None,
             spindle: None,
             mist: false,
             flood: false,
@@ -220,6 +226,10 @@ impl<'a> Poster<'a> {
 
     fn end_operation(&mut self) -> Result<(), PostError> {
         let record: Option<&OperationRecord> = self.operation.take().and_then(|o| self.head.operations.get(o as usize));
+        if self.role.take().is_some() {
+            self.dialect.close(&mut self.lines)?;
+            self.lines.comment(&role::remark(None))?;
+        }
         let Some(record) = record else { return Ok(()) };
         let text = self.templater.operation_end(&self.names, record)?;
         self.speak(&text)
@@ -235,6 +245,15 @@ impl<'a> Poster<'a> {
         self.lines.text(text)
     }
 
+    /// A remark where a feed move is for something else than those before it.
+    fn state_role(&mut self, step: &Move) -> Result<(), PostError> {
+        if step.kind == MoveKind::Rapid || step.role == self.role {
+            return Ok(());
+        }
+        self.role = step.role;
+        self.lines.comment(&role::remark(step.role))
+    }
+
     // Moves
 
     /// The next move.
@@ -246,6 +265,7 @@ impl<'a> Poster<'a> {
         let index = self.moves;
         self.inspector.step(index, self.tip, step)?;
         self.dialect.close(&mut self.lines)?;
+        self.state_role(step)?;
         let target = self.target(index, step.end.tip)?;
         match (step.kind, step.arc) {
             (MoveKind::Rapid, _) => self.rapid(target)?,
