@@ -54,7 +54,6 @@ def cost_rows(version: str) -> list[list[str]]:
     return [
         each("build: text, FreeCAD's reading of it, into the document", again, PARTS["build"]),
         each("the same moves as one command each, made by Python", again, ("as commands", "assignment")),
-        each("FreeCAD's cycle time", again, ("cycle time",)),
         each("read for a post: checks, FreeCAD's text, the engine's program", seen["read"], PARTS["read"]),
         each("post", seen["read"], ("posting",)),
         each("apart: planning", again, ("planning",)),

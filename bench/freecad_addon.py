@@ -15,7 +15,7 @@ import freecad_cap as cap
 import Path
 
 import styluscam
-from freecad.styluscam_wb import compat, motion, ops
+from freecad.styluscam_wb import motion, ops
 from freecad.styluscam_wb.posts import processor
 
 REPEATS = 3
@@ -26,7 +26,6 @@ def watched() -> cap.Stopwatch:
     watch.watch(ops, "part_of", "tessellation")
     watch.watch(styluscam, "plan", "planning")
     watch.watch(motion, "path_of", "path")
-    watch.watch(compat, "cycle_time", "cycle time")
     watch.watch(processor, "refuse_unfinished", "checks")
     watch.watch(motion.Builder, "add_operation", "text of the path")
     watch.watch(motion.Builder, "program", "program")

@@ -9,7 +9,7 @@ import pytest
 pytestmark = [pytest.mark.world, pytest.mark.freecad]
 
 REASONS = {
-    "no step": "step is missing: add step",
+    "no step": "height = 0: allowed is above 0 and up to 100 mm",
     "no faces": "no face is selected",
     "other model": "no Face2, Face3, Face4 any more",
     "no controller": "has no tool",

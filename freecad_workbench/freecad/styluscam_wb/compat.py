@@ -104,14 +104,6 @@ def tool_kind(bit: Any) -> str:
     return ""
 
 
-def cycle_time(proxy: Any, obj: Any) -> str:
-    """FreeCAD's estimate of how long an operation's path takes."""
-    import Path.Op.Base as PathOp
-
-    of_module = getattr(PathOp, "getCycleTimeEstimate", None)  # 1.1
-    return str(of_module(obj) if of_module else proxy.getCycleTimeEstimate(obj))
-
-
 def _has_tool_assets() -> bool:
     """Whether tools are assets, as from FreeCAD 1.1 on."""
     return importlib.util.find_spec("Path.Tool.toolbit") is not None

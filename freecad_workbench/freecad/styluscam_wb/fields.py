@@ -216,6 +216,7 @@ def _fields(section: str, table: Table, key: Key) -> list[Field]:
     if not variants:
         type_, is_json = _type(key)
         return [_field(section, key, type_, is_json=is_json)]
+    optional = len(variants) > 1 or key.nullable  # one of several is stated, and a single one that is required always
     found = []
     for number, (variant, value) in enumerate(variants.items()):
         merged = {"x-unit": entry.get("x-unit", ""), **value}
@@ -226,11 +227,11 @@ def _fields(section: str, table: Table, key: Key) -> list[Field]:
                 _number_type(merged),
                 section,
                 key.name,
-                _text(entry.get("description", ""), merged, optional=True),
+                _text(entry.get("description", ""), merged, optional=optional),
                 _first_of(_default(key), variant),
                 kinds=key.kinds,
                 variant=variant,
-                optional=True,
+                optional=optional,
                 is_advanced=bool(entry.get(ADVANCED)),
                 range=_range(merged),
                 unit=_unit(merged),

@@ -7,6 +7,7 @@ StartDepth and FinalDepth are heights of the tool's tip; at their automatic valu
 
 from __future__ import annotations
 
+import time
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD
@@ -14,7 +15,7 @@ import Path
 import Path.Op.Base as PathOp
 from PathScripts import PathUtils
 
-from . import compat, documents, engine, motion, post_list, properties, quiet, setup_sheet, tools, views
+from . import documents, engine, motion, post_list, properties, quiet, setup_sheet, tools, views
 from .long_work import Run, long_work
 from .mistakes import OperationError, is_fault, reason
 from .part import part_of
@@ -42,6 +43,9 @@ class ObjectStylus(PathOp.ObjectOp):
     _chosen: Any = None
     _program: Any = None
     """What was planned, until it is in the path."""
+
+    _seconds = 0.0
+    """Time on the machine, acceleration counted: FreeCAD takes the vertical feed wherever Z changes."""
 
     def __init__(self, obj: Any, name: str, parentJob: Any = None) -> None:
         # Without a window nobody can be asked, and FreeCAD's search fails over two suitable tools (its issue 31849):
@@ -152,6 +156,7 @@ class ObjectStylus(PathOp.ObjectOp):
             job = sc.Job.from_dict(document, part=part)
             plan = run(lambda report: sc.plan(job, progress=report))
         self._program = plan.programs["main"]
+        self._seconds = float(self._program.times(plan.machines["main"])[-1])
         notes = plan.summary()[1][:-1]  # the last line is for a verified text
         obj.Notes = [*notes, *documents.notes_on_feeds(obj.ToolController)]
 
@@ -162,7 +167,7 @@ class ObjectStylus(PathOp.ObjectOp):
             return
         comments = [text for text in (obj.Label, obj.Comment) if text]
         obj.Path = motion.path_of(comments, program, obj.Path.Commands[-1:])
-        obj.CycleTime = compat.cycle_time(self, obj)
+        obj.CycleTime = time.strftime("%H:%M:%S", time.gmtime(round(self._seconds)))
         self.job.Proxy.getCycleTime()
 
 

@@ -101,7 +101,7 @@ def create(kind: str, title: str, job: Any) -> Any:
     document.openTransaction(f"Create {title}")
     try:
         obj = ops.Create(title.replace(" ", ""), parentJob=job)
-        obj.Label = _unique(title, document)
+        obj.Label = _unique(title, obj)
         defaults.fill(obj, kind)
     except BaseException:
         document.abortTransaction()
@@ -114,8 +114,9 @@ def create(kind: str, title: str, job: Any) -> Any:
     return obj
 
 
-def _unique(title: str, document: Any) -> str:
-    taken = {obj.Label for obj in document.Objects}
+def _unique(title: str, obj: Any) -> str:
+    """A title that no other object of the document has."""
+    taken = {other.Label for other in obj.Document.Objects if other != obj}
     if title not in taken:
         return title
     return next(name for number in range(2, len(taken) + 3) if (name := f"{title} {number}") not in taken)

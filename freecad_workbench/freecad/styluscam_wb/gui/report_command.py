@@ -24,14 +24,26 @@ def write(job: Any, path: FilePath, run: Run) -> FilePath:
         styluscam.StylusError: a package that reports need is missing, or the file cannot be written.
         What `verification.verify_job` raises.
     """
-    engine.styluscam()
+    require_packages()
     from styluscam.files import write_whole
-    from styluscam.report import report_page, require_extra
+    from styluscam.report import report_page
 
-    require_extra()
     subject = verification.verify_job(job, run).subject
     write_whole(path, run(lambda progress: report_page(subject, progress)))
     return path
+
+
+def require_packages() -> None:
+    """Makes sure that a report can be made.
+
+    Raises:
+        EngineMissingError: there is no engine.
+        styluscam.StylusError: a package that reports need is missing.
+    """
+    engine.styluscam()
+    from styluscam.report import require_extra
+
+    require_extra()
 
 
 def place_of(job: Any) -> FilePath | None:
@@ -70,6 +82,7 @@ class WriteReport(Command):
     def run(self) -> None:
         """Writes, then opens."""
         job = chosen.job()
+        require_packages()  # before anybody is asked for a file
         path = place_of(job)
         if path is None:
             return

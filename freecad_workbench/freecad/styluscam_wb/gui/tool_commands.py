@@ -67,6 +67,7 @@ def put_in_job(job: Any, bit: Any, number: int) -> None:
     if job is None:
         return
     controller = compat.make_tool_controller(f"TC: {bit.Label}", bit, number)
+    controller.SpindleDir = "None"
     job.Proxy.addToolController(controller)
 
 

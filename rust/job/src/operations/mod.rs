@@ -33,8 +33,8 @@ kinds! {
     /// The kinds of operations, each with its own keys.
     Operation: OperationKind, About {
         z_level::ZLevel = "z-level",
-        spiral::Spiral = "spiral",
         zig_zag::ZigZag = "zig-zag",
+        spiral::Spiral = "spiral",
     }
 }
 

@@ -119,6 +119,6 @@ impl FollowsSurface for Spiral {
     }
 
     fn note(&self, _groups: usize, passes: usize) -> String {
-        format!("{passes} descents")
+        counted(passes, "descent", "descents")
     }
 }

@@ -10,8 +10,7 @@ Range: -360 to 360 deg</source>
     </message>
     <message>
         <source>Distance between levels.
-Range: above 0 to 100 mm
-0 or empty: not stated</source>
+Range: above 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -63,9 +62,9 @@ Range: 0.01 to 100 mm</source>
     <message>
         <source>One operation: what is common to all kinds.
 z-level: Loops at constant heights, from the top down.
+zig-zag: Parallel rows over the surface.
 spiral: One descent along the walls: a loop at the top, turns that fall evenly along their length, a loop at the bottom. Where a
-wall's loops part (two pockets in one cup) each part has a spiral of its own. It runs one way: the higher ground on its right.
-zig-zag: Parallel rows over the surface.</source>
+wall's loops part (two pockets in one cup) each part has a spiral of its own. It runs one way: the higher ground on its right.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -386,8 +385,7 @@ Range: -360 to 360 deg</source>
     </message>
     <message>
         <source>Distance between levels.
-Range: above 0 to 100 mm
-0 or empty: not stated</source>
+Range: above 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -668,9 +666,9 @@ wall's loops part (two pockets in one cup) each part has a spiral of its own. It
     <message>
         <source>One operation: what is common to all kinds.
 z-level: Loops at constant heights, from the top down.
+zig-zag: Parallel rows over the surface.
 spiral: One descent along the walls: a loop at the top, turns that fall evenly along their length, a loop at the bottom. Where a
-wall's loops part (two pockets in one cup) each part has a spiral of its own. It runs one way: the higher ground on its right.
-zig-zag: Parallel rows over the surface.</source>
+wall's loops part (two pockets in one cup) each part has a spiral of its own. It runs one way: the higher ground on its right.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
