@@ -97,24 +97,7 @@ def post(
 
     The text is not verified: `styluscam verify` does that, and `styluscam run` writes only verified text.
     """
-    if not 0.0 <= air <= HIGHEST:
-        raise JobError(
-            f"--air {air:g} is out of range", code="usage", where="--air", hint=f"give a height of 0 to {HIGHEST:g} mm"
-        )
-    if support is not None and (start or air or cl):
-        raise JobError(
-            "two synchronised programs are posted whole, as the machines' text",
-            code="usage",
-            where="--support",
-            hint="leave --from, --air and --cl out",
-        )
-    if (support is None) != (support_out is None):
-        raise JobError(
-            "two synchronised programs need two output files",
-            code="usage",
-            where="--support",
-            hint="give --support and --support-out",
-        )
+    _require_agreement(air, support, support_out, is_part=bool(start or air or cl))
     outputs = [path for path in (out, support_out) if path is not None]
     for path in outputs:
         files.require_new(path, force, JobError, "choose another name")
@@ -137,6 +120,32 @@ def post(
         names = ", ".join(shown_path(path) for path in outputs)
         console.say(f"written: {names} ({len(work.moves)} moves for {target.name}; not verified)")
     return 0
+
+
+def _require_agreement(air: float, support: Path | None, support_out: Path | None, *, is_part: bool) -> None:
+    """Refuses options that contradict each other; `is_part`: not the whole program as it is, as the machine's text.
+
+    Raises:
+        JobError: they do, or `air` (mm) is out of range.
+    """
+    if not 0.0 <= air <= HIGHEST:
+        raise JobError(
+            f"--air {air:g} is out of range", code="usage", where="--air", hint=f"give a height of 0 to {HIGHEST:g} mm"
+        )
+    if support is not None and is_part:
+        raise JobError(
+            "two synchronised programs are posted whole, as the machines' text",
+            code="usage",
+            where="--support",
+            hint="leave --from, --air and --cl out",
+        )
+    if (support is None) != (support_out is None):
+        raise JobError(
+            "two synchronised programs need two output files",
+            code="usage",
+            where="--support",
+            hint="give --support and --support-out",
+        )
 
 
 def _options(words: list[str]) -> Document:

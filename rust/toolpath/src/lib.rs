@@ -16,9 +16,7 @@ mod surface;
 
 pub use error::PlanError;
 pub use lattice::{Cells, Lattice};
-pub use linking::{
-    join, link, AlongSurface, AtDepth, Heights, LinkRules, Links, OverClearance, Position, Rates, Run, Sense,
-};
-pub use pass::{Pass, PathPoint};
+pub use linking::{join, link, AlongSurface, AtDepth, Heights, LinkRules, Links, OverClearance, Position, Rates, Run};
+pub use pass::{Pass, PathPoint, Sense};
 pub use segment::{Curve, Pace, Segment};
 pub use surface::Surface;

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use styluscam_geometry::Vector;
 use styluscam_motion::{Cancelled, Move, Watch};
 
-use crate::{fitting, fitting::Course, nearest, Pass, PathPoint, Segment, Surface};
+use crate::{fitting, fitting::Course, nearest, Pass, PathPoint, Segment, Sense, Surface};
 
 /// Heights of links over clearance, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,30 +25,6 @@ pub struct Rates {
     pub cut: f64,
     /// Straight down.
     pub plunge: f64,
-}
-
-/// In which of their two directions passes are followed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Sense {
-    /// As the strategy lays them out.
-    #[default]
-    Forward,
-    /// Each the other way round.
-    Reversed,
-    /// Every other level or row the other way round.
-    Alternate,
-}
-
-impl Sense {
-    /// Whether the passes of a group are turned round, by its number in their order.
-    #[must_use]
-    pub fn turns(self, group: usize) -> bool {
-        match self {
-            Self::Forward => false,
-            Self::Reversed => true,
-            Self::Alternate => group % 2 == 1,
-        }
-    }
 }
 
 /// How passes follow each other.

@@ -33,3 +33,27 @@ impl Pass {
         self.points.first().zip(self.points.last()).is_some_and(|(first, last)| last.tip.z < first.tip.z)
     }
 }
+
+/// In which of their two directions passes are followed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sense {
+    /// As the strategy lays them out.
+    #[default]
+    Forward,
+    /// Each the other way round.
+    Reversed,
+    /// Every other level or row the other way round.
+    Alternate,
+}
+
+impl Sense {
+    /// Whether the passes of a group are turned round, by its number in their order.
+    #[must_use]
+    pub fn turns(self, group: usize) -> bool {
+        match self {
+            Self::Forward => false,
+            Self::Reversed => true,
+            Self::Alternate => group % 2 == 1,
+        }
+    }
+}
