@@ -314,7 +314,7 @@ def spirals() -> Figure:
         "process": {"kind": "milling"},
         "setup": {"zero": "model"},
         "tools": {"ball": {"number": 1, "profile": {"kind": "ball", "diameter": 6.0}}},
-        "operations": [{"kind": "spiral", "tool": "ball", "pitch": 1.0}],
+        "operations": [{"kind": "spiral", "tool": "ball", "step": {"height": 1.0}}],
         "machine": {"name": "linuxcnc"},
     }
     moves = sc.plan(sc.Job.from_dict(document, part=basin())).programs["main"].moves

@@ -61,7 +61,7 @@ IN_THE_DOCUMENT = {
     ),
     "key of another kind": (
         [("stepover = 5.0", f"stepover = 5.0\n{STEP}")],
-        ["operations[0].step", "step is a key of z-level", "this operation is zig-zag", "remove step"],
+        ["operations[0].step", "step is a key of z-level, spiral", "this operation is zig-zag", "remove step"],
     ),
     "no step": ([*LEVELS, (STEP, "")], ["operations[0].step", "add step = { height = 0.5 }"]),
     "no stepover": ([("stepover = 5.0", "")], ["operations[0].stepover", "add stepover"]),

@@ -89,7 +89,7 @@ def test_a_tool_that_stands_neither_climbs_nor_not() -> None:
 
 
 def test_a_spiral_runs_one_way() -> None:
-    spiral = {"kind": "spiral", "pitch": 2.0, "z_bottom": 0.5}
+    spiral = {"kind": "spiral", "step": {"height": 2.0}, "z_bottom": 0.5}
     assert job(spiral, "climb")
     with pytest.raises(sc.JobError, match="higher ground on its right"):
         job(spiral, "conventional")

@@ -25,7 +25,7 @@ def document(part: dict[str, Any], profile: dict[str, Any], forming: bool, pitch
         "part": {**part, **({"model_face": "back"} if forming else {})},
         **(sheet if forming else milling),
         "tools": {"tool": {"number": 1, "profile": profile}},
-        "operations": [{"kind": "spiral", "tool": "tool", "pitch": pitch}],
+        "operations": [{"kind": "spiral", "tool": "tool", "step": {"height": pitch}}],
         "machine": {"name": "linuxcnc"},
     }
 
@@ -142,7 +142,7 @@ def test_planning_can_be_cancelled() -> None:
         sc.plan(job, progress=lambda phase, fraction: phase != "spirals")
 
 
-def test_a_pitch_is_required_and_positive() -> None:
+def test_a_step_is_positive() -> None:
     for pitch in (0.0, -1.0, float("nan")):
-        with pytest.raises(sc.JobError, match="pitch"):
+        with pytest.raises(sc.JobError, match="height"):
             sc.Job.from_dict(document(CUP, CLOTHOID, forming=False, pitch=pitch))

@@ -98,13 +98,14 @@ impl Family {
             let common = self.common.iter().map(String::as_str);
             return unknown("key", key, at, own.chain(common).chain(["kind"]));
         }
+        let instead_of = owners.iter().map(|owner| format!("{owner:?}")).collect::<Vec<_>>().join(" or ");
         let (noun, owners) = (self.noun, owners.join(", "));
         let message = format!("{key} is a key of {owners}, and this {noun} is {}", kind.kind);
         let instead = match own.collect::<Vec<_>>().join(", ") {
             none if none.is_empty() => String::new(),
             keys => format!(" ({} takes {keys})", kind.kind),
         };
-        JobError::document("foreign-key", at, message, format!("remove {key}{instead}, or write kind = {owners:?}"))
+        JobError::document("foreign-key", at, message, format!("remove {key}{instead}, or write kind = {instead_of}"))
     }
 }
 

@@ -19,6 +19,7 @@ mod keys;
 mod kind;
 mod levels;
 mod reached;
+mod step;
 mod surface;
 #[cfg(test)]
 mod tests;

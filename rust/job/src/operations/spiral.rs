@@ -9,6 +9,7 @@ use styluscam_verify::{Contact, Height, OrderedPasses, Passes};
 
 use super::facts::counted;
 use super::levels;
+use super::step::Step;
 use super::surface::{self, FollowsSurface, Task, Traced};
 use super::{About, Areas, Context, Effort, Fact, OperationKind, PassSpacing, Planned, Serves};
 use crate::{JobError, OperationKeys};
@@ -18,16 +19,16 @@ use crate::{JobError, OperationKeys};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Spiral {
-    /// How far a turn goes down, mm.
-    #[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 100.0, "x-example" = "0.5"))]
-    pub pitch: f64,
+    /// How far a turn goes down.
+    #[schemars(extend("x-example" = "{ height = 0.5 }"))]
+    pub step: Step,
 }
 
 impl Spiral {
     pub(super) const ABOUT: About = About {
         purpose: "for walls without step marks",
         serves: Serves::OnRequest,
-        starter: |passes| format!("pitch = {:?}                 # how far a turn goes down\n", passes.pitch),
+        starter: |passes| format!("step = {{ height = {:?} }}    # how far a turn goes down\n", passes.pitch),
     };
 }
 
@@ -55,18 +56,18 @@ impl OperationKind for Spiral {
 
     fn passes(&self, smallest_feature: f64) -> Passes {
         let scalar = Arc::new(Height);
-        Passes::Ordered(OrderedPasses { scalar, step: self.pitch, continuous: true, smallest_feature })
+        Passes::Ordered(OrderedPasses { scalar, step: self.step.height(), continuous: true, smallest_feature })
     }
 
     fn spacing(&self) -> Option<PassSpacing> {
-        Some(PassSpacing::Height { pitch: self.pitch })
+        Some(PassSpacing::Height { pitch: self.step.height() })
     }
 
     fn effort(&self, areas: &Areas) -> Option<Effort> {
         Some(Effort {
-            key: "pitch",
-            pitch: self.pitch,
-            length: areas.elevation / self.pitch,
+            key: "step",
+            pitch: self.step.height(),
+            length: areas.elevation / self.step.height(),
             samples_grid: true,
             seconds_per_point: 160e-6, // the loops of levels first, then the descents between them
         })
@@ -80,11 +81,11 @@ impl FollowsSurface for Spiral {
     }
 
     fn pitch(&self) -> f64 {
-        self.pitch
+        self.step.height()
     }
 
     fn lowest_rest(&self) -> f64 {
-        self.pitch
+        self.step.height()
     }
 
     /// The higher ground.
@@ -98,7 +99,7 @@ impl FollowsSurface for Spiral {
     }
 
     fn trace(&self, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError> {
-        let levels = levels::trace(self.pitch, task, surface)?;
+        let levels = levels::trace(self.step.height(), task, surface)?;
         let (deviation, longest) = (task.budget.deviation, task.context.node_spacing());
         let passes = spirals(surface, &levels.passes, deviation, longest, task.context.watch)?;
         Ok(Traced { passes, smallest_feature: levels.grid.smallest_feature() })

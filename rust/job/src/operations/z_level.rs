@@ -9,6 +9,7 @@ use styluscam_verify::{Contact, Height, OrderedPasses, Passes};
 
 use super::facts::counted;
 use super::levels;
+use super::step::Step;
 use super::surface::{self, FollowsSurface, Task, Traced};
 use super::{About, Areas, Context, Effort, Fact, OperationKind, PassSpacing, Planned, Serves};
 use crate::{JobError, OperationKeys};
@@ -22,25 +23,12 @@ pub struct ZLevel {
     pub step: Step,
 }
 
-/// What sets the distance between levels.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Step {
-    /// This distance, mm.
-    Height(#[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 100.0))] f64),
-}
-
 impl ZLevel {
     pub(super) const ABOUT: About = About {
         purpose: "for walls",
         serves: Serves::Walls,
         starter: |passes| format!("step = {{ height = {:?} }}    # distance between levels\n", passes.pitch),
     };
-
-    fn height(&self) -> f64 {
-        let Step::Height(height) = self.step;
-        height
-    }
 }
 
 impl OperationKind for ZLevel {
@@ -62,18 +50,18 @@ impl OperationKind for ZLevel {
 
     fn passes(&self, smallest_feature: f64) -> Passes {
         let scalar = Arc::new(Height);
-        Passes::Ordered(OrderedPasses { scalar, step: self.height(), continuous: false, smallest_feature })
+        Passes::Ordered(OrderedPasses { scalar, step: self.step.height(), continuous: false, smallest_feature })
     }
 
     fn spacing(&self) -> Option<PassSpacing> {
-        Some(PassSpacing::Height { pitch: self.height() })
+        Some(PassSpacing::Height { pitch: self.step.height() })
     }
 
     fn effort(&self, areas: &Areas) -> Option<Effort> {
         Some(Effort {
             key: "step",
-            pitch: self.height(),
-            length: areas.elevation / self.height(),
+            pitch: self.step.height(),
+            length: areas.elevation / self.step.height(),
             samples_grid: true,
             seconds_per_point: 80e-6, // the boundary of the envelope is searched at each point
         })
@@ -92,15 +80,15 @@ impl FollowsSurface for ZLevel {
     }
 
     fn pitch(&self) -> f64 {
-        self.height()
+        self.step.height()
     }
 
     fn lowest_rest(&self) -> f64 {
-        self.height()
+        self.step.height()
     }
 
     fn trace(&self, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError> {
-        let traced = levels::trace(self.height(), task, surface)?;
+        let traced = levels::trace(self.step.height(), task, surface)?;
         Ok(Traced { passes: traced.passes, smallest_feature: traced.grid.smallest_feature() })
     }
 

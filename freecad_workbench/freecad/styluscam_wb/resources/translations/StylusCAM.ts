@@ -19,11 +19,6 @@ Range: above 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>How far a turn goes down, mm.
-Range: above 0 to 100 mm</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
         <source>How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
 Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
@@ -490,11 +485,6 @@ Range: above 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>How far a turn goes down, mm.
-Range: above 0 to 100 mm</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
         <source>How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
 Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
@@ -701,10 +691,6 @@ wall's loops part (two pockets in one cup) each part has a spiral of its own. It
     </message>
     <message>
         <source>Paths for tools of any convex shape</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Pitch</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
