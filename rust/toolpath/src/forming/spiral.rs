@@ -3,6 +3,8 @@
 //! Between two loops, one a level below the other, the path has the height that its length so far gives it, and lies where the
 //! envelope has that height on the straight line in plan between two points of the loops that belong together
 //! ([`super::stitch`]). So each of its points is exact, for loops of any shape; between them it is fitted like every pass.
+//!
+//! Derived in docs/concepts/spirals.md.
 
 use rayon::prelude::*;
 use styluscam_geometry::Vector;
