@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
 
 import addon_zip
+import styluscam as sc
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
@@ -21,3 +23,12 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 def addon(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The addon's folder, from the zip that `make addon` makes."""
     return addon_zip.unpacked(tmp_path_factory.mktemp("addon"))
+
+
+@pytest.fixture(scope="session")
+def engine(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The package that these tests import, alone in a directory: its engine is for every Python."""
+    folder = tmp_path_factory.mktemp("engine")
+    package = Path(sc.__file__).parent
+    shutil.copytree(package, folder / "styluscam", ignore=shutil.ignore_patterns("__pycache__"))
+    return folder

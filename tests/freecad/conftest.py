@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
-import os
-import shutil
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,17 +14,7 @@ from freecad_host import COARSE, EXAMPLE, INSIDE, JOB, STEP, Example, FreeCad, S
 import roots
 import rs274
 import styluscam as sc
-
-
-@contextlib.contextmanager
-def needed(what: str) -> Iterator[None]:
-    """Fails where everything must be tested; elsewhere reports loudly what was not."""
-    try:
-        yield
-    except roots.Unavailable as reason:
-        if os.environ.get("CI"):
-            pytest.fail(f"{what} is needed: {reason}")
-        pytest.skip(f"NOT TESTED with {what}: {reason}")
+from needed import needed
 
 
 @pytest.fixture
@@ -51,15 +38,6 @@ def freecad(
     with needed(f"FreeCAD {request.param}"):
         roots.freecadcmd(request.param)
     return FreeCad(request.param, engine, addon, tmp_path_factory.mktemp(f"freecad-{request.param}"))
-
-
-@pytest.fixture(scope="session")
-def engine(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The package that these tests import, alone in a directory: its engine is for every Python."""
-    folder = tmp_path_factory.mktemp("engine")
-    package = Path(sc.__file__).parent
-    shutil.copytree(package, folder / "styluscam", ignore=shutil.ignore_patterns("__pycache__"))
-    return folder
 
 
 @pytest.fixture(scope="session")

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
-import os
-import shutil
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,27 +11,7 @@ import pytest
 from window_host import INSIDE, Window, WindowSession
 
 import roots
-import styluscam as sc
-
-
-@contextlib.contextmanager
-def needed(what: str) -> Iterator[None]:
-    """Fails where everything must be tested; elsewhere reports loudly what was not."""
-    try:
-        yield
-    except roots.Unavailable as reason:
-        if os.environ.get("CI"):
-            pytest.fail(f"{what} is needed: {reason}")
-        pytest.skip(f"NOT TESTED with {what}: {reason}")
-
-
-@pytest.fixture(scope="session")
-def engine(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The package that these tests import, alone in a directory: its engine is for every Python."""
-    folder = tmp_path_factory.mktemp("engine")
-    package = Path(sc.__file__).parent
-    shutil.copytree(package, folder / "styluscam", ignore=shutil.ignore_patterns("__pycache__"))
-    return folder
+from needed import needed
 
 
 @pytest.fixture(scope="session", params=["1.1", "1.0"])

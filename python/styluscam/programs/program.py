@@ -36,7 +36,7 @@ MOVE = np.dtype(
 RAPID, FEED, CLOCKWISE, COUNTERCLOCKWISE = 0, 1, 2, 3
 """Kinds of moves: rapids, lines and arcs at a feed."""
 ROLES = (None, "cut", "lead", "ramp", "link")
-"""Names of a move's role by its number; planned programs have no roles until the posted text can carry them."""
+"""Names of a move's role by its number; a text states them in remarks, `(role lead)`, and none where it has none."""
 SAG = 0.001
 """How far the polyline of :attr:`Program.positions` may be from an arc, mm."""
 

@@ -123,6 +123,12 @@ impl Move {
         Self { role: Some(role), ..self }
     }
 
+    /// Whether it runs along a pass, or states nothing else.
+    #[must_use]
+    pub fn is_along_pass(&self) -> bool {
+        self.role.is_none_or(|role| role == Role::Cut)
+    }
+
     /// The same move in an operation, an index into [`crate::Program::operations`].
     #[must_use]
     pub const fn of_operation(self, operation: u32) -> Self {

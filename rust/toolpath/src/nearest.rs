@@ -39,13 +39,18 @@ fn directed(pass: &Pass, turned: bool, from: Option<Vector>) -> Pass {
         pass.points.reverse();
     }
     if let (true, Some(from)) = (pass.closed, from) {
-        pass.points.pop();
-        let distances = pass.points.iter().map(|point| square(point, from)).enumerate();
-        let nearest = distances.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(i, _)| i);
-        pass.points.rotate_left(nearest);
-        pass.points.extend(pass.points.first().copied());
+        begin_nearest(&mut pass.points, from);
     }
     pass
+}
+
+/// Has a closed polyline begin at its point nearest to `from`, the first of equals.
+pub fn begin_nearest(points: &mut Vec<PathPoint>, from: Vector) {
+    points.pop();
+    let distances = points.iter().map(|point| square(point, from)).enumerate();
+    let nearest = distances.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(i, _)| i);
+    points.rotate_left(nearest);
+    points.extend(points.first().copied());
 }
 
 fn square(point: &PathPoint, from: Vector) -> f64 {

@@ -47,16 +47,14 @@ pub(crate) fn spread(
 fn values(passes: &OrderedPasses, segments: &[&Segment]) -> Vec<f64> {
     let scalar = &*passes.scalar;
     let value = |tip: [f64; 3]| scalar.value(tip.into());
-    let mut begun = f64::NAN;
+    let mut begun = None;
     // by the value at the chain's start: on a spiral each move lies nearly on the value of the one before it
     let chains = segments.chunk_by(|a, b| {
         let joined = b.start == Some(a.end);
-        if begun.is_nan() {
-            begun = value(a.end);
-        }
-        let goes_on = joined && holds(scalar, a) && holds(scalar, b) && (begun - value(b.end)).abs() <= scalar.same();
+        let first = *begun.get_or_insert_with(|| value(a.end));
+        let goes_on = joined && holds(scalar, a) && holds(scalar, b) && (first - value(b.end)).abs() <= scalar.same();
         if !goes_on {
-            begun = value(b.end);
+            begun = None;
         }
         goes_on
     });

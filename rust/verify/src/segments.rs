@@ -1,7 +1,7 @@
 //! The moves as the verifier sees them: what each is meant to do, with which tool, from where.
 
 use styluscam_geometry::Vector;
-use styluscam_motion::{ArcPath, EventKind, MoveKind, Program, Role};
+use styluscam_motion::{ArcPath, EventKind, MoveKind, Program};
 
 use crate::assignment::Assignment;
 use crate::expectation::Contact;
@@ -164,7 +164,7 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
         if known {
             let path = start.and_then(|start| step.path(start));
             let kind = if path.is_some() { SegmentKind::Lateral } else { kind(step.kind, start, step.end.tip) };
-            let is_pass = kind == SegmentKind::Lateral && step.role.is_none_or(|role| role == Role::Cut);
+            let is_pass = kind == SegmentKind::Lateral && step.is_along_pass();
             let excess = limits.excess_of(step.operation).filter(|_| is_pass && touches(step.operation));
             let segment = Segment {
                 index,

@@ -1,6 +1,6 @@
 //! Feeds, spindle, coolant and tool of the moves, compared with what the job states for their operations.
 
-use styluscam_motion::{EventKind, Program, Role, SpindleDirection};
+use styluscam_motion::{EventKind, Program, SpindleDirection};
 
 use crate::assignment::Assignment;
 use crate::expectation::ExpectedOperation;
@@ -26,7 +26,7 @@ pub(crate) fn faults(program: &Program, segments: &[Segment], assignment: &Assig
         let comes_down = before.is_none_or(|kind| kind == SegmentKind::Rapid);
         let step = &program.moves[segment.index];
         let Some(operation) = assignment.of(segment.operation) else { continue };
-        faults.extend(feed_fault(operation, (segment, step.role), comes_down, step.feed, limits.feed_unit));
+        faults.extend(feed_fault(operation, (segment, step.is_along_pass()), comes_down, step.feed, limits.feed_unit));
         faults.extend(spindle_fault(operation, segment, machine.spindle));
         if machine.flood != operation.flood || machine.mist {
             faults.push(segment.fault(&faults::COOLANT));
@@ -42,19 +42,18 @@ pub(crate) fn faults(program: &Program, segments: &[Segment], assignment: &Assig
 /// other direction. Leads, ramps and links are no faster than the faster of both.
 fn feed_fault(
     operation: &ExpectedOperation,
-    (segment, role): (&Segment, Option<Role>),
+    (segment, is_along_pass): (&Segment, bool),
     comes_down: bool,
     feed: f64,
     unit: f64,
 ) -> Option<Fault> {
+    let no_faster = feed.min(operation.cut.max(operation.plunge));
     let expected = match segment.kind {
-        _ if matches!(role, Some(Role::Lead | Role::Ramp | Role::Link)) => {
-            feed.min(operation.cut.max(operation.plunge))
-        }
-        SegmentKind::Plunge if comes_down => operation.plunge,
+        SegmentKind::Plunge if comes_down && is_along_pass => operation.plunge,
         // a feed that goes nowhere or up is no faster than any other
-        SegmentKind::Still | SegmentKind::Retract => feed.min(operation.cut.max(operation.plunge)),
-        SegmentKind::Plunge | SegmentKind::Lateral | SegmentKind::Rapid => operation.cut,
+        SegmentKind::Still | SegmentKind::Retract => no_faster,
+        SegmentKind::Plunge | SegmentKind::Lateral | SegmentKind::Rapid if is_along_pass => operation.cut,
+        SegmentKind::Plunge | SegmentKind::Lateral | SegmentKind::Rapid => no_faster,
     };
     let same = (feed - expected).abs() <= unit + SAME_FEED * expected;
     (feed > 0.0 && !same).then(|| segment.fault(&faults::FEED).measured(feed, expected))

@@ -8,9 +8,10 @@ from typing import Any
 from .. import contacts, verification
 from ..contacts import ContactTrack
 from ..long_work import long_work
-from . import chosen, legend, pictures, scene
-from .command import Command, job_in_front
+from . import legend, pictures, scene
+from .command import Command
 from .messages import translated
+from .picture_command import PictureCommand
 
 KEY = "contacts"
 
@@ -36,24 +37,17 @@ def show(job: Any, track: ContactTrack) -> None:
     pictures.show(pictures.Picture(job.Document.Name, KEY, node, card))
 
 
-class ShowContactTrack(Command):
+class ShowContactTrack(PictureCommand):
     """Verifies the job in front and draws its contacts; takes them away where they are shown."""
 
+    key = KEY
     name = "ContactTrack"
     icon = "contact-track"
     menu_text = "Contact track"
     tool_tip = "Draws where the tool touches the model along the job's paths; again to take it away"
 
-    def IsActive(self) -> bool:
-        """With a job, and while no panel is open."""
-        return chosen.is_job_free()
-
-    def run(self) -> None:
-        """Shows, or takes away."""
-        shown_for = job_in_front()
-        if shown_for is not None and pictures.remove(shown_for.Document.Name, KEY):
-            return
-        job = chosen.job()
+    def draw(self, job: Any) -> None:
+        """Verifies, then draws."""
         with long_work(f"{job.Label}: contacts") as run:
             verified = verification.verify_job(job, run)
         track = contacts.track_of(verified)

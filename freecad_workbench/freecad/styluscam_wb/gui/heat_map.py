@@ -13,10 +13,11 @@ from PySide import QtWidgets
 from .. import verification
 from ..long_work import Run, long_work
 from ..verification import Verified
-from . import chosen, heat_colours, legend, pictures, scene
-from .command import Command, job_in_front
+from . import heat_colours, legend, pictures, scene
+from .command import Command
 from .heat_colours import short
 from .messages import translated
+from .picture_command import PictureCommand
 
 if TYPE_CHECKING:
     from styluscam.report.heatmaps import HeatMap, Shown
@@ -150,24 +151,17 @@ class MapPanel:
         return True
 
 
-class ShowHeatMap(Command):
+class ShowHeatMap(PictureCommand):
     """Verifies the job in front and colours its model; takes the colours away where they are shown."""
 
+    key = KEY
     name = "HeatMap"
     icon = "heat-map"
     menu_text = "Heat map"
     tool_tip = "Colours the model by what the job leaves on it, gouges, wall angle or thickness; again to take it away"
 
-    def IsActive(self) -> bool:
-        """With a job, and while no panel is open."""
-        return chosen.is_job_free()
-
-    def run(self) -> None:
-        """Shows, or takes away."""
-        shown_for = job_in_front()
-        if shown_for is not None and pictures.remove(shown_for.Document.Name, KEY):
-            return
-        job = chosen.job()
+    def draw(self, job: Any) -> None:
+        """Verifies, then opens the panel that draws."""
         with long_work(f"{job.Label}: heat map") as work:
             maps = maps_of(job, work)
         FreeCADGui.Control.showDialog(MapPanel(maps))

@@ -11,7 +11,7 @@ import Path.Op.Gui.Base as PathOpGui
 
 from .. import defaults, ops, properties
 from ..fields import OPERATION, kind_field
-from . import operation_panel, path_colours
+from . import labels, operation_panel, path_colours
 from .command import ICONS
 
 GENERIC = "operation"
@@ -101,7 +101,7 @@ def create(kind: str, title: str, job: Any) -> Any:
     document.openTransaction(f"Create {title}")
     try:
         obj = ops.Create(title.replace(" ", ""), parentJob=job)
-        obj.Label = _unique(title, obj)
+        obj.Label = labels.unique(title, document, obj)
         defaults.fill(obj, kind)
     except BaseException:
         document.abortTransaction()
@@ -112,14 +112,6 @@ def create(kind: str, title: str, job: Any) -> Any:
     document.commitTransaction()
     obj.ViewObject.Document.setEdit(obj.ViewObject, 0)
     return obj
-
-
-def _unique(title: str, obj: Any) -> str:
-    """A title that no other object of the document has."""
-    taken = {other.Label for other in obj.Document.Objects if other != obj}
-    if title not in taken:
-        return title
-    return next(name for number in range(2, len(taken) + 3) if (name := f"{title} {number}") not in taken)
 
 
 def _resources(title: str) -> Any:

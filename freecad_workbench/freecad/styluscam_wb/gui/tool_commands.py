@@ -9,6 +9,7 @@ from typing import Any
 import FreeCAD
 
 from .. import compat, engine, stylus, tools
+from . import labels
 from .command import Command, job_in_front
 from .messages import translated
 
@@ -24,7 +25,7 @@ class NewBit:
 
     def __init__(self, document: Any, job: Any) -> None:
         self._owner, self._job = document, job
-        self.label = _unique(NEW, document)
+        self.label = labels.unique(NEW, document)
         self.document: dict[str, Any] = {"profile": _first_profile()}
         self.number = next_number(job) if job is not None else None
 
@@ -46,15 +47,6 @@ def _first_profile() -> dict[str, Any]:
     from styluscam.tools import starters
 
     return dict(next(iter(starters.profiles().values())))
-
-
-def _unique(label: str, document: Any) -> str:
-    taken = {obj.Label for obj in document.Objects}
-    return next(name for number in range(1, len(taken) + 2) if (name := _numbered(label, number)) not in taken)
-
-
-def _numbered(label: str, number: int) -> str:
-    return label if number == 1 else f"{label} {number}"
 
 
 def next_number(job: Any) -> int:

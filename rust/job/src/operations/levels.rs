@@ -5,24 +5,16 @@ use styluscam_toolpath::{
         left_out, levels, raise_last, selected_range, with_levels_at, z_levels, z_levels_beside, Floors, Grid,
         LevelRange,
     },
-    Pass, PlanError, Surface,
+    PlanError, Surface,
 };
 
-use super::surface::Task;
-
-/// Loops of levels, and the grid on which they were found.
-pub struct TracedLevels {
-    /// In the order of their levels.
-    pub passes: Vec<Pass>,
-    /// The grid.
-    pub grid: Grid,
-}
+use super::surface::{Task, Traced};
 
 /// The loops of levels `step` mm apart, with more where these leave out a wall, and above floors.
 ///
 /// # Errors
 /// Nothing is reached, no level meets the faces, too many levels, `Cancelled`.
-pub fn trace(step: f64, task: &Task<'_>, surface: &Surface<'_>) -> Result<TracedLevels, PlanError> {
+pub fn trace(step: f64, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError> {
     let (watch, deviation) = (task.context.watch, task.budget.deviation);
     let nothing = || PlanError::NothingReached(task.why_nothing());
     let grid = Grid::sample(surface, task.context.node_spacing(), watch)?.ok_or_else(nothing)?;
@@ -49,7 +41,7 @@ pub fn trace(step: f64, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced
     if passes.is_empty() {
         return Err(PlanError::Empty { top, bottom: bottom.max(lowest) });
     }
-    Ok(TracedLevels { passes, grid })
+    Ok(Traced { passes, smallest_feature: grid.smallest_feature() })
 }
 
 fn rounded(z: f64, unit: f64) -> f64 {

@@ -34,7 +34,7 @@ impl Spiral {
 
 impl OperationKind for Spiral {
     fn check(&self, common: &OperationKeys, path: &str) -> Result<(), JobError> {
-        if surface::sense(common, true) != Sense::Reversed {
+        if surface::sense(common, self.has_material_on_right()) != Sense::Reversed {
             return Ok(()); // levels may alternate: a spiral has none
         }
         let message =
@@ -102,7 +102,7 @@ impl FollowsSurface for Spiral {
         let levels = levels::trace(self.step.height(), task, surface)?;
         let (deviation, longest) = (task.budget.deviation, task.context.node_spacing());
         let passes = spirals(surface, &levels.passes, deviation, longest, task.context.watch)?;
-        Ok(Traced { passes, smallest_feature: levels.grid.smallest_feature() })
+        Ok(Traced { passes, ..levels })
     }
 
     fn words(&self, _groups: usize, passes: usize) -> String {

@@ -88,8 +88,7 @@ impl FollowsSurface for ZLevel {
     }
 
     fn trace(&self, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError> {
-        let traced = levels::trace(self.step.height(), task, surface)?;
-        Ok(Traced { passes: traced.passes, smallest_feature: traced.grid.smallest_feature() })
+        levels::trace(self.step.height(), task, surface)
     }
 
     fn words(&self, groups: usize, passes: usize) -> String {

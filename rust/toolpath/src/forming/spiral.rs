@@ -7,11 +7,10 @@
 //! Derived in docs/concepts/spirals.md.
 
 use rayon::prelude::*;
-use styluscam_geometry::Vector;
 use styluscam_motion::Watch;
 
 use super::{level_curve::LevelCurve, nesting, stitch, stitch::Beside};
-use crate::{fitting, Pass, PathPoint, PlanError, Surface};
+use crate::{fitting, nearest, Pass, PathPoint, PlanError, Surface};
 
 /// The line between two points is looked at this far beyond both, mm: on upright walls they lie over each other.
 const BEYOND: f64 = 0.02;
@@ -103,7 +102,8 @@ impl Descent<'_> {
 
     /// One turn from a loop, from its first point on, down to the next one, with that loop as it begins there.
     fn turn(&self, above: &Level, below: &Pass) -> Option<(Vec<PathPoint>, Level)> {
-        let points = begun_nearest(&below.points, above.points.first()?.tip);
+        let mut points = below.points.clone();
+        nearest::begin_nearest(&mut points, above.points.first()?.tip);
         let pairs = stitch::pairs(&above.points, &points);
         let beside = stitch::beside(&pairs, [&above.points, &points]);
         let turned: Vec<[usize; 2]> = pairs.iter().map(|[i, j]| [*j, *i]).collect();
@@ -176,14 +176,4 @@ fn close(found: &mut [Pass], last: Option<&Level>) {
             spiral.closed = false;
         }
     }
-}
-
-/// A closed loop, begun at its point nearest in plan.
-fn begun_nearest(points: &[PathPoint], from: Vector) -> Vec<PathPoint> {
-    let mut ring = points[..points.len().saturating_sub(1)].to_vec();
-    let distance = |point: &PathPoint| (point.tip - from).xy().norm_squared();
-    let nearest = (0..ring.len()).min_by(|a, b| distance(&ring[*a]).total_cmp(&distance(&ring[*b]))).unwrap_or(0);
-    ring.rotate_left(nearest);
-    ring.extend(ring.first().copied());
-    ring
 }
