@@ -8,6 +8,7 @@ import numpy.typing as npt
 
 _F = npt.NDArray[np.float64]
 _I = npt.NDArray[np.int64]
+_Guides = list[tuple[float, float]]
 _Progress = Callable[[str, float], bool | None]
 
 __all__ = [
@@ -331,6 +332,22 @@ def starter(
     edge_gap: float = 0.0,
 ) -> tuple[str, list[str]]: ...
 def shipped_machines() -> list[str]: ...
+
+@final
+class ElementarySurface:
+    def __new__(
+        cls,
+        kind: str,
+        origin: tuple[float, float, float],
+        axis: tuple[float, float, float],
+        across: tuple[tuple[float, float, float], tuple[float, float, float]],
+        sizes: list[float],
+        sign: float,
+    ) -> ElementarySurface: ...
+    def distance(self, points: _F) -> _F: ...
+    def distance_between(self, nodes: _F, triangles: _I, weights: _F) -> _F: ...
+    def normal(self, points: _F) -> _F: ...
+    def mesh(self, edges: list[tuple[_F, list[float], _Guides]], deviation: float) -> tuple[_F, _I] | None: ...
 
 @final
 class Nurbs:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 from collections import OrderedDict
 from collections.abc import Iterator
@@ -13,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import engine
+from .edges import model_of
 from .surfaces import surface_of, with_uv
 
 if TYPE_CHECKING:
@@ -24,9 +26,6 @@ if TYPE_CHECKING:
 
 KEPT = 4
 """Parts that a session remembers."""
-
-ANGLE = 0.35
-"""Largest turn (rad) between neighbouring border segments: it decides only on the smallest arcs."""
 
 ANY_DEFLECTION = 1e3
 """Asked of a face that is meshed already, the kernel gives back what it has."""
@@ -63,6 +62,7 @@ def arrays_of(shape: Any, tolerance: float, name: str, progress: Progress | None
     from styluscam.parts.progress import report
     from styluscam.parts.surfaces import Parametric
     from styluscam.parts.tessellation import refine_until
+    from styluscam.parts.trimmed import OWN_ATTEMPTS
 
     source = FilePath(name)
     bare = shape.copy(True, False)  # a mesh of its own: the document's shape keeps the one it shows
@@ -70,10 +70,12 @@ def arrays_of(shape: Any, tolerance: float, name: str, progress: Progress | None
     if not faces:
         raise _no_faces(name)
     surfaces = [surface_of(face) for face in faces]
+    model, attempts = model_of(faces, surfaces), itertools.count()
 
     def mesh_at(deflection: float) -> list[FaceMesh]:
         report(progress, "mesh", 0.3)
-        meshes = _meshes(bare, faces, deflection, name)
+        own = None if model is None or next(attempts) >= OWN_ATTEMPTS else model.meshes(surfaces, deflection)
+        meshes = _meshes(bare, faces, deflection, name) if own is None else own
         for i, (face, surface) in enumerate(zip(faces, surfaces, strict=True)):
             if isinstance(surface, Parametric):
                 surfaces[i], meshes[i] = with_uv(face, surface, meshes[i])
@@ -92,6 +94,7 @@ def arrays_of(shape: Any, tolerance: float, name: str, progress: Progress | None
 def _meshes(shape: Any, faces: list[Any], deflection: float, name: str) -> list[FaceMesh]:
     """The kernel's triangles of each face; neighbours share their border nodes."""
     import MeshPart
+    from styluscam.parts.trimmed import ANGLE
 
     for algorithm in ("delabella", "watson"):
         with _mesher(algorithm):

@@ -1,7 +1,7 @@
 """Parts as they were read, kept by what is in their files: plan, run and verify tessellate and check once.
 
-An entry is named by a hash of the file's bytes, the tolerance, the kernel's version and the reader's own code: it is
-right or absent, never old. It is written whole or not at all; one that cannot be read back is thrown away. Where the
+An entry is named by a hash of the file's bytes, the tolerance, the kernel's version, the reader's own code and which engine it
+is: it is right or absent, never old. It is written whole or not at all; one that cannot be read back is thrown away. Where the
 folder cannot be written to, nothing is kept and nothing is reported.
 """
 
@@ -21,6 +21,7 @@ from typing import Any
 
 import numpy as np
 
+from styluscam import _engine
 from styluscam.errors import StylusError
 from styluscam.files import write_whole
 from styluscam.parts.arrays import FaceInfo, PartArrays
@@ -52,6 +53,8 @@ def key(file: Path, tolerance: float) -> str | None:
     """Return the name under which a part is kept; None where its file cannot be read."""
     found = hashlib.sha256(f"{_kernel()} {file.suffix.lower()} {tolerance!r}\n".encode())
     try:
+        engine = Path(_engine.__file__).stat()
+        found.update(f"{engine.st_size} {engine.st_mtime_ns}\n".encode())
         for code in sorted(Path(__file__).parent.glob("*.py")):
             found.update(code.read_bytes())
         with file.open("rb") as stream:

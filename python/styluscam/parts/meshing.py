@@ -10,18 +10,18 @@ import numpy as np
 
 from styluscam.errors import GeometryError
 from styluscam.parts.assembly import outward
+from styluscam.parts.edges import model_of
 from styluscam.parts.kernel import Kernel
 from styluscam.parts.progress import AttemptSteps, Progress
 from styluscam.parts.surfaces import ExactSurface, Floats, Parametric
 from styluscam.parts.tessellation import FaceMesh, Tessellation, refine_until
+from styluscam.parts.trimmed import ANGLE, OWN_ATTEMPTS
 
 # The kernel meshes face borders within the deflection asked, face insides with one so many times larger: they are
 # refined in numpy, only where the surface bends, which gives fewer triangles in less time than the kernel's own
 # refinement. Five times is quicker, but its triangles blur the radii of fillets, and hide bumps between their samples.
 INSIDE_COARSER = 1.4
 
-# Largest turn (rad) between neighbouring border segments: it decides only on arcs below 65 times the deflection.
-ANGLE = 0.35
 
 
 def tessellate(
@@ -35,11 +35,15 @@ def tessellate(
 ) -> Tessellation:
     """Mesh each face, checked; give the freeform surfaces their seeds as well."""
     steps = AttemptSteps(progress)
+    model = model_of(shape, faces, surfaces)
 
     def mesh_at(deflection: float) -> list[FaceMesh]:
         steps.begin()
-        _mesh(shape, faces, deflection)
-        meshes = [outward(m, s) for m, s in zip(_face_meshes(file, faces), surfaces, strict=True)]
+        own = None if model is None or steps.attempt >= OWN_ATTEMPTS else model.meshes(surfaces, deflection)
+        if own is None:
+            _mesh(shape, faces, deflection)
+            own = _face_meshes(file, faces)
+        meshes = [outward(m, s) for m, s in zip(own, surfaces, strict=True)]
         for i, (mesh, surface) in enumerate(zip(meshes, surfaces, strict=True)):
             if isinstance(surface, Parametric) and mesh.uv is not None:
                 surfaces[i] = _with_seeds(surface, mesh)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, TypeAlias, runtime_checkable
+from typing import ClassVar, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,73 +46,86 @@ def _direction(value: Iterable[float]) -> Vector:
     return _vector(vector / np.linalg.norm(vector))
 
 
+ANYWHERE: tuple[Vector, Vector] = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+"""Directions across an axis, where it does not matter from where angles about it are counted."""
+
+
+class Elementary(ABC):
+    """A plane, cylinder, cone, sphere or torus: the engine computes."""
+
+    kind: ClassVar[str]
+    location: Vector
+    sign: float
+
+    @property
+    def _axis(self) -> Vector:
+        axis: Vector = getattr(self, "axis", (0.0, 0.0, 1.0))
+        return axis
+
+    @property
+    @abstractmethod
+    def _sizes(self) -> list[float]:
+        """Return radii (mm) and angles (rad) as the engine takes them."""
+
+    def engine(
+        self, axis: Vector | None = None, across: tuple[Vector, Vector] = ANYWHERE
+    ) -> _engine.ElementarySurface:
+        """Return the surface in the engine; angles about `axis` are counted from across[0] towards across[1]."""
+        axis = self._axis if axis is None else axis
+        return _engine.ElementarySurface(self.kind, self.location, axis, across, self._sizes, self.sign)
+
+    def distance(self, points: Floats) -> Floats:
+        """See ExactSurface. Past a cone's apex the nearest point is the apex."""
+        return self.engine().distance(np.ascontiguousarray(points, dtype=np.float64))
+
+    def distance_between(self, nodes: Floats, triangles: NDArray[np.int64], weights: Floats) -> Floats:
+        """Return signed distances (T,S) at barycentric weights (S,3) of triangles (T,3) between nodes (N,3)."""
+        return self.engine().distance_between(nodes, triangles, weights)
+
+    def normal(self, points: Floats) -> Floats:
+        """See ExactSurface. On an axis: that of any half-plane through it; at a sphere's centre any."""
+        return self.engine().normal(np.ascontiguousarray(points, dtype=np.float64))
+
+
 @dataclass(frozen=True)
-class _Meridian:
-    """Points seen in the half-plane through an axis: radius, height, and the directions that span it."""
-
-    radius: Floats
-    height: Floats
-    radial: Floats
-
-    @classmethod
-    def of(cls, points: Floats, location: Vector, axis: Vector) -> _Meridian:
-        """Return radius >= 0 and height along `axis` from `location`, of points (N,3)."""
-        away = np.asarray(points, dtype=np.float64) - np.array(location)
-        direction = np.array(axis)
-        height = away @ direction
-        across = away - height[:, None] * direction
-        radius = np.sqrt(np.einsum("ij,ij->i", across, across))
-        on_axis = radius <= 1e-12 * (1.0 + np.abs(height))
-        if on_axis.any():  # any direction serves there: take one across the axis
-            across[on_axis] = np.cross(direction, np.eye(3)[np.argmin(np.abs(direction))])
-        return cls(radius, height, unit(across))
-
-
-@dataclass(frozen=True)
-class Plane:
+class Plane(Elementary):
     """A plane through `location`; the material lies against `axis` (with `sign` -1: along it)."""
 
     location: Vector
     axis: Vector
     sign: float = 1.0
+    kind = "plane"
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "location", _vector(self.location))
         object.__setattr__(self, "axis", _direction(self.axis))
 
-    def distance(self, points: Floats) -> Floats:
-        """See ExactSurface."""
-        return np.asarray(self.sign * ((points - np.array(self.location)) @ np.array(self.axis)))
-
-    def normal(self, points: Floats) -> Floats:
-        """See ExactSurface."""
-        return np.tile(self.sign * np.array(self.axis), (len(points), 1))
+    @property
+    def _sizes(self) -> list[float]:
+        return []
 
 
 @dataclass(frozen=True)
-class Cylinder:
+class Cylinder(Elementary):
     """A cylinder of `radius`; with `sign` +1 the material is inside (a shaft), with -1 outside (a hole)."""
 
     location: Vector
     axis: Vector
     radius: float
     sign: float = 1.0
+    kind = "cylinder"
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "location", _vector(self.location))
         object.__setattr__(self, "axis", _direction(self.axis))
 
-    def distance(self, points: Floats) -> Floats:
-        """See ExactSurface."""
-        return self.sign * (_Meridian.of(points, self.location, self.axis).radius - self.radius)
-
-    def normal(self, points: Floats) -> Floats:
-        """See ExactSurface."""
-        return self.sign * _Meridian.of(points, self.location, self.axis).radial
+    @property
+    def _sizes(self) -> list[float]:
+        return [self.radius]
 
 
 @dataclass(frozen=True)
-class Cone:
+class Cone(Elementary):
     """A cone (one nappe): `radius` at `location`, growing along `axis` by tan(`semi_angle`) (rad, may be negative).
 
     With `sign` +1 the material is inside, on the side of the axis.
@@ -122,52 +136,36 @@ class Cone:
     radius: float
     semi_angle: float
     sign: float = 1.0
+    kind = "cone"
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "location", _vector(self.location))
         object.__setattr__(self, "axis", _direction(self.axis))
 
-    def distance(self, points: Floats) -> Floats:
-        """See ExactSurface. Past the apex the nearest point is the apex."""
-        at = _Meridian.of(points, self.location, self.axis)
-        sine, cosine = np.sin(self.semi_angle), np.cos(self.semi_angle)
-        from_line = (at.radius - self.radius) * cosine - at.height * sine
-        above_apex = at.height + self.radius * cosine / sine
-        along = at.radius * abs(sine) + above_apex * cosine * np.sign(sine)
-        return np.asarray(self.sign * np.where(along >= 0.0, from_line, np.hypot(at.radius, above_apex)))
-
-    def normal(self, points: Floats) -> Floats:
-        """See ExactSurface. At the apex: that of the generator in the point's half-plane."""
-        at = _Meridian.of(points, self.location, self.axis)
-        sine, cosine = np.sin(self.semi_angle), np.cos(self.semi_angle)
-        return np.asarray(self.sign * (cosine * at.radial - sine * np.array(self.axis)))
+    @property
+    def _sizes(self) -> list[float]:
+        return [self.radius, self.semi_angle]
 
 
 @dataclass(frozen=True)
-class Sphere:
+class Sphere(Elementary):
     """A sphere; with `sign` +1 the material is inside."""
 
     location: Vector
     radius: float
     sign: float = 1.0
+    kind = "sphere"
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "location", _vector(self.location))
 
-    def distance(self, points: Floats) -> Floats:
-        """See ExactSurface."""
-        away = points - np.array(self.location)
-        return np.asarray(self.sign * (np.sqrt(np.einsum("ij,ij->i", away, away)) - self.radius))
-
-    def normal(self, points: Floats) -> Floats:
-        """See ExactSurface. At the centre: +X."""
-        away = points - np.array(self.location)
-        away[~away.any(axis=1)] = (1.0, 0.0, 0.0)
-        return self.sign * unit(away)
+    @property
+    def _sizes(self) -> list[float]:
+        return [self.radius]
 
 
 @dataclass(frozen=True)
-class Torus:
+class Torus(Elementary):
     """A torus; with `sign` +1 the material is inside the tube. The tube may reach over the axis (minor > major)."""
 
     location: Vector
@@ -175,33 +173,15 @@ class Torus:
     major_radius: float
     minor_radius: float
     sign: float = 1.0
+    kind = "torus"
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "location", _vector(self.location))
         object.__setattr__(self, "axis", _direction(self.axis))
 
-    def _from_tube_centre(self, at: _Meridian) -> tuple[Floats, Floats]:
-        """Return the radial offset from, and distance to, the centre of the generating circle whose arc is nearest."""
-        near = at.radius - self.major_radius
-        distance = np.hypot(near, at.height)
-        if self.minor_radius <= self.major_radius:
-            return near, distance
-        far = at.radius + self.major_radius
-        far_distance = np.hypot(far, at.height)
-        take_far = np.abs(far_distance - self.minor_radius) < np.abs(distance - self.minor_radius)
-        return np.where(take_far, far, near), np.where(take_far, far_distance, distance)
-
-    def distance(self, points: Floats) -> Floats:
-        """See ExactSurface."""
-        _, distance = self._from_tube_centre(_Meridian.of(points, self.location, self.axis))
-        return self.sign * (distance - self.minor_radius)
-
-    def normal(self, points: Floats) -> Floats:
-        """See ExactSurface. On the tube's centre line: along the axis."""
-        at = _Meridian.of(points, self.location, self.axis)
-        offset, distance = self._from_tube_centre(at)
-        height = np.where(distance > 0.0, at.height, 1.0)
-        return self.sign * unit(offset[:, None] * at.radial + height[:, None] * np.array(self.axis))
+    @property
+    def _sizes(self) -> list[float]:
+        return [self.major_radius, self.minor_radius]
 
 
 Evaluator: TypeAlias = Callable[[Floats], tuple[Floats, Floats, Floats]]

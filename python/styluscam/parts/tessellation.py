@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from styluscam.errors import GeometryError
 from styluscam.parts.arrays import Ints
-from styluscam.parts.surfaces import ExactSurface, Floats, Parametric, Plane
+from styluscam.parts.surfaces import Elementary, ExactSurface, Floats, Parametric, Plane
 
 # Samples lie on a barycentric grid of this order, and at the centroid. A surface's distance over a small triangle
 # whose corners lie on it is a quadratic form that vanishes at the corners; over each cell of the grid it differs from
@@ -236,6 +236,8 @@ def _full_bounds(mesh: FaceMesh, surface: ExactSurface, sides: Floats, corners: 
 
 def _distance(mesh: FaceMesh, surface: ExactSurface, weights: Floats) -> Floats:
     """Return signed distances (t, S) at barycentric weights (S,3) of each triangle."""
+    if isinstance(surface, Elementary) and mesh.triangles.shape[1] == 3:
+        return surface.distance_between(mesh.nodes, mesh.triangles, weights)
     points = (weights @ mesh.nodes[mesh.triangles]).reshape(-1, 3)
     if not isinstance(surface, Parametric) or mesh.uv is None:
         return surface.distance(points).reshape(-1, len(weights))

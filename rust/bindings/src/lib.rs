@@ -4,6 +4,7 @@
 
 mod arrays;
 mod channel;
+mod elementary;
 mod errors;
 mod freecad;
 mod freeform;
@@ -31,6 +32,8 @@ use pyo3::prelude::*;
 mod _engine {
     #[pymodule_export]
     use crate::channel::require_channel;
+    #[pymodule_export]
+    use crate::elementary::Elementary;
     #[pymodule_export]
     use crate::freecad::{path_text, program_of_path};
     #[pymodule_export]

@@ -5,6 +5,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // what tests expect may come from std
 
 mod cutter;
+mod elementary;
 mod error;
 mod frame;
 mod freeform;
@@ -15,8 +16,10 @@ mod sheet;
 mod tool;
 mod tool_body;
 mod tool_parts;
+mod trimmed;
 
 pub use cutter::{Cutter, Height, SupportingLine};
+pub use elementary::{Axes, ElementaryKind, ElementarySurface, Spacing};
 pub use error::GeometryError;
 pub use frame::Frame;
 pub use freeform::{Foot, FootSearch, NurbsSurface, Pole, SurfacePoint};
@@ -26,6 +29,7 @@ pub use sheet::{ModelFace, Sheet, SheetLaw};
 pub use tool::{Base, Holder, Tool, ToolDocument};
 pub use tool_body::ToolBody;
 pub use tool_parts::ToolPart;
+pub use trimmed::{mesh_trimmed, EdgeUse, FaceTriangles, TrimmedFault, GUIDES};
 
 /// A point or vector of space, mm.
 pub type Vector = nalgebra::Vector3<f64>;

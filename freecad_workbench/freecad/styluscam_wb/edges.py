@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The edges around FreeCAD's faces, for the engine's mesher."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from styluscam.parts.surfaces import ExactSurface, Vector
+    from styluscam.parts.trimmed import Edge, EdgeUse, Face, Model
+
+
+def model_of(faces: Sequence[Any], surfaces: Sequence[ExactSurface]) -> Model | None:
+    """A shape's faces within their edges; None where a surface is not elementary, or an edge lacks its curves."""
+    import Part
+
+    from styluscam.parts.surfaces import Elementary
+    from styluscam.parts.trimmed import Model
+
+    if not all(isinstance(surface, Elementary) for surface in surfaces):
+        return None
+    edges = _Edges()
+    try:
+        described = [_face(face, edges) for face in faces]
+        return Model([_edge(shape) for shape in edges.shapes], described)
+    except (Part.OCCError, RuntimeError, TypeError, ValueError):
+        return None
+
+
+class _Edges:
+    """The edges seen so far, each once, whichever way it is run."""
+
+    def __init__(self) -> None:
+        self.shapes: list[Any] = []
+        self._by_hash: dict[int, list[int]] = {}
+
+    def index(self, shape: Any) -> int:
+        """An edge's number; a new one for an edge that was not seen."""
+        known = self._by_hash.setdefault(shape.hashCode(), [])
+        for number in known:
+            if self.shapes[number].isSame(shape):
+                return number
+        known.append(len(self.shapes))
+        self.shapes.append(shape)
+        return known[-1]
+
+
+def _edge(shape: Any) -> Edge:
+    """An edge's curve; raises ValueError where it has no ends."""
+    import Part
+
+    from styluscam.parts.trimmed import Edge
+
+    vertices = (shape.firstVertex(), shape.lastVertex())
+    if any(vertex.isNull() for vertex in vertices):
+        raise ValueError("an edge without ends")
+    ends = (_xyz(vertices[0].Point), _xyz(vertices[1].Point))
+    if shape.Degenerated:
+        return Edge(lambda _: ends[0], (0.0, 1.0), ends, 0.0)
+    curve = shape.Curve
+    radius = None
+    if isinstance(curve, (Part.Line, Part.LineSegment)):
+        radius = 0.0
+    elif isinstance(curve, Part.Circle):
+        radius = float(curve.Radius)
+    return Edge(lambda t: _xyz(shape.valueAt(t)), tuple(shape.ParameterRange), ends, radius)
+
+
+def _face(face: Any, edges: _Edges) -> Face:
+    from styluscam.parts.trimmed import Face
+
+    u0, u1, v0, v1 = face.ParameterRange
+    uses: list[EdgeUse] = []
+    for wire in face.Wires:
+        for edge in wire.Edges:
+            uses.append(_use(face, edge, edges))
+            if edge.isSeam(face):
+                uses.append(_use(face, edge.reversed(), edges))
+    return Face(lambda u, v: _xyz(face.valueAt(u, v)), ((u0 + u1) / 2.0, (v0 + v1) / 2.0), uses, face.Area)
+
+
+def _use(face: Any, edge: Any, edges: _Edges) -> EdgeUse:
+    from styluscam.parts.trimmed import GUIDES, EdgeUse
+
+    curve, first, last = face.curveOnSurface(edge)
+    at = [curve.value(t) for t in np.linspace(first, last, GUIDES).tolist()]
+    return EdgeUse(edges.index(edge), [(point.x, point.y) for point in at])
+
+
+def _xyz(vector: Any) -> Vector:
+    return (vector.x, vector.y, vector.z)

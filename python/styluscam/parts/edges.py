@@ -1,0 +1,77 @@
+"""The edges around the CAD kernel's faces, for the engine's mesher."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from styluscam.parts.exact import area_and_centre
+from styluscam.parts.kernel import Kernel, map_shapes, thrown_by_kernel, xyz
+from styluscam.parts.surfaces import Elementary, ExactSurface
+from styluscam.parts.trimmed import GUIDES, Edge, EdgeUse, Face, Model
+
+
+def model_of(shape: Kernel, faces: list[Kernel], surfaces: list[ExactSurface]) -> Model | None:
+    """Return a shape's faces within their edges; None where a surface is not elementary, or an edge lacks its curves."""
+    if not all(isinstance(surface, Elementary) for surface in surfaces):
+        return None
+    edges = map_shapes(shape, "EDGE")
+    try:
+        return Model(
+            [_edge(edges.FindKey(i)) for i in range(1, edges.Size() + 1)], [_face(face, edges) for face in faces]
+        )
+    except (*thrown_by_kernel(), ValueError):
+        return None
+
+
+def _edge(shape: Kernel) -> Edge:
+    """Return an edge's curve; raises ValueError where it has no ends."""
+    from OCP.BRep import BRep_Tool
+    from OCP.BRepAdaptor import BRepAdaptor_Curve
+    from OCP.GeomAbs import GeomAbs_CurveType as Type
+    from OCP.TopAbs import TopAbs_Orientation
+    from OCP.TopExp import TopExp
+    from OCP.TopoDS import TopoDS
+
+    edge = TopoDS.Edge_s(shape.Oriented(TopAbs_Orientation.TopAbs_FORWARD))
+    vertices = (TopExp.FirstVertex_s(edge), TopExp.LastVertex_s(edge))
+    if any(vertex.IsNull() for vertex in vertices):
+        raise ValueError("an edge without ends")
+    ends = (xyz(BRep_Tool.Pnt_s(vertices[0])), xyz(BRep_Tool.Pnt_s(vertices[1])))
+    if BRep_Tool.Degenerated_s(edge):
+        return Edge(lambda _: ends[0], (0.0, 1.0), ends, 0.0)
+    curve = BRepAdaptor_Curve(edge)
+    kind = curve.GetType()
+    radius = None
+    if kind == Type.GeomAbs_Line:
+        radius = 0.0
+    elif kind == Type.GeomAbs_Circle:
+        radius = float(curve.Circle().Radius())
+    return Edge(lambda t: xyz(curve.Value(t)), (curve.FirstParameter(), curve.LastParameter()), ends, radius)
+
+
+def _face(face: Kernel, edges: Kernel) -> Face:
+    from OCP.BRepAdaptor import BRepAdaptor_Surface
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopExp import TopExp_Explorer
+    from OCP.TopoDS import TopoDS
+
+    surface = BRepAdaptor_Surface(face)
+    middle = (
+        (surface.FirstUParameter() + surface.LastUParameter()) / 2.0,
+        (surface.FirstVParameter() + surface.LastVParameter()) / 2.0,
+    )
+    uses = []
+    found = TopExp_Explorer(face, TopAbs_ShapeEnum.TopAbs_EDGE)
+    while found.More():
+        edge = TopoDS.Edge_s(found.Current())
+        uses.append(EdgeUse(edges.FindIndex(edge) - 1, _guides(edge, face)))
+        found.Next()
+    return Face(lambda u, v: xyz(surface.Value(u, v)), middle, uses, area_and_centre(face)[0])
+
+
+def _guides(edge: Kernel, face: Kernel) -> list[tuple[float, float]]:
+    from OCP.BRepAdaptor import BRepAdaptor_Curve2d
+
+    curve = BRepAdaptor_Curve2d(edge, face)
+    at = [curve.Value(t) for t in np.linspace(curve.FirstParameter(), curve.LastParameter(), GUIDES).tolist()]
+    return [(point.X(), point.Y()) for point in at]
