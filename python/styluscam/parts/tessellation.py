@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,6 +52,14 @@ class FaceMesh:
     nodes: Floats
     triangles: Ints
     uv: Floats | None = None
+
+    @cached_property
+    def border(self) -> Ints:
+        """Keys of the edges that only one triangle has, ascending."""
+        keys = np.sort(_keys(np.sort(_half_edges(self.triangles), axis=1)))
+        differs = np.concatenate([[True], keys[1:] != keys[:-1], [True]])
+        first = np.flatnonzero(differs)
+        return np.asarray(keys[first[:-1]][np.diff(first) != 2])
 
 
 @dataclass(frozen=True)
@@ -132,7 +141,7 @@ def _within(checked: Callable[[float], None], start: float, end: float) -> Calla
 
 def edge_gap(mesh: FaceMesh, surface: ExactSurface) -> float:
     """Return how far the nodes on the face's edges lie off its surface at most, mm."""
-    border = _border(mesh.triangles)
+    border = mesh.border
     nodes = np.unique(np.concatenate([border >> 31, border & (2**31 - 1)]))
     if not len(nodes):
         return 0.0
@@ -273,9 +282,12 @@ def refine(
     """
     nodes, triangles, uv = mesh.nodes, mesh.triangles, mesh.uv
     bounds = _bounds(mesh, surface, hopeless=tolerance)
-    border = _border(triangles)
-    on_border = np.isin(_keys(np.sort(_half_edges(triangles), axis=1)), border).reshape(-1, 3)
-    if (on_border & (bounds[:, 2:] > tolerance)).any():  # to be meshed again: refining would chase the border
+    if not (bounds[:, :2] > tolerance).any():
+        checked(1.0)
+        return mesh, _largest(bounds)
+    border = mesh.border
+    off = _half_edges(triangles)[(bounds[:, 2:] > tolerance).reshape(-1)]
+    if np.isin(_keys(np.sort(off, axis=1)), border).any():  # to be meshed again: refining would chase the border
         return mesh, deviation(mesh, surface)
     node_off = np.zeros(len(nodes))
     node_off[triangles] = np.abs(_distance(mesh, surface, np.eye(3)))
@@ -338,12 +350,6 @@ def _keys(ends: Ints) -> Ints:
 def _half_edges(triangles: Ints) -> Ints:
     """Return the sides of each triangle, from corner k to corner k + 1, (3T,2)."""
     return np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2).reshape(-1, 2)
-
-
-def _border(triangles: Ints) -> Ints:
-    """Return keys of the edges that only one triangle of the face has."""
-    keys, counts = np.unique(_keys(np.sort(_half_edges(triangles), axis=1)), return_counts=True)
-    return np.asarray(keys[counts != 2])
 
 
 def _edges(triangles: Ints) -> tuple[Ints, Ints]:

@@ -82,20 +82,15 @@ impl Close {
     /// Whether the border is close to a point at these parameters.
     fn has(&self, surface: &ElementarySurface, chart: &Chart, parameters: [f64; 2]) -> bool {
         let at = measured(surface, chart, surface.point(parameters), chart.flat(parameters));
-        let [x, y, z] = cell(at);
-        let depths = if is_in_space(surface) { -1..=1 } else { 0..=0 };
-        let near = depths.flat_map(|k| (-1..=1).flat_map(move |j| (-1..=1).map(move |i| [x + i, y + j, z + k])));
+        let [low, high] = [at.map(|x| x - CLOSE), at.map(|x| x + CLOSE)].map(cell);
         let square = |other: &[f64; 3]| (0..3).map(|k| (other[k] - at[k]) * (other[k] - at[k])).sum::<f64>();
+        let span = |k: usize| low[k]..=high[k];
+        let near = span(0).flat_map(|x| span(1).flat_map(move |y| span(2).map(move |z| [x, y, z])));
         near.filter_map(|cell| self.cells.get(&cell)).flatten().any(|other| square(other) < CLOSE * CLOSE)
     }
 }
 
-/// A sphere's sides differ on the map: there distances are taken in space.
-const fn is_in_space(surface: &ElementarySurface) -> bool {
-    matches!(surface.kind(), ElementaryKind::Sphere { .. })
-}
-
-/// A position in which the lattice's side is 1.
+/// A position in which the lattice's side is 1. A sphere's sides differ on the map: there distances are taken in space.
 fn measured(surface: &ElementarySurface, chart: &Chart, point: crate::Vector, [x, y]: [f64; 2]) -> [f64; 3] {
     match (surface.kind(), *chart) {
         (ElementaryKind::Sphere { radius }, Chart::Mercator { side, .. }) => (point / (radius * side)).into(),
@@ -103,6 +98,7 @@ fn measured(surface: &ElementarySurface, chart: &Chart, point: crate::Vector, [x
     }
 }
 
+/// Cells are as large as the lattice's side.
 fn cell(at: [f64; 3]) -> [i32; 3] {
-    at.map(|x| (x / CLOSE).floor() as i32)
+    at.map(|x| x.floor() as i32)
 }
