@@ -14,18 +14,21 @@ from styluscam.parts.tessellation import GAP_SHARE, FaceMesh, Tessellation, is_c
 
 # A face's mesh may miss this part of its exact area before it is looked at closer: chords are shorter than arcs.
 AREA_SHARE = 0.02
+# About so many triangles of a face decide which way all of them are wound.
+WOUND = 1000
 # Triangles that overlap by less than this part of the face cover its surface all the same: nothing of it is missing.
 OVERLAP_SHARE = 0.25
 
 
 def outward(mesh: FaceMesh, surface: ExactSurface) -> FaceMesh:
-    """Return the mesh wound by its surface's normal."""
-    centres = mesh.nodes[mesh.triangles].mean(axis=1)
+    """Return the mesh wound by its surface's normal; its triangles turn the same way, so that some of them decide."""
+    some = mesh.triangles[:: max(1, len(mesh.triangles) // WOUND)]
+    centres = mesh.nodes[some].mean(axis=1)
     if isinstance(surface, Parametric) and mesh.uv is not None:
-        normals = surface.normal_from(centres, mesh.uv[mesh.triangles].mean(axis=1))
+        normals = surface.normal_from(centres, mesh.uv[some].mean(axis=1))
     else:
         normals = surface.normal(centres)
-    if np.einsum("ij,ij->", area_vectors(mesh.nodes, mesh.triangles), normals) >= 0.0:
+    if np.einsum("ij,ij->", area_vectors(mesh.nodes, some), normals) >= 0.0:
         return mesh
     return FaceMesh(mesh.nodes, np.ascontiguousarray(mesh.triangles[:, ::-1]), mesh.uv)
 

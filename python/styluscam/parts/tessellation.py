@@ -443,11 +443,5 @@ def _clusters(values: Floats, distance: float) -> Ints:
 def is_closed(triangles: Ints) -> bool:
     """Return whether each edge is shared by exactly two triangles that run it in opposite directions."""
     half = _half_edges(triangles)
-    forward = half[:, 0] < half[:, 1]
-    ahead, ahead_counts = np.unique(_keys(half[forward]), return_counts=True)
-    back, back_counts = np.unique(_keys(half[~forward][:, ::-1]), return_counts=True)
-    return (
-        len(triangles) > 0
-        and bool((ahead_counts == 1).all() and (back_counts == 1).all())
-        and np.array_equal(ahead, back)
-    )
+    run, back = np.sort(_keys(half)), np.sort(_keys(half[:, ::-1]))
+    return len(run) > 0 and bool((run[1:] != run[:-1]).all()) and np.array_equal(run, back)

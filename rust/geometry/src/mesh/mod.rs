@@ -203,8 +203,14 @@ impl Mesh {
     /// Lower and upper corner of the box around all triangles.
     #[must_use]
     pub fn bounds(&self) -> (Vector, Vector) {
+        self.bounds_in(&Frame::identity())
+    }
+
+    /// Lower and upper corner of the box around all triangles, in another frame.
+    #[must_use]
+    pub fn bounds_in(&self, frame: &Frame) -> (Vector, Vector) {
         let infinite = Vector::repeat(f64::INFINITY);
-        let used = self.triangles.iter().flatten().map(|i| self.vertices[*i as usize]);
+        let used = self.triangles.iter().flatten().map(|i| frame.point(self.vertices[*i as usize]));
         used.fold((infinite, -infinite), |(low, high), p| (low.inf(&p), high.sup(&p)))
     }
 
@@ -214,7 +220,9 @@ impl Mesh {
         Self {
             vertices: self.vertices.iter().map(|p| frame.point(*p)).collect(),
             normals: self.normals.iter().map(|corners| corners.map(|n| frame.direction(n))).collect(),
-            ..self.clone()
+            triangles: self.triangles.clone(),
+            faces: self.faces.clone(),
+            dropped: self.dropped,
         }
     }
 }

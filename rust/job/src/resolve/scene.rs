@@ -15,7 +15,7 @@ impl Scene {
         let sheet = sheet(job)?;
         let raise = sheet.map_or(0.0, |s| s.raise());
         let turned = Frame::turning_up(job.setup.up.vector(), job.setup.rotation.to_radians());
-        let (low, high) = part.mesh.placed(&turned).bounds();
+        let (low, high) = part.mesh.bounds_in(&turned);
         let chosen = job.setup.zero.unwrap_or(if sheet.is_some() { Zero::SheetTop } else { Zero::Model });
         let zero = match chosen {
             Zero::SheetTop => Vector::new(0.0, 0.0, high.z + raise),
