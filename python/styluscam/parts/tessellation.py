@@ -56,7 +56,7 @@ class FaceMesh:
     @cached_property
     def border(self) -> Ints:
         """Keys of the edges that only one triangle has, ascending."""
-        keys = np.sort(_keys(np.sort(_half_edges(self.triangles), axis=1)))
+        keys = np.sort(_side_keys(self.triangles))
         differs = np.concatenate([[True], keys[1:] != keys[:-1], [True]])
         first = np.flatnonzero(differs)
         return np.asarray(keys[first[:-1]][np.diff(first) != 2])
@@ -286,8 +286,8 @@ def refine(
         checked(1.0)
         return mesh, _largest(bounds)
     border = mesh.border
-    off = _half_edges(triangles)[(bounds[:, 2:] > tolerance).reshape(-1)]
-    if np.isin(_keys(np.sort(off, axis=1)), border).any():  # to be meshed again: refining would chase the border
+    off = _side_keys(triangles)[(bounds[:, 2:] > tolerance).reshape(-1)]
+    if np.isin(off, border).any():  # to be meshed again: refining would chase the border
         return mesh, deviation(mesh, surface)
     node_off = np.zeros(len(nodes))
     node_off[triangles] = np.abs(_distance(mesh, surface, np.eye(3)))
@@ -347,14 +347,16 @@ def _keys(ends: Ints) -> Ints:
     return np.asarray(ends[:, 0] * np.int64(2**31) + ends[:, 1])
 
 
-def _half_edges(triangles: Ints) -> Ints:
-    """Return the sides of each triangle, from corner k to corner k + 1, (3T,2)."""
-    return np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2).reshape(-1, 2)
+def _side_keys(triangles: Ints) -> Ints:
+    """Return the keys of each triangle's sides, from corner k to corner k + 1, (3T,)."""
+    following = np.roll(triangles, -1, axis=1)
+    lower, upper = np.minimum(triangles, following), np.maximum(triangles, following)
+    return np.asarray(lower * np.int64(2**31) + upper).reshape(-1)
 
 
 def _edges(triangles: Ints) -> tuple[Ints, Ints]:
     """Return the edges' sorted end nodes (E,2), and for each triangle its three edges (T,3)."""
-    keys, inverse = np.unique(_keys(np.sort(_half_edges(triangles), axis=1)), return_inverse=True)
+    keys, inverse = np.unique(_side_keys(triangles), return_inverse=True)
     return np.stack([keys >> 31, keys & (2**31 - 1)], axis=1), inverse.reshape(-1, 3)
 
 
@@ -442,6 +444,8 @@ def _clusters(values: Floats, distance: float) -> Ints:
 
 def is_closed(triangles: Ints) -> bool:
     """Return whether each edge is shared by exactly two triangles that run it in opposite directions."""
-    half = _half_edges(triangles)
-    run, back = np.sort(_keys(half)), np.sort(_keys(half[:, ::-1]))
-    return len(run) > 0 and bool((run[1:] != run[:-1]).all()) and np.array_equal(run, back)
+    backwards = triangles > np.roll(triangles, -1, axis=1)
+    run = np.sort(2 * _side_keys(triangles) + backwards.reshape(-1))
+    forth, back = run[::2], run[1::2]
+    paired = len(forth) == len(back) and bool((forth % 2 == 0).all() and (back == forth + 1).all())
+    return paired and len(forth) > 0 and bool((forth[1:] != forth[:-1]).all())

@@ -68,15 +68,8 @@ impl Elementary {
         let triangles = arrays::rows::<i64, 3>(&triangles, "triangles")?;
         let weights = arrays::rows::<f64, 3>(&weights, "weights")?;
         let shape = [triangles.len(), weights.len()];
-        let mut found = Vec::with_capacity(shape[0] * shape[1]);
-        for triangle in triangles {
-            let [Some(a), Some(b), Some(c)] = triangle.map(|i| nodes.get(usize::try_from(i).ok()?)) else {
-                let message = format!("triangle {triangle:?}: there are {} nodes", nodes.len());
-                return Err(errors::raise("GeometryError", &message, "no-such-vertex", "triangles", ""));
-            };
-            found.extend(weights.iter().map(|[i, j, k]| self.surface.distance(a * *i + b * *j + c * *k)));
-        }
-        PyArray1::from_vec(py, found).reshape(shape)
+        let found = py.detach(|| self.surface.distances_between(&nodes, &triangles, &weights));
+        PyArray1::from_vec(py, found.map_err(|e| errors::of_geometry(&e))?).reshape(shape)
     }
 
     /// Unit normals (N, 3) out of the material, at the surface's points nearest to points (N, 3).

@@ -11,6 +11,7 @@ use std::f64::consts::FRAC_PI_2;
 
 pub use axes::Axes;
 use meridian::Meridian;
+use rayon::prelude::*;
 pub use spacing::Spacing;
 
 use crate::{GeometryError, Vector};
@@ -96,6 +97,28 @@ impl ElementarySurface {
             }
         };
         self.sign * unsigned
+    }
+
+    /// The distances of points between the corners of triangles, at each of the barycentric `weights`: triangle by triangle.
+    ///
+    /// # Errors
+    /// `NoSuchVertex`.
+    pub fn distances_between(
+        &self,
+        nodes: &[Vector],
+        triangles: &[[i64; 3]],
+        weights: &[[f64; 3]],
+    ) -> Result<Vec<f64>, GeometryError> {
+        let node = |i: i64| usize::try_from(i).ok().and_then(|i| nodes.get(i));
+        let missing = |triangle: &[i64; 3]| triangle.iter().copied().find(|i| node(*i).is_none());
+        if let Some((triangle, vertex)) = triangles.iter().enumerate().find_map(|(t, it)| Some((t, missing(it)?))) {
+            return Err(GeometryError::NoSuchVertex { triangle, vertex, count: nodes.len() });
+        }
+        let between = |triangle: &[i64; 3]| {
+            let [a, b, c] = triangle.map(|i| node(i).copied().unwrap_or_default());
+            weights.iter().map(move |[i, j, k]| self.distance(a * *i + b * *j + c * *k))
+        };
+        Ok(triangles.par_iter().with_min_len(512).flat_map_iter(between).collect())
     }
 
     /// The unit normal out of the material at the surface's point nearest to `point`.

@@ -76,8 +76,11 @@ type Face = FixedFaceHandle<spade::handles::PossiblyOuterTag>;
 
 /// Whether the border runs along an edge an odd number of times. A segment that another point parts counts once.
 fn is_crossed(times: &HashMap<[u32; 2], u32>, edge: Edge<'_>) -> bool {
+    if !edge.is_constraint_edge() {
+        return false;
+    }
     let [a, b] = [edge.from().data().number, edge.to().data().number];
-    edge.is_constraint_edge() && times.get(&[a.min(b), a.max(b)]).is_none_or(|times| times % 2 == 1)
+    times.get(&[a.min(b), a.max(b)]).is_none_or(|times| times % 2 == 1)
 }
 
 /// States for a face that it lies inside or not.
