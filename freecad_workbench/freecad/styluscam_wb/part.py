@@ -94,6 +94,7 @@ def arrays_of(shape: Any, tolerance: float, name: str, progress: Progress | None
 def _meshes(shape: Any, faces: list[Any], deflection: float, name: str) -> list[FaceMesh]:
     """The kernel's triangles of each face; neighbours share their border nodes."""
     import MeshPart
+
     from styluscam.parts.trimmed import ANGLE
 
     for algorithm in ("delabella", "watson"):

@@ -19,7 +19,9 @@ def model_of(shape: Kernel, faces: list[Kernel], surfaces: list[ExactSurface]) -
         return Model(
             [_edge(edges.FindKey(i)) for i in range(1, edges.Size() + 1)], [_face(face, edges) for face in faces]
         )
-    except (*thrown_by_kernel(), ValueError):
+    except ValueError:
+        return None
+    except thrown_by_kernel():
         return None
 
 

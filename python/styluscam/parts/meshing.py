@@ -23,7 +23,6 @@ from styluscam.parts.trimmed import ANGLE, OWN_ATTEMPTS
 INSIDE_COARSER = 1.4
 
 
-
 def tessellate(
     file: Path,
     shape: Kernel,

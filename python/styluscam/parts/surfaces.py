@@ -67,9 +67,7 @@ class Elementary(ABC):
     def _sizes(self) -> list[float]:
         """Return radii (mm) and angles (rad) as the engine takes them."""
 
-    def engine(
-        self, axis: Vector | None = None, across: tuple[Vector, Vector] = ANYWHERE
-    ) -> _engine.ElementarySurface:
+    def engine(self, axis: Vector | None = None, across: tuple[Vector, Vector] = ANYWHERE) -> _engine.ElementarySurface:
         """Return the surface in the engine; angles about `axis` are counted from across[0] towards across[1]."""
         axis = self._axis if axis is None else axis
         return _engine.ElementarySurface(self.kind, self.location, axis, across, self._sizes, self.sign)

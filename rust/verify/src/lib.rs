@@ -64,6 +64,7 @@ mod travel;
 mod unknown;
 mod unreached;
 mod walls;
+mod walls_beside;
 mod words;
 
 pub use coverage::{coverage, left, needs, FaceCoverage};

@@ -19,6 +19,7 @@ use crate::segments::Segment;
 use crate::subject::{Limits, Subject};
 use crate::sweep::Guess;
 use crate::tolerances::ROOM;
+use crate::walls_beside::Walls;
 
 /// Points that are looked at.
 const POINTS: usize = 2000;
@@ -128,7 +129,7 @@ fn nearest(prober: &Prober, point: (Vector, Vector), position: Vector, enough: f
 fn nearest_from(prober: &Prober, (point, up): (Vector, Vector), mut position: Vector, enough: f64) -> f64 {
     let mut least = f64::INFINITY;
     let (mut pulls, mut pushes) = (Attempts::new(), Attempts::new());
-    let mut guess = None;
+    let (mut guess, mut walls) = (None, Walls::default());
     for _ in 0..PUSHES {
         let touch = prober.at(position, guess);
         guess = touch.map(|touch| Guess::like(&touch, position));
@@ -138,6 +139,7 @@ fn nearest_from(prober: &Prober, (point, up): (Vector, Vector), mut position: Ve
                     // between two walls that leave it no space
                     break;
                 }
+                walls.push(-touch.away);
                 position += touch.value * touch.away;
             }
             _ => {
@@ -148,7 +150,8 @@ fn nearest_from(prober: &Prober, (point, up): (Vector, Vector), mut position: Ve
                 if least <= enough || pulls.are_in_vain(gap.value) {
                     break;
                 }
-                position += gap.value * gap.away;
+                position += walls.along(gap.value * gap.away);
+                walls.pulled();
                 pushes = Attempts::new();
             }
         }

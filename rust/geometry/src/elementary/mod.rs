@@ -196,7 +196,9 @@ impl ElementarySurface {
     pub const fn is_periodic(&self) -> [bool; 2] {
         match self.kind {
             ElementaryKind::Plane => [false, false],
-            ElementaryKind::Cylinder { .. } | ElementaryKind::Cone { .. } | ElementaryKind::Sphere { .. } => [true, false],
+            ElementaryKind::Cylinder { .. } | ElementaryKind::Cone { .. } | ElementaryKind::Sphere { .. } => {
+                [true, false]
+            }
             ElementaryKind::Torus { .. } => [true, true],
         }
     }

@@ -120,7 +120,10 @@ impl FlatBorder {
         let near = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [cell[0] + i, cell[1] + j]));
         for known in near.filter_map(|cell| at.get(&cell)).flatten() {
             let (same, [x, y]) = (self.points[*known as usize], self.flat[*known as usize]);
-            if (same - point).norm_squared() <= ALIKE * ALIKE && (x - flat[0]).abs() < SAME && (y - flat[1]).abs() < SAME {
+            if (same - point).norm_squared() <= ALIKE * ALIKE
+                && (x - flat[0]).abs() < SAME
+                && (y - flat[1]).abs() < SAME
+            {
                 return *known;
             }
         }

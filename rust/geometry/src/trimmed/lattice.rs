@@ -15,11 +15,7 @@ const PIECE: f64 = 0.25;
 const MOST: usize = 5_000_000;
 
 /// Parameters of the points inside the border.
-pub fn points(
-    surface: &ElementarySurface,
-    chart: &Chart,
-    border: &FlatBorder,
-) -> Result<Vec<[f64; 2]>, TrimmedFault> {
+pub fn points(surface: &ElementarySurface, chart: &Chart, border: &FlatBorder) -> Result<Vec<[f64; 2]>, TrimmedFault> {
     let rows = rows::of(chart, border.range, MOST).ok_or(TrimmedFault::TooMany(MOST))?;
     let heights: Vec<f64> = rows.iter().map(|row| chart.flat([0.0, row.v])[1]).collect();
     let crossings = crossings(&heights, border);
@@ -30,10 +26,10 @@ pub fn points(
         for span in crossed.chunks_exact(2) {
             let index = |flat: f64| flat / (scale * row.step) - row.shift;
             let [first, end] = [index(span[0]).ceil(), index(span[1])];
-            if !(end - first + (found.len() as f64) < MOST as f64) {
+            let count = (end - first).max(0.0).ceil() as usize; // not a number: none
+            if count.saturating_add(found.len()) > MOST {
                 return Err(TrimmedFault::TooMany(MOST));
             }
-            let count = (end - first).max(0.0).ceil() as usize;
             let at = (0..count).map(|i| [(first + i as f64 + row.shift) * row.step, row.v]);
             found.extend(at.filter(|at| !close.has(surface, chart, *at)));
         }

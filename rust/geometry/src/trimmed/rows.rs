@@ -29,19 +29,18 @@ pub struct Row {
 
 /// The rows between two values of the second parameter, those at the ends left out; `None` where they are more than `most`.
 pub fn of(chart: &Chart, [low, high]: [f64; 2], most: usize) -> Option<Vec<Row>> {
-    let steps = match *chart {
-        Chart::Plane => return Some(Vec::new()),
+    match *chart {
+        Chart::Plane => Some(Vec::new()),
         Chart::Scaled(spacing) => {
             let count = ((high - low) / (0.5 * SQRT_3 * spacing.v)).ceil();
-            if !(count < most as f64) {
+            if count.is_nan() || count > most as f64 {
                 return None;
             }
             let row = |k: usize| Row { v: low + (high - low) * k as f64 / count, step: spacing.u, shift: shift(k) };
-            return Some((1..count as usize).map(row).collect());
+            Some((1..count as usize).map(row).collect())
         }
-        Chart::Mercator { side, .. } => rings(side / SQRT_3, [low, high], most)?,
-    };
-    Some(steps)
+        Chart::Mercator { side, .. } => rings(side / SQRT_3, [low, high], most),
+    }
 }
 
 /// Rows round a sphere: triangles have the circumradius `rho` (rad).
@@ -97,7 +96,7 @@ impl Ladder {
 
 /// Each row's points stand half a step beside those of the one before.
 fn shift(row: usize) -> f64 {
-    if row % 2 == 0 {
+    if row.is_multiple_of(2) {
         0.0
     } else {
         0.5
