@@ -40,6 +40,7 @@ from matplotlib.patches import Circle, Rectangle
 from PIL import Image
 
 import styluscam as sc
+from styluscam.parts.surfaces import Sphere
 from styluscam.types import FloatArray
 
 HERE = Path(__file__).parent
@@ -329,6 +330,46 @@ def spirals() -> Figure:
     return figure
 
 
+def meshing() -> Figure:
+    """A face of a sphere laid out on the map, and its triangles in space."""
+    radius, deviation, low, high = 10.0, 0.03, float(np.radians(20.0)), float(np.radians(80.0))
+    sphere = Sphere((0.0, 0.0, 0.0), radius)
+    engine = sphere.engine((0.0, 0.0, 1.0), ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)))
+    corners = np.array([(0.0, low), (1.6, low), (1.6, high), (0.0, high), (0.0, low)])
+    share = np.linspace(0.0, 1.0, 13)
+    edges = []
+    for start, end in pairwise(corners):
+        u, v = (start + share[:, None] * (end - start)).T
+        points = radius * np.stack([np.cos(u) * np.cos(v), np.sin(u) * np.cos(v), np.sin(v)], axis=1)
+        guides = [tuple(start + k / 4.0 * (end - start)) for k in range(5)]
+        edges.append((points, share.tolist(), guides))
+    meshed = engine.mesh(edges, deviation)
+    assert meshed is not None
+    nodes, triangles = meshed
+    figure = plt.figure(figsize=(11.4, 4.9))
+    flat, space = figure.add_subplot(1, 2, 1), figure.add_subplot(1, 2, 2, projection="3d")
+    latitude, longitude = np.arcsin(nodes[:, 2] / radius), np.arctan2(nodes[:, 1], nodes[:, 0])
+    north = np.arcsinh(np.tan(latitude))
+    flat.triplot(longitude, north, triangles, color=BLUE, lw=0.8)
+    border = np.concatenate([points for points, _, _ in edges])
+    flat.plot(
+        np.arctan2(border[:, 1], border[:, 0]),
+        np.arcsinh(np.tan(np.arcsin(np.clip(border[:, 2] / radius, -1, 1)))),
+        color=ORANGE,
+        lw=2.0,
+    )
+    labelled(flat, "longitude u", "arsinh(tan v)")
+    flat.set_aspect("equal")
+    flat.set_title("on the map: rows in step, fewer points further north", fontsize=11)
+    space.plot_trisurf(*nodes.T, triangles=triangles, color="#cfe3f1", edgecolor=BLUE, linewidth=0.5, shade=False)
+    space.plot(*border.T, color=ORANGE, lw=2.0)
+    space.set_axis_off()
+    space.set_box_aspect((9.4, 9.4, 6.5), zoom=1.1)
+    space.view_init(elev=28.0, azim=42.0)
+    space.set_title("in space: all triangles leave the sphere equally far", fontsize=11)
+    return figure
+
+
 def crossed(loop: FloatArray, axis: int, at: float) -> list[FloatArray]:
     """Where a loop crosses a line of the grid."""
     first, last = loop[:-1, :2], loop[1:, :2]
@@ -503,6 +544,7 @@ def convexity() -> Figure:
 
 PICTURES: dict[str, Callable[[], Figure]] = {
     "slope-matching": slope_matching,
+    "meshing": meshing,
     "envelope": envelope,
     "bounds": bounds,
     "push-cutter": push_cutter,

@@ -26,7 +26,7 @@ impl Edge {
         let fractions: Vec<f64> = (0..=count).map(|i| i as f64 / count as f64).collect();
         let guides = [0, 1, 2, 3, 4].map(|i| at(f64::from(i) / 4.0));
         let full = (to[0] - from[0] - TAU).abs() < 1e-12;
-        let point = |share: f64| surface.point(if full && share == 1.0 { at(0.0) } else { at(share) });
+        let point = |share: f64| surface.point(if full && share >= 1.0 { at(0.0) } else { at(share) });
         Self { points: fractions.iter().map(|share| point(*share)).collect(), fractions, guides }
     }
 
