@@ -129,6 +129,8 @@ def tutorial() -> Any:
         driver.shot("tutorial-6-post")
         driver.click(_save_button())
     yield until(PROGRAM.is_file, "a program")
+    status = FreeCADGui.getMainWindow().statusBar()
+    yield until(lambda: PROGRAM.name in status.currentMessage(), "the program's name in the status bar")
     yield driver.settled(20)
     return {
         **stage.seen(operation),

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from .. import post_list, settings
+from . import posted_files
 from .command import Command, job_in_front
 
 
@@ -42,7 +43,8 @@ class Post(Command):
         job = job_in_front()
         FreeCADGui.Selection.clearSelection()
         FreeCADGui.Selection.addSelection(job)
-        FreeCADGui.runCommand("CAM_Post")
+        with posted_files.named_in_status_bar(job):
+            FreeCADGui.runCommand("CAM_Post")
 
 
 def before() -> list[Command]:
