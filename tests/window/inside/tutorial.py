@@ -78,6 +78,22 @@ def _save_button() -> Any:
     return box.button(QtWidgets.QDialogButtonBox.Save) if box else None
 
 
+def _posted(job: Any) -> Any:
+    """The job's program, named in the status bar."""
+    import FreeCADGui
+
+    job.PostProcessorOutputFile = str(PROGRAM)
+    yield from stage.clicked("StylusCAM_Post")
+    yield until(lambda: PROGRAM.is_file() or _save_button(), "a program, or a dialog that asks for its file", 60)
+    if _save_button():
+        driver.shot("tutorial-6-post")
+        driver.click(_save_button())
+    yield until(PROGRAM.is_file, "a program")
+    status = FreeCADGui.getMainWindow().statusBar()
+    yield until(lambda: PROGRAM.name in status.currentMessage(), "the program's name in the status bar")
+    yield driver.settled(20)
+
+
 def tutorial() -> Any:
     """All steps, from an empty document to the program."""
     import FreeCAD
@@ -122,16 +138,7 @@ def tutorial() -> Any:
     stage.show_all()
     yield driver.settled(10)
     driver.shot("tutorial-5-path")
-    job.PostProcessorOutputFile = str(PROGRAM)
-    yield from stage.clicked("StylusCAM_Post")
-    yield until(lambda: PROGRAM.is_file() or _save_button(), "a program, or a dialog that asks for its file", 60)
-    if _save_button():
-        driver.shot("tutorial-6-post")
-        driver.click(_save_button())
-    yield until(PROGRAM.is_file, "a program")
-    status = FreeCADGui.getMainWindow().statusBar()
-    yield until(lambda: PROGRAM.name in status.currentMessage(), "the program's name in the status bar")
-    yield driver.settled(20)
+    yield from _posted(job)
     return {
         **stage.seen(operation),
         "process": operation.Process,
