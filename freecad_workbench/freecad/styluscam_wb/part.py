@@ -62,7 +62,7 @@ def arrays_of(shape: Any, tolerance: float, name: str, progress: Progress | None
     from styluscam.parts.progress import report
     from styluscam.parts.surfaces import Parametric
     from styluscam.parts.tessellation import refine_until
-    from styluscam.parts.trimmed import OWN_ATTEMPTS
+    from styluscam.parts.trimmed import OWN_ATTEMPTS, shares
 
     source = FilePath(name)
     bare = shape.copy(True, False)  # a mesh of its own: the document's shape keeps the one it shows
@@ -82,7 +82,8 @@ def arrays_of(shape: Any, tolerance: float, name: str, progress: Progress | None
         report(progress, "check", 0.6)
         return [assembly.outward(mesh, surface) for mesh, surface in zip(meshes, surfaces, strict=True)]
 
-    tessellation = refine_until(mesh_at, surfaces, tolerance, name)
+    aims = None if model is None else shares(surfaces)
+    tessellation = refine_until(mesh_at, surfaces, tolerance, name, shares=aims)
     areas = [(face.Area, tuple(face.CenterOfMass)) for face in faces]
     kinds = [assembly.kind_of(surface) for surface in surfaces]
     notes = () if bare.isClosed() else ("the model is not a closed solid: its material side is a guess",)

@@ -15,7 +15,7 @@ from styluscam.parts.kernel import Kernel
 from styluscam.parts.progress import AttemptSteps, Progress
 from styluscam.parts.surfaces import ExactSurface, Floats, Parametric
 from styluscam.parts.tessellation import FaceMesh, Tessellation, refine_until
-from styluscam.parts.trimmed import ANGLE, OWN_ATTEMPTS
+from styluscam.parts.trimmed import ANGLE, OWN_ATTEMPTS, shares
 
 # The kernel meshes face borders within the deflection asked, face insides with one so many times larger: they are
 # refined in numpy, only where the surface bends, which gives fewer triangles in less time than the kernel's own
@@ -48,7 +48,8 @@ def tessellate(
                 surfaces[i] = _with_seeds(surface, mesh)
         return meshes
 
-    return refine_until(mesh_at, surfaces, tolerance, str(file), steps.checked)
+    aims = None if model is None else shares(surfaces)
+    return refine_until(mesh_at, surfaces, tolerance, str(file), checked=steps.checked, shares=aims)
 
 
 def _mesh(shape: Kernel, faces: list[Kernel], deflection: float) -> None:

@@ -98,9 +98,13 @@ def refine_until(
     surfaces: Sequence[ExactSurface],
     tolerance: float,
     where: str = "",
+    *,
     checked: Callable[[float], None] = lambda _: None,
+    shares: Sequence[float] | None = None,
 ) -> Tessellation:
     """Make meshes whose checked deviation is <= `tolerance` (mm), inward and outward each.
+
+    `shares`: inside each face triangles are split down to this part of the tolerance; its border may take all of it.
 
     `mesh_at(deflection)` meshes the whole shape so that neighbouring faces share their border nodes, with borders
     within `deflection`; the insides may be coarser, they are refined here. Borders are never touched here (the mesh
@@ -117,7 +121,8 @@ def refine_until(
         refined = []
         work = np.cumsum([0] + [len(m.triangles) for m in meshed]) / max(1, sum(len(m.triangles) for m in meshed))
         for i, (m, s, bound) in enumerate(zip(meshed, surfaces, allowed, strict=True)):
-            refined.append(refine(m, s, bound, _within(checked, float(work[i]), float(work[i + 1]))))
+            aim = bound - tolerance + tolerance * (shares[i] if shares is not None else 1.0)
+            refined.append(refine(m, s, bound, _within(checked, float(work[i]), float(work[i + 1])), aim))
         meshes, deviations = [m for m, _ in refined], [d for _, d in refined]
         worst = max(d.worst / bound for d, bound in zip(deviations, allowed, strict=True))
         if worst <= 1.0:
@@ -273,16 +278,21 @@ def _lost(away: Floats, points: Floats, nodes: Floats, ends: Ints) -> NDArray[np
 
 
 def refine(
-    mesh: FaceMesh, surface: ExactSurface, tolerance: float, checked: Callable[[float], None] = lambda _: None
+    mesh: FaceMesh,
+    surface: ExactSurface,
+    tolerance: float,
+    checked: Callable[[float], None] = lambda _: None,
+    aim: float | None = None,
 ) -> tuple[FaceMesh, Deviation]:
-    """Split triangles until each is within `tolerance` (mm) of the surface; return also the deviation left.
+    """Split triangles until each is within `aim` mm of the surface (the tolerance); return also the deviation left.
 
     New nodes lie on the surface. Sides on the face's border stay: a neighbour shares them. Where they alone are the
     cause, the deviation left exceeds the tolerance.
     """
     nodes, triangles, uv = mesh.nodes, mesh.triangles, mesh.uv
     bounds = _bounds(mesh, surface, hopeless=tolerance)
-    if not (bounds[:, :2] > tolerance).any():
+    aim = tolerance if aim is None else aim
+    if not (bounds[:, :2] > aim).any():
         checked(1.0)
         return mesh, _largest(bounds)
     border = mesh.border
@@ -293,7 +303,7 @@ def refine(
     node_off[triangles] = np.abs(_distance(mesh, surface, np.eye(3)))
     for attempt in range(REFINEMENTS):
         checked(1.0 - 0.5 ** (attempt + 1))  # each round has fewer triangles to look at than the one before
-        failing = bounds[:, :2].max(axis=1) > tolerance
+        failing = bounds[:, :2].max(axis=1) > aim
         if isinstance(surface, Plane) or not failing.any():
             break
         ends, of_triangle = _edges(triangles)
@@ -302,7 +312,7 @@ def refine(
         length = np.linalg.norm(nodes[ends[:, 0]] - nodes[ends[:, 1]], axis=1)
         bow = bounds[failing, 2:] - node_off[ends].max(axis=1)[sides]
         off = node_off[triangles[failing]].max(axis=1)
-        split = _sides_to_split(bow, inner[sides], length[sides], off, tolerance)
+        split = _sides_to_split(bow, inner[sides], length[sides], off, aim)
         marked = np.zeros(len(ends), dtype=bool)
         marked[sides[split]] = True
         if not marked.any() or len(triangles) > MOST_TRIANGLES:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from styluscam.parts.arrays import area_vectors
-from styluscam.parts.surfaces import Elementary, ExactSurface, Floats, Vector, unit
+from styluscam.parts.surfaces import Elementary, ExactSurface, Floats, Plane, Vector, unit
 from styluscam.parts.tessellation import FaceMesh
 
 # Largest turn (rad) between neighbouring segments of an edge: it decides only on arcs below 65 times the deflection.
@@ -27,6 +27,9 @@ ON_EDGES, INSIDE = 0.85, 0.98
 SEGMENTS, HALVINGS = 4, 14
 # At so many even fractions an edge's parameters on its face are asked for.
 GUIDES = 5
+# What a convex face's triangles may be off, as a part of the tolerance, where hollow faces are in the model as well:
+# planning pays for the sum of both sides, and the hollow ones take all of theirs.
+CONVEX_BESIDE_HOLLOW = 0.45
 # A face's triangles may miss this part of its area, and what its border's chords cut off: else its edges mislead.
 AREA_SHARE = 0.02
 
@@ -74,19 +77,35 @@ class Model:
     def meshes(self, surfaces: Sequence[ExactSurface], deflection: float) -> list[FaceMesh] | None:
         """Return each face's triangles, whose edges are within `deflection` mm, and nearly all of whose insides are.
 
-        None where a face is not elementary, or its edges do not close.
+        Of convex faces beside hollow ones a part of that, see :func:`shares`. None where a face is not elementary, or its
+        edges do not close.
         """
         if not all(isinstance(surface, Elementary) for surface in surfaces):
             return None
-        points = [edge_points(edge, ON_EDGES * deflection) for edge in self.edges]
+        of_faces = shares(surfaces)
+        of_edges = [1.0] * len(self.edges)
+        for face, share in zip(self.faces, of_faces, strict=True):
+            for use in face.uses:
+                of_edges[use.edge] = min(of_edges[use.edge], share)
+        points = [
+            edge_points(edge, ON_EDGES * share * deflection) for edge, share in zip(self.edges, of_edges, strict=True)
+        ]
         found = []
-        for face, surface in zip(self.faces, surfaces, strict=True):
+        for face, surface, share in zip(self.faces, surfaces, of_faces, strict=True):
             assert isinstance(surface, Elementary)
-            mesh = _face_mesh(face, surface, points, INSIDE * deflection)
+            mesh = _face_mesh(face, surface, points, INSIDE * share * deflection)
             if mesh is None:
                 return None
             found.append(mesh)
         return found
+
+
+def shares(surfaces: Sequence[ExactSurface]) -> list[float]:
+    """Return what part of the tolerance each face's triangles should keep to."""
+    bent = [surface for surface in surfaces if not isinstance(surface, Plane)]
+    both = {surface.sign > 0.0 for surface in bent if isinstance(surface, Elementary)} == {True, False}
+    is_convex = [isinstance(s, Elementary) and not isinstance(s, Plane) and s.sign > 0.0 for s in surfaces]
+    return [CONVEX_BESIDE_HOLLOW if both and convex else 1.0 for convex in is_convex]
 
 
 def edge_points(edge: Edge, deflection: float) -> tuple[Floats, list[float]]:

@@ -5,6 +5,7 @@
 mod advice;
 mod body;
 mod check;
+mod curvature;
 mod document;
 mod error;
 mod estimate;

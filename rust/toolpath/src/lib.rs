@@ -11,12 +11,15 @@ mod linking;
 mod nearest;
 pub mod offset;
 mod pass;
+mod seam;
 mod segment;
 mod surface;
 
 pub use error::PlanError;
 pub use lattice::{Cells, Lattice};
-pub use linking::{join, link, AlongSurface, AtDepth, Heights, LinkRules, Links, OverClearance, Position, Rates, Run};
+pub use linking::{join, link, AlongSurface, AtDepth, Entered, Heights, LinkRules, Links, OverClearance, Position, Rates, Run};
+pub use nearest::ordered;
 pub use pass::{Pass, PathPoint, Sense};
+pub use seam::Seam;
 pub use segment::{Curve, Pace, Segment};
 pub use surface::Surface;

@@ -5,9 +5,9 @@
 
 use rayon::prelude::*;
 use styluscam_geometry::Vector;
-use styluscam_motion::{Cancelled, Move, Watch};
+use styluscam_motion::{Cancelled, Move, Role, Watch};
 
-use crate::{fitting, fitting::Course, nearest, Pass, PathPoint, Segment, Sense, Surface};
+use crate::{fitting, fitting::Course, Pass, PathPoint, Segment, Surface};
 
 /// Heights of links over clearance, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,11 +27,9 @@ pub struct Rates {
     pub plunge: f64,
 }
 
-/// How passes follow each other.
+/// How the tool gets from pass to pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Links {
-    /// The direction of levels or rows.
-    pub sense: Sense,
     /// Heights of links over clearance.
     pub heights: Heights,
     /// Feeds.
@@ -132,22 +130,38 @@ pub struct Run<P> {
     pub segments: Vec<Segment>,
 }
 
-/// The moves along all passes, joined by the rules. Within a group the nearest pass comes next; a loop begins where it is
-/// nearest.
+/// A pass as it is followed, and how the tool gets to it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entered {
+    /// The pass, in its direction, from where it begins.
+    pub pass: Pass,
+    /// The way down from the end of the pass before, its ends included; empty where the rules decide.
+    pub ramp: Vec<PathPoint>,
+}
+
+impl From<Pass> for Entered {
+    fn from(pass: Pass) -> Self {
+        Self { pass, ramp: Vec::new() }
+    }
+}
+
+/// The moves along all passes, in their order, joined by their ramps and by the rules.
 ///
 /// # Errors
 /// `Cancelled`.
 pub fn link(
-    passes: &[Pass],
+    passes: &[Entered],
     rules: &impl LinkRules<PathPoint>,
     links: &Links,
     watch: &Watch,
 ) -> Result<Vec<Move>, Cancelled> {
-    // ordered, then joined
-    watch.begin("linking", 2 * passes.len());
-    let passes = nearest::ordered(passes, links.sense, watch)?;
-    let runs: Vec<Run<PathPoint>> = passes.iter().filter_map(|pass| run_of(pass, links.rates.cut)).collect();
-    let segments = join(&runs, rules, links, watch)?;
+    watch.begin("linking", passes.len());
+    let runs: Vec<Run<PathPoint>> = passes.iter().filter_map(|entered| run_of(&entered.pass, links.rates.cut)).collect();
+    let ramps = passes.iter().filter(|entered| !entered.pass.points.is_empty()).map(|entered| {
+        let ramp = entered.ramp.get(1..)?;
+        Some(lines(ramp, links.rates.cut).into_iter().map(|line| line.in_role(Role::Ramp)).collect())
+    });
+    let segments = joined(&runs, ramps.collect(), rules, links, watch)?;
     Ok(segments.iter().map(|segment| segment.to_move(links.operation)).collect())
 }
 
@@ -163,8 +177,22 @@ pub fn join<P: Position + Sync>(
     links: &Links,
     watch: &Watch,
 ) -> Result<Vec<Segment>, Cancelled> {
+    joined(runs, vec![None; runs.len()], rules, links, watch)
+}
+
+/// As [`join`], where some of the paths to the runs are known.
+fn joined<P: Position + Sync>(
+    runs: &[Run<P>],
+    known: Vec<Option<Vec<Segment>>>,
+    rules: &impl LinkRules<P>,
+    links: &Links,
+    watch: &Watch,
+) -> Result<Vec<Segment>, Cancelled> {
     let gap = |number: usize| {
         watch.advance(1)?;
+        if let Some(Some(path)) = known.get(number) {
+            return Ok(Some(path.clone()));
+        }
         let before = number.checked_sub(1).map(|before| &runs[before]);
         Ok(before.and_then(|before| rules.path(&before.to, &runs[number].from)))
     };

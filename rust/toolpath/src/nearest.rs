@@ -4,7 +4,7 @@ use rstar::{PointDistance, RTree, RTreeObject, AABB};
 use styluscam_geometry::Vector;
 use styluscam_motion::{Cancelled, Watch};
 
-use crate::{Pass, PathPoint, Sense};
+use crate::{seam, Pass, PathPoint, Seam, Sense};
 
 /// Groups of more passes are searched in a tree: for fewer it does not pay.
 const FEW: usize = 16;
@@ -14,25 +14,39 @@ const STRETCH: usize = 16;
 /// All passes in the order and direction in which they are followed, groups (levels or rows) one after the other.
 ///
 /// Groups are turned round as the `sense` has it. Within a group the nearest pass comes next, the first of
-/// equals; a loop begins where it is nearest. In n log n of the points, or nearly.
+/// equals; a loop begins where the `seam` has it. In n log n of the points, or nearly.
 ///
 /// # Errors
 /// `Cancelled`.
-pub fn ordered(passes: &[Pass], sense: Sense, watch: &Watch) -> Result<Vec<Pass>, Cancelled> {
+pub fn ordered(passes: &[Pass], sense: Sense, seam: Seam, watch: &Watch) -> Result<Vec<Pass>, Cancelled> {
+    watch.begin("ordering", passes.len());
     let mut ordered: Vec<Pass> = Vec::with_capacity(passes.len());
     for (number, group) in passes.chunk_by(|a, b| a.group == b.group).enumerate() {
         let turned = sense.turns(number);
-        let mut left = Left::of(group, turned);
+        let begun: Option<Vec<Pass>> =
+            seam.bearing(number).map(|bearing| group.iter().map(|pass| begun_at(pass, bearing)).collect());
+        let group = begun.as_deref().unwrap_or(group);
+        let is_begun = begun.is_some();
+        let mut left = Left::of(group, turned, is_begun);
         for _ in group {
             watch.advance(1)?;
             let last = ordered.last().and_then(|pass| pass.points.last()).map(|point| point.tip);
-            ordered.extend(left.take(last).map(|pass| directed(pass, turned, last)));
+            ordered.extend(left.take(last).map(|pass| directed(pass, turned, last.filter(|_| !is_begun))));
         }
     }
     Ok(ordered)
 }
 
-/// A pass in its direction; a loop begins at its point nearest to `from`.
+/// A pass; a loop begins in a direction from its middle.
+fn begun_at(pass: &Pass, bearing: f64) -> Pass {
+    let mut pass = pass.clone();
+    if pass.closed {
+        seam::begin_at(&mut pass.points, bearing);
+    }
+    pass
+}
+
+/// A pass in its direction; a loop begins at its point nearest to `from`, if that is given.
 fn directed(pass: &Pass, turned: bool, from: Option<Vector>) -> Pass {
     let mut pass = pass.clone();
     if turned {
@@ -61,16 +75,19 @@ fn square(point: &PathPoint, from: Vector) -> f64 {
 struct Left<'a> {
     group: &'a [Pass],
     turned: bool,
+    /// Whether loops begin at their first points.
+    is_begun: bool,
     is_taken: Vec<bool>,
     /// Of large groups: stretches of all that are left.
     tree: Option<RTree<Stretch<'a>>>,
 }
 
 impl<'a> Left<'a> {
-    fn of(group: &'a [Pass], turned: bool) -> Self {
-        let stretches = || group.iter().enumerate().flat_map(|(number, pass)| stretches(number, entries(pass, turned)));
+    fn of(group: &'a [Pass], turned: bool, is_begun: bool) -> Self {
+        let entries = |pass| entries(pass, turned, is_begun);
+        let stretches = || group.iter().enumerate().flat_map(|(number, pass)| stretches(number, entries(pass)));
         let tree = (group.len() > FEW).then(|| RTree::bulk_load(stretches().collect()));
-        Self { group, turned, is_taken: vec![false; group.len()], tree }
+        Self { group, turned, is_begun, is_taken: vec![false; group.len()], tree }
     }
 
     /// Takes the pass nearest to `from`, or the first.
@@ -81,14 +98,14 @@ impl<'a> Left<'a> {
                 tree.nearest_neighbors(&from.into()).into_iter().map(|stretch| stretch.pass).min()
             }
             (Some(from), None) => {
-                let distance = |number: &usize| least(entries(&self.group[*number], self.turned), from);
+                let distance = |number: &usize| least(entries(&self.group[*number], self.turned, self.is_begun), from);
                 self.numbers().min_by(|a, b| distance(a).total_cmp(&distance(b)))
             }
         }?;
         self.is_taken[number] = true;
         let pass = &self.group[number];
         if let Some(tree) = &mut self.tree {
-            for stretch in stretches(number, entries(pass, self.turned)) {
+            for stretch in stretches(number, entries(pass, self.turned, self.is_begun)) {
                 tree.remove(&stretch);
             }
         }
@@ -101,9 +118,9 @@ impl<'a> Left<'a> {
 }
 
 /// The points at which a pass may begin.
-fn entries(pass: &Pass, turned: bool) -> &[PathPoint] {
+fn entries(pass: &Pass, turned: bool, is_begun: bool) -> &[PathPoint] {
     let entry = if turned { pass.points.last() } else { pass.points.first() };
-    if pass.closed {
+    if pass.closed && !is_begun {
         &pass.points
     } else {
         entry.map_or(&[][..], std::slice::from_ref)
@@ -164,7 +181,7 @@ mod tests {
             let (turned, mut left): (bool, Vec<&Pass>) = (sense.turns(number), group.iter().collect());
             while !left.is_empty() {
                 let last = ordered.last().and_then(|pass| pass.points.last()).map(|point| point.tip);
-                let distance = |pass: &Pass| last.map_or(0.0, |from| least(entries(pass, turned), from));
+                let distance = |pass: &Pass| last.map_or(0.0, |from| least(entries(pass, turned, false), from));
                 let nearest = (0..left.len()).min_by(|a, b| distance(left[*a]).total_cmp(&distance(left[*b]))).unwrap();
                 ordered.push(directed(left.remove(nearest), turned, last));
             }
@@ -189,7 +206,7 @@ mod tests {
             passes in any_passes(),
             sense in prop::sample::select(vec![Sense::Forward, Sense::Reversed, Sense::Alternate]),
         ) {
-            let ordered = ordered(&passes, sense, &Watch::default()).unwrap();
+            let ordered = ordered(&passes, sense, Seam::Nearest, &Watch::default()).unwrap();
             prop_assert_eq!(ordered, ordered_slowly(&passes, sense));
         }
     }
@@ -203,7 +220,7 @@ mod tests {
         let loops: Vec<Pass> =
             (0..6400).map(|i| pass(&std::array::from_fn::<_, 60, _>(|k| corner(i, k)), true, 0)).collect();
         let began = std::time::Instant::now();
-        assert_eq!(ordered(&loops, Sense::Forward, &Watch::default()).unwrap().len(), loops.len());
+        assert_eq!(ordered(&loops, Sense::Forward, Seam::Nearest, &Watch::default()).unwrap().len(), loops.len());
         // half a second of work; to look at all of them takes 40, and machines are busy
         assert!(began.elapsed().as_secs_f64() < 30.0, "{:?}", began.elapsed());
     }
@@ -212,6 +229,6 @@ mod tests {
     fn it_can_be_cancelled() {
         let watch = Watch::default();
         watch.cancel();
-        assert_eq!(ordered(&[pass(&[[0.0; 3]; 2], false, 0)], Sense::Forward, &watch), Err(Cancelled));
+        assert_eq!(ordered(&[pass(&[[0.0; 3]; 2], false, 0)], Sense::Forward, Seam::Nearest, &watch), Err(Cancelled));
     }
 }

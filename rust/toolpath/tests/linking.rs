@@ -6,13 +6,13 @@ use styluscam_geometry::{kinds, Mesh, ProfileDocument, Tool, ToolDocument, Vecto
 use styluscam_motion::{Cancelled, Move, Watch};
 use styluscam_toolpath::offset::{Envelope, Index};
 use styluscam_toolpath::{
-    join, link, AlongSurface, AtDepth, Heights, LinkRules, Links, OverClearance, Pass, PathPoint, Rates, Run, Segment,
-    Sense, Surface,
+    join, link, ordered, AlongSurface, AtDepth, Entered, Heights, LinkRules, Links, OverClearance, Pass, PathPoint, Rates, Run, Seam,
+    Segment, Sense, Surface,
 };
 
 const RATES: Rates = Rates { cut: 1000.0, plunge: 200.0 };
 const LINKS: Links =
-    Links { sense: Sense::Alternate, heights: Heights { clearance: 30.0, retract: 15.0 }, rates: RATES, operation: 3 };
+    Links { heights: Heights { clearance: 30.0, retract: 15.0 }, rates: RATES, operation: 3 };
 /// A ramp of 1 in 2: so far over it, in height, the tip of a ball of 3 mm radius stands: 3 (1 / cos - 1).
 const OVER: f64 = 3.0 * (1.118_033_988_749_895 - 1.0);
 
@@ -72,7 +72,10 @@ fn over() -> Vec<Move> {
 }
 
 fn linked(surface: &Surface<'_>, rules: &impl LinkRules<PathPoint>) -> Vec<Move> {
-    link(&rows(surface), rules, &LINKS, &Watch::default()).unwrap()
+    let watch = Watch::default();
+    let passes = ordered(&rows(surface), Sense::Alternate, Seam::Nearest, &watch).unwrap();
+    let entered: Vec<Entered> = passes.into_iter().map(Entered::from).collect();
+    link(&entered, rules, &LINKS, &watch).unwrap()
 }
 
 #[test]

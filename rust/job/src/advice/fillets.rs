@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use styluscam_geometry::Vector;
 
-use super::{corner::Corner, creases::CREASE_DEG, curvature::axes, patch::Patch};
+use super::{corner::Corner, creases::CREASE_DEG, patch::Patch};
+use crate::curvature::axes;
 
 /// Points of each hollow face from which its fillet is followed to both ends.
 const POINTS: usize = 12;

@@ -2,7 +2,6 @@
 
 mod corner;
 mod creases;
-mod curvature;
 mod fillets;
 mod patch;
 #[cfg(test)]
@@ -10,5 +9,5 @@ mod tests;
 mod walls;
 
 pub use corner::Corner;
-pub use curvature::Bend;
+pub use crate::curvature::Bend;
 pub use walls::{walls, Wall, Walls};

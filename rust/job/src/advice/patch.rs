@@ -2,7 +2,7 @@
 
 use styluscam_geometry::{Mesh, Vector};
 
-use super::curvature::{bend, Bend};
+use crate::curvature::{bend, Bend};
 
 /// A triangle of a selected face, in work coordinates.
 #[derive(Clone, Copy, Debug)]

@@ -3,11 +3,11 @@
 use super::{
     corner::{alike, Corner},
     creases::creases,
-    curvature::Bend,
     fillets::fillets,
     patch::Patch,
 };
 use crate::{
+    curvature::Bend,
     faces::{chosen, Look},
     resolve::selection_of,
     JobDocument, JobError, Scene, Selection,

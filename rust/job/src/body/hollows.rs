@@ -11,6 +11,7 @@ use styluscam_geometry::{Mesh, Vector};
 use super::adjacency::edges;
 use super::samples::{of_triangles, Sample};
 use super::Body;
+use crate::curvature::bend as bend_of;
 
 /// From this slope on a wall is upright, degrees.
 pub const UPRIGHT_DEG: f64 = 89.0;
@@ -232,7 +233,9 @@ fn within(mesh: &Mesh, triangle: usize) -> f64 {
         let along = corners[j] - corners[i];
         -(normals[j] - normals[i]).dot(&along) / along.norm_squared()
     };
-    let most = bend(0, 1).max(bend(1, 2)).max(bend(2, 0));
+    // no edge need run along the hollow: what they say together does
+    let (hollow, _) = bend_of(&corners, &normals, mesh.model_normal(triangle)).most_hollow();
+    let most = bend(0, 1).max(bend(1, 2)).max(bend(2, 0)).max(-hollow);
     if most > STRAIGHT {
         1.0 / most
     } else {

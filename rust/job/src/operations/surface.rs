@@ -2,9 +2,13 @@
 //! and they are linked; what becomes of the faces is measured beside.
 
 use styluscam_geometry::Tool;
-use styluscam_motion::SpindleDirection;
+use styluscam_motion::{Move, SpindleDirection};
 use styluscam_toolpath::{
-    budget::Budget, link, offset::Envelope, AlongSurface, Heights, Links, Pass, PlanError, Rates, Sense, Surface,
+    budget::Budget,
+    forming::{ramped, Ramp},
+    link,
+    offset::Envelope,
+    ordered, AlongSurface, Entered, Heights, Links, Pass, PlanError, Rates, Seam, Sense, Surface,
 };
 
 use super::budget;
@@ -36,6 +40,16 @@ pub trait FollowsSurface {
     /// In which direction its passes are followed.
     fn sense(&self, common: &OperationKeys) -> Sense {
         sense(common, self.has_material_on_right())
+    }
+
+    /// Where its loops begin.
+    fn seam(&self) -> Seam {
+        Seam::Nearest
+    }
+
+    /// Height over length of the ramps from level to level; none where the tool goes straight down the wall.
+    fn ramp_slope(&self) -> Option<f64> {
+        None
     }
 
     /// Its passes.
@@ -117,10 +131,9 @@ impl Task<'_> {
         }
     }
 
-    fn links(&self, sense: Sense) -> Links {
+    fn links(&self) -> Links {
         let (scene, common) = (self.context.scene, self.context.common);
         Links {
-            sense,
             heights: Heights { clearance: scene.clearance, retract: scene.retract },
             rates: Rates { cut: common.feeds.cut, plunge: common.feeds.plunge },
             operation: self.context.operation,
@@ -160,13 +173,27 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
         note: kind.note(groups, passes),
         facts: kind.facts(groups, &traced),
         surface: Some(facts),
-        moves: link(
-            &traced.passes,
-            &task.along(&surface, kind.pitch()),
-            &task.links(kind.sense(context.common)),
-            watch,
-        )?,
+        moves: linked(kind, &task, &surface, &traced)?,
     })
+}
+
+/// The moves along the passes, in their order.
+fn linked(
+    kind: &impl FollowsSurface,
+    task: &Task<'_>,
+    surface: &Surface<'_>,
+    traced: &Traced,
+) -> Result<Vec<Move>, JobError> {
+    let (context, watch) = (task.context, task.context.watch);
+    let passes = ordered(&traced.passes, kind.sense(context.common), kind.seam(), watch)?;
+    let entered = match kind.ramp_slope() {
+        Some(slope) => {
+            let ramp = Ramp { slope, deviation: task.budget.deviation, longest: context.node_spacing() };
+            ramped(surface, passes, &ramp, watch)?
+        }
+        None => passes.into_iter().map(Entered::from).collect(),
+    };
+    Ok(link(&entered, &task.along(surface, kind.pitch()), &task.links(), watch)?)
 }
 
 /// The end that the heights are to an operation, if the tool would go on below.

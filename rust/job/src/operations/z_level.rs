@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use styluscam_toolpath::{PlanError, Surface};
+use styluscam_toolpath::{PlanError, Seam, Surface};
 use styluscam_verify::{Contact, Height, OrderedPasses, Passes};
 
 use super::facts::counted;
@@ -21,6 +21,18 @@ pub struct ZLevel {
     /// Distance between levels.
     #[schemars(extend("x-example" = "{ height = 0.5 }"))]
     pub step: Step,
+    /// Direction from a loop's middle in which it begins, degrees from +X; where it is nearest when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "deg", "minimum" = -360.0, "maximum" = 360.0))]
+    pub seam_direction_deg: Option<f64>,
+    /// By how much that direction turns from level to level, degrees: 137.5 spreads the beginnings evenly.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "deg", "minimum" = -360.0, "maximum" = 360.0))]
+    pub seam_spread_deg: Option<f64>,
+    /// Angle of ramps along the wall from level to level, degrees: they leave no line of steps; straight down when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "deg", "minimum" = 0.1, "maximum" = 45.0))]
+    pub ramp_angle_deg: Option<f64>,
 }
 
 impl ZLevel {
@@ -33,7 +45,7 @@ impl ZLevel {
 
 impl OperationKind for ZLevel {
     fn check(&self, _common: &OperationKeys, _path: &str) -> Result<(), JobError> {
-        Ok(()) // its only key stands alone
+        Ok(()) // ramps lead from any seam
     }
 
     fn cuts_upright_walls(&self) -> bool {
@@ -77,6 +89,20 @@ impl FollowsSurface for ZLevel {
     /// The higher ground.
     fn has_material_on_right(&self) -> bool {
         true
+    }
+
+    fn seam(&self) -> Seam {
+        match (self.seam_direction_deg, self.seam_spread_deg) {
+            (None, None) => Seam::Nearest,
+            (first, spread) => Seam::Bearing {
+                first: first.unwrap_or(0.0).to_radians(),
+                spread: spread.unwrap_or(0.0).to_radians(),
+            },
+        }
+    }
+
+    fn ramp_slope(&self) -> Option<f64> {
+        self.ramp_angle_deg.map(|angle| libm::tan(angle.to_radians()))
     }
 
     fn pitch(&self) -> f64 {

@@ -9,7 +9,7 @@
 use rayon::prelude::*;
 use styluscam_motion::Watch;
 
-use super::{level_curve::LevelCurve, nesting, stitch, stitch::Beside};
+use super::{level_curve::LevelCurve, nesting, ramps, stitch, stitch::Beside};
 use crate::{fitting, nearest, Pass, PathPoint, PlanError, Surface};
 
 /// The line between two points is looked at this far beyond both, mm: on upright walls they lie over each other.
@@ -56,10 +56,11 @@ pub fn spirals(
     Ok(found)
 }
 
-struct Descent<'a> {
-    surface: &'a Surface<'a>,
-    deviation: f64,
-    longest: f64,
+/// How a path goes down between two loops.
+pub(super) struct Descent<'a> {
+    pub surface: &'a Surface<'a>,
+    pub deviation: f64,
+    pub longest: f64,
 }
 
 /// A closed loop, and how far round each of its points is, from 0 to 1.
@@ -102,28 +103,56 @@ impl Descent<'_> {
 
     /// One turn from a loop, from its first point on, down to the next one, with that loop as it begins there.
     fn turn(&self, above: &Level, below: &Pass) -> Option<(Vec<PathPoint>, Level)> {
-        let mut points = below.points.clone();
-        nearest::begin_nearest(&mut points, above.points.first()?.tip);
-        let pairs = stitch::pairs(&above.points, &points);
-        let beside = stitch::beside(&pairs, [&above.points, &points]);
-        let turned: Vec<[usize; 2]> = pairs.iter().map(|[i, j]| [*j, *i]).collect();
-        let of_above = stitch::beside(&turned, [&points, &above.points]);
-        let is_far = is_far(&beside, [&above.points, &points]) || is_far(&of_above, [&points, &above.points]);
-        if is_far || beside.len() != points.len() {
-            return None;
-        }
-        let round = stitch::carried(&beside, &above.round, &points);
-        let below = Level { points, round };
+        let (below, pairs) = facing(above, below)?;
+        let turn = self.fitted(above, &below, &pairs, 1.0)?;
+        Some((turn, below))
+    }
+
+    /// A ramp from a loop's first point, this share of a turn long or up to the next point of the loop below: the ramp, that
+    /// loop from the point nearest to where the ramp begins, and the number of its point at which it arrives.
+    pub(super) fn ramp(
+        &self,
+        above: Vec<PathPoint>,
+        below: &Pass,
+        share: f64,
+    ) -> Option<(Vec<PathPoint>, Vec<PathPoint>, usize)> {
+        let above = Level::new(above);
+        let (below, pairs) = facing(&above, below)?;
+        let (arrival, round) = ramps::arrival(&below.round, share)?;
+        let ramp = self.fitted(&above, &below, &ramps::until(pairs, arrival), round)?;
+        let arrives = ramp.last()?.tip == below.points.get(arrival)?.tip;
+        arrives.then_some((ramp, below.points, arrival))
+    }
+
+    /// The path between points that belong together, which falls evenly and is at the lower loop when it is `whole` round.
+    fn fitted(&self, above: &Level, below: &Level, pairs: &[[usize; 2]], whole: f64) -> Option<Vec<PathPoint>> {
         let mut curve = LevelCurve::new(self.surface, 0.0);
-        let exact = exact(&mut curve, above, &below, &pairs)?;
+        let exact = exact(&mut curve, above, below, (pairs, whole))?;
         let runs = fitting::densified(&exact, self.deviation, self.longest, &mut |a: &PathPoint, b: &PathPoint| {
             curve.at_height(0.5 * (a.tip.z + b.tip.z)).between(a, b)
         });
         let [run] = &runs[..] else { return None };
         let is_whole =
             run.iter().all(|point| point.selected) && run.windows(2).all(|pair| pair[1].tip.z < pair[0].tip.z);
-        is_whole.then(|| (fitting::thinned(run, self.deviation), below))
+        is_whole.then(|| fitting::thinned(run, self.deviation))
     }
+}
+
+/// The next loop as it begins beside the first point of the one above, and the pairs of their points; none where they are too
+/// far apart.
+fn facing(above: &Level, below: &Pass) -> Option<(Level, Vec<[usize; 2]>)> {
+    let mut points = below.points.clone();
+    nearest::begin_nearest(&mut points, above.points.first()?.tip);
+    let pairs = stitch::pairs(&above.points, &points);
+    let beside = stitch::beside(&pairs, [&above.points, &points]);
+    let turned: Vec<[usize; 2]> = pairs.iter().map(|[i, j]| [*j, *i]).collect();
+    let of_above = stitch::beside(&turned, [&points, &above.points]);
+    let is_far = is_far(&beside, [&above.points, &points]) || is_far(&of_above, [&points, &above.points]);
+    if is_far || beside.len() != points.len() {
+        return None;
+    }
+    let round = stitch::carried(&beside, &above.round, &points);
+    Some((Level { points, round }, pairs))
 }
 
 /// Whether a point of the second loop is farther in plan from the first than their slopes explain: the wall ends between them.
@@ -137,16 +166,22 @@ fn is_far(beside: &[Beside], [first, second]: [&[PathPoint]; 2]) -> bool {
     beside.iter().zip(second).any(is_far)
 }
 
-/// Exact points between those above and below that belong together, as far down as they are round.
-fn exact(curve: &mut LevelCurve<'_>, above: &Level, below: &Level, pairs: &[[usize; 2]]) -> Option<Vec<PathPoint>> {
+/// Exact points between those above and below that belong together, as far down as they are round, of a `whole`.
+fn exact(
+    curve: &mut LevelCurve<'_>,
+    above: &Level,
+    below: &Level,
+    (pairs, whole): (&[[usize; 2]], f64),
+) -> Option<Vec<PathPoint>> {
     let mut points: Vec<PathPoint> = Vec::with_capacity(pairs.len());
-    for [i, j] in pairs {
-        let share = 0.5 * (above.round.get(*i)? + below.round.get(*j)?);
+    for (number, [i, j]) in pairs.iter().enumerate() {
+        let share = 0.5 * (above.round.get(*i)? + below.round.get(*j)?) / whole;
         let (above, below) = (above.points.get(*i)?, below.points.get(*j)?);
         // ends are the loops' own points
         let point = match share {
+            _ if number + 1 == pairs.len() => *below,
             share if share <= 0.0 => *above,
-            share if share >= 1.0 => *below,
+            share if share >= 1.0 => continue,
             share => between(curve, above, below, share)?,
         };
         // pairs that lie over each other in plan are one position of the path

@@ -1,0 +1,91 @@
+//! Ramps: from a level to the next along the wall, instead of straight down it.
+//!
+//! A ramp is the beginning of a spiral's turn ([`super::spiral`]) that is done sooner: its points lie on the envelope, between two
+//! loops that belong together, and its height falls evenly. The next loop begins and ends where the ramp arrives. Derived in
+//! docs/concepts/spirals.md.
+
+use styluscam_motion::{Cancelled, Watch};
+
+use super::{nesting, spiral::Descent};
+use crate::{Entered, Pass, PathPoint, Surface};
+
+/// How ramps go down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ramp {
+    /// Height over length in plan; the longest is one turn.
+    pub slope: f64,
+    /// How far a chord may be from the envelope, mm.
+    pub deviation: f64,
+    /// In plan, mm, as in `fitting::densified`.
+    pub longest: f64,
+}
+
+/// Passes in the order in which they are followed, each with the ramp to it where its loop follows that of the pass before, a
+/// level down; the others as they are.
+///
+/// # Errors
+/// `Cancelled`.
+pub fn ramped(surface: &Surface<'_>, ordered: Vec<Pass>, ramp: &Ramp, watch: &Watch) -> Result<Vec<Entered>, Cancelled> {
+    let followers = nesting::followers(&ordered);
+    let descent = Descent { surface, deviation: ramp.deviation, longest: ramp.longest };
+    let mut entered: Vec<Entered> = Vec::with_capacity(ordered.len());
+    for (number, pass) in ordered.into_iter().enumerate() {
+        watch.advance(0)?;
+        let before = number.checked_sub(1).filter(|before| followers[*before] == Some(number));
+        let above = before.and_then(|before| entered.get(before)).map(|above| &above.pass);
+        let found = above.and_then(|above| to_loop(&descent, above, &pass, ramp.slope));
+        entered.push(found.unwrap_or_else(|| Entered::from(pass)));
+    }
+    Ok(entered)
+}
+
+/// A loop that begins where a ramp from the loop above arrives, with the ramp from that loop's end.
+fn to_loop(descent: &Descent<'_>, above: &Pass, pass: &Pass, slope: f64) -> Option<Entered> {
+    let mut above = above.points.clone();
+    if (turning(&above) > 0.0) != (turning(&pass.points) > 0.0) {
+        above.reverse();
+    }
+    let fall = above.first()?.tip.z - pass.points.first()?.tip.z;
+    let share = fall / slope / length(&above);
+    let (ramp, mut points, arrival) = descent.ramp(above, pass, share)?;
+    points.pop();
+    points.rotate_left(arrival);
+    points.push(*points.first()?);
+    Some(Entered { pass: Pass { points, ..*pass }, ramp })
+}
+
+fn length(points: &[PathPoint]) -> f64 {
+    points.windows(2).map(|side| (side[1].tip - side[0].tip).xy().norm()).sum::<f64>().max(f64::MIN_POSITIVE)
+}
+
+/// Twice the area that a closed polyline encloses in plan; above 0 where it runs counterclockwise.
+fn turning(points: &[PathPoint]) -> f64 {
+    points.windows(2).map(|side| side[0].tip.x * side[1].tip.y - side[1].tip.x * side[0].tip.y).sum()
+}
+
+/// The number of the first point of a loop that is at least this share round, and how far it is: the last one at most.
+pub(super) fn arrival(round: &[f64], share: f64) -> Option<(usize, f64)> {
+    let number = (1..round.len()).find(|number| round[*number] >= share).or(round.len().checked_sub(1))?;
+    round.get(number).filter(|round| **round > 0.0).map(|round| (number, *round))
+}
+
+/// Pairs of points up to the first that belongs to the lower loop's `arrival`.
+pub(super) fn until(pairs: Vec<[usize; 2]>, arrival: usize) -> Vec<[usize; 2]> {
+    let end = pairs.iter().position(|[_, below]| *below == arrival).map_or(pairs.len(), |end| end + 1);
+    pairs.into_iter().take(end).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ramp_arrives_at_a_point_of_the_loop_and_no_sooner_than_asked() {
+        let round = [0.0, 0.2, 0.5, 0.8, 1.0];
+        assert_eq!(arrival(&round, 0.3), Some((2, 0.5)));
+        assert_eq!(arrival(&round, 0.0), Some((1, 0.2)));
+        assert_eq!(arrival(&round, 7.0), Some((4, 1.0)));
+        assert_eq!(arrival(&[0.0], 0.1), None);
+        assert_eq!(until(vec![[0, 0], [1, 0], [1, 1], [2, 1], [2, 2]], 1), [[0, 0], [1, 0], [1, 1]]);
+    }
+}

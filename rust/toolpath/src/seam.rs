@@ -1,0 +1,120 @@
+//! Where closed passes begin.
+
+use styluscam_geometry::Vector;
+
+use crate::PathPoint;
+
+/// Where loops begin and end.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Seam {
+    /// At the point nearest to where the tool comes from.
+    #[default]
+    Nearest,
+    /// In one direction from the loop's middle, turned by the same angle from level to level.
+    Bearing {
+        /// Of the first level, rad from +X.
+        first: f64,
+        /// From level to level, rad.
+        spread: f64,
+    },
+}
+
+impl Seam {
+    /// The direction in plan in which the loops of a level begin, by its number in their order; none where the nearest point
+    /// decides.
+    pub(crate) fn bearing(self, level: usize) -> Option<f64> {
+        match self {
+            Self::Nearest => None,
+            Self::Bearing { first, spread } => Some(first + spread * level as f64),
+        }
+    }
+}
+
+/// Has a closed polyline begin where a ray from the middle of its box leaves it: on a chord, if need be. Where the ray misses it,
+/// at its point farthest in that direction.
+pub(crate) fn begin_at(points: &mut Vec<PathPoint>, bearing: f64) {
+    let (sin, cos) = libm::sincos(bearing);
+    let tips = || points.iter().map(|point| point.tip);
+    let low = tips().fold(Vector::repeat(f64::INFINITY), |low, tip| low.inf(&tip));
+    let high = tips().fold(Vector::repeat(f64::NEG_INFINITY), |high, tip| high.sup(&tip));
+    let middle = 0.5 * (low + high);
+    // along the ray and to its left
+    let turned = |point: &PathPoint| {
+        let away = point.tip - middle;
+        [cos * away.x + sin * away.y, cos * away.y - sin * away.x]
+    };
+    let crossing = |(side, pair): (usize, &[PathPoint])| {
+        let ([along, left], [next_along, next_left]) = (turned(&pair[0]), turned(&pair[1]));
+        let share = left / (left - next_left);
+        let crosses = (left < 0.0) != (next_left < 0.0);
+        let along = along + share * (next_along - along);
+        (crosses && along > 0.0).then_some((side, share, along))
+    };
+    let outermost = points.windows(2).enumerate().filter_map(crossing).max_by(|a, b| a.2.total_cmp(&b.2));
+    let first = match outermost {
+        Some((side, share, _)) => {
+            let between = between(&points[side], &points[side + 1], share);
+            points.insert(side + 1, between);
+            side + 1
+        }
+        None => {
+            let along = points.iter().map(|point| turned(point)[0]).enumerate();
+            along.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(number, _)| number)
+        }
+    };
+    points.pop();
+    let last = points.len().saturating_sub(1);
+    points.rotate_left(first.min(last));
+    points.extend(points.first().copied());
+    points.dedup_by(|next, point| next.tip == point.tip);
+}
+
+/// A point of the chord between two of a path: the chord is within the path's deviation, and so is the point.
+fn between(a: &PathPoint, b: &PathPoint, share: f64) -> PathPoint {
+    let normal = (a.normal + (b.normal - a.normal) * share).try_normalize(0.0).unwrap_or(a.normal);
+    PathPoint { tip: a.tip + (b.tip - a.tip) * share, normal, ..*a }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+
+    fn square() -> Vec<PathPoint> {
+        let corners = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0], [0.0, 0.0]];
+        let at = |[x, y]: [f64; 2]| PathPoint {
+            tip: Vector::new(x, y, -1.0),
+            normal: Vector::z(),
+            selected: true,
+            triangle: 0,
+        };
+        corners.map(at).to_vec()
+    }
+
+    fn begun(bearing: f64) -> (Vector, usize) {
+        let mut points = square();
+        begin_at(&mut points, bearing);
+        assert_eq!(points.first(), points.last());
+        let length: f64 = points.windows(2).map(|side| (side[1].tip - side[0].tip).norm()).sum();
+        assert!((length - 40.0).abs() < 1e-12);
+        (points[0].tip, points.len())
+    }
+
+    #[test]
+    fn a_loop_begins_on_the_chord_in_the_direction() {
+        for (bearing, expected) in [(0.0, [10.0, 5.0]), (FRAC_PI_2, [5.0, 10.0]), (PI, [0.0, 5.0])] {
+            let (tip, count) = begun(bearing);
+            assert!((tip - Vector::new(expected[0], expected[1], -1.0)).norm() < 1e-12, "{tip}");
+            assert_eq!(count, 6);
+        }
+        let (tip, _) = begun(FRAC_PI_4);
+        assert!((tip - Vector::new(10.0, 10.0, -1.0)).norm() < 1e-9, "{tip}");
+    }
+
+    #[test]
+    fn levels_begin_a_spread_apart() {
+        let seam = Seam::Bearing { first: 0.5, spread: 0.25 };
+        assert_eq!([seam.bearing(0), seam.bearing(2)], [Some(0.5), Some(1.0)]);
+        assert_eq!(Seam::Nearest.bearing(3), None);
+    }
+}
