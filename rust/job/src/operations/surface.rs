@@ -185,10 +185,11 @@ fn linked(
     traced: &Traced,
 ) -> Result<Vec<Move>, JobError> {
     let (context, watch) = (task.context, task.context.watch);
-    let passes = ordered(&traced.passes, kind.sense(context.common), kind.seam(), watch)?;
+    let sense = kind.sense(context.common);
+    let passes = ordered(&traced.passes, sense, kind.seam(), watch)?;
     let entered = match kind.ramp_slope() {
         Some(slope) => {
-            let ramp = Ramp { slope, deviation: task.budget.deviation, longest: context.node_spacing() };
+            let ramp = Ramp { slope, sense, deviation: task.budget.deviation, longest: context.node_spacing() };
             ramped(surface, passes, &ramp, watch)?
         }
         None => passes.into_iter().map(Entered::from).collect(),

@@ -7,13 +7,15 @@
 use styluscam_motion::{Cancelled, Watch};
 
 use super::{nesting, spiral::Descent};
-use crate::{Entered, Pass, PathPoint, Surface};
+use crate::{Entered, Pass, PathPoint, Sense, Surface};
 
 /// How ramps go down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ramp {
     /// Height over length in plan; the longest is one turn.
     pub slope: f64,
+    /// In which direction the passes are followed.
+    pub sense: Sense,
     /// How far a chord may be from the envelope, mm.
     pub deviation: f64,
     /// In plan, mm, as in `fitting::densified`.
@@ -27,10 +29,14 @@ pub struct Ramp {
 /// `Cancelled`.
 pub fn ramped(surface: &Surface<'_>, ordered: Vec<Pass>, ramp: &Ramp, watch: &Watch) -> Result<Vec<Entered>, Cancelled> {
     let followers = nesting::followers(&ordered);
-    let descent = Descent { surface, deviation: ramp.deviation, longest: ramp.longest };
+    let descent = Descent { surface, deviation: ramp.deviation, longest: ramp.longest, is_turned: false };
     let mut entered: Vec<Entered> = Vec::with_capacity(ordered.len());
+    let mut levels: usize = 0;
     for (number, pass) in ordered.into_iter().enumerate() {
         watch.advance(0)?;
+        let last = entered.last().map(|last| last.pass.group);
+        levels += usize::from(last.is_some_and(|last| last != pass.group));
+        let descent = Descent { is_turned: ramp.sense.turns(levels), ..descent };
         let before = number.checked_sub(1).filter(|before| followers[*before] == Some(number));
         let above = before.and_then(|before| entered.get(before)).map(|above| &above.pass);
         let found = above.and_then(|above| to_loop(&descent, above, &pass, ramp.slope));

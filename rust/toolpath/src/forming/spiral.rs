@@ -41,7 +41,7 @@ pub fn spirals(
     followers.iter().flatten().for_each(|lower| is_followed[*lower] = true);
     let firsts: Vec<usize> = (0..passes.len()).filter(|number| !is_followed[*number]).collect();
     watch.begin("spirals", passes.len());
-    let descent = Descent { surface, deviation, longest };
+    let descent = Descent { surface, deviation, longest, is_turned: false };
     let of_first = |first: &usize| -> Result<Vec<Pass>, PlanError> {
         let mut loops = vec![*first];
         while let Some(lower) = loops.last().and_then(|last| followers[*last]) {
@@ -57,10 +57,13 @@ pub fn spirals(
 }
 
 /// How a path goes down between two loops.
+#[derive(Clone, Copy)]
 pub(super) struct Descent<'a> {
     pub surface: &'a Surface<'a>,
     pub deviation: f64,
     pub longest: f64,
+    /// Whether the path runs against the direction in which loops are traced.
+    pub is_turned: bool,
 }
 
 /// A closed loop, and how far round each of its points is, from 0 to 1.
@@ -129,7 +132,12 @@ impl Descent<'_> {
         let mut curve = LevelCurve::new(self.surface, 0.0);
         let exact = exact(&mut curve, above, below, (pairs, whole))?;
         let runs = fitting::densified(&exact, self.deviation, self.longest, &mut |a: &PathPoint, b: &PathPoint| {
-            curve.at_height(0.5 * (a.tip.z + b.tip.z)).between(a, b)
+            let level = curve.at_height(0.5 * (a.tip.z + b.tip.z));
+            if self.is_turned {
+                level.between(b, a)
+            } else {
+                level.between(a, b)
+            }
         });
         let [run] = &runs[..] else { return None };
         let is_whole =
