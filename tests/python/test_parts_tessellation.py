@@ -123,8 +123,7 @@ def test_the_check_is_seen_to_move() -> None:
         lambda d: [ring(d), sphere_mesh()],
         [Cylinder((0, 0, 0), (0, 0, 1), 10.0), Sphere((0, 0, 0), 10.0)],
         0.01,
-        "",
-        shares.append,
+        checked=shares.append,
     )
     assert shares == sorted(shares) and len(shares) > 5 and 0.5 < shares[-1] <= 1.0
     reported: list[tuple[str, float]] = []

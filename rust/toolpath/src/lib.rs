@@ -17,7 +17,9 @@ mod surface;
 
 pub use error::PlanError;
 pub use lattice::{Cells, Lattice};
-pub use linking::{join, link, AlongSurface, AtDepth, Entered, Heights, LinkRules, Links, OverClearance, Position, Rates, Run};
+pub use linking::{
+    join, link, AlongSurface, AtDepth, Entered, Heights, LinkRules, Links, OverClearance, Position, Rates, Run,
+};
 pub use nearest::ordered;
 pub use pass::{Pass, PathPoint, Sense};
 pub use seam::Seam;

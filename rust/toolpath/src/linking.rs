@@ -156,7 +156,8 @@ pub fn link(
     watch: &Watch,
 ) -> Result<Vec<Move>, Cancelled> {
     watch.begin("linking", passes.len());
-    let runs: Vec<Run<PathPoint>> = passes.iter().filter_map(|entered| run_of(&entered.pass, links.rates.cut)).collect();
+    let runs: Vec<Run<PathPoint>> =
+        passes.iter().filter_map(|entered| run_of(&entered.pass, links.rates.cut)).collect();
     let ramps = passes.iter().filter(|entered| !entered.pass.points.is_empty()).map(|entered| {
         let ramp = entered.ramp.get(1..)?;
         Some(lines(ramp, links.rates.cut).into_iter().map(|line| line.in_role(Role::Ramp)).collect())

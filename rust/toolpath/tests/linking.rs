@@ -6,13 +6,12 @@ use styluscam_geometry::{kinds, Mesh, ProfileDocument, Tool, ToolDocument, Vecto
 use styluscam_motion::{Cancelled, Move, Watch};
 use styluscam_toolpath::offset::{Envelope, Index};
 use styluscam_toolpath::{
-    join, link, ordered, AlongSurface, AtDepth, Entered, Heights, LinkRules, Links, OverClearance, Pass, PathPoint, Rates, Run, Seam,
-    Segment, Sense, Surface,
+    join, link, ordered, AlongSurface, AtDepth, Entered, Heights, LinkRules, Links, OverClearance, Pass, PathPoint,
+    Rates, Run, Seam, Segment, Sense, Surface,
 };
 
 const RATES: Rates = Rates { cut: 1000.0, plunge: 200.0 };
-const LINKS: Links =
-    Links { heights: Heights { clearance: 30.0, retract: 15.0 }, rates: RATES, operation: 3 };
+const LINKS: Links = Links { heights: Heights { clearance: 30.0, retract: 15.0 }, rates: RATES, operation: 3 };
 /// A ramp of 1 in 2: so far over it, in height, the tip of a ball of 3 mm radius stands: 3 (1 / cos - 1).
 const OVER: f64 = 3.0 * (1.118_033_988_749_895 - 1.0);
 

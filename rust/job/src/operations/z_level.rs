@@ -94,10 +94,9 @@ impl FollowsSurface for ZLevel {
     fn seam(&self) -> Seam {
         match (self.seam_direction_deg, self.seam_spread_deg) {
             (None, None) => Seam::Nearest,
-            (first, spread) => Seam::Bearing {
-                first: first.unwrap_or(0.0).to_radians(),
-                spread: spread.unwrap_or(0.0).to_radians(),
-            },
+            (first, spread) => {
+                Seam::Bearing { first: first.unwrap_or(0.0).to_radians(), spread: spread.unwrap_or(0.0).to_radians() }
+            }
         }
     }
 

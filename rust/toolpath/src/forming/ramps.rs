@@ -7,7 +7,7 @@
 use styluscam_motion::{Cancelled, Watch};
 
 use super::{nesting, spiral::Descent};
-use crate::{Entered, Pass, PathPoint, Sense, Surface};
+use crate::{nearest, Entered, Pass, PathPoint, Sense, Surface};
 
 /// How ramps go down.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +27,12 @@ pub struct Ramp {
 ///
 /// # Errors
 /// `Cancelled`.
-pub fn ramped(surface: &Surface<'_>, ordered: Vec<Pass>, ramp: &Ramp, watch: &Watch) -> Result<Vec<Entered>, Cancelled> {
+pub fn ramped(
+    surface: &Surface<'_>,
+    ordered: Vec<Pass>,
+    ramp: &Ramp,
+    watch: &Watch,
+) -> Result<Vec<Entered>, Cancelled> {
     let followers = nesting::followers(&ordered);
     let descent = Descent { surface, deviation: ramp.deviation, longest: ramp.longest, is_turned: false };
     let mut entered: Vec<Entered> = Vec::with_capacity(ordered.len());
@@ -40,9 +45,18 @@ pub fn ramped(surface: &Surface<'_>, ordered: Vec<Pass>, ramp: &Ramp, watch: &Wa
         let before = number.checked_sub(1).filter(|before| followers[*before] == Some(number));
         let above = before.and_then(|before| entered.get(before)).map(|above| &above.pass);
         let found = above.and_then(|above| to_loop(&descent, above, &pass, ramp.slope));
-        entered.push(found.unwrap_or_else(|| Entered::from(pass)));
+        entered.push(found.unwrap_or_else(|| Entered::from(begun_beside(entered.last(), pass))));
     }
     Ok(entered)
+}
+
+/// A pass; a loop after one whose end a ramp has moved begins nearest to that end.
+fn begun_beside(before: Option<&Entered>, mut pass: Pass) -> Pass {
+    let moved = before.filter(|before| !before.ramp.is_empty()).and_then(|before| before.pass.points.last());
+    if let (true, Some(end)) = (pass.closed, moved) {
+        nearest::begin_nearest(&mut pass.points, end.tip);
+    }
+    pass
 }
 
 /// A loop that begins where a ramp from the loop above arrives, with the ramp from that loop's end.
