@@ -162,7 +162,8 @@ pub fn link(
         let ramp = entered.ramp.get(1..)?;
         Some(lines(ramp, links.rates.cut).into_iter().map(|line| line.in_role(Role::Ramp)).collect())
     });
-    let segments = joined(&runs, ramps.collect(), rules, links, watch)?;
+    let ramps: Vec<Option<Vec<Segment>>> = ramps.collect();
+    let segments = joined(&runs, &ramps, rules, links, watch)?;
     Ok(segments.iter().map(|segment| segment.to_move(links.operation)).collect())
 }
 
@@ -178,13 +179,13 @@ pub fn join<P: Position + Sync>(
     links: &Links,
     watch: &Watch,
 ) -> Result<Vec<Segment>, Cancelled> {
-    joined(runs, vec![None; runs.len()], rules, links, watch)
+    joined(runs, &[], rules, links, watch)
 }
 
 /// As [`join`], where some of the paths to the runs are known.
 fn joined<P: Position + Sync>(
     runs: &[Run<P>],
-    known: Vec<Option<Vec<Segment>>>,
+    known: &[Option<Vec<Segment>>],
     rules: &impl LinkRules<P>,
     links: &Links,
     watch: &Watch,

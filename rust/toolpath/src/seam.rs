@@ -51,17 +51,34 @@ pub(crate) fn begin_at(points: &mut Vec<PathPoint>, bearing: f64) {
         (crosses && along > 0.0).then_some((side, share, along))
     };
     let outermost = points.windows(2).enumerate().filter_map(crossing).max_by(|a, b| a.2.total_cmp(&b.2));
-    let first = match outermost {
-        Some((side, share, _)) => {
-            let between = between(&points[side], &points[side + 1], share);
-            points.insert(side + 1, between);
-            side + 1
-        }
-        None => {
-            let along = points.iter().map(|point| turned(point)[0]).enumerate();
-            along.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(number, _)| number)
-        }
+    if let Some((side, share, _)) = outermost {
+        begin_on(points, side, share);
+    } else {
+        let along = points.iter().map(|point| turned(point)[0]).enumerate();
+        let farthest = along.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(number, _)| number);
+        begin_on(points, farthest, 0.0);
+    }
+}
+
+/// Has a closed polyline begin at its position nearest to a point in plan: on a chord, if need be.
+pub(crate) fn begin_beside(points: &mut Vec<PathPoint>, from: Vector) {
+    let nearest = |(side, pair): (usize, &[PathPoint])| {
+        let (start, along) = (pair[0].tip.xy(), (pair[1].tip - pair[0].tip).xy());
+        let share = ((from.xy() - start).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        (side, share, (start + along * share - from.xy()).norm_squared())
     };
+    let nearest = points.windows(2).enumerate().map(nearest).min_by(|a, b| a.2.total_cmp(&b.2));
+    if let Some((side, share, _)) = nearest {
+        begin_on(points, side, share);
+    }
+}
+
+/// Has a closed polyline begin on one of its sides.
+fn begin_on(points: &mut Vec<PathPoint>, side: usize, share: f64) {
+    let Some([a, b]) = points.get(side..).and_then(|rest| rest.first_chunk()) else { return };
+    let begin = between(a, b, share);
+    let first = side + 1;
+    points.insert(first, begin);
     points.pop();
     let last = points.len().saturating_sub(1);
     points.rotate_left(first.min(last));
@@ -109,6 +126,15 @@ mod tests {
         }
         let (tip, _) = begun(FRAC_PI_4);
         assert!((tip - Vector::new(10.0, 10.0, -1.0)).norm() < 1e-9, "{tip}");
+    }
+
+    #[test]
+    fn a_loop_begins_beside_a_point() {
+        let mut points = square();
+        begin_beside(&mut points, Vector::new(4.0, 12.0, 7.0));
+        assert_eq!((points[0].tip, points.len()), (Vector::new(4.0, 10.0, -1.0), 6));
+        begin_beside(&mut points, Vector::new(-3.0, -3.0, 0.0));
+        assert_eq!((points[0].tip, points.first() == points.last()), (Vector::new(0.0, 0.0, -1.0), true));
     }
 
     #[test]

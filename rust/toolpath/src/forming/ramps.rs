@@ -7,7 +7,7 @@
 use styluscam_motion::{Cancelled, Watch};
 
 use super::{nesting, spiral::Descent};
-use crate::{nearest, Entered, Pass, PathPoint, Sense, Surface};
+use crate::{seam, Entered, Pass, PathPoint, Sense, Surface};
 
 /// How ramps go down.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,11 +50,11 @@ pub fn ramped(
     Ok(entered)
 }
 
-/// A pass; a loop after one whose end a ramp has moved begins nearest to that end.
+/// A pass; a loop after one whose end a ramp has moved begins beside that end.
 fn begun_beside(before: Option<&Entered>, mut pass: Pass) -> Pass {
     let moved = before.filter(|before| !before.ramp.is_empty()).and_then(|before| before.pass.points.last());
     if let (true, Some(end)) = (pass.closed, moved) {
-        nearest::begin_nearest(&mut pass.points, end.tip);
+        seam::begin_beside(&mut pass.points, end.tip);
     }
     pass
 }
