@@ -86,7 +86,7 @@ def _evaluator(face: Any) -> tuple[Any, tuple[float, float, float, float]]:
         slack = 1e-9 * (u1 - u0 + v1 - v0)
         if needed[0] >= u0 - slack and needed[1] <= u1 + slack and needed[2] >= v0 - slack and needed[3] <= v1 + slack:
             return nurbs, nurbs.bounds
-    return _by_kernel(surface), needed
+    return _swept(surface) or _by_kernel(surface), needed
 
 
 def _nurbs(surface: Any) -> Any:
@@ -107,6 +107,66 @@ def _nurbs(surface: Any) -> Any:
         np.array(poles),
         np.array(surface.getWeights()),
     )
+
+
+def _swept(surface: Any) -> Any:
+    """An evaluator of a B-spline that is revolved or extruded, in the kernel's parameters; None of any other surface.
+
+    The kernel is asked point by point, which takes a hundred times as long.
+    """
+    import Part
+
+    if not isinstance(surface, (Part.SurfaceOfRevolution, Part.SurfaceOfExtrusion)):
+        return None
+    curve = surface.BasisCurve
+    if not isinstance(curve, Part.BSplineCurve):
+        return None
+    along = _curve(curve)
+    direction = _array(surface.Direction)
+    if isinstance(surface, Part.SurfaceOfExtrusion):
+        return lambda uv: _extruded(*along(uv[:, 0]), direction, uv[:, 1])
+    location = _array(surface.Location)
+    return lambda uv: _revolved(*along(uv[:, 1]), location, direction, uv[:, 0])
+
+
+def _curve(curve: Any) -> Any:
+    """Points and derivatives, (N,3) each, of a Part.BSplineCurve at parameters (N,): a surface of one degree across."""
+    from styluscam.parts.surfaces import Nurbs
+
+    curve = curve.copy()
+    if curve.isPeriodic():
+        curve.setNotPeriodic()
+    poles = np.array([_array(pole) for pole in curve.getPoles()])
+    weights, knots = np.array(curve.getWeights()), np.array(curve.KnotSequence)
+    aside = np.stack([poles, poles + np.array((0.0, 0.0, 1.0))])
+    ribbon = Nurbs(1, curve.Degree, np.array([0.0, 0.0, 1.0, 1.0]), knots, aside, np.stack([weights, weights]))
+
+    def evaluate(t: Floats) -> tuple[Floats, Floats]:
+        points, _, derivatives = ribbon(np.stack([np.zeros_like(t), t], axis=1))
+        return points, derivatives
+
+    return evaluate
+
+
+def _extruded(points: Floats, along: Floats, direction: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
+    """A curve's points and derivatives (N,3), moved by v (N,) along a direction: points and both derivatives."""
+    return points + v[:, None] * direction, along, np.tile(direction, (len(v), 1))
+
+
+def _revolved(
+    points: Floats, along: Floats, location: Floats, axis: Floats, u: Floats
+) -> tuple[Floats, Floats, Floats]:
+    """A curve's points and derivatives (N,3), turned by u (N,) about an axis: points and both derivatives."""
+    away = points - location
+    turned = _turned(away, axis, u)
+    return turned + location, np.cross(axis, turned), _turned(along, axis, u)
+
+
+def _turned(vectors: Floats, axis: Floats, angle: Floats) -> Floats:
+    """Vectors (N,3) turned by angles (N,) about a unit axis (Rodrigues)."""
+    cos, sin = np.cos(angle)[:, None], np.sin(angle)[:, None]
+    level = (vectors @ axis)[:, None] * axis
+    return np.asarray(level + cos * (vectors - level) + sin * np.cross(axis, vectors))
 
 
 def _by_kernel(surface: Any) -> Any:

@@ -9,7 +9,7 @@ import FreeCADGui
 from PySide import QtCore, QtWidgets
 
 from ..verification import Verified
-from . import finding_mark
+from . import finding_mark, pictures
 from .messages import translated
 from .notes import ERROR
 
@@ -28,6 +28,8 @@ class FindingsPanel:
         from styluscam.report.findings import verdict_of
 
         self._verified = verified
+        self._job = verified.draft.job
+        self._document = str(self._job.Document.Name)
         report = verified.report
         verdict = verdict_of(report)
         self.form = QtWidgets.QWidget()
@@ -73,14 +75,10 @@ class FindingsPanel:
             return
         finding = self._verified.report.findings[self._list.indexOfTopLevelItem(item)]
         self._message.setText(finding.message)
-        if finding.position is None:
+        if finding.position is None or pictures.is_deleted(self._job):
             finding_mark.clear(self._document)
         else:
             finding_mark.mark(self._verified, list(finding.position), finding.line)
-
-    @property
-    def _document(self) -> str:
-        return str(self._verified.draft.job.Document.Name)
 
     def getStandardButtons(self) -> Any:
         """Only one."""

@@ -113,6 +113,8 @@ class MapPanel:
 
     def __init__(self, maps: Maps) -> None:
         self._maps = maps
+        self._job = maps.verified.draft.job
+        self._document = str(self._job.Document.Name)
         self.form = QtWidgets.QWidget()
         self.form.setObjectName("StylusCAM_HeatMaps")
         self.form.setWindowTitle(translated("Heat map"))
@@ -133,7 +135,8 @@ class MapPanel:
     def _choose(self, index: int) -> None:
         one = self._maps.shown.maps[index]
         self._note.setText(one.note)
-        show(self._maps, one)
+        if not pictures.is_deleted(self._job):  # without its job there is no model to colour
+            show(self._maps, one)
 
     def getStandardButtons(self) -> Any:
         """OK keeps the map, Cancel takes it away."""
@@ -146,7 +149,7 @@ class MapPanel:
 
     def reject(self) -> bool:
         """Closes the panel and takes the map away."""
-        pictures.remove(self._maps.verified.draft.job.Document.Name, KEY)
+        pictures.remove(self._document, KEY)
         FreeCADGui.Control.closeDialog()
         return True
 

@@ -40,11 +40,16 @@ class Post(Command):
         """Selects the job and posts it."""
         import FreeCADGui
 
+        from ..posts import processor
+
         job = job_in_front()
+        posted_files.check_target(job)
         FreeCADGui.Selection.clearSelection()
         FreeCADGui.Selection.addSelection(job)
-        with posted_files.named_in_status_bar(job):
+        with processor.kept_refusals() as refused, posted_files.named_in_status_bar(job):
             FreeCADGui.runCommand("CAM_Post")
+        if refused:
+            raise refused[0]
 
 
 def before() -> list[Command]:

@@ -117,6 +117,14 @@ def views_of(document: str) -> list[Any]:
     return list(FreeCADGui.getDocument(document).mdiViewsOfType(VIEW_3D))
 
 
+def is_deleted(obj: Any) -> bool:
+    """Whether an object is gone, while something still holds it: FreeCAD refuses every look at it then."""
+    try:
+        return not obj.Document
+    except ReferenceError:
+        return True
+
+
 def stands_for(job: Any) -> list[Any]:
     """The model of a job, and what it is a clone of: all that is drawn in the same position."""
     models = list(job.Model.Group)

@@ -65,7 +65,7 @@ class MotionPanel:
     """Slider, number, play and stop; the task view shows its `form`."""
 
     def __init__(self, job: Any, operation: Any, track: MotionTrack) -> None:
-        self._job, self._track = job, track
+        self._document, self._track = str(job.Document.Name), track
         self._tool = MovingTool(job, operation)
         self._timer = QtCore.QTimer()
         self._timer.setInterval(FRAME)
@@ -164,7 +164,7 @@ class MotionPanel:
     def reject(self) -> bool:
         """Closes the panel; the tool goes with it."""
         self._timer.stop()
-        pictures.remove(self._job.Document.Name, KEY)
+        pictures.remove(self._document, KEY)
         FreeCADGui.Control.closeDialog()
         return True
 

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -41,6 +43,21 @@ class Section:
     """Why there was none; empty where there was."""
 
 
+_refused: list[Exception] | None = None
+"""Where errors of posts are kept instead of being thrown at FreeCAD, which prints their traces and shows nothing."""
+
+
+@contextmanager
+def kept_refusals() -> Iterator[list[Exception]]:
+    """Keeps the errors of what is posted meanwhile, for who can show them; FreeCAD writes nothing."""
+    global _refused  # noqa: PLW0603  (FreeCAD makes the posts: nothing can be handed to them)
+    _refused = []
+    try:
+        yield _refused
+    finally:
+        _refused = None
+
+
 class VerificationError(PostError):
     """Verification found an error in a text: nothing must be written."""
 
@@ -73,6 +90,15 @@ def post_for(machine: str) -> type[PostProcessor]:
             Raises:
                 PostError, MotionError, ToolError, DocumentError: nothing must be written.
             """
+            try:
+                return self._exported()
+            except Exception as error:
+                if _refused is None:
+                    raise
+                _refused.append(error)
+                return []  # FreeCAD writes nothing then
+
+        def _exported(self) -> list[tuple[str, str]]:
             try:
                 return [(section.name, section.text) for section in self.sections()]
             except engine.styluscam().StylusError as error:
