@@ -182,3 +182,27 @@ def test_one_operation_is_meant_whatever_the_text_calls_it() -> None:
     end = "M2\n"
     again = re.sub(r"F1500", "F9000", text[text.index("G0 Z") :])
     assert kinds(f"{text.removesuffix(end)}T1 M6\nG43 H1\n{again}", of)["feed-differs"] == "error"
+
+
+@pytest.mark.parametrize("mode", ["per-minute", "inverse-time", "per-revolution"])
+@pytest.mark.parametrize("feed", [300.0, 1000.0, 2000.0])
+def test_feeds_of_every_mode_are_those_of_the_job(mode: str, feed: float) -> None:
+    """Rounded numbers of F, times rounded lengths or speeds, are no other feeds."""
+    spindle = {"mode": "fixed", "rpm": 5000.0}
+    asked = job({"feeds": {"cut": feed, "plunge": 200.0}, "spindle": spindle})
+    document = asked.to_dict()
+    document["machine"] = {"name": "linuxcnc", "options": {"feed_mode": mode}}
+    asked = sc.Job.from_dict(document, part=tray())
+    report = sc.verify(sc.post(sc.plan(asked)), asked)
+    assert report.findings == []
+
+
+def test_another_feed_is_found_in_inverse_time() -> None:
+    asked = job({"feeds": {"cut": 1000.0, "plunge": 200.0}})
+    document = asked.to_dict()
+    document["machine"] = {"name": "linuxcnc", "options": {"feed_mode": "inverse-time"}}
+    asked = sc.Job.from_dict(document, part=tray())
+    document["operations"][0]["feeds"]["cut"] = 1010.0
+    faster = sc.Job.from_dict(document, part=tray())
+    report = sc.verify(sc.post(sc.plan(faster)), asked)
+    assert {finding["kind"] for finding in report.findings} == {"feed-differs"}

@@ -270,7 +270,7 @@ fn limits(job: &JobDocument, scene: &Scene, tools: &[Tool], machine: &Machine) -
         gouge: GOUGE,
         excess: widest_tolerance(job, scene.channel),
         retract: scene.retract - 0.5 * machine.resolution_mm(),
-        feed_unit: machine.feed_resolution_mm(),
+        feed_rounding: machine.feed_rounding(fastest(job)),
         reach: reach(machine),
         forming: job.setup.sheet.map(|sheet| forming(job, &sheet, scene.top)),
         bridged,
@@ -279,6 +279,15 @@ fn limits(job: &JobDocument, scene: &Scene, tools: &[Tool], machine: &Machine) -
         accepted: job.accept.iter().map(|risk| risk.finding()).collect(),
         ..Limits::new(clearance)
     }
+}
+
+/// The highest speed of a job's operations, rev/min; 0 where none turns.
+fn fastest(job: &JobDocument) -> f64 {
+    let speed = |section: &OperationSection| match section.common.spindle {
+        Spindle::Off => 0.0,
+        Spindle::Fixed { rpm, .. } => rpm,
+    };
+    job.operations.iter().map(speed).fold(0.0, f64::max)
 }
 
 /// What the sheet withstands.

@@ -167,5 +167,5 @@ pub(crate) fn faults(
 
 /// Whether a move has the feed of the path.
 fn at_cut(program: &Program, segment: &Segment, cut: f64, limits: &Limits) -> bool {
-    (program.moves[segment.index].feed - cut).abs() <= limits.feed_unit
+    (program.moves[segment.index].feed - cut).abs() <= limits.feed_slack(cut, segment.length())
 }

@@ -26,7 +26,8 @@ pub(crate) fn faults(program: &Program, segments: &[Segment], assignment: &Assig
         let comes_down = before.is_none_or(|kind| kind == SegmentKind::Rapid);
         let step = &program.moves[segment.index];
         let Some(operation) = assignment.of(segment.operation) else { continue };
-        faults.extend(feed_fault(operation, (segment, step.is_along_pass()), comes_down, step.feed, limits.feed_unit));
+        let slack = limits.feed_slack(step.feed, segment.length());
+        faults.extend(feed_fault(operation, (segment, step.is_along_pass()), comes_down, step.feed, slack));
         faults.extend(spindle_fault(operation, segment, machine.spindle));
         if machine.flood != operation.flood || machine.mist {
             faults.push(segment.fault(&faults::COOLANT));
@@ -45,7 +46,7 @@ fn feed_fault(
     (segment, is_along_pass): (&Segment, bool),
     comes_down: bool,
     feed: f64,
-    unit: f64,
+    slack: f64,
 ) -> Option<Fault> {
     let no_faster = feed.min(operation.cut.max(operation.plunge));
     let expected = match segment.kind {
@@ -55,7 +56,7 @@ fn feed_fault(
         SegmentKind::Plunge | SegmentKind::Lateral | SegmentKind::Rapid if is_along_pass => operation.cut,
         SegmentKind::Plunge | SegmentKind::Lateral | SegmentKind::Rapid => no_faster,
     };
-    let same = (feed - expected).abs() <= unit + SAME_FEED * expected;
+    let same = (feed - expected).abs() <= slack + SAME_FEED * expected;
     (feed > 0.0 && !same).then(|| segment.fault(&faults::FEED).measured(feed, expected))
 }
 

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use styluscam_geometry::{Bvh, Mesh, Sheet, Tool};
-use styluscam_motion::MachineMove;
+use styluscam_motion::{FeedRounding, MachineMove};
 
 use crate::expectation::ExpectedOperation;
 use crate::findings::FindingKind;
@@ -142,8 +142,8 @@ pub struct Limits {
     pub rapid_gap: f64,
     /// Height Z below which rapids do not go, mm; minus infinity where only the air under them counts.
     pub retract: f64,
-    /// By how much a feed may differ from the one that the job states: it was rounded, mm/min.
-    pub feed_unit: f64,
+    /// By half of what a feed may differ from the one that the job states: it was rounded, and perhaps twice.
+    pub feed_rounding: FeedRounding,
     /// What the machine can do.
     pub reach: Reach,
     /// What the sheet withstands, where one is formed.
@@ -196,7 +196,7 @@ impl Limits {
             clearance,
             rapid_gap: 0.05,
             retract: f64::NEG_INFINITY,
-            feed_unit: 0.0,
+            feed_rounding: FeedRounding::default(),
             reach: Reach::default(),
             forming: None,
             bridged: f64::INFINITY,
@@ -205,6 +205,11 @@ impl Limits {
             accepted: Vec::new(),
             found: Vec::new(),
         }
+    }
+
+    /// By how much the feed (mm/min) of a move of some length (mm) may differ from the one stated, mm/min.
+    pub(crate) fn feed_slack(&self, feed: f64, length: f64) -> f64 {
+        2.0 * self.feed_rounding.of(feed, length)
     }
 
     /// The excess allowed for an operation, mm.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use styluscam_motion::{Cycle, Dynamics};
+use styluscam_motion::{Cycle, Dynamics, FeedRounding};
 
 use super::option::OptionRule;
 use super::rules::*;
@@ -12,6 +12,9 @@ use crate::number::NumberFormat;
 
 /// Holes of fewer units of the last decimal are made of plain moves: controllers refuse a cycle of no depth.
 const LEAST_DEPTH: f64 = 3.0;
+
+/// A path whose ends are rounded may be longer or shorter by so many units of the last decimal.
+const COORDINATES_OF_A_LENGTH: f64 = 4.0;
 
 /// Version of the machine document; newer ones are refused.
 pub const MACHINE_SCHEMA: u32 = 1;
@@ -108,6 +111,26 @@ impl Machine {
     #[must_use]
     pub fn feed_resolution_mm(&self) -> f64 {
         self.units.output.in_mm() / self.feed_format().per_one() / self.feed_scale()
+    }
+
+    /// How far feeds may be off that are read back, with the spindle at `rpm`, 0 while it stands: by half a unit of their last
+    /// decimal, and by what the speed and the coordinates are off where feeds follow from them.
+    #[must_use]
+    pub fn feed_rounding(&self, rpm: f64) -> FeedRounding {
+        let half = self.feed_resolution_mm() / 2.0;
+        let none = FeedRounding::default();
+        match self.feed.mode {
+            FeedMode::PerMinute => FeedRounding { per_minute: half, ..none },
+            FeedMode::PerRevolution if rpm > 0.0 => {
+                FeedRounding { per_minute: half * rpm, share: self.speed_resolution() / rpm, ..none }
+            }
+            FeedMode::PerRevolution => none,
+            FeedMode::InverseTime => FeedRounding {
+                per_mm: half * self.feed_scale() / self.units.output.in_mm(),
+                length: COORDINATES_OF_A_LENGTH * self.resolution_mm(),
+                ..none
+            },
+        }
     }
 
     /// One unit of the last posted decimal of a spindle's speed, rev/min.

@@ -2,7 +2,7 @@
 
 use styluscam_motion::{Cycle, CycleKind, Event, EventKind, Move, MoveKind, Program};
 
-use crate::machine::{FeedMode, Machine, ToolChange};
+use crate::machine::{Machine, ToolChange};
 use crate::reader::Reading;
 use crate::trial::words;
 use crate::writer::Posted;
@@ -13,9 +13,6 @@ const FEED_SLACK: f64 = 1e-9;
 const SLACK: f64 = 1e-9;
 /// An arc's centre is rounded too: its path may leave the planned one by so many units of the last decimal.
 const ARC_PLACES: f64 = 3.0;
-
-/// A path whose ends are rounded may be longer or shorter by so many units of the last decimal.
-const PLACES_OF_A_WAY: f64 = 4.0;
 
 /// An arc of a few units of the last decimal may turn so much farther once rounded, rad.
 const TINY_SWEEP: f64 = 0.6;
@@ -296,16 +293,7 @@ fn end_difference(step: &Move, found: &Move, machine: &Machine) -> Option<String
 
 /// How far the feed of a path so long, mm, may come back from the planned one, mm/min: numbers are rounded.
 fn feed_slack(machine: &Machine, feed: f64, length: f64, rpm: f64) -> f64 {
-    let unit = machine.feed_resolution_mm() / 2.0;
-    let rounded = match machine.feed.mode {
-        FeedMode::PerMinute => unit,
-        FeedMode::PerRevolution => unit * rpm + feed * machine.speed_resolution() / rpm,
-        // F times the path, and both are rounded
-        FeedMode::InverseTime => {
-            let unit = machine.feed_resolution_mm() * machine.feed_scale() / machine.units.output.in_mm() / 2.0;
-            unit * length + feed * PLACES_OF_A_WAY * machine.resolution_mm() / length
-        }
-    };
+    let rounded = machine.feed_rounding(rpm).of(feed, length);
     rounded + FEED_SLACK * feed
 }
 
