@@ -136,7 +136,7 @@ def test_it_takes_fewer_triangles_than_the_kernel(tmp_path: Path, monkeypatch: p
 
 
 def test_what_does_not_close_is_left_to_the_kernel(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """An edge that is told to run elsewhere: no triangles of ours, the kernel's instead."""
+    """An edge is left out: no triangles of ours, the kernel's instead."""
     real = meshing.model_of
 
     def spoilt(*arguments: Any) -> Any:

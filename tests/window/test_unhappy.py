@@ -37,5 +37,15 @@ def test_it_fails_without_motion_and_is_not_posted(session: Any, name: str, sent
     assert "has failed" in seen["post"]["refused"]
 
 
+def test_a_refused_post_is_a_sentence_in_a_dialog(session: Any) -> None:
+    seen = session["post refused"]
+    assert "has failed" in seen["failed"] and not seen["written"]
+    assert "no file can be written there" in seen["folder"]
+
+
+def test_a_panel_outlives_its_job(session: Any) -> None:
+    assert session["job deleted under panel"]["closed"]
+
+
 def test_no_traceback(session: Any) -> None:
     assert "Traceback" not in session.errors

@@ -135,7 +135,7 @@ pub struct Run<P> {
 pub struct Entered {
     /// The pass, in its direction, from where it begins.
     pub pass: Pass,
-    /// The way down from the end of the pass before, its ends included; empty where the rules decide.
+    /// The ramp down from the end of the pass before, its ends included; empty where the rules decide.
     pub ramp: Vec<PathPoint>,
 }
 

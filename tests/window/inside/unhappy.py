@@ -106,8 +106,49 @@ def deleted_model() -> Any:
     return {**stage.seen(operation), "post": stage.posted(job)}
 
 
+def run_command(name: str) -> None:
+    import FreeCADGui
+
+    FreeCADGui.runCommand(name)
+
+
+def post_refused() -> Any:
+    """The post's button is pressed for a job that cannot be posted: an operation has failed, its post or folder is unknown."""
+    job, operation = stage.computed()
+    target = driver.FOLDER / "refused.ngc"
+    job.PostProcessorOutputFile = str(target)
+    operation.Step = 0.0
+    operation.Document.recompute()
+    driver.later(lambda: run_command("StylusCAM_Post"))
+    failed = yield from message()
+    operation.Step = 5.0
+    operation.Document.recompute()
+    job.PostProcessorOutputFile = str(driver.FOLDER / "nowhere" / "refused.ngc")
+    driver.later(lambda: run_command("StylusCAM_Post"))
+    folder = yield from message()
+    return {"failed": failed, "folder": folder, "written": target.exists()}
+
+
+def job_deleted_under_panel() -> Any:
+    """The job is deleted while the panel of its heat maps is open."""
+    job, operation = stage.computed()
+    document, name = operation.Document, job.Name
+    driver.later(lambda: run_command("StylusCAM_HeatMap"))
+    yield until(lambda: driver.visible(QtWidgets.QComboBox, name="HeatMap"), "the panel", 60)
+    maps = driver.one(QtWidgets.QComboBox, name="HeatMap")
+    document.removeObject(name)
+    yield driver.settled()
+    driver.choose(maps, maps.itemText(1))
+    yield driver.settled()
+    driver.click(driver.one(QtWidgets.QDialogButtonBox).button(QtWidgets.QDialogButtonBox.Cancel))
+    yield until(lambda: not driver.visible(QtWidgets.QComboBox, name="HeatMap"), "a closed panel")
+    return {"closed": True}
+
+
 driver.run(
     {
+        "post refused": post_refused,
+        "job deleted under panel": job_deleted_under_panel,
         "closed during computation": closed_during_computation,
         "two controllers": two_controllers,
         "without profile": without_profile,

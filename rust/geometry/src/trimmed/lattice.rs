@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{border::FlatBorder, chart::Chart, rows, TrimmedFault};
+use super::{border::FlatBorder, chart::Chart, fault::TrimmedFault, rows};
 use crate::{ElementaryKind, ElementarySurface};
 
 /// A point nearer to the border than this, in sides, would only make slivers.

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use spade::{handles::FixedFaceHandle, ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation as _};
 
-use super::TrimmedFault;
+use super::fault::TrimmedFault;
 
 /// A point and its number.
 #[derive(Clone, Copy, Debug)]

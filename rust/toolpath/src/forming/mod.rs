@@ -2,6 +2,7 @@
 
 mod bounds;
 mod contour;
+mod descent;
 mod extra_rows;
 mod floors;
 mod gaps;

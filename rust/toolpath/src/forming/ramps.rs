@@ -1,12 +1,12 @@
 //! Ramps: from a level to the next along the wall, instead of straight down it.
 //!
-//! A ramp is the beginning of a spiral's turn ([`super::spiral`]) that is done sooner: its points lie on the envelope, between two
+//! A ramp is the beginning of a turn ([`super::descent`]) that is done sooner: its points lie on the envelope, between two
 //! loops that belong together, and its height falls evenly. The next loop begins and ends where the ramp arrives. Derived in
 //! docs/concepts/spirals.md.
 
 use styluscam_motion::{Cancelled, Watch};
 
-use super::{nesting, spiral::Descent};
+use super::{descent::Descent, nesting};
 use crate::{seam, Entered, Pass, PathPoint, Sense, Surface};
 
 /// How ramps go down.
@@ -81,31 +81,4 @@ fn length(points: &[PathPoint]) -> f64 {
 /// Twice the area that a closed polyline encloses in plan; above 0 where it runs counterclockwise.
 fn turning(points: &[PathPoint]) -> f64 {
     points.windows(2).map(|side| side[0].tip.x * side[1].tip.y - side[1].tip.x * side[0].tip.y).sum()
-}
-
-/// The number of the first point of a loop that is at least this share round, and how far it is: the last one at most.
-pub(super) fn arrival(round: &[f64], share: f64) -> Option<(usize, f64)> {
-    let number = (1..round.len()).find(|number| round[*number] >= share).or(round.len().checked_sub(1))?;
-    round.get(number).filter(|round| **round > 0.0).map(|round| (number, *round))
-}
-
-/// Pairs of points up to the first that belongs to the lower loop's `arrival`.
-pub(super) fn until(pairs: Vec<[usize; 2]>, arrival: usize) -> Vec<[usize; 2]> {
-    let end = pairs.iter().position(|[_, below]| *below == arrival).map_or(pairs.len(), |end| end + 1);
-    pairs.into_iter().take(end).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_ramp_arrives_at_a_point_of_the_loop_and_no_sooner_than_asked() {
-        let round = [0.0, 0.2, 0.5, 0.8, 1.0];
-        assert_eq!(arrival(&round, 0.3), Some((2, 0.5)));
-        assert_eq!(arrival(&round, 0.0), Some((1, 0.2)));
-        assert_eq!(arrival(&round, 7.0), Some((4, 1.0)));
-        assert_eq!(arrival(&[0.0], 0.1), None);
-        assert_eq!(until(vec![[0, 0], [1, 0], [1, 1], [2, 1], [2, 2]], 1), [[0, 0], [1, 0], [1, 1]]);
-    }
 }

@@ -1,25 +1,13 @@
-//! Spirals: from level to level in one descent, whose height falls evenly along its length.
-//!
-//! Between two loops, one a level below the other, the path has the height that its length so far gives it, and lies where the
-//! envelope has that height on the straight line in plan between two points of the loops that belong together
-//! ([`super::stitch`]). So each of its points is exact, for loops of any shape; between them it is fitted like every pass.
+//! Spirals: from level to level in one descent, whose height falls evenly along its length ([`super::descent`]).
 //!
 //! Derived in docs/concepts/spirals.md.
 
 use rayon::prelude::*;
 use styluscam_motion::Watch;
 
-use super::{level_curve::LevelCurve, nesting, ramps, stitch, stitch::Beside};
-use crate::{fitting, nearest, Pass, PathPoint, PlanError, Surface};
-
-/// The line between two points is looked at this far beyond both, mm: on upright walls they lie over each other.
-const BEYOND: f64 = 0.02;
-/// Points of two levels are this many times farther apart than the slope gives, at most: in a corner of 30 degrees, 3.9 times.
-const FAR: f64 = 4.0;
-/// Walls that are steeper count as this steep, a cotangent: corners and rounding.
-const LEAST: f64 = 0.3;
-/// Shifts of the path against the loops that it runs between, at least, mm: shorter lines have no direction of their own.
-const DIRECTED: f64 = 1e-6;
+use super::descent::{Descent, Level};
+use super::nesting;
+use crate::{Pass, PlanError, Surface};
 
 /// Loops of levels, in the order of their groups, joined to spirals: a loop at the first height, one descent, a loop at the last.
 /// Where a loop parts, ends, or cannot be followed down to the next level, its spiral ends; open passes stay as they are.
@@ -48,7 +36,7 @@ pub fn spirals(
             loops.push(lower);
         }
         let loops: Vec<&Pass> = loops.into_iter().map(|number| &passes[number]).collect();
-        descent.spirals(&loops, watch)
+        along(&descent, &loops, watch)
     };
     let found: Result<Vec<Vec<Pass>>, PlanError> = firsts.par_iter().map(of_first).collect();
     let mut found: Vec<Pass> = found?.into_iter().flatten().collect();
@@ -56,159 +44,27 @@ pub fn spirals(
     Ok(found)
 }
 
-/// How a path goes down between two loops.
-#[derive(Clone, Copy)]
-pub(super) struct Descent<'a> {
-    pub surface: &'a Surface<'a>,
-    pub deviation: f64,
-    pub longest: f64,
-    /// Whether the path runs against the direction in which loops are traced.
-    pub is_turned: bool,
-}
-
-/// A closed loop, and how far round each of its points is, from 0 to 1.
-struct Level {
-    points: Vec<PathPoint>,
-    round: Vec<f64>,
-}
-
-impl Level {
-    /// By the length in plan.
-    fn new(points: Vec<PathPoint>) -> Self {
-        let round = stitch::by_length(&points);
-        Self { points, round }
-    }
-}
-
-impl Descent<'_> {
-    /// The spirals along loops each of which leads to the next.
-    fn spirals(&self, loops: &[&Pass], watch: &Watch) -> Result<Vec<Pass>, PlanError> {
-        let mut found: Vec<Pass> = Vec::new();
-        let mut last: Option<Level> = None;
-        for pass in loops {
-            watch.advance(1)?;
-            let turn = last.as_ref().and_then(|above| self.turn(above, pass));
-            match (turn, found.last_mut()) {
-                (Some((turn, below)), Some(spiral)) => {
-                    spiral.points.extend_from_slice(&turn[1..]);
-                    last = Some(below);
-                }
-                _ => {
-                    close(&mut found, last.as_ref());
-                    found.push((*pass).clone());
-                    last = pass.closed.then(|| Level::new(pass.points.clone()));
-                }
+/// The spirals along loops each of which leads to the next.
+fn along(descent: &Descent<'_>, loops: &[&Pass], watch: &Watch) -> Result<Vec<Pass>, PlanError> {
+    let mut found: Vec<Pass> = Vec::new();
+    let mut last: Option<Level> = None;
+    for pass in loops {
+        watch.advance(1)?;
+        let turn = last.as_ref().and_then(|above| descent.turn(above, pass));
+        match (turn, found.last_mut()) {
+            (Some((turn, below)), Some(spiral)) => {
+                spiral.points.extend_from_slice(&turn[1..]);
+                last = Some(below);
+            }
+            _ => {
+                close(&mut found, last.as_ref());
+                found.push((*pass).clone());
+                last = pass.closed.then(|| Level::new(pass.points.clone()));
             }
         }
-        close(&mut found, last.as_ref());
-        Ok(found)
     }
-
-    /// One turn from a loop, from its first point on, down to the next one, with that loop as it begins there.
-    fn turn(&self, above: &Level, below: &Pass) -> Option<(Vec<PathPoint>, Level)> {
-        let (below, pairs) = facing(above, below)?;
-        let turn = self.fitted(above, &below, &pairs, 1.0)?;
-        Some((turn, below))
-    }
-
-    /// A ramp from a loop's first point, this share of a turn long or up to the next point of the loop below: the ramp, that
-    /// loop from the point nearest to where the ramp begins, and the number of its point at which it arrives.
-    pub(super) fn ramp(
-        &self,
-        above: Vec<PathPoint>,
-        below: &Pass,
-        share: f64,
-    ) -> Option<(Vec<PathPoint>, Vec<PathPoint>, usize)> {
-        let above = Level::new(above);
-        let (below, pairs) = facing(&above, below)?;
-        let (arrival, round) = ramps::arrival(&below.round, share)?;
-        let ramp = self.fitted(&above, &below, &ramps::until(pairs, arrival), round)?;
-        let arrives = ramp.last()?.tip == below.points.get(arrival)?.tip;
-        arrives.then_some((ramp, below.points, arrival))
-    }
-
-    /// The path between points that belong together, which falls evenly and is at the lower loop when it is `whole` round.
-    fn fitted(&self, above: &Level, below: &Level, pairs: &[[usize; 2]], whole: f64) -> Option<Vec<PathPoint>> {
-        let mut curve = LevelCurve::new(self.surface, 0.0);
-        let exact = exact(&mut curve, above, below, (pairs, whole))?;
-        let runs = fitting::densified(&exact, self.deviation, self.longest, &mut |a: &PathPoint, b: &PathPoint| {
-            let level = curve.at_height(0.5 * (a.tip.z + b.tip.z));
-            if self.is_turned {
-                level.between(b, a)
-            } else {
-                level.between(a, b)
-            }
-        });
-        let [run] = &runs[..] else { return None };
-        let is_whole =
-            run.iter().all(|point| point.selected) && run.windows(2).all(|pair| pair[1].tip.z < pair[0].tip.z);
-        is_whole.then(|| fitting::thinned(run, self.deviation))
-    }
-}
-
-/// The next loop as it begins beside the first point of the one above, and the pairs of their points; none where they are too
-/// far apart.
-fn facing(above: &Level, below: &Pass) -> Option<(Level, Vec<[usize; 2]>)> {
-    let mut points = below.points.clone();
-    nearest::begin_nearest(&mut points, above.points.first()?.tip);
-    let pairs = stitch::pairs(&above.points, &points);
-    let beside = stitch::beside(&pairs, [&above.points, &points]);
-    let turned: Vec<[usize; 2]> = pairs.iter().map(|[i, j]| [*j, *i]).collect();
-    let of_above = stitch::beside(&turned, [&points, &above.points]);
-    let is_far = is_far(&beside, [&above.points, &points]) || is_far(&of_above, [&points, &above.points]);
-    if is_far || beside.len() != points.len() {
-        return None;
-    }
-    let round = stitch::carried(&beside, &above.round, &points);
-    Some((Level { points, round }, pairs))
-}
-
-/// Whether a point of the second loop is farther in plan from the first than their slopes explain: the wall ends between them.
-fn is_far(beside: &[Beside], [first, second]: [&[PathPoint]; 2]) -> bool {
-    let flat = |point: &PathPoint| point.normal.z.max(0.0) / point.normal.xy().norm().max(f64::MIN_POSITIVE);
-    let is_far = |(near, point): (&Beside, &PathPoint)| {
-        let Some(other) = first.get(near.side) else { return true };
-        let expected = (other.tip.z - point.tip.z).abs() * flat(other).max(flat(point)).max(LEAST);
-        near.square.sqrt() > FAR * expected
-    };
-    beside.iter().zip(second).any(is_far)
-}
-
-/// Exact points between those above and below that belong together, as far down as they are round, of a `whole`.
-fn exact(
-    curve: &mut LevelCurve<'_>,
-    above: &Level,
-    below: &Level,
-    (pairs, whole): (&[[usize; 2]], f64),
-) -> Option<Vec<PathPoint>> {
-    let mut points: Vec<PathPoint> = Vec::with_capacity(pairs.len());
-    for (number, [i, j]) in pairs.iter().enumerate() {
-        let share = 0.5 * (above.round.get(*i)? + below.round.get(*j)?) / whole;
-        let (above, below) = (above.points.get(*i)?, below.points.get(*j)?);
-        // ends are the loops' own points
-        let point = match share {
-            _ if number + 1 == pairs.len() => *below,
-            share if share <= 0.0 => *above,
-            share if share >= 1.0 => continue,
-            share => between(curve, above, below, share)?,
-        };
-        // pairs that lie over each other in plan are one position of the path
-        if points.last().is_none_or(|last| (last.tip - point.tip).xy().norm() > DIRECTED) {
-            points.push(point);
-        }
-    }
-    (points.len() > 1).then_some(points)
-}
-
-/// The point of the envelope between a higher and a lower one in plan, this share of the height down.
-fn between(curve: &mut LevelCurve<'_>, above: &PathPoint, below: &PathPoint, share: f64) -> Option<PathPoint> {
-    let z = above.tip.z + share * (below.tip.z - above.tip.z);
-    let span = (below.tip - above.tip).xy();
-    let free = if span.norm() > BEYOND { span } else { above.normal.xy() };
-    let along = free.try_normalize(DIRECTED)? * BEYOND;
-    let (from, to) = (above.tip.xy() - along, below.tip.xy() + along);
-    let guess = (BEYOND + share * span.norm()) / (to - from).norm();
-    curve.at_height(z).crossing(from.into(), to.into(), guess)
+    close(&mut found, last.as_ref());
+    Ok(found)
 }
 
 /// Ends the last spiral, if it goes down, with the loop that it comes to.

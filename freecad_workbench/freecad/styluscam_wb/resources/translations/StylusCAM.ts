@@ -4,6 +4,24 @@
 <context>
     <name>App::Property</name>
     <message>
+        <source>Angle of ramps along the wall from level to level, degrees: they leave no line of steps; straight down when left out.
+Range: 0.1 to 45 deg
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>By how much that direction turns from level to level, degrees: 137.5 spreads the beginnings evenly.
+Range: -360 to 360 deg
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Direction from a loop's middle in which it begins, degrees from +X; where it is nearest when left out.
+Range: -360 to 360 deg
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Direction of rows from +X, degrees.
 Range: -360 to 360 deg</source>
         <translation type="unfinished"></translation>
@@ -242,6 +260,12 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Angle of ramps along the wall from level to level, degrees: they leave no line of steps; straight down when left out.
+Range: 0.1 to 45 deg
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Apex radius</source>
         <translation type="unfinished"></translation>
     </message>
@@ -263,6 +287,12 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>Bull nose</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>By how much that direction turns from level to level, degrees: 137.5 spreads the beginnings evenly.
+Range: -360 to 360 deg
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -371,6 +401,12 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>Direction</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Direction from a loop's middle in which it begins, degrees from +X; where it is nearest when left out.
+Range: -360 to 360 deg
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -730,6 +766,10 @@ wall's loops part (two pockets in one cup) each part has a spiral of its own. It
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Program written:</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Programs</source>
         <translation type="unfinished"></translation>
     </message>
@@ -782,6 +822,10 @@ wall's loops part (two pockets in one cup) each part has a spiral of its own. It
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Ramp angle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Range of t; either end may be the tip.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -820,6 +864,14 @@ wall's loops part (two pockets in one cup) each part has a spiral of its own. It
     </message>
     <message>
         <source>Scallop height by wall angle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Seam direction</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Seam spread</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1323,6 +1375,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>offset surface</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>ordering</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
