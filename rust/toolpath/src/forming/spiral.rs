@@ -12,7 +12,7 @@ use crate::{Pass, PlanError, Surface};
 /// Loops of levels, in the order of their groups, joined to spirals: a loop at the first height, one descent, a loop at the last.
 /// Where a loop parts, ends, or cannot be followed down to the next level, its spiral ends; open passes stay as they are.
 ///
-/// Chords deviate by at most `deviation` mm along the normal; `longest` mm as in [`fitting::densified`]. A spiral's group is that
+/// Chords deviate by at most `deviation` mm along the normal; `longest` mm as in [`crate::fitting::densified`]. A spiral's group is that
 /// of its first loop.
 ///
 /// # Errors
