@@ -1,12 +1,12 @@
 //! Progress and cancel: a flag and a figure that long work and the one who waits for it share.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 /// Shared between the thread that works and the one that waits. Work polls it; it costs a few nanoseconds.
 #[derive(Debug, Default)]
 pub struct Watch {
-    cancelled: AtomicBool,
+    cancelled: Arc<AtomicBool>,
     done: AtomicU64,
     total: AtomicU64,
     phase: Mutex<&'static str>,
@@ -26,6 +26,12 @@ impl Watch {
         if let Ok(mut current) = current {
             *current = phase;
         }
+    }
+
+    /// A watch for work that is done at the same time: cancelled with this one, its phases are nobody's.
+    #[must_use]
+    pub fn beside(&self) -> Self {
+        Self { cancelled: Arc::clone(&self.cancelled), ..Self::default() }
     }
 
     /// Counts `steps` more as done.
@@ -77,6 +83,17 @@ mod tests {
         assert_eq!(watch.state(), ("linking", 1.0));
         watch.begin("measuring", 2);
         assert_eq!(watch.state(), ("measuring", 0.0));
+    }
+
+    #[test]
+    fn a_watch_beside_is_cancelled_with_the_first_and_has_phases_of_its_own() {
+        let watch = Watch::default();
+        watch.begin("rows", 2);
+        let beside = watch.beside();
+        beside.begin("bridging", 3);
+        assert_eq!((watch.state().0, beside.state().0, beside.is_cancelled()), ("rows", "bridging", false));
+        watch.cancel();
+        assert_eq!(beside.advance(1), Err(Cancelled));
     }
 
     #[test]

@@ -24,7 +24,7 @@ const LINKED_ALONG: f64 = 4.0;
 const LEAST_AREA: f64 = 0.05;
 
 /// A kind whose tool follows the selected faces.
-pub trait FollowsSurface {
+pub trait FollowsSurface: Sync {
     /// Heights between which the tip stays on the surface, mm.
     fn tip_range(&self, task: &Task<'_>) -> [f64; 2];
 
@@ -155,9 +155,20 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
     let task = Task { context, budget };
     let surface = Surface::new(&envelope, &selected).between_heights(kind.tip_range(&task));
     let surface = if scene.sheet.is_some() { surface.from_above() } else { surface };
-    let traced = kind.trace(&task, &surface).map_err(|error| context.error(error))?;
-    let offset = reached::offset_of(scene, tool, &envelope, &context.faces, tolerance, watch)?;
-    let bridges = reached::bridges_of(scene, tool, &envelope, &offset, tolerance, watch)?;
+    let path = || {
+        let traced = kind.trace(&task, &surface).map_err(|error| context.error(error))?;
+        let moves = linked(kind, &task, &surface, &traced)?;
+        Ok::<_, JobError>((traced, moves))
+    };
+    let beside = watch.beside();
+    let reach = || {
+        let offset = reached::offset_of(scene, tool, &envelope, &context.faces, tolerance, &beside)?;
+        let bridges = reached::bridges_of(scene, tool, &envelope, &offset, tolerance, &beside)?;
+        Ok::<_, JobError>((offset, bridges))
+    };
+    // each has stretches in which one thread works alone
+    let (path, reach) = rayon::join(path, reach);
+    let ((traced, moves), (offset, bridges)) = (path?, reach?);
     let (groups, passes) = (count_groups(&traced.passes), traced.passes.len());
     let facts = SurfaceFacts {
         wall_angle_max_deg: steepest(scene, &selected).to_degrees(),
@@ -173,7 +184,7 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
         note: kind.note(groups, passes),
         facts: kind.facts(groups, &traced),
         surface: Some(facts),
-        moves: linked(kind, &task, &surface, &traced)?,
+        moves,
     })
 }
 
