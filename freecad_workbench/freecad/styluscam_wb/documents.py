@@ -68,8 +68,8 @@ def job_document(job: Any, operations: list[Any], part: EnginePart, machine: str
         "setup": {
             "zero": "model",
             "wcs": wcs or str(job.Fixtures[0]),
-            "clearance": min(obj.ClearanceHeight.Value for obj in operations) - top,
-            "retract": min(obj.SafeHeight.Value for obj in operations) - top,
+            "clearance": _above("ClearanceHeight", operations, top),
+            "retract": _above("SafeHeight", operations, top),
             **properties.section(first, SETUP),
             **({"sheet": properties.section(first, SHEET)} if properties.takes_sheet(first) else {}),
         },
@@ -78,6 +78,22 @@ def job_document(job: Any, operations: list[Any], part: EnginePart, machine: str
         "operations": [operation_section(obj) for obj in operations],
         "machine": machine_section(job, machine),
     }
+
+
+def _above(name: str, operations: list[Any], top: float) -> float:
+    """How far the lowest of the operations' heights is above the model, mm; the document counts from there.
+
+    Raises:
+        DocumentError: it is not above.
+    """
+    lowest = min(operations, key=lambda obj: getattr(obj, name).Value)
+    height = getattr(lowest, name).Value
+    if height > top:
+        return float(height - top)
+    raise DocumentError(
+        f"{lowest.Label}: {name} is {height:g} mm, and the top of what is worked on lies at {top:g} mm: "
+        "raise it, or check the job's stock, from which FreeCAD takes its heights"
+    )
 
 
 def machine_section(job: Any, machine: str) -> Document:

@@ -1,4 +1,4 @@
-//! Shapes: convex profiles, tools, sheets, freeform surfaces, meshes and their index.
+//! Shapes: convex profiles, tools, sheets, surfaces of a model and triangles of its faces, meshes and their index.
 //!
 //! Lengths are millimetres, angles radians. Nothing here knows what a path is.
 

@@ -127,6 +127,15 @@ def no_step(stage: Stage) -> None:
     stage.operation.Step = 0.0
 
 
+def low_clearance(stage: Stage) -> None:
+    stage.operation.setExpression("ClearanceHeight", None)
+    stage.operation.ClearanceHeight = -30.0
+
+
+def no_tolerance(stage: Stage) -> None:
+    stage.operation.ModelTolerance = 0.0
+
+
 def no_faces(stage: Stage) -> None:
     stage.operation.Base = []
 
@@ -534,6 +543,8 @@ SCENARIOS: dict[str, Scenario] = {
     "first of two tools": first_of_two_tools,
     "saved": saved,
     "no step": broken(no_step),
+    "low clearance": broken(low_clearance),
+    "no tolerance": broken(no_tolerance),
     "no faces": broken(no_faces),
     "other model": broken(other_model),
     "no controller": broken(no_controller),
