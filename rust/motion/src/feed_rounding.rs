@@ -14,11 +14,13 @@ pub struct FeedRounding {
 }
 
 impl FeedRounding {
-    /// How far the feed (mm/min) of a move of some length (mm) may be off, mm/min.
+    /// How far the feed (mm/min) of a move of some length (mm) may be off, mm/min; the length may be infinite where feeds do
+    /// not follow from it.
     #[must_use]
     pub fn of(&self, feed: f64, length: f64) -> f64 {
         let by_length = if self.length > 0.0 { feed * self.length / length.max(self.length) } else { 0.0 };
-        self.per_minute + self.per_mm * length + self.share * feed + by_length
+        let by_number = if self.per_mm > 0.0 { self.per_mm * length } else { 0.0 };
+        self.per_minute + by_number + self.share * feed + by_length
     }
 }
 
@@ -31,6 +33,8 @@ mod tests {
         let rounding = FeedRounding { per_mm: 0.001, length: 0.002, ..FeedRounding::default() };
         assert!((rounding.of(1000.0, 20.0) - (0.02 + 0.1)).abs() < 1e-12);
         assert!((rounding.of(1000.0, 0.0) - 1000.0).abs() < 1e-12);
-        assert!((FeedRounding { per_minute: 0.5, ..FeedRounding::default() }.of(1000.0, 3.0) - 0.5).abs() < 1e-12);
+        assert!(
+            (FeedRounding { per_minute: 0.5, ..FeedRounding::default() }.of(1000.0, f64::INFINITY) - 0.5).abs() < 1e-12
+        );
     }
 }
