@@ -13,8 +13,8 @@ import pytest
 
 pytest.importorskip("OCP", reason="needs the step extra")
 
-from OCP.BRepAlgoAPI import BRepAlgoAPI_Common, BRepAlgoAPI_Cut, BRepAlgoAPI_Fuse
-from OCP.BRepBuilderAPI import BRepBuilderAPI_Transform
+from OCP.BRepAlgoAPI import BRepAlgoAPI_BuilderAlgo, BRepAlgoAPI_Common, BRepAlgoAPI_Cut, BRepAlgoAPI_Fuse
+from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_Transform
 from OCP.BRepGProp import BRepGProp
 from OCP.BRepPrimAPI import (
     BRepPrimAPI_MakeBox,
@@ -24,8 +24,11 @@ from OCP.BRepPrimAPI import (
     BRepPrimAPI_MakeTorus,
 )
 from OCP.BRepTools import BRepTools
-from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt, gp_Trsf
+from OCP.gp import gp_Ax2, gp_Circ, gp_Dir, gp_Pnt, gp_Trsf
 from OCP.GProp import GProp_GProps
+from OCP.TopAbs import TopAbs_ShapeEnum
+from OCP.TopExp import TopExp_Explorer
+from OCP.TopTools import TopTools_ListOfShape
 
 from styluscam.parts import meshing
 from styluscam.parts.arrays import PartArrays, signed_volume
@@ -81,6 +84,20 @@ def lens() -> Any:
     return BRepAlgoAPI_Common(*balls).Shape()
 
 
+def slit() -> Any:
+    """A ball with an edge within its face that is no border."""
+    ball = BRepPrimAPI_MakeSphere(gp_Pnt(0, 0, 0), 12.0).Shape()
+    equator = BRepBuilderAPI_MakeEdge(gp_Circ(at(0, 0, 0), 12.0), 0.5, 2.0).Edge()
+    fused = BRepAlgoAPI_BuilderAlgo()
+    arguments = TopTools_ListOfShape()
+    for shape in (ball, equator):
+        arguments.Append(shape)
+    fused.SetArguments(arguments)
+    fused.Build()
+    solid = TopExp_Explorer(fused.Shape(), TopAbs_ShapeEnum.TopAbs_SOLID)
+    return solid.Current()
+
+
 SHAPES: dict[str, Callable[[], Any]] = {
     "box": box,
     "cylinder": lambda: BRepPrimAPI_MakeCylinder(at(1, 2, 3, (0.3, 0.2, 0.9)), 6.0, 90.0).Shape(),
@@ -88,6 +105,7 @@ SHAPES: dict[str, Callable[[], Any]] = {
     "cone that opens": lambda: BRepPrimAPI_MakeCone(at(0, 0, 0), 0.0, 7.0, 12.0).Shape(),
     "sphere": lambda: BRepPrimAPI_MakeSphere(gp_Pnt(1, 2, 3), 8.0).Shape(),
     "octant": octant,
+    "slit": slit,
     "lens": lens,
     "torus": lambda: BRepPrimAPI_MakeTorus(at(1, 2, 3, (1, 0, 1)), 12.0, 4.0).Shape(),
     "half a torus": lambda: BRepPrimAPI_MakeTorus(at(0, 0, 0), 12.0, 4.0, 0.3, 2.0, 1.5).Shape(),

@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from styluscam.parts.trimmed import Edge, EdgeUse, Face, Model
 
 
+SLITS = ("Internal", "External")
+"""Orientations of edges that are no border: the face is on both of their sides."""
+
+
 def model_of(faces: Sequence[Any], surfaces: Sequence[ExactSurface]) -> Model | None:
     """A shape's faces within their edges; None where a surface is not elementary, or an edge lacks its curves."""
     import Part
@@ -77,8 +81,11 @@ def _face(face: Any, edges: _Edges) -> Face:
     uses: list[EdgeUse] = []
     for wire in face.Wires:
         for edge in wire.Edges:
-            uses.append(_use(face, edge, edges))
-            if edge.isSeam(face):
+            use = _use(face, edge, edges)
+            uses.append(use)
+            if edge.Orientation in SLITS:
+                uses.append(use)
+            elif edge.isSeam(face):
                 uses.append(_use(face, edge.reversed(), edges))
     return Face(lambda u, v: _xyz(face.valueAt(u, v)), ((u0 + u1) / 2.0, (v0 + v1) / 2.0), uses, face.Area)
 

@@ -53,7 +53,7 @@ def _edge(shape: Kernel) -> Edge:
 
 def _face(face: Kernel, edges: Kernel) -> Face:
     from OCP.BRepAdaptor import BRepAdaptor_Surface
-    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopAbs import TopAbs_Orientation, TopAbs_ShapeEnum
     from OCP.TopExp import TopExp_Explorer
     from OCP.TopoDS import TopoDS
 
@@ -66,7 +66,10 @@ def _face(face: Kernel, edges: Kernel) -> Face:
     found = TopExp_Explorer(face, TopAbs_ShapeEnum.TopAbs_EDGE)
     while found.More():
         edge = TopoDS.Edge_s(found.Current())
-        uses.append(EdgeUse(edges.FindIndex(edge) - 1, _guides(edge, face)))
+        use = EdgeUse(edges.FindIndex(edge) - 1, _guides(edge, face))
+        # a slit in the face is no border: the face is on both of its sides
+        is_slit = edge.Orientation() in (TopAbs_Orientation.TopAbs_INTERNAL, TopAbs_Orientation.TopAbs_EXTERNAL)
+        uses += [use, use] if is_slit else [use]
         found.Next()
     return Face(lambda u, v: xyz(surface.Value(u, v)), middle, uses, area_and_centre(face)[0])
 
