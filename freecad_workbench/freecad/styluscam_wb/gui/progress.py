@@ -57,7 +57,7 @@ class LongWork:
 
     def __exit__(self, *_: object) -> None:
         self._dialog.close()
-        self._dialog.deleteLater()
+        self._dialog.setParent(None)  # Python's alone now: a later deletion by Qt would meet a wrapper that is gone
 
     def __call__(self, work: Callable[[Report], Result]) -> Result:
         """What `work` returns; its errors pass through.
