@@ -101,6 +101,11 @@ def area_vectors(vertices: Floats, triangles: Ints) -> Floats:
     return np.asarray(np.cross(b - a, c - a))
 
 
+def surface_area(vertices: Floats, triangles: Ints) -> float:
+    """Return the area of triangles, mm^2."""
+    return float(np.linalg.norm(area_vectors(vertices, triangles), axis=1).sum() / 2.0)
+
+
 def describe_face(
     face_id: int,
     kind: str,

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from styluscam.errors import GeometryError
-from styluscam.parts.arrays import FaceInfo, PartArrays, area_vectors, describe_face, signed_volume
+from styluscam.parts.arrays import FaceInfo, PartArrays, area_vectors, describe_face, signed_volume, surface_area
 from styluscam.parts.surfaces import Cone, ExactSurface, Floats, Nurbs, Parametric
 from styluscam.parts.tessellation import GAP_SHARE, FaceMesh, Tessellation, is_closed, weld
 
@@ -54,7 +54,7 @@ def check_areas(
     """
     notes = []
     for i, (mesh, (area, _)) in enumerate(zip(tessellation.meshes, areas, strict=True)):
-        meshed = float(np.linalg.norm(area_vectors(mesh.nodes, mesh.triangles), axis=1).sum() / 2.0)
+        meshed = surface_area(mesh.nodes, mesh.triangles)
         if abs(meshed - area) <= AREA_SHARE * area:
             continue
         strip = border_length(mesh) * (tessellation.deviations[i].worst + tessellation.deflection) + 1e-6

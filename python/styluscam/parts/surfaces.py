@@ -78,7 +78,8 @@ class Elementary(ABC):
 
     def distance_between(self, nodes: Floats, triangles: NDArray[np.int64], weights: Floats) -> Floats:
         """Return signed distances (T,S) at barycentric weights (S,3) of triangles (T,3) between nodes (N,3)."""
-        return self.engine().distance_between(nodes, triangles, weights)
+        corners = np.ascontiguousarray(nodes[triangles].reshape(-1, 3))  # not all nodes: callers ask part by part
+        return self.engine().distance_between(corners, np.arange(len(corners)).reshape(-1, 3), weights)
 
     def normal(self, points: Floats) -> Floats:
         """See ExactSurface. On an axis: that of any half-plane through it; at a sphere's centre any."""

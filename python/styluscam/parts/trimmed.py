@@ -12,7 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from styluscam.parts.arrays import area_vectors
+from styluscam.parts.arrays import surface_area
+from styluscam.parts.assembly import AREA_SHARE
 from styluscam.parts.surfaces import Elementary, ExactSurface, Floats, Plane, Vector, unit
 from styluscam.parts.tessellation import FaceMesh
 
@@ -30,8 +31,6 @@ GUIDES = 5
 # What a convex face's triangles may be off, as a part of the tolerance, where hollow faces are in the model as well:
 # planning pays for the sum of both sides, and the hollow ones take all of theirs.
 CONVEX_BESIDE_HOLLOW = 0.45
-# A face's triangles may miss this part of its area, and what its border's chords cut off: else its edges mislead.
-AREA_SHARE = 0.02
 
 Evaluated = Callable[[float], Vector]
 
@@ -77,11 +76,9 @@ class Model:
     def meshes(self, surfaces: Sequence[ExactSurface], deflection: float) -> list[FaceMesh] | None:
         """Return each face's triangles, whose edges are within `deflection` mm, and nearly all of whose insides are.
 
-        Of convex faces beside hollow ones a part of that, see :func:`shares`. None where a face is not elementary, or its
-        edges do not close.
+        Of convex faces beside hollow ones a part of that, see :func:`shares`. None where a face's edges do not close, or do not
+        enclose its area.
         """
-        if not all(isinstance(surface, Elementary) for surface in surfaces):
-            return None
         of_faces = shares(surfaces)
         of_edges = [1.0] * len(self.edges)
         for face, share in zip(self.faces, of_faces, strict=True):
@@ -162,7 +159,7 @@ def _face_mesh(
     if found is None:
         return None
     nodes, triangles = found
-    meshed = float(np.linalg.norm(area_vectors(nodes, triangles), axis=1).sum() / 2.0)
+    meshed = surface_area(nodes, triangles)
     around = [np.linalg.norm(np.diff(points[use.edge][0], axis=0), axis=1).sum() for use in face.uses]
     slack = AREA_SHARE * face.area + float(sum(around)) * deviation + 1e-6
     return FaceMesh(nodes, triangles) if abs(meshed - face.area) <= slack else None
