@@ -174,7 +174,7 @@ class ObjectStylus(PathOp.ObjectOp):
 def engine_part(obj: Any, run: Run) -> EnginePart:
     """The engine's part of the model that an operation works on."""
     model = documents.model_of(obj)
-    shape, tolerance, name = model.Shape, obj.ModelTolerance.Value, model.Label
+    shape, tolerance, name = model.Shape, properties.number_in_range(obj, "ModelTolerance"), model.Label
     part: EnginePart = run(lambda report: part_of(shape, tolerance, name, report))
     return part
 

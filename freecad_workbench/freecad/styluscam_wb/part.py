@@ -27,9 +27,6 @@ if TYPE_CHECKING:
 KEPT = 4
 """Parts that a session remembers."""
 
-LEAST_TOLERANCE, LARGEST_TOLERANCE = 0.0001, 1.0
-"""What the job document allows, mm."""
-
 ANY_DEFLECTION = 1e3
 """Asked of a face that is meshed already, the kernel gives back what it has."""
 
@@ -67,8 +64,6 @@ def arrays_of(shape: Any, tolerance: float, name: str, progress: Progress | None
     from styluscam.parts.tessellation import refine_until
     from styluscam.parts.trimmed import OWN_ATTEMPTS, shares
 
-    if not LEAST_TOLERANCE <= tolerance <= LARGEST_TOLERANCE:
-        raise _out_of_range(tolerance)
     source = FilePath(name)
     bare = shape.copy(True, False)  # a mesh of its own: the document's shape keeps the one it shows
     faces = bare.Faces
@@ -124,14 +119,6 @@ def _face_mesh(face: Any, name: str) -> FaceMesh:
         message = f"{name}: the kernel cannot mesh this face: repair it in the CAD system"
         raise GeometryError(message, code="part-face-not-meshed", where=name)
     return FaceMesh(np.array([(p.x, p.y, p.z) for p in points]), np.array(triangles, dtype=np.int64))
-
-
-def _out_of_range(tolerance: float) -> Exception:
-    from styluscam import GeometryError
-
-    allowed = f"allowed is {LEAST_TOLERANCE:g} to {LARGEST_TOLERANCE:g} mm"
-    message = f"ModelTolerance = {tolerance:g} mm: {allowed}"
-    return GeometryError(message, code="out-of-range", where="part.tolerance", hint=allowed)
 
 
 def _no_faces(name: str) -> Exception:

@@ -155,6 +155,20 @@ def section(obj: Any, name: str, *keys: str) -> dict[str, Any]:
     return found
 
 
+def number_in_range(obj: Any, name: str) -> float:
+    """A number of an operation, in its key's unit: for what is needed before the document is read as a whole.
+
+    Raises:
+        PropertyError: its key does not allow it.
+    """
+    field = next(field for field in fields() if field.name == name)
+    value = float(getattr(obj, name).Value)
+    if field.range is not None and not field.range.holds(value):
+        allowed = field.range.in_words(field.unit)
+        raise PropertyError(f"{name} = {value:g} {field.unit}: allowed is {allowed}")
+    return value
+
+
 def shared() -> tuple[str, ...]:
     """Names of the properties that all operations of one program must agree on."""
     return tuple(field.name for field in fields() if field.section not in (OPERATION, JOB))
