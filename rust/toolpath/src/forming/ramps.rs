@@ -43,7 +43,10 @@ pub fn ramped(
         levels += usize::from(last.is_some_and(|last| last != pass.group));
         let descent = Descent { is_turned: ramp.sense.turns(levels), ..descent };
         let before = number.checked_sub(1).filter(|before| followers[*before] == Some(number));
-        let above = before.and_then(|before| entered.get(before)).map(|above| &above.pass);
+        let mut above = before.and_then(|before| entered.get(before)).map(|above| above.pass.points.clone());
+        if let (Some(above), true) = (&mut above, levels > 0 && ramp.sense.turns(levels - 1) != descent.is_turned) {
+            above.reverse(); // as its own follower runs
+        }
         let found = above.and_then(|above| to_loop(&descent, above, &pass, ramp.slope));
         entered.push(found.unwrap_or_else(|| Entered::from(begun_beside(entered.last(), pass))));
     }
@@ -59,12 +62,8 @@ fn begun_beside(before: Option<&Entered>, mut pass: Pass) -> Pass {
     pass
 }
 
-/// A loop that begins where a ramp from the loop above arrives, with the ramp from that loop's end.
-fn to_loop(descent: &Descent<'_>, above: &Pass, pass: &Pass, slope: f64) -> Option<Entered> {
-    let mut above = above.points.clone();
-    if (turning(&above) > 0.0) != (turning(&pass.points) > 0.0) {
-        above.reverse();
-    }
+/// A loop that begins where a ramp from the loop above, which runs the same way, arrives; with that ramp.
+fn to_loop(descent: &Descent<'_>, above: Vec<PathPoint>, pass: &Pass, slope: f64) -> Option<Entered> {
     let fall = above.first()?.tip.z - pass.points.first()?.tip.z;
     let share = fall / slope / length(&above);
     let (ramp, mut points, arrival) = descent.ramp(above, pass, share)?;
@@ -76,9 +75,4 @@ fn to_loop(descent: &Descent<'_>, above: &Pass, pass: &Pass, slope: f64) -> Opti
 
 fn length(points: &[PathPoint]) -> f64 {
     points.windows(2).map(|side| (side[1].tip - side[0].tip).xy().norm()).sum::<f64>().max(f64::MIN_POSITIVE)
-}
-
-/// Twice the area that a closed polyline encloses in plan; above 0 where it runs counterclockwise.
-fn turning(points: &[PathPoint]) -> f64 {
-    points.windows(2).map(|side| side[0].tip.x * side[1].tip.y - side[1].tip.x * side[0].tip.y).sum()
 }
