@@ -207,6 +207,9 @@ class Judgement:
     def left(
         self, job: Job, scene: Scene, points: _F, progress: _Progress | None = None, cancel: CancelToken | None = None
     ) -> _F: ...
+    def scallops(
+        self, job: Job, scene: Scene, count: int, progress: _Progress | None = None, cancel: CancelToken | None = None
+    ) -> list[tuple[str, _F, _F, _F, _F]]: ...
     def needs(
         self,
         job: Job,

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from styluscam.records import Record
+from styluscam.types import FloatArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -101,3 +104,32 @@ class FaceCoverage(Record):
     def to_form(self) -> float:
         """The area that the tool must touch, mm^2."""
         return self.area * max(0.0, 1.0 - self.flat - self.carried)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Scallops(Record):
+    """What stands between the neighbouring passes of an operation. Lengths mm.
+
+    Attributes:
+        operation: its id.
+        heights: (N,), above the floor of the passes.
+        points: (N, 3), where they are highest, work coordinates.
+        steps: (N,), distance of the two passes in height, or across rows.
+        lengths: (N,), of the ridge that each stands for.
+    """
+
+    operation: str
+    heights: FloatArray
+    points: FloatArray
+    steps: FloatArray
+    lengths: FloatArray
+
+    @property
+    def highest(self) -> float:
+        """The highest, mm; 0 where there is none."""
+        return float(self.heights.max(initial=0.0))
+
+    def share_within(self, low: float, high: float) -> float:
+        """The share of the ridges' length whose height lies between two heights, mm; 0 where there is none."""
+        within = (self.heights >= low) & (self.heights <= high)
+        return float(self.lengths[within].sum() / max(self.lengths.sum(), np.finfo(np.float64).tiny))

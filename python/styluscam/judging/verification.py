@@ -13,7 +13,7 @@ from styluscam.arguments import A_FILE, FileName, channel_of, file_of, refused
 from styluscam.errors import GeometryError, JobError, PlanError, VerifyError
 from styluscam.files import read_gcode_text
 from styluscam.judging.brep import recheck
-from styluscam.judging.results import FaceCoverage, Finding, Group
+from styluscam.judging.results import FaceCoverage, Finding, Group, Scallops
 from styluscam.programs.job import MAIN_CHANNEL, Job, JobLike
 from styluscam.programs.machine import Machine, MachineLike
 from styluscam.programs.planning import Plan, Setting, TextLike, text_of_channel
@@ -159,6 +159,24 @@ class Report:
         positions = rows(points, 3)
         ups = shaped(rows(normals, 3, "normals"), positions.shape, "normals")
         return self.judgement.needs(self.job.engine, self.scene, positions, ups, progress=progress, cancel=cancel)
+
+    def scallops(
+        self, *, count: int = 20_000, progress: Progress | None = None, cancel: _engine.CancelToken | None = None
+    ) -> list[Scallops]:
+        """The scallops that each operation leaves between its passes, at about ``count`` points of its faces.
+
+        A scallop is measured where two neighbouring passes leave equally much, above the mean of what both leave where they
+        touch: the path's tolerance is not in it. Where something else than the distance of the passes keeps the tool off,
+        there is none. Operations whose passes have no order have none.
+
+        Raises:
+            GeometryError: a count below 1.
+            Cancelled: by ``progress`` or ``cancel``.
+        """
+        if count < 1:
+            raise GeometryError(f"count = {count}: at least 1", code="out-of-range", where="count", hint="20000 is usual")
+        found = self.judgement.scallops(self.job.engine, self.scene, count, progress=progress, cancel=cancel)
+        return [Scallops(*arrays) for arrays in found]
 
     @property
     def scallop(self) -> float:

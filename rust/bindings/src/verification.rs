@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use numpy::{PyArray1, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
-use styluscam_verify::{FindingKind, Need};
+use styluscam_verify::{FindingKind, Need, Scallop};
 
 use crate::{
     arrays,
@@ -18,6 +18,15 @@ use crate::{
     simulation::Simulation,
     waiting::{watched, CancelToken},
 };
+
+/// An operation's id; heights, points, steps and lengths of its scallops.
+type OperationScallops<'py> = (
+    String,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<f64>>,
+);
 
 /// A text that was checked.
 #[pyclass(frozen, module = "styluscam._engine")]
@@ -87,6 +96,28 @@ impl Judgement {
         };
         let needs = watched(py, progress, cancel, work)?.map_err(of_job)?;
         Ok(PyArray1::from_vec(py, needs.into_iter().map(number).collect()))
+    }
+
+    /// The scallops of each operation at about `count` points of its faces: its id, their heights (N,), where they are (N, 3),
+    /// the distances of the passes beside them in their order (N,), and the length of ridge that each stands for (N,); mm.
+    #[pyo3(signature = (job, scene, count, progress=None, cancel=None))]
+    fn scallops<'py>(
+        &self,
+        py: Python<'py>,
+        job: &Job,
+        scene: &Scene,
+        count: usize,
+        progress: Option<&Bound<'py, PyAny>>,
+        cancel: Option<&CancelToken>,
+    ) -> PyResult<Vec<OperationScallops<'py>>> {
+        let work = |watch: &_| styluscam_job::scallops(&job.document, &scene.scene, &self.judgement, count, watch);
+        let found = watched(py, progress, cancel, work)?.map_err(of_job)?;
+        let of_operation = |(id, scallops): (String, Vec<Scallop>)| {
+            let values = |value: fn(&Scallop) -> f64| PyArray1::from_iter(py, scallops.iter().map(value));
+            let points = arrays::matrix(py, scallops.iter().map(|scallop| scallop.at.into()))?;
+            Ok((id, values(|s| s.height), points, values(|s| s.step), values(|s| s.length)))
+        };
+        found.into_iter().map(of_operation).collect()
     }
 
     /// The material after the program; `face` of the sheet is "tool", "mid" or "back".

@@ -4,6 +4,7 @@
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // what tests expect may come from std
 
+mod curvature;
 mod cutter;
 mod elementary;
 mod error;
@@ -12,12 +13,14 @@ mod freeform;
 mod mesh;
 mod piecewise;
 mod profile;
+mod scallop;
 mod sheet;
 mod tool;
 mod tool_body;
 mod tool_parts;
 mod trimmed;
 
+pub use curvature::{bend, wall_axes, Bend};
 pub use cutter::{Cutter, Height, SupportingLine};
 pub use elementary::{Axes, ElementaryKind, ElementarySurface, Spacing};
 pub use error::GeometryError;

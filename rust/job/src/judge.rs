@@ -9,11 +9,12 @@ use styluscam_motion::{Program, ToolRecord, Watch};
 use styluscam_post::machine::ToolChange;
 use styluscam_post::{read, Machine};
 use styluscam_verify::{
-    Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Limits, Need, Reach, Report, Simulation, Subject,
-    TextFacts, ToolCalls,
+    Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Limits, Need, Reach, Report, Scallop, Simulation,
+    Subject, TextFacts, ToolCalls,
 };
 
 use crate::limits::{GOUGE, NO_ROOM};
+use crate::operations::PassContext;
 use crate::resolve::{faces_of, heights_of, tools_in_order};
 use crate::{materials, model, plates, Coolant, JobDocument, JobError, OperationSection, Scene, SheetSection, Spindle};
 
@@ -52,7 +53,7 @@ struct Against<'a> {
 impl<'a> Against<'a> {
     fn new(job: &'a JobDocument, scene: &'a Scene) -> Result<Self, JobError> {
         let (tools, records) = tools_in_order(job, scene.channel)?;
-        let expected = expected(job, scene, &records)?;
+        let expected = expected(job, scene, &tools, &records)?;
         Ok(Self { scene, wcs: &job.setup.wcs, tools, records, expected })
     }
 
@@ -162,6 +163,27 @@ pub fn left(
     Ok(styluscam_verify::left(&judgement.program, &subject, &judgement.limits, points, watch)?)
 }
 
+/// The scallops that a checked program leaves, operation by operation: at about `count` points of the faces of each.
+///
+/// # Errors
+/// Tools that do not build, `Cancelled`.
+pub fn scallops(
+    job: &JobDocument,
+    scene: &Scene,
+    judgement: &Judgement,
+    count: usize,
+    watch: &Watch,
+) -> Result<Vec<(String, Vec<Scallop>)>, JobError> {
+    let against = Against::new(job, scene)?;
+    let subject = against.subject(&judgement.unknown_positions);
+    let of_operation = |operation: &ExpectedOperation| {
+        let (program, limits) = (&judgement.program, &judgement.limits);
+        let found = styluscam_verify::scallops(program, &subject, limits, operation, count, watch)?;
+        Ok((operation.id.clone(), found))
+    };
+    against.expected.iter().map(of_operation).collect()
+}
+
 /// What each of some points of the part, with its unit normal, asks for: forming, or nothing for it stays flat.
 ///
 /// # Errors
@@ -201,12 +223,22 @@ pub fn simulate(
 }
 
 /// What the job states for each operation of the scene's channel.
-fn expected(job: &JobDocument, scene: &Scene, records: &[ToolRecord]) -> Result<Vec<ExpectedOperation>, JobError> {
+fn expected(
+    job: &JobDocument,
+    scene: &Scene,
+    tools: &[Tool],
+    records: &[ToolRecord],
+) -> Result<Vec<ExpectedOperation>, JobError> {
     let operation = |(index, section): (usize, &OperationSection)| {
         let common = &section.common;
+        let named = records.iter().position(|record| record.name == common.tool);
+        let tool = named.ok_or_else(|| {
+            let message = format!("operations[{index}].tool: the channel has no tool {:?}", common.tool);
+            JobError::document("unknown", format!("operations[{index}].tool"), message, "name one of [tools]")
+        })?;
         Ok(ExpectedOperation {
             id: section.id(index),
-            tool: records.iter().position(|record| record.name == common.tool).unwrap_or(usize::MAX),
+            tool,
             cut: common.feeds.cut,
             plunge: common.feeds.plunge,
             spindle: match common.spindle {
@@ -214,7 +246,7 @@ fn expected(job: &JobDocument, scene: &Scene, records: &[ToolRecord]) -> Result<
                 Spindle::Fixed { rpm, direction } => Some((rpm, direction)),
             },
             flood: common.coolant == Coolant::Flood,
-            expectation: expectation(job, scene, section, index)?,
+            expectation: expectation(job, scene, &tools[tool], section, index)?,
         })
     };
     job.operations_of(scene.channel).map(operation).collect()
@@ -224,15 +256,21 @@ fn expected(job: &JobDocument, scene: &Scene, records: &[ToolRecord]) -> Result<
 fn expectation(
     job: &JobDocument,
     scene: &Scene,
+    tool: &Tool,
     section: &OperationSection,
     index: usize,
 ) -> Result<Expectation, JobError> {
     let heights = heights_of(job, scene, section);
+    let given = PassContext {
+        smallest_feature: section.common.smallest_feature,
+        top: heights.top.unwrap_or(scene.top),
+        body: &tool.body(scene.sheet.as_ref()),
+    };
     Ok(Expectation {
         contact: section.kind().contact(),
         selected: scene.facing_up(&faces_of(job, scene, section, index)?),
         heights: [heights.bottom, heights.top.unwrap_or(f64::INFINITY)],
-        passes: section.kind().passes(section.common.smallest_feature),
+        passes: section.kind().passes(&given),
         forms: job.process.process.as_kind().forms(),
     })
 }

@@ -21,7 +21,7 @@ fn tool(profile: ProfileDocument) -> Tool {
 }
 
 fn rows(envelope: &Envelope<'_>, angle: f64, stepover: f64) -> Vec<Pass> {
-    let rows = Rows { angle, stepover, spacing: 0.7, narrow: 0.14 };
+    let rows = Rows { angle, stepover, closer: None, spacing: 0.7, narrow: 0.14 };
     zig_zag(&Surface::whole(envelope), &rows, DEVIATION, &Watch::default()).unwrap()
 }
 
@@ -141,7 +141,7 @@ fn a_groove_between_two_rows_gets_one_of_its_own() {
         ]);
         let index = Index::new(&mesh);
         let envelope = Envelope::new(&mesh, &index, &tool, None, 0.001);
-        let rows = Rows { angle: 0.0, stepover: 5.0, spacing: 0.7, narrow: 0.14 };
+        let rows = Rows { angle: 0.0, stepover: 5.0, closer: None, spacing: 0.7, narrow: 0.14 };
         let across = |pass: &Pass| pass.points[0].tip.y;
         // the floors alone, and all: then the land's rows lie beside the groove
         for chosen in [0b001_0001, 0b111_1111] {

@@ -59,9 +59,9 @@ fn values(passes: &OrderedPasses, segments: &[&Segment]) -> Vec<f64> {
         goes_on
     });
     let length = |chain: &[&Segment]| chain.iter().map(|segment| segment.length()).sum::<f64>();
-    let long = chains.filter(|chain| holds(scalar, chain[0]) && length(chain) > LONG * passes.step);
+    let long = chains.filter(|chain| holds(scalar, chain[0]) && length(chain) > LONG * passes.step_at(chain[0].end));
     let long = long.map(|chain| [value(chain[0].end), length(chain)]).collect();
-    let mut values = scalar.throughout(long, passes.step);
+    let mut values = scalar.throughout(long, passes.pitch.even());
     values.sort_by(f64::total_cmp);
     values.dedup_by(|b, a| *b - *a <= scalar.same());
     values

@@ -209,6 +209,22 @@ impl Sweep {
         let share = (point - self.stroke.from).dot(&travel) / travel.norm_squared().max(f64::MIN_POSITIVE);
         self.stroke.at(share.clamp(0.0, 1.0))
     }
+
+    /// Distance from a point to what the body sweeps, mm.
+    pub fn distance(&self, body: &Body, point: Vector) -> f64 {
+        distance(body, point, &self.stroke, f64::INFINITY)
+    }
+
+    /// The position of the body on the path where it passes a point nearest by.
+    pub fn position_nearest(&self, body: &Body, point: Vector) -> Vector {
+        let mut nearest = (f64::INFINITY, self.stroke.from);
+        least(body, point, &self.stroke, f64::INFINITY, |value, position| {
+            if value < nearest.0 {
+                nearest = (value, position);
+            }
+        });
+        nearest.1
+    }
 }
 
 impl PointDistance for Sweep {
@@ -332,13 +348,20 @@ impl SelectionFunction<Sweep> for Search<'_> {
 
 /// Distance from a point to a body on its path, where it is below `best`: convex in the position on the path.
 fn distance(body: &Body, point: Vector, stroke: &Stroke, best: f64) -> f64 {
+    let mut nearest = f64::INFINITY;
+    least(body, point, stroke, best, |value, _| nearest = nearest.min(value));
+    nearest
+}
+
+/// Looks for the least distance below `best` from a point to a body on its path: `seen` is given each that is computed, with
+/// the body's position.
+fn least(body: &Body, point: Vector, stroke: &Stroke, best: f64, mut seen: impl FnMut(f64, Vector)) {
     let along = stroke.from - stroke.to;
-    let mut least = f64::INFINITY;
     lower(stroke.share_near(point), along.norm(), best, |share| {
-        let p = point - stroke.at(share);
+        let position = stroke.at(share);
+        let p = point - position;
         let here = body.distance(p);
-        least = least.min(here.value);
+        seen(here.value, position);
         body.tangent(p, &here, along)
     });
-    least
 }

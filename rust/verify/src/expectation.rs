@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use styluscam_motion::SpindleDirection;
 
+use crate::pitch::Pitch;
 use crate::scalar::Scalar;
 
 /// An operation as the job states it.
@@ -64,17 +65,24 @@ pub enum Passes {
     },
 }
 
-/// Passes that lie a step apart.
+/// Passes that lie some distance apart.
 #[derive(Clone, Debug)]
 pub struct OrderedPasses {
     /// What is equal along a pass, and differs by a step from the next.
     pub scalar: Arc<dyn Scalar>,
-    /// The distance between neighbouring passes, in the scalar, mm.
-    pub step: f64,
+    /// The distance between neighbouring passes, in the scalar.
+    pub pitch: Pitch,
     /// Whether the scalar moves on by a step a turn (a spiral), instead of from pass to pass.
     pub continuous: bool,
     /// Passes may be missing where the tool can touch no farther than this along and across them, mm.
     pub smallest_feature: f64,
+}
+
+impl OrderedPasses {
+    /// The largest distance in the scalar, mm, from a pass at a position of the tip to the next.
+    pub(crate) fn step_at(&self, tip: [f64; 3]) -> f64 {
+        self.pitch.at(self.scalar.value(tip.into()))
+    }
 }
 
 impl Expectation {

@@ -187,6 +187,11 @@ pub(crate) static NO_ROW: FaultKind = FaultKind::on_part(
     },
     REPOST,
 );
+pub(crate) static SCALLOP: FaultKind = FaultKind::on_part(
+    FindingKind::Scallop,
+    |fault| format!("passes leave a scallop of {:.4} mm where {:.4} mm is asked for", fault.value(), fault.limit()),
+    "plan again: a pass is missing, or passes lie too far apart",
+);
 const REPOST: &str = "post the whole operation, with the job's heights and steps";
 
 // forming

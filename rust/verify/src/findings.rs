@@ -39,6 +39,8 @@ pub enum FindingKind {
     MissingLevel,
     /// Rows are farther apart than expected, or end too soon.
     MissingRow,
+    /// Neighbouring passes leave a higher scallop than is asked for.
+    Scallop,
     /// A wall is steeper than the sheet allows.
     WallAngle,
     /// The sheet becomes thinner than it may.
@@ -147,6 +149,7 @@ const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
         (Kind::MissingPass, "missing pass"),
         (Kind::MissingLevel, "missing level"),
         (Kind::MissingRow, "missing row"),
+        (Kind::Scallop, "scallop above the limit"),
         (Kind::WallAngle, "wall angle above the limit"),
         (Kind::Thinning, "thinning below the limit"),
         (Kind::Punch, "punch through the sheet"),

@@ -17,6 +17,7 @@ use crate::faults::{self, Fault, FaultKind};
 use crate::findings::FindingKind;
 use crate::probes::{self, Probe};
 use crate::scalar::{PassKind, Scalar};
+use crate::scallop::Ridges;
 use crate::segments::{Segment, SegmentKind};
 use crate::subject::{Limits, Subject};
 use crate::tolerances::{ROOM, ROUGH, WIDE};
@@ -102,7 +103,9 @@ pub(crate) fn faults(
         let look = Look { subject, limits, expectation, passes, selected: &selected, body, contacts: &contacts };
         let left = look.left(&sweeps, watch)?;
         let on_passes = look.left_on_passes(&sweeps, watch)?;
-        for fault in left.into_iter().chain(on_passes).chain(look.gaps()) {
+        let ridges = Ridges { subject, operation, passes, body, sweeps: &sweeps, contacts: &contacts };
+        let scallops = ridges.faults(watch)?;
+        for fault in left.into_iter().chain(on_passes).chain(look.gaps()).chain(scallops) {
             let known = worst.entry((fault.index, fault.kind.finding)).or_insert(fault);
             if fault.weight > known.weight {
                 *known = fault;
@@ -138,7 +141,7 @@ struct Spot {
 impl Look<'_> {
     /// Passes that are farther apart than expected, or end too soon, while the tool could touch between or beyond.
     fn gaps(&self) -> Vec<Fault> {
-        let (scalar, step) = (self.scalar(), self.passes.step);
+        let (scalar, pitch) = (self.scalar(), &self.passes.pitch);
         let [rest_low, rest_high] = scalar.rest();
         let passes = contact_lines::passes(self.passes, self.contacts);
         let (Some(lowest), Some(highest)) = (passes.first(), passes.last()) else { return Vec::new() };
@@ -147,7 +150,7 @@ impl Look<'_> {
             let mut spots = touching.iter().filter(|(value, _)| *value > low && *value < high);
             spots.any(|(_, spot)| self.holds_feature(spot))
         };
-        let wide = |gap: f64, steps: f64| gap > steps * step + ROUGH;
+        let wide = |gap: f64, steps: f64, step: f64| gap > steps * step + ROUGH;
         let kind = |is_above: bool| match (scalar.kind(), is_above) {
             (PassKind::Level, true) => &faults::NO_LEVEL_ABOVE,
             (PassKind::Level, false) => &faults::NO_LEVEL_BELOW,
@@ -158,17 +161,22 @@ impl Look<'_> {
             let gap = high.value - low.value;
             let is_above = low.first.index > high.first.index;
             let later = if is_above { low } else { high };
+            let step = pitch.between(low.value, high.value);
             let touches = || touches_between(low.value + 0.3 * gap, high.value - 0.3 * gap);
-            (wide(gap, WIDE) && touches()).then_some((later.first, gap, kind(is_above)))
+            (wide(gap, WIDE, step) && touches()).then_some((later.first, gap, step, kind(is_above)))
         });
-        let farthest = |beyond: &dyn Fn(f64) -> f64, steps: f64| {
-            let ends = touching.iter().map(|(value, spot)| (beyond(*value), spot)).filter(|(gap, _)| wide(*gap, steps));
-            ends.filter(|(_, spot)| self.holds_feature(spot)).map(|(gap, _)| gap).max_by(f64::total_cmp)
+        let farthest = |beyond: &dyn Fn(f64) -> f64, steps: f64, step: f64| {
+            let ends = touching.iter().map(|(value, spot)| (beyond(*value), spot));
+            let wide = ends.filter(|(gap, spot)| wide(*gap, steps, step) && self.holds_feature(spot));
+            wide.map(|(gap, _)| gap).max_by(f64::total_cmp)
         };
-        let below = farthest(&|value| lowest.value - value, rest_low).map(|gap| (lowest.last, gap, kind(false)));
-        let above = farthest(&|value| value - highest.value, rest_high).map(|gap| (highest.last, gap, kind(true)));
+        let [step_below, step_above] = [lowest, highest].map(|pass| pitch.at(pass.value));
+        let below = farthest(&|value| lowest.value - value, rest_low, step_below);
+        let below = below.map(|gap| (lowest.last, gap, step_below, kind(false)));
+        let above = farthest(&|value| value - highest.value, rest_high, step_above);
+        let above = above.map(|gap| (highest.last, gap, step_above, kind(true)));
         let gaps = between.chain(below).chain(above);
-        let fault = |(segment, gap, kind): (&Segment, f64, &'static FaultKind)| {
+        let fault = |(segment, gap, step, kind): (&Segment, f64, f64, &'static FaultKind)| {
             let fault = segment.fault(kind).measured(gap, step);
             if gap > MANY * step {
                 fault
@@ -217,8 +225,8 @@ impl Look<'_> {
     fn of_long_gaps(&self, mut faults: Vec<Fault>) -> Vec<Fault> {
         let value = |fault: &Fault| self.scalar().value(fault.position.into());
         faults.sort_by(|a, b| value(a).total_cmp(&value(b)));
-        let same = SAME_PASS * self.passes.step;
-        let passes = faults.chunk_by(|a, b| value(b) - value(a) <= same);
+        let same = |fault: &Fault| SAME_PASS * self.passes.step_at(fault.position);
+        let passes = faults.chunk_by(|a, b| value(b) - value(a) <= same(a));
         let long = |pass: &[Fault]| -> Vec<Fault> {
             pass.iter().filter(|fault| pass.iter().any(|other| self.are_apart(fault, other))).copied().collect()
         };
@@ -235,7 +243,7 @@ impl Look<'_> {
     /// Whether the pass lies beside a spot on it: within the tolerance the same height may be some distance off.
     fn passes_beside(&self, spot: &Spot, sweeps: &Sweeps) -> bool {
         let value = self.scalar().value(spot.tip.into());
-        let pitch = self.passes.step;
+        let pitch = self.passes.step_at(spot.tip);
         let same = |segment: &Segment| (self.scalar().value(segment.end.into()) - value).abs() <= SAME_PASS * pitch;
         sweeps.near(spot.position, BESIDE * self.body.radius()).any(|sweep| same(self.contacts[sweep.segment]))
     }
@@ -274,7 +282,7 @@ impl Look<'_> {
 
     /// Whether the tool can touch around a spot as far as a feature is that counts.
     fn holds_feature(&self, spot: &Spot) -> bool {
-        let step = self.next(spot).unwrap_or(self.passes.step * Vector::z());
+        let step = self.next(spot).unwrap_or_else(|| self.passes.step_at(spot.tip) * Vector::z());
         let (across, feature) = (step.normalize(), self.passes.smallest_feature);
         let reaches_across = |length: f64| self.reaches(spot, across, length, BENT);
         let reaches_along = |length: f64| self.reaches(spot, spot.up.cross(&across), length, TURNED);
@@ -288,7 +296,7 @@ impl Look<'_> {
 
     /// The shift from a spot to the next pass on its plane.
     fn next(&self, spot: &Spot) -> Option<Vector> {
-        self.scalar().next(spot.tip.into(), spot.up, self.passes.step)
+        self.scalar().next(spot.tip.into(), spot.up, self.passes.step_at(spot.tip))
     }
 
     /// Whether the tool can go `length` mm both ways together along an axis from a spot, touching what the passes are for.
@@ -335,13 +343,13 @@ impl Look<'_> {
     fn lies_between_passes(&self, spot: &Spot, step: Vector, sweeps: &Sweeps) -> bool {
         let (scalar, length) = (self.scalar(), step.norm());
         let along = spot.up.cross(&step).normalize();
-        let value = scalar.value(spot.tip.into());
+        let (value, pitch) = (scalar.value(spot.tip.into()), self.passes.step_at(spot.tip));
         let beside = sweeps.near(spot.position, AROUND * length).filter_map(|sweep| {
             let nearest = sweep.nearest(spot.position);
             let [aside, off] = [along, spot.up].map(|axis| (nearest - spot.position).dot(&axis).abs());
             let is_near = aside.max(off) <= RUNS_BY * length;
             let runs_by = is_near && (off <= ROUGH + self.tolerated() || self.touches_alike(nearest, spot.up));
-            runs_by.then(|| (scalar.value(self.body.tip(nearest).into()) - value) / self.passes.step)
+            runs_by.then(|| (scalar.value(self.body.tip(nearest).into()) - value) / pitch)
         });
         let (before, behind): (Vec<f64>, Vec<f64>) = beside.partition(|steps| *steps < 0.0);
         let before = before.into_iter().reduce(f64::max);
@@ -349,9 +357,7 @@ impl Look<'_> {
         match (before, behind) {
             (Some(before), Some(behind)) => behind - before <= APART,
             // tips at a face's end are known to within the tolerance
-            (Some(only), None) | (None, Some(only)) => {
-                (only.abs() - 1.0) * self.passes.step <= ROUGH + self.tolerated()
-            }
+            (Some(only), None) | (None, Some(only)) => (only.abs() - 1.0) * pitch <= ROUGH + self.tolerated(),
             (None, None) => false,
         }
     }

@@ -89,8 +89,8 @@ pub trait Scalar: Debug + Send + Sync {
     }
 
     /// Of passes, with their values and lengths, the values of those that are to touch wherever the part shows them; `step`
-    /// is the expected distance between them, mm.
-    fn throughout(&self, passes: Vec<[f64; 2]>, _step: f64) -> Vec<f64> {
+    /// is the expected distance between them, mm, where it is everywhere alike.
+    fn throughout(&self, passes: Vec<[f64; 2]>, _step: Option<f64>) -> Vec<f64> {
         passes.into_iter().map(|[value, _]| value).collect()
     }
 
@@ -210,8 +210,10 @@ impl Scalar for Across {
         up.z > STEEP
     }
 
-    /// Those that lie whole steps apart: rows that were added for a strip between them are no longer than the strip.
-    fn throughout(&self, mut rows: Vec<[f64; 2]>, step: f64) -> Vec<f64> {
+    /// Those that lie whole steps apart: rows that were added for a strip between them are no longer than the strip. Where
+    /// steps differ these cannot be told from the others, and none is.
+    fn throughout(&self, mut rows: Vec<[f64; 2]>, step: Option<f64>) -> Vec<f64> {
+        let Some(step) = step else { return Vec::new() };
         let past = |[value, _]: &[f64; 2]| value.rem_euclid(step);
         rows.sort_by(|a, b| past(a).total_cmp(&past(b)));
         let close = |a: &[f64; 2], b: &[f64; 2]| past(b) - past(a) <= self.same();
@@ -238,10 +240,10 @@ mod tests {
         let regular: Vec<[f64; 2]> = (0..5).map(|row| [-0.6 + 0.3 * f64::from(row), 10.0]).collect();
         let mut rows = vec![[0.1, 25.0], [0.4, 12.0]];
         rows.extend(&regular);
-        let mut found = across.throughout(rows, 0.3);
+        let mut found = across.throughout(rows, Some(0.3));
         found.sort_by(f64::total_cmp);
         assert_eq!(found, regular.iter().map(|[value, _]| *value).collect::<Vec<_>>());
-        assert!(across.throughout(Vec::new(), 0.3).is_empty());
+        assert!(across.throughout(Vec::new(), Some(0.3)).is_empty());
     }
 
     /// The same scalar by the provided methods alone.

@@ -8,7 +8,6 @@ use styluscam_motion::Program;
 
 use crate::assignment::Assignment;
 use crate::blank::Blank;
-use crate::expectation::OrderedPasses;
 use crate::faults::{self, Fault};
 use crate::segments::{Segment, SegmentKind};
 use crate::subject::{Limits, Subject};
@@ -51,7 +50,7 @@ pub(crate) fn punches(
     {
         let Some(order) = assignment.of(segment.operation).filter(|order| order.expectation.forms) else { continue };
         let Some(tool) = tools.get(order.tool) else { continue };
-        let step = order.expectation.ordered().and_then(descent);
+        let passes = order.expectation.ordered().filter(|passes| passes.scalar.descends());
         if operation.replace(segment.operation) != Some(segment.operation) {
             rows.drain(..).for_each(|(tip, tool)| blank.press(tip, tool));
         }
@@ -59,25 +58,20 @@ pub(crate) fn punches(
         let positions = positions(segment, blank.cell());
         let deepest = positions
             .iter()
-            .filter_map(|tip| punch(&mut blank, *tip, step, dent))
+            .filter_map(|tip| punch(&mut blank, *tip, passes.map(|passes| passes.step_at(*tip)), dent))
             .max_by(|a, b| a.depth().total_cmp(&b.depth()));
         if let Some(Punch { tip, stands }) = deepest {
             let fault = Fault { position: tip, ..segment.fault(&faults::PUNCH) }.measured(tip[2], stands);
             let falls = segment.kind == SegmentKind::Plunge && at_cut(program, segment, order.cut, limits);
             faults.push(if falls { fault.warning() } else { fault });
         }
-        if step.is_some() {
+        if passes.is_some() {
             positions.into_iter().for_each(|tip| blank.press(tip, tool));
         } else {
             rows.extend(positions.into_iter().map(|tip| (tip, tool)));
         }
     }
     faults
-}
-
-/// The step of passes that go down one below the other, mm.
-fn descent(passes: &OrderedPasses) -> Option<f64> {
-    passes.scalar.descends().then_some(passes.step)
 }
 
 /// A tip below the sheet, which stands at a height there.
@@ -127,8 +121,7 @@ pub(crate) fn faults(
 ) -> Vec<Fault> {
     let mut faults = Vec::new();
     for order in subject.expected.iter().filter(|order| order.expectation.forms) {
-        let Some(passes) = order.expectation.ordered() else { continue };
-        let Some(step) = descent(passes) else { continue };
+        let Some(passes) = order.expectation.ordered().filter(|passes| passes.scalar.descends()) else { continue };
         let Some(tool) = subject.tools.get(order.tool) else { continue };
         let cell = 0.5 * tool.diameter();
         let mut lowest: HashMap<[i64; 2], f64> = HashMap::new();
@@ -154,7 +147,7 @@ pub(crate) fn faults(
             let [i, j] = [x, y].map(|at| (at / cell).floor() as i64);
             let around = (-1..=1).flat_map(|di| (-1..=1).map(move |dj| [i + di, j + dj]));
             let formed = around.filter_map(|cell| lowest.get(&cell)).copied().fold(f64::INFINITY, f64::min);
-            if z > formed + LOWER * step {
+            if z > formed + LOWER * passes.step_at(segment.end) {
                 faults.push(segment.fault(&faults::FORMING_ORDER).measured(z, formed).warning());
             }
             let here = lowest.entry([i, j]).or_insert(z);

@@ -10,7 +10,7 @@ use common::{ball, limits, tip_on_cone, Levels, Part, Path, CLEARANCE};
 use styluscam_geometry::{Tool, Vector};
 use styluscam_motion::{Move, Program, Role, Watch};
 use styluscam_verify::{
-    judge, Contact, Expectation, ExpectedOperation, FindingKind, Height, OrderedPasses, Passes, Report, Scalar,
+    judge, Contact, Expectation, ExpectedOperation, FindingKind, Height, OrderedPasses, Passes, Pitch, Report, Scalar,
     Severity, Subject,
 };
 
@@ -40,7 +40,7 @@ impl Scalar for FromAxis {
 }
 
 fn ordered(scalar: Arc<dyn Scalar>, continuous: bool) -> Passes {
-    Passes::Ordered(OrderedPasses { scalar, step: STEP, continuous, smallest_feature: 1.0 })
+    Passes::Ordered(OrderedPasses { scalar, pitch: Pitch::Even(STEP), continuous, smallest_feature: 1.0 })
 }
 
 fn expected(part: &Part, contact: Contact, heights: [f64; 2], passes: Passes) -> [ExpectedOperation; 1] {

@@ -51,7 +51,7 @@ impl Node {
 
     /// Square of a point's distance from the box, mm^2.
     #[inline]
-    fn distance_squared(&self, point: Vector) -> f64 {
+    pub(super) fn distance_squared(&self, point: Vector) -> f64 {
         (self.low - point).sup(&(point - self.high)).sup(&Vector::zeros()).norm_squared()
     }
 }

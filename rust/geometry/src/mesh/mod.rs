@@ -1,6 +1,7 @@
 //! The part as triangles, checked once, with the index that searches it.
 
 mod bvh;
+mod nearest;
 mod soup;
 
 pub use bvh::{Bvh, Node};

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use styluscam_geometry::Vector;
 
 use super::{corner::Corner, creases::CREASE_DEG, patch::Patch};
-use crate::curvature::axes;
+use styluscam_geometry::wall_axes;
 
 /// Points of each hollow face from which its fillet is followed to both ends.
 const POINTS: usize = 12;
@@ -45,7 +45,7 @@ fn of_face(own: &[&Patch]) -> Vec<Corner> {
 
 fn start(patch: &Patch) -> Start {
     let (bend, [cos, sin]) = patch.bend.most_hollow();
-    let [up, level] = axes(patch.middle);
+    let [up, level] = wall_axes(patch.middle);
     Start {
         radius: -1.0 / bend,
         across: cos * up + sin * level,

@@ -8,6 +8,6 @@ mod patch;
 mod tests;
 mod walls;
 
-pub use crate::curvature::Bend;
 pub use corner::Corner;
+pub use styluscam_geometry::Bend;
 pub use walls::{walls, Wall, Walls};

@@ -1,8 +1,6 @@
 //! A triangle with what advice asks of it.
 
-use styluscam_geometry::{Mesh, Vector};
-
-use crate::curvature::{bend, Bend};
+use styluscam_geometry::{bend, Bend, Mesh, Vector};
 
 /// A triangle of a selected face, in work coordinates.
 #[derive(Clone, Copy, Debug)]

@@ -1,5 +1,7 @@
 //! The walls of an operation, and its concave corners.
 
+use styluscam_geometry::Bend;
+
 use super::{
     corner::{alike, Corner},
     creases::creases,
@@ -7,7 +9,6 @@ use super::{
     patch::Patch,
 };
 use crate::{
-    curvature::Bend,
     faces::{chosen, Look},
     resolve::selection_of,
     JobDocument, JobError, Scene, Selection,

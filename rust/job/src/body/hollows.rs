@@ -11,7 +11,7 @@ use styluscam_geometry::{Mesh, Vector};
 use super::adjacency::edges;
 use super::samples::{of_triangles, Sample};
 use super::Body;
-use crate::curvature::bend as bend_of;
+use styluscam_geometry::bend as bend_of;
 
 /// From this slope on a wall is upright, degrees.
 pub const UPRIGHT_DEG: f64 = 89.0;

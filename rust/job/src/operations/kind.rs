@@ -1,6 +1,7 @@
 //! What a kind of operation answers: the interface between the kinds and the rest of the job.
 
 use serde::Serialize;
+use styluscam_geometry::ToolBody;
 use styluscam_motion::Move;
 use styluscam_verify::{Contact, Passes};
 
@@ -28,14 +29,25 @@ pub trait OperationKind {
     /// What its lateral feeds owe the part.
     fn contact(&self) -> Contact;
 
-    /// How its passes lie, for the verifier; `smallest_feature` in mm, below which none is missed.
-    fn passes(&self, smallest_feature: f64) -> Passes;
+    /// How its passes lie, for the verifier.
+    fn passes(&self, given: &PassContext<'_>) -> Passes;
 
     /// How far its passes lie apart, where they lie in step.
     fn spacing(&self) -> Option<PassSpacing>;
 
     /// What planning it takes, from the areas of its faces; none where nothing is known.
     fn effort(&self, areas: &Areas) -> Option<Effort>;
+}
+
+/// What the verifier's expectation of an operation's passes depends on besides its own keys.
+#[derive(Clone, Copy, Debug)]
+pub struct PassContext<'a> {
+    /// No pass is missed that holds a disc of this diameter, mm.
+    pub smallest_feature: f64,
+    /// Height from which levels count: the operation's, or the sheet's (the part's) highest point, work coordinates, mm.
+    pub top: f64,
+    /// The tool, with the sheet that it touches.
+    pub body: &'a ToolBody,
 }
 
 /// What is known of a kind without its keys.

@@ -2,19 +2,22 @@
 
 use styluscam_toolpath::{
     forming::{
-        left_out, levels, raise_last, selected_range, with_levels_at, z_levels, z_levels_beside, Floors, Grid,
-        LevelRange,
+        left_out, levels, raise_last, scallop_steps, selected_range, with_levels_at, z_levels, z_levels_beside, Floors,
+        Grid, LevelRange, ScallopRule, Spread, Steps,
     },
     PlanError, Surface,
 };
 
+use styluscam_verify::Pitch;
+
+use super::step::{Step, StepLimits};
 use super::surface::{Task, Traced};
 
-/// The loops of levels `step` mm apart, with more where these leave out a wall, and above floors.
+/// The loops of levels a step apart, with more where these leave out a wall, and above floors.
 ///
 /// # Errors
 /// Nothing is reached, no level meets the faces, too many levels, `Cancelled`.
-pub fn trace(step: f64, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError> {
+pub fn trace(step: &Step, limits: StepLimits, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError> {
     let (watch, deviation) = (task.context.watch, task.budget.deviation);
     let nothing = || PlanError::NothingReached(task.why_nothing());
     let grid = Grid::sample(surface, task.context.node_spacing(), watch)?.ok_or_else(nothing)?;
@@ -23,7 +26,8 @@ pub fn trace(step: f64, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced
     // the flat top lies margin below what the envelope shows
     let top = task.context.heights.top.unwrap_or_else(|| rounded(highest - task.budget.margin, resolution));
     let bottom = task.context.heights.bottom;
-    let range = LevelRange { top, bottom, reachable: lowest, step, resolution };
+    let steps = steps(step, limits, task, surface)?;
+    let range = LevelRange { top, bottom, reachable: lowest, steps, resolution };
     let floors = Floors::of(surface.envelope());
     let heights = levels(&range, &floors)?;
     let mut passes = z_levels(surface, &grid, &heights, deviation, watch)?;
@@ -42,6 +46,20 @@ pub fn trace(step: f64, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced
         return Err(PlanError::Empty { top, bottom: bottom.max(lowest) });
     }
     Ok(Traced { passes, smallest_feature: grid.smallest_feature() })
+}
+
+/// The distances between levels.
+fn steps(step: &Step, limits: StepLimits, task: &Task<'_>, surface: &Surface<'_>) -> Result<Steps, PlanError> {
+    let context = task.context;
+    let top = context.heights.top.unwrap_or(context.scene.top);
+    Ok(match step.pitch(limits, top, task.body) {
+        Pitch::Even(step) => Steps::Even(step),
+        Pitch::Listed { from, steps } => Steps::Listed { from, steps },
+        Pitch::Scallop { height, steps: limits } => {
+            let rule = ScallopRule { height, limits };
+            Steps::Bounded(scallop_steps(surface, task.body, Spread::Levels, &rule, context.watch)?)
+        }
+    })
 }
 
 fn rounded(z: f64, unit: f64) -> f64 {

@@ -28,7 +28,7 @@ pub use context::Context;
 pub use effort::{Areas, Effort};
 pub use facts::{BridgedFace, End, Fact, ReachedFace, SurfaceFacts};
 pub use keys::{Coolant, Direction, Feeds, OperationKeys, Spindle};
-pub use kind::{About, OperationKind, PassSpacing, Planned, Serves, StarterPasses};
+pub use kind::{About, OperationKind, PassContext, PassSpacing, Planned, Serves, StarterPasses};
 
 kinds! {
     /// The kinds of operations, each with its own keys.

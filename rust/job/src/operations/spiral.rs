@@ -4,14 +4,15 @@ use std::sync::Arc;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use styluscam_geometry::ToolBody;
 use styluscam_toolpath::{forming::spirals, PlanError, Sense, Surface};
 use styluscam_verify::{Contact, Height, OrderedPasses, Passes};
 
 use super::facts::counted;
 use super::levels;
-use super::step::Step;
+use super::step::{Step, StepLimits};
 use super::surface::{self, FollowsSurface, Task, Traced};
-use super::{About, Areas, Context, Effort, Fact, OperationKind, PassSpacing, Planned, Serves};
+use super::{About, Areas, Context, Effort, Fact, OperationKind, PassContext, PassSpacing, Planned, Serves};
 use crate::{JobError, OperationKeys};
 
 /// One descent along the walls: a loop at the top, turns that fall evenly along their length, a loop at the bottom. Where a
@@ -22,6 +23,15 @@ pub struct Spiral {
     /// How far a turn goes down.
     #[schemars(extend("x-example" = "{ height = 0.5 }"))]
     pub step: Step,
+    /// Smallest step by scallop, mm: gentler slopes keep it and a larger scallop; what the scallop allows at 10 degrees when left
+    /// out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-advanced" = true, "x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 100.0))]
+    pub step_min: Option<f64>,
+    /// Largest step by scallop, mm; the tool's radius when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-advanced" = true, "x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 100.0))]
+    pub step_max: Option<f64>,
 }
 
 impl Spiral {
@@ -32,8 +42,15 @@ impl Spiral {
     };
 }
 
+impl Spiral {
+    fn limits(&self) -> StepLimits {
+        StepLimits { least: self.step_min, most: self.step_max }
+    }
+}
+
 impl OperationKind for Spiral {
     fn check(&self, common: &OperationKeys, path: &str) -> Result<(), JobError> {
+        self.limits().check(&self.step, path)?;
         if surface::sense(common, self.has_material_on_right()) != Sense::Reversed {
             return Ok(()); // levels may alternate: a spiral has none
         }
@@ -54,20 +71,25 @@ impl OperationKind for Spiral {
         Contact::Touch
     }
 
-    fn passes(&self, smallest_feature: f64) -> Passes {
-        let scalar = Arc::new(Height);
-        Passes::Ordered(OrderedPasses { scalar, step: self.step.height(), continuous: true, smallest_feature })
+    fn passes(&self, given: &PassContext<'_>) -> Passes {
+        Passes::Ordered(OrderedPasses {
+            scalar: Arc::new(Height),
+            pitch: self.step.pitch(self.limits(), given.top, given.body),
+            continuous: true,
+            smallest_feature: given.smallest_feature,
+        })
     }
 
     fn spacing(&self) -> Option<PassSpacing> {
-        Some(PassSpacing::Height { pitch: self.step.height() })
+        self.step.even().map(|pitch| PassSpacing::Height { pitch })
     }
 
     fn effort(&self, areas: &Areas) -> Option<Effort> {
+        let pitch = self.step.even()?;
         Some(Effort {
             key: "step",
-            pitch: self.step.height(),
-            length: areas.elevation / self.step.height(),
+            pitch,
+            length: areas.elevation / pitch,
             samples_grid: true,
             seconds_per_point: 160e-6, // the loops of levels first, then the descents between them
         })
@@ -80,12 +102,12 @@ impl FollowsSurface for Spiral {
         [f64::NEG_INFINITY, f64::INFINITY]
     }
 
-    fn pitch(&self) -> f64 {
-        self.step.height()
+    fn pitch(&self, body: &ToolBody) -> f64 {
+        self.step.typical(self.limits(), body)
     }
 
-    fn lowest_rest(&self) -> f64 {
-        self.step.height()
+    fn lowest_rest(&self, body: &ToolBody) -> f64 {
+        self.step.typical(self.limits(), body)
     }
 
     /// The higher ground.
@@ -99,7 +121,7 @@ impl FollowsSurface for Spiral {
     }
 
     fn trace(&self, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError> {
-        let levels = levels::trace(self.step.height(), task, surface)?;
+        let levels = levels::trace(&self.step, self.limits(), task, surface)?;
         let (deviation, longest) = (task.budget.deviation, task.context.node_spacing());
         let passes = spirals(surface, &levels.passes, deviation, longest, task.context.watch)?;
         Ok(Traced { passes, ..levels })

@@ -1,7 +1,7 @@
 //! What all operations share whose tool follows the selected faces: the envelope is prepared, the kind traces its passes on it,
 //! and they are linked; what becomes of the faces is measured beside.
 
-use styluscam_geometry::Tool;
+use styluscam_geometry::{Tool, ToolBody};
 use styluscam_motion::{Move, SpindleDirection};
 use styluscam_toolpath::{
     budget::Budget,
@@ -28,11 +28,11 @@ pub trait FollowsSurface: Sync {
     /// Heights between which the tip stays on the surface, mm.
     fn tip_range(&self, task: &Task<'_>) -> [f64; 2];
 
-    /// Distance between neighbouring passes, mm.
-    fn pitch(&self) -> f64;
+    /// Distance between neighbouring passes of a tool with its sheet, mm; one that stands for all.
+    fn pitch(&self, body: &ToolBody) -> f64;
 
     /// How far above the lowest allowed height the last pass may lie by the kind's own rule, mm.
-    fn lowest_rest(&self) -> f64;
+    fn lowest_rest(&self, body: &ToolBody) -> f64;
 
     /// Whether the material that still stands lies on the right of its passes as they are traced, else on the left.
     fn has_material_on_right(&self) -> bool;
@@ -102,6 +102,8 @@ pub struct Task<'a> {
     pub context: &'a Context<'a>,
     /// What is left of the tolerance.
     pub budget: Budget,
+    /// The tool, with the sheet that it touches.
+    pub body: &'a ToolBody,
 }
 
 impl Task<'_> {
@@ -152,7 +154,8 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
     let budget = budget::of(tolerance, scene, context.machine).map_err(|error| context.error(error))?;
     watch.begin("preparing", 1);
     let envelope = Envelope::new(&scene.mesh, &scene.index, tool, scene.sheet.as_ref(), budget.margin);
-    let task = Task { context, budget };
+    let body = tool.body(scene.sheet.as_ref());
+    let task = Task { context, budget, body: &body };
     let surface = Surface::new(&envelope, &selected).between_heights(kind.tip_range(&task));
     let surface = if scene.sheet.is_some() { surface.from_above() } else { surface };
     let path = || {
@@ -172,7 +175,7 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
     let (groups, passes) = (count_groups(&traced.passes), traced.passes.len());
     let facts = SurfaceFacts {
         wall_angle_max_deg: steepest(scene, &selected).to_degrees(),
-        ends: ends(&task, kind.lowest_rest(), tool, &traced.passes, &selected),
+        ends: ends(&task, kind.lowest_rest(&body), tool, &traced.passes, &selected),
         reached: reached::reached(scene, &offset, &bridges),
         reached_coarsely: offset.is_coarse.then_some(offset.fine),
         bridged: reached::bridged(&bridges),
@@ -205,7 +208,7 @@ fn linked(
         }
         None => passes.into_iter().map(Entered::from).collect(),
     };
-    Ok(link(&entered, &task.along(surface, kind.pitch()), &task.links(), watch)?)
+    Ok(link(&entered, &task.along(surface, kind.pitch(task.body)), &task.links(), watch)?)
 }
 
 /// The end that the heights are to an operation, if the tool would go on below.

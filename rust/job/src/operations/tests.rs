@@ -4,7 +4,7 @@ use serde_json::Value;
 use styluscam_motion::Watch;
 use styluscam_verify::Passes;
 
-use super::{Operation, Serves, StarterPasses};
+use super::{Operation, PassContext, Serves, StarterPasses};
 use crate::tests::setup::{frustum, machine, milling};
 use crate::{JobDocument, Scene, Setting};
 
@@ -70,8 +70,10 @@ fn every_kind_plans_and_says_what_it_planned() {
         assert!(!summary.words.is_empty() && !summary.note.is_empty(), "{name} has no words for what it planned");
         assert!(summary.facts.iter().all(|fact| fact.value > 0.0 && !fact.words.is_empty()), "{name}");
         assert!(!summary.facts.is_empty(), "{name} has no figures");
-        match job.operations[0].kind().passes(1.0) {
-            Passes::Ordered(passes) => assert!(passes.step > 0.0, "{name}"),
+        let tools = crate::resolve::tools(&job).unwrap();
+        let body = tools.values().next().unwrap().0.body(None);
+        match job.operations[0].kind().passes(&PassContext { smallest_feature: 1.0, top: 0.0, body: &body }) {
+            Passes::Ordered(passes) => assert!(passes.pitch.largest() > 0.0, "{name}"),
             Passes::Unordered { reason } => {
                 assert!(!reason.is_empty(), "{name} does not say why its passes are not checked");
             }

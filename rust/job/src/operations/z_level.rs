@@ -4,14 +4,15 @@ use std::sync::Arc;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use styluscam_geometry::ToolBody;
 use styluscam_toolpath::{PlanError, Seam, Surface};
 use styluscam_verify::{Contact, Height, OrderedPasses, Passes};
 
 use super::facts::counted;
 use super::levels;
-use super::step::Step;
+use super::step::{Step, StepLimits};
 use super::surface::{self, FollowsSurface, Task, Traced};
-use super::{About, Areas, Context, Effort, Fact, OperationKind, PassSpacing, Planned, Serves};
+use super::{About, Areas, Context, Effort, Fact, OperationKind, PassContext, PassSpacing, Planned, Serves};
 use crate::{JobError, OperationKeys};
 
 /// Loops at constant heights, from the top down.
@@ -21,6 +22,15 @@ pub struct ZLevel {
     /// Distance between levels.
     #[schemars(extend("x-example" = "{ height = 0.5 }"))]
     pub step: Step,
+    /// Smallest step by scallop, mm: gentler slopes keep it and a larger scallop; what the scallop allows at 10 degrees when left
+    /// out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-advanced" = true, "x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 100.0))]
+    pub step_min: Option<f64>,
+    /// Largest step by scallop, mm; the tool's radius when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-advanced" = true, "x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 100.0))]
+    pub step_max: Option<f64>,
     /// Direction from a loop's middle in which it begins, degrees from +X; where it is nearest when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "deg", "minimum" = -360.0, "maximum" = 360.0))]
@@ -43,9 +53,15 @@ impl ZLevel {
     };
 }
 
+impl ZLevel {
+    fn limits(&self) -> StepLimits {
+        StepLimits { least: self.step_min, most: self.step_max }
+    }
+}
+
 impl OperationKind for ZLevel {
-    fn check(&self, _common: &OperationKeys, _path: &str) -> Result<(), JobError> {
-        Ok(()) // ramps lead from any seam
+    fn check(&self, _common: &OperationKeys, path: &str) -> Result<(), JobError> {
+        self.limits().check(&self.step, path) // ramps lead from any seam
     }
 
     fn cuts_upright_walls(&self) -> bool {
@@ -60,20 +76,25 @@ impl OperationKind for ZLevel {
         Contact::Touch
     }
 
-    fn passes(&self, smallest_feature: f64) -> Passes {
-        let scalar = Arc::new(Height);
-        Passes::Ordered(OrderedPasses { scalar, step: self.step.height(), continuous: false, smallest_feature })
+    fn passes(&self, given: &PassContext<'_>) -> Passes {
+        Passes::Ordered(OrderedPasses {
+            scalar: Arc::new(Height),
+            pitch: self.step.pitch(self.limits(), given.top, given.body),
+            continuous: false,
+            smallest_feature: given.smallest_feature,
+        })
     }
 
     fn spacing(&self) -> Option<PassSpacing> {
-        Some(PassSpacing::Height { pitch: self.step.height() })
+        self.step.even().map(|pitch| PassSpacing::Height { pitch })
     }
 
     fn effort(&self, areas: &Areas) -> Option<Effort> {
+        let pitch = self.step.even()?;
         Some(Effort {
             key: "step",
-            pitch: self.step.height(),
-            length: areas.elevation / self.step.height(),
+            pitch,
+            length: areas.elevation / pitch,
             samples_grid: true,
             seconds_per_point: 80e-6, // the boundary of the envelope is searched at each point
         })
@@ -104,16 +125,16 @@ impl FollowsSurface for ZLevel {
         self.ramp_angle_deg.map(|angle| libm::tan(angle.to_radians()))
     }
 
-    fn pitch(&self) -> f64 {
-        self.step.height()
+    fn pitch(&self, body: &ToolBody) -> f64 {
+        self.step.typical(self.limits(), body)
     }
 
-    fn lowest_rest(&self) -> f64 {
-        self.step.height()
+    fn lowest_rest(&self, body: &ToolBody) -> f64 {
+        self.step.typical(self.limits(), body)
     }
 
     fn trace(&self, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError> {
-        levels::trace(self.step.height(), task, surface)
+        levels::trace(&self.step, self.limits(), task, surface)
     }
 
     fn words(&self, groups: usize, passes: usize) -> String {

@@ -4,15 +4,16 @@ use std::sync::Arc;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use styluscam_geometry::ToolBody;
 use styluscam_toolpath::{
-    forming::{zig_zag, Rows},
+    forming::{scallop_steps, zig_zag, Rows, ScallopRule, Spread},
     PlanError, Surface,
 };
-use styluscam_verify::{Across, Contact, OrderedPasses, Passes};
+use styluscam_verify::{Across, Contact, OrderedPasses, Passes, Pitch};
 
 use super::facts::counted;
 use super::surface::{self, FollowsSurface, Task, Traced};
-use super::{About, Areas, Context, Effort, Fact, OperationKind, PassSpacing, Planned, Serves};
+use super::{About, Areas, Context, Effort, Fact, OperationKind, PassContext, PassSpacing, Planned, Serves};
 use crate::{JobError, OperationKeys};
 
 /// Parallel rows over the surface.
@@ -22,6 +23,15 @@ pub struct ZigZag {
     /// Distance between rows in plan, mm.
     #[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 100.0, "x-example" = "0.5"))]
     pub stepover: f64,
+    /// No more than this scallop between rows, mm: they lie closer than the stepover where that takes it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 10.0))]
+    pub scallop: Option<f64>,
+    /// Smallest distance between rows by scallop, mm: steeper walls keep it and a larger scallop; a tenth of the stepover when
+    /// left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-advanced" = true, "x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 100.0))]
+    pub stepover_min: Option<f64>,
     /// Direction of rows from +X, degrees.
     #[serde(default)]
     #[schemars(extend("x-unit" = "deg", "minimum" = -360.0, "maximum" = 360.0))]
@@ -41,9 +51,31 @@ impl ZigZag {
     };
 }
 
+impl ZigZag {
+    /// Share of the stepover that is the smallest distance between rows where none is stated.
+    const CLOSEST: f64 = 0.1;
+
+    /// How far apart rows lie.
+    fn pitch_of_rows(&self) -> Pitch {
+        let least = self.stepover_min.unwrap_or(Self::CLOSEST * self.stepover);
+        match self.scallop {
+            None => Pitch::Even(self.stepover),
+            Some(height) => Pitch::Scallop { height, steps: [least, self.stepover] },
+        }
+    }
+}
+
 impl OperationKind for ZigZag {
-    fn check(&self, _common: &OperationKeys, _path: &str) -> Result<(), JobError> {
-        Ok(()) // any direction goes with any distance
+    fn check(&self, _common: &OperationKeys, path: &str) -> Result<(), JobError> {
+        let Some(least) = self.stepover_min else { return Ok(()) };
+        let (message, hint) = if self.scallop.is_none() {
+            ("stepover_min limits rows by scallop, and no scallop is stated", "remove it, or set scallop")
+        } else if least > self.stepover {
+            ("stepover_min is above stepover, which is the largest distance", "swap them")
+        } else {
+            return Ok(());
+        };
+        Err(JobError::document("conflict", format!("{path}.stepover_min"), message, hint))
     }
 
     /// Rows pass walls at one height only.
@@ -59,18 +91,25 @@ impl OperationKind for ZigZag {
         Contact::Touch
     }
 
-    fn passes(&self, smallest_feature: f64) -> Passes {
-        let scalar = Arc::new(Across { direction_rad: self.angle_deg.to_radians() });
-        Passes::Ordered(OrderedPasses { scalar, step: self.stepover, continuous: false, smallest_feature })
+    fn passes(&self, given: &PassContext<'_>) -> Passes {
+        Passes::Ordered(OrderedPasses {
+            scalar: Arc::new(Across { direction_rad: self.angle_deg.to_radians() }),
+            pitch: self.pitch_of_rows(),
+            continuous: false,
+            smallest_feature: given.smallest_feature,
+        })
     }
 
     fn spacing(&self) -> Option<PassSpacing> {
-        Some(PassSpacing::Across { pitch: self.stepover, direction_deg: self.angle_deg })
+        let across = PassSpacing::Across { pitch: self.stepover, direction_deg: self.angle_deg };
+        Some(across).filter(|_| self.scallop.is_none())
     }
 
     fn effort(&self, areas: &Areas) -> Option<Effort> {
+        // of rows by scallop the distances are not known before
+        let key = if self.scallop.is_none() { "stepover" } else { return None };
         Some(Effort {
-            key: "stepover",
+            key,
             pitch: self.stepover,
             length: areas.plan / self.stepover,
             samples_grid: false,
@@ -91,18 +130,27 @@ impl FollowsSurface for ZigZag {
         false
     }
 
-    fn pitch(&self) -> f64 {
+    fn pitch(&self, _body: &ToolBody) -> f64 {
         self.stepover
     }
 
-    fn lowest_rest(&self) -> f64 {
+    fn lowest_rest(&self, _body: &ToolBody) -> f64 {
         0.0
     }
 
     fn trace(&self, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError> {
+        let angle = self.angle_deg.to_radians();
+        let closer = match self.pitch_of_rows() {
+            Pitch::Even(_) | Pitch::Listed { .. } => None,
+            Pitch::Scallop { height, steps: limits } => {
+                let rule = ScallopRule { height, limits };
+                Some(scallop_steps(surface, task.body, Spread::Rows(angle), &rule, task.context.watch)?)
+            }
+        };
         let rows = Rows {
-            angle: self.angle_deg.to_radians(),
+            angle,
             stepover: self.stepover,
+            closer,
             spacing: task.context.node_spacing(),
             narrow: task.narrow(),
         };

@@ -1,6 +1,6 @@
 //! The heights of Z-levels.
 
-use super::Floors;
+use super::{Floors, Steps};
 use crate::PlanError;
 
 /// Levels at most.
@@ -14,7 +14,7 @@ const _: () = assert!(OVER_LAST < SHORT);
 const MOST_ABOVE: f64 = 1.26;
 
 /// Where levels begin and end, mm: the first one is a step below the top.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct LevelRange {
     /// Height from which the steps count.
     pub top: f64,
@@ -22,8 +22,8 @@ pub struct LevelRange {
     pub bottom: f64,
     /// Lowest height at which the tool still touches what was selected.
     pub reachable: f64,
-    /// Distance between levels.
-    pub step: f64,
+    /// Distances between levels.
+    pub steps: Steps,
     /// One unit of the machine's last decimal: levels are multiples of it, so that they are posted unrounded.
     pub resolution: f64,
 }
@@ -44,23 +44,31 @@ impl LevelRange {
 /// Heights from the top down, each a step below the one before it, the last at the bottom.
 ///
 /// The last level stands at `bottom`, or where the tool cannot go as low, just above the lowest position that it
-/// reaches. A last step of less than a quarter of the others is joined to the one before it. Where a level meets one of
-/// the `floors`, it stands just above that.
+/// reaches. A last step of less than a quarter of the others is joined to the one before it, unless a bound would be
+/// exceeded. Where a level meets one of the `floors`, it stands just above that.
 ///
 /// # Errors
 /// More levels than a program can hold.
 pub fn levels(range: &LevelRange, floors: &Floors) -> Result<Vec<f64>, PlanError> {
-    let LevelRange { top, bottom, reachable, step, resolution } = *range;
+    let LevelRange { top, bottom, reachable, ref steps, resolution } = *range;
     let rounded = |z: f64| (z / resolution).round() * resolution;
     let stood = |z: f64| range.stood(z, floors);
     let floor = stood(range.above(reachable).max(rounded(bottom)));
-    let count = ((top - floor) / step).ceil().max(0.0);
-    if count > LIMIT as f64 {
-        return Err(PlanError::TooMany { what: "step.height", value: step, count: count as usize, limit: LIMIT });
+    let smallest = steps.smallest().max(resolution);
+    let count = ((top - floor) / smallest).ceil().max(0.0);
+    let is_bounded = matches!(steps, Steps::Bounded(_));
+    if count > LIMIT as f64 && !is_bounded {
+        return Err(PlanError::TooMany { what: steps.key(), value: smallest, count: count as usize, limit: LIMIT });
     }
-    let mut out: Vec<f64> = (1..=count as usize)
-        .map(|i| rounded(top - i as f64 * step))
-        .filter(|z| *z > floor + SHORT * step)
+    // what is rounded up never lies beyond its bound
+    let settled = |z: f64| if is_bounded { (z / resolution).ceil() * resolution } else { rounded(z) };
+    let shortest = |z: f64| if is_bounded { resolution } else { SHORT * steps.at(z) };
+    let mut out: Vec<f64> = steps
+        .heights(top)
+        .take(LIMIT)
+        .take_while(|z| *z > floor)
+        .map(settled)
+        .filter(|z| *z > floor + shortest(*z))
         .map(stood)
         .collect();
     if floor < top {
@@ -88,7 +96,7 @@ pub fn with_levels_at(heights: &[f64], bands: &[(f64, f64)], range: &LevelRange,
             continue;
         }
         let below = all.iter().copied().filter(|z| *z < low).fold(f64::NEG_INFINITY, f64::max);
-        let aside = range.above(below + SHORT * range.step);
+        let aside = range.above(below + SHORT * range.steps.at(below));
         let level = range.stood(aside.min(range.above(0.5 * (low + high))).max(range.above(low)), floors);
         let lowest = || range.stood(range.above(low), floors);
         all.extend([level].into_iter().chain(std::iter::once_with(lowest)).find(|level| *level <= high));
@@ -101,7 +109,7 @@ pub fn with_levels_at(heights: &[f64], bands: &[(f64, f64)], range: &LevelRange,
 /// Puts the last level, where it had no pass, so little higher that the verifier expects none below.
 pub fn raise_last(heights: &mut [f64], range: &LevelRange, floors: &Floors) {
     let Some((last, others)) = heights.split_last_mut() else { return };
-    let raised = range.stood(range.above(*last + OVER_LAST * range.step), floors);
+    let raised = range.stood(range.above(*last + OVER_LAST * range.steps.at(*last)), floors);
     if others.last().is_none_or(|next| raised < *next) {
         *last = raised;
     }
@@ -113,15 +121,16 @@ mod tests {
 
     #[test]
     fn steps_end_at_the_bottom() {
-        let range = LevelRange { top: 0.0, bottom: -2.1, reachable: -9.0, step: 0.5, resolution: 0.001 };
+        let range = LevelRange { top: 0.0, bottom: -2.1, reachable: -9.0, steps: Steps::Even(0.5), resolution: 0.001 };
         assert_eq!(levels(&range, &Floors::default()).unwrap(), [-0.5, -1.0, -1.5, -2.1]);
-        let range = LevelRange { bottom: -2.2, ..range };
+        let range = LevelRange { bottom: -2.2, ..range.clone() };
         assert_eq!(levels(&range, &Floors::default()).unwrap(), [-0.5, -1.0, -1.5, -2.0, -2.2]);
     }
 
     #[test]
     fn a_floor_stops_the_levels_just_above_it() {
-        let range = LevelRange { top: 0.0, bottom: -2.0, reachable: -0.998, step: 0.5, resolution: 0.001 };
+        let range =
+            LevelRange { top: 0.0, bottom: -2.0, reachable: -0.998, steps: Steps::Even(0.5), resolution: 0.001 };
         let found = levels(&range, &Floors::default()).unwrap();
         assert_eq!(found.len(), 2);
         assert!((found[1] + 0.997).abs() < 1e-12);
@@ -129,14 +138,15 @@ mod tests {
 
     #[test]
     fn the_last_level_stands_on_the_floor_though_the_tool_dips_at_its_border() {
-        let range = LevelRange { top: 0.0, bottom: -9.0, reachable: -0.998, step: 0.5, resolution: 0.001 };
+        let range =
+            LevelRange { top: 0.0, bottom: -9.0, reachable: -0.998, steps: Steps::Even(0.5), resolution: 0.001 };
         let found = levels(&range, &Floors::at(&[-1.0], 0.0034)).unwrap();
         assert!((found[1] + 0.996).abs() < 1e-12, "{found:?}");
     }
 
     #[test]
     fn a_level_at_a_floor_stands_just_above_it() {
-        let range = LevelRange { top: 0.0, bottom: -2.0, reachable: -9.0, step: 0.5, resolution: 0.001 };
+        let range = LevelRange { top: 0.0, bottom: -2.0, reachable: -9.0, steps: Steps::Even(0.5), resolution: 0.001 };
         let found = levels(&range, &Floors::at(&[-2.0, -1.0], 0.0024)).unwrap();
         let expected = [-0.5, -0.997, -1.5, -1.997];
         assert!(found.len() == 4 && found.iter().zip(expected).all(|(z, e)| (z - e).abs() < 1e-12), "{found:?}");
@@ -144,7 +154,7 @@ mod tests {
 
     #[test]
     fn bands_between_levels_get_one_of_their_own() {
-        let range = LevelRange { top: 0.0, bottom: -2.0, reachable: -9.0, step: 0.5, resolution: 0.001 };
+        let range = LevelRange { top: 0.0, bottom: -2.0, reachable: -9.0, steps: Steps::Even(0.5), resolution: 0.001 };
         let heights = [-0.5, -1.0, -1.5, -2.0];
         let with = |bands: &[(f64, f64)]| with_levels_at(&heights, bands, &range, &Floors::default());
         assert_eq!(with(&[(-1.2, -0.9), (-3.0, -2.2), (0.1, 0.4)]), None);
@@ -160,7 +170,7 @@ mod tests {
     #[test]
     fn a_band_thinner_than_the_machines_unit_gets_the_level_over_it() {
         for (resolution, low) in [(0.01, -1.997), (0.0254, -1.99), (0.0254, -1.98), (0.1, -1.97)] {
-            let range = LevelRange { top: 0.0, bottom: -9.0, reachable: -9.0, step: 2.0, resolution };
+            let range = LevelRange { top: 0.0, bottom: -9.0, reachable: -9.0, steps: Steps::Even(2.0), resolution };
             let found = with_levels_at(&[-1.0, -3.0], &[(low, low + 0.02)], &range, &Floors::default()).unwrap();
             assert!(found.len() == 3 && (low..low + 1.26 * resolution).contains(&found[1]), "{found:?}");
         }
@@ -168,7 +178,7 @@ mod tests {
 
     #[test]
     fn the_last_level_is_raised_by_a_fifth_of_a_step_if_there_is_room() {
-        let range = LevelRange { top: 0.0, bottom: -2.0, reachable: -9.0, step: 0.5, resolution: 0.001 };
+        let range = LevelRange { top: 0.0, bottom: -2.0, reachable: -9.0, steps: Steps::Even(0.5), resolution: 0.001 };
         let raised = |mut heights: Vec<f64>| {
             raise_last(&mut heights, &range, &Floors::default());
             heights
@@ -180,7 +190,7 @@ mod tests {
 
     #[test]
     fn a_step_that_is_too_small_is_refused() {
-        let range = LevelRange { top: 0.0, bottom: -2.0, reachable: -2.0, step: 1e-6, resolution: 0.001 };
+        let range = LevelRange { top: 0.0, bottom: -2.0, reachable: -2.0, steps: Steps::Even(1e-6), resolution: 0.001 };
         assert!(matches!(levels(&range, &Floors::default()), Err(PlanError::TooMany { .. })));
     }
 }

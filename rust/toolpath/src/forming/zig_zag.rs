@@ -5,7 +5,7 @@ use styluscam_motion::Watch;
 
 use super::extra_rows::extra_rows;
 use super::pattern::{share, spread, Pattern, Row};
-use super::{stances::stances, untouched::Untouched};
+use super::{stances::stances, steps::StepBounds, untouched::Untouched};
 use crate::{fitting, fitting::Course, Pass, PathPoint, PlanError, Surface};
 
 /// Distance between samples where a selected facet could be touched between two positions at which none is, mm.
@@ -17,12 +17,14 @@ const ASIDE: f64 = 0.0382;
 const LIMIT: usize = 100_000;
 
 /// How the rows lie.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Rows {
     /// Direction of the rows from +X, counterclockwise, rad.
     pub angle: f64,
     /// Distance between rows in plan, mm.
     pub stepover: f64,
+    /// Where they lie closer; none where all are a stepover apart.
+    pub closer: Option<StepBounds>,
     /// First spacing of samples along a row, mm; refined where the tolerance asks for it.
     pub spacing: f64,
     /// What is narrower may be missed, mm.
@@ -107,11 +109,14 @@ impl Lines {
         if count > LIMIT {
             return Err(PlanError::TooMany { what: "stepover", value: stepover, count, limit: LIMIT });
         }
-        let aside = ASIDE * stepover;
         let range = range(along);
-        let lines = spread([left, right], count, stepover).map(|across| Row { across: across + aside, range });
+        let positions: Vec<f64> = match &rows.closer {
+            None => spread([left, right], count, stepover).map(|across| across + ASIDE * stepover).collect(),
+            Some(bounds) => bounds.upwards(left, right).take(LIMIT).collect(),
+        };
+        let lines = positions.into_iter().map(|across| Row { across, range }).collect();
         let pattern = Pattern { along, across, stepover };
-        Ok(Some(Self { rows: lines.collect(), pattern, spacing, narrow }))
+        Ok(Some(Self { rows: lines, pattern, spacing, narrow }))
     }
 
     /// Each row with its passes.

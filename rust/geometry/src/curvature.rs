@@ -1,7 +1,7 @@
 //! The curvature of the model in a triangle, from how its normals turn along the triangle's edges.
 
+use crate::Vector;
 use nalgebra::{Matrix3, Vector3};
-use styluscam_geometry::Vector;
 
 /// Determinant below which three edges do not determine a curvature: their squared directions are too much alike.
 const SOUND: f64 = 1e-6;
@@ -20,6 +20,12 @@ pub struct Bend {
 }
 
 impl Bend {
+    /// The normal curvature in a direction, 1/mm, by cos and sin of its angle from up the wall towards level.
+    #[must_use]
+    pub fn along(&self, [cos, sin]: [f64; 2]) -> f64 {
+        self.up * cos * cos + 2.0 * self.twist * cos * sin + self.level * sin * sin
+    }
+
     /// The smaller principal curvature, 1/mm, and cos and sin of its direction from up the wall towards level; up where all
     /// directions curve alike.
     #[must_use]
@@ -31,7 +37,8 @@ impl Bend {
 }
 
 /// Up the wall and along the level line: unit vectors in a surface with this normal.
-pub fn axes(normal: Vector) -> [Vector; 2] {
+#[must_use]
+pub fn wall_axes(normal: Vector) -> [Vector; 2] {
     let level = Vector::new(-normal.y, normal.x, 0.0);
     let size = level.norm();
     let level = if size > LEVEL { level / size } else { Vector::x() };
@@ -39,8 +46,9 @@ pub fn axes(normal: Vector) -> [Vector; 2] {
 }
 
 /// The curvature that makes the model's normals turn as they do; none where the triangle is too slender to know.
+#[must_use]
 pub fn bend(corners: &[Vector; 3], normals: &[Vector; 3], middle: Vector) -> Bend {
-    let [up, level] = axes(middle);
+    let [up, level] = wall_axes(middle);
     let (mut rows, mut turns) = (Matrix3::zeros(), Vector3::zeros());
     for side in 0..3 {
         let next = (side + 1) % 3;
