@@ -15,7 +15,7 @@ use styluscam_verify::{
 
 use crate::limits::{GOUGE, NO_ROOM};
 use crate::resolve::{faces_of, heights_of, tools_in_order};
-use crate::{materials, model, plates, Coolant, JobDocument, JobError, OperationSection, Scene, SheetSection, Spindle};
+use crate::{clamp, materials, model, plates, Coolant, JobDocument, JobError, OperationSection, Scene, SheetSection, Spindle};
 
 /// Most that may be left on a sheet's faces where the tool cannot get, mm, where the job does not state it: single-point forming
 /// itself is good to half a millimetre or a whole one.
@@ -122,6 +122,7 @@ fn reading(text: &str, machine: &Machine, records: &[ToolRecord]) -> Result<Read
         lines: read.lines,
         ended: read.ended || machine.end.is_empty(), // some controllers have no word for it
         tool_calls,
+        frame_levels: clamp::stated(&read.program),
     };
     Ok(Reading { program: read.program, unknown_positions: read.unknown_positions, facts })
 }
@@ -296,6 +297,7 @@ fn forming(job: &JobDocument, sheet: &SheetSection, top: f64) -> Forming {
     Forming {
         thickness: sheet.thickness,
         top,
+        support: job.process.process.as_kind().support(),
         min_thickness: sheet.min_thickness.unwrap_or(0.0),
         max_wall_angle: wall.most_deg.to_radians(),
         sure_wall_angle: wall.sure_deg.to_radians(),

@@ -5,7 +5,9 @@
 mod advice;
 mod body;
 mod check;
+mod clamp;
 mod curvature;
+mod die;
 mod document;
 mod error;
 mod estimate;

@@ -8,7 +8,7 @@ use styluscam_post::Machine;
 
 use crate::operations::{Context, Coolant, Fact, OperationSection, Planned, Spindle, SurfaceFacts};
 use crate::resolve::{faces_of, heights_of, tools};
-use crate::{check, JobDocument, JobError, Scene};
+use crate::{check, clamp, die, JobDocument, JobError, Scene};
 
 /// Planned programs by channel.
 #[derive(Clone, Debug)]
@@ -52,6 +52,9 @@ pub struct OperationSummary {
     /// Its extent in the words of the program's header.
     #[serde(skip)]
     pub note: String,
+    /// Further lines of that header.
+    #[serde(skip)]
+    pub lines: Vec<String>,
 }
 
 /// Plans every operation of the job, in order, each for the setting of its channel.
@@ -67,6 +70,7 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
     let tools = tools(job)?;
     let mut program = Program::empty(scene.record(job), Vec::new(), Vec::new());
     let mut operations = Vec::new();
+    let mut frame = scene.top;
     for (index, section) in job.operations_of(scene.channel) {
         let path = format!("operations[{index}]");
         let (tool, record) =
@@ -82,12 +86,24 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
             heights: heights_of(job, scene, section),
             watch,
         };
-        let Planned { moves, words, note, facts, surface } = section.kind().plan(&context)?;
+        die::check(job, scene, &scene.facing_up(&context.faces), &context.path)?;
+        let Planned { moves, words, note, mut facts, surface } = section.kind().plan(&context)?;
         let (id, kind, tool) = (section.id(index), section.operation.name(), tool_index(&mut program, record));
         program.events.extend(events_before(&program, section, tool));
+        let mut lines = Vec::new();
+        if clamp::goes_down(job) {
+            let levels = clamp::heights(section, &moves, frame);
+            frame = levels.last().map_or(frame, |level| level.z);
+            let first = program.moves.len();
+            program.events.extend(levels.iter().map(|level| clamp::remark(*level, first)));
+            if let Some(fact) = clamp::fact(&levels) {
+                lines.push(fact.words.clone());
+                facts.push(fact);
+            }
+        }
         program.operations.push(OperationRecord { id: id.clone(), kind: kind.to_owned(), tool });
         program.moves.extend(moves);
-        operations.push(OperationSummary { id, kind, words, facts, surface, note });
+        operations.push(OperationSummary { id, kind, words, facts, surface, note, lines });
     }
     program.events.extend(events_at_end(&program, job.operations_of(scene.channel).last().map(|(_, last)| last)));
     Ok(Channel { program, operations })

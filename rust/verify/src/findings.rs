@@ -59,6 +59,8 @@ pub enum FindingKind {
     FlangeHeight,
     /// A level is formed after a lower one at the same position.
     FormingOrder,
+    /// The clamp frame stands lower than the loop that is formed, or more than a step higher.
+    ClampLevel,
     /// A rapid goes down below the height at which the job wants plunges to begin.
     DeepRapid,
     /// The program stops while the tool is below the clearance height.
@@ -157,6 +159,7 @@ const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
         (Kind::SolidFormed, "solid instead of a sheet"),
         (Kind::FlangeHeight, "flange height differs from the clamping height"),
         (Kind::FormingOrder, "forming order"),
+        (Kind::ClampLevel, "height of the clamp frame"),
         (Kind::DeepRapid, "rapid below the retract height"),
         (Kind::StopBelow, "stop below the clearance height"),
         (Kind::MissingFeed, "feed not stated"),

@@ -3,13 +3,14 @@
 use styluscam_motion::{Cancelled, Program, Watch};
 
 use crate::assignment::Assignment;
+use crate::frame::Frame;
 use crate::findings::{Finding, FindingKind, Severity};
 use crate::measure::measure;
 use crate::merge::{merge, Merged};
 use crate::report::Report;
 use crate::segments::placed;
 use crate::subject::{Limits, Subject};
-use crate::{diagnosis, passes, reach, sequence, settings, travel, unreached, walls};
+use crate::{diagnosis, frame, passes, reach, sequence, settings, travel, unreached, walls};
 
 /// Checks a program read back from posted text against the part.
 ///
@@ -19,14 +20,18 @@ use crate::{diagnosis, passes, reach, sequence, settings, travel, unreached, wal
 /// `Cancelled` when the watch is cancelled; it is polled at every move.
 pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watch) -> Result<Report, Cancelled> {
     let segments = placed(program, subject, limits);
-    let mut tally = measure(&segments, subject, limits, watch)?;
+    let frame = Frame::of(program, &segments, subject, limits);
+    let mut tally = measure(&segments, subject, limits, frame.as_ref(), watch)?;
     let mut faults = std::mem::take(&mut tally.faults);
     faults.extend(travel::faults(program, &segments, subject, limits));
     faults.extend(reach::faults(program, subject, &limits.reach));
     let assignment = Assignment::new(program, subject);
     faults.extend(settings::faults(program, &segments, &assignment, limits));
     faults.extend(sequence::faults(program, &segments, &assignment, subject, limits));
-    faults.extend(sequence::punches(program, &segments, &assignment, subject, limits));
+    faults.extend(sequence::punches(program, &segments, &assignment, subject, limits, frame.as_ref()));
+    if let Some(frame) = &frame {
+        faults.extend(frame::faults(frame, program, &segments, &assignment, subject, limits));
+    }
     faults.extend(passes::faults(&segments, &assignment, subject, limits, watch)?);
     let beyond_reach = unreached::findings(&segments, subject, limits, watch)?;
     let steep = walls::finding(subject, limits);

@@ -40,6 +40,7 @@ mod expectation;
 mod faults;
 mod findings;
 mod flats;
+mod frame;
 mod groups;
 mod holding;
 mod judge;
@@ -76,5 +77,7 @@ pub use judge::judge;
 pub use report::{ContactRecord, Place, Report};
 pub use scalar::{Across, Height, PassKind, Scalar};
 pub use simulation::{simulate, Grid, Simulation, Skin};
-pub use subject::{Forming, Limits, Obstacle, ObstacleKind, Reach, Subject, TextFacts, ToolCalls, WallAngleSource};
+pub use subject::{
+    Forming, FrameLevel, Limits, Obstacle, ObstacleKind, Reach, Subject, Support, TextFacts, ToolCalls, WallAngleSource,
+};
 pub use unreached::ToolReach;

@@ -8,14 +8,15 @@ use styluscam_motion::Program;
 
 use crate::assignment::Assignment;
 use crate::blank::Blank;
-use crate::expectation::OrderedPasses;
+use crate::expectation::{ExpectedOperation, OrderedPasses};
 use crate::faults::{self, Fault};
+use crate::frame::Frame;
 use crate::segments::{Segment, SegmentKind};
 use crate::subject::{Limits, Subject};
 use crate::tolerances::{ROUGH, SAME_LEVEL, WIDE};
 
 /// A level counts as lower from this share of the step on.
-const LOWER: f64 = 0.25;
+pub(crate) const LOWER: f64 = 0.25;
 
 /// Cosine of the slope up to which flat sheet may wrap the tool in one go: by the sine law it then keeps three quarters of its
 /// thickness, and 41 degrees are a wall angle that every sheet withstands.
@@ -34,6 +35,7 @@ pub(crate) fn punches(
     assignment: &Assignment,
     subject: &Subject,
     limits: &Limits,
+    frame: Option<&Frame>,
 ) -> Vec<Fault> {
     let Some(forming) = limits.forming.filter(|_| subject.expected.iter().any(|operation| operation.expectation.forms))
     else {
@@ -41,7 +43,7 @@ pub(crate) fn punches(
     };
     let tools: Vec<Cutter> = subject.tools.iter().map(Tool::cutter).collect();
     let narrowest = tools.iter().map(|tool| tool.max_radius()).fold(f64::INFINITY, f64::min);
-    let mut blank = Blank::new(subject.mesh, forming.top, narrowest);
+    let mut blank = Blank::new(subject.mesh, forming.top, narrowest, forming.support);
     let mut rows = Vec::new();
     let mut operation = None;
     let mut faults = Vec::new();
@@ -54,6 +56,9 @@ pub(crate) fn punches(
         let step = order.expectation.ordered().and_then(descent);
         if operation.replace(segment.operation) != Some(segment.operation) {
             rows.drain(..).for_each(|(tip, tool)| blank.press(tip, tool));
+        }
+        if let Some([before, _]) = frame.map(|frame| frame.at(segment.index)) {
+            blank.hold_at(before);
         }
         let dent = dent(tool, forming.thickness) + ROUGH;
         let positions = positions(segment, blank.cell());
@@ -76,7 +81,7 @@ pub(crate) fn punches(
 }
 
 /// The step of passes that go down one below the other, mm.
-fn descent(passes: &OrderedPasses) -> Option<f64> {
+pub(crate) fn descent(passes: &OrderedPasses) -> Option<f64> {
     passes.scalar.descends().then_some(passes.step)
 }
 
@@ -132,24 +137,7 @@ pub(crate) fn faults(
         let Some(tool) = subject.tools.get(order.tool) else { continue };
         let cell = 0.5 * tool.diameter();
         let mut lowest: HashMap<[i64; 2], f64> = HashMap::new();
-        // straight up or down at the path's feed the tool climbs over what stands there, or falls beside it, and comes
-        // back: that is no level
-        let mut away_from: Option<f64> = None;
-        for segment in segments.iter().flat_map(Segment::pieces) {
-            let along = at_cut(program, &segment, order.cut, limits)
-                && matches!(segment.kind, SegmentKind::Plunge | SegmentKind::Retract);
-            match (segment.kind, away_from, segment.start) {
-                (SegmentKind::Rapid, ..) => away_from = None,
-                (_, Some(level), _) if (segment.end[2] - level).abs() <= SAME_LEVEL => away_from = None,
-                (_, None, Some(start)) if along => away_from = Some(start[2]),
-                _ => {}
-            }
-            if segment.kind != SegmentKind::Lateral || segment.falls() && !passes.continuous || away_from.is_some() {
-                continue;
-            }
-            if !assignment.is(segment.operation, order) {
-                continue;
-            }
+        for segment in level_moves(program, segments, assignment, (order, passes), limits) {
             let [x, y, z] = segment.end;
             let [i, j] = [x, y].map(|at| (at / cell).floor() as i64);
             let around = (-1..=1).flat_map(|di| (-1..=1).map(move |dj| [i + di, j + dj]));
@@ -163,6 +151,32 @@ pub(crate) fn faults(
     }
     faults.sort_by_key(|fault| fault.index);
     faults
+}
+
+/// The moves of an operation that run on its levels, in pieces.
+///
+/// Straight up or down at the path's feed the tool climbs over what stands there, or falls beside it, and comes back: that is
+/// no level.
+pub(crate) fn level_moves<'a>(
+    program: &'a Program,
+    segments: &'a [Segment],
+    assignment: &'a Assignment,
+    (order, passes): (&'a ExpectedOperation, &'a OrderedPasses),
+    limits: &'a Limits,
+) -> impl Iterator<Item = Segment> + 'a {
+    let mut away_from: Option<f64> = None;
+    segments.iter().flat_map(Segment::pieces).filter(move |segment| {
+        let along = at_cut(program, segment, order.cut, limits)
+            && matches!(segment.kind, SegmentKind::Plunge | SegmentKind::Retract);
+        match (segment.kind, away_from, segment.start) {
+            (SegmentKind::Rapid, ..) => away_from = None,
+            (_, Some(level), _) if (segment.end[2] - level).abs() <= SAME_LEVEL => away_from = None,
+            (_, None, Some(start)) if along => away_from = Some(start[2]),
+            _ => {}
+        }
+        let is_level = segment.kind == SegmentKind::Lateral && (passes.continuous || !segment.falls());
+        is_level && away_from.is_none() && assignment.is(segment.operation, order)
+    })
 }
 
 /// Whether a move has the feed of the path.
