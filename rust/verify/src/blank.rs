@@ -273,6 +273,23 @@ mod tests {
     }
 
     #[test]
+    fn over_a_die_it_stands_on_that_and_in_the_frame() {
+        let hill = plate().placed(&styluscam_geometry::Frame::turning_up(-Vector::z(), 0.0));
+        let (mut blank, ball) = (Blank::new(&hill, 5.0, 2.0, Support::DieAndFrame), ball(4.0));
+        assert_eq!(blank.hangs_at([0.0, 0.0]), 5.0);
+        assert_eq!(blank.hangs_at([18.0, 18.0]), 5.0);
+        for i in 0..400 {
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(i) / 400.0);
+            blank.press([8.0 * cos, 8.0 * sin, 4.0], &ball);
+        }
+        // the frame still holds it up outside; once it goes down, the sheet does, as far as the loop
+        assert_eq!(blank.hangs_at([18.0, 18.0]), 5.0);
+        blank.hold_at(1.0);
+        assert_eq!(blank.hangs_at([18.0, 18.0]), 4.0);
+        assert_eq!(blank.hangs_at([0.0, 0.0]), 5.0);
+    }
+
+    #[test]
     fn beside_half_a_loop_it_stands() {
         let (mut blank, ball) = (Blank::new(&plate(), 0.0, 2.0, Support::Rim), ball(4.0));
         for i in 0..200 {
