@@ -5,7 +5,7 @@ use styluscam_verify::Support;
 use crate::fixture::FixtureSection;
 use crate::resolve::check_channels;
 use crate::{
-    Direction, JobDocument, JobError, LengthUnit, MachineSection, OperationKeys, OperationSection, Process,
+    spindle, Direction, JobDocument, JobError, LengthUnit, MachineSection, OperationKeys, OperationSection, Process,
     ProcessSection, Selection, SheetSection, Zero,
 };
 
@@ -226,6 +226,7 @@ fn operation(job: &JobDocument, path: &str, section: &OperationSection) -> Resul
     }
     heights(path, common, job.units)?;
     direction(path, common)?;
+    spindle::check(section, path)?;
     section.kind().check(common, path)
 }
 
@@ -239,7 +240,7 @@ fn direction(path: &str, common: &OperationKeys) -> Result<(), JobError> {
     if common.spindle.direction().is_some() {
         return Ok(());
     }
-    let message = format!("direction = {word:?} needs a tool that turns, and the spindle is off");
+    let message = format!("direction = {word:?} needs a tool that turns, and the spindle does not");
     let hint = "set direction = \"same\", or a spindle: spindle = { mode = \"fixed\", rpm = 8000 }";
     Err(JobError::document("conflict", format!("{path}.direction"), message, hint))
 }

@@ -15,7 +15,7 @@ use styluscam_verify::{
 
 use crate::limits::{GOUGE, NO_ROOM};
 use crate::resolve::{faces_of, heights_of, tools_in_order};
-use crate::{clamp, materials, model, plates, Coolant, JobDocument, JobError, OperationSection, Scene, SheetSection, Spindle};
+use crate::{clamp, materials, model, plates, spindle, Coolant, JobDocument, JobError, OperationSection, Scene, SheetSection};
 
 /// Most that may be left on a sheet's faces where the tool cannot get, mm, where the job does not state it: single-point forming
 /// itself is good to half a millimetre or a whole one.
@@ -52,7 +52,7 @@ struct Against<'a> {
 impl<'a> Against<'a> {
     fn new(job: &'a JobDocument, scene: &'a Scene) -> Result<Self, JobError> {
         let (tools, records) = tools_in_order(job, scene.channel)?;
-        let expected = expected(job, scene, &records)?;
+        let expected = expected(job, scene, &tools, &records)?;
         Ok(Self { scene, wcs: &job.setup.wcs, tools, records, expected })
     }
 
@@ -91,7 +91,7 @@ pub fn judge(
     let plain = against.subject(&unknown_positions);
     let subject = Subject { text: Some(&facts), obstacles: &obstacles, ..plain };
     let found = model::mismatches(job, scene);
-    let of_job = limits(job, scene, &against.tools, machine);
+    let of_job = limits(job, scene, &against, machine);
     let limits = Limits { excess_by_operation: excess(job, scene.channel, &program), found, ..of_job };
     let report = styluscam_verify::judge(&program, &subject, &limits, watch)?;
     Ok(Judgement { channel: scene.channel, report, program, unknown_positions, limits })
@@ -202,18 +202,23 @@ pub fn simulate(
 }
 
 /// What the job states for each operation of the scene's channel.
-fn expected(job: &JobDocument, scene: &Scene, records: &[ToolRecord]) -> Result<Vec<ExpectedOperation>, JobError> {
+fn expected(
+    job: &JobDocument,
+    scene: &Scene,
+    tools: &[Tool],
+    records: &[ToolRecord],
+) -> Result<Vec<ExpectedOperation>, JobError> {
     let operation = |(index, section): (usize, &OperationSection)| {
         let common = &section.common;
+        let number = records.iter().position(|record| record.name == common.tool);
+        let turns = number.and_then(|number| tools.get(number));
+        let turns = turns.map(|tool| spindle::turns(job, scene, tool, section, index)).transpose()?;
         Ok(ExpectedOperation {
             id: section.id(index),
-            tool: records.iter().position(|record| record.name == common.tool).unwrap_or(usize::MAX),
+            tool: number.unwrap_or(usize::MAX),
             cut: common.feeds.cut,
             plunge: common.feeds.plunge,
-            spindle: match common.spindle {
-                Spindle::Off => None,
-                Spindle::Fixed { rpm, direction } => Some((rpm, direction)),
-            },
+            spindle: turns.flatten(),
             flood: common.coolant == Coolant::Flood,
             expectation: expectation(job, scene, section, index)?,
         })
@@ -262,16 +267,16 @@ pub fn read_back(job: &JobDocument, channel: &str, machine: &Machine, text: &str
 }
 
 /// Text is rounded: a coordinate at the clearance height may be half a unit of the machine below it.
-fn limits(job: &JobDocument, scene: &Scene, tools: &[Tool], machine: &Machine) -> Limits {
+fn limits(job: &JobDocument, scene: &Scene, against: &Against<'_>, machine: &Machine) -> Limits {
     let clearance = scene.clearance - 0.5 * machine.resolution_mm();
     let sheet_bridged = job.setup.sheet.map_or(f64::INFINITY, |_| BRIDGED);
     let bridged = job.process.common.max_bridged.unwrap_or(sheet_bridged);
-    let narrowest = tools.iter().map(|tool| 0.5 * tool.diameter()).fold(f64::INFINITY, f64::min);
+    let narrowest = against.tools.iter().map(|tool| 0.5 * tool.diameter()).fold(f64::INFINITY, f64::min);
     Limits {
         gouge: GOUGE,
         excess: widest_tolerance(job, scene.channel),
         retract: scene.retract - 0.5 * machine.resolution_mm(),
-        feed_rounding: machine.feed_rounding(fastest(job)),
+        feed_rounding: machine.feed_rounding(fastest(&against.expected)),
         reach: reach(machine),
         forming: job.setup.sheet.map(|sheet| forming(job, &sheet, scene.top)),
         bridged,
@@ -282,13 +287,9 @@ fn limits(job: &JobDocument, scene: &Scene, tools: &[Tool], machine: &Machine) -
     }
 }
 
-/// The highest speed of a job's operations, rev/min; 0 where none turns.
-fn fastest(job: &JobDocument) -> f64 {
-    let speed = |section: &OperationSection| match section.common.spindle {
-        Spindle::Off => 0.0,
-        Spindle::Fixed { rpm, .. } => rpm,
-    };
-    job.operations.iter().map(speed).fold(0.0, f64::max)
+/// The highest speed of some operations, rev/min; 0 where none turns.
+fn fastest(expected: &[ExpectedOperation]) -> f64 {
+    expected.iter().filter_map(|operation| operation.spindle).map(|(rpm, _)| rpm).fold(0.0, f64::max)
 }
 
 /// What the sheet withstands.

@@ -29,6 +29,7 @@ mod risk;
 mod scene;
 mod schema;
 mod selection;
+mod spindle;
 mod starter;
 mod stopped;
 mod summary;

@@ -3,12 +3,15 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use styluscam_motion::{Event, EventKind, OperationRecord, Program, ToolRecord, Watch};
+use styluscam_motion::{Event, EventKind, OperationRecord, Program, SpindleDirection, ToolRecord, Watch};
 use styluscam_post::Machine;
 
 use crate::operations::{Context, Coolant, Fact, OperationSection, Planned, Spindle, SurfaceFacts};
 use crate::resolve::{faces_of, heights_of, tools};
-use crate::{check, clamp, die, JobDocument, JobError, Scene};
+use crate::{check, clamp, die, spindle, JobDocument, JobError, Scene};
+
+/// What the operator has to do for a spindle that is not driven.
+const FREE: &str = "the spindle must turn freely: release its brake";
 
 /// Planned programs by channel.
 #[derive(Clone, Debug)]
@@ -89,7 +92,8 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
         die::check(job, scene, &scene.facing_up(&context.faces), &context.path)?;
         let Planned { moves, words, note, mut facts, surface } = section.kind().plan(&context)?;
         let (id, kind, tool) = (section.id(index), section.operation.name(), tool_index(&mut program, record));
-        program.events.extend(events_before(&program, section, tool));
+        let turns = spindle::turns(job, scene, context.tool, section, index)?;
+        program.events.extend(events_before(&program, section, tool, turns));
         let mut lines = Vec::new();
         if clamp::goes_down(job) {
             let levels = clamp::heights(section, &moves, frame);
@@ -119,17 +123,22 @@ fn tool_index(program: &mut Program, record: &ToolRecord) -> u32 {
 }
 
 /// Tool change, spindle and coolant as far as they differ from the operation before.
-fn events_before(program: &Program, section: &OperationSection, tool: u32) -> Vec<Event> {
+fn events_before(
+    program: &Program,
+    section: &OperationSection,
+    tool: u32,
+    turns: Option<(f64, SpindleDirection)>,
+) -> Vec<Event> {
     let before = program.moves.len();
     let changes_tool = program.operations.last().is_none_or(|last| last.tool != tool);
     let mut kinds = Vec::new();
     if changes_tool {
         kinds.push(EventKind::ToolChange { tool });
     }
-    kinds.push(match section.common.spindle {
-        Spindle::Off => EventKind::SpindleOff,
-        Spindle::Fixed { rpm, direction } => EventKind::SpindleOn { rpm, direction },
-    });
+    kinds.push(turns.map_or(EventKind::SpindleOff, |(rpm, direction)| EventKind::SpindleOn { rpm, direction }));
+    if section.common.spindle == Spindle::Free {
+        kinds.push(EventKind::Comment { text: FREE.to_owned() });
+    }
     if !program.operations.is_empty() || section.common.coolant == Coolant::Flood {
         kinds.push(EventKind::Flood { on: section.common.coolant == Coolant::Flood });
     }
@@ -140,7 +149,7 @@ fn events_at_end(program: &Program, last: Option<&OperationSection>) -> Vec<Even
     let before = program.moves.len();
     let mut kinds = Vec::new();
     if let Some(section) = last {
-        if section.common.spindle != Spindle::Off {
+        if section.common.spindle.direction().is_some() {
             kinds.push(EventKind::SpindleOff);
         }
         if section.common.coolant == Coolant::Flood {
