@@ -15,7 +15,7 @@ use styluscam_verify::{
 
 use crate::limits::{GOUGE, NO_ROOM};
 use crate::resolve::{faces_of, heights_of, tools_in_order};
-use crate::{clamp, materials, model, plates, spindle, Coolant, JobDocument, JobError, OperationSection, Scene, SheetSection};
+use crate::{clamp, forming, materials, model, plates, spindle, Coolant, JobDocument, JobError, OperationSection, Scene, SheetSection};
 
 /// Most that may be left on a sheet's faces where the tool cannot get, mm, where the job does not state it: single-point forming
 /// itself is good to half a millimetre or a whole one.
@@ -90,7 +90,8 @@ pub fn judge(
     let obstacles = plates::obstacles(scene)?;
     let plain = against.subject(&unknown_positions);
     let subject = Subject { text: Some(&facts), obstacles: &obstacles, ..plain };
-    let found = model::mismatches(job, scene);
+    let mut found = model::mismatches(job, scene);
+    found.extend(forming::warnings(job, scene, machine)?);
     let of_job = limits(job, scene, &against, machine);
     let limits = Limits { excess_by_operation: excess(job, scene.channel, &program), found, ..of_job };
     let report = styluscam_verify::judge(&program, &subject, &limits, watch)?;
@@ -278,7 +279,7 @@ fn limits(job: &JobDocument, scene: &Scene, against: &Against<'_>, machine: &Mac
         retract: scene.retract - 0.5 * machine.resolution_mm(),
         feed_rounding: machine.feed_rounding(fastest(&against.expected)),
         reach: reach(machine),
-        forming: job.setup.sheet.map(|sheet| forming(job, &sheet, scene.top)),
+        forming: job.setup.sheet.map(|sheet| forming_of(job, &sheet, scene.top)),
         bridged,
         unreached: job.process.common.max_unreached,
         unreached_from: if bridged.is_finite() { bridged } else { NO_ROOM * narrowest },
@@ -293,7 +294,7 @@ fn fastest(expected: &[ExpectedOperation]) -> f64 {
 }
 
 /// What the sheet withstands.
-fn forming(job: &JobDocument, sheet: &SheetSection, top: f64) -> Forming {
+fn forming_of(job: &JobDocument, sheet: &SheetSection, top: f64) -> Forming {
     let wall = materials::wall_angle(job, sheet);
     Forming {
         thickness: sheet.thickness,

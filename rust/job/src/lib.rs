@@ -13,6 +13,7 @@ mod error;
 mod estimate;
 mod faces;
 mod fixture;
+mod forming;
 mod heights;
 mod judge;
 mod limits;

@@ -8,7 +8,7 @@ use styluscam_post::Machine;
 
 use crate::operations::{Context, Coolant, Fact, OperationSection, Planned, Spindle, SurfaceFacts};
 use crate::resolve::{faces_of, heights_of, tools};
-use crate::{check, clamp, die, spindle, JobDocument, JobError, Scene};
+use crate::{check, clamp, die, forming, spindle, JobDocument, JobError, Scene};
 
 /// What the operator has to do for a spindle that is not driven.
 const FREE: &str = "the spindle must turn freely: release its brake";
@@ -89,12 +89,15 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
             heights: heights_of(job, scene, section),
             watch,
         };
-        die::check(job, scene, &scene.facing_up(&context.faces), &context.path)?;
+        let selected = scene.facing_up(&context.faces);
+        die::check(job, scene, &selected, &context.path)?;
         let Planned { moves, words, note, mut facts, surface } = section.kind().plan(&context)?;
         let (id, kind, tool) = (section.id(index), section.operation.name(), tool_index(&mut program, record));
         let turns = spindle::turns(job, scene, context.tool, section, index)?;
         program.events.extend(events_before(&program, section, tool, turns));
-        let mut lines = Vec::new();
+        let (thinnest, force) = forming::facts(job, scene, context.tool, section, &selected);
+        let mut lines: Vec<String> = force.iter().map(|fact| fact.words.clone()).collect();
+        facts.extend(thinnest.into_iter().chain(force));
         if clamp::goes_down(job) {
             let levels = clamp::heights(section, &moves, frame);
             frame = levels.last().map_or(frame, |level| level.z);

@@ -47,8 +47,7 @@ pub struct Plate {
 #[must_use]
 pub fn plates(scene: &Scene) -> Vec<Plate> {
     let (Some(fixture), Some(sheet)) = (scene.fixture, scene.sheet) else { return Vec::new() };
-    let (low, high) = scene.mesh.bounds();
-    let [x, y] = fixture.center.unwrap_or([0.5 * (low.x + high.x), 0.5 * (low.y + high.y)]);
+    let [x, y] = middle(scene);
     let moved = |opening: Opening| corners(opening).into_iter().map(|[cx, cy]| [x + cx, y + cy]).collect();
     let under = scene.top - sheet.thickness;
     let clamp = fixture.clamp.map(|clamp| Plate {
@@ -62,6 +61,23 @@ pub fn plates(scene: &Scene) -> Vec<Plate> {
         heights: [under - DEEP, under],
     });
     clamp.into_iter().chain(backing).collect()
+}
+
+/// How far a position in plan lies outside the clamp frame's opening, mm, negative inside; none without a frame.
+pub(crate) fn beyond_clamp(scene: &Scene, [x, y]: [f64; 2]) -> Option<f64> {
+    let clamp = scene.fixture?.clamp?;
+    let [dx, dy] = [0, 1].map(|axis| [x, y][axis] - middle(scene)[axis]);
+    Some(match clamp.opening {
+        Opening::Diameter(diameter) => libm::hypot(dx, dy) - 0.5 * diameter,
+        Opening::Sides([width, height]) => (dx.abs() - 0.5 * width).max(dy.abs() - 0.5 * height),
+    })
+}
+
+/// Middle of the openings in plan, mm.
+fn middle(scene: &Scene) -> [f64; 2] {
+    let (low, high) = scene.mesh.bounds();
+    let center = scene.fixture.and_then(|fixture| fixture.center);
+    center.unwrap_or([0.5 * (low.x + high.x), 0.5 * (low.y + high.y)])
 }
 
 /// What the verifier keeps tools, or tools and sheet, away from.

@@ -43,6 +43,12 @@ pub enum FindingKind {
     WallAngle,
     /// The sheet becomes thinner than it may.
     Thinning,
+    /// The tool is more curved than the sheet bears.
+    ToolRadius,
+    /// The faces that are formed are larger than the clamp frame's opening.
+    ClampOpening,
+    /// Forming takes a larger force along the spindle than the machine withstands.
+    AxialForce,
     /// The tool goes deeper than a step below all that is formed so far.
     Punch,
     /// The tool bridges faces by more than it may: it is less curved than they are.
@@ -151,6 +157,9 @@ const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
         (Kind::MissingRow, "missing row"),
         (Kind::WallAngle, "wall angle above the limit"),
         (Kind::Thinning, "thinning below the limit"),
+        (Kind::ToolRadius, "tool radius below twice the sheet thickness"),
+        (Kind::ClampOpening, "part larger than the clamp frame"),
+        (Kind::AxialForce, "axial force above the limit"),
         (Kind::Punch, "punch through the sheet"),
         (Kind::Bridged, "bridged faces"),
         (Kind::Unreached, "unreached faces"),

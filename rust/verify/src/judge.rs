@@ -46,7 +46,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let wholes =
         reach::findings(program, subject, &limits.reach).into_iter().chain(assignment.findings(program, subject));
     let wholes = wholes.chain(travel::optional_lines(subject)).chain(travel::modes_not_stated(program, subject));
-    let found = limits.found.iter().map(|(kind, words)| Finding::of_all(*kind, Severity::Error, words.clone()));
+    let found = limits.found.iter().map(|(kind, severity, words)| Finding::of_all(*kind, *severity, words.clone()));
     let wholes = wholes.chain(found).chain(steep).chain(beyond_reach);
     let wholes: Vec<Finding> = wholes.chain(travel::no_feed_moves(program)).chain(offset).chain(nothing).collect();
     for whole in &wholes {

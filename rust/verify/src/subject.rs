@@ -6,7 +6,7 @@ use styluscam_geometry::{Bvh, Mesh, Sheet, Tool};
 use styluscam_motion::{FeedRounding, MachineMove};
 
 use crate::expectation::ExpectedOperation;
-use crate::findings::FindingKind;
+use crate::findings::{FindingKind, Severity};
 
 /// The part and the tools, in the program's work coordinates.
 #[derive(Clone, Copy, Debug)]
@@ -182,9 +182,12 @@ pub struct Limits {
     pub unreached_from: f64,
     /// Kinds of findings that are no errors: the job takes these risks by name.
     pub accepted: Vec<FindingKind>,
-    /// What was found wrong with the job before its program was looked at, each with its sentence.
-    pub found: Vec<(FindingKind, String)>,
+    /// What was found before the program was looked at.
+    pub found: Vec<Found>,
 }
+
+/// What was found with the job alone: its kind, how bad it is, and its sentence.
+pub type Found = (FindingKind, Severity, String);
 
 /// What the machine can do; what is left out is not checked.
 #[derive(Clone, Debug, Default, PartialEq)]
