@@ -157,8 +157,7 @@ impl<'a> Forming<'a> {
         };
         let is_formed = |triangle: &usize| self.selected[*triangle] && mesh.model_normal(*triangle).z < 1.0 - SAME;
         let formed = (0..self.selected.len()).filter(is_formed).flat_map(|triangle| mesh.corners(triangle));
-        let beyond = formed.filter_map(|corner| plates::beyond_clamp(self.scene, [corner.x, corner.y]));
-        let most = beyond.fold(f64::NEG_INFINITY, f64::max) + outside;
+        let most = plates::beyond_clamp(self.scene, formed)? + outside;
         let margin = self.scene.fixture?.margin;
         if most + margin <= SAME {
             return None;

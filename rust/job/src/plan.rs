@@ -91,9 +91,9 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
         };
         let selected = scene.facing_up(&context.faces);
         die::check(job, scene, &selected, &context.path)?;
+        let turns = spindle::turns(job, scene, context.tool, section, index)?;
         let Planned { moves, words, note, mut facts, surface } = section.kind().plan(&context)?;
         let (id, kind, tool) = (section.id(index), section.operation.name(), tool_index(&mut program, record));
-        let turns = spindle::turns(job, scene, context.tool, section, index)?;
         program.events.extend(events_before(&program, section, tool, turns));
         let (thinnest, force) = forming::facts(job, scene, context.tool, section, &selected);
         let mut lines: Vec<String> = force.iter().map(|fact| fact.words.clone()).collect();

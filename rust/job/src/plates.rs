@@ -63,14 +63,18 @@ pub fn plates(scene: &Scene) -> Vec<Plate> {
     clamp.into_iter().chain(backing).collect()
 }
 
-/// How far a position in plan lies outside the clamp frame's opening, mm, negative inside; none without a frame.
-pub(crate) fn beyond_clamp(scene: &Scene, [x, y]: [f64; 2]) -> Option<f64> {
+/// How far some points lie outside the clamp frame's opening in plan at most, mm, negative inside; none without a frame.
+pub(crate) fn beyond_clamp(scene: &Scene, points: impl Iterator<Item = Vector>) -> Option<f64> {
     let clamp = scene.fixture?.clamp?;
-    let [dx, dy] = [0, 1].map(|axis| [x, y][axis] - middle(scene)[axis]);
-    Some(match clamp.opening {
-        Opening::Diameter(diameter) => libm::hypot(dx, dy) - 0.5 * diameter,
-        Opening::Sides([width, height]) => (dx.abs() - 0.5 * width).max(dy.abs() - 0.5 * height),
-    })
+    let [x, y] = middle(scene);
+    let beyond = |point: Vector| {
+        let [dx, dy] = [point.x - x, point.y - y];
+        match clamp.opening {
+            Opening::Diameter(diameter) => libm::hypot(dx, dy) - 0.5 * diameter,
+            Opening::Sides([width, height]) => (dx.abs() - 0.5 * width).max(dy.abs() - 0.5 * height),
+        }
+    };
+    points.map(beyond).reduce(f64::max)
 }
 
 /// Middle of the openings in plan, mm.
