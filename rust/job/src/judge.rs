@@ -15,7 +15,10 @@ use styluscam_verify::{
 
 use crate::limits::{GOUGE, NO_ROOM};
 use crate::resolve::{faces_of, heights_of, tools_in_order};
-use crate::{clamp, forming, materials, model, plates, spindle, Coolant, JobDocument, JobError, OperationSection, Scene, SheetSection};
+use crate::{
+    clamp, forming, materials, model, plates, spindle, Coolant, JobDocument, JobError, OperationSection, Scene,
+    SheetSection,
+};
 
 /// Most that may be left on a sheet's faces where the tool cannot get, mm, where the job does not state it: single-point forming
 /// itself is good to half a millimetre or a whole one.

@@ -97,7 +97,8 @@ pub(crate) fn obstacles(scene: &Scene) -> Result<Vec<Obstacle>, JobError> {
             Holder::Clamp => (ObstacleKind::Clamp, None),
             Holder::Backing => (ObstacleKind::Backing, whole),
         };
-        let follows = plate.holder == Holder::Clamp && scene.fixture.and_then(|fixture| fixture.clamp).is_some_and(|c| c.follows);
+        let follows =
+            plate.holder == Holder::Clamp && scene.fixture.and_then(|fixture| fixture.clamp).is_some_and(|c| c.follows);
         Ok(Obstacle { kind, bvh: Bvh::new(&mesh), mesh, sheet, margin, follows })
     };
     plates(scene).into_iter().map(obstacle).collect()

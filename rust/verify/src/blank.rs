@@ -67,7 +67,8 @@ impl Blank {
         let of_part = heights.iter().copied().enumerate().filter(|(_, height)| height.is_finite());
         match support {
             Support::Rim => {
-                blank.held = of_part.filter(|(_, height)| *height >= highest - ROUGH).map(|(at, _)| (at, top)).collect();
+                blank.held =
+                    of_part.filter(|(_, height)| *height >= highest - ROUGH).map(|(at, _)| (at, top)).collect();
             }
             Support::DieAndFrame => {
                 // the sheet's upper side is as far above the model everywhere as where both are highest

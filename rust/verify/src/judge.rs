@@ -3,8 +3,8 @@
 use styluscam_motion::{Cancelled, Program, Watch};
 
 use crate::assignment::Assignment;
-use crate::frame::Frame;
 use crate::findings::{Finding, FindingKind, Severity};
+use crate::frame::Frame;
 use crate::measure::measure;
 use crate::merge::{merge, Merged};
 use crate::report::Report;

@@ -78,6 +78,7 @@ pub use report::{ContactRecord, Place, Report};
 pub use scalar::{Across, Height, PassKind, Scalar};
 pub use simulation::{simulate, Grid, Simulation, Skin};
 pub use subject::{
-    Forming, Found, FrameLevel, Limits, Obstacle, ObstacleKind, Reach, Subject, Support, TextFacts, ToolCalls, WallAngleSource,
+    Forming, Found, FrameLevel, Limits, Obstacle, ObstacleKind, Reach, Subject, Support, TextFacts, ToolCalls,
+    WallAngleSource,
 };
 pub use unreached::ToolReach;

@@ -116,7 +116,8 @@ impl<'a> Walk<'a> {
     /// Where a body comes too near to something: of what goes down with the clamp frame, where that stands before the move or
     /// after it.
     fn strike(&self, segment: &Segment, collider: &Collider) -> Option<Strike> {
-        let Some([before, after]) = self.frame.filter(|_| collider.follows).map(|frame| frame.fallen(segment.index)) else {
+        let Some([before, after]) = self.frame.filter(|_| collider.follows).map(|frame| frame.fallen(segment.index))
+        else {
             return strike(segment, collider);
         };
         let fallen = |by: f64| strike(&segment.raised(by), collider).map(|strike| strike.lowered(by));
