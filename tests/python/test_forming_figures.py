@@ -1,4 +1,4 @@
-"""What is said of a sheet before it is formed: tool, frame, thickness and force; and spindles that turn freely or roll."""
+"""What is reported of a sheet before it is formed: tool, frame, thickness and force; and spindles that turn freely or roll."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def facts(made: sc.Job) -> dict[str, float]:
 
 
 @pytest.mark.parametrize(
-    ("profile", "said"),
+    ("profile", "sentence"),
     [
         ({"kind": "ball", "diameter": 4.0}, None),
         ({"kind": "ball", "diameter": 3.0}, "radius of curvature of tool stylus is 1.5 mm"),
@@ -51,10 +51,10 @@ def facts(made: sc.Job) -> dict[str, float]:
         ({"kind": "flat", "diameter": 6.0}, "has an edge without a radius"),
     ],
 )
-def test_a_tool_that_is_too_sharp_for_the_sheet(profile: dict[str, Any], said: str | None) -> None:
+def test_a_tool_that_is_too_sharp_for_the_sheet(profile: dict[str, Any], sentence: str | None) -> None:
     found = findings(job(profile=profile))
-    assert ("tool-radius" in found) == (said is not None)
-    assert said is None or (said in found["tool-radius"] and "needs 2 mm" in found["tool-radius"])
+    assert ("tool-radius" in found) == (sentence is not None)
+    assert sentence is None or (sentence in found["tool-radius"] and "needs 2 mm" in found["tool-radius"])
 
 
 @pytest.mark.parametrize(("opening", "beyond"), [([60.0, 60.0], None), ([41.0, 60.0], 0.5), (56.0, 1.284)])
@@ -62,18 +62,18 @@ def test_a_part_that_is_larger_than_the_frame(opening: Any, beyond: float | None
     setup = {"fixture": {"clamp": {"opening": opening, "height": 3.0}, "margin": 1.0}}
     made = job(setup=setup)
     report = sc.verify(sc.post(sc.plan(made)), made)
-    said = [finding["message"] for finding in report.findings if finding["kind"] == "clamp-opening"]
-    assert bool(said) == (beyond is not None)
+    sentence = [finding["message"] for finding in report.findings if finding["kind"] == "clamp-opening"]
+    assert bool(sentence) == (beyond is not None)
     # the walls' upper edge is a square of 40 mm; its corners are 28.284 mm from the middle
-    assert not said or f"reach {beyond:.3f} mm into the margin of 1 mm" in said[0]
+    assert not sentence or f"reach {beyond:.3f} mm into the margin of 1 mm" in sentence[0]
 
 
 def test_how_thin_the_sheet_becomes_and_where() -> None:
     summary, notes = sc.plan(job()).summary()
     fact = next(fact for fact in summary.to_dict()["operations"][0]["facts"] if fact["fact"] == "thinnest")
     assert fact["value"] == pytest.approx(np.cos(WALL), abs=1e-9)
-    place = [float(number) for number in re.findall(r"[XYZ](-?[\d.]+)", fact["words"])]
-    assert max(abs(place[0]), abs(place[1])) - 20.0 == pytest.approx(place[2], abs=1e-3)
+    position = [float(number) for number in re.findall(r"[XYZ](-?[\d.]+)", fact["words"])]
+    assert max(abs(position[0]), abs(position[1])) - 20.0 == pytest.approx(position[2], abs=1e-3)
     assert not any("thin" in note for note in notes)
 
 

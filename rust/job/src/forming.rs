@@ -1,5 +1,7 @@
 //! What is known of the forming of a sheet before its path: how thin it becomes and the force that it takes, and what experience
 //! warns of: tools that are too sharp, parts that are too large for the clamp frame, forces that the machine does not withstand.
+//!
+//! Derived in docs/concepts/forming-processes.md, as are spindles that roll and clamp frames that go down.
 
 use styluscam_geometry::{Tool, Vector};
 use styluscam_post::Machine;
@@ -125,7 +127,7 @@ impl<'a> Forming<'a> {
         self.slopes().skip(1).map(force).reduce(f64::max).filter(|force| *force > 0.0)
     }
 
-    /// A tool that is more curved than the sheet bears anywhere up to the steepest wall.
+    /// A tool that is more curved than the sheet withstands, anywhere up to the steepest wall.
     fn sharp_tool(&self) -> Option<Found> {
         let cutter = self.tool.cutter();
         let radii = self.slopes().map(|slope| (cutter.curvature_radius_at(slope), slope));

@@ -43,7 +43,7 @@ pub enum FindingKind {
     WallAngle,
     /// The sheet becomes thinner than it may.
     Thinning,
-    /// The tool is more curved than the sheet bears.
+    /// The tool is more curved than the sheet withstands.
     ToolRadius,
     /// The faces that are formed are larger than the clamp frame's opening.
     ClampOpening,

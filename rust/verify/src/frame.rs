@@ -1,12 +1,14 @@
 //! A clamp frame that goes down with the path ([`Support::DieAndFrame`]): where it stands during each move, and whether that
 //! is where the path needs it.
+//!
+//! Derived in docs/concepts/forming-processes.md.
 
 use styluscam_motion::Program;
 
 use crate::assignment::Assignment;
 use crate::faults::{self, Fault};
+use crate::level_moves::{descent, level_moves, LOWER};
 use crate::segments::{Segment, SegmentKind};
-use crate::sequence::{descent, level_moves, LOWER};
 use crate::subject::{Limits, Subject, Support};
 use crate::tolerances::{ROUGH, WIDE};
 

@@ -44,6 +44,7 @@ mod frame;
 mod groups;
 mod holding;
 mod judge;
+mod level_moves;
 mod measure;
 mod merge;
 mod passes;

@@ -8,15 +8,12 @@ use styluscam_motion::Program;
 
 use crate::assignment::Assignment;
 use crate::blank::Blank;
-use crate::expectation::{ExpectedOperation, OrderedPasses};
 use crate::faults::{self, Fault};
 use crate::frame::Frame;
+use crate::level_moves::{at_cut, descent, level_moves, LOWER};
 use crate::segments::{Segment, SegmentKind};
 use crate::subject::{Limits, Subject};
-use crate::tolerances::{ROUGH, SAME_LEVEL, WIDE};
-
-/// A level counts as lower from this share of the step on.
-pub(crate) const LOWER: f64 = 0.25;
+use crate::tolerances::{ROUGH, WIDE};
 
 /// Cosine of the slope up to which flat sheet may wrap the tool in one go: by the sine law it then keeps three quarters of its
 /// thickness, and 41 degrees are a wall angle that every sheet withstands.
@@ -78,11 +75,6 @@ pub(crate) fn punches(
         }
     }
     faults
-}
-
-/// The step of passes that go down one below the other, mm.
-pub(crate) fn descent(passes: &OrderedPasses) -> Option<f64> {
-    passes.scalar.descends().then_some(passes.step)
 }
 
 /// A tip below the sheet, which stands at a height there.
@@ -151,35 +143,4 @@ pub(crate) fn faults(
     }
     faults.sort_by_key(|fault| fault.index);
     faults
-}
-
-/// The moves of an operation that run on its levels, in pieces.
-///
-/// Straight up or down at the path's feed the tool climbs over what stands there, or falls beside it, and comes back: that is
-/// no level.
-pub(crate) fn level_moves<'a>(
-    program: &'a Program,
-    segments: &'a [Segment],
-    assignment: &'a Assignment,
-    (order, passes): (&'a ExpectedOperation, &'a OrderedPasses),
-    limits: &'a Limits,
-) -> impl Iterator<Item = Segment> + 'a {
-    let mut away_from: Option<f64> = None;
-    segments.iter().flat_map(Segment::pieces).filter(move |segment| {
-        let along = at_cut(program, segment, order.cut, limits)
-            && matches!(segment.kind, SegmentKind::Plunge | SegmentKind::Retract);
-        match (segment.kind, away_from, segment.start) {
-            (SegmentKind::Rapid, ..) => away_from = None,
-            (_, Some(level), _) if (segment.end[2] - level).abs() <= SAME_LEVEL => away_from = None,
-            (_, None, Some(start)) if along => away_from = Some(start[2]),
-            _ => {}
-        }
-        let is_level = segment.kind == SegmentKind::Lateral && (passes.continuous || !segment.falls());
-        is_level && away_from.is_none() && assignment.is(segment.operation, order)
-    })
-}
-
-/// Whether a move has the feed of the path.
-fn at_cut(program: &Program, segment: &Segment, cut: f64, limits: &Limits) -> bool {
-    (program.moves[segment.index].feed - cut).abs() <= limits.feed_slack(cut, segment.length())
 }
