@@ -240,7 +240,7 @@ fn direction(path: &str, common: &OperationKeys) -> Result<(), JobError> {
     if common.spindle.direction().is_some() {
         return Ok(());
     }
-    let message = format!("direction = {word:?} needs a tool that turns, and the spindle does not");
+    let message = format!("direction = {word:?} needs a tool that turns, and the spindle is off");
     let hint = "set direction = \"same\", or a spindle: spindle = { mode = \"fixed\", rpm = 8000 }";
     Err(JobError::document("conflict", format!("{path}.direction"), message, hint))
 }
