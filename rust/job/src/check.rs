@@ -1,9 +1,11 @@
 //! What the schema cannot state: keys that belong together, or exclude each other. Ranges are checked in [`crate::units`].
 
+use styluscam_verify::Support;
+
 use crate::fixture::FixtureSection;
 use crate::resolve::check_channels;
 use crate::{
-    Direction, JobDocument, JobError, LengthUnit, MachineSection, OperationKeys, OperationSection, Process,
+    spindle, Direction, JobDocument, JobError, LengthUnit, MachineSection, OperationKeys, OperationSection, Process,
     ProcessSection, Selection, SheetSection, Zero,
 };
 
@@ -102,6 +104,7 @@ fn with_sheet(job: &JobDocument, sheet: &SheetSection) -> Result<(), JobError> {
     }
     if let Some(fixture) = &job.setup.fixture {
         self::fixture(fixture, job.setup.clearance, job.units)?;
+        support(fixture, job.process.process.as_kind().support())?;
     }
     if job.part.model_face.is_none() {
         return Err(JobError::document(
@@ -129,6 +132,30 @@ fn fixture(fixture: &FixtureSection, clearance: f64, unit: LengthUnit) -> Result
         format!("clearance = {clearance}: rapids would cross the clamp, {height} {} high, too near to it", unit.name());
     let hint = format!("raise clearance to {least} or more");
     Err(JobError::document("conflict", "setup.clearance", message, hint))
+}
+
+/// A clamp goes down, and no plate is below the sheet, where that is formed over a male die; and only there.
+fn support(fixture: &FixtureSection, support: Support) -> Result<(), JobError> {
+    let follows = fixture.clamp.map(|clamp| clamp.follows);
+    let (path, message, hint) = match (support, follows) {
+        (Support::Rim, Some(true)) => (
+            "setup.fixture.clamp.follows",
+            "the clamp goes down with the path, and nothing is under the sheet that holds it up",
+            "remove follows, or form over a die: process = { kind = \"tpif\", die = \"male\" }",
+        ),
+        (Support::DieAndFrame, Some(false)) => (
+            "setup.fixture.clamp.follows",
+            "the clamp stays, and a sheet over a male die goes down with it",
+            "add follows = true to clamp, or leave the clamp out",
+        ),
+        (Support::DieAndFrame, _) if fixture.backing.is_some() => (
+            "setup.fixture.backing",
+            "a plate under the sheet, and a sheet over a male die goes down there",
+            "remove backing",
+        ),
+        (Support::Rim | Support::DieAndFrame, _) => return Ok(()),
+    };
+    Err(JobError::document("conflict", path, message, hint))
 }
 
 fn without_sheet(job: &JobDocument) -> Result<(), JobError> {
@@ -199,6 +226,7 @@ fn operation(job: &JobDocument, path: &str, section: &OperationSection) -> Resul
     }
     heights(path, common, job.units)?;
     direction(path, common)?;
+    spindle::check(section, path)?;
     section.kind().check(common, path)
 }
 

@@ -215,6 +215,10 @@ pub struct SheetSection {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-advanced" = true, "x-unit" = "deg", "minimum" = 1.0, "maximum" = 90.0))]
     pub max_wall_angle_deg: Option<f64>,
+    /// Tensile strength of its material, MPa: for an estimate of the axial force; none is made when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-advanced" = true, "x-unit" = "MPa", "minimum" = 1.0, "maximum" = 3000.0))]
+    pub tensile_strength: Option<f64>,
 }
 
 /// A tool of the job.

@@ -35,6 +35,9 @@ pub struct ClampSection {
     /// Height above the sheet, mm.
     #[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 500.0))]
     pub height: f64,
+    /// Whether it goes down with the path, as over a male die; else it stays.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub follows: bool,
 }
 
 /// A plate on which the sheet lies around an opening.

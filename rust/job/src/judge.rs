@@ -16,7 +16,10 @@ use styluscam_verify::{
 use crate::limits::{GOUGE, NO_ROOM};
 use crate::operations::PassContext;
 use crate::resolve::{faces_of, heights_of, tools_in_order};
-use crate::{materials, model, plates, Coolant, JobDocument, JobError, OperationSection, Scene, SheetSection, Spindle};
+use crate::{
+    clamp, forming, materials, model, plates, spindle, Coolant, JobDocument, JobError, OperationSection, Scene,
+    SheetSection,
+};
 
 /// Most that may be left on a sheet's faces where the tool cannot get, mm, where the job does not state it: single-point forming
 /// itself is good to half a millimetre or a whole one.
@@ -91,8 +94,9 @@ pub fn judge(
     let obstacles = plates::obstacles(scene)?;
     let plain = against.subject(&unknown_positions);
     let subject = Subject { text: Some(&facts), obstacles: &obstacles, ..plain };
-    let found = model::mismatches(job, scene);
-    let of_job = limits(job, scene, &against.tools, machine);
+    let mut found = model::mismatches(job, scene);
+    found.extend(forming::warnings(job, scene, machine)?);
+    let of_job = limits(job, scene, &against, machine);
     let limits = Limits { excess_by_operation: excess(job, scene.channel, &program), found, ..of_job };
     let report = styluscam_verify::judge(&program, &subject, &limits, watch)?;
     Ok(Judgement { channel: scene.channel, report, program, unknown_positions, limits })
@@ -123,6 +127,7 @@ fn reading(text: &str, machine: &Machine, records: &[ToolRecord]) -> Result<Read
         lines: read.lines,
         ended: read.ended || machine.end.is_empty(), // some controllers have no word for it
         tool_calls,
+        frame_levels: clamp::stated(&read.program),
     };
     Ok(Reading { program: read.program, unknown_positions: read.unknown_positions, facts })
 }
@@ -232,21 +237,19 @@ fn expected(
     let operation = |(index, section): (usize, &OperationSection)| {
         let common = &section.common;
         let named = records.iter().position(|record| record.name == common.tool);
-        let tool = named.ok_or_else(|| {
+        let number = named.ok_or_else(|| {
             let message = format!("operations[{index}].tool: the channel has no tool {:?}", common.tool);
             JobError::document("unknown", format!("operations[{index}].tool"), message, "name one of [tools]")
         })?;
+        let tool = &tools[number];
         Ok(ExpectedOperation {
             id: section.id(index),
-            tool,
+            tool: number,
             cut: common.feeds.cut,
             plunge: common.feeds.plunge,
-            spindle: match common.spindle {
-                Spindle::Off => None,
-                Spindle::Fixed { rpm, direction } => Some((rpm, direction)),
-            },
+            spindle: spindle::turns(job, scene, tool, section, index)?,
             flood: common.coolant == Coolant::Flood,
-            expectation: expectation(job, scene, &tools[tool], section, index)?,
+            expectation: expectation(job, scene, tool, section, index)?,
         })
     };
     job.operations_of(scene.channel).map(operation).collect()
@@ -299,18 +302,18 @@ pub fn read_back(job: &JobDocument, channel: &str, machine: &Machine, text: &str
 }
 
 /// Text is rounded: a coordinate at the clearance height may be half a unit of the machine below it.
-fn limits(job: &JobDocument, scene: &Scene, tools: &[Tool], machine: &Machine) -> Limits {
+fn limits(job: &JobDocument, scene: &Scene, against: &Against<'_>, machine: &Machine) -> Limits {
     let clearance = scene.clearance - 0.5 * machine.resolution_mm();
     let sheet_bridged = job.setup.sheet.map_or(f64::INFINITY, |_| BRIDGED);
     let bridged = job.process.common.max_bridged.unwrap_or(sheet_bridged);
-    let narrowest = tools.iter().map(|tool| 0.5 * tool.diameter()).fold(f64::INFINITY, f64::min);
+    let narrowest = against.tools.iter().map(|tool| 0.5 * tool.diameter()).fold(f64::INFINITY, f64::min);
     Limits {
         gouge: GOUGE,
         excess: widest_tolerance(job, scene.channel),
         retract: scene.retract - 0.5 * machine.resolution_mm(),
-        feed_rounding: machine.feed_rounding(fastest(job)),
+        feed_rounding: machine.feed_rounding(fastest(&against.expected)),
         reach: reach(machine),
-        forming: job.setup.sheet.map(|sheet| forming(job, &sheet, scene.top)),
+        forming: job.setup.sheet.map(|sheet| forming_of(job, &sheet, scene.top)),
         bridged,
         unreached: job.process.common.max_unreached,
         unreached_from: if bridged.is_finite() { bridged } else { NO_ROOM * narrowest },
@@ -319,21 +322,18 @@ fn limits(job: &JobDocument, scene: &Scene, tools: &[Tool], machine: &Machine) -
     }
 }
 
-/// The highest speed of a job's operations, rev/min; 0 where none turns.
-fn fastest(job: &JobDocument) -> f64 {
-    let speed = |section: &OperationSection| match section.common.spindle {
-        Spindle::Off => 0.0,
-        Spindle::Fixed { rpm, .. } => rpm,
-    };
-    job.operations.iter().map(speed).fold(0.0, f64::max)
+/// The highest speed of some operations, rev/min; 0 where none turns.
+fn fastest(expected: &[ExpectedOperation]) -> f64 {
+    expected.iter().filter_map(|operation| operation.spindle).map(|(rpm, _)| rpm).fold(0.0, f64::max)
 }
 
 /// What the sheet withstands.
-fn forming(job: &JobDocument, sheet: &SheetSection, top: f64) -> Forming {
+fn forming_of(job: &JobDocument, sheet: &SheetSection, top: f64) -> Forming {
     let wall = materials::wall_angle(job, sheet);
     Forming {
         thickness: sheet.thickness,
         top,
+        support: job.process.process.as_kind().support(),
         min_thickness: sheet.min_thickness.unwrap_or(0.0),
         max_wall_angle: wall.most_deg.to_radians(),
         sure_wall_angle: wall.sure_deg.to_radians(),

@@ -2,7 +2,7 @@
 //! names, and with its border where the sheet is clamped.
 
 use styluscam_geometry::{ModelFace, Sheet};
-use styluscam_verify::FindingKind;
+use styluscam_verify::{FindingKind, Found, Severity, Support};
 
 use crate::body::{Body, Unformable};
 use crate::resolve::selection_of;
@@ -14,7 +14,12 @@ const OTHER: f64 = 0.1;
 const OTHER_MM: f64 = 0.03;
 
 /// What does not agree, each with a sentence: what was measured, and what to write.
-pub fn mismatches(job: &JobDocument, scene: &Scene) -> Vec<(FindingKind, String)> {
+pub fn mismatches(job: &JobDocument, scene: &Scene) -> Vec<Found> {
+    let wrong = found_wrong(job, scene).into_iter();
+    wrong.map(|(kind, words)| (kind, Severity::Error, words)).collect()
+}
+
+fn found_wrong(job: &JobDocument, scene: &Scene) -> Vec<(FindingKind, String)> {
     let Some(sheet) = scene.sheet else { return Vec::new() };
     let body = Body::new(&scene.mesh, &scene.bvh);
     let thickness = body.thickness();
@@ -33,11 +38,11 @@ pub fn mismatches(job: &JobDocument, scene: &Scene) -> Vec<(FindingKind, String)
     let mut found = Vec::new();
     found.extend(of_sheet.and_then(|measured| other_thickness(measured, sheet)));
     found.extend(of_sheet.and_then(|measured| other_face(measured, sheet)));
-    if let Err(Unformable::LowBorder(below)) = formed {
+    if let (Err(Unformable::LowBorder(below)), Support::Rim) = (formed, job.process.process.as_kind().support()) {
         let words = format!(
             "the model's border, where the sheet is clamped, lies {below:.2} mm below its highest point: the sheet lies \
-             flat at the border's height, and the tool only pushes down; turn the model over with setup.up, or accept = \
-             [\"flange\"] where a die holds the sheet up"
+             flat at the border's height, and the tool only pushes down; turn the model over with setup.up, form over a \
+             die (process = {{ kind = \"tpif\", die = \"male\" }}), or accept = [\"flange\"]"
         );
         found.push((FindingKind::FlangeHeight, words));
     }

@@ -3,12 +3,15 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use styluscam_motion::{Event, EventKind, OperationRecord, Program, ToolRecord, Watch};
+use styluscam_motion::{Event, EventKind, OperationRecord, Program, SpindleDirection, ToolRecord, Watch};
 use styluscam_post::Machine;
 
 use crate::operations::{Context, Coolant, Fact, OperationSection, Planned, Spindle, SurfaceFacts};
 use crate::resolve::{faces_of, heights_of, tools};
-use crate::{check, JobDocument, JobError, Scene};
+use crate::{check, clamp, die, forming, spindle, JobDocument, JobError, Scene};
+
+/// What the operator has to do for a spindle that is not driven.
+const FREE: &str = "the spindle must turn freely: release its brake";
 
 /// Planned programs by channel.
 #[derive(Clone, Debug)]
@@ -52,6 +55,9 @@ pub struct OperationSummary {
     /// Its extent in the words of the program's header.
     #[serde(skip)]
     pub note: String,
+    /// Further lines of that header.
+    #[serde(skip)]
+    pub lines: Vec<String>,
 }
 
 /// Plans every operation of the job, in order, each for the setting of its channel.
@@ -67,6 +73,7 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
     let tools = tools(job)?;
     let mut program = Program::empty(scene.record(job), Vec::new(), Vec::new());
     let mut operations = Vec::new();
+    let mut frame = scene.top;
     for (index, section) in job.operations_of(scene.channel) {
         let path = format!("operations[{index}]");
         let (tool, record) =
@@ -82,12 +89,28 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
             heights: heights_of(job, scene, section),
             watch,
         };
-        let Planned { moves, words, note, facts, surface } = section.kind().plan(&context)?;
+        let selected = scene.facing_up(&context.faces);
+        die::check(job, scene, &selected, &context.path)?;
+        let turns = spindle::turns(job, scene, context.tool, section, index)?;
+        let Planned { moves, words, note, mut facts, surface } = section.kind().plan(&context)?;
         let (id, kind, tool) = (section.id(index), section.operation.name(), tool_index(&mut program, record));
-        program.events.extend(events_before(&program, section, tool));
+        program.events.extend(events_before(&program, section, tool, turns));
+        let (thinnest, force) = forming::facts(job, scene, context.tool, section, &selected);
+        let mut lines: Vec<String> = force.iter().map(|fact| fact.words.clone()).collect();
+        facts.extend(thinnest.into_iter().chain(force));
+        if clamp::goes_down(job) {
+            let levels = clamp::heights(section, &moves, frame);
+            frame = levels.last().map_or(frame, |level| level.z);
+            let first = program.moves.len();
+            program.events.extend(levels.iter().map(|level| clamp::remark(*level, first)));
+            if let Some(fact) = clamp::fact(&levels) {
+                lines.push(fact.words.clone());
+                facts.push(fact);
+            }
+        }
         program.operations.push(OperationRecord { id: id.clone(), kind: kind.to_owned(), tool });
         program.moves.extend(moves);
-        operations.push(OperationSummary { id, kind, words, facts, surface, note });
+        operations.push(OperationSummary { id, kind, words, facts, surface, note, lines });
     }
     program.events.extend(events_at_end(&program, job.operations_of(scene.channel).last().map(|(_, last)| last)));
     Ok(Channel { program, operations })
@@ -103,17 +126,22 @@ fn tool_index(program: &mut Program, record: &ToolRecord) -> u32 {
 }
 
 /// Tool change, spindle and coolant as far as they differ from the operation before.
-fn events_before(program: &Program, section: &OperationSection, tool: u32) -> Vec<Event> {
+fn events_before(
+    program: &Program,
+    section: &OperationSection,
+    tool: u32,
+    turns: Option<(f64, SpindleDirection)>,
+) -> Vec<Event> {
     let before = program.moves.len();
     let changes_tool = program.operations.last().is_none_or(|last| last.tool != tool);
     let mut kinds = Vec::new();
     if changes_tool {
         kinds.push(EventKind::ToolChange { tool });
     }
-    kinds.push(match section.common.spindle {
-        Spindle::Off => EventKind::SpindleOff,
-        Spindle::Fixed { rpm, direction } => EventKind::SpindleOn { rpm, direction },
-    });
+    kinds.push(turns.map_or(EventKind::SpindleOff, |(rpm, direction)| EventKind::SpindleOn { rpm, direction }));
+    if section.common.spindle == Spindle::Free {
+        kinds.push(EventKind::Comment { text: FREE.to_owned() });
+    }
     if !program.operations.is_empty() || section.common.coolant == Coolant::Flood {
         kinds.push(EventKind::Flood { on: section.common.coolant == Coolant::Flood });
     }
@@ -124,7 +152,7 @@ fn events_at_end(program: &Program, last: Option<&OperationSection>) -> Vec<Even
     let before = program.moves.len();
     let mut kinds = Vec::new();
     if let Some(section) = last {
-        if section.common.spindle != Spindle::Off {
+        if section.common.spindle.direction().is_some() {
             kinds.push(EventKind::SpindleOff);
         }
         if section.common.coolant == Coolant::Flood {

@@ -47,8 +47,7 @@ pub struct Plate {
 #[must_use]
 pub fn plates(scene: &Scene) -> Vec<Plate> {
     let (Some(fixture), Some(sheet)) = (scene.fixture, scene.sheet) else { return Vec::new() };
-    let (low, high) = scene.mesh.bounds();
-    let [x, y] = fixture.center.unwrap_or([0.5 * (low.x + high.x), 0.5 * (low.y + high.y)]);
+    let [x, y] = middle(scene);
     let moved = |opening: Opening| corners(opening).into_iter().map(|[cx, cy]| [x + cx, y + cy]).collect();
     let under = scene.top - sheet.thickness;
     let clamp = fixture.clamp.map(|clamp| Plate {
@@ -64,6 +63,27 @@ pub fn plates(scene: &Scene) -> Vec<Plate> {
     clamp.into_iter().chain(backing).collect()
 }
 
+/// How far some points lie outside the clamp frame's opening in plan at most, mm, negative inside; none without a frame.
+pub(crate) fn beyond_clamp(scene: &Scene, points: impl Iterator<Item = Vector>) -> Option<f64> {
+    let clamp = scene.fixture?.clamp?;
+    let [x, y] = middle(scene);
+    let beyond = |point: Vector| {
+        let [dx, dy] = [point.x - x, point.y - y];
+        match clamp.opening {
+            Opening::Diameter(diameter) => libm::hypot(dx, dy) - 0.5 * diameter,
+            Opening::Sides([width, height]) => (dx.abs() - 0.5 * width).max(dy.abs() - 0.5 * height),
+        }
+    };
+    points.map(beyond).reduce(f64::max)
+}
+
+/// Middle of the openings in plan, mm.
+fn middle(scene: &Scene) -> [f64; 2] {
+    let (low, high) = scene.mesh.bounds();
+    let center = scene.fixture.and_then(|fixture| fixture.center);
+    center.unwrap_or([0.5 * (low.x + high.x), 0.5 * (low.y + high.y)])
+}
+
 /// What the verifier keeps tools, or tools and sheet, away from.
 ///
 /// # Errors
@@ -77,7 +97,9 @@ pub(crate) fn obstacles(scene: &Scene) -> Result<Vec<Obstacle>, JobError> {
             Holder::Clamp => (ObstacleKind::Clamp, None),
             Holder::Backing => (ObstacleKind::Backing, whole),
         };
-        Ok(Obstacle { kind, bvh: Bvh::new(&mesh), mesh, sheet, margin })
+        let follows =
+            plate.holder == Holder::Clamp && scene.fixture.and_then(|fixture| fixture.clamp).is_some_and(|c| c.follows);
+        Ok(Obstacle { kind, bvh: Bvh::new(&mesh), mesh, sheet, margin, follows })
     };
     plates(scene).into_iter().map(obstacle).collect()
 }

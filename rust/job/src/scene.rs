@@ -63,6 +63,16 @@ impl Scene {
         self.mesh.faces().iter().enumerate().map(faces_up).collect()
     }
 
+    /// The steepest slope of some triangles, rad; 0 of none.
+    pub(crate) fn steepest(&self, selected: &[bool]) -> f64 {
+        // facets lean by their deviation: where the model's normals are known, those tell
+        let slope = |t: usize| {
+            let normals = self.mesh.corner_normals(t);
+            normals.map(|n| libm::acos(n.z.clamp(-1.0, 1.0))).into_iter().fold(0.0, f64::max)
+        };
+        (0..selected.len()).filter(|t| selected[*t]).map(slope).fold(0.0, f64::max)
+    }
+
     /// Height of the part's lowest point, mm.
     pub(crate) fn foot(&self) -> f64 {
         self.mesh.bounds().0.z

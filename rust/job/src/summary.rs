@@ -123,9 +123,11 @@ impl Summary {
 impl OperationSummary {
     /// Its lines of the program's header.
     fn notes(&self) -> Vec<String> {
-        let Some(surface) = &self.surface else { return vec![format!("{}: {}", self.id, self.note)] };
-        let mut notes =
-            vec![format!("{}: {}, largest wall angle {:.1} deg", self.id, self.note, surface.wall_angle_max_deg)];
+        let angle = self.surface.as_ref().map(|surface| surface.wall_angle_max_deg);
+        let angle = angle.map_or(String::new(), |deg| format!(", largest wall angle {deg:.1} deg"));
+        let mut notes = vec![format!("{}: {}{angle}", self.id, self.note)];
+        notes.extend(self.lines.iter().cloned());
+        let Some(surface) = &self.surface else { return notes };
         notes.extend(surface.ends.map(|end| {
             let which = if end.at_foot { "the part's foot" } else { "z_bottom" };
             format!(

@@ -117,6 +117,14 @@ impl ArcPath {
         }
     }
 
+    /// The same path elsewhere, shifted along X, Y and Z, mm.
+    #[must_use]
+    pub fn shifted(&self, by: [f64; 3]) -> Self {
+        let [first, second, third] = self.axes;
+        let centre = [self.centre[0] + by[first], self.centre[1] + by[second]];
+        Self { centre, heights: self.heights.map(|height| height + by[third]), ..*self }
+    }
+
     /// Its length, mm.
     #[must_use]
     pub fn length(&self) -> f64 {

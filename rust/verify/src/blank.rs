@@ -11,6 +11,7 @@ use std::collections::BinaryHeap;
 
 use styluscam_geometry::{Cutter, Mesh, Vector};
 
+use crate::subject::Support;
 use crate::tolerances::ROUGH;
 
 /// Side of a cell, as a share of the tool's radius.
@@ -30,8 +31,10 @@ pub(crate) struct Blank {
     hanging: Vec<f64>,
     /// Cells in which the part lies.
     part: Vec<bool>,
-    /// Those in which the part is highest: sheet that stays flat.
-    flat: Vec<usize>,
+    /// Heights below which it cannot stand, of cells in which it is held up: where it stays flat, where a die is under it.
+    held: Vec<(usize, f64)>,
+    /// Where it is clamped, when the clamp goes down: the outermost cells of the part, and how high it stands there now.
+    frame: Option<(Vec<usize>, f64)>,
     /// Whether something was pressed since the heights at which it hangs were found.
     is_stale: bool,
     /// The lowest position of all, mm.
@@ -40,7 +43,7 @@ pub(crate) struct Blank {
 
 impl Blank {
     /// A flat sheet over `part`, its upper side at `top`, for tools that are no narrower than `radius`, mm.
-    pub fn new(part: &Mesh, top: f64, radius: f64) -> Self {
+    pub fn new(part: &Mesh, top: f64, radius: f64, support: Support) -> Self {
         let (low, high) = part.bounds();
         let [long, wide] = [high.x - low.x, high.y - low.y];
         let cell = (CELL * radius).max(long.max(wide) / CELLS).max(f64::MIN_POSITIVE);
@@ -53,15 +56,42 @@ impl Blank {
             pressed: vec![top; counts[0] * counts[1]],
             hanging: Vec::new(),
             part: Vec::new(),
-            flat: Vec::new(),
+            held: Vec::new(),
+            frame: None,
             is_stale: true,
             lowest: top,
         };
         let heights = blank.heights_of(part);
         let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         blank.part = heights.iter().map(|height| height.is_finite()).collect();
-        blank.flat = (0..heights.len()).filter(|at| heights[*at] >= highest - ROUGH).collect();
+        let of_part = heights.iter().copied().enumerate().filter(|(_, height)| height.is_finite());
+        match support {
+            Support::Rim => {
+                blank.held =
+                    of_part.filter(|(_, height)| *height >= highest - ROUGH).map(|(at, _)| (at, top)).collect();
+            }
+            Support::DieAndFrame => {
+                // the sheet's upper side is as far above the model everywhere as where both are highest
+                blank.held = of_part.map(|(at, height)| (at, height + top - highest)).collect();
+                blank.frame = Some((blank.outermost(), top));
+            }
+        }
         blank
+    }
+
+    /// Cells of the part beside which there is none.
+    fn outermost(&self) -> Vec<usize> {
+        let is_part = |cell: [i64; 2]| self.index(cell).is_some_and(|at| self.part[at]);
+        let is_outermost = |at: &usize| self.part[*at] && !self.beside(*at).into_iter().all(is_part);
+        (0..self.part.len()).filter(is_outermost).collect()
+    }
+
+    /// The clamp goes to a height, mm; without effect where it stays.
+    pub fn hold_at(&mut self, height: f64) {
+        if let Some((_, stands)) = &mut self.frame {
+            self.is_stale |= stands.total_cmp(&height) != Ordering::Equal;
+            *stands = height;
+        }
     }
 
     /// Side of a cell, mm.
@@ -109,26 +139,33 @@ impl Blank {
         self.hanging[at].min(self.pressed_at(position))
     }
 
-    /// Lets it hang: from the highest positions on, each cell as high as the best path to it.
+    /// Lets it hang: from where it is held, each cell as high as the best path to it.
     fn hang(&mut self) {
         self.is_stale = false;
         self.hanging = vec![f64::NEG_INFINITY; self.pressed.len()];
-        let mut seen: Vec<bool> = self.part.iter().map(|is_part| !is_part).collect();
-        let mut next: BinaryHeap<Cell> = BinaryHeap::new();
-        for at in &self.flat {
-            seen[*at] = true;
-            next.push(Cell { height: self.pressed[*at], at: *at });
-        }
-        let across = self.counts[0];
+        let clamped = self.frame.iter().flat_map(|(cells, height)| cells.iter().map(|at| (*at, *height)));
+        let held = self.held.iter().copied().chain(clamped);
+        let mut next: BinaryHeap<Cell> =
+            held.map(|(at, height)| Cell { height: height.min(self.pressed[at]), at }).collect();
         while let Some(Cell { height, at }) = next.pop() {
+            if self.hanging[at] >= height {
+                continue; // a better path has led there
+            }
             self.hanging[at] = height;
-            let (i, j) = ((at % across) as i64, (at / across) as i64);
-            for beside in [[i - 1, j], [i + 1, j], [i, j - 1], [i, j + 1]] {
-                let Some(other) = self.index(beside).filter(|other| !seen[*other]) else { continue };
-                seen[other] = true;
-                next.push(Cell { height: height.min(self.pressed[other]), at: other });
+            for beside in self.beside(at) {
+                let Some(other) = self.index(beside).filter(|other| self.part[*other]) else { continue };
+                let height = height.min(self.pressed[other]);
+                if self.hanging[other] < height {
+                    next.push(Cell { height, at: other });
+                }
             }
         }
+    }
+
+    /// The four cells beside one.
+    fn beside(&self, at: usize) -> [[i64; 2]; 4] {
+        let (i, j) = ((at % self.counts[0]) as i64, (at / self.counts[0]) as i64);
+        [[i - 1, j], [i + 1, j], [i, j - 1], [i, j + 1]]
     }
 
     /// The part's height in the middle of each cell, mm; minus infinity beside it.
@@ -226,7 +263,7 @@ mod tests {
 
     #[test]
     fn inside_a_loop_the_sheet_hangs_as_low_as_the_loop() {
-        let (mut blank, ball) = (Blank::new(&plate(), 0.0, 2.0), ball(4.0));
+        let (mut blank, ball) = (Blank::new(&plate(), 0.0, 2.0, Support::Rim), ball(4.0));
         for i in 0..400 {
             let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(i) / 400.0);
             blank.press([8.0 * cos, 8.0 * sin, -1.0], &ball);
@@ -237,8 +274,25 @@ mod tests {
     }
 
     #[test]
+    fn over_a_die_it_stands_on_that_and_in_the_frame() {
+        let hill = plate().placed(&styluscam_geometry::Frame::turning_up(-Vector::z(), 0.0));
+        let (mut blank, ball) = (Blank::new(&hill, 5.0, 2.0, Support::DieAndFrame), ball(4.0));
+        assert_eq!(blank.hangs_at([0.0, 0.0]), 5.0);
+        assert_eq!(blank.hangs_at([18.0, 18.0]), 5.0);
+        for i in 0..400 {
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(i) / 400.0);
+            blank.press([8.0 * cos, 8.0 * sin, 4.0], &ball);
+        }
+        // the frame still holds it up outside; once it goes down, the sheet does, as far as the loop
+        assert_eq!(blank.hangs_at([18.0, 18.0]), 5.0);
+        blank.hold_at(1.0);
+        assert_eq!(blank.hangs_at([18.0, 18.0]), 4.0);
+        assert_eq!(blank.hangs_at([0.0, 0.0]), 5.0);
+    }
+
+    #[test]
     fn beside_half_a_loop_it_stands() {
-        let (mut blank, ball) = (Blank::new(&plate(), 0.0, 2.0), ball(4.0));
+        let (mut blank, ball) = (Blank::new(&plate(), 0.0, 2.0, Support::Rim), ball(4.0));
         for i in 0..200 {
             let (sin, cos) = libm::sincos(std::f64::consts::PI * f64::from(i) / 200.0);
             blank.press([8.0 * cos, 8.0 * sin, -1.0], &ball);

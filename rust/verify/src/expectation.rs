@@ -94,6 +94,11 @@ impl Expectation {
         }
     }
 
+    /// Its passes, where each lies below the one before it.
+    pub(crate) fn descending(&self) -> Option<&OrderedPasses> {
+        self.ordered().filter(|passes| passes.scalar.descends())
+    }
+
     /// Whether it is for a triangle.
     pub(crate) fn selects(&self, triangle: usize) -> bool {
         self.selected.get(triangle) == Some(&true)

@@ -225,6 +225,23 @@ pub(crate) static FORMING_ORDER: FaultKind = FaultKind::in_text(
     "form from the top down",
 );
 
+pub(crate) static FRAME_BELOW: FaultKind = FaultKind::in_text(
+    FindingKind::ClampLevel,
+    |fault| {
+        let (value, limit) = (fault.value(), fault.limit());
+        format!("the clamp frame stands at Z{value:.3}, below the loop at Z{limit:.3}: it pulls the sheet over the die")
+    },
+    "form from the top down, and lower the frame to each level once the tool is there",
+);
+pub(crate) static FRAME_ABOVE: FaultKind = FaultKind::in_text(
+    FindingKind::ClampLevel,
+    |fault| {
+        let (value, limit) = (fault.value(), fault.limit());
+        format!("the clamp frame stands at Z{value:.3}, more than a step above the loop at Z{limit:.3}: it holds the sheet back")
+    },
+    "lower the frame to each level once the tool is there",
+);
+
 // start, end and unknown positions
 
 pub(crate) static UNSAFE_START: FaultKind = FaultKind::in_text(

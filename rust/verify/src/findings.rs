@@ -45,6 +45,12 @@ pub enum FindingKind {
     WallAngle,
     /// The sheet becomes thinner than it may.
     Thinning,
+    /// The tool is more curved than the sheet withstands.
+    ToolRadius,
+    /// The faces that are formed are larger than the clamp frame's opening.
+    ClampOpening,
+    /// Forming takes a larger force along the spindle than the machine withstands.
+    AxialForce,
     /// The tool goes deeper than a step below all that is formed so far.
     Punch,
     /// The tool bridges faces by more than it may: it is less curved than they are.
@@ -61,6 +67,8 @@ pub enum FindingKind {
     FlangeHeight,
     /// A level is formed after a lower one at the same position.
     FormingOrder,
+    /// The clamp frame stands lower than the loop that is formed, or more than a step higher.
+    ClampLevel,
     /// A rapid goes down below the height at which the job wants plunges to begin.
     DeepRapid,
     /// The program stops while the tool is below the clearance height.
@@ -152,6 +160,9 @@ const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
         (Kind::Scallop, "scallop above the limit"),
         (Kind::WallAngle, "wall angle above the limit"),
         (Kind::Thinning, "thinning below the limit"),
+        (Kind::ToolRadius, "tool radius below twice the sheet thickness"),
+        (Kind::ClampOpening, "part larger than the clamp frame"),
+        (Kind::AxialForce, "axial force above the limit"),
         (Kind::Punch, "punch through the sheet"),
         (Kind::Bridged, "bridged faces"),
         (Kind::Unreached, "unreached faces"),
@@ -160,6 +171,7 @@ const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
         (Kind::SolidFormed, "solid instead of a sheet"),
         (Kind::FlangeHeight, "flange height differs from the clamping height"),
         (Kind::FormingOrder, "forming order"),
+        (Kind::ClampLevel, "height of the clamp frame"),
         (Kind::DeepRapid, "rapid below the retract height"),
         (Kind::StopBelow, "stop below the clearance height"),
         (Kind::MissingFeed, "feed not stated"),

@@ -20,6 +20,8 @@ pub(crate) struct Collider<'a> {
     pub top: f64,
     /// The clearance that must be left, mm.
     pub least: f64,
+    /// Whether it goes down with the clamp frame.
+    pub follows: bool,
 }
 
 impl Collider<'_> {
@@ -37,7 +39,8 @@ pub(crate) fn colliders<'a>(tool: &Tool, subject: &Subject<'a>, least: f64) -> V
             ToolPart::Holder => &faults::HOLDER,
         };
         let (mesh, bvh) = (subject.mesh, subject.bvh);
-        Collider { kind, is_at_part: true, body: Body::of(solid), mesh, bvh, top: mesh.bounds().1.z, least }
+        let top = mesh.bounds().1.z;
+        Collider { kind, is_at_part: true, body: Body::of(solid), mesh, bvh, top, least, follows: false }
     });
     let around = subject.obstacles.iter().flat_map(|obstacle| {
         let sheet = obstacle.sheet.as_ref();
@@ -53,6 +56,7 @@ pub(crate) fn colliders<'a>(tool: &Tool, subject: &Subject<'a>, least: f64) -> V
             bvh: &obstacle.bvh,
             top: obstacle.mesh.bounds().1.z,
             least: obstacle.margin,
+            follows: obstacle.follows,
         })
     });
     above.chain(around).collect()

@@ -4,12 +4,13 @@ use styluscam_motion::{Cancelled, Program, Watch};
 
 use crate::assignment::Assignment;
 use crate::findings::{Finding, FindingKind, Severity};
+use crate::frame::Frame;
 use crate::measure::measure;
 use crate::merge::{merge, Merged};
 use crate::report::Report;
 use crate::segments::placed;
 use crate::subject::{Limits, Subject};
-use crate::{diagnosis, passes, reach, sequence, settings, travel, unreached, walls};
+use crate::{diagnosis, frame, passes, reach, sequence, settings, travel, unreached, walls};
 
 /// Checks a program read back from posted text against the part.
 ///
@@ -19,14 +20,18 @@ use crate::{diagnosis, passes, reach, sequence, settings, travel, unreached, wal
 /// `Cancelled` when the watch is cancelled; it is polled at every move.
 pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watch) -> Result<Report, Cancelled> {
     let segments = placed(program, subject, limits);
-    let mut tally = measure(&segments, subject, limits, watch)?;
+    let frame = Frame::of(program, &segments, subject, limits);
+    let mut tally = measure(&segments, subject, limits, frame.as_ref(), watch)?;
     let mut faults = std::mem::take(&mut tally.faults);
     faults.extend(travel::faults(program, &segments, subject, limits));
     faults.extend(reach::faults(program, subject, &limits.reach));
     let assignment = Assignment::new(program, subject);
     faults.extend(settings::faults(program, &segments, &assignment, limits));
     faults.extend(sequence::faults(program, &segments, &assignment, subject, limits));
-    faults.extend(sequence::punches(program, &segments, &assignment, subject, limits));
+    faults.extend(sequence::punches(program, &segments, &assignment, subject, limits, frame.as_ref()));
+    if let Some(frame) = &frame {
+        faults.extend(frame::faults(frame, program, &segments, &assignment, subject, limits));
+    }
     faults.extend(passes::faults(&segments, &assignment, subject, limits, watch)?);
     let beyond_reach = unreached::findings(&segments, subject, limits, watch)?;
     let steep = walls::finding(subject, limits);
@@ -41,7 +46,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let wholes =
         reach::findings(program, subject, &limits.reach).into_iter().chain(assignment.findings(program, subject));
     let wholes = wholes.chain(travel::optional_lines(subject)).chain(travel::modes_not_stated(program, subject));
-    let found = limits.found.iter().map(|(kind, words)| Finding::of_all(*kind, Severity::Error, words.clone()));
+    let found = limits.found.iter().map(|(kind, severity, words)| Finding::of_all(*kind, *severity, words.clone()));
     let wholes = wholes.chain(found).chain(steep).chain(beyond_reach);
     let wholes: Vec<Finding> = wholes.chain(travel::no_feed_moves(program)).chain(offset).chain(nothing).collect();
     for whole in &wholes {

@@ -40,9 +40,11 @@ mod expectation;
 mod faults;
 mod findings;
 mod flats;
+mod frame;
 mod groups;
 mod holding;
 mod judge;
+mod level_moves;
 mod measure;
 mod merge;
 mod passes;
@@ -80,5 +82,8 @@ pub use report::{ContactRecord, Place, Report};
 pub use scalar::{Across, Height, PassKind, Scalar};
 pub use scallop::{scallops, Scallop};
 pub use simulation::{simulate, Grid, Simulation, Skin};
-pub use subject::{Forming, Limits, Obstacle, ObstacleKind, Reach, Subject, TextFacts, ToolCalls, WallAngleSource};
+pub use subject::{
+    Forming, Found, FrameLevel, Limits, Obstacle, ObstacleKind, Reach, Subject, Support, TextFacts, ToolCalls,
+    WallAngleSource,
+};
 pub use unreached::ToolReach;

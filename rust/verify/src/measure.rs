@@ -8,6 +8,7 @@ use styluscam_motion::{ArcPath, Cancelled, Watch};
 
 use crate::body::Body;
 use crate::clearance::{Prober, Touch};
+use crate::frame::Frame;
 use crate::holding::{colliders, Collider};
 use crate::samples::{lowest, Measured, Sample, Strike};
 use crate::segments::{Segment, SegmentKind};
@@ -40,6 +41,7 @@ pub(crate) fn measure(
     segments: &[Segment],
     subject: &Subject,
     limits: &Limits,
+    frame: Option<&Frame>,
     watch: &Watch,
 ) -> Result<Tally, Cancelled> {
     watch.begin("verifying", segments.len());
@@ -51,7 +53,7 @@ pub(crate) fn measure(
     let rule = Rule::new(segments, subject, limits);
     let chunks: Vec<&[Segment]> = segments.chunks(CHUNK).collect();
     let tallies = chunks.par_iter().zip(contacts_before(&chunks)).map(|(chunk, mut ordinal)| {
-        let mut walk = Walk { subject, limits, bodies: &bodies, top, last: None };
+        let mut walk = Walk { subject, limits, frame, bodies: &bodies, top, last: None };
         let mut tally = Tally::default();
         for segment in *chunk {
             for piece in segment.pieces() {
@@ -83,6 +85,7 @@ fn contacts_before(chunks: &[&[Segment]]) -> Vec<usize> {
 struct Walk<'a> {
     subject: &'a Subject<'a>,
     limits: &'a Limits,
+    frame: Option<&'a Frame>,
     bodies: &'a [Bodies<'a>],
     /// Height of the part's highest point.
     top: f64,
@@ -101,13 +104,25 @@ impl<'a> Walk<'a> {
             None if segment.excess.is_some() => self.along_contact(segment, tool, &prober),
             None => self.along_air(segment, &prober),
         };
-        let strikes = bodies.colliders.iter().filter_map(|collider| strike(segment, collider));
+        let strikes = bodies.colliders.iter().filter_map(|collider| self.strike(segment, collider));
         let room = |strike: &Strike| strike.sample.touch.value - strike.least;
         Measured { struck: strikes.min_by(|a, b| room(a).total_cmp(&room(b))), ..found }
     }
 
     fn prober(&self, body: &'a Body) -> Prober<'a> {
         Prober { body, mesh: self.subject.mesh, bvh: self.subject.bvh }
+    }
+
+    /// Where a body comes too near to something: of what goes down with the clamp frame, where that stands before the move or
+    /// after it.
+    fn strike(&self, segment: &Segment, collider: &Collider) -> Option<Strike> {
+        let Some([before, after]) = self.frame.filter(|_| collider.follows).map(|frame| frame.fallen(segment.index))
+        else {
+            return strike(segment, collider);
+        };
+        let fallen = |by: f64| strike(&segment.raised(by), collider).map(|strike| strike.lowered(by));
+        let strikes = [fallen(before), if before < after { fallen(after) } else { None }];
+        strikes.into_iter().flatten().min_by(|a, b| a.sample.touch.value.total_cmp(&b.sample.touch.value))
     }
 
     /// A piece of an arc: samples, if it should touch, and a proof that nothing between them is deeper.

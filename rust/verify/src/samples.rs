@@ -40,6 +40,15 @@ pub(crate) struct Strike {
     pub least: f64,
 }
 
+impl Strike {
+    /// The same this much lower, mm.
+    pub fn lowered(self, by: f64) -> Self {
+        let Sample { tip: [x, y, z], touch } = self.sample;
+        let touch = Touch { point: touch.point - by * Vector::z(), ..touch };
+        Self { sample: Sample { tip: [x, y, z - by], touch }, ..self }
+    }
+}
+
 /// The deepest of the samples; the latest of those that are equal but for arithmetic, because the position that
 /// two moves share belongs to the one that ends there.
 pub(crate) fn lowest(samples: &[Option<Sample>; 3]) -> Option<Sample> {

@@ -103,6 +103,13 @@ impl Segment {
         self.bend.map_or_else(|| (start + share * (end - start)).into(), |bend| bend.at(share))
     }
 
+    /// The same this much higher, mm.
+    pub fn raised(&self, by: f64) -> Self {
+        let raised = |[x, y, z]: [f64; 3]| [x, y, z + by];
+        let bend = self.bend.map(|bend| bend.shifted([0.0, 0.0, by]));
+        Self { start: self.start.map(raised), end: raised(self.end), bend, ..*self }
+    }
+
     /// Whether the tip moves sideways.
     pub fn travels(&self) -> bool {
         self.start.is_some_and(|s| !same_plan(s, self.end))

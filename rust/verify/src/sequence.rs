@@ -9,12 +9,11 @@ use styluscam_motion::Program;
 use crate::assignment::Assignment;
 use crate::blank::Blank;
 use crate::faults::{self, Fault};
+use crate::frame::Frame;
+use crate::level_moves::{at_cut, level_moves, LOWER};
 use crate::segments::{Segment, SegmentKind};
 use crate::subject::{Limits, Subject};
-use crate::tolerances::{ROUGH, SAME_LEVEL, WIDE};
-
-/// A level counts as lower from this share of the step on.
-const LOWER: f64 = 0.25;
+use crate::tolerances::{ROUGH, WIDE};
 
 /// Cosine of the slope up to which flat sheet may wrap the tool in one go: by the sine law it then keeps three quarters of its
 /// thickness, and 41 degrees are a wall angle that every sheet withstands.
@@ -33,6 +32,7 @@ pub(crate) fn punches(
     assignment: &Assignment,
     subject: &Subject,
     limits: &Limits,
+    frame: Option<&Frame>,
 ) -> Vec<Fault> {
     let Some(forming) = limits.forming.filter(|_| subject.expected.iter().any(|operation| operation.expectation.forms))
     else {
@@ -40,7 +40,7 @@ pub(crate) fn punches(
     };
     let tools: Vec<Cutter> = subject.tools.iter().map(Tool::cutter).collect();
     let narrowest = tools.iter().map(|tool| tool.max_radius()).fold(f64::INFINITY, f64::min);
-    let mut blank = Blank::new(subject.mesh, forming.top, narrowest);
+    let mut blank = Blank::new(subject.mesh, forming.top, narrowest, forming.support);
     let mut rows = Vec::new();
     let mut operation = None;
     let mut faults = Vec::new();
@@ -50,9 +50,12 @@ pub(crate) fn punches(
     {
         let Some(order) = assignment.of(segment.operation).filter(|order| order.expectation.forms) else { continue };
         let Some(tool) = tools.get(order.tool) else { continue };
-        let passes = order.expectation.ordered().filter(|passes| passes.scalar.descends());
+        let passes = order.expectation.descending();
         if operation.replace(segment.operation) != Some(segment.operation) {
             rows.drain(..).for_each(|(tip, tool)| blank.press(tip, tool));
+        }
+        if let Some([before, _]) = frame.map(|frame| frame.at(segment.index)) {
+            blank.hold_at(before);
         }
         let dent = dent(tool, forming.thickness) + ROUGH;
         let positions = positions(segment, blank.cell());
@@ -121,28 +124,11 @@ pub(crate) fn faults(
 ) -> Vec<Fault> {
     let mut faults = Vec::new();
     for order in subject.expected.iter().filter(|order| order.expectation.forms) {
-        let Some(passes) = order.expectation.ordered().filter(|passes| passes.scalar.descends()) else { continue };
+        let Some(passes) = order.expectation.descending() else { continue };
         let Some(tool) = subject.tools.get(order.tool) else { continue };
         let cell = 0.5 * tool.diameter();
         let mut lowest: HashMap<[i64; 2], f64> = HashMap::new();
-        // straight up or down at the path's feed the tool climbs over what stands there, or falls beside it, and comes
-        // back: that is no level
-        let mut away_from: Option<f64> = None;
-        for segment in segments.iter().flat_map(Segment::pieces) {
-            let along = at_cut(program, &segment, order.cut, limits)
-                && matches!(segment.kind, SegmentKind::Plunge | SegmentKind::Retract);
-            match (segment.kind, away_from, segment.start) {
-                (SegmentKind::Rapid, ..) => away_from = None,
-                (_, Some(level), _) if (segment.end[2] - level).abs() <= SAME_LEVEL => away_from = None,
-                (_, None, Some(start)) if along => away_from = Some(start[2]),
-                _ => {}
-            }
-            if segment.kind != SegmentKind::Lateral || segment.falls() && !passes.continuous || away_from.is_some() {
-                continue;
-            }
-            if !assignment.is(segment.operation, order) {
-                continue;
-            }
+        for segment in level_moves(program, segments, assignment, (order, passes), limits) {
             let [x, y, z] = segment.end;
             let [i, j] = [x, y].map(|at| (at / cell).floor() as i64);
             let around = (-1..=1).flat_map(|di| (-1..=1).map(move |dj| [i + di, j + dj]));
@@ -156,9 +142,4 @@ pub(crate) fn faults(
     }
     faults.sort_by_key(|fault| fault.index);
     faults
-}
-
-/// Whether a move has the feed of the path.
-fn at_cut(program: &Program, segment: &Segment, cut: f64, limits: &Limits) -> bool {
-    (program.moves[segment.index].feed - cut).abs() <= limits.feed_slack(cut, segment.length())
 }

@@ -6,7 +6,7 @@ use styluscam_geometry::{Bvh, Mesh, Sheet, Tool};
 use styluscam_motion::{FeedRounding, MachineMove};
 
 use crate::expectation::ExpectedOperation;
-use crate::findings::FindingKind;
+use crate::findings::{FindingKind, Severity};
 
 /// The part and the tools, in the program's work coordinates.
 #[derive(Clone, Copy, Debug)]
@@ -51,6 +51,8 @@ pub struct Obstacle {
     pub sheet: Option<Sheet>,
     /// What must stay between them, mm.
     pub margin: f64,
+    /// Whether it goes down with the clamp frame ([`Support::DieAndFrame`]): `mesh` is where it stands before anything is formed.
+    pub follows: bool,
 }
 
 /// What stands around a part.
@@ -69,6 +71,8 @@ pub struct Forming {
     pub thickness: f64,
     /// Height of its upper side before, mm.
     pub top: f64,
+    /// What holds it up while it is formed.
+    pub support: Support,
     /// Thinnest that it may become by the sine law, mm.
     pub min_thickness: f64,
     /// Steepest wall, rad.
@@ -77,6 +81,26 @@ pub struct Forming {
     pub sure_wall_angle: f64,
     /// Whence that is known.
     pub source: WallAngleSource,
+}
+
+/// What holds a sheet up where no tool has pressed it yet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Support {
+    /// Its rim, which is clamped at the height of the flat sheet: what is not formed hangs from there.
+    #[default]
+    Rim,
+    /// The part itself, a die under the sheet, and around it a clamp frame that goes down with the path: inside the current loop
+    /// the sheet lies on the die, outside it stands as high as the frame.
+    DieAndFrame,
+}
+
+/// A height that a text states for the clamp frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrameLevel {
+    /// Index of the move before which the frame goes there.
+    pub before: usize,
+    /// Height of the sheet's upper side in the frame, work coordinates, mm.
+    pub z: f64,
 }
 
 /// Whence it is known how steep a wall a sheet withstands.
@@ -103,6 +127,8 @@ pub struct TextFacts {
     pub not_stated: Vec<&'static str>,
     /// Moves made while another plane than G17 was in force and no arc used it, in runs.
     pub planes_not_needed: Vec<Range<usize>>,
+    /// Where the clamp frame is to stand, in order; none where the path carries it ([`Support::DieAndFrame`]).
+    pub frame_levels: Vec<FrameLevel>,
     /// Moves before which the program stops (M0, M1).
     pub stops: Vec<usize>,
     /// Its lines.
@@ -156,9 +182,12 @@ pub struct Limits {
     pub unreached_from: f64,
     /// Kinds of findings that are no errors: the job takes these risks by name.
     pub accepted: Vec<FindingKind>,
-    /// What was found wrong with the job before its program was looked at, each with its sentence.
-    pub found: Vec<(FindingKind, String)>,
+    /// What was found before the program was looked at.
+    pub found: Vec<Found>,
 }
+
+/// What was found with the job alone: its kind, how bad it is, and its sentence.
+pub type Found = (FindingKind, Severity, String);
 
 /// What the machine can do; what is left out is not checked.
 #[derive(Clone, Debug, Default, PartialEq)]

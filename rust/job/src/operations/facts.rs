@@ -30,7 +30,7 @@ impl Fact {
 }
 
 /// "1 level", "2 levels", "12,000 levels".
-pub(super) fn counted(count: usize, one: &str, many: &str) -> String {
+pub(crate) fn counted(count: usize, one: &str, many: &str) -> String {
     let digits = count.to_string();
     let mut grouped = String::new();
     for (i, digit) in digits.chars().enumerate() {

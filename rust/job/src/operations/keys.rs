@@ -93,6 +93,10 @@ pub enum Spindle {
     /// It stands: a stylus slides.
     #[default]
     Off,
+    /// It is not driven and turns as the sheet takes it along; the operator releases its brake.
+    Free,
+    /// It rolls along the steepest of the walls instead of sliding: its speed follows from the feed.
+    Rolling,
     /// It turns.
     Fixed {
         /// Speed, rev/min.
@@ -105,11 +109,12 @@ pub enum Spindle {
 }
 
 impl Spindle {
-    /// Its sense; none while it stands.
+    /// Its sense; none while it is not driven.
     #[must_use]
     pub fn direction(&self) -> Option<SpindleDirection> {
         match self {
-            Self::Off => None,
+            Self::Off | Self::Free => None,
+            Self::Rolling => Some(SpindleDirection::Clockwise),
             Self::Fixed { direction, .. } => Some(*direction),
         }
     }

@@ -26,6 +26,7 @@ mod tests;
 
 pub use context::Context;
 pub use effort::{Areas, Effort};
+pub(crate) use facts::counted;
 pub use facts::{BridgedFace, End, Fact, ReachedFace, SurfaceFacts};
 pub use keys::{Coolant, Direction, Feeds, OperationKeys, Spindle};
 pub use kind::{About, OperationKind, PassContext, PassSpacing, Planned, Serves, StarterPasses};

@@ -174,7 +174,7 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
     let ((traced, moves), (offset, bridges)) = (path?, reach?);
     let (groups, passes) = (count_groups(&traced.passes), traced.passes.len());
     let facts = SurfaceFacts {
-        wall_angle_max_deg: steepest(scene, &selected).to_degrees(),
+        wall_angle_max_deg: scene.steepest(&selected).to_degrees(),
         ends: ends(&task, kind.lowest_rest(&body), tool, &traced.passes, &selected),
         reached: reached::reached(scene, &offset, &bridges),
         reached_coarsely: offset.is_coarse.then_some(offset.fine),
@@ -224,15 +224,6 @@ fn ends(task: &Task<'_>, lowest_rest: f64, tool: &Tool, passes: &[Pass], selecte
 fn undercut(scene: &Scene, faces: &[u32]) -> Vec<(u32, f64)> {
     let area = |face: &u32| scene.views.get(face).map(|view| view.down).filter(|area| *area >= LEAST_AREA);
     faces.iter().filter_map(|face| Some((*face, area(face)?))).collect()
-}
-
-fn steepest(scene: &Scene, selected: &[bool]) -> f64 {
-    // facets lean by their deviation: where the model's normals are known, those tell
-    let slope = |t: usize| {
-        let normals = scene.mesh.corner_normals(t);
-        normals.map(|n| libm::acos(n.z.clamp(-1.0, 1.0))).into_iter().fold(0.0, f64::max)
-    };
-    (0..selected.len()).filter(|t| selected[*t]).map(slope).fold(0.0, f64::max)
 }
 
 fn count_groups(passes: &[Pass]) -> usize {

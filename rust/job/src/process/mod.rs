@@ -6,6 +6,7 @@ use std::sync::LazyLock;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
+use styluscam_verify::Support;
 
 use crate::tagged::{self, kinds, Family};
 
@@ -25,6 +26,11 @@ pub trait ProcessKind {
     /// Whether the part rests on a table, below which no tip goes unless the job states so; else it hangs free.
     fn rests_on_table(&self) -> bool {
         !self.forms()
+    }
+
+    /// What holds the sheet up where it is not formed yet.
+    fn support(&self) -> Support {
+        Support::Rim
     }
 
     /// The channels: programs that run side by side, each on a machine of its own; [`MAIN_CHANNEL`] first.
@@ -52,6 +58,7 @@ kinds! {
     Process: ProcessKind, About {
         spif::Spif = "spif",
         milling::Milling = "milling",
+        tpif::Tpif = "tpif",
     }
 }
 
@@ -135,10 +142,21 @@ pub fn family() -> &'static Family {
 mod tests {
     use super::*;
 
-    /// Every process, with its own defaults.
+    /// Every process, with its own defaults, and with the examples of the keys that it must have.
     fn every() -> impl Iterator<Item = (Process, About)> {
-        Process::ABOUT.iter().map(|(name, about)| {
-            let section = serde_json::json!({ tagged::COMMON: {}, tagged::OWN: { *name: {} } });
+        let schemas: std::collections::BTreeMap<_, _> =
+            Process::schemas(&mut SchemaGenerator::default()).into_iter().collect();
+        Process::ABOUT.iter().map(move |(name, about)| {
+            let schema = schemas[name].as_value();
+            let required = schema.get("required").and_then(|keys| keys.as_array()).into_iter().flatten();
+            let example = |key: &serde_json::Value| {
+                let key = key.as_str().unwrap();
+                let example = schema["properties"][key]["x-example"].as_str().unwrap();
+                let table: toml::Table = toml::from_str(&format!("{key} = {example}")).unwrap();
+                (key.to_owned(), serde_json::to_value(&table[key]).unwrap())
+            };
+            let own: serde_json::Map<_, _> = required.map(example).collect();
+            let section = serde_json::json!({ tagged::COMMON: {}, tagged::OWN: { *name: own } });
             let section: ProcessSection = serde_json::from_value(section).unwrap_or_else(|e| panic!("{name}: {e}"));
             (section.process, *about)
         })

@@ -218,6 +218,7 @@ fn check_limits(machine: &Machine) -> Result<(), MachineError> {
     let (slowest, fastest) = (limits.min_rpm.unwrap_or(0.0), limits.max_rpm.unwrap_or(f64::INFINITY));
     require(slowest.is_finite() && slowest >= 0.0, "limits.min_rpm", "0 or more, in rev/min")?;
     require(limits.max_rpm.is_none_or(positive), "limits.max_rpm", "above 0, in rev/min")?;
+    require(limits.max_axial_force.is_none_or(positive), "limits.max_axial_force", "above 0, in N")?;
     require(slowest <= fastest, "limits.min_rpm", "it is above max_rpm")
 }
 

@@ -101,6 +101,12 @@ Range: 1 to 90 deg
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Tensile strength of its material, MPa: for an estimate of the axial force; none is made when left out.
+Range: 1 to 3000 MPa
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Thickness, mm.
 Range: above 0 to 50 mm</source>
         <translation type="unfinished"></translation>
@@ -120,7 +126,14 @@ As JSON
     <message>
         <source>What is done to it.
 spif: Single-point incremental forming: a sheet, no die.
-milling: Milling: no sheet.</source>
+milling: Milling: no sheet.
+tpif: Two-point incremental forming: a sheet over a male die, with a clamp frame that goes down, or into a female one.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What lies under the sheet.
+male: The part is formed over it from outside, from its top outwards and down; the clamp frame goes down with the path.
+female: The part is formed into it from inside; the sheet is clamped at its rim.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -397,6 +410,10 @@ Range: -360 to 360 deg
     </message>
     <message>
         <source>Diameter where it is widest, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Die</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -916,6 +933,10 @@ Range: 0 to 1</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Sheet tensile strength</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Sheet thickness</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1006,6 +1027,12 @@ Range: 1 to 90 deg
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Tensile strength of its material, MPa: for an estimate of the axial force; none is made when left out.
+Range: 1 to 3000 MPa
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>The coefficient c, mm^(1 - p).</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1059,6 +1086,14 @@ Range: 1 to 90 deg
     </message>
     <message>
         <source>The model's flange does not lie where the sheet is clamped.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The part is formed into it from inside; the sheet is clamped at its rim.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The part is formed over it from outside, from its top outwards and down; the clamp frame goes down with the path.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1145,6 +1180,14 @@ Range: above 0 to 50 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Tpif</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Two-point incremental forming: a sheet over a male die, with a clamp frame that goes down, or into a female one.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Value</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1185,11 +1228,18 @@ As JSON
     <message>
         <source>What is done to it.
 spif: Single-point incremental forming: a sheet, no die.
-milling: Milling: no sheet.</source>
+milling: Milling: no sheet.
+tpif: Two-point incremental forming: a sheet over a male die, with a clamp frame that goes down, or into a female one.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
         <source>What joins the profile's base to the shank.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What lies under the sheet.
+male: The part is formed over it from outside, from its top outwards and down; the clamp frame goes down with the path.
+female: The part is formed into it from inside; the sheet is clamped at its rim.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1306,6 +1356,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>female</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>flange</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1331,6 +1385,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>linking</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>male</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1483,6 +1541,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>tool</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>tpif</source>
         <translation type="unfinished"></translation>
     </message>
     <message>

@@ -268,4 +268,6 @@ pub struct Limits {
     pub min_rpm: Option<f64>,
     /// Largest spindle speed, rev/min.
     pub max_rpm: Option<f64>,
+    /// Largest force along the spindle that it withstands, N: for forming.
+    pub max_axial_force: Option<f64>,
 }

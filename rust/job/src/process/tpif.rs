@@ -1,0 +1,51 @@
+//! Two-point incremental forming: over a die, or into one.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use styluscam_verify::Support;
+
+use super::{About, ProcessKind};
+
+/// Two-point incremental forming: a sheet over a male die, with a clamp frame that goes down, or into a female one.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-takes-sheet" = true))]
+pub struct Tpif {
+    /// What lies under the sheet.
+    #[schemars(extend("x-example" = "\"male\""))]
+    pub die: Die,
+    /// What the sheet is made of, by the name of a shipped material: it sets the steepest wall that the sheet withstands.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+}
+
+/// A die under the sheet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Die {
+    /// The part is formed over it from outside, from its top outwards and down; the clamp frame goes down with the path.
+    Male,
+    /// The part is formed into it from inside; the sheet is clamped at its rim.
+    Female,
+}
+
+impl Tpif {
+    pub(super) const ABOUT: About = About { words: "two-point incremental forming, with a die", for_sheets: true };
+}
+
+impl ProcessKind for Tpif {
+    fn forms(&self) -> bool {
+        true
+    }
+
+    fn support(&self) -> Support {
+        match self.die {
+            Die::Male => Support::DieAndFrame,
+            Die::Female => Support::Rim,
+        }
+    }
+
+    fn material(&self) -> Option<&str> {
+        self.material.as_deref()
+    }
+}
