@@ -45,7 +45,7 @@ pub use document::{
 pub use error::JobError;
 pub use estimate::{estimates, Estimate};
 pub use fixture::{BackingSection, ClampSection, FixtureSection, Opening};
-pub use judge::{coverage, judge, left, needs, read_back, simulate, Judgement};
+pub use judge::{coverage, judge, left, needs, read_back, simulate, Judgement, Text};
 pub use materials::{materials, Angle, Material};
 pub use operations::{
     BridgedFace, Context, Coolant, Direction, Effort, End, Fact, Feeds, Operation, OperationKeys, OperationKind,

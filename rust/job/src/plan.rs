@@ -8,7 +8,9 @@ use styluscam_post::Machine;
 
 use crate::operations::{Context, Coolant, Fact, OperationSection, Planned, Spindle, SurfaceFacts};
 use crate::resolve::{faces_of, heights_of, tools};
-use crate::{check, JobDocument, JobError, Scene};
+use crate::{check, JobDocument, JobError, Scene, MAIN_CHANNEL};
+
+mod pair;
 
 /// Planned programs by channel.
 #[derive(Clone, Debug)]
@@ -29,6 +31,8 @@ pub struct Setting<'a> {
 /// A channel's program and what there is to report of it.
 #[derive(Clone, Debug)]
 pub struct Channel {
+    /// Its name.
+    pub name: &'static str,
     /// The program.
     pub program: Program,
     /// What each of its operations amounts to.
@@ -54,19 +58,30 @@ pub struct OperationSummary {
     pub note: String,
 }
 
-/// Plans every operation of the job, in order, each for the setting of its channel.
+/// Plans every operation of the job, in order, each for the setting of its channel; a channel on the other side of the sheet after
+/// the main one, whose moves it follows.
 ///
 /// # Errors
 /// Anything of [`JobError`]; nothing is planned then.
 pub fn plan(job: &JobDocument, settings: &[Setting<'_>], watch: &Watch) -> Result<Plan, JobError> {
-    let planned = settings.iter().map(|setting| Ok((setting.scene.channel, channel(job, *setting, watch)?)));
-    Ok(Plan { channels: planned.collect::<Result<_, JobError>>()? })
+    let (followers, leaders): (Vec<&Setting<'_>>, Vec<_>) = settings.iter().partition(|s| s.scene.opposite.is_some());
+    let planned = leaders.iter().map(|setting| Ok((setting.scene.channel, channel(job, **setting, watch)?)));
+    let mut channels = planned.collect::<Result<BTreeMap<_, _>, JobError>>()?;
+    for follower in followers {
+        let main = leaders.iter().find(|setting| setting.scene.channel == MAIN_CHANNEL).zip(channels.remove(MAIN_CHANNEL));
+        let (setting, main) = main.ok_or_else(|| {
+            let message = format!("channel {:?} follows {MAIN_CHANNEL:?}, which is not planned", follower.scene.channel);
+            JobError::document("missing", "machine", message, "plan both")
+        })?;
+        let [main, below] = pair::planned(job, [**setting, *follower], main, watch)?;
+        channels.extend([(MAIN_CHANNEL, main), (follower.scene.channel, below)]);
+    }
+    Ok(Plan { channels })
 }
 
 fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &Watch) -> Result<Channel, JobError> {
     let tools = tools(job)?;
-    let mut program = Program::empty(scene.record(job), Vec::new(), Vec::new());
-    let mut operations = Vec::new();
+    let mut channel = Channel::empty(job, scene);
     for (index, section) in job.operations_of(scene.channel) {
         let path = format!("operations[{index}]");
         let (tool, record) =
@@ -76,21 +91,46 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
             machine,
             common: &section.common,
             path,
-            operation: operations.len() as u32,
+            operation: channel.operations.len() as u32,
             tool,
             faces: faces_of(job, scene, section, index)?,
             heights: heights_of(job, scene, section),
             watch,
         };
-        let Planned { moves, words, note, facts, surface } = section.kind().plan(&context)?;
-        let (id, kind, tool) = (section.id(index), section.operation.name(), tool_index(&mut program, record));
-        program.events.extend(events_before(&program, section, tool));
+        let planned = section.kind().plan(&context)?;
+        channel.add((index, section), record, planned, None);
+    }
+    channel.end(job);
+    Ok(channel)
+}
+
+impl Channel {
+    fn empty(job: &JobDocument, scene: &Scene) -> Self {
+        let program = Program::empty(scene.record(job), Vec::new(), Vec::new());
+        Self { name: scene.channel, program, operations: Vec::new() }
+    }
+
+    /// Adds a planned operation, which has a number in the job; `wait` comes behind its first move.
+    fn add(
+        &mut self,
+        (index, section): (usize, &OperationSection),
+        record: &ToolRecord,
+        Planned { moves, words, note, facts, surface }: Planned,
+        wait: Option<EventKind>,
+    ) {
+        let program = &mut self.program;
+        let (id, kind, tool) = (section.id(index), section.operation.name(), tool_index(program, record));
+        program.events.extend(events_before(program, section, tool));
+        program.events.extend(wait.map(|kind| Event { before: program.moves.len() + 1, kind }));
         program.operations.push(OperationRecord { id: id.clone(), kind: kind.to_owned(), tool });
         program.moves.extend(moves);
-        operations.push(OperationSummary { id, kind, words, facts, surface, note });
+        self.operations.push(OperationSummary { id, kind, words, facts, surface, note });
     }
-    program.events.extend(events_at_end(&program, job.operations_of(scene.channel).last().map(|(_, last)| last)));
-    Ok(Channel { program, operations })
+
+    fn end(&mut self, job: &JobDocument) {
+        let last = job.operations_of(self.name).last().map(|(_, last)| last);
+        self.program.events.extend(events_at_end(&self.program, last));
+    }
 }
 
 fn tool_index(program: &mut Program, record: &ToolRecord) -> u32 {

@@ -20,6 +20,8 @@
 //! - The tool is its profile, and above its base a straight cylinder upwards without end: so a tool
 //!   wholly inside the material still meets the surface above it. A wider shank and the holder are
 //!   bodies of their own, as wide as they are upwards without end.
+//! - *Two tools* on both sides of a sheet: over a move of both their distance is a convex function of time. That they are not
+//!   too near is proved, that they are not too far is measured at the ends, where such a function is largest.
 //! - An arc is proved in chords that are halved until what they are off it does not matter.
 //!
 //! The triangles stand for the part; their checked deviation from it is counted against the program
@@ -45,6 +47,7 @@ mod holding;
 mod judge;
 mod measure;
 mod merge;
+mod pair;
 mod passes;
 mod probes;
 mod reach;
@@ -76,5 +79,8 @@ pub use judge::judge;
 pub use report::{ContactRecord, Place, Report};
 pub use scalar::{Across, Height, PassKind, Scalar};
 pub use simulation::{simulate, Grid, Simulation, Skin};
-pub use subject::{Forming, Limits, Obstacle, ObstacleKind, Reach, Subject, TextFacts, ToolCalls, WallAngleSource};
+pub use subject::{
+    Forming, Left, Limits, Obstacle, ObstacleKind, Pairing, Partner, Reach, Subject, TextFacts, ToolCalls,
+    WallAngleSource,
+};
 pub use unreached::ToolReach;

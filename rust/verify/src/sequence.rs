@@ -144,6 +144,9 @@ pub(crate) fn faults(
                 (_, None, Some(start)) if along => away_from = Some(start[2]),
                 _ => {}
             }
+            if !program.moves[segment.index].is_along_pass() && segment.kind == SegmentKind::Lateral {
+                continue;
+            }
             if segment.kind != SegmentKind::Lateral || segment.falls() && !passes.continuous || away_from.is_some() {
                 continue;
             }
@@ -165,7 +168,8 @@ pub(crate) fn faults(
     faults
 }
 
-/// Whether a move has the feed of the path.
+/// Whether a move along a pass has the feed of the path.
 fn at_cut(program: &Program, segment: &Segment, cut: f64, limits: &Limits) -> bool {
-    (program.moves[segment.index].feed - cut).abs() <= limits.feed_slack(cut, segment.length())
+    let step = &program.moves[segment.index];
+    step.is_along_pass() && (step.feed - cut).abs() <= limits.feed_slack(cut, segment.length())
 }

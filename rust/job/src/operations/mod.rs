@@ -18,9 +18,11 @@ mod facts;
 mod keys;
 mod kind;
 mod levels;
+mod paired;
 mod reached;
 mod step;
 mod surface;
+mod timing;
 #[cfg(test)]
 mod tests;
 
@@ -28,6 +30,7 @@ pub use context::Context;
 pub use effort::{Areas, Effort};
 pub use facts::{BridgedFace, End, Fact, ReachedFace, SurfaceFacts};
 pub use keys::{Coolant, Direction, Feeds, OperationKeys, Spindle};
+pub use paired::{paired, Member, Paired};
 pub use kind::{About, OperationKind, PassSpacing, Planned, Serves, StarterPasses};
 
 kinds! {

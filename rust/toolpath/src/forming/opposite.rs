@@ -1,0 +1,132 @@
+//! The tool on the other side of a sheet: where it stands while the main tool moves, and into how many moves the main tool's
+//! must be divided so that both keep to their faces, and to each other, between the ends.
+//!
+//! The derivation is in docs/concepts/double-sided.md.
+
+use styluscam_geometry::{Tool, Vector};
+use styluscam_motion::Move;
+
+use crate::{PathPoint, PlanError, Surface};
+
+/// Moves of the main tool are not divided below this length, mm: no machine resolves much less.
+const SHORTEST: f64 = 0.01;
+/// Moves of the tool below that are no longer than this, mm, while the main one moves by [`SHORTEST`], are no jump: the normal turns
+/// from triangle to triangle.
+const NO_JUMP: f64 = 0.5;
+
+/// Shorter moves of the tool below, mm, are looked at in their middle alone: a kink between their ends is cut by less than counts.
+const SEEN: f64 = 0.02;
+
+/// One of the two tools with its side of the sheet.
+#[derive(Clone, Copy)]
+pub struct Facing<'a> {
+    /// The surface on which it runs, in its own machine's coordinates.
+    pub surface: &'a Surface<'a>,
+    /// The tool.
+    pub tool: &'a Tool,
+}
+
+/// A main tool and the one on the other side of the sheet, whose coordinates are turned half about X.
+#[derive(Clone, Copy)]
+pub struct Opposite<'a> {
+    /// The main tool.
+    pub main: Facing<'a>,
+    /// The other.
+    pub below: Facing<'a>,
+    /// Sheet left between them along the normal, mm.
+    pub normal: f64,
+    /// Sheet left between them along the vertical, mm.
+    pub vertical: f64,
+    /// How far the main tool's path may be off its surface and still touch it, mm.
+    pub touching: f64,
+    /// How far the path between two ends may be off on the other side, mm.
+    pub deviation: f64,
+}
+
+/// Where both tools stand at the end of a move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Station {
+    /// The main tool's tip, mm.
+    pub main: Vector,
+    /// The other tool on its surface, in its own coordinates.
+    pub below: PathPoint,
+}
+
+/// Turns a position half about X: from the coordinates of one tool to those of the other.
+fn turned(position: Vector) -> Vector {
+    Vector::new(position.x, -position.y, -position.z)
+}
+
+impl Opposite<'_> {
+    /// Both tools while the main one is at a position; none where it does not touch.
+    ///
+    /// The other tool is where its slope is that of the main tool's contact, lowered where it would enter the sheet elsewhere.
+    #[must_use]
+    pub fn station(&self, main: Vector, hints: &mut [Option<u32>; 2]) -> Option<Station> {
+        let [hint, hint_below] = hints;
+        let contact = self.main.surface.envelope().contact_near(main.x, main.y, hint)?;
+        let normal = contact.normal;
+        if (main.z - contact.tip) * normal.z > self.touching {
+            return None;
+        }
+        let (slope, aside) = (contact.slope(), normal.xy().try_normalize(0.0).unwrap_or_default());
+        let [(radius, height), (radius_below, height_below)] =
+            [self.main.tool, self.below.tool].map(|tool| tool.point_at(slope));
+        let through = normal * (self.normal + self.vertical * normal.z);
+        let apart = aside * (radius + radius_below);
+        let rise = height + height_below;
+        let below = turned(main + Vector::new(-apart.x, -apart.y, rise) - through);
+        let found = self.below.surface.at(below.x, below.y, hint_below);
+        // beside the sheet nothing is touched
+        let below = found.unwrap_or(PathPoint { tip: below, normal: Vector::z(), selected: false, triangle: u32::MAX });
+        Some(Station { main, below })
+    }
+
+    /// The ends of the parts into which a move of the main tool from a station is to be divided, as shares of its path, with
+    /// where the tools stand there; the last is its own end. None where it ends off the surface.
+    ///
+    /// # Errors
+    /// [`PlanError::Jump`] where the main tool's contact jumps.
+    pub fn parts(
+        &self,
+        from: Station,
+        step: &Move,
+        hints: &mut [Option<u32>; 2],
+    ) -> Result<Option<Vec<(f64, Station)>>, PlanError> {
+        let start: [f64; 3] = from.main.into();
+        let (path, length, end) = (step.path(start), step.length(start), Vector::from(step.end.tip));
+        let at = |share: f64| path.map_or(from.main + share * (end - from.main), |arc| arc.at(share).into());
+        let Some(last) = self.station(end, hints) else { return Ok(None) };
+        let (mut done, mut pending) = (vec![(0.0, from)], vec![(1.0, last)]);
+        while let Some((share, station)) = pending.pop() {
+            let (before, behind) = done[done.len() - 1];
+            let middle = 0.5 * (before + share);
+            let Some(between) = self.station(at(middle), hints) else { return Ok(None) };
+            if self.keeps(&behind, &between, &station) {
+                done.push((share, station));
+            } else if (share - before) * length > SHORTEST {
+                pending.extend([(share, station), (middle, between)]);
+            } else {
+                let jump = (station.below.tip - behind.below.tip).norm();
+                if jump > NO_JUMP {
+                    return Err(PlanError::Jump { at: station.main.into(), jump });
+                }
+                done.push((share, station));
+            }
+        }
+        done.remove(0);
+        Ok(Some(done))
+    }
+
+    /// Whether the straight way of the tool below from one station to another keeps to its surface, and to the main tool.
+    fn keeps(&self, a: &Station, middle: &Station, b: &Station) -> bool {
+        let (from, to, exact) = (a.below.tip, b.below.tip, &middle.below);
+        let off = 0.5 * (from + to) - exact.tip;
+        let along_normal = off.dot(&exact.normal);
+        let beside = (off - exact.normal * along_normal).norm_squared();
+        // beside each other's contacts two round tools are farther apart: by as much as two balls of their diameters
+        let apart = along_normal.abs() + beside / (self.main.tool.diameter() + self.below.tool.diameter());
+        let kept = || self.below.surface.keeps_to(&a.below, &b.below, self.deviation);
+        apart <= self.deviation && ((to - from).norm() <= SEEN || kept())
+    }
+}
