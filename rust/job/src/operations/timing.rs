@@ -37,14 +37,15 @@ pub fn timed(
     let mut from: Option<[Vector; 2]> = None;
     let mut behind = 0.0; // how much later than the main tool the other one is, min
     for step in steps {
-        let ends = [Vector::from(step.main.end.tip), step.below].map(|end| rounded(end, machine_below));
+        let ends = [rounded(step.main.end.tip.into(), machine), rounded(step.below, machine_below)];
         let follow = |kind| Move { kind, arc: None, ..step.main.to(step.below.into()) };
         let Some([start, start_below]) = from.replace(ends).filter(|_| step.main.kind == MoveKind::Feed) else {
             main.push(step.main);
             below.push(follow(step.main.kind).with_feed(0.0, FeedMode::PerMinute));
             continue;
         };
-        let (length, length_below) = (step.main.length(start.into()), (ends[1] - start_below).norm());
+        let posted_main = Move { arc: step.main.arc, ..step.main.to(ends[0].into()) };
+        let (length, length_below) = (posted_main.length(start.into()), (ends[1] - start_below).norm());
         let longest = if step.touches { length } else { length.max(length_below) };
         let minutes = longest / step.main.feed;
         let feed = posted(length / minutes, machine);
