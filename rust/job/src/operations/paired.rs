@@ -58,14 +58,16 @@ pub fn paired(
         Envelope::new(mesh, index, member.tool, sheet.as_ref(), budget.margin)
     });
     let surfaces = [Surface::whole(&envelopes[0]), Surface::whole(&envelopes[1])];
+    let balls = [(&main, budgets[0]), (&below, budgets[1])]
+        .map(|(member, budget)| member.scene.sheet.map_or(0.0, |sheet| sheet.along_normal()) + budget.margin);
     let left = below.scene.opposite.unwrap_or_default();
     let [normal, vertical] = match below.scene.sheet.map(|sheet| sheet.law) {
         Some(SheetLaw::Sine) => [0.0, left],
         Some(SheetLaw::Constant) | None => [left, 0.0],
     };
     let opposite = Opposite {
-        main: Facing { surface: &surfaces[0], tool: main.tool },
-        below: Facing { surface: &surfaces[1], tool: below.tool },
+        main: Facing { surface: &surfaces[0], tool: main.tool, ball: balls[0] },
+        below: Facing { surface: &surfaces[1], tool: below.tool, ball: balls[1] },
         normal,
         vertical,
         touching: common.tolerance,

@@ -22,6 +22,7 @@ mod square;
 mod stances;
 mod stitch;
 mod trace;
+mod true_normal;
 mod untouched;
 mod walls;
 mod waterlines;

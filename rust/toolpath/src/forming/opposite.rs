@@ -6,7 +6,7 @@
 use styluscam_geometry::{Tool, Vector};
 use styluscam_motion::Move;
 
-use crate::offset::Contact;
+use super::true_normal::true_normal;
 use crate::{PathPoint, PlanError, Surface};
 
 /// Moves of the main tool are not divided below this length, mm: no machine resolves much less.
@@ -18,10 +18,6 @@ const NO_JUMP: f64 = 0.5;
 /// Shorter moves of the tool below, mm, are looked at in their middle alone: a kink between their ends is cut by less than counts.
 const SEEN: f64 = 0.02;
 
-/// Contacts whose normal is turned from the facet's by no more than so many times what the model's is at its corners are inside a
-/// smooth face: on an edge between two facets it is turned by once or twice as much.
-const WITHIN: f64 = 2.0;
-
 /// One of the two tools with its side of the sheet.
 #[derive(Clone, Copy)]
 pub struct Facing<'a> {
@@ -29,6 +25,8 @@ pub struct Facing<'a> {
     pub surface: &'a Surface<'a>,
     /// The tool.
     pub tool: &'a Tool,
+    /// What it is grown by on that surface, along the normal, mm.
+    pub ball: f64,
 }
 
 /// A main tool and the one on the other side of the sheet, whose coordinates are turned half about X.
@@ -62,24 +60,6 @@ fn turned(position: Vector) -> Vector {
     Vector::new(position.x, -position.y, -position.z)
 }
 
-impl Facing<'_> {
-    /// The normal at a contact: the model's where the tool touches inside a face, so that the other tool does not go from
-    /// triangle to triangle in jerks; the contact's own where it rolls over an edge.
-    fn model_normal(&self, contact: &Contact) -> Vector {
-        let (mesh, triangle) = (self.surface.envelope().mesh(), contact.triangle as usize);
-        let (facet, normals) = (mesh.normal(triangle), mesh.corner_normals(triangle));
-        // the facets beside it are turned by as much as the model's normals at its corners are
-        let turned = normals.iter().map(|normal| (normal - facet).norm()).fold(0.0, f64::max);
-        if (contact.normal - facet).norm() > WITHIN * turned {
-            return contact.normal;
-        }
-        let [a, b, c] = mesh.corners(triangle);
-        let share = |p: Vector, q: Vector| (q - p).cross(&(contact.point - p)).dot(&facet).max(0.0);
-        let sum = normals[0] * share(b, c) + normals[1] * share(c, a) + normals[2] * share(a, b);
-        sum.try_normalize(0.0).unwrap_or(contact.normal)
-    }
-}
-
 impl Opposite<'_> {
     /// Both tools while the main one is at a position; none where it does not touch.
     ///
@@ -87,12 +67,14 @@ impl Opposite<'_> {
     #[must_use]
     pub fn station(&self, main: Vector, hints: &mut [Option<u32>; 2]) -> Option<Station> {
         let [hint, hint_below] = hints;
-        let contact = self.main.surface.envelope().contact_near(main.x, main.y, hint)?;
-        let normal = self.main.model_normal(&contact);
+        let envelope = self.main.surface.envelope();
+        let contact = envelope.contact_near(main.x, main.y, hint)?;
+        let normal = true_normal(envelope.mesh(), self.main.tool, self.main.ball, &contact);
         if (main.z - contact.tip) * normal.z > self.touching {
             return None;
         }
-        let (slope, aside) = (contact.slope(), normal.xy().try_normalize(0.0).unwrap_or_default());
+        let slope = libm::atan2(normal.xy().norm(), normal.z);
+        let aside = normal.xy().try_normalize(0.0).unwrap_or_default();
         let [(radius, height), (radius_below, height_below)] =
             [self.main.tool, self.below.tool].map(|tool| tool.point_at(slope));
         let through = normal * (self.normal + self.vertical * normal.z);

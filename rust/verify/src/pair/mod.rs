@@ -144,7 +144,8 @@ impl Both<'_> {
         self.main.start.is_some() && self.below.start.is_some()
     }
 
-    /// The least that is left between two solids over the move, where that is below `best`, mm. Chords stand for arcs.
+    /// The least that is left between two solids and the sheet over the move, where that is below `best`, mm. Chords stand for
+    /// arcs. It is looked for where the solids are nearest; a sheet of the sine law turns little on the way there.
     fn least(&self, solids: [&ToolBody; 2], sheet: Left, best: f64) -> Option<f64> {
         let pieces = if self.starts_somewhere() { self.main.piece_count().max(1) } else { 1 };
         let mut least = f64::INFINITY;
@@ -155,10 +156,11 @@ impl Both<'_> {
                 [self.between(1.0); 2]
             };
             let way = to - from;
-            lower(1.0, way.norm(), best, |share| {
-                let found = apart(solids[0], solids[1], from + share * way, sheet);
-                least = least.min(found.value);
-                Tangent { value: found.value, rate: found.away.dot(&way), bend: 0.0 }
+            // a level sheet is the thickest
+            lower(1.0, way.norm(), best + sheet.normal + sheet.vertical, |share| {
+                let found = apart(solids[0], solids[1], from + share * way);
+                least = least.min(found.beyond(sheet));
+                Tangent { value: found.distance, rate: found.away.dot(&way), bend: 0.0 }
             });
         }
         (least < best).then_some(least)
@@ -193,8 +195,8 @@ impl Pair<'_> {
         }
         both.main.excess?;
         let farthest = self.members[0].excess(both.main) + self.members[1].excess(both.below);
-        let gap = |share: f64| apart(&main.profile, &below.profile, both.between(share), self.left).value;
-        // the largest of a convex function is at one of its ends
+        let gap = |share: f64| apart(&main.profile, &below.profile, both.between(share)).beyond(self.left);
+        // the distance is a convex function of time: its largest value is at one of its ends
         let ends = if both.starts_somewhere() { &[0.0, 1.0][..] } else { &[1.0] };
         let wide = ends.iter().map(|end| (gap(*end), *end)).filter(|(gap, _)| *gap > farthest + SLACK);
         let (gap, _) = wide.filter(|(_, end)| self.could_be_nearer(&both, *end)).max_by(|a, b| a.0.total_cmp(&b.0))?;
