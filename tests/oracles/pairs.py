@@ -24,6 +24,8 @@ TOO_NEAR = 0.003
 TOO_FAR = 0.011
 """A gap that is less, or more, than the sheet by this, mm, matters where the sound pair keeps to it: both tools may be 0.001 mm
 inside and 0.005 mm outside their faces."""
+MOVED = 0.02
+"""A main program that goes elsewhere by more, mm, matters: it is on the part no longer."""
 OUT_OF_STEP = 0.02
 """Two programs matter that are apart by more along the main path, mm."""
 
@@ -58,6 +60,8 @@ def matters(sound: Pair, spoilt: Pair, between: Between) -> bool:
     if len(main_2) != len(below_2):
         return True
     if len(main_2) == len(main):
+        if any(math.dist(one.end, other.end) > MOVED for one, other in zip(main[1:], main_2[1:], strict=True)):
+            return True
         kept = [i for i, both in enumerate(zip(main, below, strict=True)) if _keeps(between.gap(*both))]
         if any(not _keeps(between.gap(main_2[i], below_2[i])) for i in kept):
             return True

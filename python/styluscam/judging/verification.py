@@ -181,6 +181,7 @@ def judge_plan(
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
     channel: str = MAIN_CHANNEL,
+    *,
     beside: str | None = None,
 ) -> Report:
     """Checks the ``text`` of a plan's channel against its part, and its contacts against the exact model.
@@ -267,7 +268,7 @@ def check_program(
     channel_of(channel, plan.programs, PlanError)
     texts = {one: _engine.post(plan.engine.programs[one], plan.machines[one].engine) for one in plan.programs}
     partner = plan.job.engine.partner_of(channel)
-    return judge_plan(plan, texts[channel], progress, cancel, channel, texts[partner] if partner else None)
+    return judge_plan(plan, texts[channel], progress, cancel, channel, beside=texts[partner] if partner else None)
 
 
 _Beside: TypeAlias = "tuple[_engine.Scene, _engine.Machine, str]"

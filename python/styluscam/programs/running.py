@@ -150,7 +150,7 @@ def _made(
     """
     program, machine = planned.programs[channel], planned.machines[channel]
     partner = planned.job.engine.partner_of(channel)
-    report = judge_plan(planned, first[channel], progress, cancel, channel, first[partner] if partner else None)
+    report = judge_plan(planned, first[channel], progress, cancel, channel, beside=first[partner] if partner else None)
     summary, notes = planned.summary(report.judgement, channel)
     noted = program.with_notes(notes)
     text = post(noted, machine).text

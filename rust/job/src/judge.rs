@@ -9,8 +9,8 @@ use styluscam_motion::{Program, ToolRecord, Watch};
 use styluscam_post::machine::ToolChange;
 use styluscam_post::{read, Machine};
 use styluscam_verify::{
-    Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Left, Limits, Need, Obstacle, Pairing, Partner, Passes,
-    Reach, Report, Simulation, Subject, TextFacts, ToolCalls,
+    Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Left, Limits, Need, Obstacle, Pairing, Partner,
+    Passes, Reach, Report, Simulation, Subject, TextFacts, ToolCalls,
 };
 
 use crate::limits::{GOUGE, NO_ROOM};
@@ -113,7 +113,8 @@ pub fn judge(
         (None, Some(channel)) => Pairing::Missing { channel },
         (None, None) => Pairing::Alone,
     };
-    let report = styluscam_verify::judge(&prepared.reading.program, &prepared.subject(pairing), &prepared.limits, watch)?;
+    let report =
+        styluscam_verify::judge(&prepared.reading.program, &prepared.subject(pairing), &prepared.limits, watch)?;
     let Prepared { reading: Reading { program, unknown_positions, .. }, limits, .. } = prepared;
     Ok(Judgement { channel: text.scene.channel, report, program, unknown_positions, limits })
 }

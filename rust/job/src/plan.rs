@@ -68,9 +68,11 @@ pub fn plan(job: &JobDocument, settings: &[Setting<'_>], watch: &Watch) -> Resul
     let planned = leaders.iter().map(|setting| Ok((setting.scene.channel, channel(job, **setting, watch)?)));
     let mut channels = planned.collect::<Result<BTreeMap<_, _>, JobError>>()?;
     for follower in followers {
-        let main = leaders.iter().find(|setting| setting.scene.channel == MAIN_CHANNEL).zip(channels.remove(MAIN_CHANNEL));
+        let main =
+            leaders.iter().find(|setting| setting.scene.channel == MAIN_CHANNEL).zip(channels.remove(MAIN_CHANNEL));
         let (setting, main) = main.ok_or_else(|| {
-            let message = format!("channel {:?} follows {MAIN_CHANNEL:?}, which is not planned", follower.scene.channel);
+            let message =
+                format!("channel {:?} follows {MAIN_CHANNEL:?}, which is not planned", follower.scene.channel);
             JobError::document("missing", "machine", message, "plan both")
         })?;
         let [main, below] = pair::planned(job, [**setting, *follower], main, watch)?;

@@ -22,16 +22,16 @@ mod paired;
 mod reached;
 mod step;
 mod surface;
-mod timing;
 #[cfg(test)]
 mod tests;
+mod timing;
 
 pub use context::Context;
 pub use effort::{Areas, Effort};
 pub use facts::{BridgedFace, End, Fact, ReachedFace, SurfaceFacts};
 pub use keys::{Coolant, Direction, Feeds, OperationKeys, Spindle};
-pub use paired::{paired, Member, Paired};
 pub use kind::{About, OperationKind, PassSpacing, Planned, Serves, StarterPasses};
+pub use paired::{paired, Member, Paired};
 
 kinds! {
     /// The kinds of operations, each with its own keys.

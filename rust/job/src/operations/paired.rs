@@ -6,8 +6,8 @@ use styluscam_post::Machine;
 use styluscam_toolpath::forming::{Facing, Opposite, Station};
 use styluscam_toolpath::{offset::Envelope, PlanError, Surface};
 
-use super::timing::{self, Step};
 use super::budget;
+use super::timing::{self, Step};
 use crate::{JobError, OperationSection, Scene};
 
 /// Coordinates that differ by less are the same, mm.

@@ -68,7 +68,8 @@ pub fn check(job: &JobDocument) -> Result<(), JobError> {
         known(job, path, channel)?;
     }
     if let Some((path, channel)) = in_operations.into_iter().find(|(_, channel)| job.opposite(channel).is_some()) {
-        let message = format!("channel {channel:?} has no operations of its own: its tool follows those of {MAIN_CHANNEL:?}");
+        let message =
+            format!("channel {channel:?} has no operations of its own: its tool follows those of {MAIN_CHANNEL:?}");
         return Err(JobError::document("conflict", path, message, "remove the operation, or its channel"));
     }
     if job.machines.contains_key(MAIN_CHANNEL) {

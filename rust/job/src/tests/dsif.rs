@@ -133,6 +133,7 @@ fn keys_that_contradict_each_other_are_refused() {
     assert_eq!(at("model_face = \"tool\"", "model_face = \"back\""), "process.squeeze");
     assert_eq!(at("machines.support = { name = \"linuxcnc\" }\n", ""), "machines.support");
     assert_eq!(at("tool = \"a\"\n", "tool = \"a\"\nchannel = \"support\"\n"), "operations[0].channel");
-    let sine = with(&with(&text, "model_face = \"tool\"", "model_face = \"back\""), "1.0 } }", "1.0, law = \"sine\" } }");
+    let sine =
+        with(&with(&text, "model_face = \"tool\"", "model_face = \"back\""), "1.0 } }", "1.0, law = \"sine\" } }");
     assert!(crate::from_toml(&sine).is_ok());
 }

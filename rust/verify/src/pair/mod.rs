@@ -16,7 +16,7 @@ use crate::segments::{placed, Segment};
 use crate::subject::{Left, Limits, Pairing, Partner, Subject};
 use crate::tolerances::{ROOM, SLACK};
 
-use apart::apart;
+use apart::{apart, NOTHING};
 
 /// What the check of a pair found.
 #[derive(Default)]
@@ -39,8 +39,8 @@ struct Member<'a> {
 
 /// A tool as solids, and with its sheet.
 struct Bodies {
-    profile: ToolBody,
-    above: Vec<ToolBody>,
+    /// The profile with the cylinder above it, then what is wider above it.
+    solids: Vec<ToolBody>,
     with_sheet: Body,
 }
 
@@ -49,8 +49,9 @@ impl<'a> Member<'a> {
         let mut by_move = vec![None; program.moves.len()];
         segments.iter().for_each(|segment| by_move[segment.index] = Some(*segment));
         let bodies = subject.tools.iter().map(|tool| Bodies {
-            profile: tool.body(None),
-            above: tool.bodies_above(None).into_iter().map(|(_, body)| body).collect(),
+            solids: std::iter::once(tool.body(None))
+                .chain(tool.bodies_above(None).into_iter().map(|(_, body)| body))
+                .collect(),
             with_sheet: Body::new(tool, subject.sheet.as_ref()),
         });
         Self { program, subject, limits, segments: by_move, bodies: bodies.collect() }
@@ -135,6 +136,11 @@ struct Both<'p> {
 }
 
 impl Both<'_> {
+    /// What touches the sheet.
+    fn profiles(&self) -> [&ToolBody; 2] {
+        self.bodies.map(|bodies| &bodies.solids[0])
+    }
+
     /// From the tip below to the main one at a share of the move; at its end where its start is not known.
     fn between(&self, share: f64) -> Vector {
         Vector::from(self.main.at(share)) - turned(self.below.at(share))
@@ -145,7 +151,7 @@ impl Both<'_> {
     }
 
     /// The least that is left between two solids and the sheet over the move, where that is below `best`, mm. Chords stand for
-    /// arcs. It is looked for where the solids are nearest; a sheet of the sine law turns little on the way there.
+    /// arcs.
     fn least(&self, solids: [&ToolBody; 2], sheet: Left, best: f64) -> Option<f64> {
         let pieces = if self.starts_somewhere() { self.main.piece_count().max(1) } else { 1 };
         let mut least = f64::INFINITY;
@@ -156,11 +162,10 @@ impl Both<'_> {
                 [self.between(1.0); 2]
             };
             let way = to - from;
-            // a level sheet is the thickest
-            lower(1.0, way.norm(), best + sheet.normal + sheet.vertical, |share| {
-                let found = apart(solids[0], solids[1], from + share * way);
-                least = least.min(found.beyond(sheet));
-                Tangent { value: found.distance, rate: found.away.dot(&way), bend: 0.0 }
+            lower(1.0, way.norm(), best, |share| {
+                let found = apart(solids[0], solids[1], from + share * way, sheet);
+                least = least.min(found.value);
+                Tangent { value: found.value, rate: found.away.dot(&way), bend: 0.0 }
             });
         }
         (least < best).then_some(least)
@@ -171,11 +176,7 @@ impl Pair<'_> {
     fn both(&self, index: usize) -> Option<Both<'_>> {
         let [main, below] = &self.members;
         let (segment, opposite) = (main.segments[index].as_ref()?, below.segments[index].as_ref()?);
-        Some(Both {
-            main: segment,
-            below: opposite,
-            bodies: [main.bodies(segment)?, below.bodies(opposite)?],
-        })
+        Some(Both { main: segment, below: opposite, bodies: [main.bodies(segment)?, below.bodies(opposite)?] })
     }
 
     fn fault(&self, both: &Both, kind: &'static faults::FaultKind) -> Fault {
@@ -185,17 +186,18 @@ impl Pair<'_> {
     /// What is wrong between the tools in a move.
     fn between(&self, index: usize) -> Option<Fault> {
         let both = self.both(index)?;
-        let [main, below] = &both.bodies;
+        let [main, below] = both.profiles();
         if let Some(depth) = self.collision(&both) {
             return Some(self.fault(&both, &faults::TOOL_COLLISION).measured(depth, 0.0));
         }
+        // the main tool is over its face, and the other one under that face lowered by the sheet: lifted by it, it is not in the first
         let nearest = -(self.members[0].limits.gouge + self.members[1].limits.gouge);
-        if let Some(least) = both.least([&main.profile, &below.profile], self.left, nearest - SLACK) {
+        if let Some(least) = both.least([main, below], self.left, nearest - SLACK) {
             return Some(self.fault(&both, &faults::SQUEEZE).measured(least, nearest));
         }
         both.main.excess?;
         let farthest = self.members[0].excess(both.main) + self.members[1].excess(both.below);
-        let gap = |share: f64| apart(&main.profile, &below.profile, both.between(share)).beyond(self.left);
+        let gap = |share: f64| apart(main, below, both.between(share), NOTHING).beyond(self.left);
         // the distance is a convex function of time: its largest value is at one of its ends
         let ends = if both.starts_somewhere() { &[0.0, 1.0][..] } else { &[1.0] };
         let wide = ends.iter().map(|end| (gap(*end), *end)).filter(|(gap, _)| *gap > farthest + SLACK);
@@ -205,14 +207,9 @@ impl Pair<'_> {
 
     /// How deep the solids of the two tools are in each other, mm; negative.
     fn collision(&self, both: &Both) -> Option<f64> {
-        let [main, below] = both.bodies;
-        let bare = Left { normal: 0.0, vertical: 0.0 };
-        let solids = |bodies: &'_ Bodies| -> Vec<ToolBody> {
-            std::iter::once(bodies.profile.clone()).chain(bodies.above.iter().cloned()).collect()
-        };
-        let (main, below) = (solids(main), solids(below));
+        let [main, below] = both.bodies.map(|bodies| &bodies.solids);
         let pairs = main.iter().flat_map(|one| below.iter().map(move |other| [one, other]));
-        pairs.filter_map(|solids| both.least(solids, bare, -SLACK)).min_by(f64::total_cmp)
+        pairs.filter_map(|solids| both.least(solids, NOTHING, -SLACK)).min_by(f64::total_cmp)
     }
 
     /// Whether the tool below could stand opposite to the main tool's contact, by its slope, without entering the sheet elsewhere.
@@ -225,7 +222,7 @@ impl Pair<'_> {
         let normal = -touch.away;
         let (flat, slope) = (normal.xy().norm(), libm::atan2(normal.xy().norm(), normal.z));
         let aside = if flat > 0.0 { Vector::new(normal.x, normal.y, 0.0) / flat } else { Vector::zeros() };
-        let [(radius, height), (other_radius, other_height)] = both.bodies.map(|b| b.profile.point_at(slope));
+        let [(radius, height), (other_radius, other_height)] = both.profiles().map(|profile| profile.point_at(slope));
         let opposite = Vector::from(tip) - aside * (radius + other_radius) + Vector::z() * (height + other_height)
             - normal * (self.left.normal + self.left.vertical * normal.z);
         let body = &both.bodies[1].with_sheet;

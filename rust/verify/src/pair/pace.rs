@@ -18,7 +18,9 @@ impl Pair<'_> {
         let mut faults = Vec::new();
         let (mut late, mut rounding) = (0.0_f64, 0.0_f64); // min
         for index in 0..main.program.moves.len() {
-            let Some((step, other)) = main.segments[index].as_ref().zip(below.segments[index].as_ref()) else { continue };
+            let Some((step, other)) = main.segments[index].as_ref().zip(below.segments[index].as_ref()) else {
+                continue;
+            };
             let fault = |kind| if self.reported == 0 { step } else { other }.fault(kind);
             let [waits, waits_below] = [&waits[0], &waits[1]].map(|waits| waits.contains(&index));
             if waits != waits_below {

@@ -68,6 +68,10 @@ Range: 0 to 1000 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Name of the tool under the sheet, for all operations.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>No loop is missed whose inside or surroundings hold a disc of this diameter, mm.
 Range: 0.01 to 100 mm</source>
         <translation type="unfinished"></translation>
@@ -120,7 +124,14 @@ As JSON
     <message>
         <source>What is done to it.
 spif: Single-point incremental forming: a sheet, no die.
+dsif: Double-sided incremental forming: a sheet between two tools. The one below follows the contacts of the one above, on the
+other face of the sheet, block by block; its machine is in `[machines.support]`.
 milling: Milling: no sheet.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What is left between the tools, as a share of the thickness that the sheet has there: below 1 they squeeze it.
+Range: 0.8 to 1</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -425,7 +436,16 @@ Range: above 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Double-sided incremental forming: a sheet between two tools. The one below follows the contacts of the one above, on the
+other face of the sheet, block by block; its machine is in `[machines.support]`.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Draws where the tool touches the model along the job's paths; again to take it away</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Dsif</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -661,6 +681,10 @@ Range: 0 to 1000 mm
     </message>
     <message>
         <source>Name</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Name of the tool under the sheet, for all operations.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -944,6 +968,10 @@ Range: 0 to 1</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Squeeze</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Start</source>
         <translation type="unfinished"></translation>
     </message>
@@ -995,6 +1023,10 @@ Range: 1 to 90 deg
     </message>
     <message>
         <source>StylusCAM path</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Support tool</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1185,7 +1217,14 @@ As JSON
     <message>
         <source>What is done to it.
 spif: Single-point incremental forming: a sheet, no die.
+dsif: Double-sided incremental forming: a sheet between two tools. The one below follows the contacts of the one above, on the
+other face of the sheet, block by block; its machine is in `[machines.support]`.
 milling: Milling: no sheet.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What is left between the tools, as a share of the thickness that the sheet has there: below 1 they squeeze it.
+Range: 0.8 to 1</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1306,6 +1345,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>dsif</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>flange</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1379,6 +1422,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>ordering</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>pair</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1471,6 +1518,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>stepover along the wall, mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>support</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
