@@ -16,7 +16,12 @@ CLOTHOIDS = ({"kind": "clothoid", "diameter": 10.0}, {"kind": "clothoid", "diame
 STEP = {"step": {"height": 4.0}}
 CASES = [
     ("cone_cup", BALLS, {"law": "constant", "model_face": "tool", "squeeze": 0.95}, {"kind": "z-level", **STEP}),
-    ("cone_cup", CLOTHOIDS, {"law": "sine", "model_face": "back", "squeeze": 0.9}, {"kind": "z-level", **STEP}),
+    (
+        "cone_cup",
+        CLOTHOIDS,
+        {"law": "sine", "model_face": "back", "squeeze": 0.9},
+        {"kind": "z-level", "z_bottom": -24.0, **STEP},
+    ),
     ("cone_cup", BALLS[:1] * 2, {"law": "constant", "model_face": "back", "squeeze": 1.0}, {"kind": "spiral", **STEP}),
     ("vwaf", BALLS, {"law": "sine", "model_face": "mid", "squeeze": 0.85}, {"kind": "z-level", **STEP}),
     ("pyramid", BALLS, {"law": "constant", "model_face": "tool", "squeeze": 0.9}, {"kind": "z-level", **STEP}),

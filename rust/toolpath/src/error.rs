@@ -65,7 +65,8 @@ pub enum PlanError {
     /// sheet would have to jump with it.
     #[error(
         "at X{:.3} Y{:.3} Z{:.3} the main tool touches two places at once, and the tool below cannot be opposite to both: it \
-         would move {jump:.3} mm while the main one stands; give the main tool a smaller radius than the corner there",
+         would move {jump:.3} mm while the main one stands; give the main tool a smaller radius than the corner there, or end the \
+         operation above it with z_bottom",
         .at[0], .at[1], .at[2]
     )]
     Jump {
