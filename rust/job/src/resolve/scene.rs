@@ -17,7 +17,7 @@ impl Scene {
         let thickness = placed.sheet.map_or(0.0, |sheet| sheet.thickness);
         let opposite = job.opposite(channel).map(|opposite| opposite.squeeze * thickness);
         let Placed { mesh, frame, sheet, fixture, flat, top, zero } = match opposite {
-            Some(left) => placed.from_below(thickness, left)?,
+            Some(left) => placed.turned_over(thickness, left)?,
             None => placed,
         };
         let (index, (bvh, views)) =
@@ -101,7 +101,7 @@ impl Placed {
     /// The same for the machine of a tool that comes from below: turned half about X, so that this tool comes from +Z too. Of
     /// the part there is the other side of what looked up. Of the sheet, `left` mm are between the tools; what of it is not on
     /// the main tool's side of the model is on this one's.
-    fn from_below(self, thickness: f64, left: f64) -> Result<Self, JobError> {
+    fn turned_over(self, thickness: f64, left: f64) -> Result<Self, JobError> {
         let half = Frame::turning_up(-Vector::z(), 0.0);
         let rims = faces::rims(&self.mesh);
         let looks_up = |triangle: usize| !self.mesh.looks_down(triangle) && !rims[triangle];

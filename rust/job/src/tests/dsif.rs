@@ -115,7 +115,10 @@ fn a_sound_pair_passes_and_what_is_off_is_found() {
         errors(&programs)
     };
     let middle = sound[1].moves.len() / 2;
-    assert_eq!(spoilt(&|program| drop(program.moves.remove(middle))), [FindingKind::BlockCount]);
+    let without = |program: &mut Program| {
+        program.moves.remove(middle);
+    };
+    assert_eq!(spoilt(&without), [FindingKind::BlockCount]);
     assert_eq!(spoilt(&|program| program.moves[middle].feed *= 0.5), [FindingKind::OutOfStep]);
     let raised = |by: f64| move |program: &mut Program| program.moves.iter_mut().for_each(|m| m.end.tip[2] += by);
     assert_eq!(spoilt(&raised(0.05)), [FindingKind::Squeeze]);

@@ -135,3 +135,52 @@ impl Opposite<'_> {
         apart <= self.deviation && ((to - from).norm() <= SEEN || kept())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::offset::{Envelope, Index};
+    use styluscam_geometry::{kinds, Frame, Mesh, ModelFace, ProfileDocument, Sheet, SheetLaw, ToolDocument};
+
+    fn ball(diameter: f64) -> Tool {
+        let profile = ProfileDocument::from(kinds::Ball { diameter, radius: None, tip_flat: 0.0 });
+        Tool::new(ToolDocument::of(profile)).unwrap()
+    }
+
+    #[test]
+    fn on_a_slope_both_balls_and_the_sheet_between_them_are_on_one_normal() {
+        let (main, below, left) = (ball(10.0), ball(6.0), 0.8);
+        // 45 degrees, rising along X
+        let corners = [[-40.0, -40.0], [40.0, -40.0], [40.0, 40.0], [-40.0, 40.0]];
+        let vertices = corners.map(|[x, y]| Vector::new(x, y, x)).to_vec();
+        let mesh = Mesh::new(vertices, &[[0, 1, 2], [0, 2, 3]], &[]).unwrap();
+        let other = mesh.other_side(|_| true).unwrap().placed(&Frame::turning_up(-Vector::z(), 0.0));
+        assert!((0..2).all(|triangle| other.normal(triangle).z > 0.0));
+        let sheet = Sheet { thickness: left, law: SheetLaw::Constant, model_face: ModelFace::Back };
+        let indices = [Index::new(&mesh), Index::new(&other)];
+        let envelopes = [
+            Envelope::new(&mesh, &indices[0], &main, None, 0.0),
+            Envelope::new(&other, &indices[1], &below, Some(&sheet), 0.0),
+        ];
+        let surfaces = envelopes.each_ref().map(Surface::whole);
+        let opposite = Opposite {
+            main: Facing { surface: &surfaces[0], tool: &main, ball: 0.0 },
+            below: Facing { surface: &surfaces[1], tool: &below, ball: left },
+            normal: left,
+            vertical: 0.0,
+            touching: 0.001,
+            deviation: 0.001,
+        };
+        let tip = Vector::new(3.0, 4.0, 3.0 + 5.0 * (2.0_f64.sqrt() - 1.0));
+        let station = opposite.station(tip, &mut [None; 2]).unwrap();
+        let normal = Vector::new(-1.0, 0.0, 1.0).normalize();
+        let centre = tip + Vector::z() * 5.0 - normal * (5.0 + left + 3.0);
+        let expected = turned(centre) - Vector::z() * 3.0;
+        assert!((station.below.tip - expected).norm() < 1e-9, "{} {expected}", station.below.tip);
+        assert_eq!(opposite.station(tip + Vector::z() * 0.01, &mut [None; 2]), None);
+        // along a plane nothing is divided
+        let step = Move::feed([9.0, -2.0, tip.z + 6.0], 100.0);
+        let parts = opposite.parts(station, &step, &mut [None; 2]).unwrap().unwrap();
+        assert_eq!(parts.len(), 1);
+    }
+}
