@@ -52,7 +52,12 @@ pub fn apart(above: &ToolBody, below: &ToolBody, between: Vector, sheet: Left) -
         let middle = 0.5 * (low + high);
         *(if widens(middle) { &mut low } else { &mut high }) = middle;
     }
-    let slope = if low > 0.0 { 0.5 * (low + high) } else { 0.0 };
+    // the ends of the range are exact
+    let slope = match (low > 0.0, high < FRAC_PI_2) {
+        (true, true) => 0.5 * (low + high),
+        (true, false) => FRAC_PI_2,
+        (false, _) => 0.0,
+    };
     let (sin, cos) = libm::sincos(slope);
     let [radii, heights] = both(slope);
     let aside = if axes > 0.0 { Vector::new(between.x, between.y, 0.0) / axes } else { Vector::x() };
