@@ -175,10 +175,8 @@ fn tools(job: &JobDocument) -> Result<(), JobError> {
             return Err(JobError::document("out-of-range", path, message, "give 1 or more, or leave it out"));
         }
     }
-    job.channels().iter().try_for_each(|channel| {
-        opposite(job, channel)?;
-        tool_numbers(job, channel)
-    })
+    job.channels().iter().try_for_each(|channel| opposite(job, channel))?;
+    job.channels().iter().try_for_each(|channel| tool_numbers(job, channel))
 }
 
 /// The tool on the other side of the sheet exists, and a solid is left of it where it goes beyond the face that the model shows.
