@@ -18,6 +18,7 @@ mod materials;
 mod model;
 mod numbers;
 mod operations;
+mod paired;
 mod parse;
 mod plan;
 mod plates;
@@ -33,6 +34,7 @@ mod summary;
 mod tagged;
 #[cfg(test)]
 mod tests;
+mod timing;
 mod units;
 mod up_axis;
 

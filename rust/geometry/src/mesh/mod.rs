@@ -214,7 +214,7 @@ impl Mesh {
         used.fold((infinite, -infinite), |(low, high), p| (low.inf(&p), high.sup(&p)))
     }
 
-    /// The other side of some of its triangles: what looked up there looks down here.
+    /// The other side of some of its triangles: what faces up there faces down here.
     ///
     /// # Errors
     /// [`GeometryError::EmptyMesh`] where none is kept.

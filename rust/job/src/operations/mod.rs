@@ -11,27 +11,24 @@ use serde::{Deserialize, Serialize};
 use crate::tagged::{self, kinds, Family};
 use crate::MAIN_CHANNEL;
 
-mod budget;
+pub(crate) mod budget;
 mod context;
 mod effort;
 mod facts;
 mod keys;
 mod kind;
 mod levels;
-mod paired;
 mod reached;
 mod step;
 mod surface;
 #[cfg(test)]
 mod tests;
-mod timing;
 
 pub use context::Context;
 pub use effort::{Areas, Effort};
 pub use facts::{BridgedFace, End, Fact, ReachedFace, SurfaceFacts};
 pub use keys::{Coolant, Direction, Feeds, OperationKeys, Spindle};
 pub use kind::{About, OperationKind, PassSpacing, Planned, Serves, StarterPasses};
-pub use paired::{paired, Member, Paired};
 
 kinds! {
     /// The kinds of operations, each with its own keys.

@@ -2,8 +2,9 @@
 
 use styluscam_motion::{EventKind, Move, Watch};
 
-use super::{Channel, Setting};
-use crate::operations::{paired, Fact, Member, Paired, Planned};
+use super::channel::{Channel, Setting};
+use crate::operations::{Fact, Planned};
+use crate::paired::{paired, Member, Paired};
 use crate::resolve::tools;
 use crate::{check, JobDocument, JobError};
 
@@ -32,7 +33,7 @@ pub fn planned(
         let [(tool, record), (tool_below, record_below)] = [of(&settings[0])?, of(&settings[1])?];
         let members = [(settings[0], tool), (settings[1], tool_below)]
             .map(|(Setting { scene, machine }, tool)| Member { scene, machine, tool });
-        let Paired { main, below, divided } = paired(members, section, &moves, &path, watch)?;
+        let Paired { main, below, divided } = paired(members, &section.common, &moves, &path, watch)?;
         let count = main.len();
         let planned = Planned {
             moves: main,

@@ -21,6 +21,7 @@ machines.support = { name = "linuxcnc" }
 [tools.a]
 profile = { kind = "ball", diameter = 3.0 }
 [tools.b]
+number = 2
 profile = { kind = "ball", diameter = 2.0 }
 [[operations]]
 kind = "z-level"
@@ -126,10 +127,11 @@ fn a_sound_pair_passes_and_what_is_off_is_found() {
     };
     assert_eq!(spoilt(&without), [FindingKind::BlockCount]);
     assert_eq!(spoilt(&|program| program.moves[middle].feed *= 0.5), [FindingKind::OutOfStep]);
+    // up is away from the sheet on both machines
     let raised = |by: f64| move |program: &mut Program| program.moves.iter_mut().for_each(|m| m.end.tip[2] += by);
-    assert_eq!(spoilt(&raised(0.05)), [FindingKind::Squeeze]);
-    assert_eq!(spoilt(&raised(-0.05)), [FindingKind::Unsupported]);
-    assert!(spoilt(&raised(30.0)).contains(&FindingKind::ToolCollision));
+    assert_eq!(spoilt(&raised(-0.05)), [FindingKind::Squeeze]);
+    assert_eq!(spoilt(&raised(0.05)), [FindingKind::Unsupported]);
+    assert!(spoilt(&raised(-30.0)).contains(&FindingKind::ToolCollision));
 }
 
 #[test]

@@ -6,9 +6,9 @@ use styluscam_post::Machine;
 use styluscam_toolpath::forming::{Facing, Opposite, Station};
 use styluscam_toolpath::{offset::Envelope, PlanError, Surface};
 
-use super::budget;
-use super::timing::{self, Step};
-use crate::{JobError, OperationSection, Scene};
+use crate::operations::budget;
+use crate::timing::{self, Step};
+use crate::{JobError, OperationKeys, Scene};
 
 /// Coordinates that differ by less are the same, mm.
 const SAME: f64 = 1e-6;
@@ -44,12 +44,11 @@ type Followed = (Move, Option<Station>);
 /// The tolerance is used up, the main tool's contact jumps, the machine below is too slow, `Cancelled`.
 pub fn paired(
     [main, below]: [Member<'_>; 2],
-    section: &OperationSection,
+    common: &OperationKeys,
     moves: &[Move],
     path: &str,
     watch: &Watch,
 ) -> Result<Paired, JobError> {
-    let common = &section.common;
     let error = JobError::planning;
     let of = |member: &Member<'_>| budget::of(common.tolerance, member.scene, member.machine).map_err(error(path));
     let budgets = [of(&main)?, of(&below)?];

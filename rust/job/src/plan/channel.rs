@@ -1,0 +1,119 @@
+//! A channel's program as it grows, operation by operation.
+
+use serde::Serialize;
+use styluscam_motion::{Event, EventKind, OperationRecord, Program, ToolRecord};
+use styluscam_post::Machine;
+
+use crate::operations::{Coolant, Fact, OperationSection, Planned, Spindle, SurfaceFacts};
+use crate::{JobDocument, Scene};
+
+/// What a channel is planned for.
+#[derive(Clone, Copy)]
+pub struct Setting<'a> {
+    /// The part as it lies on the channel's machine.
+    pub scene: &'a Scene,
+    /// The machine.
+    pub machine: &'a Machine,
+}
+
+/// A channel's program and what there is to report of it.
+#[derive(Clone, Debug)]
+pub struct Channel {
+    /// Its name.
+    pub name: &'static str,
+    /// The program.
+    pub program: Program,
+    /// What each of its operations amounts to.
+    pub operations: Vec<OperationSummary>,
+}
+
+/// What an operation amounts to.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct OperationSummary {
+    /// Its id.
+    pub id: String,
+    /// Its kind.
+    pub kind: &'static str,
+    /// Its extent in words.
+    pub words: String,
+    /// Its figures.
+    pub facts: Vec<Fact>,
+    /// What becomes of the faces, where it follows faces.
+    #[serde(flatten)]
+    pub surface: Option<SurfaceFacts>,
+    /// Its extent in the words of the program's header.
+    #[serde(skip)]
+    pub note: String,
+}
+
+impl Channel {
+    /// One without operations.
+    pub(super) fn empty(job: &JobDocument, scene: &Scene) -> Self {
+        let program = Program::empty(scene.record(job), Vec::new(), Vec::new());
+        Self { name: scene.channel, program, operations: Vec::new() }
+    }
+
+    /// Adds a planned operation, which has a number in the job; `wait` comes behind its first move.
+    pub(super) fn add(
+        &mut self,
+        (index, section): (usize, &OperationSection),
+        record: &ToolRecord,
+        Planned { moves, words, note, facts, surface }: Planned,
+        wait: Option<EventKind>,
+    ) {
+        let program = &mut self.program;
+        let (id, kind, tool) = (section.id(index), section.operation.name(), tool_index(program, record));
+        program.events.extend(events_before(program, section, tool));
+        program.events.extend(wait.map(|kind| Event { before: program.moves.len() + 1, kind }));
+        program.operations.push(OperationRecord { id: id.clone(), kind: kind.to_owned(), tool });
+        program.moves.extend(moves);
+        self.operations.push(OperationSummary { id, kind, words, facts, surface, note });
+    }
+
+    /// Adds what follows the last operation.
+    pub(super) fn end(&mut self, job: &JobDocument) {
+        let last = job.operations_of(self.name).last().map(|(_, last)| last);
+        self.program.events.extend(events_at_end(&self.program, last));
+    }
+}
+
+fn tool_index(program: &mut Program, record: &ToolRecord) -> u32 {
+    let known = program.tools.iter().position(|t| t.number == record.number);
+    let index = known.unwrap_or_else(|| {
+        program.tools.push(record.clone());
+        program.tools.len() - 1
+    });
+    index as u32
+}
+
+/// Tool change, spindle and coolant as far as they differ from the operation before.
+fn events_before(program: &Program, section: &OperationSection, tool: u32) -> Vec<Event> {
+    let before = program.moves.len();
+    let changes_tool = program.operations.last().is_none_or(|last| last.tool != tool);
+    let mut kinds = Vec::new();
+    if changes_tool {
+        kinds.push(EventKind::ToolChange { tool });
+    }
+    kinds.push(match section.common.spindle {
+        Spindle::Off => EventKind::SpindleOff,
+        Spindle::Fixed { rpm, direction } => EventKind::SpindleOn { rpm, direction },
+    });
+    if !program.operations.is_empty() || section.common.coolant == Coolant::Flood {
+        kinds.push(EventKind::Flood { on: section.common.coolant == Coolant::Flood });
+    }
+    kinds.into_iter().map(|kind| Event { before, kind }).collect()
+}
+
+fn events_at_end(program: &Program, last: Option<&OperationSection>) -> Vec<Event> {
+    let before = program.moves.len();
+    let mut kinds = Vec::new();
+    if let Some(section) = last {
+        if section.common.spindle != Spindle::Off {
+            kinds.push(EventKind::SpindleOff);
+        }
+        if section.common.coolant == Coolant::Flood {
+            kinds.push(EventKind::Flood { on: false });
+        }
+    }
+    kinds.into_iter().map(|kind| Event { before, kind }).collect()
+}
