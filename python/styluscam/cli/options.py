@@ -45,6 +45,15 @@ ChannelName: TypeAlias = Annotated[
         "--channel", metavar="NAME", help="The channel of the job that the text is for, where it has several."
     ),
 ]
+BesideFile: TypeAlias = Annotated[
+    Path | None,
+    typer.Option(
+        "--beside",
+        metavar="OTHER.ngc",
+        help="The G-code of the channel that works together with this one: the two are checked against each other.",
+        show_default=False,
+    ),
+]
 Json: TypeAlias = Annotated[bool, typer.Option("--json", help="Print one JSON document, errors included.")]
 Quiet: TypeAlias = Annotated[
     bool, typer.Option("--quiet", "-q", help="No progress, and no summary when nothing was found.")

@@ -7,6 +7,7 @@ from pathlib import Path
 from styluscam.cli import console, findings, pages, progress, summary
 from styluscam.cli.failures import FOUND, naming
 from styluscam.cli.options import (
+    BesideFile,
     ChannelName,
     Debug,
     ForJob,
@@ -33,6 +34,7 @@ def verify(
     picture: Picture = None,
     simulated: SimulationFile = None,
     channel: ChannelName = MAIN_CHANNEL,
+    beside: BesideFile = None,
     json: Json = False,
     quiet: Quiet = False,
     debug: Debug = False,
@@ -46,7 +48,7 @@ def verify(
         pages.require(report, picture, inputs=[file, *work.inputs()])
         if simulated is not None:
             simulation.require(simulated, inputs=[file, *work.inputs()])
-        checked = verification.verify_file(file, work, channel=channel, progress=shown)
+        checked = verification.verify_file(file, work, channel=channel, beside=beside, progress=shown)
         covered = checked.coverage(progress=shown) if json or not quiet else []
         written = pages.write(lambda: Subject.judged(checked, work.machine(channel), file.name), report, picture, shown)
         if simulated is not None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from functools import cached_property
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -16,7 +17,7 @@ from styluscam.judging.brep import recheck
 from styluscam.judging.results import FaceCoverage, Finding, Group, Scallops
 from styluscam.programs.job import MAIN_CHANNEL, Job, JobLike
 from styluscam.programs.machine import Machine, MachineLike
-from styluscam.programs.planning import Plan, Setting, TextLike, text_of_channel
+from styluscam.programs.planning import Plan, Posted, Setting, TextLike, output_name, text_of_channel
 from styluscam.programs.program import Program
 from styluscam.types import Document, FloatArray, Progress, shaped
 from styluscam.types import points as rows
@@ -36,6 +37,7 @@ class Report:
         machine: Machine,
         text: str,
         channel: str = MAIN_CHANNEL,
+        beside: str | None = None,
     ) -> None:
         self._document = document
         self.judgement = judgement
@@ -44,6 +46,8 @@ class Report:
         self.machine = machine
         self.text = text
         self.channel = channel
+        self.beside = beside
+        """The text of the channel that works together with this one, where it was given."""
         self._coverage: list[FaceCoverage] | None = None
 
     def __repr__(self) -> str:
@@ -56,8 +60,8 @@ class Report:
         """Whether the same was found in the same text for the same job."""
         if not isinstance(other, Report):
             return NotImplemented
-        mine, theirs = (self.text, self.machine, self._document), (other.text, other.machine, other._document)
-        return mine == theirs and self.job == other.job
+        mine, theirs = (self.text, self.beside, self.machine), (other.text, other.beside, other.machine)
+        return mine == theirs and self._document == other._document and self.job == other.job
 
     def __hash__(self) -> int:
         """As equality compares."""
@@ -75,7 +79,8 @@ class Report:
     @cached_property
     def judgement(self) -> _engine.Judgement:
         """The engine's results; a copy that went through pickle verifies again when they are needed."""
-        return _engine.judge(self.job.engine, self.scene, self.machine.engine, self.text)
+        other = _beside(self.job, self.channel, self.beside)
+        return _engine.judge(self.job.engine, self.scene, self.machine.engine, self.text, other)
 
     @property
     def ok(self) -> bool:
@@ -194,9 +199,15 @@ def judge_plan(
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
     channel: str = MAIN_CHANNEL,
+    *,
+    beside: str | None = None,
 ) -> Report:
-    """Checks the ``text`` of a plan's channel against its part, and its contacts against the exact model."""
-    return _checked(plan.job, plan.settings[channel], channel, text, progress=progress, cancel=cancel)
+    """Checks the ``text`` of a plan's channel against its part, and its contacts against the exact model.
+
+    ``beside`` is the text of the channel that works together with it, where the process has one.
+    """
+    other = _beside(plan.job, channel, beside, plan.settings)
+    return _checked(plan.job, plan.settings[channel], channel, text, beside=other, progress=progress, cancel=cancel)
 
 
 def verify(
@@ -205,6 +216,7 @@ def verify(
     machine: MachineLike | None = None,
     *,
     channel: str = MAIN_CHANNEL,
+    beside: TextLike | None = None,
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
 ) -> Report:
@@ -212,6 +224,8 @@ def verify(
 
     ``text`` is G-code, what was posted, or the name of a file that holds it (see :func:`styluscam.read_gcode`); the job's
     machine reads it unless another is given. ``channel`` is the one that the text is for, where the job has several.
+    ``beside`` is the text of the channel that works together with it (of double-sided forming: main and support); where all
+    channels were posted at once, it is taken from there. Without it a warning states what is not checked.
 
     Raises:
         JobError: the job has no such channel.
@@ -219,7 +233,12 @@ def verify(
     """
     work = Job.of(job)
     reader = work.machine(channel) if machine is None else Machine.of(machine)
-    return _verified(text_of_channel(text, work, channel), work, reader, channel, progress=progress, cancel=cancel)
+    partner = work.engine.partner_of(channel)
+    if beside is None and isinstance(text, Posted):
+        beside = text.files.get(output_name(work, partner)) if partner else None
+    other = None if beside is None or partner is None else text_of_channel(beside, work, partner)
+    own = text_of_channel(text, work, channel)
+    return _verified(own, work, reader, channel, beside=other, progress=progress, cancel=cancel)
 
 
 def verify_file(
@@ -228,14 +247,17 @@ def verify_file(
     machine: MachineLike | None = None,
     *,
     channel: str = MAIN_CHANNEL,
+    beside: FileName | None = None,
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
 ) -> Report:
-    """As :func:`verify`, for a file alone: ``path`` itself is never taken for G-code."""
-    file = file_of(path, "path", A_FILE, VerifyError, "sc.verify(text, job) takes a text")
+    """As :func:`verify`, for files alone: ``path`` and ``beside`` are never taken for G-code."""
+    named = "sc.verify(text, job) takes a text"
+    file = file_of(path, "path", A_FILE, VerifyError, named)
+    other = None if beside is None else read_gcode_text(file_of(beside, "beside", A_FILE, VerifyError, named))
     work = Job.of(job)
     reader = work.machine(channel) if machine is None else Machine.of(machine)
-    return _verified(read_gcode_text(file), work, reader, channel, progress=progress, cancel=cancel)
+    return _verified(read_gcode_text(file), work, reader, channel, beside=other, progress=progress, cancel=cancel)
 
 
 def check_program(
@@ -262,8 +284,21 @@ def check_program(
     if not isinstance(plan, Plan):
         raise refused("plan", plan, "a Plan or a Program", PlanError, "sc.plan(job) makes one")
     channel_of(channel, plan.programs, PlanError)
-    text = _engine.post(plan.engine.programs[channel], plan.machines[channel].engine)
-    return judge_plan(plan, text, progress, cancel, channel)
+    texts = {one: _engine.post(plan.engine.programs[one], plan.machines[one].engine) for one in plan.programs}
+    partner = plan.job.engine.partner_of(channel)
+    return judge_plan(plan, texts[channel], progress, cancel, channel, beside=texts[partner] if partner else None)
+
+
+_Beside: TypeAlias = "tuple[_engine.Scene, _engine.Machine, str]"
+"""What the engine takes for the channel that works together with another."""
+
+
+def _beside(job: Job, channel: str, text: str | None, settings: dict[str, Setting] | None = None) -> _Beside | None:
+    partner = job.engine.partner_of(channel)
+    if text is None or partner is None:
+        return None
+    setting = settings[partner] if settings else Setting.of(job, partner)
+    return setting.scene, setting.machine.engine, text
 
 
 def _verified(
@@ -272,11 +307,13 @@ def _verified(
     machine: Machine,
     channel: str,
     *,
+    beside: str | None = None,
     progress: Progress | None,
     cancel: _engine.CancelToken | None,
 ) -> Report:
     setting = Setting(job.scene(progress, channel), machine)
-    return _checked(job, setting, channel, text, progress=progress, cancel=cancel)
+    other = _beside(job, channel, beside)
+    return _checked(job, setting, channel, text, beside=other, progress=progress, cancel=cancel)
 
 
 def _checked(
@@ -285,11 +322,13 @@ def _checked(
     channel: str,
     text: str,
     *,
+    beside: _Beside | None,
     progress: Progress | None,
     cancel: _engine.CancelToken | None,
 ) -> Report:
     scene, machine = setting
-    judgement = _engine.judge(job.engine, scene, machine.engine, text, progress=progress, cancel=cancel)
+    judgement = _engine.judge(job.engine, scene, machine.engine, text, beside, progress=progress, cancel=cancel)
     document: Document = json.loads(judgement.report())
     recheck(document, job, scene)
-    return Report(document, judgement, job, scene, machine=machine, text=text, channel=channel)
+    other = beside[2] if beside else None
+    return Report(document, judgement, job, scene, machine=machine, text=text, channel=channel, beside=other)

@@ -105,7 +105,8 @@ def run(
     if pages:
         require_extra()
     planned = plan(work, progress=progress, cancel=cancel)
-    made = {channel: _made(planned, channel, progress, cancel) for channel in planned.programs}
+    first = {channel: _first(planned, channel) for channel in planned.programs}
+    made = {channel: _made(planned, channel, first, progress, cancel) for channel in planned.programs}
     channels = {channel: ChannelResult(each.report, each.summary) for channel, each in made.items()}
     posted = Posted({output_name(work, channel): each.text for channel, each in made.items()})
     files: dict[Path, str] = {}
@@ -129,15 +130,27 @@ class _Made(NamedTuple):
     text: str
 
 
-def _made(planned: Plan, channel: str, progress: Progress | None, cancel: _engine.CancelToken | None) -> _Made:
-    """Posts a channel and verifies it; the text is then posted again with the verifier's figures in its header.
+def _first(planned: Plan, channel: str) -> str:
+    """A channel's text without the verifier's figures."""
+    program = planned.programs[channel].with_notes(planned.summary(channel=channel)[1])
+    return post(program, planned.machines[channel]).text
+
+
+def _made(
+    planned: Plan,
+    channel: str,
+    first: dict[str, str],
+    progress: Progress | None,
+    cancel: _engine.CancelToken | None,
+) -> _Made:
+    """Verifies a channel's first text; it is then posted again with the verifier's figures in its header.
 
     Raises:
         VerifyError: the header changed the moves.
     """
     program, machine = planned.programs[channel], planned.machines[channel]
-    first = post(program.with_notes(planned.summary(channel=channel)[1]), machine).text
-    report = judge_plan(planned, first, progress, cancel, channel)
+    partner = planned.job.engine.partner_of(channel)
+    report = judge_plan(planned, first[channel], progress, cancel, channel, beside=first[partner] if partner else None)
     summary, notes = planned.summary(report.judgement, channel)
     noted = program.with_notes(notes)
     text = post(noted, machine).text

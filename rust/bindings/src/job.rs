@@ -44,6 +44,11 @@ impl Job {
         json(&self.document.machine_of(self.channel(channel)?))
     }
 
+    /// The channel that works together with another, move by move; None where there is none.
+    fn partner_of(&self, channel: &str) -> PyResult<Option<&'static str>> {
+        Ok(self.document.partner_of(self.channel(channel)?))
+    }
+
     /// How far the passes of an operation lie apart, as JSON: in height, or in plan across straight rows; None where they do
     /// not lie in step.
     fn spacing(&self, index: usize) -> PyResult<Option<String>> {

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
+use styluscam_job::Text;
 use styluscam_verify::{FindingKind, Need, Scallop};
 
 use crate::{
@@ -152,19 +153,28 @@ pub fn finding_kinds() -> PyResult<String> {
     json(&FindingKind::all().map(|kind| (kind, kind.words())).collect::<BTreeMap<_, _>>())
 }
 
-/// Checks a text against a job's part.
+/// Checks a text against a job's part; with the scene, the machine and the text of the channel that works together with its
+/// own, where there is one.
 #[pyfunction]
-#[pyo3(signature = (job, scene, machine, text, progress=None, cancel=None))]
+#[pyo3(signature = (job, scene, machine, text, beside=None, progress=None, cancel=None))]
+#[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)] // Python's keywords
 pub fn judge(
     py: Python<'_>,
     job: &Job,
     scene: &Scene,
     machine: &Machine,
     text: &str,
+    beside: Option<(Py<Scene>, Py<Machine>, String)>,
     progress: Option<&Bound<'_, PyAny>>,
     cancel: Option<&CancelToken>,
 ) -> PyResult<Judgement> {
-    let work = |watch: &_| styluscam_job::judge(&job.document, &scene.scene, &machine.machine, text, watch);
+    let text = Text { scene: &scene.scene, machine: &machine.machine, text };
+    let beside = beside.as_ref().map(|(scene, machine, text)| Text {
+        scene: &scene.get().scene,
+        machine: &machine.get().machine,
+        text,
+    });
+    let work = |watch: &_| styluscam_job::judge(&job.document, text, beside, watch);
     let judgement = watched(py, progress, cancel, work)?.map_err(of_job)?;
     Ok(Judgement { judgement })
 }

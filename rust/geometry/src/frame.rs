@@ -33,6 +33,12 @@ impl Frame {
         Self { translation: self.translation + shift, ..self }
     }
 
+    /// This frame and then another.
+    #[must_use]
+    pub fn then(self, next: &Self) -> Self {
+        Self { rotation: next.rotation * self.rotation, translation: next.point(self.translation) }
+    }
+
     /// Where a point of the file lies in work coordinates.
     #[must_use]
     pub fn point(&self, p: Vector) -> Vector {

@@ -1,8 +1,10 @@
 //! What the schema cannot state: keys that belong together, or exclude each other. Ranges are checked in [`crate::units`].
 
+use styluscam_geometry::{Sheet, SheetLaw};
 use styluscam_verify::Support;
 
 use crate::fixture::FixtureSection;
+use crate::process::Opposite;
 use crate::resolve::check_channels;
 use crate::{
     spindle, Direction, JobDocument, JobError, LengthUnit, MachineSection, OperationKeys, OperationSection, Process,
@@ -199,13 +201,39 @@ fn tools(job: &JobDocument) -> Result<(), JobError> {
             return Err(JobError::document("out-of-range", path, message, "give 1 or more, or leave it out"));
         }
     }
+    job.channels().iter().try_for_each(|channel| opposite(job, channel))?;
     job.channels().iter().try_for_each(|channel| tool_numbers(job, channel))
+}
+
+/// The tool on the other side of the sheet exists, and a solid is left of it where it goes beyond the face that the model shows.
+fn opposite(job: &JobDocument, channel: &str) -> Result<(), JobError> {
+    let Some(Opposite { tool, squeeze }) = job.opposite(channel) else { return Ok(()) };
+    if !job.tools.contains_key(tool) {
+        let known: Vec<&str> = job.tools.keys().map(String::as_str).collect();
+        let message = format!("support_tool = {tool:?}: no tool is called that");
+        let hint = format!("the job has {}", known.join(", "));
+        return Err(JobError::document("unknown", "process.support_tool", message, hint));
+    }
+    let sheet = job.setup.sheet.zip(job.part.model_face);
+    let sheet = sheet.map(|(section, model_face)| Sheet { thickness: section.thickness, law: section.law, model_face });
+    match sheet {
+        Some(sheet) if squeeze < sheet.share() && sheet.law == SheetLaw::Constant => {
+            let message = format!(
+                "squeeze = {squeeze}: the model shows the face that the tool below touches, and in a sheet of constant \
+                 thickness that tool would go beyond it"
+            );
+            let hint = "model the face that the main tool touches (part.model_face = \"tool\"), set law = \"sine\" in \
+                        [setup.sheet], or squeeze = 1.0";
+            Err(JobError::document("conflict", "process.squeeze", message, hint))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// No two tools of a machine have one number. A tool that no operation uses could be any machine's.
 fn tool_numbers(job: &JobDocument, channel: &str) -> Result<(), JobError> {
-    let used = |name: &str| job.operations.iter().any(|operation| operation.common.tool == name);
-    let used_here = |name: &str| job.operations_of(channel).any(|(_, operation)| operation.common.tool == name);
+    let used_here = |name: &str| job.tools_of(channel).any(|used| used == name);
+    let used = |name: &str| job.channels().iter().any(|channel| job.tools_of(channel).any(|used| used == name));
     let mut numbers = std::collections::BTreeMap::new();
     for (name, tool) in job.tools.iter().filter(|(name, _)| used_here(name) || !used(name)) {
         if let Some(other) = numbers.insert(tool.number, name) {

@@ -4,13 +4,13 @@
 use std::ops::Range;
 
 use serde::Serialize;
-use styluscam_geometry::{ModelFace, Sheet, Tool, Vector};
+use styluscam_geometry::{ModelFace, Sheet, SheetLaw, Tool, Vector};
 use styluscam_motion::{Program, ToolRecord, Watch};
 use styluscam_post::machine::ToolChange;
 use styluscam_post::{read, Machine};
 use styluscam_verify::{
-    Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Limits, Need, Reach, Report, Scallop, Simulation,
-    Subject, TextFacts, ToolCalls,
+    Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Left, Limits, Need, Obstacle, Pairing, Partner,
+    Passes, Reach, Report, Scallop, Simulation, Subject, TextFacts, ToolCalls,
 };
 
 use crate::limits::{GOUGE, NO_ROOM};
@@ -74,32 +74,91 @@ impl<'a> Against<'a> {
             text: None,
             expected: &self.expected,
             obstacles: &[],
+            pairing: Pairing::Alone,
         }
     }
 }
 
-/// Reads `text` as `machine` would and checks it against the part.
+/// A text with the channel that it is for.
+#[derive(Clone, Copy)]
+pub struct Text<'a> {
+    /// The part as it lies on the channel's machine.
+    pub scene: &'a Scene,
+    /// The machine.
+    pub machine: &'a Machine,
+    /// What it reads.
+    pub text: &'a str,
+}
+
+/// Reads a text as its machine would and checks it against the part; together with the text `beside` it, where the process
+/// has a channel that works with its own.
 ///
 /// # Errors
 /// Text that the machine would not take, tools that do not build, `Cancelled`.
 pub fn judge(
     job: &JobDocument,
-    scene: &Scene,
-    machine: &Machine,
-    text: &str,
+    text: Text<'_>,
+    beside: Option<Text<'_>>,
     watch: &Watch,
 ) -> Result<Judgement, JobError> {
-    let against = Against::new(job, scene)?;
-    let Reading { program, unknown_positions, facts } = reading(text, machine, &against.records)?;
-    let obstacles = plates::obstacles(scene)?;
-    let plain = against.subject(&unknown_positions);
-    let subject = Subject { text: Some(&facts), obstacles: &obstacles, ..plain };
-    let mut found = model::mismatches(job, scene);
-    found.extend(forming::warnings(job, scene, machine)?);
-    let of_job = limits(job, scene, &against, machine);
-    let limits = Limits { excess_by_operation: excess(job, scene.channel, &program), found, ..of_job };
-    let report = styluscam_verify::judge(&program, &subject, &limits, watch)?;
-    Ok(Judgement { channel: scene.channel, report, program, unknown_positions, limits })
+    let prepared = Prepared::new(job, text)?;
+    let partner = job.partner_of(text.scene.channel);
+    let other = partner.and(beside).map(|other| Prepared::new(job, other)).transpose()?;
+    let other = other.as_ref().map(|other| (other, other.subject(Pairing::Alone)));
+    let with = other.as_ref().map(|(other, subject)| Partner {
+        program: &other.reading.program,
+        subject,
+        limits: &other.limits,
+        follows: other.against.scene.opposite.is_some(),
+        left: left_between(other.against.scene, text.scene),
+    });
+    let pairing = match (&with, partner) {
+        (Some(partner), _) => Pairing::With(partner),
+        (None, Some(channel)) => Pairing::Missing { channel },
+        (None, None) => Pairing::Alone,
+    };
+    let report =
+        styluscam_verify::judge(&prepared.reading.program, &prepared.subject(pairing), &prepared.limits, watch)?;
+    let Prepared { reading: Reading { program, unknown_positions, .. }, limits, .. } = prepared;
+    Ok(Judgement { channel: text.scene.channel, report, program, unknown_positions, limits })
+}
+
+/// The sheet that two channels leave between their tools, by its law.
+fn left_between(one: &Scene, other: &Scene) -> Left {
+    let opposite = if one.opposite.is_some() { one } else { other };
+    let left = opposite.opposite.unwrap_or_default();
+    match opposite.sheet.map(|sheet| sheet.law) {
+        Some(SheetLaw::Sine) => Left { normal: 0.0, vertical: left },
+        Some(SheetLaw::Constant) | None => Left { normal: left, vertical: 0.0 },
+    }
+}
+
+/// A text that was read, and what it is checked against.
+struct Prepared<'a> {
+    against: Against<'a>,
+    reading: Reading,
+    obstacles: Vec<Obstacle>,
+    limits: Limits,
+}
+
+impl<'a> Prepared<'a> {
+    fn new(job: &'a JobDocument, Text { scene, machine, text }: Text<'a>) -> Result<Self, JobError> {
+        let against = Against::new(job, scene)?;
+        let reading = reading(text, machine, &against.records)?;
+        let mut found = Vec::new();
+        if scene.opposite.is_none() {
+            found.extend(model::mismatches(job, scene));
+            found.extend(forming::warnings(job, scene, machine)?);
+        }
+        let of_job = limits(job, scene, &against, machine);
+        let limits = Limits { excess_by_operation: excess(job, scene.channel, &reading.program), found, ..of_job };
+        Ok(Self { obstacles: plates::obstacles(scene)?, against, reading, limits })
+    }
+
+    fn subject<'s>(&'s self, pairing: Pairing<'s>) -> Subject<'s> {
+        let plain = self.against.subject(&self.reading.unknown_positions);
+        Subject { text: Some(&self.reading.facts), obstacles: &self.obstacles, pairing, ..plain }
+    }
 }
 
 /// A text as it was read.
@@ -235,10 +294,10 @@ fn expected(
     records: &[ToolRecord],
 ) -> Result<Vec<ExpectedOperation>, JobError> {
     let operation = |(index, section): (usize, &OperationSection)| {
-        let common = &section.common;
-        let named = records.iter().position(|record| record.name == common.tool);
+        let (common, name) = (&section.common, job.tool_of(scene.channel, section));
+        let named = records.iter().position(|record| record.name == name);
         let number = named.ok_or_else(|| {
-            let message = format!("operations[{index}].tool: the channel has no tool {:?}", common.tool);
+            let message = format!("operations[{index}].tool: the channel has no tool {name:?}");
             JobError::document("unknown", format!("operations[{index}].tool"), message, "name one of [tools]")
         })?;
         let tool = &tools[number];
@@ -247,6 +306,7 @@ fn expected(
             tool: number,
             cut: common.feeds.cut,
             plunge: common.feeds.plunge,
+            keeps_pace: scene.opposite.is_some(),
             spindle: spindle::turns(job, scene, tool, section, index)?,
             flood: common.coolant == Coolant::Flood,
             expectation: expectation(job, scene, tool, section, index)?,
@@ -273,8 +333,12 @@ fn expectation(
         contact: section.kind().contact(),
         selected: scene.facing_up(&faces_of(job, scene, section, index)?),
         heights: [heights.bottom, heights.top.unwrap_or(f64::INFINITY)],
-        passes: section.kind().passes(&given),
-        forms: job.process.process.as_kind().forms(),
+        passes: if scene.opposite.is_some() {
+            Passes::Unordered { reason: "they are opposite to the main tool's, whose program is checked for them" }
+        } else {
+            section.kind().passes(&given)
+        },
+        forms: job.process.process.as_kind().forms() && scene.opposite.is_none(),
     })
 }
 
@@ -307,15 +371,18 @@ fn limits(job: &JobDocument, scene: &Scene, against: &Against<'_>, machine: &Mac
     let sheet_bridged = job.setup.sheet.map_or(f64::INFINITY, |_| BRIDGED);
     let bridged = job.process.common.max_bridged.unwrap_or(sheet_bridged);
     let narrowest = against.tools.iter().map(|tool| 0.5 * tool.diameter()).fold(f64::INFINITY, f64::min);
+    // what is formed, and where no tool gets, is asked of the main tool: the one opposite to it is held to its contacts
+    let is_main = scene.opposite.is_none();
+    let [bridged, unreached] = if is_main { [bridged, job.process.common.max_unreached] } else { [f64::INFINITY, 1.0] };
     Limits {
         gouge: GOUGE,
         excess: widest_tolerance(job, scene.channel),
         retract: scene.retract - 0.5 * machine.resolution_mm(),
         feed_rounding: machine.feed_rounding(fastest(&against.expected)),
         reach: reach(machine),
-        forming: job.setup.sheet.map(|sheet| forming_of(job, &sheet, scene.top)),
+        forming: job.setup.sheet.filter(|_| is_main).map(|sheet| forming_of(job, &sheet, scene.top)),
         bridged,
-        unreached: job.process.common.max_unreached,
+        unreached,
         unreached_from: if bridged.is_finite() { bridged } else { NO_ROOM * narrowest },
         accepted: job.accept.iter().map(|risk| risk.finding()).collect(),
         ..Limits::new(clearance)

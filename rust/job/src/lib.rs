@@ -20,6 +20,7 @@ mod materials;
 mod model;
 mod numbers;
 mod operations;
+mod paired;
 mod parse;
 mod plan;
 mod plates;
@@ -36,6 +37,7 @@ mod summary;
 mod tagged;
 #[cfg(test)]
 mod tests;
+mod timing;
 mod units;
 mod up_axis;
 
@@ -48,7 +50,7 @@ pub use document::{
 pub use error::JobError;
 pub use estimate::{estimates, Estimate};
 pub use fixture::{BackingSection, ClampSection, FixtureSection, Opening};
-pub use judge::{coverage, judge, left, needs, read_back, scallops, simulate, Judgement};
+pub use judge::{coverage, judge, left, needs, read_back, scallops, simulate, Judgement, Text};
 pub use materials::{materials, Angle, Material};
 pub use operations::{
     BridgedFace, Context, Coolant, Direction, Effort, End, Fact, Feeds, Operation, OperationKeys, OperationKind,

@@ -2,16 +2,17 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
-use styluscam_motion::{Event, EventKind, OperationRecord, Program, SpindleDirection, ToolRecord, Watch};
-use styluscam_post::Machine;
+use styluscam_motion::Watch;
 
-use crate::operations::{Context, Coolant, Fact, OperationSection, Planned, Spindle, SurfaceFacts};
+use crate::operations::Context;
 use crate::resolve::{faces_of, heights_of, tools};
-use crate::{check, clamp, die, forming, spindle, JobDocument, JobError, Scene};
+use crate::{check, die, forming, spindle, JobDocument, JobError, MAIN_CHANNEL};
 
-/// What the operator has to do for a spindle that is not driven.
-const FREE: &str = "the spindle must turn freely: release its brake";
+mod channel;
+mod pair;
+
+pub use channel::{Channel, OperationSummary, Setting};
+use channel::Added;
 
 /// Planned programs by channel.
 #[derive(Clone, Debug)]
@@ -20,60 +21,32 @@ pub struct Plan {
     pub channels: BTreeMap<&'static str, Channel>,
 }
 
-/// What a channel is planned for.
-#[derive(Clone, Copy)]
-pub struct Setting<'a> {
-    /// The part as it lies on the channel's machine.
-    pub scene: &'a Scene,
-    /// The machine.
-    pub machine: &'a Machine,
-}
-
-/// A channel's program and what there is to report of it.
-#[derive(Clone, Debug)]
-pub struct Channel {
-    /// The program.
-    pub program: Program,
-    /// What each of its operations amounts to.
-    pub operations: Vec<OperationSummary>,
-}
-
-/// What an operation amounts to.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct OperationSummary {
-    /// Its id.
-    pub id: String,
-    /// Its kind.
-    pub kind: &'static str,
-    /// Its extent in words.
-    pub words: String,
-    /// Its figures.
-    pub facts: Vec<Fact>,
-    /// What becomes of the faces, where it follows faces.
-    #[serde(flatten)]
-    pub surface: Option<SurfaceFacts>,
-    /// Its extent in the words of the program's header.
-    #[serde(skip)]
-    pub note: String,
-    /// Further lines of that header.
-    #[serde(skip)]
-    pub lines: Vec<String>,
-}
-
-/// Plans every operation of the job, in order, each for the setting of its channel.
+/// Plans every operation of the job, in order, each for the setting of its channel; a channel on the other side of the sheet after
+/// the main one, whose moves it follows.
 ///
 /// # Errors
 /// Anything of [`JobError`]; nothing is planned then.
 pub fn plan(job: &JobDocument, settings: &[Setting<'_>], watch: &Watch) -> Result<Plan, JobError> {
-    let planned = settings.iter().map(|setting| Ok((setting.scene.channel, channel(job, *setting, watch)?)));
-    Ok(Plan { channels: planned.collect::<Result<_, JobError>>()? })
+    let (followers, leaders): (Vec<&Setting<'_>>, Vec<_>) = settings.iter().partition(|s| s.scene.opposite.is_some());
+    let planned = leaders.iter().map(|setting| Ok((setting.scene.channel, channel(job, **setting, watch)?)));
+    let mut channels = planned.collect::<Result<BTreeMap<_, _>, JobError>>()?;
+    for follower in followers {
+        let main =
+            leaders.iter().find(|setting| setting.scene.channel == MAIN_CHANNEL).zip(channels.remove(MAIN_CHANNEL));
+        let (setting, main) = main.ok_or_else(|| {
+            let message =
+                format!("channel {:?} follows {MAIN_CHANNEL:?}, which is not planned", follower.scene.channel);
+            JobError::document("missing", "machine", message, "plan both")
+        })?;
+        let [main, below] = pair::planned(job, [**setting, *follower], main, watch)?;
+        channels.extend([(MAIN_CHANNEL, main), (follower.scene.channel, below)]);
+    }
+    Ok(Plan { channels })
 }
 
 fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &Watch) -> Result<Channel, JobError> {
     let tools = tools(job)?;
-    let mut program = Program::empty(scene.record(job), Vec::new(), Vec::new());
-    let mut operations = Vec::new();
-    let mut frame = scene.top;
+    let mut channel = Channel::empty(job, scene);
     for (index, section) in job.operations_of(scene.channel) {
         let path = format!("operations[{index}]");
         let (tool, record) =
@@ -83,7 +56,7 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
             machine,
             common: &section.common,
             path,
-            operation: operations.len() as u32,
+            operation: channel.operations.len() as u32,
             tool,
             faces: faces_of(job, scene, section, index)?,
             heights: heights_of(job, scene, section),
@@ -91,73 +64,13 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
         };
         let selected = scene.facing_up(&context.faces);
         die::check(job, scene, &selected, &context.path)?;
-        let turns = spindle::turns(job, scene, context.tool, section, index)?;
-        let Planned { moves, words, note, mut facts, surface } = section.kind().plan(&context)?;
-        let (id, kind, tool) = (section.id(index), section.operation.name(), tool_index(&mut program, record));
-        program.events.extend(events_before(&program, section, tool, turns));
-        let (thinnest, force) = forming::facts(job, scene, context.tool, section, &selected);
-        let mut lines: Vec<String> = force.iter().map(|fact| fact.words.clone()).collect();
-        facts.extend(thinnest.into_iter().chain(force));
-        if clamp::goes_down(job) {
-            let levels = clamp::heights(section, &moves, frame);
-            frame = levels.last().map_or(frame, |level| level.z);
-            let first = program.moves.len();
-            program.events.extend(levels.iter().map(|level| clamp::remark(*level, first)));
-            if let Some(fact) = clamp::fact(&levels) {
-                lines.push(fact.words.clone());
-                facts.push(fact);
-            }
-        }
-        program.operations.push(OperationRecord { id: id.clone(), kind: kind.to_owned(), tool });
-        program.moves.extend(moves);
-        operations.push(OperationSummary { id, kind, words, facts, surface, note, lines });
+        let turns = spindle::turns(job, scene, tool, section, index)?;
+        let mut planned = section.kind().plan(&context)?;
+        let (thinnest, force) = forming::facts(job, scene, tool, section, &selected);
+        let lines: Vec<String> = force.iter().map(|fact| fact.words.clone()).collect();
+        planned.facts.extend(thinnest.into_iter().chain(force));
+        channel.add(job, (index, section), record, Added { planned, turns, lines, wait: None });
     }
-    program.events.extend(events_at_end(&program, job.operations_of(scene.channel).last().map(|(_, last)| last)));
-    Ok(Channel { program, operations })
-}
-
-fn tool_index(program: &mut Program, record: &ToolRecord) -> u32 {
-    let known = program.tools.iter().position(|t| t.number == record.number);
-    let index = known.unwrap_or_else(|| {
-        program.tools.push(record.clone());
-        program.tools.len() - 1
-    });
-    index as u32
-}
-
-/// Tool change, spindle and coolant as far as they differ from the operation before.
-fn events_before(
-    program: &Program,
-    section: &OperationSection,
-    tool: u32,
-    turns: Option<(f64, SpindleDirection)>,
-) -> Vec<Event> {
-    let before = program.moves.len();
-    let changes_tool = program.operations.last().is_none_or(|last| last.tool != tool);
-    let mut kinds = Vec::new();
-    if changes_tool {
-        kinds.push(EventKind::ToolChange { tool });
-    }
-    kinds.push(turns.map_or(EventKind::SpindleOff, |(rpm, direction)| EventKind::SpindleOn { rpm, direction }));
-    if section.common.spindle == Spindle::Free {
-        kinds.push(EventKind::Comment { text: FREE.to_owned() });
-    }
-    if !program.operations.is_empty() || section.common.coolant == Coolant::Flood {
-        kinds.push(EventKind::Flood { on: section.common.coolant == Coolant::Flood });
-    }
-    kinds.into_iter().map(|kind| Event { before, kind }).collect()
-}
-
-fn events_at_end(program: &Program, last: Option<&OperationSection>) -> Vec<Event> {
-    let before = program.moves.len();
-    let mut kinds = Vec::new();
-    if let Some(section) = last {
-        if section.common.spindle.direction().is_some() {
-            kinds.push(EventKind::SpindleOff);
-        }
-        if section.common.coolant == Coolant::Flood {
-            kinds.push(EventKind::Flood { on: false });
-        }
-    }
-    kinds.into_iter().map(|kind| Event { before, kind }).collect()
+    channel.end(job);
+    Ok(channel)
 }

@@ -10,7 +10,7 @@ const SIDES: usize = 360;
 /// How far the plates reach beyond their openings, mm.
 const WIDTH: f64 = 200.0;
 /// How far down the backing plate reaches, mm: deeper than any forming.
-const DEEP: f64 = 1000.0;
+pub(crate) const DEEP: f64 = 1000.0;
 
 /// What a plate is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,17 +43,18 @@ pub struct Plate {
     pub heights: [f64; 2],
 }
 
-/// The clamp frame on the sheet, whose top is the scene's, and the backing plate under it, as far as there are any.
+/// The clamp frame on the sheet, whose top is the scene's, and the backing plate under it, as far as there are any. For a tool
+/// from below the backing plate is what it passes through.
 #[must_use]
 pub fn plates(scene: &Scene) -> Vec<Plate> {
     let (Some(fixture), Some(sheet)) = (scene.fixture, scene.sheet) else { return Vec::new() };
     let [x, y] = middle(scene);
     let moved = |opening: Opening| corners(opening).into_iter().map(|[cx, cy]| [x + cx, y + cy]).collect();
-    let under = scene.top - sheet.thickness;
+    let under = scene.flat - sheet.thickness;
     let clamp = fixture.clamp.map(|clamp| Plate {
         holder: Holder::Clamp,
         opening: moved(clamp.opening),
-        heights: [scene.top, scene.top + clamp.height],
+        heights: [scene.flat, scene.flat + clamp.height],
     });
     let backing = fixture.backing.map(|backing| Plate {
         holder: Holder::Backing,

@@ -39,8 +39,13 @@ pub struct Scene {
     pub outward: f64,
     /// What holds the sheet.
     pub fixture: Option<FixtureSection>,
+    /// Of a tool that comes from the other side of the sheet: the sheet left between it and the main tool, mm, by the sheet's law
+    /// along the normal or the vertical.
+    pub opposite: Option<f64>,
     /// The highest point of part and sheet, mm.
     pub top: f64,
+    /// Height of the flat sheet's face that the tool comes to, mm; of the part's top without a sheet.
+    pub flat: f64,
     /// Height at which rapids cross, mm.
     pub clearance: f64,
     /// Height down to which rapids go before a plunge, mm.

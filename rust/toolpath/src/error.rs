@@ -61,6 +61,20 @@ pub enum PlanError {
         /// Passes at most.
         limit: usize,
     },
+    /// Between two positions of the main tool that are as good as one its contact jumps, and the tool on the other side of the
+    /// sheet would have to jump with it.
+    #[error(
+        "at X{:.3} Y{:.3} Z{:.3} the main tool touches two places at once, and the tool below cannot be opposite to both: it \
+         would move {jump:.3} mm while the main one stands; give the main tool a smaller radius than the corner there, or end the \
+         operation above it with z_bottom",
+        .at[0], .at[1], .at[2]
+    )]
+    Jump {
+        /// The main tool's tip, mm.
+        at: [f64; 3],
+        /// How far the tool below would move, mm.
+        jump: f64,
+    },
     /// Stopped from outside.
     #[error("cancelled")]
     Cancelled,
@@ -81,6 +95,7 @@ impl PlanError {
             Self::Empty { .. } => "empty-path",
             Self::Budget { .. } | Self::LoopTolerance { .. } => "tolerance-budget",
             Self::TooMany { .. } => "too-many-passes",
+            Self::Jump { .. } => "contact-jumps",
             Self::Cancelled => "cancelled",
         }
     }

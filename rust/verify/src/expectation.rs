@@ -18,6 +18,8 @@ pub struct ExpectedOperation {
     pub cut: f64,
     /// Feed straight down, mm/min.
     pub plunge: f64,
+    /// Whether its feeds are instead those with which it keeps pace with another program: they are checked with that one.
+    pub keeps_pace: bool,
     /// Speed and sense of the spindle; it stands when there are none.
     pub spindle: Option<(f64, SpindleDirection)>,
     /// Whether coolant flows.

@@ -114,6 +114,59 @@ pub(crate) static BACKING: FaultKind = FaultKind::on_part(
     "use a plate with a wider opening, or move the part in it",
 );
 
+// two tools
+
+pub(crate) static TOOL_COLLISION: FaultKind = FaultKind::on_part(
+    FindingKind::ToolCollision,
+    |fault| {
+        format!("this tool and the one on the other side of the sheet meet: {:.3} mm into each other", -fault.value())
+    },
+    "use longer tools or thinner shanks, or plan both programs again",
+);
+pub(crate) static SQUEEZE: FaultKind = FaultKind::on_part(
+    FindingKind::Squeeze,
+    |fault| {
+        format!(
+            "the two tools leave {:.4} mm less for the sheet than asked (limit {:.4} mm)",
+            -fault.value(),
+            -fault.limit()
+        )
+    },
+    "check process.squeeze, both zero points and both tools, or plan both programs again",
+);
+pub(crate) static UNSUPPORTED: FaultKind = FaultKind::on_part(
+    FindingKind::Unsupported,
+    |fault| {
+        format!(
+            "the two tools leave {:.4} mm more than the sheet between them (limit {:.4} mm)",
+            fault.value(),
+            fault.limit()
+        )
+    },
+    "check process.squeeze, both zero points and both tools, or plan both programs again",
+);
+pub(crate) static OUT_OF_STEP: FaultKind = FaultKind::in_text(
+    FindingKind::OutOfStep,
+    |fault| {
+        format!(
+            "by this move the two programs are {:.3} mm of path apart (limit {:.3} mm)",
+            fault.value(),
+            fault.limit()
+        )
+    },
+    "correct F, or plan both programs again",
+);
+pub(crate) static OTHER_KIND: FaultKind = FaultKind::in_text(
+    FindingKind::OutOfStep,
+    |_| "one program has a rapid here and the other a feed: how long they take is not the same".to_owned(),
+    "plan both programs again",
+);
+pub(crate) static OTHER_WAIT: FaultKind = FaultKind::in_text(
+    FindingKind::OutOfStep,
+    |_| "one program waits here and the other does not".to_owned(),
+    "plan both programs again",
+);
+
 // rapids
 
 pub(crate) static RAPID_INTO_MATERIAL: FaultKind = FaultKind::on_part(

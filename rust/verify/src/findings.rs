@@ -23,6 +23,16 @@ pub enum FindingKind {
     ClampCollision,
     /// The sheet is pressed against the backing plate.
     BackingCollision,
+    /// The tools on both sides of the sheet meet.
+    ToolCollision,
+    /// Two programs that run together have different numbers of moves.
+    BlockCount,
+    /// Two programs that run together do not stay together: a move of the one takes longer than that of the other.
+    OutOfStep,
+    /// The tools on both sides squeeze the sheet by more than asked.
+    Squeeze,
+    /// The tool on the other side of the sheet is not opposite to the main tool's contact.
+    Unsupported,
     /// A rapid enters the part.
     RapidIntoMaterial,
     /// A rapid straight down enters the part, or ends with too little air under it.
@@ -149,6 +159,11 @@ const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
         (Kind::HolderCollision, "holder collision"),
         (Kind::ClampCollision, "clamp frame collision"),
         (Kind::BackingCollision, "backing plate collision"),
+        (Kind::ToolCollision, "collision of both tools"),
+        (Kind::BlockCount, "different numbers of moves"),
+        (Kind::OutOfStep, "programs out of step"),
+        (Kind::Squeeze, "sheet squeezed too much"),
+        (Kind::Unsupported, "no support opposite"),
         (Kind::RapidIntoMaterial, "rapid into the part"),
         (Kind::RapidPlunge, "rapid plunge"),
         (Kind::DogLegRapid, "diagonal rapid below the clearance height"),

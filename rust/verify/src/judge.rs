@@ -10,7 +10,7 @@ use crate::merge::{merge, Merged};
 use crate::report::Report;
 use crate::segments::placed;
 use crate::subject::{Limits, Subject};
-use crate::{diagnosis, frame, passes, reach, sequence, settings, travel, unreached, walls};
+use crate::{diagnosis, frame, pair, passes, reach, sequence, settings, travel, unreached, walls};
 
 /// Checks a program read back from posted text against the part.
 ///
@@ -33,6 +33,8 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         faults.extend(frame::faults(frame, program, &segments, &assignment, subject, limits));
     }
     faults.extend(passes::faults(&segments, &assignment, subject, limits, watch)?);
+    let pair = pair::judged(program, &segments, subject, limits, watch)?;
+    faults.extend(pair.faults);
     let beyond_reach = unreached::findings(&segments, subject, limits, watch)?;
     let steep = walls::finding(subject, limits);
     if steep.is_some() {
@@ -47,7 +49,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         reach::findings(program, subject, &limits.reach).into_iter().chain(assignment.findings(program, subject));
     let wholes = wholes.chain(travel::optional_lines(subject)).chain(travel::modes_not_stated(program, subject));
     let found = limits.found.iter().map(|(kind, severity, words)| Finding::of_all(*kind, *severity, words.clone()));
-    let wholes = wholes.chain(found).chain(steep).chain(beyond_reach);
+    let wholes = wholes.chain(found).chain(pair.finding).chain(steep).chain(beyond_reach);
     let wholes: Vec<Finding> = wholes.chain(travel::no_feed_moves(program)).chain(offset).chain(nothing).collect();
     for whole in &wholes {
         *counts.entry(whole.kind).or_default() += 1;

@@ -32,12 +32,15 @@ pub(crate) fn level_moves<'a>(
             (_, None, Some(start)) if along => away_from = Some(start[2]),
             _ => {}
         }
-        let is_level = segment.kind == SegmentKind::Lateral && (passes.continuous || !segment.falls());
+        let is_level = segment.kind == SegmentKind::Lateral
+            && program.moves[segment.index].is_along_pass()
+            && (passes.continuous || !segment.falls());
         is_level && away_from.is_none() && assignment.is(segment.operation, order)
     })
 }
 
-/// Whether a move has the feed of the path.
+/// Whether a move along a pass has the feed of the path.
 pub(crate) fn at_cut(program: &Program, segment: &Segment, cut: f64, limits: &Limits) -> bool {
-    (program.moves[segment.index].feed - cut).abs() <= limits.feed_slack(cut, segment.length())
+    let step = &program.moves[segment.index];
+    step.is_along_pass() && (step.feed - cut).abs() <= limits.feed_slack(cut, segment.length())
 }

@@ -20,6 +20,8 @@
 //! - The tool is its profile, and above its base a straight cylinder upwards without end: so a tool
 //!   wholly inside the material still meets the surface above it. A wider shank and the holder are
 //!   bodies of their own, as wide as they are upwards without end.
+//! - *Two tools* on both sides of a sheet: over a move of both their distance is a convex function of time. That they are not
+//!   too near is proved, that they are not too far is measured at the ends, where such a function is largest.
 //! - An arc is proved in chords that are halved until what they are off it does not matter.
 //!
 //! The triangles stand for the part; their checked deviation from it is counted against the program
@@ -47,6 +49,7 @@ mod judge;
 mod level_moves;
 mod measure;
 mod merge;
+mod pair;
 mod passes;
 mod pitch;
 mod probes;
@@ -83,7 +86,8 @@ pub use scalar::{Across, Height, PassKind, Scalar};
 pub use scallop::{scallops, Scallop};
 pub use simulation::{simulate, Grid, Simulation, Skin};
 pub use subject::{
-    Forming, Found, FrameLevel, Limits, Obstacle, ObstacleKind, Reach, Subject, Support, TextFacts, ToolCalls,
+    Forming, Found, FrameLevel, Left, Limits, Obstacle, ObstacleKind, Pairing, Partner, Reach, Subject, Support, TextFacts,
+    ToolCalls,
     WallAngleSource,
 };
 pub use unreached::ToolReach;

@@ -57,7 +57,7 @@ fn feed_fault(
         SegmentKind::Plunge | SegmentKind::Lateral | SegmentKind::Rapid => no_faster,
     };
     let same = (feed - expected).abs() <= slack + SAME_FEED * expected;
-    (feed > 0.0 && !same).then(|| segment.fault(&faults::FEED).measured(feed, expected))
+    (feed > 0.0 && !same && !operation.keeps_pace).then(|| segment.fault(&faults::FEED).measured(feed, expected))
 }
 
 fn spindle_fault(

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use styluscam_geometry::{Bvh, Mesh, Sheet, Tool};
-use styluscam_motion::{FeedRounding, MachineMove};
+use styluscam_motion::{FeedRounding, MachineMove, Program};
 
 use crate::expectation::ExpectedOperation;
 use crate::findings::{FindingKind, Severity};
@@ -36,6 +36,46 @@ pub struct Subject<'a> {
     pub expected: &'a [ExpectedOperation],
     /// What stands around the part.
     pub obstacles: &'a [Obstacle],
+    /// The program that runs beside it, on the other side of a sheet.
+    pub pairing: Pairing<'a>,
+}
+
+/// Whether a program runs alone.
+#[derive(Clone, Copy, Debug)]
+pub enum Pairing<'a> {
+    /// It does.
+    Alone,
+    /// It does not, and the other one is not given: nothing about the two together is checked.
+    Missing {
+        /// The channel of the other one.
+        channel: &'a str,
+    },
+    /// It does not.
+    With(&'a Partner<'a>),
+}
+
+/// The other program of a pair: its machine's coordinates are this one's, turned half about X.
+#[derive(Clone, Copy, Debug)]
+pub struct Partner<'a> {
+    /// Its moves.
+    pub program: &'a Program,
+    /// What it is checked against.
+    pub subject: &'a Subject<'a>,
+    /// What is allowed of it.
+    pub limits: &'a Limits,
+    /// Whether it follows this one; else this one follows it.
+    pub follows: bool,
+    /// The sheet that is to be between the two tools.
+    pub left: Left,
+}
+
+/// A sheet between two tools.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Left {
+    /// Along the normal of their contacts, mm.
+    pub normal: f64,
+    /// Along the vertical, mm.
+    pub vertical: f64,
 }
 
 /// Something that the tool, or tool and sheet, must not come near.

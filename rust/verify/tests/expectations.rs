@@ -47,7 +47,16 @@ fn expected(part: &Part, contact: Contact, heights: [f64; 2], passes: Passes) ->
     let selected = vec![true; part.mesh.triangles().len()];
     let expectation = Expectation { contact, selected, heights, passes, forms: false };
     let id = "walls".to_owned();
-    [ExpectedOperation { id, tool: 0, cut: 600.0, plunge: 600.0, spindle: None, flood: false, expectation }]
+    [ExpectedOperation {
+        id,
+        tool: 0,
+        cut: 600.0,
+        plunge: 600.0,
+        keeps_pace: false,
+        spindle: None,
+        flood: false,
+        expectation,
+    }]
 }
 
 fn judged(part: &Part, tool: &Tool, expected: &[ExpectedOperation], program: &Program) -> Report {

@@ -215,6 +215,33 @@ impl Mesh {
         used.fold((infinite, -infinite), |(low, high), p| (low.inf(&p), high.sup(&p)))
     }
 
+    /// The other side of some of its triangles: what faces up there faces down here.
+    ///
+    /// # Errors
+    /// [`GeometryError::EmptyMesh`] where none is kept.
+    pub fn other_side(&self, keep: impl Fn(usize) -> bool) -> Result<Self, GeometryError> {
+        let kept: Vec<usize> = (0..self.triangles.len()).filter(|triangle| keep(*triangle)).collect();
+        let triangles = kept.iter().map(|t| {
+            let [a, b, c] = self.triangles[*t];
+            [a, c, b]
+        });
+        let normals = kept.iter().filter_map(|t| {
+            let [a, b, c] = *self.normals.get(*t)?;
+            Some([-a, -c, -b])
+        });
+        let (triangles, normals): (Vec<_>, Vec<_>) = (triangles.collect(), normals.collect());
+        if triangles.is_empty() {
+            return Err(GeometryError::EmptyMesh);
+        }
+        Ok(Self {
+            vertices: self.vertices.clone(),
+            faces: kept.iter().map(|t| self.faces[*t]).collect(),
+            triangles,
+            normals,
+            dropped: self.dropped,
+        })
+    }
+
     /// The same mesh in another frame.
     #[must_use]
     pub fn placed(&self, frame: &Frame) -> Self {

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::tagged::{self, kinds, Family};
 use crate::MAIN_CHANNEL;
 
-mod budget;
+pub(crate) mod budget;
 mod context;
 mod effort;
 mod facts;

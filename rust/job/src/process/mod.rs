@@ -38,10 +38,24 @@ pub trait ProcessKind {
         &[MAIN_CHANNEL]
     }
 
+    /// The tool of a channel that comes from the other side of the sheet and follows the operations of the main channel.
+    fn opposite(&self, _channel: &str) -> Option<Opposite<'_>> {
+        None
+    }
+
     /// Name of the shipped material of the sheet, if stated.
     fn material(&self) -> Option<&str> {
         None
     }
+}
+
+/// A tool on the other side of the sheet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Opposite<'a> {
+    /// Its name among the job's tools.
+    pub tool: &'a str,
+    /// What is left between it and the main tool, as a share of the sheet's thickness there.
+    pub squeeze: f64,
 }
 
 /// What a starter job states of a process.
@@ -57,6 +71,7 @@ kinds! {
     /// Processes.
     Process: ProcessKind, About {
         spif::Spif = "spif",
+        dsif::Dsif = "dsif",
         milling::Milling = "milling",
         tpif::Tpif = "tpif",
     }

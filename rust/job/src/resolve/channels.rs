@@ -1,5 +1,6 @@
 //! The channels of a job: programs that run side by side, each with its machine and its operations.
 
+use crate::process::Opposite;
 use crate::{JobDocument, JobError, MachineSection, OperationSection, MAIN_CHANNEL};
 
 impl JobDocument {
@@ -19,9 +20,39 @@ impl JobDocument {
         }
     }
 
-    /// The operations of a channel, in order, each with its number in the job.
+    /// The operations of a channel, in order, each with its number in the job. A tool on the other side of the sheet does
+    /// those of the main channel.
     pub fn operations_of<'a>(&'a self, channel: &'a str) -> impl Iterator<Item = (usize, &'a OperationSection)> {
+        let channel = if self.opposite(channel).is_some() { MAIN_CHANNEL } else { channel };
         self.operations.iter().enumerate().filter(move |(_, section)| section.channel() == channel)
+    }
+
+    /// The tool of a channel that follows the main one from the other side of the sheet.
+    #[must_use]
+    pub fn opposite(&self, channel: &str) -> Option<Opposite<'_>> {
+        self.process.process.as_kind().opposite(channel)
+    }
+
+    /// The channel that works together with another, move by move, where there is one.
+    #[must_use]
+    pub fn partner_of(&self, channel: &str) -> Option<&'static str> {
+        let follower = self.channels().iter().copied().find(|other| self.opposite(other).is_some())?;
+        match channel {
+            MAIN_CHANNEL => Some(follower),
+            _ if channel == follower => Some(MAIN_CHANNEL),
+            _ => None,
+        }
+    }
+
+    /// The name of the tool with which a channel does an operation.
+    #[must_use]
+    pub fn tool_of<'a>(&'a self, channel: &str, section: &'a OperationSection) -> &'a str {
+        self.opposite(channel).map_or(section.common.tool.as_str(), |opposite| opposite.tool)
+    }
+
+    /// The names of all tools that a channel uses, one for each of its operations.
+    pub fn tools_of<'a>(&'a self, channel: &'a str) -> impl Iterator<Item = &'a str> {
+        self.operations_of(channel).map(move |(_, section)| self.tool_of(channel, section))
     }
 }
 
@@ -33,8 +64,13 @@ pub fn check(job: &JobDocument) -> Result<(), JobError> {
     let stated = job.operations.iter().enumerate();
     let in_operations = stated.map(|(index, section)| (format!("operations[{index}].channel"), section.channel()));
     let in_machines = job.machines.keys().map(|name| (format!("machines.{name}"), name.as_str()));
-    for (path, channel) in in_operations.chain(in_machines) {
+    for (path, channel) in in_operations.clone().chain(in_machines) {
         known(job, path, channel)?;
+    }
+    if let Some((path, channel)) = in_operations.into_iter().find(|(_, channel)| job.opposite(channel).is_some()) {
+        let message =
+            format!("channel {channel:?} has no operations of its own: its tool follows those of {MAIN_CHANNEL:?}");
+        return Err(JobError::document("conflict", path, message, "remove the operation, or its channel"));
     }
     if job.machines.contains_key(MAIN_CHANNEL) {
         let message = format!("machines.{MAIN_CHANNEL}: the machine of channel {MAIN_CHANNEL:?} is [machine]");

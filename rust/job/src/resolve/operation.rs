@@ -39,5 +39,8 @@ pub fn heights_of(job: &JobDocument, scene: &Scene, section: &OperationSection) 
     // a sheet hangs free: it is formed as low as it goes
     let foot = if job.process.process.as_kind().rests_on_table() { scene.foot() } else { f64::NEG_INFINITY };
     let common = &section.common;
+    if scene.opposite.is_some() {
+        return TipHeights { bottom: f64::NEG_INFINITY, top: None }; // they are the main tool's
+    }
     TipHeights { bottom: common.z_bottom.unwrap_or(foot), top: common.z_top }
 }

@@ -1,10 +1,11 @@
 //! From a job and its part to the scene of a channel: the part turned, moved to the program's zero, and indexed.
 
-use styluscam_geometry::{Bvh, Frame, Sheet, Vector};
+use styluscam_geometry::{Bvh, Frame, Mesh, ModelFace, Sheet, Vector};
 use styluscam_motion::SetupRecord;
 use styluscam_toolpath::offset::Index;
 
-use crate::{faces, JobDocument, JobError, Part, Scene, Zero};
+use crate::fixture::ClampSection;
+use crate::{faces, plates, FixtureSection, JobDocument, JobError, Part, Scene, Zero};
 
 impl Scene {
     /// Turns the part and moves it to the program's zero, for one of the job's channels.
@@ -12,21 +13,15 @@ impl Scene {
     /// # Errors
     /// A sheet that is out of range.
     pub fn new(job: &JobDocument, channel: &'static str, part: &Part) -> Result<Self, JobError> {
-        let sheet = sheet(job)?;
-        let raise = sheet.map_or(0.0, |s| s.raise());
-        let turned = Frame::turning_up(job.setup.up.vector(), job.setup.rotation.to_radians());
-        let (low, high) = part.mesh.bounds_in(&turned);
-        let chosen = job.setup.zero.unwrap_or(if sheet.is_some() { Zero::SheetTop } else { Zero::Model });
-        let zero = match chosen {
-            Zero::SheetTop => Vector::new(0.0, 0.0, high.z + raise),
-            Zero::Model => Vector::zeros(),
-            Zero::Point(point) => point.into(),
+        let placed = Placed::new(job, part)?;
+        let thickness = placed.sheet.map_or(0.0, |sheet| sheet.thickness);
+        let opposite = job.opposite(channel).map(|opposite| opposite.squeeze * thickness);
+        let Placed { mesh, frame, sheet, fixture, flat, top, zero } = match opposite {
+            Some(left) => placed.turned_over(thickness, left)?,
+            None => placed,
         };
-        let frame = turned.shifted(-zero);
-        let mesh = part.mesh.placed(&frame);
         let (index, (bvh, views)) =
             rayon::join(|| Index::new(&mesh), || rayon::join(|| Bvh::new(&mesh), || faces::views(&mesh)));
-        let top = high.z - zero.z + raise;
         Ok(Self {
             channel,
             index,
@@ -35,13 +30,15 @@ impl Scene {
             mesh,
             frame,
             sheet,
-            fixture: job.setup.fixture,
-            inward: part.inward,
-            outward: part.outward,
+            fixture,
+            opposite,
+            inward: if opposite.is_none() { part.inward } else { part.outward },
+            outward: if opposite.is_none() { part.outward } else { part.inward },
             top,
+            flat,
             clearance: top + job.setup.clearance,
             retract: top + job.setup.retract,
-            zero: described(chosen, low - zero, high - zero, raise),
+            zero,
         })
     }
 
@@ -60,6 +57,79 @@ impl Scene {
             clearance: self.clearance,
             notes: Vec::new(),
         }
+    }
+}
+
+/// A part in work coordinates, with what belongs to it.
+struct Placed {
+    mesh: Mesh,
+    frame: Frame,
+    sheet: Option<Sheet>,
+    fixture: Option<FixtureSection>,
+    /// Height of the face of the flat sheet that the tool comes to, mm; of the part's top without a sheet.
+    flat: f64,
+    /// The highest point of part and sheet, mm.
+    top: f64,
+    zero: String,
+}
+
+impl Placed {
+    fn new(job: &JobDocument, part: &Part) -> Result<Self, JobError> {
+        let sheet = sheet(job)?;
+        let raise = sheet.map_or(0.0, |s| s.raise());
+        let turned = Frame::turning_up(job.setup.up.vector(), job.setup.rotation.to_radians());
+        let (low, high) = part.mesh.bounds_in(&turned);
+        let chosen = job.setup.zero.unwrap_or(if sheet.is_some() { Zero::SheetTop } else { Zero::Model });
+        let zero = match chosen {
+            Zero::SheetTop => Vector::new(0.0, 0.0, high.z + raise),
+            Zero::Model => Vector::zeros(),
+            Zero::Point(point) => point.into(),
+        };
+        let frame = turned.shifted(-zero);
+        let top = high.z - zero.z + raise;
+        Ok(Self {
+            mesh: part.mesh.placed(&frame),
+            frame,
+            sheet,
+            fixture: job.setup.fixture,
+            flat: top,
+            top,
+            zero: described(chosen, low - zero, high - zero, raise),
+        })
+    }
+
+    /// The same for the machine of a tool that comes from below: turned half about X, so that this tool comes from +Z too. Of
+    /// the part there is the other side of what looked up. Of the sheet, `left` mm are between the tools; what of it is not on
+    /// the main tool's side of the model is on this one's.
+    fn turned_over(self, thickness: f64, left: f64) -> Result<Self, JobError> {
+        let half = Frame::turning_up(-Vector::z(), 0.0);
+        let rims = faces::rims(&self.mesh);
+        let looks_up = |triangle: usize| !self.mesh.looks_down(triangle) && !rims[triangle];
+        let mesh = self.mesh.other_side(looks_up).map_err(JobError::geometry("part.faces"))?.placed(&half);
+        let sheet = self.sheet.map(|sheet| Sheet {
+            thickness: left - sheet.share() * thickness,
+            model_face: ModelFace::Back,
+            ..sheet
+        });
+        let fixture = self.fixture.map(|fixture| FixtureSection {
+            center: fixture.center.map(|[x, y]| [x, -y]),
+            clamp: fixture.backing.map(|backing| ClampSection {
+                opening: backing.opening,
+                height: plates::DEEP,
+                follows: false,
+            }),
+            backing: None,
+            ..fixture
+        });
+        Ok(Self {
+            top: mesh.bounds().1.z + sheet.map_or(0.0, |sheet| sheet.raise()),
+            mesh,
+            frame: self.frame.then(&half),
+            sheet,
+            fixture,
+            flat: thickness - self.flat,
+            zero: format!("{}, all turned half about X: Y and Z the other way, the tool comes from below", self.zero),
+        })
     }
 }
 

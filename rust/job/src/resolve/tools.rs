@@ -66,5 +66,5 @@ fn tool(name: &str, section: &ToolSection, job: &JobDocument) -> Result<(Tool, T
 /// The tools of a channel in the order of their first use: the order in which planning lists them.
 pub fn tools_in_order(job: &JobDocument, channel: &str) -> Result<(Vec<Tool>, Vec<ToolRecord>), JobError> {
     let mut known = tools(job)?;
-    Ok(job.operations_of(channel).filter_map(|(_, operation)| known.remove(&operation.common.tool)).unzip())
+    Ok(job.tools_of(channel).filter_map(|name| known.remove(name)).unzip())
 }

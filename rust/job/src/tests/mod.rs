@@ -3,6 +3,7 @@
 #![allow(clippy::float_cmp)] // what a job states is resolved exactly
 
 mod check;
+mod dsif;
 mod plan;
 mod resolve;
 pub mod setup;

@@ -4,14 +4,15 @@ use styluscam_motion::Watch;
 use styluscam_verify::FindingKind;
 
 use super::setup::{job, levels, machine, planned, scene, with};
-use crate::{Judgement, MAIN_CHANNEL};
+use crate::{Judgement, Text, MAIN_CHANNEL};
 
 /// The text of the levels, and what the verifier finds once `edit` has changed it.
 fn checked(edit: impl Fn(&str) -> String) -> Judgement {
     let job = job(&levels());
     let plan = planned(&job).unwrap();
     let posted = styluscam_post::post(&plan.channels[MAIN_CHANNEL].program, &machine()).unwrap();
-    crate::judge(&job, &scene(&job), &machine(), &edit(&posted.text), &Watch::default()).unwrap()
+    let (scene, machine, text) = (scene(&job), machine(), edit(&posted.text));
+    crate::judge(&job, Text { scene: &scene, machine: &machine, text: &text }, None, &Watch::default()).unwrap()
 }
 
 fn kinds(judgement: &Judgement) -> Vec<FindingKind> {

@@ -64,6 +64,7 @@ impl Part {
             text: None,
             expected: &[],
             obstacles: &[],
+            pairing: styluscam_verify::Pairing::Alone,
         }
     }
 }
