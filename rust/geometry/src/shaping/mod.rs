@@ -1,0 +1,8 @@
+//! Changing the shape of a mesh: by a displacement field, with as many triangles as that needs.
+
+mod field;
+mod refine;
+mod warp;
+
+pub use field::DisplacementField;
+pub use warp::{warped, Warped};
