@@ -28,11 +28,11 @@ def recheck(report: Document, job: Job, scene: _engine.Scene) -> None:
     rows = np.array(scene.frame)
     points = (np.array([c["point"] for c in contacts]) - rows[:, 3]) @ rows[:, :3]
     points = formed.wanted_points(points)
-    known = np.isfinite(points).all(axis=1)
-    report["brep_checked"] = int(known.sum())
-    if not known.any():
+    known = np.flatnonzero(np.isfinite(points).all(axis=1))
+    report["brep_checked"] = len(known)
+    if not len(known):
         return
-    contacts = [contact for contact, is_known in zip(contacts, known, strict=True) if is_known]
+    contacts = [contacts[index] for index in known]
     distances = arrays.surface_distance(points[known], np.array([c["face"] for c in contacts]))
     worst = int(np.argmax(np.abs(distances)))
     limit = max(arrays.tolerance, arrays.deviation_inward, arrays.deviation_outward, *formed.deviation)

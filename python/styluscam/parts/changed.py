@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from styluscam import _engine
-from styluscam.parts.arrays import FaceInfo, PartArrays, area_vectors, describe_face
+from styluscam.parts.arrays import FaceInfo, Ints, PartArrays, area_vectors, describe_face
 from styluscam.parts.surfaces import Floats, unit
 
 
@@ -30,6 +30,6 @@ def changed(before: PartArrays, engine: _engine.Part) -> PartArrays:
     )
 
 
-def _face(face: FaceInfo, corners: Floats, normals: Floats, face_ids: Floats) -> FaceInfo:
+def _face(face: FaceInfo, corners: Floats, normals: Floats, face_ids: Ints) -> FaceInfo:
     own = face_ids == face.id
     return describe_face(face.id, face.kind, corners[own], normals[own]) if own.any() else face

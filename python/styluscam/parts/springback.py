@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from styluscam.errors import GeometryError
+from styluscam.parts.arrays import Ints
 from styluscam.parts.formats import MESH_ENDINGS, UNITS
 from styluscam.parts.mesh import triangles_as_written
 from styluscam.parts.reading import check_readable
@@ -56,7 +57,9 @@ def _table(file: Path, units: str | None) -> tuple[Floats, Floats]:
 
 
 def _meshes(folder: Path, pair: Document, units: str | None) -> tuple[Floats, Floats]:
-    (wanted, of_wanted), (measured, of_measured) = (_triangles(folder / pair[key], units) for key in ("wanted", "measured"))
+    (wanted, of_wanted), (measured, of_measured) = (
+        _triangles(folder / pair[key], units) for key in ("wanted", "measured")
+    )
     if not np.array_equal(of_wanted, of_measured) or len(wanted) != len(measured):
         sizes = f"{len(of_wanted)} triangles on {len(wanted)} points, and {len(of_measured)} on {len(measured)}"
         what = f"its triangles are not those of {pair['wanted']} ({sizes})"
@@ -65,13 +68,12 @@ def _meshes(folder: Path, pair: Document, units: str | None) -> tuple[Floats, Fl
     return wanted, measured - wanted
 
 
-def _triangles(file: Path, units: str | None) -> tuple[Floats, Floats]:
+def _triangles(file: Path, units: str | None) -> tuple[Floats, Ints]:
     check_readable(file)
     if file.suffix.lower() not in MESH_ENDINGS:
         known = " ".join(MESH_ENDINGS)
         raise _error(file, "not a mesh", f"use one of {known}", "springback-not-a-mesh")
-    points, corners = triangles_as_written(file, None if file.suffix.lower() == ".3mf" else units)
-    return points, corners
+    return triangles_as_written(file, None if file.suffix.lower() == ".3mf" else units)
 
 
 def _error(file: Path, what: str, cure: str, code: str) -> GeometryError:

@@ -14,9 +14,9 @@ from styluscam import _engine
 from styluscam.arguments import A_FILE, FileName, channel_of, document_of, file_of, json_of, refused
 from styluscam.errors import JobError, ToolError
 from styluscam.files import reason, require_end
+from styluscam.parts import springback
 from styluscam.parts.arrays import PartArrays
 from styluscam.parts.formats import BREP_ENDINGS, MESH_ENDINGS
-from styluscam.parts import springback
 from styluscam.parts.part import Part, PartLike
 from styluscam.programs.machine import Machine
 from styluscam.tools import pointsfile
@@ -221,7 +221,9 @@ class Job:
         """The part as it is wanted: that in the file, read once."""
         if self._target is None:
             section = self.document["part"]
-            self._target = Part.read(self.folder / section["file"], section["tolerance"], section.get("units"), progress)
+            self._target = Part.read(
+                self.folder / section["file"], section["tolerance"], section.get("units"), progress
+            )
         return self._target
 
     def part(self, progress: Progress | None = None) -> Part:

@@ -22,7 +22,8 @@ type MeshArrays<'py> = (
 type Samples<'py> = (PyReadonlyArray2<'py, f64>, PyReadonlyArray2<'py, f64>);
 
 fn field(index: usize, (points, displacements): &Samples<'_>) -> PyResult<DisplacementField> {
-    let (points, displacements) = (arrays::vectors(points, "points")?, arrays::vectors(displacements, "displacements")?);
+    let (points, displacements) =
+        (arrays::vectors(points, "points")?, arrays::vectors(displacements, "displacements")?);
     let field = DisplacementField::new(&points, &displacements);
     let path = format!("part.springback.deviations[{index}]");
     field.map_err(|e| errors::raise("GeometryError", &format!("{path}: {e}"), e.code(), &path, ""))
@@ -102,9 +103,8 @@ impl Part {
         points: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let points = arrays::vectors(&points, "points")?;
-        let wanted = |point: &Vector| self.part.wanted_point(*point).unwrap_or(Vector::repeat(f64::NAN)).into();
-        let wanted: Vec<[f64; 3]> = py.detach(|| points.iter().map(wanted).collect());
-        arrays::matrix(py, wanted.into_iter())
+        let wanted = py.detach(|| self.part.wanted_points(&points));
+        arrays::matrix(py, wanted.into_iter().map(|point| point.map_or([f64::NAN; 3], <[f64; 3]>::from)))
     }
 
     /// To what `wanted_points` is good, mm.

@@ -167,7 +167,8 @@ mod tests {
 
     #[test]
     fn a_turned_and_stretched_part_is_met_between_its_points() {
-        let law = |p: Vector| Vector::new(0.1, -0.2, 0.3) + Vector::new(0.01 * p.y - 0.02 * p.x, -0.01 * p.x, 0.02 * p.y);
+        let law =
+            |p: Vector| Vector::new(0.1, -0.2, 0.3) + Vector::new(0.01 * p.y - 0.02 * p.x, -0.01 * p.x, 0.02 * p.y);
         let points = bowl();
         let field = DisplacementField::new(&points, &points.iter().map(|p| law(*p)).collect::<Vec<_>>()).unwrap();
         for (x, y, most) in [(0.3, 0.7, 1e-4), (7.1, -3.3, 3e-4), (-19.0, 18.6, 1.2e-3), (20.0, 20.0, 1.2e-3)] {

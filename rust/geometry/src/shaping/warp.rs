@@ -73,7 +73,8 @@ fn turned(gradient: &Matrix3<f64>, normal: Vector) -> Vector {
 /// Whether a triangle was turned by more than a right angle, or lost its area.
 fn is_folded(piece: &Piece, pieces: &Pieces<'_>) -> bool {
     let area = |[a, b, c]: [Vector; 3]| (b - a).cross(&(c - a));
-    let [before, after] = [&pieces.vertices, &pieces.moved].map(|points| area(piece.corners.map(|i| points[i as usize])));
+    let [before, after] =
+        [&pieces.vertices, &pieces.moved].map(|points| area(piece.corners.map(|i| points[i as usize])));
     after.dot(&before) <= 0.0
 }
 

@@ -4,6 +4,7 @@
 
 mod springback;
 
+use rayon::prelude::*;
 use styluscam_geometry::{DisplacementField, Mesh, Vector};
 
 use crate::operations::Fact;
@@ -36,10 +37,12 @@ impl Part {
         self.shaped.as_ref().map_or(&[], |shaped| &shaped.facts)
     }
 
-    /// Where a point of the changed part lies on the one that is wanted, mm; none where that is not unique.
+    /// Where points of the changed part lie on the one that is wanted, mm; none where that is not unique.
     #[must_use]
-    pub fn wanted_point(&self, point: Vector) -> Option<Vector> {
-        self.shaped.as_ref().map_or(Some(point), |shaped| shaped.compensation.undone(point))
+    pub fn wanted_points(&self, points: &[Vector]) -> Vec<Option<Vector>> {
+        let wanted =
+            |point: &Vector| self.shaped.as_ref().map_or(Some(*point), |shaped| shaped.compensation.undone(*point));
+        points.par_iter().map(wanted).collect()
     }
 }
 
