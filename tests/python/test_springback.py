@@ -43,13 +43,13 @@ def write(path: Path, points: Floats, deviations: Floats) -> str:
 
 
 def formed_at(job: sc.Job, points: Floats) -> Floats:
-    """Where points of the wanted part, corners of its triangles, are formed; those in the sheet's plane stay."""
+    """Where points of the target, corners of its triangles, are formed; those in the sheet's plane stay."""
     engine = job.part().engine
     formed = engine.arrays()[0]
-    wanted = engine.wanted_points(formed)
-    known = np.isfinite(wanted).all(axis=1)
-    places = {tuple(np.round(p[:2], 6) + 0.0): q for p, q in zip(wanted[known], formed[known], strict=True)}
-    return np.array([places.get(tuple(np.round(p[:2], 6) + 0.0), p) for p in points])
+    target = engine.target_points(formed)
+    known = np.isfinite(target).all(axis=1)
+    formed_from = {tuple(np.round(p[:2], 6) + 0.0): q for p, q in zip(target[known], formed[known], strict=True)}
+    return np.array([formed_from.get(tuple(np.round(p[:2], 6) + 0.0), p) for p in points])
 
 
 def sprung(formed: Floats) -> Floats:
@@ -137,7 +137,7 @@ def test_two_meshes_state_the_same_as_a_table_and_half_a_factor_half_of_it(tmp_p
     target, moved = sc.Part.from_mesh(points, triangles), sprung(points)
     table = write(tmp_path / "t.csv", points, moved - points)
     meshes = {
-        "wanted": stl(tmp_path / "a.stl", points, triangles),
+        "target": stl(tmp_path / "a.stl", points, triangles),
         "measured": stl(tmp_path / "b.stl", moved, triangles),
     }
     one, other, half = (
@@ -220,7 +220,7 @@ def test_documents_that_contradict_themselves_are_refused(tmp_path: Path) -> Non
         sc.Job.from_dict(milling)
     points, triangles = dish()
     meshes = {
-        "wanted": stl(tmp_path / "a.stl", points, triangles),
+        "target": stl(tmp_path / "a.stl", points, triangles),
         "measured": stl(tmp_path / "b.stl", points, triangles[1:]),
     }
     job = sc.Job.from_dict(document([meshes]), tmp_path, sc.Part.from_mesh(points, triangles))

@@ -156,7 +156,7 @@ class Part:
         Raises:
             JobError: they do not fit the part, or the shape cannot be formed.
         """
-        engine = self.engine.shaped(job, deviations)
+        engine = _engine.shaped(job, self.engine, deviations)
         return Part._built(engine, None if self.arrays is None else changed(self.arrays, engine))
 
     @property

@@ -1,4 +1,4 @@
-"""What formed parts deviate by, from files: tables of points, or the part as wanted and as measured."""
+"""What formed parts deviate by, from files: tables of points, or the target and the part as measured."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LAYOUT = Layout(
     columns={"x": 0, "y": 1, "z": 2, "dx": 3, "dy": 4, "dz": 5, "ux": 3, "uy": 4, "uz": 5},
     content="x, y, z, dx, dy, dz",
     example="write a point and its deviation, as in 12.5, 3.0, -8.0, 0.02, 0.01, 0.31",
-    cure="six columns: a point of the wanted part, and measured minus wanted there",
+    cure="six columns: a point of the target, and measured minus target there",
     largest=200_000_000,  # a million points take half of it
     too_large="not the deviation of a part; a point each millimetre is enough",
     failure=GeometryError,
@@ -32,7 +32,7 @@ def files(section: Document) -> list[str]:
 
 
 def read_deviations(section: Document, folder: Path) -> list[tuple[Floats, Floats]]:
-    """Points (N, 3) of the wanted part and their deviations (N, 3), mm, for each entry of ``[part.springback]``.
+    """Points (N, 3) of the target and their deviations (N, 3), mm, for each entry of ``[part.springback]``.
 
     Raises:
         GeometryError: a file cannot be read, states no units and the section neither, or two meshes do not correspond.
@@ -46,7 +46,7 @@ def read_deviations(section: Document, folder: Path) -> list[tuple[Floats, Float
 
 def _table(file: Path, units: str | None) -> tuple[Floats, Floats]:
     if file.suffix.lower() in MESH_ENDINGS:
-        cure = f'give both meshes: {{ wanted = "...", measured = "{file.name}" }}'
+        cure = f'give both meshes: {{ target = "...", measured = "{file.name}" }}'
         raise _error(file, "one mesh states no deviation", cure, "springback-one-mesh")
     if units is None:
         cure = f"add units to [part.springback], one of {', '.join(UNITS)}"
@@ -57,15 +57,15 @@ def _table(file: Path, units: str | None) -> tuple[Floats, Floats]:
 
 
 def _meshes(folder: Path, pair: Document, units: str | None) -> tuple[Floats, Floats]:
-    (wanted, of_wanted), (measured, of_measured) = (
-        _triangles(folder / pair[key], units) for key in ("wanted", "measured")
+    (target, of_target), (measured, of_measured) = (
+        _triangles(folder / pair[key], units) for key in ("target", "measured")
     )
-    if not np.array_equal(of_wanted, of_measured) or len(wanted) != len(measured):
-        sizes = f"{len(of_wanted)} triangles on {len(wanted)} points, and {len(of_measured)} on {len(measured)}"
-        what = f"its triangles are not those of {pair['wanted']} ({sizes})"
+    if not np.array_equal(of_target, of_measured) or len(target) != len(measured):
+        sizes = f"{len(of_target)} triangles on {len(target)} points, and {len(of_measured)} on {len(measured)}"
+        what = f"its triangles are not those of {pair['target']} ({sizes})"
         cure = "give the same mesh before and after, or a table of points and deviations"
         raise _error(folder / pair["measured"], what, cure, "springback-meshes-differ")
-    return wanted, measured - wanted
+    return target, measured - target
 
 
 def _triangles(file: Path, units: str | None) -> tuple[Floats, Ints]:

@@ -218,7 +218,7 @@ class Job:
         return section
 
     def target(self, progress: Progress | None = None) -> Part:
-        """The part as it is wanted: that in the file, read once."""
+        """The target: the part in the file, read once."""
         if self._target is None:
             section = self.document["part"]
             self._target = Part.read(

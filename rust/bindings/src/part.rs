@@ -4,11 +4,11 @@ use std::sync::{Mutex, OnceLock};
 
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
-use styluscam_geometry::{DisplacementField, Mesh, Soup, Vector};
+use styluscam_geometry::{Mesh, Soup, Vector};
 use styluscam_motion::{Cancelled, Watch};
 use styluscam_toolpath::offset::Index;
 
-use crate::{arrays, errors, job::Job};
+use crate::{arrays, errors};
 
 /// Vertices, triangles, faces and normals.
 type MeshArrays<'py> = (
@@ -17,17 +17,6 @@ type MeshArrays<'py> = (
     Bound<'py, PyArray1<i64>>,
     Option<Bound<'py, PyArray3<f64>>>,
 );
-
-/// Points and displacements, (N, 3) each.
-type Samples<'py> = (PyReadonlyArray2<'py, f64>, PyReadonlyArray2<'py, f64>);
-
-fn field(index: usize, (points, displacements): &Samples<'_>) -> PyResult<DisplacementField> {
-    let (points, displacements) =
-        (arrays::vectors(points, "points")?, arrays::vectors(displacements, "displacements")?);
-    let field = DisplacementField::new(&points, &displacements);
-    let path = format!("part.springback.deviations[{index}]");
-    field.map_err(|e| errors::raise("GeometryError", &format!("{path}: {e}"), e.code(), &path, ""))
-}
 
 /// A part; see `styluscam.Part`.
 #[pyclass(frozen, module = "styluscam._engine")]
@@ -39,6 +28,11 @@ pub struct Part {
 }
 
 impl Part {
+    /// Without its index.
+    pub(crate) fn of(part: styluscam_job::Part) -> Self {
+        Self { part, index: OnceLock::new(), building: Mutex::new(()) }
+    }
+
     /// The triangles' index, built when it is first asked for.
     ///
     /// # Errors
@@ -79,37 +73,24 @@ impl Part {
                 return Err(errors::raise("GeometryError", &message, "out-of-range", "deviation", ""));
             }
         }
-        Ok(Self {
-            part: styluscam_job::Part { mesh, inward, outward, shaped: None },
-            index: OnceLock::new(),
-            building: Mutex::new(()),
-        })
-    }
-
-    /// The part as a job forms it; `deviations` are the points (N, 3) and displacements (N, 3), mm, of those that it names.
-    fn shaped(&self, py: Python<'_>, job: &Job, deviations: Vec<Samples<'_>>) -> PyResult<Self> {
-        let fields = deviations.iter().enumerate().map(|(index, samples)| field(index, samples));
-        let fields = fields.collect::<PyResult<Vec<_>>>()?;
-        let part = self.part.clone();
-        let part = py.detach(|| styluscam_job::shaped(&job.document, part, fields)).map_err(errors::of_job)?;
-        Ok(Self { part, index: OnceLock::new(), building: Mutex::new(()) })
+        Ok(Self::of(styluscam_job::Part { mesh, inward, outward, shaped: None }))
     }
 
     /// Where points (N, 3) of the shaped part lie on the part before; NaN where that is not unique.
     #[allow(clippy::needless_pass_by_value)] // PyO3 hands arrays by value
-    fn wanted_points<'py>(
+    fn target_points<'py>(
         &self,
         py: Python<'py>,
         points: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let points = arrays::vectors(&points, "points")?;
-        let wanted = py.detach(|| self.part.wanted_points(&points));
-        arrays::matrix(py, wanted.into_iter().map(|point| point.map_or([f64::NAN; 3], <[f64; 3]>::from)))
+        let target = py.detach(|| self.part.target_points(&points));
+        arrays::matrix(py, target.into_iter().map(|point| point.map_or([f64::NAN; 3], <[f64; 3]>::from)))
     }
 
-    /// To what `wanted_points` is good, mm.
+    /// To what `target_points` is good, mm.
     #[getter]
-    fn wanted_accuracy(&self) -> f64 {
+    fn target_accuracy(&self) -> f64 {
         self.part.shaped.as_ref().map_or(0.0, |shaped| shaped.linear)
     }
 

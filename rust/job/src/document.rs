@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use styluscam_geometry::{Base, Holder, ModelFace, ProfileDocument, SheetLaw};
 use styluscam_motion::ToolReference;
 
-use crate::{FixtureSection, OperationSection, ProcessSection, Risk, Selection, SpringbackSection, UpAxis};
+use crate::{FixtureSection, OperationSection, ProcessSection, Risk, Selection, SpringbackSection, Units, UpAxis};
 
 /// A whole job: from a part's faces to a machine's program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -91,25 +91,6 @@ pub struct PartSection {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-advanced" = true, "x-example" = "{ deviations = [\"trial-1.csv\"], units = \"mm\" }"))]
     pub springback: Option<SpringbackSection>,
-}
-
-/// Units of a mesh file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Units {
-    /// Millimetres.
-    Mm,
-    /// Centimetres.
-    Cm,
-    /// Metres.
-    M,
-    /// Inches.
-    #[serde(alias = "inch")]
-    In,
-    /// Feet.
-    Ft,
-    /// Micrometres.
-    Um,
 }
 
 /// How the part lies on the machine.

@@ -7,21 +7,7 @@ use styluscam_toolpath::offset::Index;
 
 use crate::faces::FaceView;
 use crate::operations::Fact;
-use crate::shaping::Shaped;
 use crate::FixtureSection;
-
-/// The part as its reader hands it over.
-#[derive(Clone, Debug)]
-pub struct Part {
-    /// Triangles in the file's frame, mm.
-    pub mesh: Mesh,
-    /// How far the triangles lie inside the material at most, mm; checked by the reader.
-    pub inward: f64,
-    /// How far they lie outside it at most, mm.
-    pub outward: f64,
-    /// What was done to the part in the file, if it is not that one that is formed.
-    pub shaped: Option<Shaped>,
-}
 
 /// The part, the sheet and the zero point of one channel, ready for planning and for verification.
 pub struct Scene {

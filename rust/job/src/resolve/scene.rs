@@ -15,7 +15,7 @@ impl Scene {
         let sheet = sheet(job)?;
         let raise = sheet.map_or(0.0, |s| s.raise());
         let turned = Frame::turning_up(job.setup.up.vector(), job.setup.rotation.to_radians());
-        let (low, high) = part.wanted().bounds_in(&turned);
+        let (low, high) = part.target().bounds_in(&turned);
         let chosen = job.setup.zero.unwrap_or(if sheet.is_some() { Zero::SheetTop } else { Zero::Model });
         let zero = match chosen {
             Zero::SheetTop => Vector::new(0.0, 0.0, high.z + raise),
@@ -26,10 +26,10 @@ impl Scene {
         let mesh = part.mesh.placed(&frame);
         let sorted = || {
             // what a face is for does not change with its shape
-            let wanted = part.shaped.as_ref().map(|shaped| shaped.target.placed(&frame));
-            let wanted = wanted.as_ref().unwrap_or(&mesh);
-            let rims = faces::rims(wanted);
-            (faces::views(wanted, &rims), rims)
+            let target = part.shaped.as_ref().map(|shaped| shaped.target.placed(&frame));
+            let target = target.as_ref().unwrap_or(&mesh);
+            let rims = faces::rims(target);
+            (faces::views(target, &rims), rims)
         };
         let (index, (bvh, (views, rims))) =
             rayon::join(|| Index::new(&mesh), || rayon::join(|| Bvh::new(&mesh), sorted));
