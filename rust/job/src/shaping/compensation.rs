@@ -15,8 +15,11 @@ const ON_PLANE: f64 = 1e-6;
 /// What becomes of a point.
 #[derive(Clone, Debug)]
 pub struct Compensation {
+    /// The trials' deviations.
     pub fields: Arc<[DisplacementField]>,
+    /// Share of them that is compensated.
     pub factor: f64,
+    /// Beyond this distance from measured points, mm, they fade.
     pub max_gap: f64,
     /// Towards the spindle, in the frame of the part's file.
     pub up: Vector,

@@ -20,6 +20,7 @@ const SECTION: &str = "part.springback";
 const LARGEST: f64 = 0.2;
 /// Share of a face that may be turned to face down and is no undercut: as where faces are named.
 const LEAST_UNDERCUT: f64 = 5e-3;
+
 /// Checks what the schema cannot state of the section.
 ///
 /// # Errors
