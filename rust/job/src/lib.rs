@@ -42,8 +42,7 @@ mod up_axis;
 pub use advice::{walls, Bend, Corner, Wall, Walls};
 pub use body::{Body, Border, FaceLook, Heights, Hollows, Shell, Side, Thickness, Unformable, SIDES};
 pub use document::{
-    JobDocument, LengthUnit, MachineSection, OutputSection, PartSection, SetupSection, SheetSection, ToolSection,
-    Zero,
+    JobDocument, LengthUnit, MachineSection, OutputSection, PartSection, SetupSection, SheetSection, ToolSection, Zero,
 };
 pub use error::JobError;
 pub use estimate::{estimates, Estimate};
