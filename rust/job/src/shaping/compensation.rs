@@ -73,3 +73,35 @@ impl Compensation {
         Some(point)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Half of a rise by 0.3 mm is compensated, measured at points of a square of 8 mm in the plane z = -1.
+    fn compensation() -> Compensation {
+        let points: Vec<Vector> = (0..81).map(|i| Vector::new(f64::from(i % 9), f64::from(i / 9), -1.0)).collect();
+        let field = DisplacementField::new(&points, &[Vector::new(0.0, 0.0, -0.3); 81]).unwrap();
+        Compensation { fields: [field].into(), factor: 0.5, max_gap: 2.0, up: Vector::z(), plane: 0.0 }
+    }
+
+    #[test]
+    fn what_was_measured_moves_and_what_lies_far_from_it_stays() {
+        let (near, far) = (Vector::new(3.3, 4.4, -2.0), Vector::new(3.3, 4.4, -5.1));
+        assert!((compensation().formed(near) - near - Vector::new(0.0, 0.0, 0.15)).norm() < 1e-12);
+        assert!((compensation().formed(far) - far).norm() < 1e-12);
+        let between = Vector::new(3.0, 4.0, -4.0);
+        let moved = compensation().formed(between).z - between.z;
+        assert!((moved - 0.075).abs() < 1e-12, "{moved}");
+    }
+
+    #[test]
+    fn nothing_is_formed_above_the_sheets_plane_and_points_below_it_are_taken_back() {
+        let (high, low) = (Vector::new(3.0, 4.0, -0.1), Vector::new(3.0, 4.0, -1.5));
+        let formed = compensation().formed(high);
+        assert!(formed.z.abs() < 1e-12 && (compensation().above(compensation().moved(high)) - 0.05).abs() < 1e-12);
+        assert_eq!(compensation().undone(formed), None);
+        let back = compensation().undone(compensation().formed(low)).unwrap();
+        assert!((back - low).norm() < 1e-9, "{back}");
+    }
+}
