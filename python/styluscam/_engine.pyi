@@ -1,6 +1,6 @@
 """Types of the Rust engine."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import final
 
 import numpy as np
@@ -48,6 +48,7 @@ __all__ = [
     "read_gcode",
     "read_to_post",
     "require_channel",
+    "shaped",
     "sheet_raise",
     "shipped_machines",
     "slope_matched_offset",
@@ -103,6 +104,11 @@ class Part:
     def triangle_count(self) -> int: ...
     @property
     def dropped(self) -> int: ...
+    def target_points(self, points: _F) -> _F: ...
+    @property
+    def target_accuracy(self) -> float: ...
+    @property
+    def changes(self) -> list[str]: ...
 
 @final
 class Program:
@@ -154,6 +160,8 @@ class Job:
     def spacing(self, index: int) -> str | None: ...
     @property
     def forms(self) -> bool: ...
+    @property
+    def shapes(self) -> bool: ...
     def estimates(self, part: Part) -> str: ...
 
 @final
@@ -250,6 +258,7 @@ def mended(points: _F, triangles: _I) -> tuple[_F, _I, _I, str]: ...
 def slope_matched_offset(
     tool: Tool, points: _F, normals: _F, sheet: str | None = None
 ) -> tuple[_F, npt.NDArray[np.uint8]]: ...
+def shaped(job: Job, part: Part, deviations: Sequence[tuple[_F, _F]]) -> Part: ...
 def sheet_raise(sheet: str) -> float: ...
 def drop_cutter(
     part: Part,

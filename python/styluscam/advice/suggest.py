@@ -191,7 +191,7 @@ def _with_one(job: Job, operation: str) -> Job:
         hint = f"the job has {', '.join(names)}"
         raise JobError(f"no operation {operation!r}", code="no-such-operation", where="operations", hint=hint)
     document["operations"] = [{**document["operations"][names.index(operation)], "id": operation}]
-    return Job.from_dict(document, job.folder, job.part())
+    return Job.from_dict(document, job.folder, job.target())
 
 
 class _Passes:
@@ -407,7 +407,7 @@ def _planned(candidate: Candidate, job: Job, asked: list[_Asked], progress: Prog
         section |= candidate.tool.to_dict()
         section["reference"] = "tip"
     try:
-        work = Job.from_dict(document, job.folder, job.part())
+        work = Job.from_dict(document, job.folder, job.target())
         plan = planning.plan(work, progress=progress)
     except (PlanError, ToolError) as error:
         failure = str(error)

@@ -28,6 +28,7 @@ def lines_of(summary: Summary, job: Document) -> list[tuple[str, str]]:
         ("deepest Z", f"{summary.deepest_z:.3f}"),
         *(("tool", _tool(tool)) for tool in summary.tools),
         *_sheet(job),
+        *(("part", change.words) for change in summary.changes),
         ("units", f"{summary.units} in the program; here mm"),
         ("machine", summary.machine),
     ]

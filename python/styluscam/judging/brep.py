@@ -17,19 +17,26 @@ def recheck(report: Document, job: Job, scene: _engine.Scene) -> None:
     """Adds ``brep_checked`` and ``brep_max`` (mm) to the report, and a finding where contacts miss the model.
 
     The contacts come in work coordinates; they are taken back to the file's frame here, by the inverse of the
-    set-up, and measured against the model's own surfaces. Parts that are nothing but triangles have none.
+    set-up, and there from the part as it is formed to the target, and measured against the model's own
+    surfaces. Parts that are nothing but triangles have none.
     """
-    arrays = job.part().arrays
+    arrays, formed = job.target().arrays, job.part().engine
     contacts = report["contacts"]
     if arrays is None or arrays.is_mesh or not contacts:
         report["brep_checked"] = 0
         return
     rows = np.array(scene.frame)
     points = (np.array([c["point"] for c in contacts]) - rows[:, 3]) @ rows[:, :3]
-    distances = arrays.surface_distance(points, np.array([c["face"] for c in contacts]))
+    points = formed.target_points(points)
+    known = np.flatnonzero(np.isfinite(points).all(axis=1))
+    report["brep_checked"] = len(known)
+    if not len(known):
+        return
+    contacts = [contacts[index] for index in known]
+    distances = arrays.surface_distance(points[known], np.array([c["face"] for c in contacts]))
     worst = int(np.argmax(np.abs(distances)))
-    limit = max(arrays.tolerance, arrays.deviation_inward, arrays.deviation_outward) + ROUNDING
-    report["brep_checked"] = len(contacts)
+    limit = max(arrays.tolerance, arrays.deviation_inward, arrays.deviation_outward, *formed.deviation)
+    limit += formed.target_accuracy + ROUNDING
     report["brep_max"] = float(abs(distances[worst]))
     if report["brep_max"] > limit:
         report["ok"] = False

@@ -64,6 +64,16 @@ def read_mesh(file: Path, tolerance: float, units: str | None, progress: Progres
     return part
 
 
+def triangles_as_written(file: Path, units: str | None) -> tuple[Floats, Ints]:
+    """Return points (N,3) in mm and triangles (T,3) in the order in which a mesh file has them; nothing is mended.
+
+    Raises GeometryError for every file that cannot be read.
+    """
+    scale, _ = _scale(file, units)
+    points, corners, own_units, _ = _load(file)
+    return points * (scale if own_units is None else own_units[0]), corners
+
+
 def _is_flat(vertices: Floats) -> bool:
     """Return whether all corners lie in one plane, however it is tilted."""
     *_, height = spread = np.linalg.svd(vertices - vertices.mean(axis=0), compute_uv=False)

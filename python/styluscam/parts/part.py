@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from itertools import starmap
 from pathlib import Path
 from typing import TypeAlias
@@ -14,6 +15,7 @@ from styluscam import _engine
 from styluscam.arguments import FileName, file_of, number_of, refused
 from styluscam.errors import GeometryError
 from styluscam.parts.arrays import PartArrays
+from styluscam.parts.changed import changed
 from styluscam.parts.reading import read_part
 from styluscam.types import Document, FloatArray, Progress, numbers, points, shaped, whole_numbers
 from styluscam.words import counted, shortened, size
@@ -147,6 +149,15 @@ class Part:
         if units is not None and not isinstance(units, str):
             raise refused("units", units, 'a unit like "mm"', GeometryError)
         return cls.from_arrays(read_part(file, number_of(tolerance, "tolerance"), units, progress))
+
+    def shaped(self, job: _engine.Job, deviations: Sequence[tuple[FloatArray, FloatArray]]) -> Part:
+        """The part as a job forms it; ``deviations`` are the points (N, 3) and displacements (N, 3), mm, that it names.
+
+        Raises:
+            JobError: they do not fit the part, or the shape cannot be formed.
+        """
+        engine = _engine.shaped(job, self.engine, deviations)
+        return Part._built(engine, None if self.arrays is None else changed(self.arrays, engine))
 
     @property
     def bounds(self) -> FloatArray:

@@ -33,7 +33,7 @@ def read_part(
     file = Path(path)
     _check_arguments(file, tolerance, units)
     require_part(file)
-    _check_readable(file)
+    check_readable(file)
     ending = file.suffix.lower()
     if ending in BREP_ENDINGS:
         part = _read_brep(file, tolerance, units, progress)
@@ -109,7 +109,7 @@ def require_part(file: Path) -> None:
         )
 
 
-def _check_readable(file: Path) -> None:
+def check_readable(file: Path) -> None:
     """Refuse what is not a readable, non-empty file."""
     where = str(file)
     if not file.exists():

@@ -14,13 +14,14 @@ from styluscam import _engine
 from styluscam.arguments import A_FILE, FileName, channel_of, document_of, file_of, json_of, refused
 from styluscam.errors import JobError, ToolError
 from styluscam.files import reason, require_end
+from styluscam.parts import springback
 from styluscam.parts.arrays import PartArrays
 from styluscam.parts.formats import BREP_ENDINGS, MESH_ENDINGS
 from styluscam.parts.part import Part, PartLike
 from styluscam.programs.machine import Machine
 from styluscam.tools import pointsfile
 from styluscam.tools.tool import Tool
-from styluscam.types import Document, Progress
+from styluscam.types import Document, FloatArray, Progress
 from styluscam.words import counted, shortened
 
 if sys.version_info >= (3, 11):
@@ -45,7 +46,10 @@ class Job:
     name: str
     file: Path | None
     document: Document
+    _target: Part | None
+    """The part in the file, once it was read."""
     _part: Part | None
+    """The part as it is formed, once it was asked for."""
     _handed: Part | None
     """The part that stands for the file, where a caller gave one."""
     _tool_files: list[Path]
@@ -67,7 +71,8 @@ class Job:
     ) -> Job:
         job = cls.__new__(cls)
         job.engine, job.folder, job.name, job.file = engine, folder, name, file
-        job._part = job._handed = part
+        job._target = job._handed = part
+        job._part = None
         job.document = json.loads(engine.to_json())
         job._tool_files = []
         job._take_tools()
@@ -96,7 +101,7 @@ class Job:
 
     def __getstate__(self) -> Document:
         """For pickle and copy; a part that was read travels along."""
-        return {**vars(self), "engine": self.engine.to_json()}
+        return {**vars(self), "engine": self.engine.to_json(), "_part": None}
 
     def __setstate__(self, state: Document) -> None:
         """From :meth:`__getstate__`."""
@@ -203,15 +208,38 @@ class Job:
         """The files that the job is read from: itself, the part's, the machine's and the tools'."""
         machines = [json.loads(self.engine.machine_of(channel)).get("file") for channel in self.channels]
         named = [self.document["part"]["file"], *machines, *dict.fromkeys(self._tool_files)]
+        measured = [] if self._springback is None else springback.files(self._springback)
         own = [] if self.file is None else [self.file]
-        return own + [self.folder / name for name in named if name]
+        return own + [self.folder / name for name in [*named, *measured] if name]
+
+    @property
+    def _springback(self) -> Document | None:
+        section: Document | None = self.document["part"].get("springback")
+        return section
+
+    def target(self, progress: Progress | None = None) -> Part:
+        """The target: the part in the file, read once."""
+        if self._target is None:
+            section = self.document["part"]
+            self._target = Part.read(
+                self.folder / section["file"], section["tolerance"], section.get("units"), progress
+            )
+        return self._target
 
     def part(self, progress: Progress | None = None) -> Part:
-        """The part, read once."""
+        """The part as it is formed: the :meth:`target`, with its springback compensated where the job has that.
+
+        Raises:
+            GeometryError: a file cannot be read.
+            JobError: the springback does not fit the part.
+        """
         if self._part is None:
-            section = self.document["part"]
-            self._part = Part.read(self.folder / section["file"], section["tolerance"], section.get("units"), progress)
+            target = self.target(progress)
+            self._part = target.shaped(self.engine, self._deviations()) if self.engine.shapes else target
         return self._part
+
+    def _deviations(self) -> list[tuple[FloatArray, FloatArray]]:
+        return [] if self._springback is None else springback.read_deviations(self._springback, self.folder)
 
     @property
     def channels(self) -> tuple[str, ...]:

@@ -145,6 +145,7 @@ class Summary(Record):
         machine: its name.
         units: ``mm`` or ``inch``: of the text.
         tools: in their order.
+        changes: what was changed of the part in the file before it was planned.
         operations: in their order; :class:`SurfaceSummary` where the tool follows faces.
         length: at feed.
         duration: of the whole program.
@@ -163,6 +164,7 @@ class Summary(Record):
     machine: str
     units: str
     tools: list[ToolLine]
+    changes: list[Fact]
     operations: list[OperationSummary]
     length: float
     duration: float
@@ -177,7 +179,8 @@ class Summary(Record):
         """From what the engine reports."""
         tools = [ToolLine(**tool) for tool in document["tools"]]
         operations = [_operation(operation) for operation in document["operations"]]
-        return cls(**{**document, "tools": tools, "operations": operations})
+        changes = [Fact(**change) for change in document["changes"]]
+        return cls(**{**document, "tools": tools, "changes": changes, "operations": operations})
 
 
 def _operation(document: Document) -> OperationSummary:

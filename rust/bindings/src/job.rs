@@ -56,6 +56,12 @@ impl Job {
         section.and_then(|section| section.kind().spacing()).map(|spacing| json(&spacing.described())).transpose()
     }
 
+    /// Whether it changes its part before it is planned: against springback.
+    #[getter]
+    fn shapes(&self) -> bool {
+        styluscam_job::is_shaped(&self.document)
+    }
+
     /// Whether its process forms a sheet; else it cuts.
     #[getter]
     fn forms(&self) -> bool {

@@ -18,6 +18,7 @@ mod posting;
 mod program;
 mod reading;
 mod scene;
+mod shaping;
 mod sheet;
 mod simulation;
 mod starter;
@@ -56,6 +57,8 @@ mod _engine {
     use crate::reading::{read_back, read_gcode, read_to_post, trace_gcode};
     #[pymodule_export]
     use crate::scene::Scene;
+    #[pymodule_export]
+    use crate::shaping::shaped;
     #[pymodule_export]
     use crate::simulation::Simulation;
     #[pymodule_export]

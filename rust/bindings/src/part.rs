@@ -28,6 +28,11 @@ pub struct Part {
 }
 
 impl Part {
+    /// Without its index.
+    pub(crate) fn of(part: styluscam_job::Part) -> Self {
+        Self { part, index: OnceLock::new(), building: Mutex::new(()) }
+    }
+
     /// The triangles' index, built when it is first asked for.
     ///
     /// # Errors
@@ -68,11 +73,31 @@ impl Part {
                 return Err(errors::raise("GeometryError", &message, "out-of-range", "deviation", ""));
             }
         }
-        Ok(Self {
-            part: styluscam_job::Part { mesh, inward, outward },
-            index: OnceLock::new(),
-            building: Mutex::new(()),
-        })
+        Ok(Self::of(styluscam_job::Part { mesh, inward, outward, shaped: None }))
+    }
+
+    /// Where points (N, 3) of the shaped part lie on the part before; NaN where that is not unique.
+    #[allow(clippy::needless_pass_by_value)] // PyO3 hands arrays by value
+    fn target_points<'py>(
+        &self,
+        py: Python<'py>,
+        points: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let points = arrays::vectors(&points, "points")?;
+        let target = py.detach(|| self.part.target_points(&points));
+        arrays::matrix(py, target.into_iter().map(|point| point.map_or([f64::NAN; 3], <[f64; 3]>::from)))
+    }
+
+    /// To what `target_points` is good, mm.
+    #[getter]
+    fn target_accuracy(&self) -> f64 {
+        self.part.shaped.as_ref().map_or(0.0, |shaped| shaped.linear)
+    }
+
+    /// What was changed of the part before, in sentences.
+    #[getter]
+    fn changes(&self) -> Vec<String> {
+        self.part.changes().iter().map(|change| change.words.clone()).collect()
     }
 
     /// Lower and upper corner of the box.

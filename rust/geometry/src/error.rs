@@ -58,6 +58,23 @@ pub enum GeometryError {
         /// The length that fits.
         expected: usize,
     },
+    /// A displacement is known at too few points: measure more of the part.
+    #[error("a displacement at {count} points: {fewest} different ones are needed at least")]
+    FewSamples {
+        /// How many there are.
+        count: usize,
+        /// How many there must be.
+        fewest: usize,
+    },
+    /// A change of shape needs more triangles than can be worked with: the displacement changes from point to point, as noise
+    /// does. Smooth it, or allow a larger deviation.
+    #[error("the changed shape needs more than {most} triangles to be followed within {deviation} mm")]
+    TooFine {
+        /// Most triangles.
+        most: usize,
+        /// What they may deviate, mm.
+        deviation: f64,
+    },
     /// No triangle of positive area is left: the selection or the file is empty.
     #[error("the mesh has no triangle of positive area")]
     EmptyMesh,
@@ -82,6 +99,8 @@ impl GeometryError {
             Self::NotFinite { .. } => "not-finite",
             Self::NoSuchVertex { .. } => "no-such-vertex",
             Self::Length { .. } => "length",
+            Self::FewSamples { .. } => "few-samples",
+            Self::TooFine { .. } => "too-fine",
             Self::EmptyMesh => "empty-mesh",
             Self::Huge { .. } => "huge-mesh",
         }

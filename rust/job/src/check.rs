@@ -16,6 +16,7 @@ pub fn document(job: &JobDocument) -> Result<(), JobError> {
     some_face("part.faces", &job.part.faces)?;
     setup(job)?;
     process(&job.process)?;
+    crate::shaping::check(job)?;
     machine("machine", &job.machine)?;
     for (channel, section) in &job.machines {
         machine(&format!("machines.{channel}"), section)?;

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use styluscam_geometry::{Base, Holder, ModelFace, ProfileDocument, SheetLaw};
 use styluscam_motion::ToolReference;
 
-use crate::{FixtureSection, OperationSection, ProcessSection, Risk, Selection, UpAxis};
+use crate::{FixtureSection, OperationSection, ProcessSection, Risk, Selection, SpringbackSection, Units, UpAxis};
 
 /// A whole job: from a part's faces to a machine's program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -86,25 +86,11 @@ pub struct PartSection {
     #[serde(default)]
     #[schemars(extend("x-advanced" = true))]
     pub allow_undercuts: bool,
-}
-
-/// Units of a mesh file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Units {
-    /// Millimetres.
-    Mm,
-    /// Centimetres.
-    Cm,
-    /// Metres.
-    M,
-    /// Inches.
-    #[serde(alias = "inch")]
-    In,
-    /// Feet.
-    Ft,
-    /// Micrometres.
-    Um,
+    /// What formed parts were measured, or simulated, to deviate by: the part is formed the other way. The verifier then compares
+    /// with the part as it is formed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-advanced" = true, "x-example" = "{ deviations = [\"trial-1.csv\"], units = \"mm\" }"))]
+    pub springback: Option<SpringbackSection>,
 }
 
 /// How the part lies on the machine.

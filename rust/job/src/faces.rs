@@ -32,9 +32,8 @@ pub struct FaceView {
     pub is_found: bool,
 }
 
-/// All faces by number.
-pub fn views(mesh: &Mesh) -> BTreeMap<u32, FaceView> {
-    let rims = rims(mesh);
+/// All faces by number; `rims` are those of [`rims`].
+pub fn views(mesh: &Mesh, rims: &[bool]) -> BTreeMap<u32, FaceView> {
     let mut views: BTreeMap<u32, FaceView> = BTreeMap::new();
     for (t, face) in mesh.faces().iter().enumerate() {
         let (normal, area) = (mesh.normal(t), mesh.area(t));

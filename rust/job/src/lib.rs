@@ -11,6 +11,7 @@ mod document;
 mod error;
 mod estimate;
 mod faces;
+mod file_units;
 mod fixture;
 mod forming;
 mod heights;
@@ -22,6 +23,7 @@ mod numbers;
 mod operations;
 mod paired;
 mod parse;
+mod part;
 mod plan;
 mod plates;
 mod process;
@@ -30,6 +32,7 @@ mod risk;
 mod scene;
 mod schema;
 mod selection;
+mod shaping;
 mod spindle;
 mod starter;
 mod stopped;
@@ -44,11 +47,11 @@ mod up_axis;
 pub use advice::{walls, Bend, Corner, Wall, Walls};
 pub use body::{Body, Border, FaceLook, Heights, Hollows, Shell, Side, Thickness, Unformable, SIDES};
 pub use document::{
-    JobDocument, LengthUnit, MachineSection, OutputSection, PartSection, SetupSection, SheetSection, ToolSection,
-    Units, Zero,
+    JobDocument, LengthUnit, MachineSection, OutputSection, PartSection, SetupSection, SheetSection, ToolSection, Zero,
 };
 pub use error::JobError;
 pub use estimate::{estimates, Estimate};
+pub use file_units::Units;
 pub use fixture::{BackingSection, ClampSection, FixtureSection, Opening};
 pub use judge::{coverage, judge, left, needs, read_back, scallops, simulate, Judgement, Text};
 pub use materials::{materials, Angle, Material};
@@ -57,13 +60,15 @@ pub use operations::{
     OperationSection, PassSpacing, Planned, ReachedFace, Spindle, SurfaceFacts, ZLevel, ZigZag,
 };
 pub use parse::{from_json, from_toml, tool_from_json};
+pub use part::{Part, Shaped};
 pub use plan::{plan, Channel, OperationSummary, Plan, Setting};
 pub use plates::{plates, Holder, Plate};
 pub use process::{Process, ProcessKeys, ProcessKind, ProcessSection, MAIN_CHANNEL};
 pub use risk::Risk;
-pub use scene::{Part, Scene};
+pub use scene::Scene;
 pub use schema::schema;
 pub use selection::Selection;
+pub use shaping::{is_shaped, shaped, Deviation, MeshPair, SpringbackSection};
 pub use starter::{fitting_radius, starter, Starter, StarterFace, StarterPart};
 pub use summary::Summary;
 pub use up_axis::UpAxis;

@@ -5,19 +5,9 @@ use std::collections::{BTreeMap, HashSet};
 use styluscam_geometry::{Bvh, Frame, Mesh, Sheet};
 use styluscam_toolpath::offset::Index;
 
-use crate::faces::{self, FaceView};
+use crate::faces::FaceView;
+use crate::operations::Fact;
 use crate::FixtureSection;
-
-/// The part as its reader hands it over.
-#[derive(Clone, Debug)]
-pub struct Part {
-    /// Triangles in the file's frame, mm.
-    pub mesh: Mesh,
-    /// How far the triangles lie inside the material at most, mm; checked by the reader.
-    pub inward: f64,
-    /// How far they lie outside it at most, mm.
-    pub outward: f64,
-}
 
 /// The part, the sheet and the zero point of one channel, ready for planning and for verification.
 pub struct Scene {
@@ -50,6 +40,10 @@ pub struct Scene {
     pub clearance: f64,
     /// Height down to which rapids go before a plunge, mm.
     pub retract: f64,
+    /// What was changed of the part in the file.
+    pub changes: Vec<Fact>,
+    /// Which triangles lie where the part was cut off.
+    pub(crate) rims: Vec<bool>,
     /// The faces of the part by their numbers.
     pub(crate) views: BTreeMap<u32, FaceView>,
     /// The zero point in words.
@@ -61,9 +55,9 @@ impl Scene {
     pub(crate) fn facing_up(&self, faces: &[u32]) -> Vec<bool> {
         let faces: HashSet<u32> = faces.iter().copied().collect();
         // where a sheet was cut off it is upright too: no tool forms that
-        let rims = if self.sheet.is_some() { faces::rims(&self.mesh) } else { vec![false; self.mesh.faces().len()] };
+        let is_rim = |triangle: usize| self.sheet.is_some() && self.rims[triangle];
         let faces_up = |(triangle, face): (usize, &u32)| {
-            faces.contains(face) && !self.mesh.looks_down(triangle) && !rims[triangle]
+            faces.contains(face) && !self.mesh.looks_down(triangle) && !is_rim(triangle)
         };
         self.mesh.faces().iter().enumerate().map(faces_up).collect()
     }

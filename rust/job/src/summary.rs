@@ -4,7 +4,7 @@ use serde::Serialize;
 use styluscam_motion::{Statistics, ToolReference};
 use styluscam_post::{machine::LengthUnit, Machine};
 
-use crate::{plan::OperationSummary, Channel, Judgement, Scene};
+use crate::{operations::Fact, plan::OperationSummary, Channel, Judgement, Scene};
 
 /// Faces that the program's header lists one by one.
 const SHOWN: usize = 8;
@@ -28,6 +28,8 @@ pub struct Summary {
     pub units: String,
     /// Tools in order.
     pub tools: Vec<ToolLine>,
+    /// What was changed of the part in the file before it was planned.
+    pub changes: Vec<Fact>,
     /// Operations in order.
     pub operations: Vec<OperationSummary>,
     /// Length at feed.
@@ -85,6 +87,7 @@ impl Summary {
             machine: machine.name.clone(),
             units: if machine.units.output == LengthUnit::Mm { "mm" } else { "inch" }.to_owned(),
             tools: tools.collect(),
+            changes: scene.changes.clone(),
             operations: channel.operations.clone(),
             length: statistics.feed_length,
             duration: statistics.duration,
@@ -99,7 +102,7 @@ impl Summary {
     /// Lines for the program's header: what the set-up record does not say by itself.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
-        let mut notes = Vec::new();
+        let mut notes: Vec<String> = self.changes.iter().map(|change| change.words.clone()).collect();
         for operation in &self.operations {
             notes.extend(operation.notes());
         }

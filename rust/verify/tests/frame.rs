@@ -77,7 +77,7 @@ fn judged(program: &Program, stated: &[FrameLevel], obstacles: &[Obstacle]) -> R
     };
     let id = "walls".to_owned();
     let expected =
-        [ExpectedOperation { id, tool: 0, cut: 600.0, plunge: PLUNGE, spindle: None, flood: false, expectation }];
+        [ExpectedOperation { id, tool: 0, cut: 600.0, plunge: PLUNGE, keeps_pace: false, spindle: None, flood: false, expectation }];
     let text = TextFacts { frame_levels: stated.to_vec(), ended: true, ..TextFacts::default() };
     let subject = Subject { expected: &expected, text: Some(&text), obstacles, ..part.subject(&tools) };
     judge(program, &subject, &forming(Support::DieAndFrame), &Watch::default()).unwrap()

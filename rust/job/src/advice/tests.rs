@@ -33,7 +33,7 @@ fn job(faces: &str) -> JobDocument {
 
 fn found(mesh: Mesh, faces: &str) -> Result<super::Walls, JobError> {
     let job = job(faces);
-    let scene = Scene::new(&job, crate::MAIN_CHANNEL, &Part { mesh, inward: 0.0, outward: 0.0 })?;
+    let scene = Scene::new(&job, crate::MAIN_CHANNEL, &Part { mesh, inward: 0.0, outward: 0.0, shaped: None })?;
     walls(&job, &scene, 0)
 }
 

@@ -1,6 +1,8 @@
 //! The faces and the heights of an operation: resolved here for planning, verification and the summary alike.
 
-use crate::faces::{chosen, Look};
+use std::collections::BTreeMap;
+
+use crate::faces::{chosen, FaceView, Look};
 use crate::heights::TipHeights;
 use crate::{JobDocument, JobError, OperationSection, Scene, Selection};
 
@@ -24,13 +26,23 @@ pub fn faces_of(
     section: &OperationSection,
     index: usize,
 ) -> Result<Vec<u32>, JobError> {
+    faces_in(job, &scene.views, section, index)
+}
+
+/// As [`faces_of`], among the faces of `views`.
+pub fn faces_in(
+    job: &JobDocument,
+    views: &BTreeMap<u32, FaceView>,
+    section: &OperationSection,
+    index: usize,
+) -> Result<Vec<u32>, JobError> {
     let (selection, path) = selection_of(job, section, index);
     let all = match (job.process.process.as_kind().forms(), section.kind().cuts_upright_walls()) {
         (true, _) => Look::UpButRims,
         (false, true) => Look::UpOrAside,
         (false, false) => Look::Up,
     };
-    chosen(selection, &scene.views, all, job.part.allow_undercuts, &path)
+    chosen(selection, views, all, job.part.allow_undercuts, &path)
 }
 
 /// Between which heights an operation's tip stays: its own, and in milling no lower than the part's foot, on which it

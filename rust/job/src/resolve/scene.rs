@@ -16,17 +16,26 @@ impl Scene {
         let placed = Placed::new(job, part)?;
         let thickness = placed.sheet.map_or(0.0, |sheet| sheet.thickness);
         let opposite = job.opposite(channel).map(|opposite| opposite.squeeze * thickness);
-        let Placed { mesh, frame, sheet, fixture, flat, top, zero } = match opposite {
+        let placed = match opposite {
             Some(left) => placed.turned_over(thickness, left)?,
             None => placed,
         };
-        let (index, (bvh, views)) =
-            rayon::join(|| Index::new(&mesh), || rayon::join(|| Bvh::new(&mesh), || faces::views(&mesh)));
+        let Placed { mesh, target, frame, sheet, fixture, flat, top, zero } = placed;
+        let sorted = || {
+            // what a face is for does not change with its shape
+            let target = target.as_ref().unwrap_or(&mesh);
+            let rims = faces::rims(target);
+            (faces::views(target, &rims), rims)
+        };
+        let (index, (bvh, (views, rims))) =
+            rayon::join(|| Index::new(&mesh), || rayon::join(|| Bvh::new(&mesh), sorted));
         Ok(Self {
             channel,
             index,
             bvh,
             views,
+            rims,
+            changes: part.changes().to_vec(),
             mesh,
             frame,
             sheet,
@@ -63,6 +72,8 @@ impl Scene {
 /// A part in work coordinates, with what belongs to it.
 struct Placed {
     mesh: Mesh,
+    /// The part before its shape was changed, where it was: the same triangles.
+    target: Option<Mesh>,
     frame: Frame,
     sheet: Option<Sheet>,
     fixture: Option<FixtureSection>,
@@ -78,7 +89,7 @@ impl Placed {
         let sheet = sheet(job)?;
         let raise = sheet.map_or(0.0, |s| s.raise());
         let turned = Frame::turning_up(job.setup.up.vector(), job.setup.rotation.to_radians());
-        let (low, high) = part.mesh.bounds_in(&turned);
+        let (low, high) = part.target().bounds_in(&turned);
         let chosen = job.setup.zero.unwrap_or(if sheet.is_some() { Zero::SheetTop } else { Zero::Model });
         let zero = match chosen {
             Zero::SheetTop => Vector::new(0.0, 0.0, high.z + raise),
@@ -89,6 +100,7 @@ impl Placed {
         let top = high.z - zero.z + raise;
         Ok(Self {
             mesh: part.mesh.placed(&frame),
+            target: part.shaped.as_ref().map(|shaped| shaped.target.placed(&frame)),
             frame,
             sheet,
             fixture: job.setup.fixture,
@@ -103,9 +115,15 @@ impl Placed {
     /// the main tool's side of the model is on this one's.
     fn turned_over(self, thickness: f64, left: f64) -> Result<Self, JobError> {
         let half = Frame::turning_up(-Vector::z(), 0.0);
-        let rims = faces::rims(&self.mesh);
-        let looks_up = |triangle: usize| !self.mesh.looks_down(triangle) && !rims[triangle];
-        let mesh = self.mesh.other_side(looks_up).map_err(JobError::geometry("part.faces"))?.placed(&half);
+        let model = self.target.as_ref().unwrap_or(&self.mesh);
+        let rims = faces::rims(model);
+        let looks_up = |triangle: usize| !model.looks_down(triangle) && !rims[triangle];
+        let turned = |mesh: &Mesh| {
+            let side = mesh.other_side(looks_up).map_err(JobError::geometry("part.faces"))?;
+            Ok::<_, JobError>(side.placed(&half))
+        };
+        let mesh = turned(&self.mesh)?;
+        let target = self.target.as_ref().map(turned).transpose()?;
         let sheet = self.sheet.map(|sheet| Sheet {
             thickness: left - sheet.share() * thickness,
             model_face: ModelFace::Back,
@@ -124,6 +142,7 @@ impl Placed {
         Ok(Self {
             top: mesh.bounds().1.z + sheet.map_or(0.0, |sheet| sheet.raise()),
             mesh,
+            target,
             frame: self.frame.then(&half),
             sheet,
             fixture,

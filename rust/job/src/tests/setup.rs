@@ -19,7 +19,7 @@ pub fn frustum() -> Part {
     }
     let faces: Vec<u32> = vec![1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6];
     let mesh = Mesh::new(vertices, &triangles, &faces).unwrap();
-    Part { mesh, inward: 0.0, outward: 0.0 }
+    Part { mesh, inward: 0.0, outward: 0.0, shaped: None }
 }
 
 /// A milling job with one ball of 3 mm, whose operation has these lines besides its tool and tolerance.

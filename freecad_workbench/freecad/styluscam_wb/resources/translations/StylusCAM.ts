@@ -118,6 +118,13 @@ Range: above 0 to 50 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>What formed parts were measured, or simulated, to deviate by: the part is formed the other way. The verifier then compares
+with the part as it is formed.
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>What holds it.
 As JSON
 0 or empty: not stated</source>
@@ -965,6 +972,10 @@ Range: 0 to 1</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Springback</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Start</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1217,6 +1228,13 @@ Range: above 0 to 50 mm
     </message>
     <message>
         <source>Web pages (*.html)</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What formed parts were measured, or simulated, to deviate by: the part is formed the other way. The verifier then compares
+with the part as it is formed.
+As JSON
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>

@@ -1,0 +1,54 @@
+//! The part as triangles, as it is formed, and what is known of the target.
+
+use rayon::prelude::*;
+use styluscam_geometry::{Mesh, Vector};
+
+use crate::operations::Fact;
+use crate::shaping::Compensation;
+
+/// The part as its reader hands it over.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// Triangles in the file's frame, mm.
+    pub mesh: Mesh,
+    /// How far the triangles lie inside the material at most, mm; checked by the reader.
+    pub inward: f64,
+    /// How far they lie outside it at most, mm.
+    pub outward: f64,
+    /// What was done to the part in the file, if it is not that one that is formed.
+    pub shaped: Option<Shaped>,
+}
+
+/// What was done to a part.
+#[derive(Clone, Debug)]
+pub struct Shaped {
+    /// The target, with the triangles of the changed one.
+    pub(crate) target: Mesh,
+    /// What was changed.
+    pub facts: Vec<Fact>,
+    /// How far within triangles the linear map differs from the one by which points are taken back, mm.
+    pub linear: f64,
+    pub(crate) compensation: Compensation,
+}
+
+impl Part {
+    /// The target, which decides what its faces are for and where its highest point lies.
+    #[must_use]
+    pub(crate) fn target(&self) -> &Mesh {
+        self.shaped.as_ref().map_or(&self.mesh, |shaped| &shaped.target)
+    }
+
+    /// What was changed.
+    #[must_use]
+    pub fn changes(&self) -> &[Fact] {
+        self.shaped.as_ref().map_or(&[], |shaped| &shaped.facts)
+    }
+
+    /// Where points of the changed part lie on the target, mm; none where that is not unique.
+    #[must_use]
+    pub fn target_points(&self, points: &[Vector]) -> Vec<Option<Vector>> {
+        let target =
+            |point: &Vector| self.shaped.as_ref().map_or(Some(*point), |shaped| shaped.compensation.undone(*point));
+        points.par_iter().map(target).collect()
+    }
+}
