@@ -15,6 +15,7 @@ mod budget;
 mod context;
 mod effort;
 mod facts;
+mod fit;
 mod keys;
 mod kind;
 mod levels;
@@ -27,7 +28,7 @@ mod tests;
 pub use context::Context;
 pub use effort::{Areas, Effort};
 pub use facts::{BridgedFace, End, Fact, ReachedFace, SurfaceFacts};
-pub use keys::{Coolant, Direction, Feeds, OperationKeys, Spindle};
+pub use keys::{Coolant, Direction, Feeds, Fit, OperationKeys, Spindle};
 pub use kind::{About, OperationKind, PassSpacing, Planned, Serves, StarterPasses};
 
 kinds! {
