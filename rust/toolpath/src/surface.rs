@@ -1,10 +1,12 @@
 //! The surface on which paths run: the envelope, and which of its contacts were asked for.
 
+use std::borrow::Cow;
+
 use styluscam_geometry::Vector;
 
 use crate::fitting;
 use crate::offset::{Contact, Envelope, Keeping};
-use crate::PathPoint;
+use crate::{Pass, PathPoint};
 
 /// A contact on an unselected face's border still counts while its normal is this close to what selected facets span, rad:
 /// wide enough for tessellated tangent joins, too narrow to roll round an edge.
@@ -64,6 +66,21 @@ impl<'a> Surface<'a> {
         } else {
             fitting::thinned(witnesses, deviation)
         }
+    }
+
+    /// The points of a pass as the ends of chords, also where it keeps its witnesses.
+    pub(crate) fn chords<'p>(&self, points: &'p [PathPoint], deviation: f64) -> Cow<'p, [PathPoint]> {
+        if self.keeps_witnesses {
+            Cow::Owned(fitting::thinned(points, deviation))
+        } else {
+            Cow::Borrowed(points)
+        }
+    }
+
+    /// All passes with the ends of their chords as points.
+    pub(crate) fn outlines(&self, passes: &[Pass], deviation: f64) -> Vec<Pass> {
+        let outline = |pass: &Pass| Pass { points: self.chords(&pass.points, deviation).into_owned(), ..*pass };
+        passes.iter().map(outline).collect()
     }
 
     /// The envelope.

@@ -50,20 +50,19 @@ impl Descent<'_> {
         Some((turn, below))
     }
 
-    /// A ramp from a loop's first point, this share of a turn long or up to the next point of the loop below: the ramp, that
-    /// loop from the point nearest to where the ramp begins, and the number of its point at which it arrives.
+    /// A ramp from a loop's first point, this share of a turn long or up to the next point of the loop below, at which it arrives.
     pub(super) fn ramp(
         &self,
         above: Vec<PathPoint>,
         below: &Pass,
         share: f64,
-    ) -> Option<(Vec<PathPoint>, Vec<PathPoint>, usize)> {
+    ) -> Option<Vec<PathPoint>> {
         let above = Level::new(above);
         let (below, pairs) = facing(&above, below)?;
         let (end, round) = arrival(&below.round, share)?;
         let ramp = self.fitted(&above, &below, &until(pairs, end), round)?;
         let arrives = ramp.last()?.tip == below.points.get(end)?.tip;
-        arrives.then_some((ramp, below.points, end))
+        arrives.then_some(ramp)
     }
 
     /// The path between points that belong together, which falls evenly and is at the lower loop when it is `whole` round.
