@@ -77,6 +77,10 @@ impl<'a> Surface<'a> {
         }
     }
 
+    pub(crate) fn keeps_witnesses(&self) -> bool {
+        self.keeps_witnesses
+    }
+
     /// All passes with the ends of their chords as points.
     pub(crate) fn outlines(&self, passes: &[Pass], deviation: f64) -> Vec<Pass> {
         let outline = |pass: &Pass| Pass { points: self.chords(&pass.points, deviation).into_owned(), ..*pass };
