@@ -143,6 +143,8 @@ proptest! {
         let back = read(&text, &machine, &[]).unwrap_or_else(|e| panic!("{e}\n{text}")).program;
         let unit = machine.resolution_mm();
         let worst = off(&back, start, &arc.path(start, end));
+        let are_arcs = back.moves[1..].iter().all(|step| step.arc.is_some()) && back.moves.len() > 1;
+        prop_assert_eq!(machine.posts_arc([start, end], &arc, 0.0), are_arcs, "{}", text);
         prop_assert!(worst <= 2.5 * unit, "{worst} {}", text.lines().skip(12).collect::<Vec<_>>().join("\n"));
     }
 }

@@ -53,7 +53,7 @@ fn facts(fitted: &Fitted, machine: &str) -> Vec<Fact> {
             value: ratio,
             unit: "",
             words: format!(
-                "{} instead of {}, a {ratio:.1}th",
+                "{} instead of {}: one for {ratio:.1}",
                 counted(pieces, "line or arc", "lines and arcs"),
                 counted(chords, "chord", "chords")
             ),

@@ -7,8 +7,9 @@
 /// A position in a plane, mm.
 pub type Position = [f64; 2];
 
-/// A circle of more than so many lengths of its arc is as good as a line.
-const FLAT: f64 = 1e5;
+/// Larger circles are lines, mm: controllers read centres of five digits before the point (FANUC: eight digits, three decimals), and
+/// this leaves one for the position.
+const LARGEST: f64 = 1e4;
 
 /// Centre, from `start`, of the circle through `start` that passes by a polyline most closely; none of a line.
 pub fn through(start: Position, polyline: impl Iterator<Item = Position>) -> Option<Position> {
@@ -28,8 +29,7 @@ pub fn through(start: Position, polyline: impl Iterator<Item = Position>) -> Opt
     // the best `a` for any b and c is put in
     let [b, c] = least([xx - rx * rx / rr, xy - rx * ry / rr, yy - ry * ry / rr]);
     let a = -(b * rx + c * ry) / rr;
-    let far = libm::sqrt(rr / (xx + yy));
-    bounded([-0.5 * b / a, -0.5 * c / a], far)
+    bounded([-0.5 * b / a, -0.5 * c / a])
 }
 
 /// Centre, from `start`, of the circle through `start` and `end` that passes by a polyline most closely; none of a line, and where
@@ -53,7 +53,7 @@ pub fn between(start: Position, end: Position, polyline: impl Iterator<Item = Po
     }
     let [a, c] = least([pp, py, yy]);
     let (x, y) = (0.5 * length, -0.5 * c * length / a);
-    bounded([x * along[0] - y * along[1], x * along[1] + y * along[0]], length)
+    bounded([x * along[0] - y * along[1], x * along[1] + y * along[0]])
 }
 
 /// Points of a polyline from a `start`, each with what it stands for of the length: by Simpson's rule.
@@ -74,7 +74,7 @@ fn least([xx, xy, yy]: [f64; 3]) -> [f64; 2] {
     [-sin, cos]
 }
 
-fn bounded(centre: Position, size: f64) -> Option<Position> {
+fn bounded(centre: Position) -> Option<Position> {
     let radius = libm::hypot(centre[0], centre[1]);
-    (radius > 0.0 && radius < FLAT * size).then_some(centre)
+    (radius > 0.0 && radius < LARGEST).then_some(centre)
 }

@@ -8,6 +8,8 @@
 mod circle;
 mod course;
 mod figures;
+#[cfg(test)]
+mod tests;
 
 use styluscam_geometry::Vector;
 use styluscam_motion::{Arc, Plane};
