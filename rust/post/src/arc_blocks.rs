@@ -24,7 +24,8 @@ impl Machine {
         let (pieces, turns) = self.arc_blocks(&path, arc.turns);
         let x_scale = self.x_scale();
         let count = |[x, y, z]: [f64; 3], x_scale: f64| -> Option<[i64; 3]> {
-            let counts = [x * x_scale, y, z + height].map(|mm| self.linear_format().count(mm / self.units.output.in_mm()));
+            let counts =
+                [x * x_scale, y, z + height].map(|mm| self.linear_format().count(mm / self.units.output.in_mm()));
             Some([counts[0]?, counts[1]?, counts[2]?])
         };
         let is_taken = |piece: u32| {

@@ -29,12 +29,8 @@ pub fn linked(
         return Ok((moves, asked.into_iter().collect()));
     };
     let takes = |ends: [[f64; 3]; 2], arc: &Arc| machine.posts_arc(ends, arc, reference_height);
-    let arcs = Arcs {
-        planes: &arc_rules.planes,
-        unit: machine.resolution_mm(),
-        height: reference_height,
-        takes: &takes,
-    };
+    let arcs =
+        Arcs { planes: &arc_rules.planes, unit: machine.resolution_mm(), height: reference_height, takes: &takes };
     let (moves, fitted) = link_with_arcs(passes, (&arcs, task.budget.deviation), rules, links, watch)?;
     Ok((moves, facts(&fitted, &machine.name)))
 }
@@ -58,11 +54,21 @@ fn facts(fitted: &Fitted, machine: &str) -> Vec<Fact> {
                 counted(chords, "chord", "chords")
             ),
         },
-        Fact { fact: "corner_at_arcs", value: degrees, unit: "deg", words: format!("corners at arcs up to {degrees:.2} deg") },
+        Fact {
+            fact: "corner_at_arcs",
+            value: degrees,
+            unit: "deg",
+            words: format!("corners at arcs up to {degrees:.2} deg"),
+        },
     ]
 }
 
 /// That lines were planned though arcs were asked for.
 fn no_arcs(machine: &str) -> Fact {
-    Fact { fact: "arcs", value: 0.0, unit: "", words: format!("no arcs, for {machine} has none for these passes: lines") }
+    Fact {
+        fact: "arcs",
+        value: 0.0,
+        unit: "",
+        words: format!("no arcs, for {machine} has none for these passes: lines"),
+    }
 }

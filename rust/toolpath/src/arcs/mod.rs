@@ -141,9 +141,8 @@ impl Path<'_> {
     /// In which sense most of a polyline turns about a centre, given from `start`.
     fn turns_clockwise(&self, plane: Plane, passed: &[PathPoint], centre: Position, start: Position) -> bool {
         let [first, second, _] = plane.axes();
-        let arm = |point: &PathPoint| {
-            [point.tip[first] - start[0] - centre[0], point.tip[second] - start[1] - centre[1]]
-        };
+        let arm =
+            |point: &PathPoint| [point.tip[first] - start[0] - centre[0], point.tip[second] - start[1] - centre[1]];
         let areas = passed.windows(2).map(|pair| {
             let (a, b) = (arm(&pair[0]), arm(&pair[1]));
             a[0] * b[1] - a[1] * b[0]

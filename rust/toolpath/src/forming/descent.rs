@@ -51,12 +51,7 @@ impl Descent<'_> {
     }
 
     /// A ramp from a loop's first point, this share of a turn long or up to the next point of the loop below, at which it arrives.
-    pub(super) fn ramp(
-        &self,
-        above: Vec<PathPoint>,
-        below: &Pass,
-        share: f64,
-    ) -> Option<Vec<PathPoint>> {
+    pub(super) fn ramp(&self, above: Vec<PathPoint>, below: &Pass, share: f64) -> Option<Vec<PathPoint>> {
         let above = Level::new(above);
         let (below, pairs) = facing(&above, below)?;
         let (end, round) = arrival(&below.round, share)?;
