@@ -81,7 +81,7 @@ def test_each_machine_gets_the_arcs_that_it_has(machine: str) -> None:
     assert arcs[0] > 10 and arcs[1] == halves * arcs[0]
 
 
-def test_where_the_machine_has_no_arc_lines_are_planned_and_it_is_said() -> None:
+def test_where_the_machine_has_no_arc_lines_are_planned_and_a_fact_states_it() -> None:
     asked = job("cap_r60", "rows along X", "heidenhain", fit="arcs")  # it has no arcs in upright planes
     plan = sc.plan(asked)
     assert "lines" in facts(plan)["arcs"].words and facts(plan)["arcs"].value == 0

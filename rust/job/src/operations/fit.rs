@@ -4,7 +4,6 @@ use styluscam_motion::{Arc, Cancelled, Move};
 use styluscam_toolpath::{link, link_with_arcs, AlongSurface, Arcs, Entered, Fitted, Links};
 
 use super::facts::counted;
-use super::surface::Task;
 use super::{Context, Fact, Fit};
 
 /// Whether arcs are asked for and the machine has any.
@@ -12,17 +11,17 @@ pub fn asks_for_arcs(context: &Context<'_>) -> bool {
     context.common.fit == Fit::Arcs && context.machine.arc.is_some()
 }
 
-/// The moves along the passes, and what there is to say of how they were fitted.
+/// The moves along the passes, which arcs leave by at most `deviation` mm, and what there is to say of how they were fitted.
 ///
 /// # Errors
 /// `Cancelled`.
 pub fn linked(
-    task: &Task<'_>,
-    passes: &[Entered],
+    context: &Context<'_>,
+    (passes, deviation): (&[Entered], f64),
     rules: &AlongSurface<'_>,
     links: &Links,
 ) -> Result<(Vec<Move>, Vec<Fact>), Cancelled> {
-    let Context { machine, common, reference_height, watch, .. } = *task.context;
+    let Context { machine, common, reference_height, watch, .. } = *context;
     let Some(arc_rules) = machine.arc.as_ref().filter(|_| common.fit == Fit::Arcs) else {
         let moves = link(passes, rules, links, watch)?;
         let asked = (common.fit == Fit::Arcs).then(|| no_arcs(&machine.name));
@@ -31,7 +30,7 @@ pub fn linked(
     let takes = |ends: [[f64; 3]; 2], arc: &Arc| machine.posts_arc(ends, arc, reference_height);
     let arcs =
         Arcs { planes: &arc_rules.planes, unit: machine.resolution_mm(), height: reference_height, takes: &takes };
-    let (moves, fitted) = link_with_arcs(passes, (&arcs, task.budget.deviation), rules, links, watch)?;
+    let (moves, fitted) = link_with_arcs(passes, (&arcs, deviation), rules, links, watch)?;
     Ok((moves, facts(&fitted, &machine.name)))
 }
 

@@ -205,7 +205,8 @@ fn linked(
         }
         None => passes.into_iter().map(Entered::from).collect(),
     };
-    Ok(fit::linked(task, &entered, &task.along(surface, kind.pitch()), &task.links())?)
+    let passes = (&*entered, task.budget.deviation);
+    Ok(fit::linked(context, passes, &task.along(surface, kind.pitch()), &task.links())?)
 }
 
 /// The end that the heights are to an operation, if the tool would go on below.

@@ -124,6 +124,12 @@ milling: Milling: no sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>What the posted path is made of.
+lines: Lines.
+arcs: Arcs and lines, of which fewer are needed; lines where the machine has no arc for it.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>What the sheet is made of, by the name of a shipped material: it sets the steepest wall that the sheet withstands.
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
@@ -267,6 +273,10 @@ Range: 0.1 to 45 deg
     </message>
     <message>
         <source>Apex radius</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Arcs and lines, of which fewer are needed; lines where the machine has no arc for it.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -465,6 +475,10 @@ Range: above 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Fit</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Fit tolerance</source>
         <translation type="unfinished"></translation>
     </message>
@@ -586,6 +600,10 @@ Range: 0.0001 to 1 mm</source>
     </message>
     <message>
         <source>Line</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Lines.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1193,6 +1211,12 @@ milling: Milling: no sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>What the posted path is made of.
+lines: Lines.
+arcs: Arcs and lines, of which fewer are needed; lines where the machine has no arc for it.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>What the sheet is made of, by the name of a shipped material: it sets the steepest wall that the sheet withstands.
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
@@ -1235,6 +1259,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>alternate</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>arcs</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1306,6 +1334,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>fitting arcs</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>flange</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1327,6 +1359,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>line</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>lines</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
