@@ -58,6 +58,7 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
             path,
             operation: channel.operations.len() as u32,
             tool,
+            reference_height: record.reference_height,
             faces: faces_of(job, scene, section, index)?,
             heights: heights_of(job, scene, section),
             watch,

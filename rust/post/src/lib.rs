@@ -5,6 +5,7 @@
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // what tests expect may come from std
 
+mod arc_blocks;
 mod block;
 mod cl;
 mod comment;

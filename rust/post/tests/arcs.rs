@@ -7,7 +7,7 @@ mod support;
 use std::f64::consts::{PI, TAU};
 
 use proptest::prelude::*;
-use styluscam_motion::{Arc, ArcPath, Move, Plane, Program};
+use styluscam_motion::{Arc, ArcPath, Move, MoveKind, Plane, Program};
 use styluscam_post::machine::{LengthUnit, RadiusError};
 use styluscam_post::{post, read, Machine, ReadFault};
 use support::{change, feed, grbl, linuxcnc, rapid, stylus};
@@ -143,6 +143,9 @@ proptest! {
         let back = read(&text, &machine, &[]).unwrap_or_else(|e| panic!("{e}\n{text}")).program;
         let unit = machine.resolution_mm();
         let worst = off(&back, start, &arc.path(start, end));
+        let fed: Vec<&Move> = back.moves.iter().filter(|step| step.kind == MoveKind::Feed).collect();
+        let are_arcs = !fed.is_empty() && fed.iter().all(|step| step.arc.is_some());
+        prop_assert_eq!(machine.posts_arc([start, end], &arc, 0.0), are_arcs, "{}", text);
         prop_assert!(worst <= 2.5 * unit, "{worst} {}", text.lines().skip(12).collect::<Vec<_>>().join("\n"));
     }
 }

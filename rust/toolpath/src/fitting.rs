@@ -18,12 +18,12 @@ const BETWEEN_WITNESSES: f64 = 0.2;
 /// Share of the deviation within which the path is proven to stay between two witnesses.
 pub const PROVEN: f64 = 2.0 * BETWEEN_WITNESSES;
 /// The rest: how far a witness may lie beside a chord.
-const AT_WITNESSES: f64 = 1.0 - PROVEN;
+pub const AT_WITNESSES: f64 = 1.0 - PROVEN;
 /// A smooth path deviates half as much as its tangents lead beside the ends of a chord; where that is more than could be proven,
 /// no proof is tried.
 const TOO_BENT: f64 = 2.2;
 /// Least share of a distance in any direction that counts as deviation.
-const ASIDE: f64 = 0.25;
+pub const ASIDE: f64 = 0.25;
 /// What a path that crosses its chord aslant at the middle deviates on both sides, as a share of what it would reach at
 /// the chord's end: 0.19 where it is a cubic, up to 0.5 where it bends at once.
 const ASLANT: f64 = 0.35;
@@ -123,32 +123,43 @@ pub fn thinned(points: &[PathPoint], deviation: f64) -> Vec<PathPoint> {
     let mut out = vec![*first];
     let mut from = 0;
     while from + 1 < points.len() {
-        let passes = |to: usize| {
-            let mut passed = points[from + 1..to].iter();
-            passed.all(|p| deviation_at(p, points[from].tip, points[to].tip) <= AT_WITNESSES * deviation)
-        };
-        let (mut to, mut beyond) = (from + 1, points.len());
-        let mut step = 1;
-        while to + step < beyond {
-            if passes(to + step) {
-                to += step;
-                step *= 2;
-            } else {
-                beyond = to + step;
-            }
-        }
-        while beyond - to > 1 {
-            let middle = usize::midpoint(to, beyond);
-            if passes(middle) {
-                to = middle;
-            } else {
-                beyond = middle;
-            }
-        }
+        let to = chord_end(points, from, points[from].tip, deviation);
         out.push(points[to]);
         from = to;
     }
     out
+}
+
+/// The number of the farthest witness, at least the next one, to which a chord from `start`, at or beside the witness `from`, may
+/// go.
+pub fn chord_end(points: &[PathPoint], from: usize, start: Vector, deviation: f64) -> usize {
+    farthest(from + 1, points.len(), 1, |to| {
+        let mut passed = points[from + 1..to].iter();
+        passed.all(|p| deviation_at(p, start, points[to].tip) <= AT_WITNESSES * deviation)
+    })
+}
+
+/// The farthest number before `beyond` that passes, looked for in steps that are doubled from the first one on, then in halved ones;
+/// at least `known`, of which that is known.
+pub fn farthest(known: usize, beyond: usize, first_step: usize, mut passes: impl FnMut(usize) -> bool) -> usize {
+    let (mut to, mut beyond, mut step) = (known, beyond, first_step);
+    while to + step < beyond {
+        if passes(to + step) {
+            to += step;
+            step *= 2;
+        } else {
+            beyond = to + step;
+        }
+    }
+    while beyond - to > 1 {
+        let middle = usize::midpoint(to, beyond);
+        if passes(middle) {
+            to = middle;
+        } else {
+            beyond = middle;
+        }
+    }
+    to
 }
 
 /// The runs of selected points, their ends moved to the border of the selection.
@@ -217,8 +228,12 @@ fn deviation_at(exact: &PathPoint, a: Vector, b: Vector) -> f64 {
     let chord = b - a;
     let run = chord.xy().norm_squared();
     let share = if run > 0.0 { ((exact.tip - a).xy().dot(&chord.xy()) / run).clamp(0.0, 1.0) } else { 0.0 };
-    let aside = exact.tip - a - chord * share;
-    aside.dot(&exact.normal).abs().max(ASIDE * aside.norm())
+    counted(exact.tip - a - chord * share, &exact.normal)
+}
+
+/// How much of a distance counts as deviation at a contact with this normal.
+pub fn counted(aside: Vector, normal: &Vector) -> f64 {
+    aside.dot(normal).abs().max(ASIDE * aside.norm())
 }
 
 /// How far a path with the exact middle `m` deviates from a chord, at the middle or beside it.

@@ -2,6 +2,7 @@
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // what tests expect may come from std
 
+mod arcs;
 pub mod budget;
 mod error;
 mod fitting;
@@ -15,10 +16,12 @@ mod seam;
 mod segment;
 mod surface;
 
+pub use arcs::{Arcs, Fitted};
 pub use error::PlanError;
 pub use lattice::{Cells, Lattice};
 pub use linking::{
-    join, link, AlongSurface, AtDepth, Entered, Heights, LinkRules, Links, OverClearance, Position, Rates, Run,
+    join, link, link_with_arcs, AlongSurface, AtDepth, Entered, Heights, LinkRules, Links, OverClearance, Position, Rates,
+    Run,
 };
 pub use nearest::ordered;
 pub use pass::{Pass, PathPoint, Sense};

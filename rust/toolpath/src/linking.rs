@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use styluscam_geometry::Vector;
 use styluscam_motion::{Cancelled, Move, Role, Watch};
 
-use crate::{fitting, fitting::Course, Pass, PathPoint, Segment, Surface};
+use crate::{fitting, fitting::Course, Arcs, Fitted, Pass, PathPoint, Segment, Surface};
 
 /// Heights of links over clearance, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -156,13 +156,58 @@ pub fn link(
     watch: &Watch,
 ) -> Result<Vec<Move>, Cancelled> {
     watch.begin("linking", passes.len());
-    let runs: Vec<Run<PathPoint>> =
-        passes.iter().filter_map(|entered| run_of(&entered.pass, links.rates.cut)).collect();
-    let ramps = passes.iter().filter(|entered| !entered.pass.points.is_empty()).map(|entered| {
-        let ramp = entered.ramp.get(1..)?;
-        Some(lines(ramp, links.rates.cut).into_iter().map(|line| line.in_role(Role::Ramp)).collect())
-    });
-    let ramps: Vec<Option<Vec<Segment>>> = ramps.collect();
+    let along = |points: &[PathPoint]| lines(points.get(1..).unwrap_or_default(), links.rates.cut);
+    moves(passes, along, rules, links, watch)
+}
+
+/// As [`link`], with arcs and lines along the passes and their ramps, whose points are all witnesses
+/// ([`Surface::keeping_witnesses`]); they deviate by at most `deviation` mm along the normal.
+///
+/// # Errors
+/// `Cancelled`.
+pub fn link_with_arcs(
+    passes: &[Entered],
+    (arcs, deviation): (&Arcs<'_>, f64),
+    rules: &impl LinkRules<PathPoint>,
+    links: &Links,
+    watch: &Watch,
+) -> Result<(Vec<Move>, Fitted), Cancelled> {
+    watch.begin("fitting arcs", passes.len());
+    let fitted = |entered: &Entered| {
+        watch.advance(1)?;
+        let along = |points: &[PathPoint]| {
+            let segments = arcs.along(points, deviation, links.rates.cut);
+            let figures = Fitted::of(points, &segments, deviation);
+            (segments, figures)
+        };
+        Ok([along(&entered.pass.points), along(&entered.ramp)])
+    };
+    let fitted: Result<Vec<_>, Cancelled> = passes.par_iter().map(fitted).collect();
+    watch.begin("linking", passes.len());
+    let fitted = fitted?.into_iter().flatten();
+    let figures = fitted.clone().fold(Fitted::default(), |all, (_, figures)| all.and(figures));
+    let mut fitted = fitted.map(|(segments, _)| segments);
+    let moves = moves(passes, |_| fitted.next().unwrap_or_default(), rules, links, watch)?;
+    Ok((moves, figures))
+}
+
+/// The moves along all passes, each of which and its ramp are followed as `along` has it, in this order.
+fn moves(
+    passes: &[Entered],
+    mut along: impl FnMut(&[PathPoint]) -> Vec<Segment>,
+    rules: &impl LinkRules<PathPoint>,
+    links: &Links,
+    watch: &Watch,
+) -> Result<Vec<Move>, Cancelled> {
+    let (mut runs, mut ramps) = (Vec::with_capacity(passes.len()), Vec::with_capacity(passes.len()));
+    for Entered { pass, ramp } in passes {
+        let (segments, down) = (along(&pass.points), along(ramp));
+        if let (Some(first), Some(last)) = (pass.points.first(), pass.points.last()) {
+            runs.push(Run { from: *first, to: *last, segments });
+            let down = down.into_iter().map(|segment| segment.in_role(Role::Ramp));
+            ramps.push((!ramp.is_empty()).then(|| down.collect()));
+        }
+    }
     let segments = joined(&runs, &ramps, rules, links, watch)?;
     Ok(segments.iter().map(|segment| segment.to_move(links.operation)).collect())
 }
@@ -214,12 +259,6 @@ fn joined<P: Position + Sync>(
     }
     joined.extend(last.map(|last| up(last, links)));
     Ok(joined)
-}
-
-/// A pass as a run of lines; none of a pass without points.
-fn run_of(pass: &Pass, feed: f64) -> Option<Run<PathPoint>> {
-    let (first, rest) = pass.points.split_first()?;
-    Some(Run { from: *first, to: *rest.last().unwrap_or(first), segments: lines(rest, feed) })
 }
 
 fn lines(points: &[PathPoint], feed: f64) -> Vec<Segment> {

@@ -23,11 +23,13 @@ pub enum Pace {
 pub enum Curve {
     /// Straight.
     Line,
-    /// About a vertical line, less than a full turn; it rises evenly where its ends differ in height.
+    /// About a line along an axis, a full turn at most; it moves evenly along the line where its ends differ there.
     Arc {
-        /// The line's position in plan, mm.
+        /// The plane across the line.
+        plane: Plane,
+        /// The line's position in the plane, along its first and second axis, mm.
         centre: [f64; 2],
-        /// Seen from above: G2, not G3.
+        /// Seen along the plane's third axis towards its zero: G2, not G3.
         clockwise: bool,
     },
     /// About a vertical line, rising or falling evenly.
@@ -84,7 +86,7 @@ impl Segment {
         let aside = (1.0 - bulge * bulge) / (4.0 * bulge);
         let middle = (start + end) * 0.5;
         let centre = [middle.x - aside * chord.y, middle.y + aside * chord.x];
-        let curve = Curve::Arc { centre, clockwise: bulge < 0.0 };
+        let curve = Curve::Arc { plane: Plane::Xy, centre, clockwise: bulge < 0.0 };
         Some(Self { end, curve, pace: Pace::Feed(feed), role: None })
     }
 
@@ -129,14 +131,22 @@ impl Segment {
             Pace::Rapid => Move::rapid(end),
             Pace::Feed(feed) => Move::feed(end, feed),
         };
-        let about =
-            |[x, y]: [f64; 2], clockwise, turns| Arc { centre: [x, y, end[2]], plane: Plane::Xy, clockwise, turns };
-        let arc = match self.curve {
-            Curve::Line => None,
-            Curve::Arc { centre, clockwise } => Some(about(centre, clockwise, 0)),
-            Curve::Helix { centre, clockwise, turns } => Some(about(centre, clockwise, turns)),
+        Move { role: self.role, ..plain.arc(self.turning()).of_operation(operation) }
+    }
+
+    /// How it turns on its way; none of a line.
+    #[must_use]
+    pub fn turning(&self) -> Option<Arc> {
+        let about = |plane: Plane, in_plane: [f64; 2], clockwise, turns| {
+            let (mut centre, [first, second, _]): ([f64; 3], _) = (self.end.into(), plane.axes());
+            [centre[first], centre[second]] = in_plane;
+            Arc { centre, plane, clockwise, turns }
         };
-        Move { role: self.role, ..plain.arc(arc).of_operation(operation) }
+        match self.curve {
+            Curve::Line => None,
+            Curve::Arc { plane, centre, clockwise } => Some(about(plane, centre, clockwise, 0)),
+            Curve::Helix { centre, clockwise, turns } => Some(about(Plane::Xy, centre, clockwise, turns)),
+        }
     }
 }
 
@@ -173,7 +183,7 @@ mod tests {
             let angle = degrees.to_radians();
             let end = Vector::new(3.0 * libm::cos(angle), 3.0 * libm::sin(angle), -1.0);
             let segment = Segment::arc(start, end, libm::tan(0.25 * angle), 500.0).unwrap();
-            let Curve::Arc { centre: [x, y], clockwise: false } = segment.curve else { panic!("{segment:?}") };
+            let Curve::Arc { centre: [x, y], clockwise: false, .. } = segment.curve else { panic!("{segment:?}") };
             assert!(x.abs() < 1e-12 && y.abs() < 1e-12, "{degrees}: {x} {y}");
             assert!((path(&segment, start).2 - angle).abs() < 1e-12);
         }

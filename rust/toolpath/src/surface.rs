@@ -1,10 +1,12 @@
 //! The surface on which paths run: the envelope, and which of its contacts were asked for.
 
+use std::borrow::Cow;
+
 use styluscam_geometry::Vector;
 
 use crate::fitting;
 use crate::offset::{Contact, Envelope, Keeping};
-use crate::PathPoint;
+use crate::{Pass, PathPoint};
 
 /// A contact on an unselected face's border still counts while its normal is this close to what selected facets span, rad:
 /// wide enough for tessellated tangent joins, too narrow to roll round an edge.
@@ -21,19 +23,21 @@ pub struct Surface<'a> {
     heights: [f64; 2],
     /// Whether what rolls over the upper edges of the selection counts.
     from_above: bool,
+    /// Whether passes keep all their witnesses.
+    keeps_witnesses: bool,
 }
 
 impl<'a> Surface<'a> {
     /// `selected` holds for each triangle whether its face was asked for.
     #[must_use]
     pub fn new(envelope: &'a Envelope<'a>, selected: &'a [bool]) -> Self {
-        Self { envelope, selected: Some(selected), heights: EVERYWHERE, from_above: false }
+        Self { envelope, selected: Some(selected), heights: EVERYWHERE, from_above: false, keeps_witnesses: false }
     }
 
     /// All that the tool can touch counts as selected.
     #[must_use]
     pub fn whole(envelope: &'a Envelope<'a>) -> Self {
-        Self { envelope, selected: None, heights: EVERYWHERE, from_above: false }
+        Self { envelope, selected: None, heights: EVERYWHERE, from_above: false, keeps_witnesses: false }
     }
 
     /// The same surface, of which only what has its tip between two heights counts as selected.
@@ -47,6 +51,40 @@ impl<'a> Surface<'a> {
     #[must_use]
     pub fn from_above(&self) -> Self {
         Self { from_above: true, ..*self }
+    }
+
+    /// The same surface, whose passes keep all their witnesses: what is fitted to them later needs them.
+    #[must_use]
+    pub fn keeping_witnesses(&self) -> Self {
+        Self { keeps_witnesses: true, ..*self }
+    }
+
+    /// The points of a pass through witnesses: as few as keep within `deviation` mm, or all of them.
+    pub(crate) fn thinned(&self, witnesses: &[PathPoint], deviation: f64) -> Vec<PathPoint> {
+        if self.keeps_witnesses {
+            witnesses.to_vec()
+        } else {
+            fitting::thinned(witnesses, deviation)
+        }
+    }
+
+    /// The points of a pass as the ends of chords, also where it keeps its witnesses.
+    pub(crate) fn chords<'p>(&self, points: &'p [PathPoint], deviation: f64) -> Cow<'p, [PathPoint]> {
+        if self.keeps_witnesses {
+            Cow::Owned(fitting::thinned(points, deviation))
+        } else {
+            Cow::Borrowed(points)
+        }
+    }
+
+    pub(crate) fn keeps_witnesses(&self) -> bool {
+        self.keeps_witnesses
+    }
+
+    /// All passes with the ends of their chords as points.
+    pub(crate) fn outlines(&self, passes: &[Pass], deviation: f64) -> Vec<Pass> {
+        let outline = |pass: &Pass| Pass { points: self.chords(&pass.points, deviation).into_owned(), ..*pass };
+        passes.iter().map(outline).collect()
     }
 
     /// The envelope.

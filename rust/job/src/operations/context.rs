@@ -22,6 +22,8 @@ pub struct Context<'a> {
     pub operation: u32,
     /// Its tool.
     pub tool: &'a Tool,
+    /// Height of the point that posted coordinates are for above the tip, mm.
+    pub reference_height: f64,
     /// The faces that it is for, in the order of their numbers.
     pub faces: Vec<u32>,
     /// Between which heights its tip stays.

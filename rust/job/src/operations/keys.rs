@@ -36,6 +36,9 @@ pub struct OperationKeys {
     #[serde(default = "path_tolerance")]
     #[schemars(extend("x-unit" = "mm", "minimum" = 0.0001, "maximum" = 1.0))]
     pub tolerance: f64,
+    /// What the posted path is made of.
+    #[serde(default)]
+    pub fit: Fit,
     /// No loop is missed whose inside or surroundings hold a disc of this diameter, mm.
     #[serde(default = "smallest_feature")]
     #[schemars(extend("x-advanced" = true, "x-unit" = "mm", "minimum" = 0.01, "maximum" = 100.0))]
@@ -66,6 +69,17 @@ pub enum Direction {
     Climb,
     /// All the other way round than `climb`.
     Conventional,
+}
+
+/// What the posted path along passes is made of, within the tolerance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Fit {
+    /// Lines.
+    #[default]
+    Lines,
+    /// Arcs and lines, of which fewer are needed; lines where the machine has no arc for it.
+    Arcs,
 }
 
 /// Feeds, mm/min.

@@ -15,6 +15,7 @@ pub(crate) mod budget;
 mod context;
 mod effort;
 mod facts;
+mod fit;
 mod keys;
 mod kind;
 mod levels;
@@ -28,7 +29,7 @@ pub use context::Context;
 pub use effort::{Areas, Effort};
 pub(crate) use facts::counted;
 pub use facts::{BridgedFace, End, Fact, ReachedFace, SurfaceFacts};
-pub use keys::{Coolant, Direction, Feeds, OperationKeys, Spindle};
+pub use keys::{Coolant, Direction, Feeds, Fit, OperationKeys, Spindle};
 pub use kind::{About, OperationKind, PassContext, PassSpacing, Planned, Serves, StarterPasses};
 
 kinds! {

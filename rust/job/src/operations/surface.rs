@@ -6,12 +6,11 @@ use styluscam_motion::{Move, SpindleDirection};
 use styluscam_toolpath::{
     budget::Budget,
     forming::{ramped, Ramp},
-    link,
     offset::Envelope,
     ordered, AlongSurface, Entered, Heights, Links, Pass, PlanError, Rates, Seam, Sense, Surface,
 };
 
-use super::budget;
+use super::{budget, fit};
 use super::{reached, Context, Direction, End, Fact, OperationKeys, Planned, SurfaceFacts};
 use crate::{JobError, Scene};
 
@@ -158,10 +157,11 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
     let task = Task { context, budget, body: &body };
     let surface = Surface::new(&envelope, &selected).between_heights(kind.tip_range(&task));
     let surface = if scene.sheet.is_some() { surface.from_above() } else { surface };
+    let surface = if fit::asks_for_arcs(context) { surface.keeping_witnesses() } else { surface };
     let path = || {
         let traced = kind.trace(&task, &surface).map_err(|error| context.error(error))?;
-        let moves = linked(kind, &task, &surface, &traced)?;
-        Ok::<_, JobError>((traced, moves))
+        let (moves, fitted) = linked(kind, &task, &surface, &traced)?;
+        Ok::<_, JobError>((traced, moves, fitted))
     };
     let beside = watch.beside();
     let reach = || {
@@ -171,7 +171,7 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
     };
     // each has stretches in which one thread works alone
     let (path, reach) = rayon::join(path, reach);
-    let ((traced, moves), (offset, bridges)) = (path?, reach?);
+    let ((traced, moves, fitted), (offset, bridges)) = (path?, reach?);
     let (groups, passes) = (count_groups(&traced.passes), traced.passes.len());
     let facts = SurfaceFacts {
         wall_angle_max_deg: scene.steepest(&selected).to_degrees(),
@@ -185,19 +185,19 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
     Ok(Planned {
         words: kind.words(groups, passes),
         note: kind.note(groups, passes),
-        facts: kind.facts(groups, &traced),
+        facts: kind.facts(groups, &traced).into_iter().chain(fitted).collect(),
         surface: Some(facts),
         moves,
     })
 }
 
-/// The moves along the passes, in their order.
+/// The moves along the passes, in their order, and what there is to say of their fit.
 fn linked(
     kind: &impl FollowsSurface,
     task: &Task<'_>,
     surface: &Surface<'_>,
     traced: &Traced,
-) -> Result<Vec<Move>, JobError> {
+) -> Result<(Vec<Move>, Vec<Fact>), JobError> {
     let (context, watch) = (task.context, task.context.watch);
     let sense = kind.sense(context.common);
     let passes = ordered(&traced.passes, sense, kind.seam(), watch)?;
@@ -208,7 +208,8 @@ fn linked(
         }
         None => passes.into_iter().map(Entered::from).collect(),
     };
-    Ok(link(&entered, &task.along(surface, kind.pitch(task.body)), &task.links(), watch)?)
+    let passes = (&*entered, task.budget.deviation);
+    Ok(fit::linked(context, passes, &task.along(surface, kind.pitch(task.body)), &task.links())?)
 }
 
 /// The end that the heights are to an operation, if the tool would go on below.

@@ -3,7 +3,6 @@
 use styluscam_motion::{Arc, ArcPath, Move};
 
 use super::Poster;
-use crate::machine::Turns;
 use crate::post_error::PostError;
 use crate::rounded::RoundedArc;
 
@@ -13,11 +12,7 @@ impl Poster<'_> {
         self.position(index)?;
         let path = arc.path(self.tip.unwrap_or(step.end.tip), step.end.tip);
         let rules = self.machine.arc.as_ref();
-        let (pieces, turns) = match rules {
-            Some(rules) if rules.turns != Turns::None && rules.max_sweep_deg >= 360.0 => (1, arc.turns),
-            Some(rules) => ((path.sweep().abs().to_degrees() / rules.max_sweep_deg - 1e-9).ceil().max(1.0) as u32, 0),
-            None => (1, 0),
-        };
+        let (pieces, turns) = self.machine.arc_blocks(&path, arc.turns);
         let arc = Arc { turns, ..arc };
         let share = |i: u32| f64::from(i) / f64::from(pieces);
         for piece in 0..pieces {

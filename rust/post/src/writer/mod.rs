@@ -18,7 +18,7 @@ use styluscam_motion::{
 };
 
 use crate::inspect::Inspector;
-use crate::machine::{Family, FeedMode, Lathe, Machine};
+use crate::machine::{Family, FeedMode, Machine};
 use crate::number::NumberFormat;
 use crate::post_error::PostError;
 use crate::role;
@@ -144,7 +144,7 @@ impl<'a> Poster<'a> {
             linear: machine.linear_format(),
             feed_format: machine.feed_format(),
             per_mm: machine.units.output.in_mm().recip(),
-            x_scale: if machine.motion.lathe == Some(Lathe::Diameter) { 2.0 } else { 1.0 },
+            x_scale: machine.x_scale(),
             moves: 0,
             events: 0,
             calls: tool_calls(head),

@@ -50,26 +50,21 @@ impl Descent<'_> {
         Some((turn, below))
     }
 
-    /// A ramp from a loop's first point, this share of a turn long or up to the next point of the loop below: the ramp, that
-    /// loop from the point nearest to where the ramp begins, and the number of its point at which it arrives.
-    pub(super) fn ramp(
-        &self,
-        above: Vec<PathPoint>,
-        below: &Pass,
-        share: f64,
-    ) -> Option<(Vec<PathPoint>, Vec<PathPoint>, usize)> {
+    /// A ramp from a loop's first point, this share of a turn long or up to the next point of the loop below, at which it arrives.
+    pub(super) fn ramp(&self, above: Vec<PathPoint>, below: &Pass, share: f64) -> Option<Vec<PathPoint>> {
         let above = Level::new(above);
         let (below, pairs) = facing(&above, below)?;
         let (end, round) = arrival(&below.round, share)?;
         let ramp = self.fitted(&above, &below, &until(pairs, end), round)?;
         let arrives = ramp.last()?.tip == below.points.get(end)?.tip;
-        arrives.then_some((ramp, below.points, end))
+        arrives.then_some(ramp)
     }
 
     /// The path between points that belong together, which falls evenly and is at the lower loop when it is `whole` round.
     fn fitted(&self, above: &Level, below: &Level, pairs: &[[usize; 2]], whole: f64) -> Option<Vec<PathPoint>> {
         let mut curve = LevelCurve::new(self.surface, 0.0);
-        let exact = exact(&mut curve, above, below, (pairs, whole))?;
+        let down = if self.surface.keeps_witnesses() { evenly_down } else { half_down };
+        let exact = exact(&mut curve, above, below, (pairs, whole), down)?;
         let runs = fitting::densified(&exact, self.deviation, self.longest, &mut |a: &PathPoint, b: &PathPoint| {
             let level = curve.at_height(0.5 * (a.tip.z + b.tip.z));
             if self.is_turned {
@@ -81,7 +76,7 @@ impl Descent<'_> {
         let [run] = &runs[..] else { return None };
         let is_whole =
             run.iter().all(|point| point.selected) && run.windows(2).all(|pair| pair[1].tip.z < pair[0].tip.z);
-        is_whole.then(|| fitting::thinned(run, self.deviation))
+        is_whole.then(|| self.surface.thinned(run, self.deviation))
     }
 }
 
@@ -119,10 +114,11 @@ fn exact(
     above: &Level,
     below: &Level,
     (pairs, whole): (&[[usize; 2]], f64),
+    down: fn([f64; 2], f64) -> f64,
 ) -> Option<Vec<PathPoint>> {
     let mut points: Vec<PathPoint> = Vec::with_capacity(pairs.len());
     for (number, [i, j]) in pairs.iter().enumerate() {
-        let share = 0.5 * (above.round.get(*i)? + below.round.get(*j)?) / whole;
+        let share = down([*above.round.get(*i)?, *below.round.get(*j)?], whole);
         let (above, below) = (above.points.get(*i)?, below.points.get(*j)?);
         // ends are the loops' own points
         let point = match share {
@@ -137,6 +133,19 @@ fn exact(
         }
     }
     (points.len() > 1).then_some(points)
+}
+
+/// How far down the path is between points of which the upper and the lower one are so far round, of a `whole`: as their middle is.
+///
+/// Where one of both has neighbours that are far apart, the path falls in waves about an even slope; chords pass over them.
+fn half_down([above, below]: [f64; 2], whole: f64) -> f64 {
+    0.5 * (above + below) / whole
+}
+
+/// The same, evenly: so far down as it is round itself, which is nearer to the upper point's the higher it is. Arcs are as long as
+/// the path is even.
+fn evenly_down([above, below]: [f64; 2], whole: f64) -> f64 {
+    above / (whole + above - below).max(f64::MIN_POSITIVE)
 }
 
 /// The point of the envelope between a higher and a lower one in plan, this share of the height down.

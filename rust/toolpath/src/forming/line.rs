@@ -37,7 +37,7 @@ pub fn over_line(
     for exact in met {
         for run in fitting::selected_runs(&exact, false, |a, b| fitting::Course::between(&mut course, a, b)) {
             let runs = fitting::densified(&run, deviation, narrow, &mut course);
-            found.extend(runs.iter().map(|run| fitting::thinned(run, deviation)));
+            found.extend(runs.iter().map(|run| surface.thinned(run, deviation)));
         }
     }
     // a cancelled course ends at once: what it left is no path

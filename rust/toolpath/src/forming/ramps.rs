@@ -7,7 +7,7 @@
 use styluscam_motion::{Cancelled, Watch};
 
 use super::{descent::Descent, nesting};
-use crate::{seam, Entered, Pass, PathPoint, Sense, Surface};
+use crate::{nearest, seam, Entered, Pass, PathPoint, Sense, Surface};
 
 /// How ramps go down.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,21 +33,23 @@ pub fn ramped(
     ramp: &Ramp,
     watch: &Watch,
 ) -> Result<Vec<Entered>, Cancelled> {
-    let followers = nesting::followers(&ordered);
+    let outlines = surface.outlines(&ordered, ramp.deviation);
+    let followers = nesting::followers(&outlines);
     let descent = Descent { surface, deviation: ramp.deviation, longest: ramp.longest, is_turned: false };
     let mut entered: Vec<Entered> = Vec::with_capacity(ordered.len());
     let mut levels: usize = 0;
-    for (number, pass) in ordered.into_iter().enumerate() {
+    for (number, (pass, outline)) in ordered.into_iter().zip(&outlines).enumerate() {
         watch.advance(0)?;
         let last = entered.last().map(|last| last.pass.group);
         levels += usize::from(last.is_some_and(|last| last != pass.group));
         let descent = Descent { is_turned: ramp.sense.turns(levels), ..descent };
         let before = number.checked_sub(1).filter(|before| followers[*before] == Some(number));
-        let mut above = before.and_then(|before| entered.get(before)).map(|above| above.pass.points.clone());
+        let above = before.and_then(|before| entered.get(before));
+        let mut above = above.map(|above| surface.chords(&above.pass.points, ramp.deviation).into_owned());
         if let (Some(above), true) = (&mut above, levels > 0 && ramp.sense.turns(levels - 1) != descent.is_turned) {
             above.reverse(); // as its own follower runs
         }
-        let found = above.and_then(|above| to_loop(&descent, above, &pass, ramp.slope));
+        let found = above.and_then(|above| to_loop(&descent, above, [&pass, outline], ramp.slope));
         entered.push(found.unwrap_or_else(|| Entered::from(begun_beside(entered.last(), pass))));
     }
     Ok(entered)
@@ -62,14 +64,13 @@ fn begun_beside(before: Option<&Entered>, mut pass: Pass) -> Pass {
     pass
 }
 
-/// A loop that begins where a ramp from the loop above, which runs the same way, arrives; with that ramp.
-fn to_loop(descent: &Descent<'_>, above: Vec<PathPoint>, pass: &Pass, slope: f64) -> Option<Entered> {
+/// A loop, given with its chords, that begins where a ramp from the chords above, which run the same way, arrives; with that ramp.
+fn to_loop(descent: &Descent<'_>, above: Vec<PathPoint>, [pass, outline]: [&Pass; 2], slope: f64) -> Option<Entered> {
     let fall = above.first()?.tip.z - pass.points.first()?.tip.z;
     let share = fall / slope / length(&above);
-    let (ramp, mut points, arrival) = descent.ramp(above, pass, share)?;
-    points.pop();
-    points.rotate_left(arrival);
-    points.push(*points.first()?);
+    let ramp = descent.ramp(above, outline, share)?;
+    let mut points = pass.points.clone();
+    nearest::begin_nearest(&mut points, ramp.last()?.tip);
     Some(Entered { pass: Pass { points, ..*pass }, ramp })
 }
 

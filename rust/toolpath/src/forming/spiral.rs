@@ -7,7 +7,7 @@ use styluscam_motion::Watch;
 
 use super::descent::{Descent, Level};
 use super::nesting;
-use crate::{Pass, PlanError, Surface};
+use crate::{nearest, Pass, PlanError, Surface};
 
 /// Loops of levels, in the order of their groups, joined to spirals: a loop at the first height, one descent, a loop at the last.
 /// Where a loop parts, ends, or cannot be followed down to the next level, its spiral ends; open passes stay as they are.
@@ -24,7 +24,8 @@ pub fn spirals(
     longest: f64,
     watch: &Watch,
 ) -> Result<Vec<Pass>, PlanError> {
-    let followers = nesting::followers(passes);
+    let outlines = surface.outlines(passes, deviation);
+    let followers = nesting::followers(&outlines);
     let mut is_followed = vec![false; passes.len()];
     followers.iter().flatten().for_each(|lower| is_followed[*lower] = true);
     let firsts: Vec<usize> = (0..passes.len()).filter(|number| !is_followed[*number]).collect();
@@ -35,7 +36,7 @@ pub fn spirals(
         while let Some(lower) = loops.last().and_then(|last| followers[*last]) {
             loops.push(lower);
         }
-        let loops: Vec<&Pass> = loops.into_iter().map(|number| &passes[number]).collect();
+        let loops: Vec<[&Pass; 2]> = loops.into_iter().map(|number| [&passes[number], &outlines[number]]).collect();
         along(&descent, &loops, watch)
     };
     let found: Result<Vec<Vec<Pass>>, PlanError> = firsts.par_iter().map(of_first).collect();
@@ -44,22 +45,22 @@ pub fn spirals(
     Ok(found)
 }
 
-/// The spirals along loops each of which leads to the next.
-fn along(descent: &Descent<'_>, loops: &[&Pass], watch: &Watch) -> Result<Vec<Pass>, PlanError> {
+/// The spirals along loops, each with its chords, each of which leads to the next.
+fn along(descent: &Descent<'_>, loops: &[[&Pass; 2]], watch: &Watch) -> Result<Vec<Pass>, PlanError> {
     let mut found: Vec<Pass> = Vec::new();
-    let mut last: Option<Level> = None;
-    for pass in loops {
+    let mut last: Option<(Level, &Pass)> = None;
+    for [pass, outline] in loops {
         watch.advance(1)?;
-        let turn = last.as_ref().and_then(|above| descent.turn(above, pass));
+        let turn = last.as_ref().and_then(|(above, _)| descent.turn(above, outline));
         match (turn, found.last_mut()) {
             (Some((turn, below)), Some(spiral)) => {
                 spiral.points.extend_from_slice(&turn[1..]);
-                last = Some(below);
+                last = Some((below, pass));
             }
             _ => {
                 close(&mut found, last.as_ref());
                 found.push((*pass).clone());
-                last = pass.closed.then(|| Level::new(pass.points.clone()));
+                last = pass.closed.then(|| (Level::new(outline.points.clone()), *pass));
             }
         }
     }
@@ -68,10 +69,12 @@ fn along(descent: &Descent<'_>, loops: &[&Pass], watch: &Watch) -> Result<Vec<Pa
 }
 
 /// Ends the last spiral, if it goes down, with the loop that it comes to.
-fn close(found: &mut [Pass], last: Option<&Level>) {
-    if let (Some(spiral), Some(last)) = (found.last_mut(), last) {
-        if spiral.descends() {
-            spiral.points.extend_from_slice(&last.points[1..]);
+fn close(found: &mut [Pass], last: Option<&(Level, &Pass)>) {
+    if let (Some(spiral), Some((_, pass))) = (found.last_mut(), last) {
+        if let (true, Some(end)) = (spiral.descends(), spiral.points.last()) {
+            let mut points = pass.points.clone();
+            nearest::begin_nearest(&mut points, end.tip);
+            spiral.points.extend_from_slice(&points[1..]);
             spiral.closed = false;
         }
     }

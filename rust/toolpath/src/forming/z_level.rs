@@ -26,8 +26,8 @@ pub fn z_levels(
         .par_iter()
         .enumerate()
         .map(|(group, z)| {
-            let level = Level { grid, bounds: &bounds, group, deviation };
-            let passes = level.passes(LevelCurve::new(surface, *z), watch)?;
+            let level = Level { surface, grid, bounds: &bounds, group, deviation };
+            let passes = level.passes(*z, watch)?;
             watch.advance(1)?;
             Ok(passes)
         })
@@ -60,6 +60,7 @@ pub fn z_levels_beside(
 }
 
 struct Level<'a> {
+    surface: &'a Surface<'a>,
     grid: &'a Grid,
     bounds: &'a Bounds,
     group: usize,
@@ -67,8 +68,9 @@ struct Level<'a> {
 }
 
 impl<'a> Level<'a> {
-    fn passes(&self, mut curve: LevelCurve<'a>, watch: &Watch) -> Result<Vec<Pass>, PlanError> {
-        let Self { grid, bounds, group, deviation } = *self;
+    fn passes(&self, z: f64, watch: &Watch) -> Result<Vec<Pass>, PlanError> {
+        let Self { surface, grid, bounds, group, deviation } = *self;
+        let mut curve = LevelCurve::new(surface, z);
         let segments = Trace::new(grid, bounds, &mut curve, deviation).segments(watch)?;
         let mut passes = Vec::new();
         for chain in contour::chains(segments) {
@@ -76,7 +78,7 @@ impl<'a> Level<'a> {
                 gaps::bridged(chain, grid.smallest_feature(), deviation, &mut |a: &_, b: &_| curve.between(a, b));
             let closed = chain.closed && chain.points.iter().all(|p| p.selected);
             let runs = fitting::selected_runs(&chain.points, chain.closed, |a, b| curve.between(a, b));
-            let pass = |run: &Vec<PathPoint>| Pass { points: fitting::thinned(run, deviation), closed, group };
+            let pass = |run: &Vec<PathPoint>| Pass { points: surface.thinned(run, deviation), closed, group };
             passes.extend(runs.iter().map(pass));
         }
         Ok(passes)

@@ -148,7 +148,7 @@ impl Lines {
         for exact in met {
             for run in fitting::selected_runs(&exact, false, |a, b| course.between(a, b)) {
                 let runs = fitting::densified(&run, deviation, self.narrow, &mut course);
-                let pass = |run| Pass { points: fitting::thinned(run, deviation), closed: false, group: 0 };
+                let pass = |run| Pass { points: surface.thinned(run, deviation), closed: false, group: 0 };
                 passes.extend(runs.iter().map(|run| pass(run)));
             }
         }
