@@ -1,4 +1,4 @@
-"""Double-sided forming, the whole way: a job, two programs, two texts for two controllers, both read back and verified together."""
+"""Double-sided forming, the whole way: a job, two programs, two texts for two controllers, read back and verified together."""
 
 from __future__ import annotations
 
@@ -54,7 +54,9 @@ def job_of(part_of: Callable[[str], sc.Part], tmp_path: Path) -> Callable[..., s
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case[0]}-{case[1][0]['kind']}-{case[3]['kind']}")
-def test_two_programs_are_written_and_verified_together(job_of: Callable[..., sc.Job], case: Any, tmp_path: Path) -> None:
+def test_two_programs_are_written_and_verified_together(
+    job_of: Callable[..., sc.Job], case: Any, tmp_path: Path
+) -> None:
     result = sc.run(job_of(*case))
     errors = [f.message for each in result.channels.values() for f in each.report.findings if f.severity == "error"]
     assert result.ok, errors

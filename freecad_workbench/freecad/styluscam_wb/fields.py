@@ -162,17 +162,17 @@ class Field:
         if self.optional and not value:
             return None
         if self.is_json:
-            return self._parsed(value)
+            value = self._parsed(value)
         if self.type == SPEED:
             value *= SECONDS
         return {self.variant: value} if self.variant else value
 
     def property_value(self, value: Any) -> Any:
         """The property's value for a key's."""
-        if self.is_json:
-            return json.dumps(value)
         if self.variant:
             value = value[self.variant]
+        if self.is_json:
+            return json.dumps(value)
         return value / SECONDS if self.type == SPEED else value
 
     def _parsed(self, text: str) -> Any:
@@ -221,19 +221,23 @@ def _fields(section: str, table: Table, key: Key) -> list[Field]:
     for number, (variant, value) in enumerate(variants.items()):
         merged = {"x-unit": entry.get("x-unit", ""), **value}
         name = _name(section, key.name) + ("" if number == 0 else _camel(variant))
+        is_list = value["type"] == "array"
+        texts = (entry, value) if number else (entry,)
+        about = [str(one["description"]) for one in texts if "description" in one]
         found.append(
             Field(
                 name,
-                _number_type(merged),
+                TEXT if is_list else _number_type(merged),
                 section,
                 key.name,
-                _text(entry.get("description", ""), merged, optional=optional),
+                _text("\n".join(about), merged, optional=optional, is_json=is_list),
                 _first_of(_default(key), variant),
                 kinds=key.kinds,
                 variant=variant,
                 optional=optional,
+                is_json=is_list,
                 is_advanced=bool(entry.get(ADVANCED)),
-                range=_range(merged),
+                range=None if is_list else _range(merged),
                 unit=_unit(merged),
             )
         )
@@ -286,14 +290,14 @@ def _first_of(default: Any, variant: str) -> Any:
 
 
 def _variants(entry: Schema) -> dict[str, Schema]:
-    """An either-or of tables with one number each: its keys, and their schemas."""
+    """An either-or of tables with one number, or one list of numbers, each: its keys, and their schemas."""
     found: dict[str, Schema] = {}
     for one in entry.get("oneOf", ()):
         properties = one.get("properties", {})
         if len(properties) != 1:
             return {}
         ((name, value),) = properties.items()
-        if value.get("type") != "number":
+        if "number" not in (value.get("type"), value.get("items", {}).get("type")):
             return {}
         found[name] = {**{key: one[key] for key in ("x-unit", "description") if key in one}, **value}
     return found

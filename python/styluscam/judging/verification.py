@@ -179,7 +179,9 @@ class Report:
             Cancelled: by ``progress`` or ``cancel``.
         """
         if count < 1:
-            raise GeometryError(f"count = {count}: at least 1", code="out-of-range", where="count", hint="20000 is usual")
+            raise GeometryError(
+                f"count = {count}: at least 1", code="out-of-range", where="count", hint="20000 is usual"
+            )
         found = self.judgement.scallops(self.job.engine, self.scene, count, progress=progress, cancel=cancel)
         return [Scallops(*arrays) for arrays in found]
 

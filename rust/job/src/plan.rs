@@ -11,8 +11,8 @@ use crate::{check, die, forming, spindle, JobDocument, JobError, MAIN_CHANNEL};
 mod channel;
 mod pair;
 
-pub use channel::{Channel, OperationSummary, Setting};
 use channel::Added;
+pub use channel::{Channel, OperationSummary, Setting};
 
 /// Planned programs by channel.
 #[derive(Clone, Debug)]

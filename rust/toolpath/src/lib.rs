@@ -20,8 +20,8 @@ pub use arcs::{Arcs, Fitted};
 pub use error::PlanError;
 pub use lattice::{Cells, Lattice};
 pub use linking::{
-    join, link, link_with_arcs, AlongSurface, AtDepth, Entered, Heights, LinkRules, Links, OverClearance, Position, Rates,
-    Run,
+    join, link, link_with_arcs, AlongSurface, AtDepth, Entered, Heights, LinkRules, Links, OverClearance, Position,
+    Rates, Run,
 };
 pub use nearest::ordered;
 pub use pass::{Pass, PathPoint, Sense};

@@ -86,8 +86,7 @@ pub use scalar::{Across, Height, PassKind, Scalar};
 pub use scallop::{scallops, Scallop};
 pub use simulation::{simulate, Grid, Simulation, Skin};
 pub use subject::{
-    Forming, Found, FrameLevel, Left, Limits, Obstacle, ObstacleKind, Pairing, Partner, Reach, Subject, Support, TextFacts,
-    ToolCalls,
-    WallAngleSource,
+    Forming, Found, FrameLevel, Left, Limits, Obstacle, ObstacleKind, Pairing, Partner, Reach, Subject, Support,
+    TextFacts, ToolCalls, WallAngleSource,
 };
 pub use unreached::ToolReach;

@@ -148,7 +148,7 @@ impl Ridges<'_> {
         // by so much, on the plane of the point, does the scalar change by 1 mm
         let across = scalar.next(tip.into(), up, 1.0)?;
         let (value, rate, direction) = (scalar.value(tip.into()), across.norm().recip(), across.normalize());
-        let falls = scalar.value((Vector::from(tip) + across).into()) < value;
+        let falls = scalar.value(Vector::from(tip) + across) < value;
         let [low, high] = self.neighbours(position, value, (up, direction), rate)?;
         let step = high.value - low.value;
         let along = |neighbour: &Neighbour| (neighbour.value - value) / rate * if falls { -1.0 } else { 1.0 };

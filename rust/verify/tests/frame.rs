@@ -67,7 +67,8 @@ fn forming(support: Support) -> Limits {
 
 fn judged(program: &Program, stated: &[FrameLevel], obstacles: &[Obstacle]) -> Report {
     let (part, tools) = (hill(), [ball(2.0 * RADIUS)]);
-    let passes = OrderedPasses { scalar: Arc::new(Height), pitch: Pitch::Even(STEP), continuous: false, smallest_feature: 1.0 };
+    let passes =
+        OrderedPasses { scalar: Arc::new(Height), pitch: Pitch::Even(STEP), continuous: false, smallest_feature: 1.0 };
     let expectation = Expectation {
         contact: Contact::Touch,
         selected: vec![true; part.mesh.triangles().len()],
@@ -76,8 +77,16 @@ fn judged(program: &Program, stated: &[FrameLevel], obstacles: &[Obstacle]) -> R
         forms: true,
     };
     let id = "walls".to_owned();
-    let expected =
-        [ExpectedOperation { id, tool: 0, cut: 600.0, plunge: PLUNGE, keeps_pace: false, spindle: None, flood: false, expectation }];
+    let expected = [ExpectedOperation {
+        id,
+        tool: 0,
+        cut: 600.0,
+        plunge: PLUNGE,
+        keeps_pace: false,
+        spindle: None,
+        flood: false,
+        expectation,
+    }];
     let text = TextFacts { frame_levels: stated.to_vec(), ended: true, ..TextFacts::default() };
     let subject = Subject { expected: &expected, text: Some(&text), obstacles, ..part.subject(&tools) };
     judge(program, &subject, &forming(Support::DieAndFrame), &Watch::default()).unwrap()

@@ -26,7 +26,16 @@ fn expected(part: &Part, scalar: Arc<dyn Scalar>, pitch: Pitch) -> [ExpectedOper
     let selected = vec![true; part.mesh.triangles().len()];
     let expectation = Expectation { contact: Contact::Touch, selected, heights: [-100.0, 100.0], passes, forms: false };
     let id = "walls".to_owned();
-    [ExpectedOperation { id, tool: 0, cut: 600.0, plunge: 600.0, keeps_pace: false, spindle: None, flood: false, expectation }]
+    [ExpectedOperation {
+        id,
+        tool: 0,
+        cut: 600.0,
+        plunge: 600.0,
+        keeps_pace: false,
+        spindle: None,
+        flood: false,
+        expectation,
+    }]
 }
 
 /// Passes on the wall, `pitch` mm apart along it, each `off` mm off it.

@@ -54,23 +54,17 @@ pub fn levels(range: &LevelRange, floors: &Floors) -> Result<Vec<f64>, PlanError
     let rounded = |z: f64| (z / resolution).round() * resolution;
     let stood = |z: f64| range.stood(z, floors);
     let floor = stood(range.above(reachable).max(rounded(bottom)));
-    let smallest = steps.smallest().max(resolution);
-    let count = ((top - floor) / smallest).ceil().max(0.0);
-    let is_bounded = matches!(steps, Steps::Bounded(_));
-    if count > LIMIT as f64 && !is_bounded {
-        return Err(PlanError::TooMany { what: steps.key(), value: smallest, count: count as usize, limit: LIMIT });
+    let heights: Vec<f64> = steps.heights(top).take(LIMIT + 1).take_while(|z| *z > floor).collect();
+    if heights.len() > LIMIT {
+        let value = steps.smallest();
+        let count = ((top - floor) / value).ceil() as usize;
+        return Err(PlanError::TooMany { what: steps.key(), value, count, limit: LIMIT });
     }
+    let is_bounded = matches!(steps, Steps::Bounded(_));
     // what is rounded up never lies beyond its bound
     let settled = |z: f64| if is_bounded { (z / resolution).ceil() * resolution } else { rounded(z) };
     let shortest = |z: f64| if is_bounded { resolution } else { SHORT * steps.at(z) };
-    let mut out: Vec<f64> = steps
-        .heights(top)
-        .take(LIMIT)
-        .take_while(|z| *z > floor)
-        .map(settled)
-        .filter(|z| *z > floor + shortest(*z))
-        .map(stood)
-        .collect();
+    let mut out: Vec<f64> = heights.into_iter().map(settled).filter(|z| *z > floor + shortest(*z)).map(stood).collect();
     if floor < top {
         out.push(floor);
     }
@@ -123,7 +117,7 @@ mod tests {
     fn steps_end_at_the_bottom() {
         let range = LevelRange { top: 0.0, bottom: -2.1, reachable: -9.0, steps: Steps::Even(0.5), resolution: 0.001 };
         assert_eq!(levels(&range, &Floors::default()).unwrap(), [-0.5, -1.0, -1.5, -2.1]);
-        let range = LevelRange { bottom: -2.2, ..range.clone() };
+        let range = LevelRange { bottom: -2.2, ..range };
         assert_eq!(levels(&range, &Floors::default()).unwrap(), [-0.5, -1.0, -1.5, -2.0, -2.2]);
     }
 

@@ -28,7 +28,24 @@ Range: -360 to 360 deg</source>
     </message>
     <message>
         <source>Distance between levels.
-Range: above 0 to 100 mm</source>
+No more than this scallop between them, mm: steps follow from the wall's slope and curvature and from the tool.
+Range: above 0 to 10 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Distance between levels.
+Range: above 0 to 100 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Distance between levels.
+These distances one after the other, mm, from `z_top` or the sheet's (the part's) highest point down; the last one again
+and again.
+Range: above 0 to 100 mm
+As JSON
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -61,6 +78,12 @@ Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Largest step by scallop, mm; the tool's radius when left out.
+Range: above 0 to 100 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Most that may be left on the faces where the tool cannot get, mm; 1 mm of a sheet, and not checked in milling, when left
 out.
 Range: 0 to 1000 mm
@@ -68,8 +91,18 @@ Range: 0 to 1000 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Name of the tool under the sheet, for all operations.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>No loop is missed whose inside or surroundings hold a disc of this diameter, mm.
 Range: 0.01 to 100 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>No more than this scallop between rows, mm: they lie closer than the stepover where that takes it.
+Range: above 0 to 10 mm
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -92,6 +125,20 @@ wall's loops part (two pockets in one cup) each part has a spiral of its own. It
     <message>
         <source>Share of the faces, 0 to 1, that the tool may be unable to get to.
 Range: 0 to 1</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Smallest distance between rows by scallop, mm: steeper walls keep it and a larger scallop; a tenth of the stepover when
+left out.
+Range: above 0 to 100 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Smallest step by scallop, mm: gentler slopes keep it and a larger scallop; what the scallop allows at 10 degrees when left
+out.
+Range: above 0 to 100 mm
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -133,14 +180,27 @@ As JSON
     <message>
         <source>What is done to it.
 spif: Single-point incremental forming: a sheet, no die.
+dsif: Double-sided incremental forming: a sheet between two tools. The one below follows the contacts of the one above, on the
+other face of the sheet, block by block; its machine is in `[machines.support]`.
 milling: Milling: no sheet.
 tpif: Two-point incremental forming: a sheet over a male die, with a clamp frame that goes down, or into a female one.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What is left between the tools, as a share of the thickness that the sheet has there: below 1 they squeeze it.
+Range: 0.8 to 1</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
         <source>What lies under the sheet.
 male: The part is formed over it from outside, from its top outwards and down; the clamp frame goes down with the path.
 female: The part is formed into it from inside; the sheet is clamped at its rim.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What the posted path is made of.
+lines: Lines.
+arcs: Arcs and lines, of which fewer are needed; lines where the machine has no arc for it.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -287,6 +347,10 @@ Range: 0.1 to 45 deg
     </message>
     <message>
         <source>Apex radius</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Arcs and lines, of which fewer are needed; lines where the machine has no arc for it.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -440,7 +504,24 @@ Range: -360 to 360 deg</source>
     </message>
     <message>
         <source>Distance between levels.
-Range: above 0 to 100 mm</source>
+No more than this scallop between them, mm: steps follow from the wall's slope and curvature and from the tool.
+Range: above 0 to 10 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Distance between levels.
+Range: above 0 to 100 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Distance between levels.
+These distances one after the other, mm, from `z_top` or the sheet's (the part's) highest point down; the last one again
+and again.
+Range: above 0 to 100 mm
+As JSON
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -449,7 +530,16 @@ Range: above 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Double-sided incremental forming: a sheet between two tools. The one below follows the contacts of the one above, on the
+other face of the sheet, block by block; its machine is in `[machines.support]`.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Draws where the tool touches the model along the job's paths; again to take it away</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Dsif</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -486,6 +576,10 @@ Range: above 0 to 100 mm</source>
     </message>
     <message>
         <source>Finding</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Fit</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -597,6 +691,12 @@ Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Largest step by scallop, mm; the tool's radius when left out.
+Range: above 0 to 100 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Left out</source>
         <translation type="unfinished"></translation>
     </message>
@@ -610,6 +710,10 @@ Range: 0.0001 to 1 mm</source>
     </message>
     <message>
         <source>Line</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Lines.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -688,12 +792,22 @@ Range: 0 to 1000 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Name of the tool under the sheet, for all operations.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>New job</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
         <source>No loop is missed whose inside or surroundings hold a disc of this diameter, mm.
 Range: 0.01 to 100 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>No more than this scallop between rows, mm: they lie closer than the stepover where that takes it.
+Range: above 0 to 10 mm
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -887,6 +1001,10 @@ wall's loops part (two pockets in one cup) each part has a spiral of its own. It
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Scallop</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Scallop height by wall angle</source>
         <translation type="unfinished"></translation>
     </message>
@@ -960,7 +1078,21 @@ Range: 0 to 1</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Smallest distance between rows by scallop, mm: steeper walls keep it and a larger scallop; a tenth of the stepover when
+left out.
+Range: above 0 to 100 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Smallest feature</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Smallest step by scallop, mm: gentler slopes keep it and a larger scallop; what the scallop allows at 10 degrees when left
+out.
+Range: above 0 to 100 mm
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -973,6 +1105,10 @@ Range: 0 to 1</source>
     </message>
     <message>
         <source>Springback</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Squeeze</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -994,7 +1130,27 @@ Range: 1 to 90 deg
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Step list</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Step max</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Step min</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Step scallop</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Stepover</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Stepover min</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1027,6 +1183,10 @@ Range: 1 to 90 deg
     </message>
     <message>
         <source>StylusCAM path</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Support tool</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1246,8 +1406,15 @@ As JSON
     <message>
         <source>What is done to it.
 spif: Single-point incremental forming: a sheet, no die.
+dsif: Double-sided incremental forming: a sheet between two tools. The one below follows the contacts of the one above, on the
+other face of the sheet, block by block; its machine is in `[machines.support]`.
 milling: Milling: no sheet.
 tpif: Two-point incremental forming: a sheet over a male die, with a clamp frame that goes down, or into a female one.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What is left between the tools, as a share of the thickness that the sheet has there: below 1 they squeeze it.
+Range: 0.8 to 1</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1258,6 +1425,12 @@ tpif: Two-point incremental forming: a sheet over a male die, with a clamp frame
         <source>What lies under the sheet.
 male: The part is formed over it from outside, from its top outwards and down; the clamp frame goes down with the path.
 female: The part is formed into it from inside; the sheet is clamped at its rim.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What the posted path is made of.
+lines: Lines.
+arcs: Arcs and lines, of which fewer are needed; lines where the machine has no arc for it.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1303,6 +1476,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>alternate</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>arcs</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1374,7 +1551,15 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>dsif</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>female</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>fitting arcs</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1399,6 +1584,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>line</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>lines</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1458,6 +1647,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>pair</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>preferences/preferences-styluscam</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1510,6 +1703,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>scallops</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>simulating</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1547,6 +1744,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>stepover along the wall, mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>support</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
