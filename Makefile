@@ -203,6 +203,10 @@ profile-pictures: dev ## The pictures in docs/profiles.md
 concept-pictures: dev ## The pictures in docs/concepts
 	$(BIN)/python docs/concept_pictures.py
 
+.PHONY: gallery
+gallery: dev ## docs/gallery.md and its pictures
+	$(BIN)/python docs/gallery.py
+
 .PHONY: offset-picture
 offset-picture: dev ## The picture of the offset surface in docs/guide.md
 	$(BIN)/python docs/offset_picture.py

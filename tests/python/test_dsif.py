@@ -93,3 +93,11 @@ def test_a_corner_that_the_main_tool_bridges_is_refused_with_its_place() -> None
     document = described("pit", BALLS, sheet, {"kind": "z-level", **STEP})
     with pytest.raises(sc.PlanError, match=r"touches two places at once"):
         sc.plan(sc.Job.from_dict(document, part=part))
+
+
+def test_arcs_are_refused_for_the_tool_below_follows_straight_moves() -> None:
+    sheet = {"law": "constant", "model_face": "tool", "squeeze": 0.9}
+    document = described("cone_cup", BALLS, sheet, {"kind": "z-level", "fit": "arcs", **STEP})
+    with pytest.raises(sc.JobError, match="straight moves") as refused:
+        sc.Job.from_dict(document)
+    assert refused.value.where == "operations[0].fit"

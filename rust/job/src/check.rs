@@ -7,8 +7,8 @@ use crate::fixture::FixtureSection;
 use crate::process::Opposite;
 use crate::resolve::check_channels;
 use crate::{
-    spindle, Direction, JobDocument, JobError, LengthUnit, MachineSection, OperationKeys, OperationSection, Process,
-    ProcessSection, Selection, SheetSection, Zero,
+    operations::Fit, spindle, Direction, JobDocument, JobError, LengthUnit, MachineSection, OperationKeys,
+    OperationSection, Process, ProcessSection, Selection, SheetSection, Zero,
 };
 
 /// Checks combinations of keys.
@@ -255,6 +255,7 @@ fn operation(job: &JobDocument, path: &str, section: &OperationSection) -> Resul
     }
     heights(path, common, job.units)?;
     direction(path, common)?;
+    fit(job, path, common)?;
     spindle::check(section, path)?;
     section.kind().check(common, path)
 }
@@ -272,6 +273,17 @@ fn direction(path: &str, common: &OperationKeys) -> Result<(), JobError> {
     let message = format!("direction = {word:?} needs a tool that turns, and the spindle is off");
     let hint = "set direction = \"same\", or a spindle: spindle = { mode = \"fixed\", rpm = 8000 }";
     Err(JobError::document("conflict", format!("{path}.direction"), message, hint))
+}
+
+/// A tool on the other side of the sheet is planned along straight moves.
+fn fit(job: &JobDocument, path: &str, common: &OperationKeys) -> Result<(), JobError> {
+    let follows = job.channels().iter().any(|channel| job.opposite(channel).is_some());
+    if common.fit == Fit::Lines || !follows {
+        return Ok(());
+    }
+    let kind = job.process.process.name();
+    let message = format!("fit = \"arcs\": with process.kind = {kind:?} the tool below follows straight moves");
+    Err(JobError::document("conflict", format!("{path}.fit"), message, "write fit = \"lines\""))
 }
 
 /// The error of an operation at `path` whose tool the job does not have.

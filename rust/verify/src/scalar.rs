@@ -211,7 +211,7 @@ impl Scalar for Across {
     }
 
     /// Those that lie whole steps apart: rows that were added for a strip between them are no longer than the strip. Where
-    /// steps differ these cannot be told from the others, and none is.
+    /// steps differ these cannot be distinguished from the others, and none is.
     fn throughout(&self, mut rows: Vec<[f64; 2]>, step: Option<f64>) -> Vec<f64> {
         let Some(step) = step else { return Vec::new() };
         let past = |[value, _]: &[f64; 2]| value.rem_euclid(step);

@@ -13,11 +13,24 @@ use styluscam_verify::Pitch;
 use super::step::{Step, StepLimits};
 use super::surface::{Task, Traced};
 
-/// The loops of levels a step apart, with more where these leave out a wall, and above floors.
+/// What a job states of an operation's levels.
+#[derive(Clone, Copy, Debug)]
+pub struct LevelKeys<'a> {
+    /// Their distances.
+    pub step: &'a Step,
+    /// The limits of these.
+    pub limits: StepLimits,
+    /// Whether there is one on every level floor.
+    pub at_flats: bool,
+    /// Whether turns lead evenly from one to the next.
+    pub of_turns: bool,
+}
+
+/// The loops of levels a step apart, with more where these leave out a wall, and, if asked for, on every level floor.
 ///
 /// # Errors
 /// Nothing is reached, no level meets the faces, too many levels, `Cancelled`.
-pub fn trace(step: &Step, limits: StepLimits, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError> {
+pub fn trace(keys: &LevelKeys<'_>, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError> {
     let (watch, deviation) = (task.context.watch, task.budget.deviation);
     let nothing = || PlanError::NothingReached(task.why_nothing());
     let grid = Grid::sample(surface, task.context.node_spacing(), watch)?.ok_or_else(nothing)?;
@@ -26,12 +39,15 @@ pub fn trace(step: &Step, limits: StepLimits, task: &Task<'_>, surface: &Surface
     // the flat top lies margin below what the envelope shows
     let top = task.context.heights.top.unwrap_or_else(|| rounded(highest - task.budget.margin, resolution));
     let bottom = task.context.heights.bottom;
-    let steps = steps(step, limits, task, surface)?;
+    let steps = steps(keys, task, surface)?;
     let range = LevelRange { top, bottom, reachable: lowest, steps, resolution };
     let floors = Floors::of(surface.envelope());
     let heights = levels(&range, &floors)?;
     let mut passes = z_levels(surface, &grid, &heights, deviation, watch)?;
-    let bands = left_out(surface, (&heights, &passes), grid.spacing(), watch)?;
+    let mut bands = left_out(surface, (&heights, &passes), grid.spacing(), watch)?;
+    if keys.at_flats {
+        bands.extend(floors.bands());
+    }
     let mut more = with_levels_at(&heights, &bands, &range, &floors).unwrap_or_else(|| heights.clone());
     let is_at = |z: f64| passes.iter().flat_map(|pass| pass.points.first()).any(|p| (p.tip.z - z).abs() < resolution);
     // rims that rise and fall leave stretches of it that are too short
@@ -49,15 +65,16 @@ pub fn trace(step: &Step, limits: StepLimits, task: &Task<'_>, surface: &Surface
 }
 
 /// The distances between levels.
-fn steps(step: &Step, limits: StepLimits, task: &Task<'_>, surface: &Surface<'_>) -> Result<Steps, PlanError> {
+fn steps(keys: &LevelKeys<'_>, task: &Task<'_>, surface: &Surface<'_>) -> Result<Steps, PlanError> {
     let context = task.context;
     let top = context.heights.top.unwrap_or(context.scene.top);
-    Ok(match step.pitch(limits, top, task.body) {
+    Ok(match keys.step.pitch(keys.limits, top, task.body) {
         Pitch::Even(step) => Steps::Even(step),
         Pitch::Listed { from, steps } => Steps::Listed { from, steps },
         Pitch::Scallop { height, steps: limits } => {
             let rule = ScallopRule { height, limits };
-            Steps::Bounded(scallop_steps(surface, task.body, Spread::Levels, &rule, context.watch)?)
+            let bounds = scallop_steps(surface, task.body, Spread::Levels, &rule, context.watch)?;
+            Steps::Bounded(if keys.of_turns { bounds.for_turns() } else { bounds })
         }
     })
 }

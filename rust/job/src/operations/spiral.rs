@@ -9,7 +9,7 @@ use styluscam_toolpath::{forming::spirals, PlanError, Sense, Surface};
 use styluscam_verify::{Contact, Height, OrderedPasses, Passes};
 
 use super::facts::counted;
-use super::levels;
+use super::levels::{self, LevelKeys};
 use super::step::{Step, StepLimits};
 use super::surface::{self, FollowsSurface, Task, Traced};
 use super::{About, Areas, Context, Effort, Fact, OperationKind, PassContext, PassSpacing, Planned, Serves};
@@ -121,7 +121,8 @@ impl FollowsSurface for Spiral {
     }
 
     fn trace(&self, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError> {
-        let levels = levels::trace(&self.step, self.limits(), task, surface)?;
+        let asked = LevelKeys { step: &self.step, limits: self.limits(), at_flats: false, of_turns: true };
+        let levels = levels::trace(&asked, task, surface)?;
         let (deviation, longest) = (task.budget.deviation, task.context.node_spacing());
         let passes = spirals(surface, &levels.passes, deviation, longest, task.context.watch)?;
         Ok(Traced { passes, ..levels })

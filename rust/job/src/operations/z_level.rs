@@ -9,7 +9,7 @@ use styluscam_toolpath::{PlanError, Seam, Surface};
 use styluscam_verify::{Contact, Height, OrderedPasses, Passes};
 
 use super::facts::counted;
-use super::levels;
+use super::levels::{self, LevelKeys};
 use super::step::{Step, StepLimits};
 use super::surface::{self, FollowsSurface, Task, Traced};
 use super::{About, Areas, Context, Effort, Fact, OperationKind, PassContext, PassSpacing, Planned, Serves};
@@ -31,6 +31,9 @@ pub struct ZLevel {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-advanced" = true, "x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 100.0))]
     pub step_max: Option<f64>,
+    /// One more level at every level floor that no other level stands on: shoulders and pockets' floors at their exact height.
+    #[serde(default)]
+    pub levels_at_flats: bool,
     /// Direction from a loop's middle in which it begins, degrees from +X; where it is nearest when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "deg", "minimum" = -360.0, "maximum" = 360.0))]
@@ -134,7 +137,9 @@ impl FollowsSurface for ZLevel {
     }
 
     fn trace(&self, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError> {
-        levels::trace(&self.step, self.limits(), task, surface)
+        let (step, limits) = (&self.step, self.limits());
+        let levels = LevelKeys { step, limits, at_flats: self.levels_at_flats, of_turns: false };
+        levels::trace(&levels, task, surface)
     }
 
     fn words(&self, groups: usize, passes: usize) -> String {

@@ -9,6 +9,8 @@ const LEVEL: f64 = 5e-9;
 const SINGLE: f64 = 4.0 * f32::EPSILON as f64;
 /// But not farther than this share of the margin.
 const BESIDE: f64 = 0.5;
+/// A level that is no higher over a floor than this, mm, stands on it.
+const ON_FLOOR: f64 = 0.02;
 
 /// The tips of a tool that stands on the horizontal triangles of a mesh.
 #[derive(Clone, Debug, Default)]
@@ -44,6 +46,12 @@ impl Floors {
     #[cfg(test)]
     pub fn at(heights: &[f64], margin: f64) -> Self {
         Self::under(heights.iter().map(|z| z + margin).collect(), margin + 1e-5)
+    }
+
+    /// The heights within which a level stands on each floor: the tip on it, and a little more; mm.
+    #[must_use]
+    pub fn bands(&self) -> Vec<(f64, f64)> {
+        self.ascending.iter().map(|tip| (*tip, tip + ON_FLOOR)).collect()
     }
 
     /// A level's height, mm, raised by at most one and a half of the envelope's margin where a tool without it would touch a

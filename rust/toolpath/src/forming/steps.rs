@@ -104,6 +104,19 @@ impl StepBounds {
         bounds
     }
 
+    /// The same for turns that go down evenly from one step to the next: within a step of each value no more is allowed than
+    /// there, for a turn's distance to the next lies between two steps.
+    #[must_use]
+    pub fn for_turns(&self) -> Self {
+        let mut most = self.most.clone();
+        for (cell, step) in self.most.iter().enumerate() {
+            let reach = (step.max(self.limits[0]) / self.cell).ceil() as usize;
+            let around = cell.saturating_sub(reach)..(cell + reach + 1).min(most.len());
+            most[around].iter_mut().for_each(|other| *other = other.min(*step));
+        }
+        Self { most, ..self.clone() }
+    }
+
     fn cell_of(&self, value: f64) -> usize {
         (((value - self.low) / self.cell).max(0.0) as usize).min(self.most.len().saturating_sub(1))
     }
@@ -220,6 +233,12 @@ mod tests {
         let over_the_jump = -1.8 - bounds.below(-1.8);
         assert!((0.2..0.21).contains(&over_the_jump), "{over_the_jump}");
         assert_eq!([bounds.at(-2.5), bounds.at(-0.5), bounds.at(3.0)], [0.1, 0.5, 0.5]);
+    }
+
+    #[test]
+    fn turns_take_the_smaller_step_where_steps_change() {
+        let bounds = StepBounds::new(&[([0.0, 2.0], 0.5), ([2.0, 3.0], 0.125)], [0.05, 2.0]).for_turns();
+        assert_eq!([1.0, 1.8, 1.9, 2.5].map(|value| bounds.at(value)), [0.5, 0.5, 0.125, 0.125]);
     }
 
     #[test]

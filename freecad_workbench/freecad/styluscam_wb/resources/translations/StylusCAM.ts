@@ -106,6 +106,10 @@ Range: above 0 to 10 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>One more level at every level floor that no other level stands on: shoulders and pockets' floors at their exact height.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>One operation: what is common to all kinds.
 z-level: Loops at constant heights, from the top down.
 zig-zag: Parallel rows over the surface.
@@ -709,6 +713,10 @@ Range: above 0 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Levels at flats</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Line</source>
         <translation type="unfinished"></translation>
     </message>
@@ -825,6 +833,10 @@ Range: above 0 to 10 mm
     <message>
         <source>One descent along the walls: a loop at the top, turns that fall evenly along their length, a loop at the bottom. Where a
 wall's loops part (two pockets in one cup) each part has a spiral of its own. It runs one way: the higher ground on its right.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>One more level at every level floor that no other level stands on: shoulders and pockets' floors at their exact height.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>

@@ -1,0 +1,158 @@
+"""Makes docs/gallery.md and its pictures from the jobs below: each is planned, posted, verified and drawn.
+
+.venv/bin/python docs/gallery.py [NAME ...]
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from copy import deepcopy
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from PIL import Image
+
+import styluscam as sc
+from styluscam.drawing.picture import plan_picture
+
+HERE = Path(__file__).parent
+IMAGES = HERE / "images" / "gallery"
+FIXTURES = HERE.parent / "fixtures"
+SIZE = (900, 600)
+COLOURS = 96
+"""Of a picture's palette."""
+
+
+@dataclass(frozen=True)
+class Example:
+    """A job of one operation, with its title."""
+
+    name: str
+    title: str
+    text: str
+    part: str
+    operation: dict[str, Any]
+    process: dict[str, Any] = field(default_factory=lambda: {"kind": "spif"})
+    setup: dict[str, Any] = field(default_factory=dict)
+    more: dict[str, Any] = field(default_factory=dict)
+
+    def document(self) -> dict[str, Any]:
+        """The job."""
+        part: dict[str, Any] = {"file": str(FIXTURES / f"{self.part}.step")}
+        setup = deepcopy(self.setup)
+        if self.process["kind"] != "milling":
+            part["model_face"] = "tool"
+            setup["sheet"] = {"thickness": 1.0}
+        feeds = {"cut": 1500.0, "plunge": 300.0}
+        return {
+            "schema": 1,
+            "title": self.title,
+            "part": part,
+            "setup": setup,
+            "process": self.process,
+            "tools": {"stylus": {"number": 1, "profile": {"kind": "ball", "diameter": 10.0}}},
+            "machine": {"name": "linuxcnc"},
+            "operations": [{"tool": "stylus", "tolerance": 0.01, "feeds": feeds, **self.operation}],
+            **self.more,
+        }
+
+
+LEVELS = {"kind": "z-level", "step": {"height": 1.5}}
+
+EXAMPLES = (
+    Example("levels", "Levels", "`z-level`: loops at constant heights, from the top down.", "cone_cup", LEVELS),
+    Example(
+        "scallop",
+        "Levels by scallop",
+        "`step = { scallop = 0.1 }`: steps follow from the wall's slope, its curvature and the tool.",
+        "vwaf",
+        {"kind": "z-level", "step": {"scallop": 0.1}},
+    ),
+    Example(
+        "ramps",
+        "Levels with ramps",
+        "`ramp_angle_deg`: from level to level along the wall; `seam_spread_deg` turns where loops begin.",
+        "pyramid",
+        {**LEVELS, "ramp_angle_deg": 6.0, "seam_direction_deg": 45.0, "seam_spread_deg": 90.0},
+    ),
+    Example(
+        "spiral",
+        "Spiral",
+        "`spiral`: one descent that falls evenly between a loop at the top and one at the bottom; here of arcs, `fit`.",
+        "cone_cup",
+        {"kind": "spiral", "step": {"height": 1.5}, "fit": "arcs"},
+    ),
+    Example(
+        "rows",
+        "Rows by scallop",
+        "`zig-zag`: parallel rows over the surface; with `scallop` they lie closer on its steeper parts. Milling.",
+        "cap_r60",
+        {"kind": "zig-zag", "stepover": 4.0, "scallop": 0.05, "angle_deg": 20.0},
+        process={"kind": "milling"},
+    ),
+    Example(
+        "male-die",
+        "Over a male die",
+        '`process.kind = "tpif"`: from the die\'s top outwards and down, the clamp frame goes down with the path.',
+        "cap_r60",
+        LEVELS,
+        process={"kind": "tpif", "die": "male"},
+        more={"accept": ["solid"]},
+    ),
+    Example(
+        "double-sided",
+        "From both sides",
+        '`process.kind = "dsif"`: a second tool follows under the sheet; this is the path of the main one.',
+        "cone_cup",
+        LEVELS,
+        process={"kind": "dsif", "support_tool": "below"},
+        more={
+            "tools": {
+                "stylus": {"number": 1, "profile": {"kind": "ball", "diameter": 10.0}},
+                "below": {"number": 2, "profile": {"kind": "ball", "diameter": 6.0}},
+            },
+            "machines": {"support": {"name": "linuxcnc"}},
+        },
+    ),
+)
+
+
+def draw(example: Example) -> str:
+    """Makes the picture of an example, and its part of the page.
+
+    Raises:
+        SystemExit: its text has an error.
+    """
+    job = sc.Job.from_dict(example.document())
+    plan = sc.plan(job)
+    report = sc.verify(sc.post(plan), job)
+    if not report.ok:
+        raise SystemExit(f"{example.name}: {[finding.message for finding in report.findings]}")
+    path = IMAGES / f"{example.name}.png"
+    plan_picture(plan, path)
+    with Image.open(path) as picture:
+        small = picture.convert("RGB").resize(SIZE, Image.Resampling.LANCZOS).quantize(COLOURS)
+    small.save(path, optimize=True)
+    keys = {key: value for key, value in example.operation.items() if key != "kind"}
+    stated = ", ".join(f"`{key} = {json.dumps(value)}`" for key, value in keys.items())
+    return f"## {example.title}\n\n{example.text} Keys: {stated}.\n\n![{example.title}](images/gallery/{example.name}.png)\n"
+
+
+def main(names: list[str]) -> None:
+    """Draws those named, or all; the page is written when all are."""
+    IMAGES.mkdir(parents=True, exist_ok=True)
+    parts = [draw(example) for example in EXAMPLES if not names or example.name in names]
+    if not names:
+        head = (
+            "# Gallery\n\n"
+            "A job of each kind of operation and process, on the parts of the test fixtures. Each was planned, posted\n"
+            "and verified before it was drawn, by `make gallery`.\n"
+            "All keys: [the page of operations and processes](operations.md).\n\n"
+        )
+        (HERE / "gallery.md").write_text(head + "\n".join(parts), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
