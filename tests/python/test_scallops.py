@@ -136,10 +136,28 @@ def test_a_level_stands_on_every_floor_if_that_is_asked_for(at_flats: bool, tmp_
     assert len(on_shoulder) == int(at_flats), levels_of(report)
 
 
+@pytest.mark.parametrize("step", [{"list": [100.0]}, {"height": 25.0}, {"list": [1.0, 8.0]}])
+def test_no_step_lets_the_tool_punch_the_sheet(step: dict[str, Any]) -> None:
+    asked = job("cone_cup", {"kind": "z-level", "step": step})
+    report = sc.verify(sc.post(sc.plan(asked)), asked)
+    assert "punch" in {finding.kind for finding in report.findings if finding.severity == "error"}
+
+
+@pytest.mark.parametrize("fit", ["lines", "arcs"])
+def test_turns_between_two_steps_of_a_list_punch_nothing(fit: str) -> None:
+    verified(job("cone_cup", {"kind": "spiral", "step": {"list": [1.0, 2.0, 1.5]}, "fit": fit}))
+
+
+def test_a_spindle_rolls_along_levels_of_any_step() -> None:
+    rolling = {"direction": "same", "spindle": {"mode": "rolling"}}
+    verified(job("cone_cup", {"kind": "z-level", "step": {"list": [1.0, 2.0]}, **rolling}))
+
+
 @pytest.mark.parametrize(
     ("operation", "where", "message"),
     [
         ({"kind": "z-level", "step": {"list": []}}, "operations[0].step.list", "no step"),
+        ({"kind": "z-level", "step": {"list": [0.5] * 1001}}, "operations[0].step.list", "at most 1000"),
         ({"kind": "z-level", "step": {"list": [0.5, 0.0]}}, "operations[0].step.list", "allowed is"),
         ({"kind": "z-level", "step": {"height": 0.5}, "step_min": 0.1}, "operations[0].step_min", "scallop"),
         (

@@ -215,6 +215,10 @@ fn opposite(job: &JobDocument, channel: &str) -> Result<(), JobError> {
         let hint = format!("the job has {}", known.join(", "));
         return Err(JobError::document("unknown", "process.support_tool", message, hint));
     }
+    if job.operations.iter().any(|section| section.common.tool == tool) {
+        let message = format!("support_tool = {tool:?}: an operation uses that tool, and there are two at a time");
+        return Err(JobError::document("conflict", "process.support_tool", message, "add a second tool to [tools]"));
+    }
     let sheet = job.setup.sheet.zip(job.part.model_face);
     let sheet = sheet.map(|(section, model_face)| Sheet { thickness: section.thickness, law: section.law, model_face });
     match sheet {

@@ -10,7 +10,6 @@ use styluscam_geometry::Tool;
 use styluscam_motion::SpindleDirection;
 
 use crate::numbers::shown;
-use crate::operations::PassSpacing;
 use crate::resolve::faces_of;
 use crate::{Direction, JobDocument, JobError, OperationSection, Scene, Spindle};
 
@@ -57,14 +56,15 @@ pub(crate) fn check(section: &OperationSection, path: &str) -> Result<(), JobErr
     if section.common.spindle != Spindle::Rolling {
         return Ok(());
     }
-    let (key, message, hint) = match (section.kind().spacing(), section.common.direction) {
-        (Some(PassSpacing::Height { .. }), Direction::Same | Direction::Climb) => return Ok(()),
-        (Some(PassSpacing::Height { .. }), Direction::Alternate | Direction::Conventional) => (
+    // what cuts upright walls goes along them
+    let (key, message, hint) = match (section.kind().cuts_upright_walls(), section.common.direction) {
+        (true, Direction::Same | Direction::Climb) => return Ok(()),
+        (true, Direction::Alternate | Direction::Conventional) => (
             "direction",
             "the spindle rolls along walls on the right of the path only",
             "set direction = \"same\", or the spindle's mode = \"free\"",
         ),
-        (Some(PassSpacing::Across { .. }) | None, _) => (
+        (false, _) => (
             "spindle.mode",
             "the spindle rolls along walls, and this operation does not go along them",
             "set mode = \"free\", or form the walls by \"z-level\" or \"spiral\"",

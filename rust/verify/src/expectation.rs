@@ -81,9 +81,16 @@ pub struct OrderedPasses {
 }
 
 impl OrderedPasses {
-    /// The largest distance in the scalar, mm, from a pass at a position of the tip to the next.
+    /// The largest distance in the scalar, mm, from a pass at a position of the tip to the next. A turn that moves on lies
+    /// between two steps: its own and the one before.
     pub(crate) fn step_at(&self, tip: [f64; 3]) -> f64 {
-        self.pitch.at(self.scalar.value(tip.into()))
+        let value = self.scalar.value(tip.into());
+        let step = self.pitch.at(value);
+        if self.continuous {
+            self.pitch.between(value, value + step)
+        } else {
+            step
+        }
     }
 }
 

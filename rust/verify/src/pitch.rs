@@ -59,6 +59,15 @@ impl Pitch {
         self.between(f64::NEG_INFINITY, f64::INFINITY)
     }
 
+    /// The smallest step of all, mm.
+    #[must_use]
+    pub fn smallest(&self) -> f64 {
+        match self {
+            Self::Even(step) | Self::Scallop { steps: [step, _], .. } => *step,
+            Self::Listed { steps, .. } => steps.iter().copied().fold(f64::INFINITY, f64::min),
+        }
+    }
+
     /// The one step of passes that lie evenly.
     #[must_use]
     pub fn even(&self) -> Option<f64> {
@@ -82,7 +91,7 @@ mod tests {
             assert_eq!(pitch.at(value), step, "{value}");
         }
         assert_eq!(pitch.between(0.5, 0.9), 0.5);
-        assert_eq!((pitch.largest(), pitch.even()), (2.0, None));
+        assert_eq!((pitch.smallest(), pitch.largest(), pitch.even()), (0.25, 2.0, None));
         let one = Pitch::Listed { from: 0.0, steps: vec![0.5] };
         assert_eq!([one.at(2.0), one.at(-0.1), one.at(-7.0)], [0.5; 3]);
     }

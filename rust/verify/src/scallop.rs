@@ -22,7 +22,7 @@ use crate::tolerances::{ROOM, ROUGH, SAME_LEVEL};
 
 /// Points in a piece of work. Fixed, so that the result does not depend on the number of threads.
 const CHUNK: usize = 64;
-/// Neighbours are looked for this far at first, in the largest steps, and then twice as far until the tool's radius.
+/// Neighbours are looked for this far at first, in the smallest steps, and then twice as far until the tool's radius.
 const NEAR: f64 = 1.2;
 /// A neighbour runs by no farther aside or off the face than this share of the distance to it.
 const RUNS_BY: f64 = 0.5;
@@ -100,7 +100,7 @@ pub(crate) struct Ridges<'a> {
     pub contacts: &'a [&'a Segment],
 }
 
-/// A neighbour: what of it runs by, and the mean of its values.
+/// A neighbour: its value beside a position, and what of it runs by.
 struct Neighbour {
     value: f64,
     sweeps: Vec<Sweep>,
@@ -188,7 +188,7 @@ impl Ridges<'_> {
         (up, direction): (Vector, Vector),
         rate: f64,
     ) -> Option<[Neighbour; 2]> {
-        let mut reach = NEAR * self.passes.pitch.largest() / rate;
+        let mut reach = NEAR * self.passes.pitch.smallest() / rate;
         let farthest = self.body.radius();
         loop {
             reach = reach.min(farthest);

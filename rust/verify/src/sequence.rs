@@ -61,7 +61,11 @@ pub(crate) fn punches(
         let positions = positions(segment, blank.cell());
         let deepest = positions
             .iter()
-            .filter_map(|tip| punch(&mut blank, *tip, passes.map(|passes| passes.step_at(*tip)), dent))
+            .filter_map(|tip| {
+                // whatever step the job states, no sheet wraps the tool up to where it is widest in one go
+                let step = passes.map(|passes| passes.step_at(*tip).min(tool.max_radius() / WIDE));
+                punch(&mut blank, *tip, step, dent)
+            })
             .max_by(|a, b| a.depth().total_cmp(&b.depth()));
         if let Some(Punch { tip, stands }) = deepest {
             let fault = Fault { position: tip, ..segment.fault(&faults::PUNCH) }.measured(tip[2], stands);

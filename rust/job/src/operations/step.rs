@@ -11,6 +11,9 @@ use crate::JobError;
 /// Walls that are less steep, degrees, are floors to a step by scallop: rows suit them better, and levels would lie ever closer.
 const FLOOR_DEG: f64 = 10.0;
 
+/// Steps of a list at most: more than anybody writes, and few enough to be searched at every position.
+const MOST_STEPS: usize = 1000;
+
 /// What sets the distance between levels, or between turns that go down.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -40,9 +43,15 @@ impl StepLimits {
     /// # Errors
     /// An empty list, limits of another step, or the smallest above the largest.
     pub fn check(self, step: &Step, path: &str) -> Result<(), JobError> {
-        if matches!(step, Step::List(steps) if steps.is_empty()) {
-            let hint = "list the distances between levels: [0.2, 0.5]";
-            return Err(JobError::document("empty", format!("{path}.step.list"), "the list has no step", hint));
+        if let Step::List(steps) = step {
+            let hint = "list the distances between levels: [0.2, 0.5]; the last one goes on";
+            if steps.is_empty() {
+                return Err(JobError::document("empty", format!("{path}.step.list"), "the list has no step", hint));
+            }
+            if steps.len() > MOST_STEPS {
+                let message = format!("the list has {} steps: at most {MOST_STEPS}", steps.len());
+                return Err(JobError::document("out-of-range", format!("{path}.step.list"), message, hint));
+            }
         }
         let stated = [("step_min", self.least), ("step_max", self.most)].into_iter().find(|(_, limit)| limit.is_some());
         let Some((key, _)) = stated else { return Ok(()) };
