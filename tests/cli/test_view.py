@@ -178,8 +178,8 @@ def test_run_writes_the_report_of_a_faulty_program_but_not_the_program(cli, tmp_
     job.write_text(COARSE_CUP)
     honest = running.judge_plan
 
-    def verified(plan, text, *rest):
-        return honest(plan, text.replace("M2\n", "G1 X5 Y5 Z-30\nM2\n"), *rest)
+    def verified(plan, text, *rest, **named):
+        return honest(plan, text.replace("M2\n", "G1 X5 Y5 Z-30\nM2\n"), *rest, **named)
 
     monkeypatch.setattr(running, "judge_plan", verified)
     monkeypatch.setattr(running, "_require_same_moves", lambda *_: None)

@@ -5,10 +5,10 @@
 
 use styluscam_geometry::{Tool, Vector};
 use styluscam_post::Machine;
-use styluscam_verify::{FindingKind, Found, Severity, Support};
+use styluscam_verify::{FindingKind, Found, Passes, Pitch, Severity, Support};
 
 use crate::numbers::shown;
-use crate::operations::{Fact, PassSpacing};
+use crate::operations::{Fact, PassContext};
 use crate::resolve::{faces_of, tools};
 use crate::{plates, JobDocument, JobError, OperationSection, Scene};
 
@@ -105,8 +105,8 @@ impl<'a> Forming<'a> {
         Some(Fact { fact: "thinnest", value: thickness, unit: "mm", words })
     }
 
-    /// The largest axial force in N, on any of its slopes; none where the strength of the sheet is not known, or the passes are
-    /// not a step in height apart.
+    /// The largest axial force in N, on any of its slopes; none where the strength of the sheet is not known, or the passes do
+    /// not go down one below the other.
     ///
     /// R. Aerens, P. Eyckens, A. Van Bael, J. R. Duflou, "Force prediction for single point incremental forming deduced from
     /// experimental and FEM observations", International Journal of Advanced Manufacturing Technology 46, 2010: the steady axial
@@ -114,13 +114,23 @@ impl<'a> Forming<'a> {
     /// initial thickness t, the tool's diameter d and the height h of the scallops in mm, and the wall angle a in degrees.
     fn force(&self) -> Option<f64> {
         let strength = self.tensile_strength?;
-        let Some(PassSpacing::Height { pitch }) = self.section.kind().spacing() else { return None };
+        let body = self.tool.body(self.scene.sheet.as_ref());
+        let smallest_feature = self.section.common.smallest_feature;
+        let given = PassContext { smallest_feature, top: self.scene.top, body: &body };
+        let passes = match self.section.kind().passes(&given) {
+            Passes::Ordered(passes) if passes.scalar.descends() => passes,
+            Passes::Ordered(_) | Passes::Unordered { .. } => return None,
+        };
         let cutter = self.tool.cutter();
         let force = |slope: f64| {
             // the ball that is as curved as the tool where it touches this wall
             let diameter = 2.0 * cutter.curvature_radius_at(slope).min(0.5 * self.tool.diameter());
-            let across = pitch / libm::sin(slope);
-            let scallop = 0.5 * (diameter - (diameter * diameter - across * across).max(0.0).sqrt());
+            let across = passes.pitch.largest() / libm::sin(slope);
+            let of_step = 0.5 * (diameter - (diameter * diameter - across * across).max(0.0).sqrt());
+            let scallop = match passes.pitch {
+                Pitch::Even(_) | Pitch::Listed { .. } => of_step,
+                Pitch::Scallop { height, .. } => height.min(of_step),
+            };
             let (thickness, angle) = (libm::pow(self.thickness, 1.57), slope.to_degrees() * libm::cos(slope));
             0.0716 * strength * thickness * libm::pow(diameter, 0.41) * libm::pow(scallop, 0.09) * angle
         };
@@ -138,7 +148,7 @@ impl<'a> Forming<'a> {
         }
         let (name, slope) = (&self.section.common.tool, slope.to_degrees());
         let what = if radius > 0.0 {
-            format!("the radius of curvature of tool {name} is {} mm at a slope of {slope:.0} degrees", shown(radius))
+            format!("the radius of curvature of tool {name} is {radius:.2} mm at a slope of {slope:.0} degrees")
         } else {
             format!("tool {name} has an edge without a radius, at a slope of {slope:.0} degrees")
         };

@@ -9,7 +9,6 @@ use std::f64::consts::TAU;
 use styluscam_geometry::Tool;
 use styluscam_motion::SpindleDirection;
 
-use crate::numbers::shown;
 use crate::resolve::faces_of;
 use crate::{Direction, JobDocument, JobError, OperationSection, Scene, Spindle};
 
@@ -36,9 +35,8 @@ pub(crate) fn turns(
             let (radius, _) = tool.point_at(slope);
             if radius < LEAST_RADIUS {
                 let message = format!(
-                    "the spindle cannot roll: on the steepest of the faces, at {} degrees, the tool touches {} mm from its axis",
-                    shown(slope.to_degrees()),
-                    shown(radius)
+                    "the spindle cannot roll: on the steepest of the faces, at {:.1} degrees, the tool touches {radius:.3} mm from its axis",
+                    slope.to_degrees()
                 );
                 let hint = "select walls, or set mode = \"free\"";
                 return Err(JobError::document("conflict", format!("operations[{index}].spindle.mode"), message, hint));
