@@ -9,7 +9,7 @@ import pytest
 pytestmark = [pytest.mark.world, pytest.mark.freecad]
 
 REASONS = {
-    "no step": "height = 0: allowed is above 0 and up to 100 mm",
+    "no step": "step is missing",
     "low clearance": "ClearanceHeight is -30 mm, and the top of what is worked on lies at",
     "no tolerance": "ModelTolerance = 0 mm: allowed is 0.0001 to 1 mm",
     "no faces": "no face is selected",

@@ -239,7 +239,7 @@ def test_what_verification_finds_is_exit_code_1(documents: Documents) -> None:
 
 def test_a_failed_operation_is_named_with_what_to_do(documents: Documents) -> None:
     job = documents.job("failed")
-    assert job["error"]["message"] == "Cone: height = 0: allowed is above 0 and up to 100 mm"
+    assert job["error"]["message"] == "Cone: step is missing"
     assert job["error"]["class"] == "JobError"
     assert job["error"]["hint"] == "correct the value" and job["error"]["exit_code"] == 2
     assert job["programs"] == [] and "Invalid" in job["operations"][0]["state"]

@@ -45,7 +45,7 @@ def facts(made: sc.Job) -> dict[str, float]:
     ("profile", "sentence"),
     [
         ({"kind": "ball", "diameter": 4.0}, None),
-        ({"kind": "ball", "diameter": 3.0}, "radius of curvature of tool stylus is 1.5 mm"),
+        ({"kind": "ball", "diameter": 3.0}, "radius of curvature of tool stylus is 1.50 mm"),
         ({"kind": "bull-nose", "diameter": 8.0, "corner_radius": 2.0}, None),
         ({"kind": "bull-nose", "diameter": 8.0, "corner_radius": 1.25}, "is 1.25 mm"),
         ({"kind": "flat", "diameter": 6.0}, "has an edge without a radius"),
