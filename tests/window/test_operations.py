@@ -99,8 +99,8 @@ def test_a_long_computation_shows_its_phase_and_is_cancelled(session: Any) -> No
 def test_a_mistake_is_a_sentence_in_panel_and_report_view(session: Any) -> None:
     seen = session["failed"]
     assert "Invalid" in seen["state"] and seen["motions"] == 0
-    assert "height = 0: allowed is above 0" in seen["notes"]
-    assert "height = 0: allowed is above 0" in seen["report"]
+    assert "step is missing" in seen["notes"]
+    assert "step is missing" in seen["report"]
     assert seen["row"]
 
 
