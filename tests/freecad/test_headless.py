@@ -241,7 +241,7 @@ def test_a_failed_operation_is_named_with_what_to_do(documents: Documents) -> No
     job = documents.job("failed")
     assert job["error"]["message"] == "Cone: step is missing"
     assert job["error"]["class"] == "JobError"
-    assert job["error"]["hint"] == "correct the value" and job["error"]["exit_code"] == 2
+    assert job["error"]["hint"] == "add step = { height = 0.5 }" and job["error"]["exit_code"] == 2
     assert job["programs"] == [] and "Invalid" in job["operations"][0]["state"]
 
 
