@@ -102,6 +102,17 @@ def test_over_a_male_die(name: str, kind: str) -> None:
     assert low > high + 5.0
 
 
+@pytest.mark.parametrize("kind", ["z-level", "spiral"])
+@pytest.mark.parametrize("step", [{"list": [1.0, 2.0]}, {"scallop": 0.05}])
+def test_the_frame_goes_down_with_steps_of_any_kind(step: dict[str, Any], kind: str) -> None:
+    pytest.importorskip("OCP", reason="needs the step extra")
+    made = job("cap_r60", kind=kind, operation={"step": step})
+    text = posted(made)
+    heights = [z for _, z in remarks(text.splitlines())]
+    assert len(heights) > 5 and heights == sorted(heights, reverse=True)
+    assert not kinds(sc.verify(text, made))
+
+
 @pytest.mark.parametrize("name", CUPS)
 def test_into_a_female_die(name: str) -> None:
     pytest.importorskip("OCP", reason="needs the step extra")

@@ -231,7 +231,7 @@ fn opposite(job: &JobDocument, channel: &str) -> Result<(), JobError> {
                         [setup.sheet], or squeeze = 1.0";
             Err(JobError::document("conflict", "process.squeeze", message, hint))
         }
-        _ => Ok(()),
+        Some(_) | None => Ok(()),
     }
 }
 

@@ -1,10 +1,10 @@
 //! A clamp frame that goes down with the path: where it has to stand, as the program's remarks tell the operator.
 
 use styluscam_motion::{Event, EventKind, Move, MoveKind, Program};
-use styluscam_verify::{FrameLevel, Support};
+use styluscam_verify::{FrameLevel, OrderedPasses, Support};
 
-use crate::operations::{counted, Fact, PassSpacing};
-use crate::{JobDocument, OperationSection};
+use crate::operations::{counted, Fact};
+use crate::JobDocument;
 
 /// What a remark with a height begins with, in the letters that a machine without small ones leaves, and its end.
 const REMARK: (&str, &str) = ("clamp frame to Z", " mm");
@@ -21,18 +21,18 @@ pub(crate) fn goes_down(job: &JobDocument) -> bool {
     }
 }
 
-/// Where the frame goes during an operation: heights, mm, each with the number of the move, among its `moves`, before which the
-/// frame is to be there. It stands at `stands` before, mm.
+/// Where the frame goes during an operation whose passes lie one below the other: heights, mm, each with the number of the
+/// move, among its `moves`, before which the frame is to be there. It stands at `stands` before, mm.
 ///
 /// The frame follows the tool, never the other way round: it goes to a level once the tool is there, and along a continuous
 /// descent at each step.
-pub(crate) fn heights(section: &OperationSection, moves: &[Move], stands: f64) -> Vec<FrameLevel> {
-    let Some(PassSpacing::Height { pitch }) = section.kind().spacing() else { return Vec::new() };
+pub(crate) fn heights(passes: &OrderedPasses, moves: &[Move], stands: f64) -> Vec<FrameLevel> {
+    let step = passes.pitch.smallest();
     let mut levels: Vec<FrameLevel> = Vec::new();
-    for (index, step) in moves.iter().enumerate().filter(|(_, step)| step.kind != MoveKind::Rapid) {
-        let (z, stands) = (step.end.tip[2], levels.last().map_or(stands, |level| level.z));
+    for (index, made) in moves.iter().enumerate().filter(|(_, made)| made.kind != MoveKind::Rapid) {
+        let (z, stands) = (made.end.tip[2], levels.last().map_or(stands, |level| level.z));
         let stays = moves.get(index + 1).is_some_and(|next| (next.end.tip[2] - z).abs() < SAME);
-        if z <= stands - pitch || stays && z < stands - SAME {
+        if z <= stands - step || stays && z < stands - SAME {
             levels.push(FrameLevel { before: index + 1, z });
         }
     }

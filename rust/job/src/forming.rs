@@ -5,11 +5,11 @@
 
 use styluscam_geometry::{Tool, Vector};
 use styluscam_post::Machine;
-use styluscam_verify::{FindingKind, Found, Passes, Pitch, Severity, Support};
+use styluscam_verify::{FindingKind, Found, OrderedPasses, Pitch, Severity, Support};
 
 use crate::numbers::shown;
-use crate::operations::{Fact, PassContext};
-use crate::resolve::{faces_of, tools};
+use crate::operations::Fact;
+use crate::resolve::{descent_of, faces_of, tools};
 use crate::{plates, JobDocument, JobError, OperationSection, Scene};
 
 /// A radius of curvature of so many thicknesses is least: sharper tools shave and tear the sheet.
@@ -32,6 +32,8 @@ struct Forming<'a> {
     selected: Vec<bool>,
     /// Their steepest slope, rad.
     steepest: f64,
+    /// Its passes, where each lies below the one before it.
+    passes: Option<OrderedPasses>,
 }
 
 /// How thin an operation makes the sheet, and with which axial force, as far as that is known.
@@ -68,7 +70,7 @@ pub(crate) fn warnings(job: &JobDocument, scene: &Scene, machine: &Machine) -> R
         found.extend(forming.large_part(job.process.process.as_kind().support(), &id));
         found.extend(machine.limits.max_axial_force.and_then(|most| forming.strong(most, &id)));
     }
-    // what several operations share is said once
+    // what several operations share is reported once
     found.dedup();
     Ok(found)
 }
@@ -84,7 +86,8 @@ impl<'a> Forming<'a> {
         let sheet = job.setup.sheet.filter(|_| job.process.process.as_kind().forms())?;
         let steepest = scene.steepest(&selected);
         let (thickness, tensile_strength) = (sheet.thickness, sheet.tensile_strength);
-        Some(Self { scene, tool, section, thickness, tensile_strength, selected, steepest })
+        let passes = descent_of(job, scene, tool, section);
+        Some(Self { scene, tool, section, thickness, tensile_strength, selected, steepest, passes })
     }
 
     /// Slopes from level to the steepest, rad.
@@ -114,13 +117,7 @@ impl<'a> Forming<'a> {
     /// initial thickness t, the tool's diameter d and the height h of the scallops in mm, and the wall angle a in degrees.
     fn force(&self) -> Option<f64> {
         let strength = self.tensile_strength?;
-        let body = self.tool.body(self.scene.sheet.as_ref());
-        let smallest_feature = self.section.common.smallest_feature;
-        let given = PassContext { smallest_feature, top: self.scene.top, body: &body };
-        let passes = match self.section.kind().passes(&given) {
-            Passes::Ordered(passes) if passes.scalar.descends() => passes,
-            Passes::Ordered(_) | Passes::Unordered { .. } => return None,
-        };
+        let passes = self.passes.as_ref()?;
         let cutter = self.tool.cutter();
         let force = |slope: f64| {
             // the ball that is as curved as the tool where it touches this wall

@@ -14,8 +14,7 @@ use styluscam_verify::{
 };
 
 use crate::limits::{GOUGE, NO_ROOM};
-use crate::operations::PassContext;
-use crate::resolve::{faces_of, heights_of, tools_in_order};
+use crate::resolve::{faces_of, heights_of, passes_of, tools_in_order};
 use crate::{
     clamp, forming, materials, model, plates, spindle, Coolant, JobDocument, JobError, OperationSection, Scene,
     SheetSection,
@@ -324,11 +323,6 @@ fn expectation(
     index: usize,
 ) -> Result<Expectation, JobError> {
     let heights = heights_of(job, scene, section);
-    let given = PassContext {
-        smallest_feature: section.common.smallest_feature,
-        top: heights.top.unwrap_or(scene.top),
-        body: &tool.body(scene.sheet.as_ref()),
-    };
     Ok(Expectation {
         contact: section.kind().contact(),
         selected: scene.facing_up(&faces_of(job, scene, section, index)?),
@@ -336,7 +330,7 @@ fn expectation(
         passes: if scene.opposite.is_some() {
             Passes::Unordered { reason: "they are opposite to the main tool's, whose program is checked for them" }
         } else {
-            section.kind().passes(&given)
+            passes_of(job, scene, tool, section)
         },
         forms: job.process.process.as_kind().forms() && scene.opposite.is_none(),
     })

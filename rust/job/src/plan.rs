@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use styluscam_motion::Watch;
 
 use crate::operations::Context;
-use crate::resolve::{faces_of, heights_of, tools};
-use crate::{check, die, forming, spindle, JobDocument, JobError, MAIN_CHANNEL};
+use crate::resolve::{descent_of, faces_of, heights_of, tools};
+use crate::{check, clamp, die, forming, spindle, JobDocument, JobError, MAIN_CHANNEL};
 
 mod channel;
 mod pair;
@@ -68,9 +68,12 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
         let turns = spindle::turns(job, scene, tool, section, index)?;
         let mut planned = section.kind().plan(&context)?;
         let (thinnest, force) = forming::facts(job, scene, tool, section, &selected);
-        let lines: Vec<String> = force.iter().map(|fact| fact.words.clone()).collect();
-        planned.facts.extend(thinnest.into_iter().chain(force));
-        channel.add(job, (index, section), record, Added { planned, turns, lines, wait: None });
+        let descent = descent_of(job, scene, tool, section).filter(|_| clamp::goes_down(job));
+        let frame = descent.map_or_else(Vec::new, |passes| channel.frame(&passes, &planned.moves));
+        let of_frame = clamp::fact(&frame);
+        let lines = force.iter().chain(&of_frame).map(|fact| fact.words.clone()).collect();
+        planned.facts.extend(thinnest.into_iter().chain(force).chain(of_frame));
+        channel.add((index, section), record, Added { planned, turns, lines, frame, wait: None });
     }
     channel.end(job);
     Ok(channel)

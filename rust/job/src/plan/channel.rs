@@ -1,8 +1,9 @@
 //! A channel's program as it grows, operation by operation.
 
 use serde::Serialize;
-use styluscam_motion::{Event, EventKind, OperationRecord, Program, SpindleDirection, ToolRecord};
+use styluscam_motion::{Event, EventKind, Move, OperationRecord, Program, SpindleDirection, ToolRecord};
 use styluscam_post::Machine;
+use styluscam_verify::{FrameLevel, OrderedPasses};
 
 use crate::operations::{Coolant, Fact, OperationSection, Planned, Spindle, SurfaceFacts};
 use crate::{clamp, JobDocument, Scene};
@@ -62,6 +63,8 @@ pub(super) struct Added {
     pub turns: Option<(f64, SpindleDirection)>,
     /// Further lines of the program's header.
     pub lines: Vec<String>,
+    /// Where a clamp frame that goes down with the path goes meanwhile.
+    pub frame: Vec<FrameLevel>,
     /// What comes behind its first move.
     pub wait: Option<EventKind>,
 }
@@ -73,29 +76,26 @@ impl Channel {
         Self { name: scene.channel, program, operations: Vec::new(), frame: scene.top }
     }
 
+    /// Where a clamp frame that goes down with the path goes along the next operation's moves.
+    pub(super) fn frame(&self, passes: &OrderedPasses, moves: &[Move]) -> Vec<FrameLevel> {
+        clamp::heights(passes, moves, self.frame)
+    }
+
     /// Adds a planned operation, which has a number in the job.
     pub(super) fn add(
         &mut self,
-        job: &JobDocument,
         (index, section): (usize, &OperationSection),
         record: &ToolRecord,
-        Added { planned, turns, mut lines, wait }: Added,
+        Added { planned, turns, lines, frame, wait }: Added,
     ) {
-        let Planned { moves, words, note, mut facts, surface } = planned;
+        let Planned { moves, words, note, facts, surface } = planned;
         let program = &mut self.program;
         let (id, kind, tool) = (section.id(index), section.operation.name(), tool_index(program, record));
         program.events.extend(events_before(program, section, tool, turns));
         let first = program.moves.len();
         program.events.extend(wait.map(|kind| Event { before: first + 1, kind }));
-        if clamp::goes_down(job) {
-            let levels = clamp::heights(section, &moves, self.frame);
-            self.frame = levels.last().map_or(self.frame, |level| level.z);
-            program.events.extend(levels.iter().map(|level| clamp::remark(*level, first)));
-            if let Some(fact) = clamp::fact(&levels) {
-                lines.push(fact.words.clone());
-                facts.push(fact);
-            }
-        }
+        self.frame = frame.last().map_or(self.frame, |level| level.z);
+        program.events.extend(frame.into_iter().map(|level| clamp::remark(level, first)));
         program.operations.push(OperationRecord { id: id.clone(), kind: kind.to_owned(), tool });
         program.moves.extend(moves);
         self.operations.push(OperationSummary { id, kind, words, facts, surface, note, lines });

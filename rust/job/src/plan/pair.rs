@@ -53,10 +53,10 @@ pub fn planned(
         let [main, other] = &mut channels;
         let added = |planned, setting: Setting<'_>, tool, lines| {
             let turns = spindle::turns(job, setting.scene, tool, section, index)?;
-            Ok::<_, JobError>(Added { planned, turns, lines, wait: Some(wait.clone()) })
+            Ok::<_, JobError>(Added { planned, turns, lines, frame: Vec::new(), wait: Some(wait.clone()) })
         };
-        main.add(job, (index, section), record, added(planned, settings[0], tool, summary.lines)?);
-        other.add(job, (index, section), record_below, added(follows, settings[1], tool_below, Vec::new())?);
+        main.add((index, section), record, added(planned, settings[0], tool, summary.lines)?);
+        other.add((index, section), record_below, added(follows, settings[1], tool_below, Vec::new())?);
     }
     channels.iter_mut().for_each(|channel| channel.end(job));
     Ok(channels)

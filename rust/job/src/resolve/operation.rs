@@ -2,8 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use styluscam_geometry::Tool;
+use styluscam_verify::{OrderedPasses, Passes};
+
 use crate::faces::{chosen, FaceView, Look};
 use crate::heights::TipHeights;
+use crate::operations::PassContext;
 use crate::{JobDocument, JobError, OperationSection, Scene, Selection};
 
 /// The selection of an operation, its own or the part's, and its path in the document. `index` is the operation's number in
@@ -43,6 +47,23 @@ pub fn faces_in(
         (false, false) => Look::Up,
     };
     chosen(selection, views, all, job.part.allow_undercuts, &path)
+}
+
+/// How the passes of an operation lie that a tool makes.
+pub fn passes_of(job: &JobDocument, scene: &Scene, tool: &Tool, section: &OperationSection) -> Passes {
+    section.kind().passes(&PassContext {
+        smallest_feature: section.common.smallest_feature,
+        top: heights_of(job, scene, section).top.unwrap_or(scene.top),
+        body: &tool.body(scene.sheet.as_ref()),
+    })
+}
+
+/// The passes of an operation of which each lies below the one before it; none of other operations.
+pub fn descent_of(job: &JobDocument, scene: &Scene, tool: &Tool, section: &OperationSection) -> Option<OrderedPasses> {
+    match passes_of(job, scene, tool, section) {
+        Passes::Ordered(passes) => Some(passes).filter(|passes| passes.scalar.descends()),
+        Passes::Unordered { .. } => None,
+    }
 }
 
 /// Between which heights an operation's tip stays: its own, and in milling no lower than the part's foot, on which it
