@@ -6,12 +6,12 @@ mod common;
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 use std::sync::Arc;
 
-use common::{ball, limits, tip_on_cone, Levels, Part, Path, CLEARANCE};
+use common::{ball, expected, limits, tip_on_cone, Levels, Part, Path, CLEARANCE};
 use styluscam_geometry::{Tool, Vector};
 use styluscam_motion::{Move, Program, Role, Watch};
 use styluscam_verify::{
-    judge, Contact, Expectation, ExpectedOperation, FindingKind, Height, OrderedPasses, Passes, Pitch, Report, Scalar,
-    Severity, Subject,
+    judge, Contact, ExpectedOperation, FindingKind, Height, OrderedPasses, Passes, Pitch, Report, Scalar, Severity,
+    Subject,
 };
 
 const LOW: f64 = 10.0;
@@ -41,22 +41,6 @@ impl Scalar for FromAxis {
 
 fn ordered(scalar: Arc<dyn Scalar>, continuous: bool) -> Passes {
     Passes::Ordered(OrderedPasses { scalar, pitch: Pitch::Even(STEP), continuous, smallest_feature: 1.0 })
-}
-
-fn expected(part: &Part, contact: Contact, heights: [f64; 2], passes: Passes) -> [ExpectedOperation; 1] {
-    let selected = vec![true; part.mesh.triangles().len()];
-    let expectation = Expectation { contact, selected, heights, passes, forms: false };
-    let id = "walls".to_owned();
-    [ExpectedOperation {
-        id,
-        tool: 0,
-        cut: 600.0,
-        plunge: 600.0,
-        keeps_pace: false,
-        spindle: None,
-        flood: false,
-        expectation,
-    }]
 }
 
 fn judged(part: &Part, tool: &Tool, expected: &[ExpectedOperation], program: &Program) -> Report {

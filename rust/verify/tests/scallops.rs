@@ -6,12 +6,12 @@ mod common;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use common::{ball, limits, tool, Part, Path, CLEARANCE};
+use common::{ball, expected, limits, tool, Part, Path, CLEARANCE};
 use styluscam_geometry::{Tool, Vector};
 use styluscam_motion::{Program, Watch};
 use styluscam_verify::{
-    judge, scallops, Across, Contact, Expectation, ExpectedOperation, FindingKind, Height, OrderedPasses, Passes,
-    Pitch, Scalar, Severity, Subject,
+    judge, scallops, Across, Contact, ExpectedOperation, FindingKind, Height, OrderedPasses, Passes, Pitch, Scalar,
+    Severity, Subject,
 };
 
 /// A wall that rises along X, 10 mm up it and 12 mm wide.
@@ -21,21 +21,9 @@ fn wall(slope: f64) -> Part {
     Part::new(vertices.to_vec(), &[[0, 1, 2], [0, 2, 3]])
 }
 
-fn expected(part: &Part, scalar: Arc<dyn Scalar>, pitch: Pitch) -> [ExpectedOperation; 1] {
+fn by(part: &Part, scalar: Arc<dyn Scalar>, pitch: Pitch) -> [ExpectedOperation; 1] {
     let passes = Passes::Ordered(OrderedPasses { scalar, pitch, continuous: false, smallest_feature: 1.0 });
-    let selected = vec![true; part.mesh.triangles().len()];
-    let expectation = Expectation { contact: Contact::Touch, selected, heights: [-100.0, 100.0], passes, forms: false };
-    let id = "walls".to_owned();
-    [ExpectedOperation {
-        id,
-        tool: 0,
-        cut: 600.0,
-        plunge: 600.0,
-        keeps_pace: false,
-        spindle: None,
-        flood: false,
-        expectation,
-    }]
+    expected(part, Contact::Touch, [-100.0, 100.0], passes)
 }
 
 /// Passes on the wall, `pitch` mm apart along it, each `off` mm off it.
@@ -84,7 +72,7 @@ fn scallops_are_those_of_the_tables() {
             let step = if up_the_wall { 1.0 } else { slope.sin() };
             // a path that is 4 um off the part leaves the same scallop above its floor
             let program = passes(tool, slope, [1.0, 0.004], up_the_wall);
-            let expected = expected(&part, scalar, Pitch::Even(step));
+            let expected = by(&part, scalar, Pitch::Even(step));
             for found in measured(&part, tool, &expected, &program) {
                 assert!((found / height - 1.0).abs() < 0.01, "{slope_deg} {up_the_wall}: {found} for {height}");
             }
@@ -145,7 +133,7 @@ fn on_a_curved_part_they_are_those_of_two_circles() {
     for (inside, ratio) in [(false, 1.0504), (true, 0.9497)] {
         let part = cap(inside);
         let program = loops(&tool, inside, pitch, None);
-        let expected = expected(&part, Arc::new(Height), Pitch::Even(0.6));
+        let expected = by(&part, Arc::new(Height), Pitch::Even(0.6));
         let [low, high] = measured(&part, &tool, &expected, &program).map(|found| found / plane / ratio);
         assert!((0.98..=1.02).contains(&low) && (0.98..=1.02).contains(&high), "{inside}: {low} {high}");
     }
@@ -156,7 +144,7 @@ fn a_scallop_above_the_one_asked_for_is_found() {
     let (tool, part) = (ball(6.0), cap(true));
     let scallop = 0.9497 * (3.0 - (9.0_f64 - 0.25 * 0.81).sqrt());
     let findings = |height: f64, left_out: Option<i32>| {
-        let expected = expected(&part, Arc::new(Height), Pitch::Scallop { height, steps: [0.01, 3.0] });
+        let expected = by(&part, Arc::new(Height), Pitch::Scallop { height, steps: [0.01, 3.0] });
         let tools = [tool.clone()];
         let subject = Subject { expected: &expected, ..part.subject(&tools) };
         let report = judge(&loops(&tool, true, 0.9, left_out), &subject, &limits(), &Watch::default()).unwrap();

@@ -7,7 +7,7 @@ use styluscam_geometry::{kinds, Bvh, Cutter, Mesh, ProfileDocument, Sheet, Tool,
 use styluscam_motion::{
     Event, EventKind, Move, MoveKind, OperationRecord, Program, SetupRecord, ToolRecord, ToolReference,
 };
-use styluscam_verify::{Limits, Subject};
+use styluscam_verify::{Contact, Expectation, ExpectedOperation, Limits, Passes, Subject};
 
 /// Height at and above which rapids travel.
 pub const CLEARANCE: f64 = 10.0;
@@ -84,6 +84,23 @@ pub fn clothoid(diameter: f64) -> Tool {
 
 pub fn tool(profile: ProfileDocument) -> Tool {
     Tool::new(ToolDocument::of(profile)).unwrap()
+}
+
+/// What a job states for its one operation, of all triangles.
+pub fn expected(part: &Part, contact: Contact, heights: [f64; 2], passes: Passes) -> [ExpectedOperation; 1] {
+    let selected = vec![true; part.mesh.triangles().len()];
+    let expectation = Expectation { contact, selected, heights, passes, forms: false };
+    let id = "walls".to_owned();
+    [ExpectedOperation {
+        id,
+        tool: 0,
+        cut: 600.0,
+        plunge: 600.0,
+        keeps_pace: false,
+        spindle: None,
+        flood: false,
+        expectation,
+    }]
 }
 
 pub fn limits() -> Limits {
