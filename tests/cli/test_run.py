@@ -88,7 +88,11 @@ PROFILES = {
 }
 
 
-@pytest.mark.parametrize("strategy", [(), ROWS], ids=["z-level", "zig-zag"])
+STEP_WITHIN_THE_TOOL_RADIUS = (("step = { height = 4.0 }", "step = { height = 2.5 }"),)
+"""The flat tool and the formula's have a radius of 3 mm, and a step beyond it is a punch."""
+
+
+@pytest.mark.parametrize("strategy", [STEP_WITHIN_THE_TOOL_RADIUS, ROWS], ids=["z-level", "zig-zag"])
 @pytest.mark.parametrize("profile", PROFILES.values(), ids=PROFILES)
 def test_kinks_cones_flats_points_and_formulas_run_and_are_verified(coarse, profile, strategy):
     run = coarse((PROFILE, f"profile = {profile}"), *strategy)
