@@ -35,6 +35,7 @@ from concept_drawing import (
     plain,
 )
 from matplotlib import pyplot as plt
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Rectangle
 from PIL import Image
@@ -330,6 +331,42 @@ def spirals() -> Figure:
     return figure
 
 
+def rows() -> Figure:
+    """Turns between rows of three kinds, seen from above, at the rim of the cup of the fixtures."""
+    kinds: list[tuple[str, dict[str, Any]]] = [
+        ("straight", {}),
+        ("rounded", {"turns": "rounded"}),
+        ("looped, radius 2 mm", {"turns": "looped", "turn_radius": 2.0}),
+    ]
+    figure, axes = plt.subplots(1, 3, figsize=(11.0, 3.7), sharey=True)
+    for axis, (title, keys) in zip(axes, kinds, strict=True):
+        document = {
+            "schema": 1,
+            "part": {
+                "file": str(HERE.parent / "fixtures" / "cone_cup.step"),
+                "faces": ["Face1", "Face2", "Face3", "Face4"],
+            },
+            "process": {"kind": "milling"},
+            "tools": {"ball": {"number": 1, "profile": {"kind": "ball", "diameter": 6.0}}},
+            "operations": [{"kind": "zig-zag", "tool": "ball", "stepover": 3.0, **keys}],
+            "machine": {"name": "linuxcnc"},
+        }
+        moves = sc.plan(document).programs["main"].moves
+        start, end = moves["end"][:-1], moves["end"][1:]
+        feeds = moves["kind"][1:] != 0
+        for is_turn, colour in ((False, BLUE), (True, ORANGE)):
+            chosen = feeds & ((np.abs(end[:, 1] - start[:, 1]) > 1e-6) == is_turn)
+            lines = np.stack([start[chosen, :2], end[chosen, :2]], axis=1)
+            axis.add_collection(LineCollection(list(lines), colors=colour, linewidths=1.6))
+        axis.set_xlim(10.0, 47.0)
+        axis.set_ylim(2.0, 32.0)
+        axis.set_aspect("equal")
+        axis.set_title(title, fontsize=10.5)
+        axis.set_xlabel("X, mm")
+    axes[0].set_ylabel("Y, mm")
+    return figure
+
+
 def meshing() -> Figure:
     """A face of a sphere laid out on the map, and its triangles in space."""
     radius, deviation, low, high = 10.0, 0.03, float(np.radians(20.0)), float(np.radians(80.0))
@@ -549,6 +586,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "bounds": bounds,
     "push-cutter": push_cutter,
     "waterlines": waterlines,
+    "rows": rows,
     "spirals": spirals,
     "fitting": fitting,
     "verifier": verifier,

@@ -93,6 +93,14 @@ EXAMPLES = (
         process={"kind": "milling"},
     ),
     Example(
+        "turns",
+        "Rows with rounded turns",
+        '`turns = "rounded"`: from row to row without a corner; "looped" goes round beyond the ends. Milling.',
+        "cone_cup",
+        {"kind": "zig-zag", "stepover": 3.0, "turns": "rounded", "faces": ["Face1", "Face2", "Face3", "Face4"]},
+        process={"kind": "milling"},
+    ),
+    Example(
         "male-die",
         "Over a male die",
         '`process.kind = "tpif"`: from the die\'s top outwards and down, the clamp frame goes down with the path.',

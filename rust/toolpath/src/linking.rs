@@ -92,11 +92,21 @@ impl LinkRules<PathPoint> for AlongSurface<'_> {
         if (to.tip - from.tip).xy().norm() > self.longest {
             return None;
         }
-        let mut crossing = Crossing { surface: self.surface, hint: None, is_selected: true };
-        let runs = fitting::densified(&[*from, *to], self.deviation, self.narrow, &mut crossing);
-        let run = runs.first().filter(|_| crossing.is_selected)?;
-        Some(lines(&fitting::thinned(run, self.deviation)[1..], self.feed))
+        let run = along_selected(self.surface, &[*from, *to], self.deviation, self.narrow)?;
+        Some(lines(&fitting::thinned(&run, self.deviation)[1..], self.feed))
     }
+}
+
+/// Witnesses of the envelope over the line through some points; none where it touches anything but selected faces.
+pub(crate) fn along_selected(
+    surface: &Surface<'_>,
+    points: &[PathPoint],
+    deviation: f64,
+    narrow: f64,
+) -> Option<Vec<PathPoint>> {
+    let mut crossing = Crossing { surface, hint: None, is_selected: true };
+    let runs = fitting::densified(points, deviation, narrow, &mut crossing);
+    runs.into_iter().next().filter(|_| crossing.is_selected)
 }
 
 /// Short links between points of one height go straight, where the ground between them is cleared.
@@ -135,13 +145,15 @@ pub struct Run<P> {
 pub struct Entered {
     /// The pass, in its direction, from where it begins.
     pub pass: Pass,
-    /// The ramp down from the end of the pass before, its ends included; empty where the rules decide.
+    /// The ramp down from the end of the pass before, or the turn from there, its ends included; empty where the rules decide.
     pub ramp: Vec<PathPoint>,
+    /// What that is for; none where it touches as passes do.
+    pub role: Option<Role>,
 }
 
 impl From<Pass> for Entered {
     fn from(pass: Pass) -> Self {
-        Self { pass, ramp: Vec::new() }
+        Self { pass, ramp: Vec::new(), role: None }
     }
 }
 
@@ -200,11 +212,11 @@ fn moves(
     watch: &Watch,
 ) -> Result<Vec<Move>, Cancelled> {
     let (mut runs, mut ramps) = (Vec::with_capacity(passes.len()), Vec::with_capacity(passes.len()));
-    for Entered { pass, ramp } in passes {
+    for Entered { pass, ramp, role } in passes {
         let (segments, down) = (along(&pass.points), along(ramp));
         if let (Some(first), Some(last)) = (pass.points.first(), pass.points.last()) {
             runs.push(Run { from: *first, to: *last, segments });
-            let down = down.into_iter().map(|segment| segment.in_role(Role::Ramp));
+            let down = down.into_iter().map(|segment| Segment { role: *role, ..segment });
             ramps.push((!ramp.is_empty()).then(|| down.collect()));
         }
     }

@@ -3,14 +3,15 @@
 
 use styluscam_geometry::{Tool, ToolBody};
 use styluscam_motion::{Move, SpindleDirection};
+use styluscam_post::machine::CommentForm;
 use styluscam_toolpath::{
     budget::Budget,
-    forming::{ramped, Ramp},
+    forming::{ramped, turned, Ramp, Turn, Turned, Turns},
     offset::Envelope,
     ordered, AlongSurface, Entered, Heights, Links, Pass, PlanError, Rates, Seam, Sense, Surface,
 };
 
-use super::{budget, fit};
+use super::{budget, facts::counted, fit};
 use super::{reached, Context, Direction, End, Fact, OperationKeys, Planned, SurfaceFacts};
 use crate::{JobError, Scene};
 
@@ -48,6 +49,11 @@ pub trait FollowsSurface: Sync {
 
     /// Height over length of the ramps from level to level; none where the tool goes straight down the wall.
     fn ramp_slope(&self) -> Option<f64> {
+        None
+    }
+
+    /// How the tool turns between neighbouring rows; none where it goes straight.
+    fn turn(&self) -> Option<Turn> {
         None
     }
 
@@ -201,15 +207,37 @@ fn linked(
     let (context, watch) = (task.context, task.context.watch);
     let sense = kind.sense(context.common);
     let passes = ordered(&traced.passes, sense, kind.seam(), watch)?;
-    let entered = match kind.ramp_slope() {
-        Some(slope) => {
-            let ramp = Ramp { slope, sense, deviation: task.budget.deviation, longest: context.node_spacing() };
-            ramped(surface, passes, &ramp, watch)?
+    let deviation = task.budget.deviation;
+    let along = task.along(surface, kind.pitch(task.body));
+    let (entered, mut facts) = match (kind.ramp_slope(), kind.turn()) {
+        (Some(slope), _) => {
+            let ramp = Ramp { slope, sense, deviation, longest: context.node_spacing() };
+            (ramped(surface, passes, &ramp, watch)?, Vec::new())
         }
-        None => passes.into_iter().map(Entered::from).collect(),
+        (None, Some(turn)) => {
+            let may_leave = context.machine.comment.form != CommentForm::None; // a remark states that they are links
+            let rule = Turns { turn, longest: along.longest, deviation, narrow: along.narrow, may_leave };
+            let (entered, counts) = turned(surface, passes, &rule, watch)?;
+            (entered, turn_facts(counts))
+        }
+        (None, None) => (passes.into_iter().map(Entered::from).collect(), Vec::new()),
     };
-    let passes = (&*entered, task.budget.deviation);
-    Ok(fit::linked(context, passes, &task.along(surface, kind.pitch(task.body)), &task.links())?)
+    let (moves, fitted) = fit::linked(context, (&entered, deviation), &along, &task.links())?;
+    facts.extend(fitted);
+    Ok((moves, facts))
+}
+
+/// How many turns are as asked for, and between how many rows there is none.
+fn turn_facts(counts: Turned) -> Vec<Fact> {
+    let Turned { turns, free, straight, apart } = counts;
+    let off = if free > 0 { format!(", {free} of them off the faces") } else { String::new() };
+    let pairs = |count| counted(count, "pair of rows", "pairs of rows");
+    let fact = |fact, count: usize, words| Fact { fact, value: count as f64, unit: "", words };
+    vec![
+        fact("turns", turns, counted(turns, "turn", "turns") + &off),
+        fact("straight_turns", straight, format!("{} linked straight, where no turn fits", pairs(straight))),
+        fact("ends_apart", apart, format!("{} with ends too far apart for a turn", pairs(apart))),
+    ]
 }
 
 /// The end that the heights are to an operation, if the tool would go on below.

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use styluscam_geometry::ToolBody;
 use styluscam_toolpath::{
-    forming::{scallop_steps, zig_zag, Rows, ScallopRule, Spread},
+    forming::{scallop_steps, zig_zag, Rows, ScallopRule, Spread, Turn},
     PlanError, Surface,
 };
 use styluscam_verify::{Across, Contact, OrderedPasses, Passes, Pitch};
@@ -36,6 +36,26 @@ pub struct ZigZag {
     #[serde(default)]
     #[schemars(extend("x-unit" = "deg", "minimum" = -360.0, "maximum" = 360.0))]
     pub angle_deg: f64,
+    /// How the tool turns from a row to the next.
+    #[serde(default)]
+    pub turns: Turns,
+    /// Radius of looped turns, mm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 100.0))]
+    pub turn_radius: Option<f64>,
+}
+
+/// The shape of the path from a row to the next.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Turns {
+    /// A line along the surface.
+    #[default]
+    Straight,
+    /// Without a corner, along arcs of half the distance between the rows; where none fits, straight.
+    Rounded,
+    /// Without a corner, along a loop of `turn_radius` beyond the ends of the rows; where none fits, straight.
+    Looped,
 }
 
 impl ZigZag {
@@ -67,6 +87,18 @@ impl ZigZag {
 
 impl OperationKind for ZigZag {
     fn check(&self, _common: &OperationKeys, path: &str) -> Result<(), JobError> {
+        match (self.turns, self.turn_radius) {
+            (Turns::Looped, None) => {
+                let (message, hint) = ("looped turns have a radius", "state turn_radius, mm");
+                return Err(JobError::document("missing", format!("{path}.turn_radius"), message, hint));
+            }
+            (Turns::Straight | Turns::Rounded, Some(_)) => {
+                let (message, hint) =
+                    ("turn_radius is the radius of looped turns", "remove it, or set turns = \"looped\"");
+                return Err(JobError::document("conflict", format!("{path}.turn_radius"), message, hint));
+            }
+            (Turns::Looped, Some(_)) | (Turns::Straight | Turns::Rounded, None) => {}
+        }
         let Some(least) = self.stepover_min else { return Ok(()) };
         let (message, hint) = if self.scallop.is_none() {
             ("stepover_min limits rows by scallop, and no scallop is stated", "remove it, or set scallop")
@@ -128,6 +160,14 @@ impl FollowsSurface for ZigZag {
     /// Rows go on to the left of their direction.
     fn has_material_on_right(&self) -> bool {
         false
+    }
+
+    fn turn(&self) -> Option<Turn> {
+        match self.turns {
+            Turns::Straight => None,
+            Turns::Rounded => Some(Turn::Rounded),
+            Turns::Looped => self.turn_radius.map(Turn::Looped),
+        }
     }
 
     fn pitch(&self, _body: &ToolBody) -> f64 {

@@ -4,7 +4,7 @@
 //! loops that belong together, and its height falls evenly. The next loop begins and ends where the ramp arrives. Derived in
 //! docs/concepts/spirals.md.
 
-use styluscam_motion::{Cancelled, Watch};
+use styluscam_motion::{Cancelled, Role, Watch};
 
 use super::{descent::Descent, nesting};
 use crate::{nearest, seam, Entered, Pass, PathPoint, Sense, Surface};
@@ -71,7 +71,7 @@ fn to_loop(descent: &Descent<'_>, above: Vec<PathPoint>, [pass, outline]: [&Pass
     let ramp = descent.ramp(above, outline, share)?;
     let mut points = pass.points.clone();
     nearest::begin_nearest(&mut points, ramp.last()?.tip);
-    Some(Entered { pass: Pass { points, ..*pass }, ramp })
+    Some(Entered { pass: Pass { points, ..*pass }, ramp, role: Some(Role::Ramp) })
 }
 
 fn length(points: &[PathPoint]) -> f64 {

@@ -65,6 +65,13 @@ sine: Pure shear: a vertical column keeps its height, so a wall of slope phi is 
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>How the tool turns from a row to the next.
+straight: A line along the surface.
+rounded: Without a corner, along arcs of half the distance between the rows; where none fits, straight.
+looped: Without a corner, along a loop of `turn_radius` beyond the ends of the rows; where none fits, straight.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>In which direction levels and rows are run.
 alternate: Every other one in the other direction: counters the twist of a formed sheet.
 same: All in the same direction: the higher ground on the right of levels, rows along `angle_deg`.
@@ -119,6 +126,12 @@ wall's loops part (two pockets in one cup) each part has a spiral of its own. It
     </message>
     <message>
         <source>Plan what can be reached of named faces that partly face down.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Radius of looped turns, mm.
+Range: above 0 to 100 mm
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -277,6 +290,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>A half circle, the ball-end tool; or with `radius` the part of a larger circle that the diameter cuts off.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A line along the surface.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -658,6 +675,13 @@ sine: Pure shear: a vertical column keeps its height, so a wall of slope phi is 
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>How the tool turns from a row to the next.
+straight: A line along the surface.
+rounded: Without a corner, along arcs of half the distance between the rows; where none fits, straight.
+looped: Without a corner, along a loop of `turn_radius` beyond the ends of the rows; where none fits, straight.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Implicit</source>
         <translation type="unfinished"></translation>
     </message>
@@ -949,6 +973,12 @@ wall's loops part (two pockets in one cup) each part has a spiral of its own. It
     </message>
     <message>
         <source>Radius of curvature at the tip (R0), mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Radius of looped turns, mm.
+Range: above 0 to 100 mm
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1367,6 +1397,14 @@ Range: above 0 to 50 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Turn radius</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Turns</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Two-point incremental forming: a sheet over a male die, with a clamp frame that goes down, or into a female one.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1464,6 +1502,14 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>Whole model</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Without a corner, along a loop of `turn_radius` beyond the ends of the rows; where none fits, straight.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Without a corner, along arcs of half the distance between the rows; where none fits, straight.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1607,6 +1653,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>looped</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>male</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1703,6 +1753,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>rounded</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>rows</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1759,6 +1813,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>straight</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>support</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1776,6 +1834,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>tpif</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>turns</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
