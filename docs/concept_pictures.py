@@ -333,27 +333,15 @@ def spirals() -> Figure:
 
 def rows() -> Figure:
     """Turns between rows of three kinds, seen from above, at the rim of the cup of the fixtures."""
-    kinds: list[tuple[str, dict[str, Any]]] = [
-        ("straight", {}),
-        ("rounded", {"turns": "rounded"}),
-        ("looped, radius 2 mm", {"turns": "looped", "turn_radius": 2.0}),
-    ]
+    kinds = {"straight": {}, "rounded": {}, "looped": {"turn_radius": 2.0}}
     figure, axes = plt.subplots(1, 3, figsize=(11.0, 3.7), sharey=True)
-    for axis, (title, keys) in zip(axes, kinds, strict=True):
-        document = {
-            "schema": 1,
-            "part": {
-                "file": str(HERE.parent / "fixtures" / "cone_cup.step"),
-                "faces": ["Face1", "Face2", "Face3", "Face4"],
-            },
-            "process": {"kind": "milling"},
-            "tools": {"ball": {"number": 1, "profile": {"kind": "ball", "diameter": 6.0}}},
-            "operations": [{"kind": "zig-zag", "tool": "ball", "stepover": 3.0, **keys}],
-            "machine": {"name": "linuxcnc"},
-        }
+    for axis, (turns, keys) in zip(axes, kinds.items(), strict=True):
+        cup = HERE.parent / "fixtures" / "cone_cup.step"
+        document = milling_job(cup, {"kind": "ball", "diameter": 6.0}, 0.005)
+        document["part"] = {"file": str(cup), "faces": [f"Face{number}" for number in range(1, 5)]}
+        document["operations"][0].update({"stepover": 3.0, "turns": turns, **keys})
         moves = sc.plan(document).programs["main"].moves
-        start, end = moves["end"][:-1], moves["end"][1:]
-        feeds = moves["kind"][1:] != 0
+        start, end, feeds = moves["end"][:-1], moves["end"][1:], moves["kind"][1:] != 0
         for is_turn, colour in ((False, BLUE), (True, ORANGE)):
             chosen = feeds & ((np.abs(end[:, 1] - start[:, 1]) > 1e-6) == is_turn)
             lines = np.stack([start[chosen, :2], end[chosen, :2]], axis=1)
@@ -361,9 +349,8 @@ def rows() -> Figure:
         axis.set_xlim(10.0, 47.0)
         axis.set_ylim(2.0, 32.0)
         axis.set_aspect("equal")
-        axis.set_title(title, fontsize=10.5)
-        axis.set_xlabel("X, mm")
-    axes[0].set_ylabel("Y, mm")
+        labelled(axis, "X, mm", "Y, mm")
+        axis.set_title(turns, fontsize=10.5)
     return figure
 
 

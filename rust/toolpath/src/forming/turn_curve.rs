@@ -105,7 +105,7 @@ pub(super) fn rounded(ends: &Ends, most: [f64; 2], sagitta: f64) -> Option<([f64
     let along = [line[0] / length, line[1] / length];
     let corners = [angle(ends.leaving, along), angle(along, ends.arriving)];
     let tangents = [0, 1].map(|corner| half.min(half * libm::tan(0.5 * corners[corner].abs())));
-    if tangents[0] > most[0] || tangents[1] > most[1] || !(length > 0.0) {
+    if tangents[0] > most[0] || tangents[1] > most[1] || length <= 0.0 {
         return None;
     }
     let start = [0, 1].map(|axis| ends.from[axis] - tangents[0] * ends.leaving[axis]);
