@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -101,6 +102,25 @@ def wavy_surface(periodic: bool = False) -> Geom_BSplineSurface:
     return GeomAPI_PointsToBSplineSurface(points).Surface()
 
 
+def tube() -> Geom_BSplineSurface:
+    """A periodic B-spline surface without weights, as a loft between two closed splines is."""
+    from OCP.TColStd import TColStd_Array1OfInteger, TColStd_Array1OfReal
+
+    poles, knots, lengthwise = TColgp_Array2OfPnt(1, 8, 1, 2), TColStd_Array1OfReal(1, 9), TColStd_Array1OfReal(1, 2)
+    once, twice = TColStd_Array1OfInteger(1, 9), TColStd_Array1OfInteger(1, 2)
+    once.Init(1)
+    twice.Init(2)
+    for i in range(8):
+        for j in range(2):
+            radius, angle = 20.0 - 8.0 * j, np.pi / 4.0 * i
+            poles.SetValue(i + 1, j + 1, gp_Pnt(1.5 * radius * np.cos(angle), radius * np.sin(angle), -10.0 * j))
+    for i in range(9):
+        knots.SetValue(i + 1, float(i))
+    for j in range(2):
+        lengthwise.SetValue(j + 1, float(j))
+    return Geom_BSplineSurface(poles, knots, lengthwise, once, twice, 3, 1, True, False)
+
+
 def parametric(surface: Geom_BSplineSurface, count: int = 60) -> Parametric:
     """Our surface, seeded with a grid."""
     nurbs = nurbs_of(surface)
@@ -109,9 +129,9 @@ def parametric(surface: Geom_BSplineSurface, count: int = 60) -> Parametric:
     return Parametric(nurbs, nurbs.bounds, nurbs(uv)[0], uv)
 
 
-@pytest.mark.parametrize("periodic", [False, True])
-def test_nurbs_evaluates_as_the_kernel_does(periodic: bool) -> None:
-    surface = wavy_surface(periodic)
+@pytest.mark.parametrize("made", [wavy_surface, lambda: wavy_surface(periodic=True), tube])
+def test_nurbs_evaluates_as_the_kernel_does(made: Callable[[], Geom_BSplineSurface]) -> None:
+    surface = made()
     nurbs = nurbs_of(surface)
     u0, u1, v0, v1 = nurbs.bounds
     uv = np.random.default_rng(3).uniform((u0, v0), (u1, v1), (200, 2))

@@ -242,3 +242,21 @@ def test_a_surface_that_swings_about_a_triangle_is_seen_and_followed() -> None:
     height = points[:, 2] - 0.2 * np.sin(np.pi / 2 * points[:, 0]) * np.sin(np.pi / 2 * points[:, 1])
     assert np.abs(height).max() < 0.0111  # measured along Z, where the surface slopes by 17 degrees at most
     assert left.worst <= 0.01
+
+
+def test_slivers_along_a_side_that_the_surface_crosses_at_its_samples_are_refined() -> None:
+    """The longest side of a sliver bows nowhere where it is sampled: it has to go with the sides that do."""
+
+    def wave(uv: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        u, v = uv.T
+        one, none, ends = np.ones(len(u)), np.zeros(len(u)), u * (4.0 - u) / 4.0  # nothing at the border
+        near = 0.1 * np.exp(-((v / 0.3) ** 2)) * ends
+        height, slope = near * ends * np.sin(np.pi * u), near * (2.0 - u) * np.sin(np.pi * u)
+        along_u = np.stack([one, none, slope + near * ends * np.pi * np.cos(np.pi * u)], axis=1)
+        return np.stack([u, v, height], axis=1), along_u, np.stack([none, one, -2.0 * v / 0.09 * height], axis=1)
+
+    plan = np.array([(0.0, 0.0), (4.0, 0.0), (2.0, 3.0), (2.0, -3.0), (1.2, 0.0)])  # the last lies between the first two
+    mesh = FaceMesh(wave(plan)[0], np.array([(0, 1, 2), (0, 4, 1), (0, 3, 4), (4, 3, 1)]), plan)
+    refined, left = refine(mesh, Parametric(wave, (-1.0, 5.0, -4.0, 4.0), mesh.nodes, plan), 0.002)
+    assert left.worst <= 0.002
+    assert len(refined.triangles) < 20_000

@@ -110,6 +110,7 @@ def nurbs_of(surface: Kernel) -> Nurbs:
     if surface.IsVPeriodic():
         surface.SetVNotPeriodic()
     rows, columns = range(1, surface.NbUPoles() + 1), range(1, surface.NbVPoles() + 1)
+    rational = surface.IsURational() or surface.IsVRational()
     knots_u = [surface.UKnot(i) for i in range(1, surface.NbUKnots() + 1) for _ in range(surface.UMultiplicity(i))]
     knots_v = [surface.VKnot(i) for i in range(1, surface.NbVKnots() + 1) for _ in range(surface.VMultiplicity(i))]
     return Nurbs(
@@ -118,7 +119,8 @@ def nurbs_of(surface: Kernel) -> Nurbs:
         np.array(knots_u),
         np.array(knots_v),
         np.array([[xyz(surface.Pole(i, j)) for j in columns] for i in rows]),
-        np.array([[surface.Weight(i, j) for j in columns] for i in rows]),
+        # asked for the weights of one without, the kernel reads beside its array once SetUNotPeriodic has added poles
+        np.array([[surface.Weight(i, j) if rational else 1.0 for j in columns] for i in rows]),
     )
 
 

@@ -39,6 +39,8 @@ GAP_SHARE, GAP_TIMES = 0.5, 1.25
 LARGEST_GAP = 0.1
 # Splitting a side quarters its deviation: 40 rounds are far more than a face that can be refined needs.
 REFINEMENTS = 40
+# A triangle is a sliver where its longest side is longer than this part of the other two together: an angle above 157 degrees.
+SLIVER = 0.98
 # A sample is as far from its foot as this part of the distance to the nearest corner only where the foot is a wrong one: on a
 # right angle's arc it is 0.41.
 LOST = 0.4
@@ -339,7 +341,9 @@ def _sides_to_split(
 
     `bow` (F,3) is how much farther each side is off the surface than its ends: what splitting removes. A side much
     longer than that one goes too when it bows half as much, or slivers would be cut into ever finer slivers.
-    Where no side bows, the surface swings about the triangle: the longest side goes. A side on the border (not
+    Where no side bows, the surface swings about the triangle: the longest side goes. It goes with the others in a sliver, too
+    (longest-edge bisection: Rivara, Int. J. Numer. Methods Eng. 20, 1984): all lie in one line there, and were the longest to
+    stay because the surface crosses it at the samples, each round would put the same slivers against it. A side on the border (not
     `inner`) stays, and a triangle that only its border or its corners keep off the surface is not split.
     """
     inner_bow = np.where(inner, bow, 0.0)
@@ -349,7 +353,10 @@ def _sides_to_split(
     swings = ~split.any(axis=1) & (bow.max(axis=1) < 0.5 * tolerance) & (corners_off < 0.5 * tolerance)
     inner_length = np.where(inner, length, 0.0)
     longest = (inner_length == inner_length.max(axis=1)[:, None]) & inner
-    return np.asarray(np.where(swings[:, None], longest, split))
+    sliver = split.any(axis=1) & (length.max(axis=1) > SLIVER * (length.sum(axis=1) - length.max(axis=1)))
+    sliver &= corners_off < 0.5 * tolerance
+    along = (length == length.max(axis=1)[:, None]) & inner & sliver[:, None]
+    return np.asarray(np.where(swings[:, None], longest, split | along))
 
 
 def _keys(ends: Ints) -> Ints:
