@@ -24,12 +24,19 @@ fn found_wrong(job: &JobDocument, scene: &Scene) -> Vec<(FindingKind, String)> {
     let body = Body::new(&scene.mesh, &scene.bvh);
     let thickness = body.thickness();
     let of_sheet = thickness.filter(|thickness| thickness.is_sheet()).map(|thickness| thickness.median);
-    let formed = body.formed_depth(of_sheet);
+    let formed = match job.process.process.as_kind().support() {
+        Support::Rim => body.formed_depth(of_sheet),
+        Support::DieAndFrame => body.laid_depth(of_sheet),
+    };
     let solid = thickness.filter(|_| of_sheet.is_none() && takes_all(job)).zip(formed.err());
     if let Some((thickness, why)) = solid {
+        let over = match why {
+            Unformable::LowBorder(_) => ", form over it as over a die (process = { kind = \"tpif\", die = \"male\" })",
+            Unformable::Unseen | Unformable::Flat | Unformable::Steep(_) | Unformable::Stepped => "",
+        };
         let words = format!(
             "the model is a solid, {:.2} to {:.2} mm thick, and no sheet, and {why}: set process.kind = \"milling\" \
-             (`styluscam new` writes such a job), name the faces that the sheet takes in part.faces, or accept = \
+             (`styluscam new` writes such a job){over}, name the faces that the sheet takes in part.faces, or accept = \
              [\"solid\"]",
             thickness.thin, thickness.thick
         );
@@ -38,7 +45,7 @@ fn found_wrong(job: &JobDocument, scene: &Scene) -> Vec<(FindingKind, String)> {
     let mut found = Vec::new();
     found.extend(of_sheet.and_then(|measured| other_thickness(measured, sheet)));
     found.extend(of_sheet.and_then(|measured| other_face(measured, sheet)));
-    if let (Err(Unformable::LowBorder(below)), Support::Rim) = (formed, job.process.process.as_kind().support()) {
+    if let Err(Unformable::LowBorder(below)) = formed {
         let words = format!(
             "the model's border, where the sheet is clamped, lies {below:.2} mm below its highest point: the sheet lies \
              flat at the border's height, and the tool only pushes down; turn the model over with setup.up, form over a \

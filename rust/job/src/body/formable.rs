@@ -61,6 +61,19 @@ impl Body<'_> {
     /// # Errors
     /// Why it cannot.
     pub fn formed_depth(&self, thickness: Option<f64>) -> Result<f64, Unformable> {
+        self.shaped_depth(thickness, true)
+    }
+
+    /// How far a sheet of a `thickness` (none: a surface without) goes down from the top of a male die of this shape, mm: its
+    /// border goes down with the frame, and may lie as low as it likes.
+    ///
+    /// # Errors
+    /// Why it cannot.
+    pub fn laid_depth(&self, thickness: Option<f64>) -> Result<f64, Unformable> {
+        self.shaped_depth(thickness, false)
+    }
+
+    fn shaped_depth(&self, thickness: Option<f64>, clamped: bool) -> Result<f64, Unformable> {
         let heights = self.heights();
         let depth = heights.top - heights.bottom;
         let border = heights.border.ok_or(Unformable::Unseen)?;
@@ -68,7 +81,7 @@ impl Body<'_> {
             return Err(Unformable::Flat);
         }
         let below = heights.top - border.middle;
-        if below > thickness.unwrap_or(0.0) + SAME * depth && border.above > EMBOSSED {
+        if clamped && below > thickness.unwrap_or(0.0) + SAME * depth && border.above > EMBOSSED {
             return Err(Unformable::LowBorder(below));
         }
         let steep = self.steeper(FORMED_DEG);

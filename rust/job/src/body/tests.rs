@@ -110,6 +110,10 @@ fn a_sheet_is_formed_where_its_border_is_on_top_and_no_wall_is_too_steep() {
     assert!(matches!(depth(&|x, y| -cup(x, y)), Err(Unformable::LowBorder(below)) if (below - 5.0).abs() < 0.1));
     assert_eq!(depth(&|_, _| 0.0), Err(Unformable::Flat));
     assert!(matches!(with(&between(&pit, None), |body| body.formed_depth(None)), Err(Unformable::Steep(_))));
+    // over a male die the border goes down with the frame; what is too steep stays so
+    let laid = |mesh: &Mesh| with(mesh, |body| body.laid_depth(None));
+    assert!((laid(&block(&|x, y| -cup(x, y))).unwrap() - 5.0).abs() < 0.1);
+    assert!(matches!(laid(&between(&pit, None)), Err(Unformable::Steep(_))));
 }
 
 #[test]

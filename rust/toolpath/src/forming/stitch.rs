@@ -47,8 +47,12 @@ pub struct Beside {
 }
 
 /// For each point of the second loop what of the first is beside it.
+///
+/// Both loops begin in one corner, say: to its point there the first loop's last side may be as near as its first one. What is
+/// more than half of the loop farther round than the point itself therefore counts only where there is nothing else.
 pub fn beside(pairs: &[[usize; 2]], [first, second]: [&[PathPoint]; 2]) -> Vec<Beside> {
     let fans = pairs.chunk_by(|a, b| a[1] == b[1]);
+    let [round, own] = [by_length(first), by_length(second)];
     let of_fan = |fan: &[[usize; 2]]| {
         let ([from, _], [to, j]) = (*fan.first()?, *fan.last()?);
         let sides = from.saturating_sub(AROUND)..(to + AROUND).min(first.len().checked_sub(1)?);
@@ -57,7 +61,8 @@ pub fn beside(pairs: &[[usize; 2]], [first, second]: [&[PathPoint]; 2]) -> Vec<B
             let (share, square) = nearest(point, [first[side].tip.xy(), first[side + 1].tip.xy()]);
             Beside { side, share, square }
         });
-        near.min_by(|a, b| a.square.total_cmp(&b.square))
+        let is_opposite = |near: &Beside| (0.5 * (round[near.side] + round[near.side + 1]) - own[j]).abs() > 0.5;
+        near.min_by(|a, b| is_opposite(a).cmp(&is_opposite(b)).then(a.square.total_cmp(&b.square)))
     };
     fans.filter_map(of_fan).collect()
 }
@@ -139,6 +144,22 @@ mod tests {
             prop_assert!(carried[0].abs() < 1e-15 && (carried[below] - 1.0).abs() < 1e-15);
             prop_assert!(carried.windows(2).all(|pair| pair[0] < pair[1]), "{:?}", carried);
         }
+    }
+
+    #[test]
+    fn a_loop_that_begins_in_a_corner_is_not_taken_for_round_there() {
+        let square = |half: f64, first: [f64; 2]| {
+            let corners = [first, [half, -half], [half, half], [-half, half], first];
+            let mut points = ring(4, half, 0.0);
+            points.iter_mut().zip(corners).for_each(|(point, [x, y])| point.tip = Vector::new(x, y, point.tip.z));
+            points
+        };
+        // nearer to the last side of the outer one than to the first
+        let (outer, inner) = (square(10.0, [-10.0, -10.0]), square(9.0, [-9.001, -9.0]));
+        let beside = beside(&pairs(&outer, &inner), [&outer, &inner]);
+        let carried = carried(&beside, &by_length(&outer), &inner);
+        let even = carried.iter().enumerate().all(|(corner, round)| (round - 0.25 * corner as f64).abs() < 0.02);
+        assert!(even, "{carried:?}");
     }
 
     #[test]
