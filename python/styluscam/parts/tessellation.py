@@ -343,8 +343,8 @@ def _sides_to_split(
     longer than that one goes too when it bows half as much, or slivers would be cut into ever finer slivers.
     Where no side bows, the surface swings about the triangle: the longest side goes. It goes with the others in a sliver, too
     (longest-edge bisection: Rivara, Int. J. Numer. Methods Eng. 20, 1984): all lie in one line there, and were the longest to
-    stay because the surface crosses it at the samples, each round would put the same slivers against it. A side on the border (not
-    `inner`) stays, and a triangle that only its border or its corners keep off the surface is not split.
+    stay because the surface crosses it at the samples, each round would put the same slivers against it. A side on the border
+    (not `inner`) stays, and a triangle that only its border or its corners keep off the surface is not split.
     """
     inner_bow = np.where(inner, bow, 0.0)
     most, worst = inner_bow.max(axis=1)[:, None], np.argmax(inner_bow, axis=1)[:, None]

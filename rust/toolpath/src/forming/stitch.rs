@@ -148,14 +148,15 @@ mod tests {
 
     #[test]
     fn a_loop_that_begins_in_a_corner_is_not_taken_for_round_there() {
-        let square = |half: f64, first: [f64; 2]| {
-            let corners = [first, [half, -half], [half, half], [-half, half], first];
+        let square = |half: f64, first: [f64; 2], second: [f64; 2]| {
+            let corners = [first, second, [half, half], [-half, half], first];
             let mut points = ring(4, half, 0.0);
             points.iter_mut().zip(corners).for_each(|(point, [x, y])| point.tip = Vector::new(x, y, point.tip.z));
             points
         };
-        // nearer to the last side of the outer one than to the first
-        let (outer, inner) = (square(10.0, [-10.0, -10.0]), square(9.0, [-9.001, -9.0]));
+        // the inner one's first corner is nearer to the last side of the outer one than to the first
+        let outer = square(10.0, [-10.0, -10.0], [10.0, -10.0]);
+        let inner = square(9.0, [-9.001, -9.0], [9.01, -9.0]);
         let beside = beside(&pairs(&outer, &inner), [&outer, &inner]);
         let carried = carried(&beside, &by_length(&outer), &inner);
         let even = carried.iter().enumerate().all(|(corner, round)| (round - 0.25 * corner as f64).abs() < 0.02);
