@@ -255,7 +255,9 @@ def test_slivers_along_a_side_that_the_surface_crosses_at_its_samples_are_refine
         along_u = np.stack([one, none, slope + near * ends * np.pi * np.cos(np.pi * u)], axis=1)
         return np.stack([u, v, height], axis=1), along_u, np.stack([none, one, -2.0 * v / 0.09 * height], axis=1)
 
-    plan = np.array([(0.0, 0.0), (4.0, 0.0), (2.0, 3.0), (2.0, -3.0), (1.2, 0.0)])  # the last lies between the first two
+    plan = np.array(
+        [(0.0, 0.0), (4.0, 0.0), (2.0, 3.0), (2.0, -3.0), (1.2, 0.0)]
+    )  # the last lies between the first two
     mesh = FaceMesh(wave(plan)[0], np.array([(0, 1, 2), (0, 4, 1), (0, 3, 4), (4, 3, 1)]), plan)
     refined, left = refine(mesh, Parametric(wave, (-1.0, 5.0, -4.0, 4.0), mesh.nodes, plan), 0.002)
     assert left.worst <= 0.002
