@@ -37,14 +37,17 @@ class Example:
     process: dict[str, Any] = field(default_factory=lambda: {"kind": "spif"})
     setup: dict[str, Any] = field(default_factory=dict)
     more: dict[str, Any] = field(default_factory=dict)
+    part_keys: dict[str, Any] = field(default_factory=dict)
+    law: str = "constant"
+    machine: dict[str, Any] = field(default_factory=lambda: {"name": "linuxcnc"})
 
     def document(self) -> dict[str, Any]:
         """The job."""
-        part: dict[str, Any] = {"file": str(FIXTURES / f"{self.part}.step")}
+        part: dict[str, Any] = {"file": str(FIXTURES / f"{self.part}.step"), **self.part_keys}
         setup = deepcopy(self.setup)
         if self.process["kind"] != "milling":
             part["model_face"] = "tool"
-            setup["sheet"] = {"thickness": 1.0}
+            setup["sheet"] = {"thickness": 1.0, "law": self.law}
         feeds = {"cut": 1500.0, "plunge": 300.0}
         return {
             "schema": 1,
@@ -53,7 +56,7 @@ class Example:
             "setup": setup,
             "process": self.process,
             "tools": {"stylus": {"number": 1, "profile": {"kind": "ball", "diameter": 10.0}}},
-            "machine": {"name": "linuxcnc"},
+            "machine": self.machine,
             "operations": [{"tool": "stylus", "tolerance": 0.01, "feeds": feeds, **self.operation}],
             **self.more,
         }
@@ -107,6 +110,18 @@ EXAMPLES = (
         "cap_r60",
         LEVELS,
         process={"kind": "tpif", "die": "male"},
+        more={"accept": ["solid"]},
+    ),
+    Example(
+        "spinning",
+        "Shear spinning",
+        '`process.kind = "spinning"`: the meridian in X and Z, a wait of one turn at its end; the part turns under the tool.',
+        "cap_r60",
+        {"kind": "meridian", "feed_per_rev": 1.0, "spindle": {"mode": "fixed", "rpm": 300.0}},
+        process={"kind": "spinning"},
+        part_keys={"faces": ["Face1"]},
+        law="sine",
+        machine={"name": "linuxcnc", "options": {"feed_mode": "per-revolution"}},
         more={"accept": ["solid"]},
     ),
     Example(

@@ -71,6 +71,11 @@ class Report:
         """For pickle and copy."""
         return {key: value for key, value in vars(self).items() if key not in ("judgement", "scene")}
 
+    @property
+    def path(self) -> Program:
+        """The moves as the part sees them: those of ``program``, or the spirals that they are to a part that turns."""
+        return Program(self.judgement.seen)
+
     @cached_property
     def scene(self) -> _engine.Scene:
         """The part as it lies on the machine."""

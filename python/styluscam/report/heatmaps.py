@@ -86,7 +86,7 @@ def shown_judged(surface: Surface, report: Report, progress: Progress | None = N
     surface, merged = surface.coarsened(limit)
     selected = np.isin(surface.faces, [face.face for face in report.coverage(progress=progress)]) & surface.looks_up
     area = float(surface.areas[selected].sum())
-    between = area / max(report.program.length, 1e-9)
+    between = area / max(report.path.length, 1e-9)
     spacing = max(between / PER_PASS, float(np.sqrt(2.0 * area / limit)))
     borders = surface.borders()
     surface, selected = surface.refined(selected, spacing, limit)

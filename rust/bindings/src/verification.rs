@@ -145,6 +145,12 @@ impl Judgement {
     fn program(&self) -> Program {
         Program { program: self.judgement.program.clone() }
     }
+
+    /// The moves as the part sees them: the same, or the spirals that they are to a part that turns.
+    #[getter]
+    fn seen(&self) -> Program {
+        Program { program: self.judgement.seen().clone() }
+    }
 }
 
 /// The kinds of findings, as JSON: their words for people by their codes, in the order in which a report lists them.

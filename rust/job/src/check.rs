@@ -109,6 +109,7 @@ fn with_sheet(job: &JobDocument, sheet: &SheetSection) -> Result<(), JobError> {
         self::fixture(fixture, job.setup.clearance, job.units)?;
         support(fixture, job.process.process.as_kind().support())?;
     }
+    spun(&job.process.process, sheet)?;
     if job.part.model_face.is_none() {
         return Err(JobError::document(
             "missing",
@@ -118,6 +119,21 @@ fn with_sheet(job: &JobDocument, sheet: &SheetSection) -> Result<(), JobError> {
         ));
     }
     Ok(())
+}
+
+/// Shear spinning moves each ring of the disc parallel to the axis, and its thickness in that direction stays: the sine law.
+fn spun(process: &Process, sheet: &SheetSection) -> Result<(), JobError> {
+    match (process.as_kind().turns_part(), sheet.law) {
+        (false, _) | (true, SheetLaw::Sine) => Ok(()),
+        (true, SheetLaw::Constant) => {
+            let message = format!(
+                "process.kind = {:?} thins the sheet by the sine law, and the job's keeps its thickness",
+                process.name()
+            );
+            let hint = "write law = \"sine\" in [setup.sheet]";
+            Err(JobError::document("conflict", "setup.sheet.law", message, hint))
+        }
+    }
 }
 
 fn process(process: &ProcessSection) -> Result<(), JobError> {
@@ -155,6 +171,11 @@ fn support(fixture: &FixtureSection, support: Support) -> Result<(), JobError> {
             "setup.fixture.backing",
             "a plate under the sheet, and a sheet over a male die goes down there",
             "remove backing",
+        ),
+        (Support::Mandrel, _) => (
+            "setup.fixture",
+            "a fixture, and a sheet on a mandrel is clamped to that and turns with it",
+            "remove fixture",
         ),
         (Support::Rim | Support::DieAndFrame, _) => return Ok(()),
     };
@@ -260,6 +281,7 @@ fn operation(job: &JobDocument, path: &str, section: &OperationSection) -> Resul
     heights(path, common, job.units)?;
     direction(path, common)?;
     fit(job, path, common)?;
+    turning(&job.process.process, path, section)?;
     spindle::check(section, path)?;
     section.kind().check(common, path)
 }
@@ -277,6 +299,23 @@ fn direction(path: &str, common: &OperationKeys) -> Result<(), JobError> {
     let message = format!("direction = {word:?} needs a tool that turns, and the spindle is off");
     let hint = "set direction = \"same\", or a spindle: spindle = { mode = \"fixed\", rpm = 8000 }";
     Err(JobError::document("conflict", format!("{path}.direction"), message, hint))
+}
+
+/// What turns the part takes paths for parts that turn, and nothing else does.
+fn turning(process: &Process, path: &str, section: &OperationSection) -> Result<(), JobError> {
+    let (name, kind) = (process.name(), section.operation.name());
+    let (message, hint) = match (process.as_kind().turns_part(), section.kind().turns_part()) {
+        (true, true) | (false, false) => return Ok(()),
+        (true, false) => (
+            format!("process.kind = {name:?} turns the part, and kind = {kind:?} is for a part that stands"),
+            "write kind = \"meridian\"",
+        ),
+        (false, true) => (
+            format!("kind = {kind:?} is for a part that turns, and with process.kind = {name:?} it stands"),
+            "write process = { kind = \"spinning\" }",
+        ),
+    };
+    Err(JobError::document("conflict", format!("{path}.kind"), message, hint))
 }
 
 /// A tool on the other side of the sheet is planned along straight moves.

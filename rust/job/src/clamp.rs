@@ -16,7 +16,7 @@ const SAME: f64 = 0.5e-3;
 /// Whether the job's clamp frame goes down with the path.
 pub(crate) fn goes_down(job: &JobDocument) -> bool {
     match job.process.process.as_kind().support() {
-        Support::Rim => false,
+        Support::Rim | Support::Mandrel => false,
         Support::DieAndFrame => true,
     }
 }

@@ -19,19 +19,23 @@ use crate::{JobDocument, JobError, Scene};
 /// # Errors
 /// How deep the hollow is, and where.
 pub(crate) fn check(job: &JobDocument, scene: &Scene, selected: &[bool], path: &str) -> Result<(), JobError> {
-    let (Support::DieAndFrame, Some(sheet)) = (job.process.process.as_kind().support(), scene.sheet) else {
-        return Ok(());
-    };
+    let support = job.process.process.as_kind().support();
+    let (Support::DieAndFrame | Support::Mandrel, Some(sheet)) = (support, scene.sheet) else { return Ok(()) };
     // the sheet itself bridges what is no deeper than it is thick
     let Some(hollow) = deepest(&scene.mesh, selected).filter(|hollow| hollow.depth > sheet.thickness) else {
         return Ok(());
     };
     let [x, y, z] = hollow.at.into();
     let message = format!(
-        "the selected faces are hollow: at X{x:.3} Y{y:.3} Z{z:.3} {:.3} mm deep, and a sheet over a male die spans hollows",
+        "the selected faces are hollow: at X{x:.3} Y{y:.3} Z{z:.3} {:.3} mm deep, and a sheet over a male die or a \
+         mandrel spans hollows",
         hollow.depth,
     );
-    let hint = "set die = \"female\", turn the part over with setup.up, or leave the hollow's faces out of part.faces";
+    let turn = "turn the part over with setup.up, or leave the hollow's faces out of part.faces";
+    let hint = match support {
+        Support::DieAndFrame => format!("set die = \"female\", {turn}"),
+        Support::Mandrel | Support::Rim => turn.to_owned(),
+    };
     Err(JobError::document("conflict", format!("{path}.faces"), message, hint))
 }
 

@@ -10,7 +10,9 @@ use serde::{Deserialize, Serialize};
 use styluscam_geometry::{Base, Holder, ModelFace, ProfileDocument, SheetLaw};
 use styluscam_motion::ToolReference;
 
-use crate::{FixtureSection, OperationSection, ProcessSection, Risk, Selection, SpringbackSection, Units, UpAxis};
+use crate::{
+    Chuck, FixtureSection, OperationSection, ProcessSection, Risk, Selection, SpringbackSection, Units, UpAxis,
+};
 
 /// A whole job: from a part's faces to a machine's program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -97,11 +99,15 @@ pub struct PartSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SetupSection {
-    /// Axis of the model that points to the spindle.
+    /// Axis of the model that points up, to the spindle of a chuck above.
     pub up: UpAxis,
     /// Turn about the machine's Z after that, degrees.
     #[schemars(extend("x-unit" = "deg", "minimum" = -360.0, "maximum" = 360.0))]
     pub rotation: f64,
+    /// Whether the chuck that holds the tool is "above" the sheet or the part, or "below" it. Below, the machine's axes are those
+    /// above turned half about X: Z points down to the spindle, Y the other way; positions and heights of the job are in these axes.
+    #[schemars(extend("x-advanced" = true))]
+    pub chuck: Chuck,
     /// Where the program's zero is; "sheet-top" with a sheet, else "model", when left out.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "mm", "minimum" = -100000.0, "maximum" = 100000.0))]
@@ -129,6 +135,7 @@ impl Default for SetupSection {
         Self {
             up: UpAxis::default(),
             rotation: 0.0,
+            chuck: Chuck::default(),
             zero: None,
             wcs: "G54".to_owned(),
             clearance: 10.0,
@@ -143,11 +150,11 @@ impl Default for SetupSection {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "ZeroText", into = "ZeroText")]
 pub enum Zero {
-    /// X and Y of the model's origin; Z on the sheet's face towards the tool, where it is highest.
+    /// X and Y of the model's origin; Z on the sheet's face towards the tool, where that is nearest to the spindle.
     SheetTop,
     /// The model's origin.
     Model,
-    /// This point of the turned model, mm.
+    /// This point of the turned model, as it lies for a chuck above, mm.
     Point([f64; 3]),
 }
 

@@ -36,7 +36,7 @@ pub struct Estimate {
 /// What planning each operation will take; nothing for kinds that do not know.
 #[must_use]
 pub fn estimates(job: &JobDocument, part: &Part) -> Vec<Estimate> {
-    let up = job.setup.up.vector();
+    let up = job.setup.to_spindle();
     let (low, high) = part.mesh.bounds();
     let size = high - low;
     let plan_box = (size.product() / size.dot(&up).abs()).abs();

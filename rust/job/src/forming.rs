@@ -86,7 +86,9 @@ impl<'a> Forming<'a> {
         let sheet = job.setup.sheet.filter(|_| job.process.process.as_kind().forms())?;
         let steepest = scene.steepest(&selected);
         let (thickness, tensile_strength) = (sheet.thickness, sheet.tensile_strength);
-        let passes = descent_of(job, scene, tool, section);
+        // the force is that of a tool on a sheet that hangs free
+        let hangs = !job.process.process.as_kind().turns_part();
+        let passes = descent_of(job, scene, tool, section).filter(|_| hangs);
         Some(Self { scene, tool, section, thickness, tensile_strength, selected, steepest, passes })
     }
 
@@ -162,7 +164,7 @@ impl<'a> Forming<'a> {
         let mesh = &self.scene.mesh;
         let outside = match support {
             Support::Rim => 0.0,
-            Support::DieAndFrame => self.tool.point_at(self.steepest).0 + 0.5 * self.tool.diameter(),
+            Support::DieAndFrame | Support::Mandrel => self.tool.point_at(self.steepest).0 + 0.5 * self.tool.diameter(),
         };
         let is_formed = |triangle: &usize| self.selected[*triangle] && mesh.model_normal(*triangle).z < 1.0 - SAME;
         let formed = (0..self.selected.len()).filter(is_formed).flat_map(|triangle| mesh.corners(triangle));

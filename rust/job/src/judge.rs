@@ -9,8 +9,8 @@ use styluscam_motion::{Program, ToolRecord, Watch};
 use styluscam_post::machine::ToolChange;
 use styluscam_post::{read, Machine};
 use styluscam_verify::{
-    Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Left, Limits, Need, Obstacle, Pairing, Partner,
-    Passes, Reach, Report, Scallop, Simulation, Subject, TextFacts, ToolCalls,
+    turned, Axes, Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Left, Limits, Need, Obstacle, Pairing,
+    Partner, Passes, Reach, Report, Scallop, Simulation, Subject, TextFacts, TooLong, ToolCalls,
 };
 
 use crate::limits::{GOUGE, NO_ROOM};
@@ -35,12 +35,23 @@ pub struct Judgement {
     /// The moves as they were read back.
     #[serde(skip)]
     pub program: Program,
-    /// Moves whose end is not known in all three axes, in runs.
+    /// The same as the part sees them, where the spindle turns it.
+    #[serde(skip)]
+    turned: Option<Program>,
+    /// Moves of what the part sees whose end is not known in all three axes, in runs.
     #[serde(skip)]
     unknown_positions: Vec<Range<usize>>,
     /// What was allowed.
     #[serde(skip)]
     limits: Limits,
+}
+
+impl Judgement {
+    /// The moves as the part sees them: those of the axes, or the spirals that they are to a part that turns.
+    #[must_use]
+    pub fn seen(&self) -> &Program {
+        self.turned.as_ref().unwrap_or(&self.program)
+    }
 }
 
 /// What a channel's text is compared with.
@@ -70,6 +81,7 @@ impl<'a> Against<'a> {
             deviation_outward: self.scene.outward,
             wcs: self.wcs,
             unknown_positions,
+            axes: None,
             text: None,
             expected: &self.expected,
             obstacles: &[],
@@ -118,8 +130,12 @@ pub fn judge(
     };
     let report =
         styluscam_verify::judge(&prepared.reading.program, &prepared.subject(pairing), &prepared.limits, watch)?;
-    let Prepared { reading: Reading { program, unknown_positions, .. }, limits, .. } = prepared;
-    Ok(Judgement { channel: text.scene.channel, report, program, unknown_positions, limits })
+    let Prepared { reading: Reading { program, unknown_positions, axes, .. }, limits, .. } = prepared;
+    let (program, turned) = match axes {
+        Some((of_axes, _)) => (of_axes, Some(program)),
+        None => (program, None),
+    };
+    Ok(Judgement { channel: text.scene.channel, report, program, turned, unknown_positions, limits })
 }
 
 /// The sheet that two channels leave between their tools, by its law.
@@ -144,6 +160,7 @@ impl<'a> Prepared<'a> {
     fn new(job: &'a JobDocument, Text { scene, machine, text }: Text<'a>) -> Result<Self, JobError> {
         let against = Against::new(job, scene)?;
         let reading = reading(text, machine, &against.records)?;
+        let reading = if job.process.process.as_kind().turns_part() { reading.turned()? } else { reading };
         let mut found = Vec::new();
         if scene.opposite.is_none() {
             found.extend(model::mismatches(job, scene));
@@ -155,8 +172,10 @@ impl<'a> Prepared<'a> {
     }
 
     fn subject<'s>(&'s self, pairing: Pairing<'s>) -> Subject<'s> {
-        let plain = self.against.subject(&self.reading.unknown_positions);
-        Subject { text: Some(&self.reading.facts), obstacles: &self.obstacles, pairing, ..plain }
+        let Reading { unknown_positions, facts, axes, .. } = &self.reading;
+        let axes = axes.as_ref().map(|(program, unknown_positions)| Axes { program, unknown_positions });
+        let plain = self.against.subject(unknown_positions);
+        Subject { text: Some(facts), axes, obstacles: &self.obstacles, pairing, ..plain }
     }
 }
 
@@ -165,6 +184,27 @@ struct Reading {
     program: Program,
     unknown_positions: Vec<Range<usize>>,
     facts: TextFacts,
+    /// The moves of the axes, with those of unknown positions, where the others are what these are to a part that turns.
+    axes: Option<(Program, Vec<Range<usize>>)>,
+}
+
+impl Reading {
+    /// The same as a part sees it that the spindle turns.
+    fn turned(self) -> Result<Self, JobError> {
+        let turned = turned(&self.program).map_err(|TooLong { line, chords, most }| {
+            let message = format!(
+                "line {line}: the part makes so many turns until there that its path takes {chords:.0} chords, and {most:.0} are \
+                 looked at"
+            );
+            JobError::document("too-long", "operations", message, "raise feed_per_rev, or the feed F of that line")
+        })?;
+        Ok(Self {
+            unknown_positions: turned.runs(&self.unknown_positions),
+            facts: turned.facts(self.facts),
+            program: turned.program,
+            axes: Some((self.program, self.unknown_positions)),
+        })
+    }
 }
 
 /// Reads a text, and what there is to know of it beside its moves.
@@ -187,7 +227,7 @@ fn reading(text: &str, machine: &Machine, records: &[ToolRecord]) -> Result<Read
         tool_calls,
         frame_levels: clamp::stated(&read.program),
     };
-    Ok(Reading { program: read.program, unknown_positions: read.unknown_positions, facts })
+    Ok(Reading { program: read.program, unknown_positions: read.unknown_positions, facts, axes: None })
 }
 
 /// What a checked program leaves on the faces that its operations are for, face by face.
@@ -207,7 +247,7 @@ pub fn coverage(
     }
     let subject = against.subject(&judgement.unknown_positions);
     let selected = scene.facing_up(&faces);
-    Ok(styluscam_verify::coverage(&judgement.program, &subject, &judgement.limits, &selected, watch)?)
+    Ok(styluscam_verify::coverage(judgement.seen(), &subject, &judgement.limits, &selected, watch)?)
 }
 
 /// What a checked program leaves at points in work coordinates, mm: their distance from all that tool and sheet sweep.
@@ -223,7 +263,7 @@ pub fn left(
 ) -> Result<Vec<f64>, JobError> {
     let against = Against::new(job, scene)?;
     let subject = against.subject(&judgement.unknown_positions);
-    Ok(styluscam_verify::left(&judgement.program, &subject, &judgement.limits, points, watch)?)
+    Ok(styluscam_verify::left(judgement.seen(), &subject, &judgement.limits, points, watch)?)
 }
 
 /// The scallops that a checked program leaves, operation by operation: at about `count` points of the faces of each.
@@ -240,7 +280,7 @@ pub fn scallops(
     let against = Against::new(job, scene)?;
     let subject = against.subject(&judgement.unknown_positions);
     let of_operation = |operation: &ExpectedOperation| {
-        let (program, limits) = (&judgement.program, &judgement.limits);
+        let (program, limits) = (judgement.seen(), &judgement.limits);
         let found = styluscam_verify::scallops(program, &subject, limits, operation, count, watch)?;
         Ok((operation.id.clone(), found))
     };
@@ -260,7 +300,7 @@ pub fn needs(
 ) -> Result<Vec<Need>, JobError> {
     let against = Against::new(job, scene)?;
     let subject = against.subject(&judgement.unknown_positions);
-    Ok(styluscam_verify::needs(&judgement.program, &subject, &judgement.limits, points, watch)?)
+    Ok(styluscam_verify::needs(judgement.seen(), &subject, &judgement.limits, points, watch)?)
 }
 
 /// What a checked program makes of the stock: the part's box, or the sheet's blank, of which `face` is followed.
@@ -282,7 +322,7 @@ pub fn simulate(
     let under = sheet.map_or(0.0, |sheet| sheet.raise());
     let grid = Grid::over([low.x, low.y], [high.x, high.y], spacing).map_err(JobError::geometry("spacing"))?;
     let top = scene.top - under;
-    Ok(styluscam_verify::simulate(&judgement.program, &subject, &judgement.limits, grid, top, watch)?)
+    Ok(styluscam_verify::simulate(judgement.seen(), &subject, &judgement.limits, grid, top, watch)?)
 }
 
 /// What the job states for each operation of the scene's channel.
@@ -303,7 +343,7 @@ fn expected(
         Ok(ExpectedOperation {
             id: section.id(index),
             tool: number,
-            cut: common.feeds.cut,
+            cut: section.kind().cut_feed(common),
             plunge: common.feeds.plunge,
             keeps_pace: scene.opposite.is_some(),
             spindle: spindle::turns(job, scene, tool, section, index)?,

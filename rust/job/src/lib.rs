@@ -5,6 +5,7 @@
 mod advice;
 mod body;
 mod check;
+mod chuck;
 mod clamp;
 mod die;
 mod document;
@@ -46,6 +47,7 @@ mod up_axis;
 
 pub use advice::{walls, Bend, Corner, Wall, Walls};
 pub use body::{Body, Border, FaceLook, Heights, Hollows, Shell, Side, Thickness, Unformable, SIDES};
+pub use chuck::Chuck;
 pub use document::{
     JobDocument, LengthUnit, MachineSection, OutputSection, PartSection, SetupSection, SheetSection, ToolSection, Zero,
 };

@@ -41,7 +41,7 @@ pub(crate) fn turns(
                 let hint = "select walls, or set mode = \"free\"";
                 return Err(JobError::document("conflict", format!("operations[{index}].spindle.mode"), message, hint));
             }
-            Ok(Some((section.common.feeds.cut / (TAU * radius), SpindleDirection::Clockwise)))
+            Ok(Some((section.kind().cut_feed(&section.common) / (TAU * radius), SpindleDirection::Clockwise)))
         }
     }
 }

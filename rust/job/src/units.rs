@@ -135,7 +135,7 @@ impl Walk {
         let Some(written) = number.as_f64() else { return Ok(()) };
         // 254 / 10: 3 inches are 76.2 mm, and not 76.19999999999999
         let mm = match (self.unit, key.unit) {
-            (LengthUnit::Inch, "mm" | "mm/min") => Some(written * 254.0 / 10.0),
+            (LengthUnit::Inch, "mm" | "mm/min" | "mm/rev") => Some(written * 254.0 / 10.0),
             (LengthUnit::Inch, "mm^2") => Some(written * 64516.0 / 100.0),
             (LengthUnit::Inch, "mm^(1-p)") => Some(written * libm::pow(25.4, power)),
             (LengthUnit::Inch | LengthUnit::Mm, _) => None,

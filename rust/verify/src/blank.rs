@@ -70,7 +70,7 @@ impl Blank {
                 blank.held =
                     of_part.filter(|(_, height)| *height >= highest - ROUGH).map(|(at, _)| (at, top)).collect();
             }
-            Support::DieAndFrame => {
+            Support::DieAndFrame | Support::Mandrel => {
                 // the sheet's upper side is as far above the model everywhere as where both are highest
                 blank.held = of_part.map(|(at, height)| (at, height + top - highest)).collect();
                 blank.frame = Some((blank.outermost(), top));

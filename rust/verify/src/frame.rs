@@ -25,7 +25,10 @@ impl Frame {
     /// Where the text states that it stands; where it states nothing, as low as a feed has been so far. None where the sheet's
     /// rim stays.
     pub fn of(program: &Program, segments: &[Segment], subject: &Subject, limits: &Limits) -> Option<Self> {
-        let forming = limits.forming.filter(|forming| forming.support == Support::DieAndFrame)?;
+        let forming = limits.forming.filter(|forming| match forming.support {
+            Support::Rim => false,
+            Support::DieAndFrame | Support::Mandrel => true,
+        })?;
         let stated = subject.text.map_or(&[][..], |text| &text.frame_levels);
         let heights = if stated.is_empty() {
             carried(program.moves.len(), segments, forming.top)
@@ -74,6 +77,9 @@ pub(crate) fn faults(
     limits: &Limits,
 ) -> Vec<Fault> {
     let mut faults = Vec::new();
+    if limits.forming.is_some_and(|forming| forming.support == Support::Mandrel) {
+        return faults; // no frame is there to be moved
+    }
     for order in subject.expected.iter().filter(|order| order.expectation.forms) {
         let Some(passes) = order.expectation.descending() else { continue };
         for segment in level_moves(program, segments, assignment, (order, passes), limits) {

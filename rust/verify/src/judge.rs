@@ -9,7 +9,7 @@ use crate::measure::measure;
 use crate::merge::{merge, Merged};
 use crate::report::Report;
 use crate::segments::placed;
-use crate::subject::{Limits, Subject};
+use crate::subject::{Axes, Limits, Subject};
 use crate::{diagnosis, frame, pair, passes, reach, sequence, settings, travel, unreached, walls};
 
 /// Checks a program read back from posted text against the part.
@@ -24,7 +24,8 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let mut tally = measure(&segments, subject, limits, frame.as_ref(), watch)?;
     let mut faults = std::mem::take(&mut tally.faults);
     faults.extend(travel::faults(program, &segments, subject, limits));
-    faults.extend(reach::faults(program, subject, &limits.reach));
+    let axes = subject.axes.unwrap_or(Axes { program, unknown_positions: subject.unknown_positions });
+    let beyond = reach::faults(&axes, &limits.reach);
     let assignment = Assignment::new(program, subject);
     faults.extend(settings::faults(program, &segments, &assignment, limits));
     faults.extend(sequence::faults(program, &segments, &assignment, subject, limits));
@@ -42,11 +43,11 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         faults.retain(|fault| fault.kind.finding != FindingKind::WallAngle);
     }
     let (low, high) = subject.mesh.bounds();
-    let Merged { mut reported, mut counts, lengths } = merge(&faults, program, (high - low).norm());
+    let Merged { mut reported, mut counts, lengths } =
+        merge([(&faults, program), (&beyond, axes.program)], (high - low).norm());
     let nothing = tally.nothing_touches().then(|| diagnosis::no_contact(program, &segments, &tally, subject));
     let offset = travel::work_offset(program, subject.wcs);
-    let wholes =
-        reach::findings(program, subject, &limits.reach).into_iter().chain(assignment.findings(program, subject));
+    let wholes = reach::findings(&axes, &limits.reach).into_iter().chain(assignment.findings(program, subject));
     let wholes = wholes.chain(travel::optional_lines(subject)).chain(travel::modes_not_stated(program, subject));
     let found = limits.found.iter().map(|(kind, severity, words)| Finding::of_all(*kind, *severity, words.clone()));
     let wholes = wholes.chain(found).chain(pair.finding).chain(steep).chain(beyond_reach);

@@ -68,6 +68,7 @@ mod sweep;
 mod tally;
 mod tolerances;
 mod travel;
+mod turning;
 mod unknown;
 mod unreached;
 mod walls;
@@ -82,11 +83,12 @@ pub use groups::Group;
 pub use judge::judge;
 pub use pitch::Pitch;
 pub use report::{ContactRecord, Place, Report};
-pub use scalar::{Across, Height, PassKind, Scalar};
+pub use scalar::{Across, Height, Outwards, PassKind, Scalar};
 pub use scallop::{scallops, Scallop};
 pub use simulation::{simulate, Grid, Simulation, Skin};
 pub use subject::{
-    Forming, Found, FrameLevel, Left, Limits, Obstacle, ObstacleKind, Pairing, Partner, Reach, Subject, Support,
+    Axes, Forming, Found, FrameLevel, Left, Limits, Obstacle, ObstacleKind, Pairing, Partner, Reach, Subject, Support,
     TextFacts, ToolCalls, WallAngleSource,
 };
+pub use turning::{turned, TooLong, Turned};
 pub use unreached::ToolReach;

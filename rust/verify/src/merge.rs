@@ -39,11 +39,12 @@ pub(crate) struct Merged {
     pub lengths: BTreeMap<FindingKind, f64>,
 }
 
-/// Merges faults, given kind by kind in the order of the program's moves, of a part of this size, mm.
-pub(crate) fn merge(faults: &[Fault], program: &Program, size: f64) -> Merged {
+/// Merges faults of programs, given kind by kind in the order of the program's moves, of a part of this size, mm. All faults of a
+/// kind are of one program.
+pub(crate) fn merge(faults: [(&[Fault], &Program); 2], size: f64) -> Merged {
     let mut runs: BTreeMap<FindingKind, Vec<Run>> = BTreeMap::new();
     let cells = Cells::of(size);
-    for fault in faults {
+    for (fault, program) in faults.into_iter().flat_map(|(faults, program)| faults.iter().map(move |f| (f, program))) {
         let runs = runs.entry(fault.kind.finding).or_default();
         let (length, cell) = (length_of(fault.index, program), cells.at(fault.position));
         match runs.last_mut().filter(|run| fault.index <= run.last + 1) {

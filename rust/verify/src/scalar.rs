@@ -5,6 +5,7 @@
 //! none of them asks which one it is. Where contact lines cross a facet, the value is taken for linear between the facet's
 //! edges: a scalar that curves (a distance from a point) needs facets that are small against its radius.
 
+use std::f64::consts::FRAC_1_SQRT_2;
 use std::fmt::Debug;
 
 use styluscam_geometry::Vector;
@@ -164,6 +165,31 @@ impl Scalar for Height {
 
     fn features(&self, feature: f64, step: f64) -> Vec<[f64; 2]> {
         vec![[feature.min(LOW * step), feature]]
+    }
+
+    fn descends(&self) -> bool {
+        true
+    }
+}
+
+/// How far out and down the tip is, in equal shares: the turns of a meridian that falls outwards, flat, sloping or upright.
+///
+/// A step along the meridian is never more in this number, and at least 1/sqrt(2) of it: on a slope a it is sin(a + 45 deg) of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outwards;
+
+impl Scalar for Outwards {
+    fn value(&self, tip: Vector) -> f64 {
+        FRAC_1_SQRT_2 * (tip.xy().norm() - tip.z)
+    }
+
+    fn gradient(&self, tip: Vector) -> Vector {
+        let out = tip.xy().try_normalize(FLAT).unwrap_or_default();
+        FRAC_1_SQRT_2 * Vector::new(out.x, out.y, -1.0)
+    }
+
+    fn kind(&self) -> PassKind {
+        PassKind::Level
     }
 
     fn descends(&self) -> bool {

@@ -30,6 +30,8 @@ pub struct Subject<'a> {
     /// Moves whose end is not known in all three axes, in ascending runs. They have no position, and the move
     /// after them has no start.
     pub unknown_positions: &'a [Range<usize>],
+    /// The moves of the machine's axes, of a part that turns: the program is then what they are to the part ([`crate::turned`]).
+    pub axes: Option<Axes<'a>>,
     /// What its text states besides the moves; none for a program that was not read from text.
     pub text: Option<&'a TextFacts>,
     /// The job's operations; none when feeds, spindle, coolant and passes are not to be checked.
@@ -38,6 +40,15 @@ pub struct Subject<'a> {
     pub obstacles: &'a [Obstacle],
     /// The program that runs beside it, on the other side of a sheet.
     pub pairing: Pairing<'a>,
+}
+
+/// The moves of a machine's axes.
+#[derive(Clone, Copy, Debug)]
+pub struct Axes<'a> {
+    /// In order.
+    pub program: &'a Program,
+    /// Those whose end is not known in all three axes, in ascending runs.
+    pub unknown_positions: &'a [Range<usize>],
 }
 
 /// Whether a program runs alone.
@@ -132,6 +143,9 @@ pub enum Support {
     /// The part itself, a die under the sheet, and around it a clamp frame that goes down with the path: inside the current loop
     /// the sheet lies on the die, outside it stands as high as the frame.
     DieAndFrame,
+    /// The part itself, a mandrel that turns with the sheet and to which its middle is clamped: outside the current turn the sheet
+    /// is free and stands flat, as high as the turn.
+    Mandrel,
 }
 
 /// A height that a text states for the clamp frame.

@@ -26,6 +26,16 @@ pub trait OperationKind {
     /// Nothing is reached, the tolerance is used up, `Cancelled`.
     fn plan(&self, context: &Context<'_>) -> Result<Planned, JobError>;
 
+    /// The feed along its passes, mm/min.
+    fn cut_feed(&self, common: &OperationKeys) -> f64 {
+        common.feeds.cut
+    }
+
+    /// Whether its path is for a part that the spindle turns.
+    fn turns_part(&self) -> bool {
+        false
+    }
+
     /// What its lateral feeds owe the part.
     fn contact(&self) -> Contact;
 
@@ -86,6 +96,8 @@ pub struct StarterPasses {
 pub struct Planned {
     /// Its moves.
     pub moves: Vec<Move>,
+    /// Where the tool waits: the numbers of the moves behind which it does, ascending, and for how long, s.
+    pub waits: Vec<(usize, f64)>,
     /// Its extent for the summary: "30 loops on 12 levels".
     pub words: String,
     /// Its extent for the program's header: "12 levels, 30 passes".

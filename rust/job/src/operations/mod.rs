@@ -38,6 +38,7 @@ kinds! {
         z_level::ZLevel = "z-level",
         zig_zag::ZigZag = "zig-zag",
         spiral::Spiral = "spiral",
+        meridian::Meridian = "meridian",
     }
 }
 

@@ -12,7 +12,7 @@ use styluscam_toolpath::{
 };
 
 use super::{budget, facts::counted, fit};
-use super::{reached, Context, Direction, End, Fact, OperationKeys, Planned, SurfaceFacts};
+use super::{reached, Context, Direction, End, Fact, OperationKeys, OperationKind, Planned, SurfaceFacts};
 use crate::{JobError, Scene};
 
 /// What links along the surface and rows look for, as a share of the distance between the grid's nodes: the tool's rim and its
@@ -24,9 +24,17 @@ const LINKED_ALONG: f64 = 4.0;
 const LEAST_AREA: f64 = 0.05;
 
 /// A kind whose tool follows the selected faces.
-pub trait FollowsSurface: Sync {
+pub trait FollowsSurface: OperationKind + Sync {
     /// Heights between which the tip stays on the surface, mm.
     fn tip_range(&self, task: &Task<'_>) -> [f64; 2];
+
+    /// How far the part may differ from what its passes are traced on, mm.
+    ///
+    /// # Errors
+    /// It differs by more than the tolerance allows, `Cancelled`.
+    fn allowance(&self, _context: &Context<'_>) -> Result<f64, JobError> {
+        Ok(0.0)
+    }
 
     /// Distance between neighbouring passes of a tool with its sheet, mm; one that stands for all.
     fn pitch(&self, body: &ToolBody) -> f64;
@@ -63,11 +71,21 @@ pub trait FollowsSurface: Sync {
     /// Nothing is reached, `Cancelled`.
     fn trace(&self, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError>;
 
+    /// Where the tool waits along the moves: behind which, and for how long, s.
+    fn waits(&self, _moves: &[Move], _common: &OperationKeys) -> Vec<(usize, f64)> {
+        Vec::new()
+    }
+
     /// Its extent for the summary.
     fn words(&self, groups: usize, passes: usize) -> String;
 
     /// Its figures.
     fn facts(&self, groups: usize, traced: &Traced) -> Vec<Fact>;
+
+    /// Further figures, of what its passes were planned with.
+    fn task_facts(&self, _task: &Task<'_>) -> Vec<Fact> {
+        Vec::new()
+    }
 
     /// Its extent for the program's header.
     fn note(&self, groups: usize, passes: usize) -> String;
@@ -109,6 +127,10 @@ pub struct Task<'a> {
     pub budget: Budget,
     /// The tool, with the sheet that it touches.
     pub body: &'a ToolBody,
+    /// How far the part may differ from what the passes are traced on, mm.
+    pub allowance: f64,
+    /// Feed along the passes, mm/min.
+    pub cut: f64,
 }
 
 impl Task<'_> {
@@ -134,7 +156,7 @@ impl Task<'_> {
             longest: LINKED_ALONG * pitch,
             deviation: self.budget.deviation,
             narrow: self.narrow(),
-            feed: self.context.common.feeds.cut,
+            feed: self.cut,
         }
     }
 
@@ -142,7 +164,7 @@ impl Task<'_> {
         let (scene, common) = (self.context.scene, self.context.common);
         Links {
             heights: Heights { clearance: scene.clearance, retract: scene.retract },
-            rates: Rates { cut: common.feeds.cut, plunge: common.feeds.plunge },
+            rates: Rates { cut: self.cut, plunge: common.feeds.plunge },
             operation: self.context.operation,
         }
     }
@@ -156,11 +178,15 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
     let (scene, tool, watch) = (context.scene, context.tool, context.watch);
     let tolerance = context.common.tolerance;
     let selected = scene.facing_up(&context.faces);
-    let budget = budget::of(tolerance, scene, context.machine).map_err(|error| context.error(error))?;
+    let allowance = kind.allowance(context)?;
+    // it takes from both sides
+    let left = budget::of(tolerance - 2.0 * allowance, scene, context.machine);
+    let budget = left.map_err(|error| context.error(error))?;
+    let budget = Budget { margin: budget.margin + allowance, ..budget };
     watch.begin("preparing", 1);
     let envelope = Envelope::new(&scene.mesh, &scene.index, tool, scene.sheet.as_ref(), budget.margin);
     let body = tool.body(scene.sheet.as_ref());
-    let task = Task { context, budget, body: &body };
+    let task = Task { context, budget, body: &body, allowance, cut: kind.cut_feed(context.common) };
     let surface = Surface::new(&envelope, &selected).between_heights(kind.tip_range(&task));
     let surface = if scene.sheet.is_some() { surface.from_above() } else { surface };
     let surface = if fit::asks_for_arcs(context) { surface.keeping_witnesses() } else { surface };
@@ -189,9 +215,10 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
         faces: context.faces.clone(),
     };
     Ok(Planned {
+        waits: kind.waits(&moves, context.common),
         words: kind.words(groups, passes),
         note: kind.note(groups, passes),
-        facts: kind.facts(groups, &traced).into_iter().chain(fitted).collect(),
+        facts: kind.facts(groups, &traced).into_iter().chain(kind.task_facts(&task)).chain(fitted).collect(),
         surface: Some(facts),
         moves,
     })

@@ -88,12 +88,14 @@ impl Channel {
         record: &ToolRecord,
         Added { planned, turns, lines, frame, wait }: Added,
     ) {
-        let Planned { moves, words, note, facts, surface } = planned;
+        let Planned { moves, waits, words, note, facts, surface } = planned;
         let program = &mut self.program;
         let (id, kind, tool) = (section.id(index), section.operation.name(), tool_index(program, record));
         program.events.extend(events_before(program, section, tool, turns));
         let first = program.moves.len();
         program.events.extend(wait.map(|kind| Event { before: first + 1, kind }));
+        let wait = |(behind, seconds)| Event { before: first + behind + 1, kind: EventKind::Dwell { seconds } };
+        program.events.extend(waits.into_iter().map(wait));
         self.frame = frame.last().map_or(self.frame, |level| level.z);
         program.events.extend(frame.into_iter().map(|level| clamp::remark(level, first)));
         program.operations.push(OperationRecord { id: id.clone(), kind: kind.to_owned(), tool });

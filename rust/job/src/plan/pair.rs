@@ -37,6 +37,7 @@ pub fn planned(
         let count = main.len();
         let planned = Planned {
             moves: main,
+            waits: Vec::new(),
             words: summary.words,
             note: summary.note,
             facts: summary.facts,
@@ -44,6 +45,7 @@ pub fn planned(
         };
         let follows = Planned {
             moves: below,
+            waits: Vec::new(),
             words: format!("{count} moves, as many as the main tool's, {divided} of them for this side"),
             note: format!("follows the main tool, {count} moves"),
             facts: vec![Fact::count(count, "move", "moves")],

@@ -28,6 +28,11 @@ pub trait ProcessKind {
         !self.forms()
     }
 
+    /// Whether the spindle turns the part, about X = Y = 0, and not the tool.
+    fn turns_part(&self) -> bool {
+        false
+    }
+
     /// What holds the sheet up where it is not formed yet.
     fn support(&self) -> Support {
         Support::Rim
@@ -73,6 +78,7 @@ kinds! {
         spif::Spif = "spif",
         dsif::Dsif = "dsif",
         milling::Milling = "milling",
+        spinning::Spinning = "spinning",
         tpif::Tpif = "tpif",
     }
 }

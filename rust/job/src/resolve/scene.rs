@@ -4,8 +4,9 @@ use styluscam_geometry::{Bvh, Frame, Mesh, ModelFace, Sheet, Vector};
 use styluscam_motion::SetupRecord;
 use styluscam_toolpath::offset::Index;
 
+use crate::chuck::turned_over;
 use crate::fixture::ClampSection;
-use crate::{faces, plates, FixtureSection, JobDocument, JobError, Part, Scene, Zero};
+use crate::{faces, plates, Chuck, FixtureSection, JobDocument, JobError, Part, Scene, Zero};
 
 impl Scene {
     /// Turns the part and moves it to the program's zero, for one of the job's channels.
@@ -88,13 +89,13 @@ impl Placed {
     fn new(job: &JobDocument, part: &Part) -> Result<Self, JobError> {
         let sheet = sheet(job)?;
         let raise = sheet.map_or(0.0, |s| s.raise());
-        let turned = Frame::turning_up(job.setup.up.vector(), job.setup.rotation.to_radians());
+        let turned = job.setup.turn();
         let (low, high) = part.target().bounds_in(&turned);
         let chosen = job.setup.zero.unwrap_or(if sheet.is_some() { Zero::SheetTop } else { Zero::Model });
         let zero = match chosen {
             Zero::SheetTop => Vector::new(0.0, 0.0, high.z + raise),
             Zero::Model => Vector::zeros(),
-            Zero::Point(point) => point.into(),
+            Zero::Point(point) => job.setup.chuck.turn().point(point.into()),
         };
         let frame = turned.shifted(-zero);
         let top = high.z - zero.z + raise;
@@ -106,7 +107,7 @@ impl Placed {
             fixture: job.setup.fixture,
             flat: top,
             top,
-            zero: described(chosen, low - zero, high - zero, raise),
+            zero: described(chosen, low - zero, high - zero, raise) + axes(job.setup.chuck),
         })
     }
 
@@ -114,7 +115,7 @@ impl Placed {
     /// the part there is the other side of what looked up. Of the sheet, `left` mm are between the tools; what of it is not on
     /// the main tool's side of the model is on this one's.
     fn turned_over(self, thickness: f64, left: f64) -> Result<Self, JobError> {
-        let half = Frame::turning_up(-Vector::z(), 0.0);
+        let half = turned_over();
         let model = self.target.as_ref().unwrap_or(&self.mesh);
         let rims = faces::rims(model);
         let looks_up = |triangle: usize| !model.looks_down(triangle) && !rims[triangle];
@@ -147,7 +148,10 @@ impl Placed {
             sheet,
             fixture,
             flat: thickness - self.flat,
-            zero: format!("{}, all turned half about X: Y and Z the other way, the tool comes from below", self.zero),
+            zero: match self.zero.strip_suffix(BELOW) {
+                Some(above) => above.to_owned(),
+                None => self.zero + BELOW,
+            },
         })
     }
 }
@@ -156,6 +160,17 @@ fn sheet(job: &JobDocument) -> Result<Option<Sheet>, JobError> {
     let (Some(section), Some(model_face)) = (job.setup.sheet, job.part.model_face) else { return Ok(None) };
     let sheet = Sheet { thickness: section.thickness, law: section.law, model_face };
     sheet.checked().map(Some).map_err(JobError::geometry("setup.sheet"))
+}
+
+/// What is added to the zero point's words where the tool comes from below.
+const BELOW: &str = ", all turned half about X: Y and Z the other way, the tool comes from below";
+
+/// How the machine's axes lie, in words behind the zero point's.
+fn axes(chuck: Chuck) -> &'static str {
+    match chuck {
+        Chuck::Above => "",
+        Chuck::Below => BELOW,
+    }
 }
 
 /// The zero point in words that a person at the machine can check.

@@ -54,10 +54,10 @@ pub fn compensated(
     for (index, field) in deviations.iter().enumerate() {
         not_absurd(index, field, (high - low).norm())?;
     }
-    let frame = Frame::turning_up(job.setup.up.vector(), job.setup.rotation.to_radians());
+    let frame = job.setup.turn();
     let plane = part.mesh.bounds_in(&frame).1.z;
     let spacing = deviations.iter().map(DisplacementField::spacing).fold(f64::INFINITY, f64::min);
-    let (factor, max_gap, up) = (section.factor, section.max_gap, job.setup.up.vector());
+    let (factor, max_gap, up) = (section.factor, section.max_gap, job.setup.to_spindle());
     let compensation = Compensation { fields: deviations.into(), factor, max_gap, up, plane };
     let warped = warped(&part.mesh, &|point| compensation.formed(point), job.part.tolerance, spacing)
         .map_err(JobError::geometry(format!("{SECTION}.deviations")))?;

@@ -61,6 +61,7 @@ impl Part {
             deviation_outward: 0.0,
             wcs: "G54",
             unknown_positions: &[],
+            axes: None,
             text: None,
             expected: &[],
             obstacles: &[],
