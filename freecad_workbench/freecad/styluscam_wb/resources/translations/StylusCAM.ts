@@ -54,6 +54,11 @@ Range: above 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Feed per revolution along the path, mm: the distance between its turns on the part.
+Range: 0.001 to 20 mm/rev</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
 Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
@@ -121,7 +126,10 @@ Range: above 0 to 10 mm
 z-level: Loops at constant heights, from the top down.
 zig-zag: Parallel rows over the surface.
 spiral: One descent along the walls: a loop at the top, turns that fall evenly along their length, a loop at the bottom. Where a
-wall's loops part (two pockets in one cup) each part has a spiral of its own. It runs one way: the higher ground on its right.</source>
+wall's loops part (two pockets in one cup) each part has a spiral of its own. It runs one way: the higher ground on its right.
+meridian: The path along the part's meridian, from the axis outwards, in X and Z, while the spindle turns the part: for parts that are
+surfaces of revolution about X = Y = 0, which is measured, with a tool that stands parallel to that axis. `feeds.cut` follows from
+the feed per revolution and the spindle's speed.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -200,6 +208,8 @@ spif: Single-point incremental forming: a sheet, no die.
 dsif: Double-sided incremental forming: a sheet between two tools. The one below follows the contacts of the one above, on the
 other face of the sheet, block by block; its machine is in `[machines.support]`.
 milling: Milling: no sheet.
+spinning: Shear spinning: a disc of sheet and a mandrel of the part's shape turn about Z, and the tool goes along the part's meridian, from
+the centre outwards, once. X is the distance from the axis, Y stays 0. Parts that are surfaces of revolution about Z only.
 tpif: Two-point incremental forming: a sheet over a male die, with a clamp frame that goes down, or into a female one.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -596,6 +606,15 @@ other face of the sheet, block by block; its machine is in `[machines.support]`.
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Feed per rev</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Feed per revolution along the path, mm: the distance between its turns on the part.
+Range: 0.001 to 20 mm/rev</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Finding</source>
         <translation type="unfinished"></translation>
     </message>
@@ -781,6 +800,10 @@ Range: above 0 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Meridian</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Milled dome</source>
         <translation type="unfinished"></translation>
     </message>
@@ -868,7 +891,10 @@ wall's loops part (two pockets in one cup) each part has a spiral of its own. It
 z-level: Loops at constant heights, from the top down.
 zig-zag: Parallel rows over the surface.
 spiral: One descent along the walls: a loop at the top, turns that fall evenly along their length, a loop at the bottom. Where a
-wall's loops part (two pockets in one cup) each part has a spiral of its own. It runs one way: the higher ground on its right.</source>
+wall's loops part (two pockets in one cup) each part has a spiral of its own. It runs one way: the higher ground on its right.
+meridian: The path along the part's meridian, from the axis outwards, in X and Z, while the spindle turns the part: for parts that are
+surfaces of revolution about X = Y = 0, which is measured, with a tool that stands parallel to that axis. `feeds.cut` follows from
+the feed per revolution and the spindle's speed.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1084,6 +1110,11 @@ Range: 0 to 1</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Shear spinning: a disc of sheet and a mandrel of the part's shape turn about Z, and the tool goes along the part's meridian, from
+the centre outwards, once. X is the distance from the axis, Y stays 0. Parts that are surfaces of revolution about Z only.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Sheet</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1139,6 +1170,10 @@ Range: above 0 to 100 mm
     </message>
     <message>
         <source>Spif</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Spinning</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1310,6 +1345,12 @@ Range: 1 to 3000 MPa
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>The path along the part's meridian, from the axis outwards, in X and Z, while the spindle turns the part: for parts that are
+surfaces of revolution about X = Y = 0, which is measured, with a tool that stands parallel to that axis. `feeds.cut` follows from
+the feed per revolution and the spindle's speed.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>The same thickness everywhere, along the normal.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1459,6 +1500,8 @@ spif: Single-point incremental forming: a sheet, no die.
 dsif: Double-sided incremental forming: a sheet between two tools. The one below follows the contacts of the one above, on the
 other face of the sheet, block by block; its machine is in `[machines.support]`.
 milling: Milling: no sheet.
+spinning: Shear spinning: a disc of sheet and a mandrel of the part's shape turn about Z, and the tool goes along the part's meridian, from
+the centre outwards, once. X is the distance from the axis, Y stays 0. Parts that are surfaces of revolution about Z only.
 tpif: Two-point incremental forming: a sheet over a male die, with a clamp frame that goes down, or into a female one.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1665,6 +1708,14 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>measuring roundness</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>meridian</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>mesh</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1798,6 +1849,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>spif</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>spinning</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
