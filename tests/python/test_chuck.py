@@ -26,7 +26,7 @@ PAIR = {
 
 @lru_cache(maxsize=4)
 def part(name: str, *, hung: bool) -> sc.Part:
-    """A cup as it is, or turned half about X: the formed faces look down."""
+    """A cup as it is, or turned half about X: the formed faces face down."""
     found = die(name) if name == "cap_r60" else sc.Part.read(FIXTURES / f"{name}.step")
     arrays = found.arrays
     assert arrays is not None

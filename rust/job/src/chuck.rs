@@ -4,8 +4,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use styluscam_geometry::{Frame, Vector};
 
-use crate::SetupSection;
-
 /// On which side of the sheet or the part the chuck is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -20,7 +18,6 @@ pub enum Chuck {
 
 impl Chuck {
     /// The turn from above, where `up` points up, to the machine's axes.
-    #[must_use]
     pub(crate) fn turn(self) -> Frame {
         match self {
             Self::Above => Frame::identity(),
@@ -32,39 +29,4 @@ impl Chuck {
 /// The turn to the machine of a tool from the other side: half about X.
 pub(crate) fn turned_over() -> Frame {
     Frame::turning_up(-Vector::z(), 0.0)
-}
-
-impl SetupSection {
-    /// The turn from the model to the machine's axes.
-    #[must_use]
-    pub(crate) fn turn(&self) -> Frame {
-        Frame::turning_up(self.up.vector(), self.rotation.to_radians()).then(&self.chuck.turn())
-    }
-
-    /// The direction of the model that points to the spindle.
-    #[must_use]
-    pub(crate) fn to_spindle(&self) -> Vector {
-        match self.chuck {
-            Chuck::Above => self.up.vector(),
-            Chuck::Below => -self.up.vector(),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::UpAxis;
-
-    #[test]
-    fn below_x_stays_and_y_and_z_turn_round() {
-        for up in [UpAxis::PlusX, UpAxis::MinusX, UpAxis::PlusY, UpAxis::MinusY, UpAxis::PlusZ, UpAxis::MinusZ] {
-            let above = SetupSection { up, rotation: 30.0, ..SetupSection::default() };
-            let below = SetupSection { chuck: Chuck::Below, ..above.clone() };
-            let p = Vector::new(1.0, 2.0, 3.0);
-            let [there, here] = [above.turn().point(p), below.turn().point(p)];
-            assert_eq!(here, Vector::new(there.x, -there.y, -there.z));
-            assert_eq!(below.turn().direction(below.to_spindle()), Vector::z());
-        }
-    }
 }

@@ -3,6 +3,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // what tests expect may come from std
 
 mod advice;
+mod axes;
 mod body;
 mod check;
 mod chuck;
