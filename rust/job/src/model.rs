@@ -26,7 +26,7 @@ fn found_wrong(job: &JobDocument, scene: &Scene) -> Vec<(FindingKind, String)> {
     let of_sheet = thickness.filter(|thickness| thickness.is_sheet()).map(|thickness| thickness.median);
     let formed = match job.process.process.as_kind().support() {
         Support::Rim => body.formed_depth(of_sheet),
-        Support::DieAndFrame => body.laid_depth(of_sheet),
+        Support::DieAndFrame | Support::Mandrel => body.laid_depth(of_sheet),
     };
     let solid = thickness.filter(|_| of_sheet.is_none() && takes_all(job)).zip(formed.err());
     if let Some((thickness, why)) = solid {
