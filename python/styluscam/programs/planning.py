@@ -9,6 +9,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
+import numpy as np
+
 from styluscam import _engine
 from styluscam.arguments import channel_of, document_of, gcode_of, refused
 from styluscam.errors import MachineError, PlanError, StylusError
@@ -16,7 +18,7 @@ from styluscam.programs.job import MAIN_CHANNEL, Job, JobLike
 from styluscam.programs.machine import Machine, MachineLike
 from styluscam.programs.program import Program
 from styluscam.programs.summary import Summary
-from styluscam.types import Document, Progress
+from styluscam.types import Document, FloatArray, Progress
 from styluscam.words import counted, shortened
 
 NEWLINE = "\n"
@@ -93,6 +95,12 @@ class Plan:
         """Programs by channel; ``"main"`` is always there."""
         programs = self.engine.programs
         return {channel: Program(programs[channel]) for channel in self.machines}
+
+    @property
+    def trim(self) -> list[FloatArray]:
+        """Where a part with an addendum is cut off: points (N, 3) of closed curves in the main channel's work coordinates, mm."""
+        rows = np.array(self.scene.frame)
+        return [line @ rows[:, :3].T + rows[:, 3] for line in self.job.part().engine.trim]
 
     def summary(
         self, judgement: _engine.Judgement | None = None, channel: str = MAIN_CHANNEL

@@ -99,7 +99,8 @@ def run(
     named = [also] if isinstance(also, str | os.PathLike) else also
     others = [file_of(each, "also", A_FILE, JobError) for each in named]
     programs = [path for channel in work.channels for path in _names(work, channel)]
-    require_writable([*programs, *pages.values(), *others], work.inputs())
+    trim = _trim_name(work)
+    require_writable([*programs, *pages.values(), *trim, *others], work.inputs())
     if not force:
         _require_own(work)
     if pages:
@@ -114,6 +115,7 @@ def run(
         for channel, each in made.items():
             gcode, program = _names(work, channel)
             files |= {gcode: each.text, program: each.program.engine.to_json()}
+    files |= {path: _trim_table(planned) for path in trim}
     for channel, page in pages.items():
         subject = Subject.judged(made[channel].report, planned.machines[channel], _names(work, channel)[0].name)
         files[page] = report_page(subject, progress)
@@ -214,6 +216,20 @@ def _names(job: Job, channel: str) -> tuple[Path, Path]:
     named = job.document["output"]["program"]
     program = job.folder / named if named else main.with_suffix(".program.json")
     return job.folder / output_name(job, channel), of_channel(program, channel)
+
+
+def _trim_name(job: Job) -> list[Path]:
+    """The file of the trim curve, if the job names one."""
+    name = job.document["output"]["trim"]
+    return [job.folder / name] if name else []
+
+
+def _trim_table(planned: Plan) -> str:
+    """The trim curves as a table: number of the curve, and its points in work coordinates, mm; the first one again at its end."""
+    rows = ["curve,x,y,z"]
+    for number, line in enumerate(planned.trim, start=1):
+        rows += [f"{number},{x:.4f},{y:.4f},{z:.4f}" for x, y, z in [*line, line[0]]]
+    return "\n".join(rows) + "\n"
 
 
 def _report_names(job: Job, given: Path | None) -> dict[str, Path]:

@@ -100,6 +100,13 @@ impl Part {
         self.part.changes().iter().map(|change| change.words.clone()).collect()
     }
 
+    /// Where the part is cut off after it is formed: the points (N, 3) of closed lines, in the file's frame, mm.
+    #[getter]
+    fn trim<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
+        let lines = self.part.trim().iter();
+        lines.map(|line| arrays::matrix(py, line.iter().map(|point| (*point).into()))).collect()
+    }
+
     /// Lower and upper corner of the box.
     #[getter]
     fn bounds(&self) -> ([f64; 3], [f64; 3]) {

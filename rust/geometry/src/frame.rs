@@ -39,6 +39,13 @@ impl Frame {
         Self { rotation: next.rotation * self.rotation, translation: next.point(self.translation) }
     }
 
+    /// The frame that leads back.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        let rotation = self.rotation.transpose();
+        Self { rotation, translation: -(rotation * self.translation) }
+    }
+
     /// Where a point of the file lies in work coordinates.
     #[must_use]
     pub fn point(&self, p: Vector) -> Vector {

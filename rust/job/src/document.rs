@@ -11,7 +11,7 @@ use styluscam_geometry::{Base, Holder, ModelFace, ProfileDocument, SheetLaw};
 use styluscam_motion::ToolReference;
 
 use crate::{
-    Chuck, FixtureSection, OperationSection, ProcessSection, Risk, Selection, SpringbackSection, Units, UpAxis,
+    AddendumSection, Chuck, FixtureSection, OperationSection, ProcessSection, Risk, Selection, SpringbackSection, Units, UpAxis,
 };
 
 /// A whole job: from a part's faces to a machine's program.
@@ -93,6 +93,11 @@ pub struct PartSection {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-advanced" = true, "x-example" = "{ deviations = [\"trial-1.csv\"], units = \"mm\" }"))]
     pub springback: Option<SpringbackSection>,
+    /// What is formed around a part without a flange: a wall from its outer edge to the blank's plane. Its faces have the names
+    /// "Addendum" and "Blank".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-advanced" = true, "x-example" = "{ wall_angle_deg = 45.0 }"))]
+    pub addendum: Option<AddendumSection>,
 }
 
 /// How the part lies on the machine.
@@ -275,6 +280,9 @@ pub struct OutputSection {
     pub program: String,
     /// The report as an HTML page; none when left out.
     pub report: String,
+    /// The curve along which a part with an addendum is cut off, as a table of points in work coordinates ("trim.csv": curve, x, y,
+    /// z, in mm); none when left out.
+    pub trim: String,
 }
 
 fn one() -> u32 {

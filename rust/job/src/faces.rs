@@ -30,6 +30,8 @@ pub struct FaceView {
     pub steepest: f64,
     /// Whether the part is nothing but triangles: its faces were found, not made by its designer.
     pub is_found: bool,
+    /// What the face is called beside its number, where it was added to the part.
+    pub name: Option<&'static str>,
 }
 
 /// All faces by number; `rims` are those of [`rims`].
@@ -134,7 +136,8 @@ pub fn chosen(
 }
 
 fn named(name: &str, views: &BTreeMap<u32, FaceView>, allow_undercuts: bool, path: &str) -> Result<u32, JobError> {
-    let number = face_number(name);
+    let added = || views.iter().find(|(_, view)| view.name == Some(name)).map(|(number, _)| *number);
+    let number = face_number(name).or_else(added);
     let Some((number, view)) = number.and_then(|n| views.get(&n).map(|v| (n, v))) else {
         return Err(JobError::document(
             "no-such-face",

@@ -71,7 +71,7 @@ pub use risk::Risk;
 pub use scene::Scene;
 pub use schema::schema;
 pub use selection::Selection;
-pub use shaping::{is_shaped, shaped, Deviation, MeshPair, SpringbackSection};
+pub use shaping::{is_shaped, shaped, AddendumKind, AddendumSection, Deviation, MeshPair, SpringbackSection};
 pub use starter::{fitting_radius, starter, Starter, StarterFace, StarterPart};
 pub use summary::Summary;
 pub use up_axis::UpAxis;

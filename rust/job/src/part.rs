@@ -1,7 +1,9 @@
 //! The part as triangles, as it is formed, and what is known of the target.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
-use styluscam_geometry::{Mesh, Vector};
+use styluscam_geometry::{Bvh, Mesh, Vector};
 
 use crate::operations::Fact;
 use crate::shaping::Compensation;
@@ -28,7 +30,26 @@ pub struct Shaped {
     pub facts: Vec<Fact>,
     /// How far within triangles the linear map differs from the one by which points are taken back, mm.
     pub linear: f64,
-    pub(crate) compensation: Compensation,
+    /// How points are taken back to the part in the file.
+    pub(crate) undone: Undone,
+    /// Faces that were added, and their names.
+    pub(crate) names: Vec<(u32, &'static str)>,
+    /// Where the part is cut off after it is formed: closed lines in the file's frame, mm.
+    pub trim: Vec<Vec<Vector>>,
+}
+
+/// What takes points of a changed part back to the one in the file.
+#[derive(Clone, Debug)]
+pub(crate) enum Undone {
+    /// Its springback was compensated.
+    Springback(Compensation),
+    /// Faces were added, from this number on.
+    Addendum {
+        /// The changed part's index.
+        bvh: Arc<Bvh>,
+        /// Number of the first face that was added.
+        first: u32,
+    },
 }
 
 impl Part {
@@ -44,11 +65,28 @@ impl Part {
         self.shaped.as_ref().map_or(&[], |shaped| &shaped.facts)
     }
 
+    /// Where the part is cut off after it is formed: closed lines in the file's frame, mm; none where it is not.
+    #[must_use]
+    pub fn trim(&self) -> &[Vec<Vector>] {
+        self.shaped.as_ref().map_or(&[], |shaped| &shaped.trim)
+    }
+
+    /// The faces that were added to the part, and their names.
+    pub(crate) fn names(&self) -> &[(u32, &'static str)] {
+        self.shaped.as_ref().map_or(&[], |shaped| &shaped.names)
+    }
+
     /// Where points of the changed part lie on the target, mm; none where that is not unique.
     #[must_use]
     pub fn target_points(&self, points: &[Vector]) -> Vec<Option<Vector>> {
-        let target =
-            |point: &Vector| self.shaped.as_ref().map_or(Some(*point), |shaped| shaped.compensation.undone(*point));
+        let target = |point: &Vector| match self.shaped.as_ref().map(|shaped| &shaped.undone) {
+            None => Some(*point),
+            Some(Undone::Springback(compensation)) => compensation.undone(*point),
+            Some(Undone::Addendum { bvh, first }) => {
+                let (_, triangle) = bvh.nearest(&self.mesh, *point);
+                (self.mesh.faces()[triangle] < *first).then_some(*point)
+            }
+        };
         points.par_iter().map(target).collect()
     }
 }

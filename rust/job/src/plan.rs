@@ -6,7 +6,7 @@ use styluscam_motion::Watch;
 
 use crate::operations::Context;
 use crate::resolve::{descent_of, faces_of, heights_of, tools};
-use crate::{check, clamp, die, forming, spindle, JobDocument, JobError, MAIN_CHANNEL};
+use crate::{check, clamp, die, forming, shaping, spindle, JobDocument, JobError, MAIN_CHANNEL};
 
 mod channel;
 mod pair;
@@ -46,6 +46,7 @@ pub fn plan(job: &JobDocument, settings: &[Setting<'_>], watch: &Watch) -> Resul
 
 fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &Watch) -> Result<Channel, JobError> {
     let tools = tools(job)?;
+    shaping::fits(job, scene)?;
     let mut channel = Channel::empty(job, scene);
     for (index, section) in job.operations_of(scene.channel) {
         let path = format!("operations[{index}]");

@@ -66,11 +66,15 @@ pub fn plates(scene: &Scene) -> Vec<Plate> {
 
 /// How far some points lie outside the clamp frame's opening in plan at most, mm, negative inside; none without a frame.
 pub(crate) fn beyond_clamp(scene: &Scene, points: impl Iterator<Item = Vector>) -> Option<f64> {
-    let clamp = scene.fixture?.clamp?;
+    beyond(scene, scene.fixture?.clamp?.opening, points)
+}
+
+/// How far some points lie outside an opening of the scene's fixture in plan at most, mm, negative inside; none of no points.
+pub(crate) fn beyond(scene: &Scene, opening: Opening, points: impl Iterator<Item = Vector>) -> Option<f64> {
     let [x, y] = middle(scene);
     let beyond = |point: Vector| {
         let [dx, dy] = [point.x - x, point.y - y];
-        match clamp.opening {
+        match opening {
             Opening::Diameter(diameter) => libm::hypot(dx, dy) - 0.5 * diameter,
             Opening::Sides([width, height]) => (dx.abs() - 0.5 * width).max(dy.abs() - 0.5 * height),
         }

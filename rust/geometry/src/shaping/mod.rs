@@ -2,9 +2,13 @@
 //!
 //! Derivation: docs/concepts/springback.md.
 
+mod cone;
 mod field;
+mod outline;
 mod refine;
+mod wall;
 mod warp;
 
 pub use field::DisplacementField;
+pub use wall::{walled, WallFault, WallShape, Walled};
 pub use warp::{warped, Warped};

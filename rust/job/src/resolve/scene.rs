@@ -26,7 +26,11 @@ impl Scene {
             // what a face is for does not change with its shape
             let target = target.as_ref().unwrap_or(&mesh);
             let rims = faces::rims(target);
-            (faces::views(target, &rims), rims)
+            let mut views = faces::views(target, &rims);
+            for (face, name) in part.names() {
+                views.entry(*face).and_modify(|view| view.name = Some(name));
+            }
+            (views, rims)
         };
         let (index, (bvh, (views, rims))) =
             rayon::join(|| Index::new(&mesh), || rayon::join(|| Bvh::new(&mesh), sorted));

@@ -11,6 +11,7 @@ use super::compensation::Compensation;
 use super::SpringbackSection;
 use crate::faces;
 use crate::operations::Fact;
+use crate::part::Undone;
 use crate::resolve::faces_in;
 use crate::{JobDocument, JobError, Part, Shaped};
 
@@ -73,7 +74,15 @@ pub fn compensated(
     let formed: Vec<Vector> = used.iter().map(|corner| warped.mesh.vertices()[*corner]).collect();
     let facts = facts(&points, &formed, &compensation, reached);
     let [inward, outward] = [part.inward, part.outward].map(|deviation| deviation * warped.stretch);
-    let shaped = Some(Shaped { target: warped.source, facts, linear: warped.linear, compensation });
+    let undone = Undone::Springback(compensation);
+    let shaped = Some(Shaped {
+        target: warped.source,
+        facts,
+        linear: warped.linear,
+        undone,
+        names: Vec::new(),
+        trim: Vec::new(),
+    });
     Ok(Part { mesh: warped.mesh, inward, outward, shaped })
 }
 
