@@ -202,6 +202,7 @@ profile-pictures: dev ## The pictures in docs/profiles.md
 .PHONY: concept-pictures
 concept-pictures: dev ## The pictures in docs/concepts
 	$(BIN)/python docs/concept_pictures.py
+	$(BIN)/python docs/addendum_picture.py
 
 .PHONY: gallery
 gallery: dev ## docs/gallery.md and its pictures

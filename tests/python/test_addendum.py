@@ -21,7 +21,9 @@ def bowl(radius: float, depth: float, uneven: float = 0.0, at: tuple[float, floa
     rings = [np.array([[*at, -depth]])]
     for share in np.linspace(0.0, 1.0, 25)[1:]:
         height = depth * (share**2 - 1.0) + uneven * share**2 * np.cos(2 * turn)
-        rings.append(np.column_stack([at[0] + radius * share * np.cos(turn), at[1] + radius * share * np.sin(turn), height]))
+        rings.append(
+            np.column_stack([at[0] + radius * share * np.cos(turn), at[1] + radius * share * np.sin(turn), height])
+        )
     triangles = [(0, 1 + i, 1 + (i + 1) % 120) for i in range(120)]
     for ring in range(23):
         for i in range(120):
@@ -154,7 +156,10 @@ def test_what_cannot_be_is_refused_with_what_to_do() -> None:
     assert refused(level, {**wall, "height": 0.5, "corner_radius": 9.0}).code == "no-height"
     flat = (level[0] * [1.0, 1.0, 0.0], level[1])
     assert refused(flat, wall).code == "not-needed"
-    assert refused((level[0] * [1.0, 1.0, -1.0], level[1]), {**wall, "height": 1.0, "corner_radius": 0.0}).code == "beyond-blank"
+    assert (
+        refused((level[0] * [1.0, 1.0, -1.0], level[1]), {**wall, "height": 1.0, "corner_radius": 0.0}).code
+        == "beyond-blank"
+    )
     assert refused(level, {"wall_angle_deg": 90.0}).code == "out-of-range"
     assert refused(level, wall, springback={"deviations": ["a.csv"]}).code == "conflict"
     milling = {**document(wall), "process": {"kind": "milling"}, "setup": {}}
@@ -175,6 +180,6 @@ def test_a_wall_that_leaves_the_plates_opening_is_refused(plate: str) -> None:
         if fits:
             sc.plan(job)
             continue
-        with pytest.raises(sc.JobError, match="addendum reaches 0.2") as caught:
+        with pytest.raises(sc.JobError, match=r"addendum reaches 0\.2") as caught:
             sc.plan(job)
         assert caught.value.code == "beyond-opening"

@@ -12,8 +12,10 @@ from styluscam.parts.surfaces import Floats, unit
 
 
 def changed(before: PartArrays, engine: _engine.Part) -> PartArrays:
-    """The arrays of what the engine made of a part: faces keep their numbers and kinds, those of an addendum
-    come after them; no exact surface lies behind them."""
+    """The arrays of what the engine made of a part.
+
+    Faces keep their numbers and kinds, those of an addendum come after them; no exact surface lies behind them.
+    """
     vertices, triangles, face_ids, normals = engine.arrays()
     if normals is None:
         normals = np.repeat(unit(area_vectors(vertices, triangles))[:, None, :], 3, axis=1)

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use rayon::prelude::*;
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation as _};
 
-use super::{corner::Corner, field::Walls, rays::Ray, WallFault};
+use super::{corner::Corner, fault::WallFault, field::Walls, rays::Ray};
 use crate::Vector;
 
 /// Positions are one within this distance, mm.
