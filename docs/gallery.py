@@ -125,6 +125,32 @@ EXAMPLES = (
         more={"accept": ["solid"]},
     ),
     Example(
+        "addendum",
+        "Addendum over a male die",
+        "`part.addendum`: from the edge of the part a wall goes down to the blank, which is clamped around it.",
+        "cap_r60",
+        LEVELS,
+        process={"kind": "tpif", "die": "male"},
+        more={
+            "accept": ["solid"],
+            "part": {
+                "file": str(FIXTURES / "cap_r60.step"),
+                "model_face": "tool",
+                "addendum": {"wall_angle_deg": 50.0, "height": 15.0},
+            },
+        },
+    ),
+    Example(
+        "stages",
+        "In stages",
+        "`part.stages = [25.0, 35.0]`: the same levels for shapes with gentler walls first.",
+        "cone_cup",
+        LEVELS,
+        more={
+            "part": {"file": str(FIXTURES / "cone_cup.step"), "model_face": "tool", "stages": [25.0, 35.0]},
+        },
+    ),
+    Example(
         "double-sided",
         "From both sides",
         '`process.kind = "dsif"`: a second tool follows under the sheet; this is the path of the main one.',

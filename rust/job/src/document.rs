@@ -98,6 +98,11 @@ pub struct PartSection {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-advanced" = true, "x-example" = "{ wall_angle_deg = 45.0 }"))]
     pub addendum: Option<AddendumSection>,
+    /// Wall angles of intermediate stages, degrees, rising: [50.0, 65.0]. All operations are done for each stage first, whose walls
+    /// are no steeper, and for the part at last; for walls that the sheet does not withstand in one pass.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(extend("x-advanced" = true, "x-example" = "[50.0, 65.0]", "x-unit" = "deg", "minimum" = 5.0, "maximum" = 89.0))]
+    pub stages: Vec<f64>,
 }
 
 /// How the part lies on the machine.

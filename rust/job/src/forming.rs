@@ -51,7 +51,8 @@ pub(crate) fn facts(
         unit: "N",
         words: format!("axial force about {force:.0} N (Aerens et al. 2010)"),
     });
-    (forming.thinnest(), force)
+    let is_first = scene.stage.map_or(scene.stages.is_empty(), |stage| stage == 1);
+    (if is_first { forming.thinnest() } else { forming.mean_thickness() }, force)
 }
 
 /// What to warn of before the path is looked at.
@@ -108,6 +109,22 @@ impl<'a> Forming<'a> {
         let [x, y, z] = (mesh.corners(steepest).iter().sum::<Vector>() / 3.0).into();
         let words = format!("the sheet becomes {thickness:.3} mm thin by the sine law, at X{x:.3} Y{y:.3} Z{z:.3}");
         Some(Fact { fact: "thinnest", value: thickness, unit: "mm", words })
+    }
+
+    /// How thin the sheet becomes on average by its volume, t = t0 A0 / A, with the area A of its upper side and A0 in plan: what is
+    /// formed in stages takes from where it was formed before, and the sine law does not hold for it.
+    fn mean_thickness(&self) -> Option<Fact> {
+        let mesh = &self.scene.mesh;
+        let selected = (0..self.selected.len()).filter(|triangle| self.selected[*triangle]);
+        let [area, plan] = selected.fold([0.0; 2], |[area, plan], triangle| {
+            [area + mesh.area(triangle), plan + mesh.area(triangle) * mesh.normal(triangle).z.max(0.0)]
+        });
+        let thickness = Some(self.thickness * plan / area).filter(|thickness| thickness.is_finite())?;
+        let words = format!(
+            "the sheet becomes {thickness:.3} mm thin on average, by its area; where it is thinnest depends on the stages, and no \
+             law states that"
+        );
+        Some(Fact { fact: "mean_thickness", value: thickness, unit: "mm", words })
     }
 
     /// The largest axial force in N, on any of its slopes; none where the strength of the sheet is not known, or the passes do

@@ -1,6 +1,9 @@
 //! Posted text, checked: read back, compared with the part, limits taken from the job. A text is one channel's, and a scene
 //! states whose.
 
+mod stages;
+
+use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 
 use serde::Serialize;
@@ -9,7 +12,7 @@ use styluscam_motion::{Program, ToolRecord, Watch};
 use styluscam_post::machine::ToolChange;
 use styluscam_post::{read, Machine};
 use styluscam_verify::{
-    turned, Axes, Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Left, Limits, Need, Obstacle, Pairing,
+    turned, Axes, Contact, Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Left, Limits, Need, Obstacle, Pairing,
     Partner, Passes, Reach, Report, Scallop, Simulation, Subject, TextFacts, TooLong, ToolCalls,
 };
 
@@ -130,6 +133,7 @@ pub fn judge(
     };
     let report =
         styluscam_verify::judge(&prepared.reading.program, &prepared.subject(pairing), &prepared.limits, watch)?;
+    let report = stages::judged(job, text.scene, text.machine, &prepared.reading, report, watch)?;
     let Prepared { reading: Reading { program, unknown_positions, axes, .. }, limits, .. } = prepared;
     let (program, turned) = match axes {
         Some((of_axes, _)) => (of_axes, Some(program)),
@@ -167,7 +171,7 @@ impl<'a> Prepared<'a> {
             found.extend(forming::warnings(job, scene, machine)?);
         }
         let of_job = limits(job, scene, &against, machine);
-        let limits = Limits { excess_by_operation: excess(job, scene.channel, &reading.program), found, ..of_job };
+        let limits = Limits { excess_by_operation: excess(job, scene, &reading.program), found, ..of_job };
         Ok(Self { obstacles: plates::obstacles(scene)?, against, reading, limits })
     }
 
@@ -284,7 +288,9 @@ pub fn scallops(
         let found = styluscam_verify::scallops(program, &subject, limits, operation, count, watch)?;
         Ok((operation.id.clone(), found))
     };
-    against.expected.iter().map(of_operation).collect()
+    // those of stages are for no face of the part
+    let own = against.expected.iter().filter(|operation| operation.expectation.selected.contains(&true));
+    own.map(of_operation).collect()
 }
 
 /// What each of some points of the part, with its unit normal, asks for: forming, or nothing for it stays flat.
@@ -340,8 +346,8 @@ fn expected(
             JobError::document("unknown", format!("operations[{index}].tool"), message, "name one of [tools]")
         })?;
         let tool = &tools[number];
-        Ok(ExpectedOperation {
-            id: section.id(index),
+        Ok::<_, JobError>(ExpectedOperation {
+            id: scene.operation_id(section, index),
             tool: number,
             cut: section.kind().cut_feed(common),
             plunge: common.feeds.plunge,
@@ -351,7 +357,24 @@ fn expected(
             expectation: expectation(job, scene, tool, section, index)?,
         })
     };
-    job.operations_of(scene.channel).map(operation).collect()
+    let mut expected = Vec::new();
+    for stage in &scene.stages {
+        let of_stage = self::expected(job, stage, tools, records)?;
+        expected.extend(of_stage.into_iter().map(|operation| for_no_face(operation, scene)));
+    }
+    for own in job.operations_of(scene.channel) {
+        expected.push(operation(own)?);
+    }
+    Ok(expected)
+}
+
+/// An operation of a stage as it is expected of the whole text: what it does to the stage's own shape is checked with that.
+fn for_no_face(operation: ExpectedOperation, scene: &Scene) -> ExpectedOperation {
+    let selected = vec![false; scene.mesh.triangles().len()];
+    ExpectedOperation {
+        expectation: Expectation { contact: Contact::Clear, selected, ..operation.expectation },
+        ..operation
+    }
 }
 
 /// What an operation's moves and passes must do.
@@ -377,12 +400,13 @@ fn expectation(
 }
 
 /// The tolerance of each of the text's operations, by the ids in its remarks; the widest of the channel where it names none.
-fn excess(job: &JobDocument, channel: &str, program: &Program) -> Vec<Option<f64>> {
+fn excess(job: &JobDocument, scene: &Scene, program: &Program) -> Vec<Option<f64>> {
     let tolerance = |id: &str| {
-        let mut sections = job.operations_of(channel);
-        sections.find(|(index, section)| section.id(*index) == id).map(|(_, section)| section.common.tolerance)
+        let mut sections = job.operations_of(scene.channel);
+        let found = sections.find(|(index, section)| scene.operation_id(section, *index) == id);
+        found.map(|(_, section)| section.common.tolerance)
     };
-    let widest = widest_tolerance(job, channel);
+    let widest = widest_tolerance(job, scene.channel);
     program.operations.iter().map(|operation| tolerance(&operation.id).or(widest)).collect()
 }
 
@@ -414,7 +438,7 @@ fn limits(job: &JobDocument, scene: &Scene, against: &Against<'_>, machine: &Mac
         retract: scene.retract - 0.5 * machine.resolution_mm(),
         feed_rounding: machine.feed_rounding(fastest(&against.expected)),
         reach: reach(machine),
-        forming: job.setup.sheet.filter(|_| is_main).map(|sheet| forming_of(job, &sheet, scene.top)),
+        forming: job.setup.sheet.filter(|_| is_main).map(|sheet| forming_of(job, &sheet, scene)),
         bridged,
         unreached,
         unreached_from: if bridged.is_finite() { bridged } else { NO_ROOM * narrowest },
@@ -429,16 +453,23 @@ fn fastest(expected: &[ExpectedOperation]) -> f64 {
 }
 
 /// What the sheet withstands.
-fn forming_of(job: &JobDocument, sheet: &SheetSection, top: f64) -> Forming {
+fn forming_of(job: &JobDocument, sheet: &SheetSection, scene: &Scene) -> Forming {
     let wall = materials::wall_angle(job, sheet);
-    Forming {
+    let forming = Forming {
         thickness: sheet.thickness,
-        top,
+        top: scene.top,
         support: job.process.process.as_kind().support(),
         min_thickness: sheet.min_thickness.unwrap_or(0.0),
         max_wall_angle: wall.most_deg.to_radians(),
         sure_wall_angle: wall.sure_deg.to_radians(),
         source: wall.source,
+    };
+    // limits of walls and the sine law are those of one pass over flat sheet: of the first stage
+    let is_first = scene.stage.map_or(scene.stages.is_empty(), |stage| stage == 1);
+    if is_first {
+        forming
+    } else {
+        Forming { min_thickness: 0.0, max_wall_angle: FRAC_PI_2, sure_wall_angle: f64::INFINITY, ..forming }
     }
 }
 

@@ -50,6 +50,8 @@ pub(crate) enum Undone {
         /// Number of the first face that was added.
         first: u32,
     },
+    /// It is a stage of the part: no point of it is known to be one of the part.
+    Nowhere,
 }
 
 impl Part {
@@ -82,6 +84,7 @@ impl Part {
         let target = |point: &Vector| match self.shaped.as_ref().map(|shaped| &shaped.undone) {
             None => Some(*point),
             Some(Undone::Springback(compensation)) => compensation.undone(*point),
+            Some(Undone::Nowhere) => None,
             Some(Undone::Addendum { bvh, first }) => {
                 let (_, triangle) = bvh.nearest(&self.mesh, *point);
                 (self.mesh.faces()[triangle] < *first).then_some(*point)

@@ -48,7 +48,8 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
     let tools = tools(job)?;
     shaping::fits(job, scene)?;
     let mut channel = Channel::empty(job, scene);
-    for (index, section) in job.operations_of(scene.channel) {
+    let of_stage = |stage| job.operations_of(scene.channel).map(move |operation| (stage, operation));
+    for (scene, (index, section)) in scene.stages.iter().chain([scene]).flat_map(of_stage) {
         let path = format!("operations[{index}]");
         let (tool, record) =
             tools.get(&section.common.tool).ok_or_else(|| check::no_tool(job, &path, &section.common.tool))?;
@@ -74,7 +75,11 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
         let of_frame = clamp::fact(&frame);
         let lines = force.iter().chain(&of_frame).map(|fact| fact.words.clone()).collect();
         planned.facts.extend(thinnest.into_iter().chain(force).chain(of_frame));
-        channel.add((index, section), record, Added { planned, turns, lines, frame, wait: None });
+        channel.add(
+            (scene.operation_id(section, index), section),
+            record,
+            Added { planned, turns, lines, frame, wait: None },
+        );
     }
     channel.end(job);
     Ok(channel)

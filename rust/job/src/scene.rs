@@ -7,7 +7,7 @@ use styluscam_toolpath::offset::Index;
 
 use crate::faces::FaceView;
 use crate::operations::Fact;
-use crate::FixtureSection;
+use crate::{FixtureSection, OperationSection};
 
 /// The part, the sheet and the zero point of one channel, ready for planning and for verification.
 pub struct Scene {
@@ -40,6 +40,10 @@ pub struct Scene {
     pub clearance: f64,
     /// Height down to which rapids go before a plunge, mm.
     pub retract: f64,
+    /// Which of the part's intermediate stages it shows, from 1; none for the part itself.
+    pub stage: Option<usize>,
+    /// The part's intermediate stages, in their order.
+    pub stages: Vec<Scene>,
     /// What was changed of the part in the file.
     pub changes: Vec<Fact>,
     /// Which triangles lie where the part was cut off.
@@ -51,6 +55,13 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// What an operation is called in programs: `index` is its number in the job.
+    #[must_use]
+    pub fn operation_id(&self, section: &OperationSection, index: usize) -> String {
+        let id = section.id(index);
+        self.stage.map_or(id.clone(), |stage| format!("{id}-stage-{stage}"))
+    }
+
     /// Which triangles belong to some faces and do not face down.
     pub(crate) fn facing_up(&self, faces: &[u32]) -> Vec<bool> {
         let faces: HashSet<u32> = faces.iter().copied().collect();

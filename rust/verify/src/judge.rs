@@ -23,13 +23,16 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let frame = Frame::of(program, &segments, subject, limits);
     let mut tally = measure(&segments, subject, limits, frame.as_ref(), watch)?;
     let mut faults = std::mem::take(&mut tally.faults);
-    faults.extend(travel::faults(program, &segments, subject, limits));
     let axes = subject.axes.unwrap_or(Axes { program, unknown_positions: subject.unknown_positions });
-    let beyond = reach::faults(&axes, &limits.reach);
+    let mut beyond = Vec::new();
     let assignment = Assignment::new(program, subject);
-    faults.extend(settings::faults(program, &segments, &assignment, limits));
-    faults.extend(sequence::faults(program, &segments, &assignment, subject, limits));
-    faults.extend(sequence::punches(program, &segments, &assignment, subject, limits, frame.as_ref()));
+    if !limits.shape_only {
+        faults.extend(travel::faults(program, &segments, subject, limits));
+        beyond.extend(reach::faults(&axes, &limits.reach));
+        faults.extend(settings::faults(program, &segments, &assignment, limits));
+        faults.extend(sequence::faults(program, &segments, &assignment, subject, limits));
+        faults.extend(sequence::punches(program, &segments, &assignment, subject, limits, frame.as_ref()));
+    }
     if let Some(frame) = &frame {
         faults.extend(frame::faults(frame, program, &segments, &assignment, subject, limits));
     }
@@ -46,12 +49,20 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let Merged { mut reported, mut counts, lengths } =
         merge([(&faults, program), (&beyond, axes.program)], (high - low).norm());
     let nothing = tally.nothing_touches().then(|| diagnosis::no_contact(program, &segments, &tally, subject));
-    let offset = travel::work_offset(program, subject.wcs);
-    let wholes = reach::findings(&axes, &limits.reach).into_iter().chain(assignment.findings(program, subject));
-    let wholes = wholes.chain(travel::optional_lines(subject)).chain(travel::modes_not_stated(program, subject));
+    let mut wholes = Vec::new();
+    if !limits.shape_only {
+        wholes.extend(reach::findings(&axes, &limits.reach));
+        wholes.extend(assignment.findings(program, subject));
+        wholes.extend(travel::optional_lines(subject));
+        wholes.extend(travel::modes_not_stated(program, subject));
+    }
     let found = limits.found.iter().map(|(kind, severity, words)| Finding::of_all(*kind, *severity, words.clone()));
-    let wholes = wholes.chain(found).chain(pair.finding).chain(steep).chain(beyond_reach);
-    let wholes: Vec<Finding> = wholes.chain(travel::no_feed_moves(program)).chain(offset).chain(nothing).collect();
+    wholes.extend(found.chain(pair.finding).chain(steep).chain(beyond_reach));
+    wholes.extend(travel::no_feed_moves(program));
+    if !limits.shape_only {
+        wholes.extend(travel::work_offset(program, subject.wcs));
+    }
+    wholes.extend(nothing);
     for whole in &wholes {
         *counts.entry(whole.kind).or_default() += 1;
     }

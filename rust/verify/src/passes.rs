@@ -94,7 +94,7 @@ pub(crate) fn faults(
         let own =
             |segment: &&Segment| segment.kind == SegmentKind::Lateral && assignment.is(segment.operation, operation);
         let contacts: Vec<&Segment> = segments.iter().filter(own).collect();
-        if contacts.is_empty() {
+        if contacts.is_empty() || !expectation.selected.contains(&true) {
             continue;
         }
         let sweeps = Sweeps::of(&contacts, subject);

@@ -62,3 +62,29 @@ pub struct Report {
     /// Contacts spread evenly over the program, at most 4000.
     pub contacts: Vec<ContactRecord>,
 }
+
+impl Report {
+    /// This report of a whole text, with what was found of a part of it with another shape, which `name` is.
+    ///
+    /// Contacts, and the share of them that touch, stay those of the whole.
+    #[must_use]
+    pub fn with_stage(mut self, stage: Self, name: &str) -> Self {
+        let first = self.findings.len();
+        let named = |finding: Finding| Finding { message: format!("{name}: {}", finding.message), ..finding };
+        self.findings.extend(stage.findings.into_iter().map(named));
+        let moved =
+            |group: Group| Group { findings: group.findings.iter().map(|index| first + index).collect(), ..group };
+        self.groups.extend(stage.groups.into_iter().map(moved));
+        stage.counts.into_iter().for_each(|(kind, count)| *self.counts.entry(kind).or_default() += count);
+        stage.lengths.into_iter().for_each(|(kind, length)| *self.lengths.entry(kind).or_default() += length);
+        self.ok &= stage.ok;
+        self.samples += stage.samples;
+        if stage.gouge_max > self.gouge_max {
+            (self.gouge_max, self.gouge_at) = (stage.gouge_max, stage.gouge_at);
+        }
+        if stage.excess_max > self.excess_max {
+            (self.excess_max, self.excess_at) = (stage.excess_max, stage.excess_at);
+        }
+        self
+    }
+}

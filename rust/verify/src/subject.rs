@@ -236,6 +236,8 @@ pub struct Limits {
     pub unreached_from: f64,
     /// Kinds of findings that are no errors: the job takes these risks by name.
     pub accepted: Vec<FindingKind>,
+    /// Whether only its shape is checked: it is a part of a text, and all else is checked with the whole.
+    pub shape_only: bool,
     /// What was found before the program was looked at.
     pub found: Vec<Found>,
 }
@@ -286,6 +288,7 @@ impl Limits {
             unreached: 1.0,
             unreached_from: f64::INFINITY,
             accepted: Vec::new(),
+            shape_only: false,
             found: Vec::new(),
         }
     }

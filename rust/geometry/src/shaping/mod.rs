@@ -6,9 +6,11 @@ mod cone;
 mod field;
 mod outline;
 mod refine;
+mod stage;
 mod wall;
 mod warp;
 
 pub use field::DisplacementField;
+pub use stage::{stage, Stage};
 pub use wall::{walled, WallFault, WallShape, Walled};
 pub use warp::{warped, Warped};

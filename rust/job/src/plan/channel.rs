@@ -81,16 +81,16 @@ impl Channel {
         clamp::heights(passes, moves, self.frame)
     }
 
-    /// Adds a planned operation, which has a number in the job.
+    /// Adds a planned operation, which is called `id`.
     pub(super) fn add(
         &mut self,
-        (index, section): (usize, &OperationSection),
+        (id, section): (String, &OperationSection),
         record: &ToolRecord,
         Added { planned, turns, lines, frame, wait }: Added,
     ) {
         let Planned { moves, waits, words, note, facts, surface } = planned;
         let program = &mut self.program;
-        let (id, kind, tool) = (section.id(index), section.operation.name(), tool_index(program, record));
+        let (kind, tool) = (section.operation.name(), tool_index(program, record));
         program.events.extend(events_before(program, section, tool, turns));
         let first = program.moves.len();
         program.events.extend(wait.map(|kind| Event { before: first + 1, kind }));

@@ -57,8 +57,8 @@ pub fn planned(
             let turns = spindle::turns(job, setting.scene, tool, section, index)?;
             Ok::<_, JobError>(Added { planned, turns, lines, frame: Vec::new(), wait: Some(wait.clone()) })
         };
-        main.add((index, section), record, added(planned, settings[0], tool, summary.lines)?);
-        other.add((index, section), record_below, added(follows, settings[1], tool_below, Vec::new())?);
+        main.add((section.id(index), section), record, added(planned, settings[0], tool, summary.lines)?);
+        other.add((section.id(index), section), record_below, added(follows, settings[1], tool_below, Vec::new())?);
     }
     channels.iter_mut().for_each(|channel| channel.end(job));
     Ok(channels)

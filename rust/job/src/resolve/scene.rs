@@ -6,14 +6,24 @@ use styluscam_toolpath::offset::Index;
 
 use crate::chuck::turned_over;
 use crate::fixture::ClampSection;
-use crate::{faces, plates, Chuck, FixtureSection, JobDocument, JobError, Part, Scene, Zero};
+use crate::{faces, plates, shaping, Chuck, FixtureSection, JobDocument, JobError, Part, Scene, Zero};
 
 impl Scene {
     /// Turns the part and moves it to the program's zero, for one of the job's channels.
     ///
     /// # Errors
-    /// A sheet that is out of range.
+    /// A sheet that is out of range, a stage of too many triangles.
     pub fn new(job: &JobDocument, channel: &'static str, part: &Part) -> Result<Self, JobError> {
+        let mut scene = Self::of(job, channel, part)?;
+        for (number, angle) in (1..).zip(&job.part.stages) {
+            // a face that a stage does not have yet keeps its name
+            let stage = Self::of(job, channel, &shaping::staged(job, part, *angle)?)?;
+            scene.stages.push(Self { stage: Some(number), views: scene.views.clone(), ..stage });
+        }
+        Ok(scene)
+    }
+
+    fn of(job: &JobDocument, channel: &'static str, part: &Part) -> Result<Self, JobError> {
         let placed = Placed::new(job, part)?;
         let thickness = placed.sheet.map_or(0.0, |sheet| sheet.thickness);
         let opposite = job.opposite(channel).map(|opposite| opposite.squeeze * thickness);
@@ -40,6 +50,8 @@ impl Scene {
             bvh,
             views,
             rims,
+            stage: None,
+            stages: Vec::new(),
             changes: part.changes().to_vec(),
             mesh,
             frame,

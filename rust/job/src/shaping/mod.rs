@@ -2,12 +2,14 @@
 //!
 //! Planning and verification get the same changed part; what was changed, and by how much, is reported with its facts.
 //!
-//! Derivations: docs/concepts/springback.md, docs/concepts/addendum.md.
+//! Derivations: docs/concepts/springback.md, docs/concepts/addendum.md,
+//! docs/concepts/stages.md.
 
 mod addendum;
 mod compensation;
 mod section;
 mod springback;
+mod stages;
 
 use styluscam_geometry::DisplacementField;
 
@@ -16,6 +18,7 @@ use crate::{JobDocument, JobError, Part};
 pub use addendum::{fits, AddendumKind, AddendumSection};
 pub use compensation::Compensation;
 pub use section::{Deviation, MeshPair, SpringbackSection};
+pub use stages::staged;
 
 /// Checks what the schema cannot state of what changes a part.
 ///
@@ -23,7 +26,8 @@ pub use section::{Deviation, MeshPair, SpringbackSection};
 /// Keys that exclude each other.
 pub fn check(job: &JobDocument) -> Result<(), JobError> {
     addendum::check(job)?;
-    springback::check(job)
+    springback::check(job)?;
+    stages::check(job)
 }
 
 /// Whether a job's part is changed before it is planned.

@@ -78,8 +78,8 @@ pub fn extended(job: &JobDocument, section: &AddendumSection, part: &Part) -> Re
         names: vec![(walled.wall, WALL), (walled.blank, BLANK)],
         trim,
     };
-    let [inward, outward] = [part.inward, part.outward].map(|deviation| deviation.max(walled.deviation));
-    Ok(Part { mesh, inward, outward, shaped: Some(shaped) })
+    // the addendum is what its triangles are: it is cut off, and no model states it
+    Ok(Part { mesh, inward: part.inward, outward: part.outward, shaped: Some(shaped) })
 }
 
 /// Whether the blank lies below the part, as a sheet over a male die ends.

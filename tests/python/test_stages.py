@@ -1,0 +1,125 @@
+"""Stages: a cup with walls beyond the sheet's limit, formed by way of shapes with gentler ones, each verified for itself."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import Mesh, job_document
+
+import styluscam as sc
+
+BALL = {"kind": "ball", "diameter": 10.0}
+DEPTH, RIM, FILLET, WALL = 12.0, 30.0, 6.0, 85.0
+
+
+def cup(count: int = 120) -> Mesh:
+    """A cup in a flange: walls of 85 degrees, a fillet of 6 mm around its floor."""
+    slopes = np.radians(np.linspace(0.0, WALL, 15))
+    arc = np.column_stack([FILLET * np.sin(slopes), FILLET * (1.0 - np.cos(slopes)) - DEPTH])
+    reach = arc[-1, 0] - arc[-1, 1] / np.tan(np.radians(WALL))
+    floor = arc + np.array([RIM - reach, 0.0])
+    line = np.vstack([[0.5 * floor[0, 0], -DEPTH], floor, [RIM, 0.0], [45.0, 0.0]])
+    turn = 2 * np.pi * np.arange(count) / count
+    rings = [np.column_stack([r * np.cos(turn), r * np.sin(turn), np.full(count, z)]) for r, z in line]
+    triangles = [(0, 1 + i, 1 + (i + 1) % count) for i in range(count)]
+    for ring in range(len(rings) - 1):
+        for i in range(count):
+            a, b = 1 + count * ring + i, 1 + count * ring + (i + 1) % count
+            triangles += [(a, a + count, b + count), (a, b + count, b)]
+    return np.concatenate([[[0.0, 0.0, -DEPTH]], *rings]), np.array(triangles)
+
+
+def document(stages: list[float], machine: str = "linuxcnc", **sheet: Any) -> dict[str, Any]:
+    found = job_document("cup", "z-level", BALL, machine=machine, step={"height": 2.0})
+    found["part"] |= {"faces": "all", "model_face": "tool", "stages": stages}
+    found["setup"]["sheet"] |= {"max_wall_angle_deg": 70.0, **sheet}
+    return found
+
+
+def job_of(stages: list[float], **keys: Any) -> sc.Job:
+    return sc.Job.from_dict(document(stages, **keys), part=sc.Part.from_mesh(*cup()))
+
+
+def kinds(report: sc.Report) -> set[str]:
+    return {finding.kind for finding in report.findings if finding.severity == "error"}
+
+
+@pytest.fixture(scope="module")
+def staged() -> tuple[sc.Job, str]:
+    job = job_of([50.0, 66.0])
+    return job, sc.post(sc.plan(job)).text
+
+
+def test_walls_beyond_the_limit_are_formed_in_stages(staged: tuple[sc.Job, str]) -> None:
+    job, text = staged
+    report = sc.verify(text, job)
+    assert report.ok, report.findings
+    alone = job_of([])
+    assert "wall-angle" in kinds(sc.verify(sc.post(sc.plan(alone)).text, alone))
+    first_too_steep = job_of([74.0, 80.0])
+    report = sc.verify(sc.post(sc.plan(first_too_steep)).text, first_too_steep)
+    assert kinds(report) == {"wall-angle"} and "stage of 74 degrees" in report.findings[0].message
+
+
+def test_a_stage_is_the_lowest_shape_above_the_part_with_gentler_walls(staged: tuple[sc.Job, str]) -> None:
+    job, _ = staged
+    plan = sc.plan(job)
+    summary = plan.summary()[0]
+    assert [operation.id for operation in summary.operations] == ["z-level-1-stage-1", "z-level-1-stage-2", "z-level-1"]
+    facts = [{fact.fact: fact.value for fact in operation.facts} for operation in summary.operations]
+    # the sine law holds for the first stage; then the area is all that is known
+    assert facts[0]["thinnest"] == pytest.approx(np.cos(np.radians(50.0)), abs=0.02)
+    assert "thinnest" not in facts[2] and 0.5 < facts[2]["mean_thickness"] < 0.9
+    program = plan.programs["main"]
+    for operation, angle in ((0, 50.0), (1, 66.0)):
+        tips = program.moves[program.moves["operation"] == operation]["end"]
+        tips = tips[tips[:, 2] < -0.5]
+        # a ball that rolls on a cone of this angle, which ends at the rim: its centre keeps off it by its radius
+        slope = np.radians(angle)
+        wall = np.hypot(tips[:, 0], tips[:, 1]) * np.tan(slope) - (tips[:, 2] + 5.0) - RIM * np.tan(slope)
+        off = -wall * np.cos(slope)
+        assert off.min() > 4.99 and np.quantile(off, 0.5) < 5.1, (angle, off.min(), np.quantile(off, 0.5))
+
+
+def test_a_missing_stage_and_swapped_ones_are_found(staged: tuple[sc.Job, str]) -> None:
+    job, text = staged
+    marks = [m.start() for m in re.finditer(r"(?m)^\(operation [^\n]*z-level-1[^\n]*\)$", text)]
+    assert len(marks) == 3
+    head, first, second, last = (text[a:b] for a, b in zip([0, *marks], [*marks, len(text)], strict=True))
+    assert sc.verify(head + first + second + last, job).ok
+    assert "missing-operation" in kinds(sc.verify(head + second + last, job))
+    assert "operation-order" in kinds(sc.verify(head + second + first + last, job))
+
+
+def test_a_stage_of_another_angle_is_found(staged: tuple[sc.Job, str]) -> None:
+    job, text = staged
+    gentler = job_of([46.0, 66.0])
+    report = sc.verify(text, gentler)
+    assert "gouge" in kinds(report) and any("stage of 46 degrees" in one.message for one in report.findings)
+    report = sc.verify(sc.post(sc.plan(gentler)).text, job)
+    assert not report.ok and any("stage of 50 degrees" in one.message for one in report.findings)
+
+
+def test_other_controllers_take_stages_too() -> None:
+    job = job_of([55.0], machine="grbl")
+    report = sc.verify(sc.post(sc.plan(job)).text, job)
+    assert report.ok, report.findings
+
+
+def test_stages_that_cannot_be_are_refused() -> None:
+    for change, code in (
+        ({"stages": [60.0, 50.0]}, "order"),
+        ({"stages": [50.0, 95.0]}, "out-of-range"),
+        ({"stages": list(np.linspace(20.0, 60.0, 25))}, "out-of-range"),
+    ):
+        contradictory = document([])
+        contradictory["part"] |= change
+        with pytest.raises(sc.JobError) as caught:
+            sc.Job.from_dict(contradictory)
+        assert caught.value.code == code and caught.value.where.startswith("part.stages"), change
+    for process in ({"kind": "tpif", "die": "male"}, {"kind": "dsif", "support_tool": "tool"}):
+        with pytest.raises(sc.JobError, match="no intermediate stages"):
+            sc.Job.from_dict({**document([50.0]), "process": process, "machines": {"support": {"name": "linuxcnc"}}})
