@@ -40,6 +40,7 @@ pub fn estimates(job: &JobDocument, part: &Part) -> Vec<Estimate> {
     let (low, high) = part.mesh.bounds();
     let size = high - low;
     let plan_box = (size.product() / size.dot(&up).abs()).abs();
+    let times = 1.0 + job.part.stages.len() as f64; // once for each stage, and for the part
     let sections = job.operations.iter().enumerate();
     let estimates = sections.filter_map(|(index, section)| {
         let (selection, _) = selection_of(job, section, index);
@@ -48,11 +49,11 @@ pub fn estimates(job: &JobDocument, part: &Part) -> Vec<Estimate> {
         let spacing = section.common.smallest_feature / std::f64::consts::SQRT_2;
         let nodes = if effort.samples_grid { (plan_box / (spacing * spacing)).min(NODES) } else { 0.0 };
         // facets of this size take a chord or two; curved ones are small already
-        let points = effort.length / (2.0 * mean).sqrt().max(0.5 * spacing);
+        let points = times * effort.length / (2.0 * mean).sqrt().max(0.5 * spacing);
         Some(Estimate {
             id: section.id(index),
             kind: section.operation.name(),
-            length: effort.length,
+            length: times * effort.length,
             points,
             seconds: points * effort.seconds_per_point + SECONDS_PER_FACET * count as f64 + SECONDS_PER_NODE * nodes,
             key: effort.key,
@@ -66,7 +67,10 @@ pub fn estimates(job: &JobDocument, part: &Part) -> Vec<Estimate> {
 fn areas(part: &Part, selection: &Selection, up: Vector, plan_box: f64) -> (Areas, usize, f64) {
     let numbers: Option<Vec<u32>> = match selection {
         Selection::All => None,
-        Selection::Named(names) => Some(names.iter().filter_map(|name| face_number(name)).collect()),
+        Selection::Named(names) => {
+            let added = |name: &str| part.names().iter().find(|(_, of)| *of == name).map(|(number, _)| *number);
+            Some(names.iter().filter_map(|name| face_number(name).or_else(|| added(name))).collect())
+        }
     };
     let (mut found, mut count, mut whole) = (Areas { plan: 0.0, elevation: 0.0, plan_box }, 0, 0.0);
     for (triangle, face) in part.mesh.faces().iter().enumerate() {

@@ -1,8 +1,6 @@
 //! Posted text, checked: read back, compared with the part, limits taken from the job. A text is one channel's, and a scene
 //! states whose.
 
-mod stages;
-
 use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 
@@ -19,8 +17,8 @@ use styluscam_verify::{
 use crate::limits::{GOUGE, NO_ROOM};
 use crate::resolve::{faces_of, heights_of, passes_of, tools_in_order};
 use crate::{
-    clamp, forming, materials, model, plates, spindle, Coolant, JobDocument, JobError, OperationSection, Scene,
-    SheetSection,
+    clamp, forming, materials, model, plates, portion, spindle, Coolant, JobDocument, JobError, OperationSection,
+    Scene, SheetSection,
 };
 
 /// Most that may be left on a sheet's faces where the tool cannot get, mm, where the job does not state it: single-point forming
@@ -133,13 +131,41 @@ pub fn judge(
     };
     let report =
         styluscam_verify::judge(&prepared.reading.program, &prepared.subject(pairing), &prepared.limits, watch)?;
-    let report = stages::judged(job, text.scene, text.machine, &prepared.reading, report, watch)?;
+    let report = with_stages(job, text.scene, text.machine, &prepared.reading, report, watch)?;
     let Prepared { reading: Reading { program, unknown_positions, axes, .. }, limits, .. } = prepared;
     let (program, turned) = match axes {
         Some((of_axes, _)) => (of_axes, Some(program)),
         None => (program, None),
     };
     Ok(Judgement { channel: text.scene.channel, report, program, turned, unknown_positions, limits })
+}
+
+/// Adds to the report of a whole text what its intermediate stages are found to do to their own shapes.
+///
+/// # Errors
+/// Tools that do not build, `Cancelled`.
+fn with_stages(
+    job: &JobDocument,
+    scene: &Scene,
+    machine: &Machine,
+    reading: &Reading,
+    mut whole: Report,
+    watch: &Watch,
+) -> Result<Report, JobError> {
+    for (stage, angle) in scene.stages.iter().zip(&job.part.stages) {
+        let against = Against::new(job, stage)?;
+        let ids: Vec<&str> = against.expected.iter().map(|operation| operation.id.as_str()).collect();
+        let (program, unknown) = portion::own(&reading.program, &ids, |index| {
+            reading.unknown_positions.iter().any(|run| run.contains(&index))
+        });
+        let of_job = limits(job, stage, &against, machine);
+        let excess_by_operation = excess(job, stage, &program);
+        let limits = Limits { excess_by_operation, shape_only: true, ..of_job };
+        let subject = Subject { pairing: Pairing::Alone, ..against.subject(&unknown) };
+        let report = styluscam_verify::judge(&program, &subject, &limits, watch)?;
+        whole = whole.with_stage(report, &format!("stage of {angle} degrees"));
+    }
+    Ok(whole)
 }
 
 /// The sheet that two channels leave between their tools, by its law.

@@ -28,6 +28,7 @@ mod parse;
 mod part;
 mod plan;
 mod plates;
+mod portion;
 mod process;
 mod resolve;
 mod risk;
