@@ -373,7 +373,7 @@ fn expected(
         })?;
         let tool = &tools[number];
         Ok::<_, JobError>(ExpectedOperation {
-            id: scene.operation_id(section, index),
+            id: scene.operation_id(section.id(index)),
             tool: number,
             cut: section.kind().cut_feed(common),
             plunge: common.feeds.plunge,
@@ -429,7 +429,7 @@ fn expectation(
 fn excess(job: &JobDocument, scene: &Scene, program: &Program) -> Vec<Option<f64>> {
     let tolerance = |id: &str| {
         let mut sections = job.operations_of(scene.channel);
-        let found = sections.find(|(index, section)| scene.operation_id(section, *index) == id);
+        let found = sections.find(|(index, section)| scene.operation_id(section.id(*index)) == id);
         found.map(|(_, section)| section.common.tolerance)
     };
     let widest = widest_tolerance(job, scene.channel);

@@ -76,7 +76,7 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
         let lines = force.iter().chain(&of_frame).map(|fact| fact.words.clone()).collect();
         planned.facts.extend(thinnest.into_iter().chain(force).chain(of_frame));
         channel.add(
-            (scene.operation_id(section, index), section),
+            (scene.operation_id(section.id(index)), section),
             record,
             Added { planned, turns, lines, frame, wait: None },
         );

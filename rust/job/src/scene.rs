@@ -7,7 +7,7 @@ use styluscam_toolpath::offset::Index;
 
 use crate::faces::FaceView;
 use crate::operations::Fact;
-use crate::{FixtureSection, OperationSection};
+use crate::FixtureSection;
 
 /// The part, the sheet and the zero point of one channel, ready for planning and for verification.
 pub struct Scene {
@@ -55,11 +55,13 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// What an operation is called in programs: `index` is its number in the job.
+    /// What an operation with an id in the job is called in programs.
     #[must_use]
-    pub fn operation_id(&self, section: &OperationSection, index: usize) -> String {
-        let id = section.id(index);
-        self.stage.map_or(id.clone(), |stage| format!("{id}-stage-{stage}"))
+    pub fn operation_id(&self, id: String) -> String {
+        match self.stage {
+            Some(stage) => format!("{id}-stage-{stage}"),
+            None => id,
+        }
     }
 
     /// Which triangles belong to some faces and do not face down.
