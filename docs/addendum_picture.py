@@ -77,6 +77,7 @@ def drawn() -> Figure:
     section.text(20.0, -9.5, "through the edge's highest points", color=BLUE)
     section.text(20.0, -12.0, "and through its lowest ones", color=GREEN)
     section.plot([30, 30], [-3, 3], "s", color=INK, ms=5)
+    section.set_ylim(-14.0, 13.0)
     section.set_aspect("equal")
     section.set_title("the wall begins at the edge's height, and ends in one plane", fontsize=11)
     return figure

@@ -123,7 +123,7 @@ def test_operations_name_the_addendum(tmp_path: Path) -> None:
     found["operations"][0]["faces"] = ["Addendum"]
     job = sc.Job.from_dict(found, tmp_path, sc.Part.from_mesh(*bowl(30.0, 12.0)))
     plan = sc.plan(job)
-    assert plan.summary()[0].operations[0].surface.faces == [2]
+    assert plan.summary()[0].operations[0].faces == [2]
     assert plan.programs["main"].positions[:, 2].min() > -9.0
     assert len(plan.trim) == 1 and plan.trim[0][:, 2].max() == pytest.approx(-6.0 - 1.0, abs=1e-9)
 

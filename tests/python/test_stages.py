@@ -76,7 +76,7 @@ def test_a_stage_is_the_lowest_shape_above_the_part_with_gentler_walls(staged: t
     program = plan.programs["main"]
     for operation, angle in ((0, 50.0), (1, 66.0)):
         tips = program.moves[program.moves["operation"] == operation]["end"]
-        tips = tips[tips[:, 2] < -0.5]
+        tips = tips[tips[:, 2] < -5.0]  # below the rim, on which the ball rolls first
         # a ball that rolls on a cone of this angle, which ends at the rim: its centre keeps off it by its radius
         slope = np.radians(angle)
         wall = np.hypot(tips[:, 0], tips[:, 1]) * np.tan(slope) - (tips[:, 2] + 5.0) - RIM * np.tan(slope)

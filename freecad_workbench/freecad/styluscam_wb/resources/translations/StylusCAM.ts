@@ -190,6 +190,14 @@ Range: above 0 to 50 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Wall angles of intermediate stages, degrees, rising: [50.0, 65.0]. All operations are done for each stage first, whose walls
+are no steeper, and for the part at last; for walls that the sheet does not withstand in one pass.
+Range: 5 to 89 deg
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>What formed parts were measured, or simulated, to deviate by: the part is formed the other way. The verifier then compares
 with the part as it is formed.
 As JSON
@@ -211,6 +219,13 @@ milling: Milling: no sheet.
 spinning: Shear spinning: a disc of sheet and a mandrel of the part's shape turn about Z, and the tool goes along the part's meridian, from
 the centre outwards, once. X is the distance from the axis, Y stays 0. Parts that are surfaces of revolution about Z only.
 tpif: Two-point incremental forming: a sheet over a male die, with a clamp frame that goes down, or into a female one.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What is formed around a part without a flange: a wall from its outer edge to the blank's plane. Its faces have the names
+"Addendum" and "Blank".
+As JSON
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -324,6 +339,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>Accepted risks</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Addendum</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1189,6 +1208,10 @@ Range: above 0 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Stages</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Start</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1474,6 +1497,14 @@ Range: above 0 to 50 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Wall angles of intermediate stages, degrees, rising: [50.0, 65.0]. All operations are done for each stage first, whose walls
+are no steeper, and for the part at last; for walls that the sheet does not withstand in one pass.
+Range: 5 to 89 deg
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Walls steeper than the material withstands in one pass.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1503,6 +1534,13 @@ milling: Milling: no sheet.
 spinning: Shear spinning: a disc of sheet and a mandrel of the part's shape turn about Z, and the tool goes along the part's meridian, from
 the centre outwards, once. X is the distance from the axis, Y stays 0. Parts that are surfaces of revolution about Z only.
 tpif: Two-point incremental forming: a sheet over a male die, with a clamp frame that goes down, or into a female one.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What is formed around a part without a flange: a wall from its outer edge to the blank's plane. Its faces have the names
+"Addendum" and "Blank".
+As JSON
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
