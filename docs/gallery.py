@@ -129,14 +129,14 @@ EXAMPLES = (
         "Addendum over a male die",
         "`part.addendum`: from the edge of the part a wall goes down to the blank, which is clamped around it.",
         "cap_r60",
-        LEVELS,
+        {"kind": "z-level", "step": {"height": 2.0}},
         process={"kind": "tpif", "die": "male"},
         more={
             "accept": ["solid"],
             "part": {
                 "file": str(FIXTURES / "cap_r60.step"),
                 "model_face": "tool",
-                "addendum": {"wall_angle_deg": 50.0, "height": 15.0},
+                "addendum": {"wall_angle_deg": 45.0, "height": 8.0},
             },
         },
     ),

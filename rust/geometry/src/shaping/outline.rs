@@ -11,7 +11,7 @@ type Key = [u64; 3];
 ///
 /// Corners are one by what they measure: faces of a STEP part share none.
 pub fn outer_edges(mesh: &Mesh, keep: &[bool]) -> Vec<Vec<(Vector, usize)>> {
-    let mut lines: Vec<Vec<(Vector, usize)>> = chained(open_sides(mesh, keep));
+    let mut lines: Vec<Vec<(Vector, usize)>> = chained(&open_sides(mesh, keep));
     lines.retain(|line| doubled_area(line) > 0.0);
     lines
 }
@@ -41,7 +41,7 @@ fn open_sides(mesh: &Mesh, keep: &[bool]) -> Vec<(Vector, Vector, usize)> {
 }
 
 /// Sides put together to closed lines; what does not close is left out.
-fn chained(sides: Vec<(Vector, Vector, usize)>) -> Vec<Vec<(Vector, usize)>> {
+fn chained(sides: &[(Vector, Vector, usize)]) -> Vec<Vec<(Vector, usize)>> {
     let mut from: HashMap<Key, Vec<usize>> = HashMap::new();
     for (index, (a, _, _)) in sides.iter().enumerate().rev() {
         from.entry(key(*a)).or_default().push(index);

@@ -59,7 +59,7 @@ fn starts(line: &[Vector], first: usize, slope: f64, most: f64) -> Vec<Start> {
     let count = line.len();
     let side = |i: usize| [line[i % count], line[(i + 1) % count]];
     let mut starts = Vec::new();
-    for i in 0..count {
+    for (i, corner) in line.iter().enumerate() {
         let before = (i + count - 1) % count;
         let (from, to) = (ascent(side(before), slope), ascent(side(i), slope));
         let turn = libm::atan2(from[0] * to[1] - from[1] * to[0], from[0] * to[0] + from[1] * to[1]);
@@ -70,7 +70,7 @@ fn starts(line: &[Vector], first: usize, slope: f64, most: f64) -> Vec<Start> {
             let share = if fan == 0 { 0.5 } else { f64::from(k) / f64::from(fan) };
             let (sin, cos) = libm::sincos(begin + share * turn);
             let own = [first + before, first + i];
-            starts.push(Start { corner: Some(i), foot: line[i], direction: [cos, sin], own });
+            starts.push(Start { corner: Some(i), foot: *corner, direction: [cos, sin], own });
         }
         let [a, b] = side(i);
         let parts = ((b - a).xy().norm() / PITCH).ceil().max(1.0) as u32;
