@@ -141,16 +141,6 @@ EXAMPLES = (
         },
     ),
     Example(
-        "stages",
-        "In stages",
-        "`part.stages = [25.0, 35.0]`: the same levels for shapes with gentler walls first.",
-        "cone_cup",
-        LEVELS,
-        more={
-            "part": {"file": str(FIXTURES / "cone_cup.step"), "model_face": "tool", "stages": [25.0, 35.0]},
-        },
-    ),
-    Example(
         "double-sided",
         "From both sides",
         '`process.kind = "dsif"`: a second tool follows under the sheet; this is the path of the main one.',
