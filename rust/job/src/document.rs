@@ -11,7 +11,8 @@ use styluscam_geometry::{Base, Holder, ModelFace, ProfileDocument, SheetLaw};
 use styluscam_motion::ToolReference;
 
 use crate::{
-    AddendumSection, Chuck, FixtureSection, OperationSection, ProcessSection, Risk, Selection, SpringbackSection, Units, UpAxis,
+    AddendumSection, Chuck, FixtureSection, OperationSection, ProcessSection, Risk, Selection, SpringbackSection,
+    Units, UpAxis,
 };
 
 /// A whole job: from a part's faces to a machine's program.

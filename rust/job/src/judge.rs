@@ -10,8 +10,8 @@ use styluscam_motion::{Program, ToolRecord, Watch};
 use styluscam_post::machine::ToolChange;
 use styluscam_post::{read, Machine};
 use styluscam_verify::{
-    turned, Axes, Contact, Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Left, Limits, Need, Obstacle, Pairing,
-    Partner, Passes, Reach, Report, Scallop, Simulation, Subject, TextFacts, TooLong, ToolCalls,
+    turned, Axes, Contact, Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Left, Limits, Need, Obstacle,
+    Pairing, Partner, Passes, Reach, Report, Scallop, Simulation, Subject, TextFacts, TooLong, ToolCalls,
 };
 
 use crate::limits::{GOUGE, NO_ROOM};

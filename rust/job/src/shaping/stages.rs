@@ -2,7 +2,7 @@
 //!
 //! Derivation: docs/concepts/stages.md.
 
-use styluscam_geometry::{stage, Frame};
+use styluscam_geometry::stage;
 use styluscam_verify::Support;
 
 use crate::faces;
@@ -45,7 +45,7 @@ pub fn check(job: &JobDocument) -> Result<(), JobError> {
 
 /// A stage of a part, as it is formed, for a wall angle in degrees.
 pub fn staged(job: &JobDocument, part: &Part, angle_deg: f64) -> Result<Part, JobError> {
-    let frame = Frame::turning_up(job.setup.up.vector(), job.setup.rotation.to_radians());
+    let frame = job.setup.turn();
     let placed = part.mesh.placed(&frame);
     let rims = faces::rims(&part.target().placed(&frame));
     let keep: Vec<bool> = (0..rims.len()).map(|t| !rims[t] && !placed.looks_down(t)).collect();

@@ -53,7 +53,7 @@ pub fn check(job: &JobDocument) -> Result<(), JobError> {
 
 /// The part with its addendum.
 pub fn extended(job: &JobDocument, section: &AddendumSection, part: &Part) -> Result<Part, JobError> {
-    let frame = Frame::turning_up(job.setup.up.vector(), job.setup.rotation.to_radians());
+    let frame = job.setup.turn();
     let placed = part.mesh.placed(&frame);
     let rims = faces::rims(&placed);
     let keep: Vec<bool> = (0..rims.len()).map(|t| !rims[t] && !placed.looks_down(t)).collect();
@@ -86,7 +86,7 @@ pub fn extended(job: &JobDocument, section: &AddendumSection, part: &Part) -> Re
 fn goes_down(job: &JobDocument) -> bool {
     match job.process.process.as_kind().support() {
         Support::Rim => false,
-        Support::DieAndFrame => true,
+        Support::DieAndFrame | Support::Mandrel => true,
     }
 }
 
