@@ -10,7 +10,7 @@ use crate::merge::{merge, Merged};
 use crate::report::Report;
 use crate::segments::placed;
 use crate::subject::{Axes, Limits, Subject};
-use crate::{diagnosis, frame, pair, passes, reach, sequence, settings, travel, unreached, walls};
+use crate::{diagnosis, frame, low_links, pair, passes, reach, sequence, settings, travel, unreached, walls};
 
 /// Checks a program read back from posted text against the part.
 ///
@@ -23,10 +23,11 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let frame = Frame::of(program, &segments, subject, limits);
     let mut tally = measure(&segments, subject, limits, frame.as_ref(), watch)?;
     let mut faults = std::mem::take(&mut tally.faults);
-    faults.extend(travel::faults(program, &segments, subject, limits));
     let axes = subject.axes.unwrap_or(Axes { program, unknown_positions: subject.unknown_positions });
-    let beyond = reach::faults(&axes, &limits.reach);
     let assignment = Assignment::new(program, subject);
+    faults.extend(travel::faults(program, &segments, &assignment, subject, limits));
+    let beyond = reach::faults(&axes, &limits.reach);
+    faults.extend(low_links::faults(&segments, &assignment, subject, limits, watch)?);
     faults.extend(settings::faults(program, &segments, &assignment, limits));
     faults.extend(sequence::faults(program, &segments, &assignment, subject, limits));
     faults.extend(sequence::punches(program, &segments, &assignment, subject, limits, frame.as_ref()));
