@@ -612,6 +612,10 @@ other face of the sheet, block by block; its machine is in `[machines.support]`.
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Draws the job's blank, formed sheet and die instead of the block of stock; again to take them away</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Draws where the tool touches the model along the job's paths; again to take it away</source>
         <translation type="unfinished"></translation>
     </message>
