@@ -137,7 +137,8 @@ impl<'a> Sheet<'a> {
             Support::Rim => {
                 (0..).zip(points).filter(|(_, p)| p.z >= highest - SAME).map(|(i, _)| (i, self.flat)).collect()
             }
-            Support::DieAndFrame => {
+            // nothing clamps a sheet on a mandrel: it is drawn as low as the tool has been, as over a die
+            Support::DieAndFrame | Support::Mandrel => {
                 let on_die = (0..).zip(points).map(|(i, p)| (i, p.z));
                 on_die.chain(self.border.iter().map(|i| (*i, self.lowest))).collect()
             }
