@@ -167,25 +167,45 @@ def test_maps_change_what_is_seen(opened: Tab) -> None:
     assert opened.complaints == []
 
 
-def test_the_fixture_stands_where_the_job_states_and_can_be_hidden(opened: Tab) -> None:
-    boxes = np.array(
-        opened.run(
-            """window.styluscam.fixture.group.children.map(({ geometry }) => {
-            geometry.computeBoundingBox();
-            const { origin } = window.styluscam.stage;
-            return [geometry.boundingBox.min, geometry.boundingBox.max].map(p => p.toArray().map((x, k) => x + origin[k]));
-            })"""
-        )
+def test_the_sheet_and_what_holds_it_stand_where_the_job_states_and_can_be_hidden(opened: Tab) -> None:
+    boxes = opened.run(
+        """Object.fromEntries(Object.entries(window.styluscam.shapes.layers).map(([key, layer]) => {
+        const { geometry } = layer.children[0];
+        geometry.computeBoundingBox();
+        const { origin } = window.styluscam.stage;
+        return [key, [geometry.boundingBox.min, geometry.boundingBox.max].map(p => p.toArray().map((x, k) => x + origin[k]))];
+        }))"""
     )
-    # a band of 8 % of the larger side around the openings; the sheet's top is Z0, and it is 1 mm thick
-    np.testing.assert_allclose(
-        boxes[:, :, :2], [[[-81.2, -71.2], [81.2, 71.2]], [[-52.2, -52.2], [52.2, 52.2]]], atol=1e-4
-    )
-    np.testing.assert_allclose(boxes[:, 1, 2], [8.0, -1.0], atol=1e-4)
-    shown = opened.picture("#stage")
-    opened.click("#fixture")
-    opened.drawn()
-    assert opened.picture("#stage") != shown
+    # a band of 8 % of the larger side around the openings, plates a quarter of it deep; the sheet's top is Z0, it is 1 mm thick
+    expected = {
+        "blank": [[-81.2, -71.2, -1.0], [81.2, 71.2, 0.0]],
+        "clamp": [[-81.2, -71.2, 0.0], [81.2, 71.2, 8.0]],
+        "backing": [[-52.2, -52.2, -23.5], [52.2, 52.2, -1.0]],
+    }
+    for key, box in expected.items():
+        np.testing.assert_allclose(boxes[key], box, atol=1e-3)
+    # as it stands is rounded to 0.02 mm
+    assert boxes["formed-sheet"][1][2] == pytest.approx(0.0, abs=0.015)
+    for key in (*expected, "formed-sheet", "tool"):
+        shown = opened.picture("#stage")
+        opened.click(f"[data-layer={key}]")
+        opened.drawn()
+        assert opened.picture("#stage") != shown, key
+        opened.click(f"[data-layer={key}]")
+        opened.drawn()
+
+
+def test_the_formed_sheet_stands_for_the_part_but_for_a_map(opened: Tab) -> None:
+    seen = """(() => { const { part, shapes } = window.styluscam;
+    return [part.mesh.visible, shapes.layers["formed-sheet"].visible]; })()"""
+    assert opened.run(seen) == [False, True]
+    opened.choose("#map", "wall")
+    assert opened.run(seen) == [True, False]
+    opened.choose("#map", "")
+    opened.click("[data-layer=formed-sheet]")
+    assert opened.run(seen) == [True, False]
+    opened.click("[data-layer=formed-sheet]")
+    assert opened.run(seen) == [False, True]
 
 
 def test_the_path_has_its_colours(opened: Tab) -> None:

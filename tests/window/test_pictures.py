@@ -265,6 +265,20 @@ def test_the_contact_track_lies_on_the_model(seen: Seen) -> None:
     assert track["legend after"] is None
 
 
+def test_the_sheet_stands_for_stock_and_model(seen: Seen) -> None:
+    """The cup is the back of 1 mm of sheet: its flange lies at Z 0, the blank on it."""
+    sheet = seen("sheet")
+    assert sheet["legend"] == ["Sheet", "formed sheet", "blank"]
+    blank, formed = (np.array(sheet["spif"][key]) for key in ("blank", "formed_sheet"))
+    assert blank[:, 2] == pytest.approx([0.0, 1.0], abs=1e-4)
+    assert formed[:, :2] == pytest.approx(blank[:, :2], abs=0.02)
+    assert formed[1, 2] == pytest.approx(1.0, abs=1e-4)
+    assert formed[0, 2] < -20.0
+    assert sheet["stock and model are drawn"] == [False, False]
+    assert sheet["after"] == [None, True, True]
+    assert sheet["objects"][0] == sheet["objects"][1]
+
+
 def test_the_tool_stands_where_the_path_is_after_a_length(seen: Seen) -> None:
     tool = seen("moving tool")
     ends = np.array(tool["positions"])

@@ -166,8 +166,10 @@ def face_names(obj: Any) -> list[str] | str:
 
 def _feeds(controller: Any) -> Document:
     """The tool controller's feeds, mm/min; the engine's defaults where it states none, which FreeCAD writes as 0."""
-    stated = {"cut": controller.HorizFeed.Value * SECONDS, "plunge": controller.VertFeed.Value * SECONDS}
-    feeds = {key: feed for key, feed in stated.items() if feed != 0.0}
+    names = {"cut": "HorizFeed", "plunge": "VertFeed", "approach": "LeadInFeed", "exit": "LeadOutFeed"}
+    # FreeCAD 1.0 has no feeds of leads
+    stated = {key: getattr(controller, name).Value for key, name in names.items() if hasattr(controller, name)}
+    feeds = {key: feed * SECONDS for key, feed in stated.items() if feed != 0.0}
     return {"feeds": feeds} if feeds else {}
 
 

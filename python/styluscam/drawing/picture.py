@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import io
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
 from styluscam.arguments import channel_of
+from styluscam.drawing.canvas import FINER, INK, PNG, SECTION, SIZE, SOFT, new_figure, pane, save
 from styluscam.drawing.decimation import thinned
 from styluscam.drawing.raster import Raster, View, rasterise
+from styluscam.drawing.shapes import Around, around_plan
+from styluscam.drawing.sheet_pane import edges, moment, names, section_pane, tinted
+from styluscam.drawing.solids import DIE, Solid
 from styluscam.errors import GeometryError, PlanError
-from styluscam.extras import require
-from styluscam.files import drawn_whole
 from styluscam.parts.arrays import PartArrays
 from styluscam.parts.part import Part
 from styluscam.programs.job import MAIN_CHANNEL
@@ -32,20 +33,16 @@ if TYPE_CHECKING:
     from matplotlib.colors import Colormap
     from matplotlib.figure import Figure
 
-SIZE, DPI = (1200, 800), 100
-FINER = 2
-"""Pixels are computed at this many times the size and averaged: smooth edges."""
-STEEL, BRASS = (0.80, 0.83, 0.87), (0.93, 0.76, 0.42)
+MATERIALS = ((0.93, 0.76, 0.42), (0.80, 0.83, 0.87), (0.74, 0.56, 0.38), (0.36, 0.70, 0.63))
+"""Of a tool, a part or sheet, a die, a tool from below: brass, steel, wood, verdigris; by the numbers of faces."""
 PASTELS = (
     (0.96, 0.80, 0.66), (0.70, 0.83, 0.93), (0.78, 0.90, 0.70), (0.93, 0.75, 0.80), (0.84, 0.78, 0.93),
     (0.97, 0.91, 0.66), (0.68, 0.89, 0.86), (0.90, 0.83, 0.74),
 )  # fmt: skip
 """Neighbours in the numbering differ."""
-INK, SOFT = "#1f2933", "#7b8794"
+NO_FACE = -9
 LIGHT = np.array([-0.45, 0.55, 0.70])
 """Towards the lamp: right, up and towards the eye."""
-PNG: Any = {"format": "png", "dpi": DPI, "metadata": {"Software": None}}
-"""How pictures are saved."""
 MOVES = 60_000
 """Of a path on one picture, about: more are no finer than its pixels."""
 MARGIN = 0.03
@@ -54,45 +51,6 @@ LABEL = 40
 """Pixels that the numbers of a ruler need beside one another."""
 LABELS = 60
 """Names on one picture at most: the largest faces get theirs."""
-
-
-@dataclass(frozen=True, eq=False)
-class Solid:
-    """What is drawn: triangles with normals at their corners (T, 3, 3) and a face number each."""
-
-    vertices: FloatArray
-    triangles: IntArray
-    normals: FloatArray
-    faces: IntArray
-
-    @classmethod
-    def of(cls, arrays: PartArrays, frame: FloatArray | None = None) -> Solid:
-        """A part, moved by the rows (3, 4) of ``frame``."""
-        if frame is None:
-            return cls(arrays.vertices, arrays.triangles, arrays.normals, arrays.face_ids)
-        turn = frame[:, :3]
-        return cls(arrays.vertices @ turn.T + frame[:, 3], arrays.triangles, arrays.normals @ turn.T, arrays.face_ids)
-
-    @classmethod
-    def none(cls) -> Solid:
-        """Nothing, to which a tool can be added."""
-        none = np.zeros((0, 3), dtype=np.int64)
-        return cls(np.zeros((0, 3)), none, np.zeros((0, 3, 3)), none[:, 0])
-
-    def with_tool(self, tool: Tool, tip: FloatArray, top: float) -> Solid:
-        """The same with a tool standing at ``tip`` (3,), its shank ending at the height ``top``; it is face 0."""
-        vertices, triangles, normals = _revolved(tool, max(top - float(tip[2]), 2.0 * tool.diameter))
-        return Solid(
-            np.concatenate([self.vertices, vertices + tip]),
-            np.concatenate([self.triangles, triangles + len(self.vertices)]),
-            np.concatenate([self.normals, normals]),
-            np.concatenate([self.faces, np.zeros(len(triangles), dtype=np.int64)]),
-        )
-
-    @property
-    def box(self) -> FloatArray:
-        """Lower and upper corner, (2, 3)."""
-        return np.array([self.vertices.min(axis=0), self.vertices.max(axis=0)])
 
 
 def part_picture(part: Part | PartArrays, path: str | Path) -> None:
@@ -109,26 +67,26 @@ def part_picture(part: Part | PartArrays, path: str | Path) -> None:
     scale = min(view.scale for view in frames)
     frames = [View(v.azimuth_deg, v.elevation_deg, v.width, v.height, scale, v.middle) for v in frames]
     rasters = [rasterise(view.finer(FINER), solid.vertices, solid.triangles) for view in frames]
-    names = {face.id: face.name for face in arrays.faces}
+    labels = {face.id: face.name for face in arrays.faces}
     shown = _shares(rasters, solid.faces)
 
-    figure = _figure()
+    figure = new_figure()
     for column, (view, raster) in enumerate(zip(frames, rasters, strict=True)):
-        axes = _pane(figure, (column * 600, 60, 600, 660))
+        axes = pane(figure, (column * 600, 60, 600, 660))
         axes.imshow(_shaded(view, raster, solid, by_face=True), extent=(0, view.width, view.height, 0))
         _triad(axes, view)
         numbers = [face for face, best in shown.items() if best == column]
-        _name_faces(axes, raster, solid.faces, {face: names.get(face, f"Face{face}") for face in numbers})
+        _name_faces(axes, raster, solid.faces, {face: labels.get(face, f"Face{face}") for face in numbers})
         axes.text(300, 22, ("from above", "from below")[column], ha="center", va="center", color=SOFT, fontsize=11)
     low, high = solid.box
     size = " x ".join(f"{b - a:.4g}" for a, b in zip(low, high, strict=True))
     figure.text(0.5, 0.955, Path(arrays.source).name, ha="center", va="center", color=INK, fontsize=16, weight="bold")
-    figure.text(0.5, 0.915, f"{size} mm, {len(names)} faces", ha="center", va="center", color=SOFT, fontsize=12)
-    unseen = [name for face, name in names.items() if face not in shown]
+    figure.text(0.5, 0.915, f"{size} mm, {len(labels)} faces", ha="center", va="center", color=SOFT, fontsize=12)
+    unseen = [name for face, name in labels.items() if face not in shown]
     if unseen:
         listed = ", ".join(unseen[:12]) + (f" and {len(unseen) - 12} more" if len(unseen) > 12 else "")
         figure.text(0.5, 0.03, f"not seen from here: {listed}", ha="center", va="center", color=SOFT, fontsize=10)
-    _save(figure, Path(path))
+    save(figure, Path(path))
 
 
 def program_picture(
@@ -139,17 +97,20 @@ def program_picture(
     tool: Tool | None = None,
     *,
     title: str = "",
+    around: Around | None = None,
 ) -> None:
     """Draws a part and the path of a tool's tip over it, coloured by Z; PNG, 1200 x 800.
 
     ``frame`` holds the rows (3, 4) from the part's coordinates to the program's. What the part hides of the path
     is left out; rapids are thin. ``tool`` is drawn where it stands halfway. ``title`` goes before the program's own.
+    With a sheet ``around`` it, the picture shows that instead of the part, formed and flat, with what holds it, the die and
+    the tool on its other side, and a section through all of them.
 
     Raises:
         StylusError: matplotlib is missing, or the file cannot be written.
         GeometryError: the part is nothing but an engine's mesh; without a part, a program without moves.
     """
-    _save(_program_figure(part, program, frame, tool, title), Path(path))
+    save(_program_figure(part, program, frame, tool, title=title, around=around), Path(path))
 
 
 def program_png(
@@ -157,17 +118,27 @@ def program_png(
     program: Program,
     frame: npt.ArrayLike | None = None,
     tool: Tool | None = None,
+    *,
     title: str = "",
+    around: Around | None = None,
 ) -> bytes:
     """As :func:`program_picture`, the file's bytes."""
     data = io.BytesIO()
-    _program_figure(part, program, frame, tool, title).savefig(data, **PNG)
+    _program_figure(part, program, frame, tool, title=title, around=around).savefig(data, **PNG)
     return data.getvalue()
 
 
 def _program_figure(
-    part: Part | PartArrays | None, program: Program, frame: npt.ArrayLike | None, tool: Tool | None, title: str
+    part: Part | PartArrays | None,
+    program: Program,
+    frame: npt.ArrayLike | None,
+    tool: Tool | None,
+    *,
+    title: str,
+    around: Around | None,
 ) -> Figure:
+    if around is not None and around.shapes:
+        return _sheet_figure(program, tool, title, around)
     solid = Solid.none()
     if part is not None:
         solid = Solid.of(arrays_of(part), None if frame is None else np.asarray(frame, dtype=np.float64))
@@ -175,11 +146,11 @@ def _program_figure(
     box, tip = _path_box(program) if part is None else solid.box, _halfway(program, view)
     view = view.framed(_corners(box), 62.0)
     if tool is not None and tip is not None:
-        solid = solid.with_tool(tool, tip, box[1, 2] + 0.2 * float(np.linalg.norm(box[1] - box[0])))
+        solid += Solid.of_tool(tool, tip, _tool_height(tool, tip, box))
     raster = rasterise(view.finer(FINER), solid.vertices, solid.triangles)
 
-    figure = _figure()
-    axes = _pane(figure, (0, 0, view.width, view.height))
+    figure = new_figure()
+    axes = pane(figure, (0, 0, view.width, view.height))
     if len(solid.triangles):
         axes.imshow(_shaded(view, raster, solid, by_face=False), extent=(0, view.width, view.height, 0))
     _rulers(axes, view, box)
@@ -187,6 +158,48 @@ def _program_figure(
     _titles(figure, program, title)
     if drawn is not None:
         _scale(figure, drawn)
+    return figure
+
+
+def _tool_height(tool: Tool, tip: FloatArray, box: FloatArray) -> float:
+    """How high a tool is drawn that has no length, mm."""
+    return max(float(box[1, 2] + 0.2 * np.linalg.norm(box[1] - box[0]) - tip[2]), 2.0 * tool.diameter)
+
+
+def _sheet_figure(program: Program, tool: Tool | None, title: str, around: Around) -> Figure:
+    """Above the sheet as one looks at it, below the section through it."""
+    box = around.box
+    tip, other = moment(program, float(box[:, 1].mean()), around.opposite)
+    opaque = [shape for shape in around.shapes if shape.look.opacity == 1.0]
+    through = [shape for shape in around.shapes if shape.look.opacity < 1.0]
+    solid = Solid.none()
+    for shape in opaque:
+        solid += Solid.of_shape(shape, DIE if shape.key == "die" else 1)
+    view = View(-62.0, 54.0, SIZE[0] - 120, SIZE[1] - 80 - SECTION)
+    view = view.framed(np.concatenate([shape.vertices for shape in around.shapes]), 56.0)
+    if tool is not None and np.isfinite(tip).all():
+        solid += Solid.of_tool(tool, tip, _tool_height(tool, tip, box))
+    if around.opposite is not None and np.isfinite(other).all():
+        below = around.opposite.tool
+        solid += Solid.of_tool(below, other, float(np.linalg.norm(box[1] - box[0])) / 3.0, down=True)
+    raster = rasterise(view.finer(FINER), solid.vertices, solid.triangles)
+
+    figure = new_figure()
+    axes = pane(figure, (0, SECTION, view.width, view.height))
+    extent = (0, view.width, view.height, 0)
+    axes.imshow(_shaded(view, raster, solid, by_face=False), extent=extent)
+    for shape in opaque:
+        edges(axes, view, raster, shape, box)
+    for shape in through:
+        axes.imshow(tinted(view, raster, shape, box), extent=extent)
+        edges(axes, view, raster, shape, box)
+    _rulers(axes, view, around.whole)
+    drawn = _path(axes, view, raster, program, box)
+    section_pane(figure, around, tool, (tip, other))
+    names(figure, around, tool)
+    _titles(figure, program, title)
+    if drawn is not None:
+        _scale(figure, drawn, bottom=0.44)
     return figure
 
 
@@ -200,7 +213,8 @@ def plan_picture(plan: Plan, path: str | Path, channel: str = MAIN_CHANNEL) -> N
     program = plan.programs[channel]
     tools = plan.job.tools()
     tool = tools[program.tools[0].name] if program.tools else None
-    program_picture(plan.job.part(), program, path, plan.settings[channel].scene.frame, tool)
+    frame = plan.settings[channel].scene.frame
+    program_picture(plan.job.part(), program, path, frame, tool, around=around_plan(plan, channel))
 
 
 def arrays_of(part: Part | PartArrays) -> PartArrays:
@@ -216,35 +230,6 @@ def arrays_of(part: Part | PartArrays) -> PartArrays:
     return arrays
 
 
-# --- the canvas ----------------------------------------------------------------------------------------------------
-
-
-def _figure() -> Figure:
-    require("plot", "a picture")
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(SIZE[0] / DPI, SIZE[1] / DPI), dpi=DPI, facecolor="white")
-    FigureCanvasAgg(figure)
-    return figure
-
-
-def _pane(figure: Figure, pane: tuple[int, int, int, int]) -> Axes:
-    """Axes whose data are pixels, right and down; ``pane`` is left, bottom, width, height."""
-    left, bottom, width, height = pane
-    axes = figure.add_axes((left / SIZE[0], bottom / SIZE[1], width / SIZE[0], height / SIZE[1]))
-    axes.set(xlim=(0, width), ylim=(height, 0))
-    axes.set_axis_off()
-    axes.set_autoscale_on(False)
-    return axes
-
-
-def _save(figure: Figure, path: Path) -> None:
-    """Writes the PNG to a temporary name and renames it; without the name of the program that made it."""
-    with drawn_whole(path) as name:
-        figure.savefig(name, **PNG)
-
-
 # --- the part ------------------------------------------------------------------------------------------------------
 
 
@@ -256,11 +241,11 @@ def _shaded(view: View, raster: Raster, solid: Solid, by_face: bool) -> npt.NDAr
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
     normals *= np.where(normals[:, 2:] < 0.0, -1.0, 1.0)
     faces = solid.faces[triangle]
-    base = np.array(PASTELS)[faces % len(PASTELS)] if by_face else np.where(faces[:, None] > 0, STEEL, BRASS)
+    base = np.array(PASTELS)[faces % len(PASTELS)] if by_face else np.array(MATERIALS)[np.minimum(faces, 1)]
     image = np.zeros((*hit.shape, 4))
     image[hit, :3] = np.clip(base * _light(normals)[:, None] + _gloss(normals)[:, None], 0.0, 1.0)
     image[hit, 3] = 1.0
-    edge = _borders(np.where(hit, solid.faces[np.where(hit, raster.triangle, 0)], -1))
+    edge = _borders(np.where(hit, solid.faces[np.where(hit, raster.triangle, 0)], NO_FACE))
     image[edge] = np.where(hit[edge][:, None], image[edge] * [0.35, 0.37, 0.40, 1.0], [0.3, 0.33, 0.37, 1.0])
     return _averaged(image)
 
@@ -412,30 +397,6 @@ def _halfway(program: Program, view: View) -> FloatArray | None:
     return np.asarray(same[int(np.argmax(same @ (0.6 * right - towards)))])
 
 
-def _revolved(tool: Tool, height: float) -> tuple[FloatArray, IntArray, FloatArray]:
-    """A tool with its tip at the origin: vertices, triangles, normals at their corners."""
-    slopes = np.linspace(0.0, tool.max_slope, 40)
-    radii, heights = tool.radius_at(slopes), tool.height_at(slopes)
-    slopes = np.concatenate([slopes, [np.pi / 2.0, np.pi / 2.0]])
-    radii = np.concatenate([radii, [tool.diameter / 2.0] * 2])
-    heights = np.concatenate([heights, [heights[-1], max(height, float(heights[-1]))]])
-    turns = np.linspace(0.0, 2.0 * np.pi, 97)[:-1]
-    rings, sides = len(radii), len(turns)
-    circle = np.stack([np.cos(turns), np.sin(turns)], axis=1)
-    flat = np.repeat(heights[:, None], sides, axis=1)[..., None]
-    vertices = np.concatenate([radii[:, None, None] * circle, flat], axis=2).reshape(-1, 3)
-    down = np.repeat(-np.cos(slopes)[:, None], sides, axis=1)[..., None]
-    out = np.concatenate([np.sin(slopes)[:, None, None] * circle, down], axis=2).reshape(-1, 3)
-    i, j = (grid.ravel() for grid in np.meshgrid(np.arange(rings - 1), np.arange(sides), indexing="ij"))
-    k = (j + 1) % sides
-    a, b, c, d = i * sides + j, i * sides + k, (i + 1) * sides + k, (i + 1) * sides + j
-    triangles = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
-    rim = np.arange((rings - 1) * sides, rings * sides)
-    lid = np.stack([np.full(sides, len(vertices)), rim, np.roll(rim, -1)], axis=1)
-    normals = np.concatenate([out[triangles], np.tile([0.0, 0.0, 1.0], (sides, 3, 1))])
-    return np.concatenate([vertices, [[0.0, 0.0, heights[-1]]]]), np.concatenate([triangles, lid]), normals
-
-
 def _corners(box: FloatArray) -> FloatArray:
     return np.array([[box[i, 0], box[j, 1], box[k, 2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
 
@@ -545,9 +506,9 @@ def _heading(figure: Figure, height: float, text: str, size: float, *, color: st
     line.set_fontsize(size * min(1.0, room / max(line.get_window_extent().width, 1.0)))
 
 
-def _scale(figure: Figure, drawn: LineCollection) -> None:
+def _scale(figure: Figure, drawn: LineCollection, bottom: float = 0.16) -> None:
     """What the colours mean."""
-    bar = figure.colorbar(drawn, cax=figure.add_axes((0.915, 0.16, 0.016, 0.62)))
+    bar = figure.colorbar(drawn, cax=figure.add_axes((0.915, bottom, 0.016, 0.78 - bottom)))
     bar.outline.set_visible(False)
     bar.ax.tick_params(labelsize=10, colors=INK, length=3)
     bar.ax.set_title("Z of the tip\nmm", fontsize=11, color=INK, pad=10)

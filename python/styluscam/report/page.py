@@ -8,6 +8,7 @@ import json
 import numpy as np
 
 from styluscam.drawing.decimation import thinned
+from styluscam.drawing.shapes import OTHER_TOOL, TOOL, Look, Shape
 from styluscam.drawing.toolplot import tool_svg
 from styluscam.errors import VerifyError
 from styluscam.programs.contents import ToolRecord
@@ -23,7 +24,7 @@ from styluscam.tools.outline import silhouette
 from styluscam.tools.tool import Tool
 from styluscam.types import Document, FloatArray, Progress
 
-SCRIPTS = ("data", "colours", "stage", "part", "path", "tool", "fixture", "player", "findings", "main")
+SCRIPTS = ("data", "colours", "stage", "part", "path", "tool", "shapes", "layers", "player", "findings", "main")
 """In the order in which they build upon each other."""
 
 UPRIGHT = 1e-9
@@ -34,6 +35,12 @@ SEGMENTS = 200_000
 
 LENGTH_STEP, UNIT_STEP = 1e-4, 1e-3
 """To which the part's points (mm) and its normals are rounded for the drawing."""
+
+SHAPE_STEP, NORMAL_STEP = 1e-3, 1e-2
+"""The same for blank, formed sheet, holders and die."""
+
+STANDING_STEP = 0.02
+"""mm: the same for the sheet while it is formed."""
 
 VALUE_STEPS = {"mm": 1e-5, "°": 1e-2}
 """To which the numbers of heat maps are rounded."""
@@ -67,6 +74,7 @@ def report_page(subject: Subject, progress: Progress | None = None) -> str:
             measured=measured,
             faces=tables.faces(subject),
             maps=shown.maps if shown is not None else (),
+            layers=_layers(subject),
             plots=_plots(subject, shown),
             tools=_tool_pictures(subject),
             still=_still(subject),
@@ -147,7 +155,9 @@ def _data(subject: Subject, shown: Shown | None) -> Document:
         "part": None if shown is None else _part(shown),
         "path": _path(subject),
         "tools": [_tool(record, tool) for record, tool in subject.tools],
-        "fixture": [{"opening": opening, "heights": heights} for _, opening, heights in subject.fixture],
+        "shapes": [_shape(shape) for shape in subject.around.shapes],
+        "standing": _standing(subject),
+        "opposite": _opposite(subject),
         "operations": [[one.id or one.kind, one.tool] for one in subject.program.operations],
         "findings": [{key: finding[key] for key in ("position", "time", "kind")} for finding in subject.findings],
         "colours": {"map": _colour_map("viridis"), "path": _colour_map("plasma")},
@@ -193,6 +203,57 @@ def _path(subject: Subject) -> Document:
         "sag": SAG if len(moves) > known else 0.0,
         "count": len(subject.program.moves),
         "unknown": len(subject.program.moves) - known,
+    }
+
+
+def _layers(subject: Subject) -> list[tuple[str, str, str]]:
+    """What can be hidden around the path of a sheet: key, name and colour."""
+    around = subject.around
+    if not around.shapes:
+        return []
+    rows: list[tuple[str, str, Look]] = [(shape.key, shape.words, shape.look) for shape in around.shapes]
+    rows.append(("tool", "tool", TOOL))
+    if around.opposite is not None:
+        rows.append(("opposite", f"tool on the other side: {around.opposite.name}", OTHER_TOOL))
+    return [(key, words, "#" + bytes(look.colour).hex()) for key, words, look in rows]
+
+
+def _shape(shape: Shape) -> Document:
+    return {
+        "key": shape.key,
+        "colour": shape.look.colour,
+        "opacity": shape.look.opacity,
+        "vertices": packed(shape.vertices, SHAPE_STEP),
+        "normals": packed(shape.normals, NORMAL_STEP),
+        "triangles": packed(shape.triangles),
+        "edges": packed(shape.edges),
+    }
+
+
+def _standing(subject: Subject) -> Document | None:
+    """The formed sheet while it is formed: above its formed height, one column for each vertex; and how far a clamp went down."""
+    found = subject.standing
+    if found is None or subject.job is None:
+        return None
+    moments, heights = found
+    clamp = (subject.job.document["setup"].get("fixture") or {}).get("clamp") or {}
+    flat = float(subject.around.box[1, 2])
+    lowest = np.minimum(np.minimum.accumulate(subject.positions[:, 2])[moments] - flat, 0.0)
+    frame = lowest if clamp.get("follows") else np.zeros(len(moments))
+    return {"at": packed(moments), "above": packed(heights, STANDING_STEP), "clamp": packed(frame, STANDING_STEP)}
+
+
+def _opposite(subject: Subject) -> Document | None:
+    """The tool on the other side of the sheet: its meridian, and its tip at every point of the path."""
+    opposite = subject.around.opposite
+    if opposite is None:
+        return None
+    profile = _meridian(opposite.tool).round(5).tolist()
+    return {
+        "name": opposite.name,
+        "profile": profile,
+        "colour": OTHER_TOOL.colour,
+        "tips": packed(subject.opposite_tips, LENGTH_STEP),
     }
 
 

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from styluscam import _engine
 from styluscam.drawing.picture import arrays_of, program_picture, program_png
+from styluscam.drawing.shapes import Around, Opposite, Travel, opposite_of, shapes_of, standing
 from styluscam.judging.verification import Report
 from styluscam.parts.part import Part
 from styluscam.programs.contents import ToolRecord
@@ -24,6 +25,9 @@ from styluscam.types import Document, FloatArray, IntArray
 
 RAPIDS, UPRIGHT, CUT = 0, 1, 2
 """What moves are for, as a page colours them: rapids; straight down or up at a feed; any other at a feed."""
+
+MOMENTS = 48
+"""At which the sheet is looked at while it is formed."""
 
 TRACED = "RS-274NGC, traced"
 """The reader of a text that is no machine's."""
@@ -70,9 +74,48 @@ class Subject:
         return None if self.part is None else Surface.of(arrays_of(self.part), self.frame)
 
     @cached_property
-    def fixture(self) -> list[tuple[str, list[list[float]], list[float]]]:
-        """What holds the sheet: name, corners of the opening, heights of the lower and the upper face, mm."""
-        return [] if self.scene is None or self.job is None else self.scene.fixture()
+    def around(self) -> Around:
+        """The sheet of the job, flat and formed, what holds it, the die, and the tool on the other side."""
+        if self.scene is None or self.job is None:
+            return Around()
+        return Around(shapes_of(self.job, self.scene), self._opposite())
+
+    def _opposite(self) -> Opposite | None:
+        """The tool of the text beside which this one was verified."""
+        if self.report is None or self.report.beside is None or self.job is None:
+            return None
+        partner = self.job.engine.partner_of(self.report.channel)
+        if partner is None:
+            return None
+        machine = self.job.machine(partner).engine
+        other = Program(_engine.read_back(self.job.engine, machine, self.report.beside, partner))
+        return opposite_of(self.job, self.report.channel, self.program, other)
+
+    @cached_property
+    def opposite_tips(self) -> FloatArray:
+        """Where the tip of the other side's tool is at each point of the path, (N, 3), mm; (0, 3) where there is none."""
+        if self.around.opposite is None:
+            return np.zeros((0, 3))
+        ends = self.around.opposite.tips(self.owners)
+        starts = self.around.opposite.tips(np.maximum(self.owners - 1, 0))
+        return np.asarray(starts + self._shares[:, None] * (ends - starts))
+
+    @cached_property
+    def standing(self) -> tuple[IntArray, FloatArray] | None:
+        """The sheet as it stands behind points of the path (K,): its vertices above their formed height, (K, V), mm.
+
+        None without a sheet, and for a tool from below.
+        """
+        if not self.around.shapes or self.scene is None or self.job is None or not len(self.positions):
+            return None
+        last = len(self.times) - 1
+        even = np.searchsorted(self.times, np.linspace(0.0, self.times[-1], MOMENTS + 1))
+        moments = np.unique(np.append(even.clip(0, last), last)).astype(np.int64)
+        loaded = self.moves["tool"].astype(np.int64)
+        loaded[loaded >= len(self.tools)] = -1
+        travel = Travel(self.positions, [tool for _, tool in self.tools], loaded)
+        heights = standing(self.job, self.scene, travel, moments)
+        return None if heights is None else (moments, heights)
 
     @cached_property
     def _known(self) -> IntArray:
@@ -100,14 +143,18 @@ class Subject:
         if not len(self.positions):
             return np.zeros(0)
         ends = np.append(0.0, self.program.times(self.machine))
+        times = ends[self.owners] + self._shares * (ends[self.owners + 1] - ends[self.owners])
+        return np.asarray(np.rint(times * 1e6) / 1e6)
+
+    @cached_property
+    def _shares(self) -> FloatArray:
+        """The share of its move that is behind each point, (N,), by length."""
         length_to = np.cumsum(np.linalg.norm(np.diff(self.positions, axis=0, prepend=self.positions[:1]), axis=1))
         last = np.searchsorted(self.owners, self.owners, side="right") - 1
         first = np.searchsorted(self.owners, self.owners) - 1
         begins = np.where(first >= 0, length_to[first], 0.0)
         length = length_to[last] - begins
-        share = np.divide(length_to - begins, length, out=np.ones(len(length_to)), where=length > 0.0)
-        times = ends[self.owners] + share * (ends[self.owners + 1] - ends[self.owners])
-        return np.asarray(np.rint(times * 1e6) / 1e6)
+        return np.asarray(np.divide(length_to - begins, length, out=np.ones(len(length_to)), where=length > 0.0))
 
     @cached_property
     def kinds(self) -> IntArray:
@@ -131,11 +178,15 @@ class Subject:
 
     def draw(self, path: Path) -> None:
         """Writes a picture, PNG."""
-        program_picture(self.part, self.program, path, self.frame, self._first_tool(), title=self._heading())
+        program_picture(
+            self.part, self.program, path, self.frame, self._first_tool(), title=self._heading(), around=self.around
+        )
 
     def png(self) -> bytes:
         """The same picture's bytes."""
-        return program_png(self.part, self.program, self.frame, self._first_tool(), self._heading())
+        return program_png(
+            self.part, self.program, self.frame, self._first_tool(), title=self._heading(), around=self.around
+        )
 
     def _heading(self) -> str:
         """The title, and the verdict where it is one to know before anything else."""

@@ -18,6 +18,7 @@ mod posting;
 mod program;
 mod reading;
 mod scene;
+mod shapes;
 mod shaping;
 mod sheet;
 mod simulation;

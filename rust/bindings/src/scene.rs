@@ -1,11 +1,10 @@
 //! The part as it lies on the machine.
 
+use numpy::{PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
+use styluscam_job::Travel;
 
-use crate::{errors::of_job, job::Job, part::Part, sheet::face_name, walls};
-
-/// Name, corners of the opening, heights of the lower and the upper face.
-type Plate = (&'static str, Vec<[f64; 2]>, [f64; 2]);
+use crate::{arrays, errors::of_job, job::Job, part::Part, shapes, sheet::face_name, tool::Tool, walls};
 
 /// The part as it lies on the machine of a channel.
 #[pyclass(frozen, module = "styluscam._engine")]
@@ -36,10 +35,34 @@ impl Scene {
         (low.into(), high.into())
     }
 
-    /// What holds the sheet: name, corners of the opening, heights of the lower and the upper face; work coordinates.
-    fn fixture(&self) -> Vec<Plate> {
-        let plates = styluscam_job::plates(&self.scene);
-        plates.into_iter().map(|plate| (plate.holder.name(), plate.opening, plate.heights)).collect()
+    /// Blank, formed sheet, what holds it and the die, for drawing: closed bodies whose points are at most `tolerance` mm off the
+    /// part's; see `styluscam.drawing.shapes`. Empty without a sheet.
+    fn shapes<'py>(&self, py: Python<'py>, job: &Job, tolerance: f64) -> PyResult<Vec<shapes::Columns<'py>>> {
+        let found = py.detach(|| styluscam_job::shapes(&job.document, &self.scene, tolerance));
+        found.iter().map(|shape| shapes::columns(py, shape)).collect()
+    }
+
+    /// How far every vertex of the formed sheet of `shapes` stands above its formed height, (K, V), mm, behind each of the K `moments`
+    /// of a path through `tips` (N, 3); `tools` holds for each of them the number of one of the `cutters`, others press nothing.
+    /// None without a sheet, and for a tool from below.
+    #[pyo3(signature = (job, tolerance, tips, tools, cutters, moments))]
+    #[allow(clippy::too_many_arguments, clippy::needless_pass_by_value)] // PyO3 hands arrays by value
+    fn standing<'py>(
+        &self,
+        py: Python<'py>,
+        job: &Job,
+        tolerance: f64,
+        tips: PyReadonlyArray2<'py, f64>,
+        tools: PyReadonlyArray1<'py, i64>,
+        cutters: Vec<PyRef<'py, Tool>>,
+        moments: Vec<usize>,
+    ) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
+        let (tips, tools) = (arrays::rows::<f64, 3>(&tips, "tips")?, tools.as_array().to_vec());
+        let cutters: Vec<_> = cutters.iter().map(|tool| tool.tool.cutter()).collect();
+        let tools: Vec<_> = tools.iter().map(|tool| usize::try_from(*tool).ok().and_then(|i| cutters.get(i))).collect();
+        let travel = Travel { tips: &tips, tools: &tools, moments: &moments };
+        let found = py.detach(|| styluscam_job::standing(&job.document, &self.scene, tolerance, &travel));
+        found.map(|heights| Ok(PyArray2::from_vec2(py, &heights)?)).transpose()
     }
 
     /// Radius (mm) up to which a tool from above fits nearly all concave regions; None where nothing bounds it.

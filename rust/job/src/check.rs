@@ -7,8 +7,9 @@ use crate::fixture::FixtureSection;
 use crate::process::Opposite;
 use crate::resolve::check_channels;
 use crate::{
-    operations::Fit, spindle, Direction, JobDocument, JobError, LengthUnit, MachineSection, OperationKeys,
-    OperationSection, Process, ProcessSection, Selection, SheetSection, Zero,
+    operations::{Fit, LinkHeight},
+    spindle, Direction, JobDocument, JobError, LengthUnit, MachineSection, OperationKeys, OperationSection, Process,
+    ProcessSection, Selection, SheetSection, Zero,
 };
 
 /// Checks combinations of keys.
@@ -282,6 +283,7 @@ fn operation(job: &JobDocument, path: &str, section: &OperationSection) -> Resul
     direction(path, common)?;
     fit(job, path, common)?;
     turning(&job.process.process, path, section)?;
+    links(job, path, common)?;
     spindle::check(section, path)?;
     section.kind().check(common, path)
 }
@@ -327,6 +329,17 @@ fn fit(job: &JobDocument, path: &str, common: &OperationKeys) -> Result<(), JobE
     let kind = job.process.process.name();
     let message = format!("fit = \"arcs\": with process.kind = {kind:?} the tool below follows straight moves");
     Err(JobError::document("conflict", format!("{path}.fit"), message, "write fit = \"lines\""))
+}
+
+/// Two tools that keep pace over clearance have no low links.
+fn links(job: &JobDocument, path: &str, common: &OperationKeys) -> Result<(), JobError> {
+    let follows = job.channels().iter().any(|channel| job.opposite(channel).is_some());
+    if common.links == LinkHeight::Clearance || !follows {
+        return Ok(());
+    }
+    let kind = job.process.process.name();
+    let message = format!("links = \"low\": with process.kind = {kind:?} both tools cross at clearance");
+    Err(JobError::document("conflict", format!("{path}.links"), message, "write links = \"clearance\""))
 }
 
 /// The error of an operation at `path` whose tool the job does not have.

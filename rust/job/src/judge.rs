@@ -7,7 +7,7 @@ use std::ops::Range;
 use serde::Serialize;
 use styluscam_geometry::{ModelFace, Sheet, SheetLaw, Tool, Vector};
 use styluscam_motion::{Program, ToolRecord, Watch};
-use styluscam_post::machine::ToolChange;
+use styluscam_post::machine::{Rapids, ToolChange};
 use styluscam_post::{read, Machine};
 use styluscam_verify::{
     turned, Axes, Contact, Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Left, Limits, Need, Obstacle,
@@ -15,6 +15,7 @@ use styluscam_verify::{
 };
 
 use crate::limits::{GOUGE, NO_ROOM};
+use crate::operations::{LeadForm, LinkHeight};
 use crate::resolve::{faces_of, heights_of, passes_of, tools_in_order};
 use crate::{
     clamp, forming, materials, model, plates, portion, spindle, Coolant, JobDocument, JobError, OperationSection,
@@ -377,6 +378,8 @@ fn expected(
             tool: number,
             cut: section.kind().cut_feed(common),
             plunge: common.feeds.plunge,
+            leads: (common.lead != LeadForm::None).then(|| [common.feeds.approaching(), common.feeds.leaving()]),
+            low_links: (common.links == LinkHeight::Low).then_some(common.link_margin),
             keeps_pace: scene.opposite.is_some(),
             spindle: spindle::turns(job, scene, tool, section, index)?,
             flood: common.coolant == Coolant::Flood,
@@ -464,6 +467,7 @@ fn limits(job: &JobDocument, scene: &Scene, against: &Against<'_>, machine: &Mac
         retract: scene.retract - 0.5 * machine.resolution_mm(),
         feed_rounding: machine.feed_rounding(fastest(&against.expected)),
         reach: reach(machine),
+        straight_rapids: machine.motion.rapids == Rapids::Straight,
         forming: job.setup.sheet.filter(|_| is_main).map(|sheet| forming_of(job, &sheet, scene)),
         bridged,
         unreached,

@@ -3,7 +3,7 @@
 use styluscam_geometry::{Bvh, Mesh, ModelFace, Sheet, Vector};
 use styluscam_verify::{Obstacle, ObstacleKind};
 
-use crate::{JobError, Opening, Scene};
+use crate::{FixtureSection, JobError, Opening, Scene};
 
 /// Sides of a round opening; the polygon lies in the circle.
 const SIDES: usize = 360;
@@ -34,7 +34,7 @@ impl Holder {
 
 /// A piece of the fixture in work coordinates: all of a plate but its opening.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Plate {
+pub(crate) struct Plate {
     /// What it is for.
     pub holder: Holder,
     /// Corners of the opening, counterclockwise, mm.
@@ -45,16 +45,20 @@ pub struct Plate {
 
 /// The clamp frame on the sheet, whose top is the scene's, and the backing plate under it, as far as there are any. For a tool
 /// from below the backing plate is what it passes through.
-#[must_use]
-pub fn plates(scene: &Scene) -> Vec<Plate> {
+fn plates(scene: &Scene) -> Vec<Plate> {
     let (Some(fixture), Some(sheet)) = (scene.fixture, scene.sheet) else { return Vec::new() };
-    let [x, y] = middle(scene);
+    held(&fixture, scene.mesh.bounds(), scene.flat, sheet.thickness)
+}
+
+/// The same around a part with these `bounds`, for a sheet whose flat upper side is at the height `flat`, mm.
+pub(crate) fn held(fixture: &FixtureSection, bounds: (Vector, Vector), flat: f64, thickness: f64) -> Vec<Plate> {
+    let [x, y] = middle(fixture.center, bounds);
     let moved = |opening: Opening| corners(opening).into_iter().map(|[cx, cy]| [x + cx, y + cy]).collect();
-    let under = scene.flat - sheet.thickness;
+    let under = flat - thickness;
     let clamp = fixture.clamp.map(|clamp| Plate {
         holder: Holder::Clamp,
         opening: moved(clamp.opening),
-        heights: [scene.flat, scene.flat + clamp.height],
+        heights: [flat, flat + clamp.height],
     });
     let backing = fixture.backing.map(|backing| Plate {
         holder: Holder::Backing,
@@ -71,7 +75,7 @@ pub(crate) fn beyond_clamp(scene: &Scene, points: impl Iterator<Item = Vector>) 
 
 /// How far some points lie outside an opening of the scene's fixture in plan at most, mm, negative inside; none of no points.
 pub(crate) fn beyond(scene: &Scene, opening: Opening, points: impl Iterator<Item = Vector>) -> Option<f64> {
-    let [x, y] = middle(scene);
+    let [x, y] = middle(scene.fixture.and_then(|fixture| fixture.center), scene.mesh.bounds());
     let beyond = |point: Vector| {
         let [dx, dy] = [point.x - x, point.y - y];
         match opening {
@@ -82,10 +86,8 @@ pub(crate) fn beyond(scene: &Scene, opening: Opening, points: impl Iterator<Item
     points.map(beyond).reduce(f64::max)
 }
 
-/// Middle of the openings in plan, mm.
-fn middle(scene: &Scene) -> [f64; 2] {
-    let (low, high) = scene.mesh.bounds();
-    let center = scene.fixture.and_then(|fixture| fixture.center);
+/// Middle of the openings in plan, mm: as stated, else that of the part's box.
+fn middle(center: Option<[f64; 2]>, (low, high): (Vector, Vector)) -> [f64; 2] {
     center.unwrap_or([0.5 * (low.x + high.x), 0.5 * (low.y + high.y)])
 }
 

@@ -8,23 +8,27 @@ mod error;
 mod fitting;
 pub mod forming;
 mod lattice;
+mod leads;
 mod linking;
 mod nearest;
 pub mod offset;
 mod pass;
 mod seam;
 mod segment;
+mod standing;
 mod surface;
 
 pub use arcs::{Arcs, Fitted};
 pub use error::PlanError;
 pub use lattice::{Cells, Lattice};
+pub use leads::{LeadRule, LeadShape, Leading};
 pub use linking::{
-    join, link, link_with_arcs, AlongSurface, AtDepth, Entered, Heights, LinkRules, Links, OverClearance, Position,
-    Rates, Run,
+    join, link, link_with_arcs, AlongSurface, AtDepth, Entered, Heights, Lead, LinkRules, Links, OverClearance,
+    Position, Rates, Run,
 };
 pub use nearest::ordered;
 pub use pass::{Pass, PathPoint, Sense};
 pub use seam::Seam;
 pub use segment::{Curve, Pace, Segment};
+pub use standing::{Low, Standing};
 pub use surface::Surface;

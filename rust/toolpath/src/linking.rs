@@ -1,7 +1,8 @@
 //! From passes to moves: their order, their direction, and how the tool gets from one to the next.
 //!
 //! The strategy decides how: it calls [`link`] or [`join`] with rules of its own. Where they give no path, the tool goes
-//! up, across at clearance height, and down again at plunge feed.
+//! up, across at clearance height or as low as the rules have it, and down again at plunge feed. Derived in
+//! docs/concepts/linking.md.
 
 use rayon::prelude::*;
 use styluscam_geometry::Vector;
@@ -9,10 +10,10 @@ use styluscam_motion::{Cancelled, Move, Role, Watch};
 
 use crate::{fitting, fitting::Course, Arcs, Fitted, Pass, PathPoint, Segment, Surface};
 
-/// Heights of links over clearance, mm.
+/// Heights of rapids from run to run, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Heights {
-    /// Rapids cross the part here.
+    /// Rapids cross here.
     pub clearance: f64,
     /// Rapids come down to here; from here on at plunge feed.
     pub retract: f64,
@@ -58,9 +59,34 @@ impl Position for PathPoint {
 
 /// A strategy's rules for the gaps between its runs.
 pub trait LinkRules<P>: Sync {
-    /// The path below clearance from the end of one run to the start of the next, which is its last segment's end; none
-    /// where the tool has to go over clearance.
+    /// The path at a feed from the end of one run to the start of the next, which is its last segment's end; none where the tool
+    /// has to leave the material.
     fn path(&self, from: &P, to: &P) -> Option<Vec<Segment>>;
+
+    /// Heights of the rapids to a run, by its number, where there is no such path; `from` is where the run before ends, none
+    /// before the first. `ceiling` is as high as they go.
+    fn heights(&self, _number: usize, _from: Option<Vector>, _to: Vector, ceiling: Heights) -> Heights {
+        ceiling
+    }
+
+    /// The lead into a run, by its number, where the tool comes to it through the air; none where it comes straight down.
+    fn lead_in(&self, _number: usize, _run: &Run<P>) -> Option<Lead> {
+        None
+    }
+
+    /// The lead out of a run, where the tool leaves it into the air; none where it goes straight up.
+    fn lead_out(&self, _number: usize, _run: &Run<P>) -> Option<Lead> {
+        None
+    }
+}
+
+/// A path into a run, or out of one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lead {
+    /// Its end away from the run, mm.
+    pub far: Vector,
+    /// From there to the run, or from the run to there.
+    pub segments: Vec<Segment>,
 }
 
 /// Every link goes over clearance.
@@ -250,46 +276,54 @@ fn joined<P: Position + Sync>(
     let gap = |number: usize| {
         watch.advance(1)?;
         if let Some(Some(path)) = known.get(number) {
-            return Ok(Some(path.clone()));
+            return Ok(path.clone());
         }
-        let before = number.checked_sub(1).map(|before| &runs[before]);
-        Ok(before.and_then(|before| rules.path(&before.to, &runs[number].from)))
+        let run = &runs[number];
+        let before = number.checked_sub(1).map(|before| (before, &runs[before]));
+        let path = before.and_then(|(_, before)| rules.path(&before.to, &run.from));
+        Ok(path.unwrap_or_else(|| {
+            let (out, into) = (before.map(|(number, run)| out_of(number, run, rules)), rules.lead_in(number, run));
+            let (from, to) = (out.as_ref().map(|out| out.far), into.as_ref().map_or(run.from.tip(), |into| into.far));
+            let heights = rules.heights(number, from, to, links.heights);
+            let leaving = out.into_iter().flat_map(|out| out.segments);
+            let through_air = from.map(|from| up(from, heights.clearance));
+            let through_air = through_air.into_iter().chain(down(to, heights, links.rates.plunge));
+            leaving.chain(through_air).chain(into.into_iter().flat_map(|into| into.segments)).collect()
+        }))
     };
-    let paths: Result<Vec<Option<Vec<Segment>>>, Cancelled> = (0..runs.len()).into_par_iter().map(gap).collect();
+    let paths: Result<Vec<Vec<Segment>>, Cancelled> = (0..runs.len()).into_par_iter().map(gap).collect();
     let mut joined = Vec::new();
-    let mut last: Option<Vector> = None;
     for (run, path) in runs.iter().zip(paths?) {
-        match path {
-            Some(path) => joined.extend(path),
-            None => {
-                joined.extend(last.map(|last| up(last, links)));
-                joined.extend(down(run.from.tip(), links));
-            }
-        }
+        joined.extend(path);
         joined.extend_from_slice(&run.segments);
-        last = Some(run.to.tip());
     }
-    joined.extend(last.map(|last| up(last, links)));
+    if let Some(last) = runs.last() {
+        let out = out_of(runs.len() - 1, last, rules);
+        joined.extend(out.segments);
+        joined.push(up(out.far, links.heights.clearance));
+    }
     Ok(joined)
+}
+
+/// The lead out of a run; of no length where there is none.
+fn out_of<P: Position>(number: usize, run: &Run<P>, rules: &impl LinkRules<P>) -> Lead {
+    rules.lead_out(number, run).unwrap_or_else(|| Lead { far: run.to.tip(), segments: Vec::new() })
 }
 
 fn lines(points: &[PathPoint], feed: f64) -> Vec<Segment> {
     points.iter().map(|point| Segment::line(point.tip, feed)).collect()
 }
 
-/// Straight up to clearance.
-fn up(from: Vector, links: &Links) -> Segment {
-    Segment::rapid(at_height(from, links.heights.clearance))
+/// Straight up to a height.
+fn up(from: Vector, height: f64) -> Segment {
+    Segment::rapid(at_height(from, height))
 }
 
-/// From clearance down to a point: at rapid to the retract height, then at plunge feed.
-fn down(to: Vector, links: &Links) -> [Segment; 3] {
-    let Heights { clearance, retract } = links.heights;
-    [
-        Segment::rapid(at_height(to, clearance)),
-        Segment::rapid(at_height(to, retract)),
-        Segment::line(to, links.rates.plunge),
-    ]
+/// From where rapids cross down to a point: at rapid to the retract height, then at plunge feed.
+fn down(to: Vector, Heights { clearance, retract }: Heights, plunge: f64) -> impl Iterator<Item = Segment> {
+    let come_down = (retract < clearance).then(|| Segment::rapid(at_height(to, retract)));
+    let across = Segment::rapid(at_height(to, clearance));
+    std::iter::once(across).chain(come_down).chain([Segment::line(to, plunge)])
 }
 
 /// The envelope between two passes.

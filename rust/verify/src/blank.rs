@@ -139,6 +139,28 @@ impl Blank {
         self.hanging[at].min(self.pressed_at(position))
     }
 
+    /// How high it stands where it is most in the way of a tool, its tip at `tip`, and by how much it is, mm; none where it is
+    /// nowhere.
+    pub fn in_the_way(&mut self, [x, y, z]: [f64; 3], tool: &Cutter) -> Option<(f64, f64)> {
+        let reach = (tool.max_radius() / self.cell).ceil() as i64;
+        let own = self.cell_at([x, y]);
+        let around = (-reach..=reach).flat_map(|di| (-reach..=reach).map(move |dj| [own[0] + di, own[1] + dj]));
+        let mut worst: Option<(f64, f64)> = None;
+        for cell in around {
+            let middle = self.middle(cell);
+            let radius = if cell == own { 0.0 } else { libm::hypot(middle[0] - x, middle[1] - y) };
+            if radius > tool.max_radius() {
+                continue;
+            }
+            let stands = self.hangs_at(middle);
+            let by = stands - (z + tool.quick_height_at_radius(radius));
+            if by > 0.0 && worst.is_none_or(|(_, most)| by > most) {
+                worst = Some((stands, by));
+            }
+        }
+        worst
+    }
+
     /// Lets it hang: from where it is held, each cell as high as the best path to it.
     fn hang(&mut self) {
         self.is_stale = false;

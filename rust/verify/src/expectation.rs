@@ -18,6 +18,10 @@ pub struct ExpectedOperation {
     pub cut: f64,
     /// Feed straight down, mm/min.
     pub plunge: f64,
+    /// Feeds along leads into a pass and out of one, mm/min, where it has leads of its own.
+    pub leads: Option<[f64; 2]>,
+    /// Air that rapids below clearance keep above what stands, mm; none where all cross at clearance.
+    pub low_links: Option<f64>,
     /// Whether its feeds are instead those with which it keeps pace with another program: they are checked with that one.
     pub keeps_pace: bool,
     /// Speed and sense of the spindle; it stands when there are none.

@@ -202,6 +202,32 @@ pub(crate) static LOW_RAPID: FaultKind = FaultKind::in_text(
     },
     "retract to the clearance height first",
 );
+pub(crate) static RAPID_NEAR_PART: FaultKind = FaultKind::on_part(
+    FindingKind::LowRapid,
+    |fault| {
+        let (value, limit) = (fault.value(), fault.limit());
+        format!("a rapid below clearance, at Z{value:.3}, is less than {limit:.3} mm above the part")
+    },
+    "raise the link, or retract to the clearance height",
+);
+pub(crate) static RAPID_NEAR_STOCK: FaultKind = FaultKind::on_part(
+    FindingKind::LowRapid,
+    |fault| {
+        let (value, limit) = (fault.value(), fault.limit());
+        format!("a rapid below clearance goes to Z{value:.3}, and stock may stand up to Z{limit:.3}")
+    },
+    "raise the link, or retract to the clearance height",
+);
+pub(crate) static RAPID_NEAR_SHEET: FaultKind = FaultKind::on_part(
+    FindingKind::LowRapid,
+    |fault| {
+        let (value, limit) = (fault.value(), fault.limit());
+        format!(
+            "a rapid below clearance goes at Z{value:.3}, and the sheet, not formed there yet, stands at Z{limit:.3}"
+        )
+    },
+    "raise the link, or retract to the clearance height",
+);
 pub(crate) static DEEP_RAPID: FaultKind = FaultKind::in_text(
     FindingKind::DeepRapid,
     |fault| format!("a rapid goes down to Z{:.3}, below the retract height {:.3}", fault.value(), fault.limit()),

@@ -10,7 +10,7 @@ use crate::merge::{merge, Merged};
 use crate::report::Report;
 use crate::segments::placed;
 use crate::subject::{Axes, Limits, Subject};
-use crate::{diagnosis, frame, pair, passes, reach, sequence, settings, travel, unreached, walls};
+use crate::{diagnosis, frame, low_links, pair, passes, reach, sequence, settings, travel, unreached, walls};
 
 /// Checks a program read back from posted text against the part.
 ///
@@ -27,8 +27,9 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let mut beyond = Vec::new();
     let assignment = Assignment::new(program, subject);
     if !limits.shape_only {
-        faults.extend(travel::faults(program, &segments, subject, limits));
+        faults.extend(travel::faults(program, &segments, &assignment, subject, limits));
         beyond.extend(reach::faults(&axes, &limits.reach));
+        faults.extend(low_links::faults(&segments, &assignment, subject, limits, watch)?);
         faults.extend(settings::faults(program, &segments, &assignment, limits));
         faults.extend(sequence::faults(program, &segments, &assignment, subject, limits));
         faults.extend(sequence::punches(program, &segments, &assignment, subject, limits, frame.as_ref()));

@@ -47,6 +47,7 @@ mod groups;
 mod holding;
 mod judge;
 mod level_moves;
+mod low_links;
 mod measure;
 mod merge;
 mod pair;

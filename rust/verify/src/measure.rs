@@ -221,7 +221,7 @@ impl<'a> Walk<'a> {
 }
 
 /// The clearance at and below which a position counts as a gouge, mm.
-fn gouge_level(subject: &Subject, limits: &Limits) -> f64 {
+pub(crate) fn gouge_level(subject: &Subject, limits: &Limits) -> f64 {
     subject.deviation_inward - limits.gouge
 }
 
@@ -239,7 +239,7 @@ fn lowest_of(segment: &Segment, body: &Body) -> f64 {
 }
 
 /// The deepest position of a segment, if it is below `below`.
-fn deepest_of(segment: &Segment, below: f64, prober: &Prober) -> Option<Sample> {
+pub(crate) fn deepest_of(segment: &Segment, below: f64, prober: &Prober) -> Option<Sample> {
     match segment.bend {
         Some(bend) => deepest_on_arc(&bend, below, prober),
         None => deepest(stroke_of(segment, prober.body), below, prober),

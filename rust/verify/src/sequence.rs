@@ -11,6 +11,7 @@ use crate::blank::Blank;
 use crate::faults::{self, Fault};
 use crate::frame::Frame;
 use crate::level_moves::{at_cut, level_moves, LOWER};
+use crate::low_links;
 use crate::segments::{Segment, SegmentKind};
 use crate::subject::{Limits, Subject};
 use crate::tolerances::{ROUGH, WIDE};
@@ -44,9 +45,7 @@ pub(crate) fn punches(
     let mut rows = Vec::new();
     let mut operation = None;
     let mut faults = Vec::new();
-    for segment in segments
-        .iter()
-        .filter(|segment| !matches!(segment.kind, SegmentKind::Rapid | SegmentKind::Retract | SegmentKind::Still))
+    for segment in segments.iter().filter(|segment| !matches!(segment.kind, SegmentKind::Retract | SegmentKind::Still))
     {
         let Some(order) = assignment.of(segment.operation).filter(|order| order.expectation.forms) else { continue };
         let Some(tool) = tools.get(order.tool) else { continue };
@@ -56,6 +55,10 @@ pub(crate) fn punches(
         }
         if let Some([before, _]) = frame.map(|frame| frame.at(segment.index)) {
             blank.hold_at(before);
+        }
+        if segment.kind == SegmentKind::Rapid {
+            faults.extend(low_rapid(&mut blank, segment, tool, low_links::margin(segment, assignment, limits)));
+            continue;
         }
         let dent = dent(tool, forming.thickness) + ROUGH;
         let positions = positions(segment, blank.cell());
@@ -79,6 +82,16 @@ pub(crate) fn punches(
         }
     }
     faults
+}
+
+/// A low rapid, which has to keep a margin above the sheet as it stands, mm.
+fn low_rapid(blank: &mut Blank, segment: &Segment, tool: &Cutter, margin: Option<f64>) -> Option<Fault> {
+    let margin = margin?;
+    let lowered = |[x, y, z]: [f64; 3]| [x, y, z - margin];
+    let positions = positions(segment, blank.cell()).into_iter();
+    let found = positions.filter_map(|tip| Some((tip, blank.in_the_way(lowered(tip), tool)?)));
+    let (tip, (stands, _)) = found.max_by(|a, b| a.1 .1.total_cmp(&b.1 .1))?;
+    Some(Fault { position: tip, ..segment.fault(&faults::RAPID_NEAR_SHEET) }.measured(tip[2], stands))
 }
 
 /// A tip below the sheet, which stands at a height there.

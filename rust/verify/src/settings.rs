@@ -1,6 +1,6 @@
 //! Feeds, spindle, coolant and tool of the moves, compared with what the job states for their operations.
 
-use styluscam_motion::{EventKind, Program, SpindleDirection};
+use styluscam_motion::{EventKind, Program, Role, SpindleDirection};
 
 use crate::assignment::Assignment;
 use crate::expectation::ExpectedOperation;
@@ -27,7 +27,7 @@ pub(crate) fn faults(program: &Program, segments: &[Segment], assignment: &Assig
         let step = &program.moves[segment.index];
         let Some(operation) = assignment.of(segment.operation) else { continue };
         let slack = limits.feed_slack(step.feed, segment.length());
-        faults.extend(feed_fault(operation, (segment, step.is_along_pass()), comes_down, step.feed, slack));
+        faults.extend(feed_fault(operation, (segment, step.role), comes_down, step.feed, slack));
         faults.extend(spindle_fault(operation, segment, machine.spindle));
         if machine.flood != operation.flood || machine.mist {
             faults.push(segment.fault(&faults::COOLANT));
@@ -40,22 +40,26 @@ pub(crate) fn faults(program: &Program, segments: &[Segment], assignment: &Assig
 }
 
 /// From a rapid the tool comes down at the plunge's feed; on its path along the part straight down is as good as any
-/// other direction. Leads, ramps and links are no faster than the faster of both.
+/// other direction. Leads have one of
+/// their feeds, where the job states them; else leads, ramps and links are no faster than the faster of both.
 fn feed_fault(
     operation: &ExpectedOperation,
-    (segment, is_along_pass): (&Segment, bool),
+    (segment, role): (&Segment, Option<Role>),
     comes_down: bool,
     feed: f64,
     slack: f64,
 ) -> Option<Fault> {
+    let is_along_pass = role.is_none_or(|role| role == Role::Cut);
     let no_faster = feed.min(operation.cut.max(operation.plunge));
-    let expected = match segment.kind {
+    let nearer = |[a, b]: [f64; 2]| if (feed - a).abs() <= (feed - b).abs() { a } else { b };
+    let lead = operation.leads.filter(|_| role == Some(Role::Lead)).map(nearer);
+    let expected = lead.unwrap_or(match segment.kind {
         SegmentKind::Plunge if comes_down && is_along_pass => operation.plunge,
         // a feed that goes nowhere or up is no faster than any other
         SegmentKind::Still | SegmentKind::Retract => no_faster,
         SegmentKind::Plunge | SegmentKind::Lateral | SegmentKind::Rapid if is_along_pass => operation.cut,
         SegmentKind::Plunge | SegmentKind::Lateral | SegmentKind::Rapid => no_faster,
-    };
+    });
     let same = (feed - expected).abs() <= slack + SAME_FEED * expected;
     (feed > 0.0 && !same && !operation.keeps_pace).then(|| segment.fault(&faults::FEED).measured(feed, expected))
 }

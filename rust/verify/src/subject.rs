@@ -220,6 +220,8 @@ pub struct Limits {
     pub clearance: f64,
     /// Air that must be left under a rapid that comes down, mm.
     pub rapid_gap: f64,
+    /// Whether all axes of a rapid arrive together: what is beside its line is not passed.
+    pub straight_rapids: bool,
     /// Height Z below which rapids do not go, mm; minus infinity where only the air under them counts.
     pub retract: f64,
     /// By half of what a feed may differ from the one that the job states: it was rounded, and perhaps twice.
@@ -280,6 +282,7 @@ impl Limits {
             excess_by_operation: Vec::new(),
             clearance,
             rapid_gap: 0.05,
+            straight_rapids: false,
             retract: f64::NEG_INFINITY,
             feed_rounding: FeedRounding::default(),
             reach: Reach::default(),

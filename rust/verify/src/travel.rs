@@ -2,20 +2,30 @@
 
 use styluscam_motion::{EventKind, FeedMode, Move, MoveKind, Program};
 
+use crate::assignment::Assignment;
 use crate::faults::{self, Fault};
 use crate::findings::{Finding, FindingKind, Severity};
+use crate::low_links;
 use crate::segments::{is_in_range, Segment, SegmentKind};
 use crate::subject::{Limits, Subject, ToolCalls};
 use crate::tolerances::SLACK;
 use crate::unknown::{self, standing_low};
 
 /// Faults of the moves' text, in the order of the moves.
-pub(crate) fn faults(program: &Program, segments: &[Segment], subject: &Subject, limits: &Limits) -> Vec<Fault> {
+pub(crate) fn faults(
+    program: &Program,
+    segments: &[Segment],
+    assignment: &Assignment,
+    subject: &Subject,
+    limits: &Limits,
+) -> Vec<Fault> {
     let mut faults = Vec::new();
     for (index, step) in program.moves.iter().enumerate() {
         faults.extend(text_faults(index, step, subject));
     }
-    faults.extend(segments.iter().filter_map(|segment| height_fault(segment, limits)));
+    // those that the job allows are checked with what stands under them
+    let high = |segment: &&Segment| low_links::margin(segment, assignment, limits).is_none();
+    faults.extend(segments.iter().filter(high).filter_map(|segment| height_fault(segment, limits)));
     faults.extend(
         segments.iter().filter(|segment| segment.tool.is_none()).map(|segment| segment.fault(&faults::UNKNOWN_TOOL)),
     );
@@ -24,7 +34,7 @@ pub(crate) fn faults(program: &Program, segments: &[Segment], subject: &Subject,
     faults.extend(unsafe_end(program, segments, subject, limits));
     faults.extend(dwells(program, segments, subject, limits));
     faults.extend(stops(segments, subject, limits));
-    faults.extend(segments.iter().filter_map(|segment| deep_rapid(segment, limits)));
+    faults.extend(segments.iter().filter(high).filter_map(|segment| deep_rapid(segment, limits)));
     faults.extend(planes_not_needed(program, subject));
     faults.extend(no_end(program, subject));
     faults

@@ -82,6 +82,8 @@ fn judged(program: &Program, stated: &[FrameLevel], obstacles: &[Obstacle]) -> R
         tool: 0,
         cut: 600.0,
         plunge: PLUNGE,
+        leads: None,
+        low_links: None,
         keeps_pace: false,
         spindle: None,
         flood: false,

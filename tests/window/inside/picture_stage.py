@@ -137,6 +137,26 @@ def track_seen(job: Any) -> dict[str, Any]:
     return {"count": len(points), "far": max(far), "runs": runs.tolist(), "longest step": float(steps.max())}
 
 
+def is_object_drawn(obj: Any) -> bool:
+    """Whether an object itself is drawn."""
+    from freecad.styluscam_wb.gui import scene
+
+    return bool(scene.mode_switch(obj.ViewObject).whichChild.getValue() != -1)
+
+
+def sheet_seen() -> dict[str, list[list[float]]]:
+    """The boxes of the shapes of the sheet that are drawn, by their keys: lower and upper corner."""
+    from freecad.styluscam_wb.gui import scene
+
+    boxes = {}
+    for part in scene.children(overlay("StylusCAM_Sheet")):
+        name = str(part.getName())
+        if name:
+            points = np.array([p.getValue() for p in nodes(part, "Coordinate3")[0].point.getValues()])
+            boxes[name.removeprefix("StylusCAM_Sheet_")] = [points.min(axis=0).tolist(), points.max(axis=0).tolist()]
+    return boxes
+
+
 def positions(operation: Any) -> list[list[float]]:
     """The ends of the moves of a path."""
     at: dict[str, float] = {}

@@ -119,6 +119,24 @@ def contact_track(job: Any, operation: Any) -> Any:
     return result
 
 
+def sheet(job: Any, operation: Any) -> Any:
+    """Blank and formed sheet instead of stock and model; gone with the command."""
+    job.Stock.ViewObject.Visibility = True
+    yield driver.settled()
+    yield from pressed("Sheet")
+    yield until(lambda: drawn.overlay("StylusCAM_Sheet"), "the sheet", 90)
+    yield driver.settled()
+    names = [obj.Name for obj in job.Document.Objects]
+    result: dict[str, Any] = {"spif": drawn.sheet_seen(), "legend": drawn.legend("sheet"), "shot": driver.shot("sheet")}
+    result["stock and model are drawn"] = [drawn.is_object_drawn(job.Stock), drawn.is_drawn(job)]
+    yield from pressed("Sheet")
+    yield until(lambda: not drawn.overlay("StylusCAM_Sheet"), "no sheet")
+    result["after"] = [drawn.legend("sheet"), drawn.is_object_drawn(job.Stock), drawn.is_drawn(job)]
+    result["objects"] = [len(names), len(job.Document.Objects)]
+    job.Stock.ViewObject.Visibility = False
+    return result
+
+
 def moving_tool(job: Any, operation: Any) -> Any:
     """The tool at a position of the path by length, and played to its end."""
     yield from pressed("ToolMotion")
@@ -211,6 +229,7 @@ PARTS = {
     "sound": sound,
     "heat map": heat_map,
     "contact track": contact_track,
+    "sheet": sheet,
     "moving tool": moving_tool,
     "simulators": simulators,
     "report": report,

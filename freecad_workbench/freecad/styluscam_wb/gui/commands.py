@@ -15,13 +15,14 @@ from . import (
     path_colours,
     preferences,
     report_command,
+    sheet_picture,
     tool_commands,
     tool_motion,
     verify_command,
 )
 from .command import PREFIX, Command
 
-CHECKS = (verify_command, heat_map, contact_track, path_colours, tool_motion)
+CHECKS = (verify_command, heat_map, contact_track, sheet_picture, path_colours, tool_motion)
 """Modules whose commands look at a computed path, in their order in the bar."""
 
 SEPARATOR = "Separator"

@@ -63,8 +63,10 @@ def lines(points: FloatArray, index: IntArray, colour: Colour, width: float) -> 
     return [_in_front(), _plain(), _one_colour(), _base_colour(colour), style, coordinates(points), shape]
 
 
-def faces(points: FloatArray, triangles: IntArray, normals: FloatArray, colours: IntArray) -> list[Any]:
-    """Triangles (T, 3) of vertices (V, 3) with unit normals (V, 3) and colours (V, 3) of their own."""
+def faces(
+    points: FloatArray, triangles: IntArray, normals: FloatArray, colours: IntArray, transparency: float = 0.0
+) -> list[Any]:
+    """Triangles (T, 3) of vertices (V, 3) with unit normals (V, 3) and colours (V, 3) of their own; 1: nothing is seen."""
     hints = coin.SoShapeHints()
     hints.vertexOrdering = coin.SoShapeHints.COUNTERCLOCKWISE
     hints.shapeType = coin.SoShapeHints.UNKNOWN_SHAPE_TYPE  # both sides are lit
@@ -73,16 +75,25 @@ def faces(points: FloatArray, triangles: IntArray, normals: FloatArray, colours:
     by_vertex, of_vertex = coin.SoNormalBinding(), coin.SoMaterialBinding()
     by_vertex.value = coin.SoNormalBinding.PER_VERTEX_INDEXED
     of_vertex.value = coin.SoMaterialBinding.PER_VERTEX_INDEXED
-    behind = coin.SoPolygonOffset()  # lines on the faces are drawn over them
-    behind.factor, behind.units = 1.0, 2.0
-    return [behind, hints, packed(colours), of_vertex, normal, by_vertex, coordinates(points), _face_set(triangles)]
+    behind = coin.SoPolygonOffset()  # lines on the faces are drawn over them, and what one looks through before them
+    behind.factor, behind.units = (1.0, 2.0) if transparency == 0.0 else (-1.0, -2.0)
+    return [
+        behind,
+        hints,
+        packed(colours, transparency),
+        of_vertex,
+        normal,
+        by_vertex,
+        coordinates(points),
+        _face_set(triangles),
+    ]
 
 
-def packed(colours: IntArray) -> Any:
+def packed(colours: IntArray, transparency: float = 0.0) -> Any:
     """Colours (V, 3) as one node."""
     red, green, blue = np.asarray(colours, dtype=np.uint32).T
     node = coin.SoPackedColor()
-    values = (red << 24 | green << 16 | blue << 8 | np.uint32(0xFF)).tolist()
+    values = (red << 24 | green << 16 | blue << 8 | np.uint32(round(0xFF * (1.0 - transparency)))).tolist()
     node.orderedRGBA.setValues(0, len(values), values)
     node.orderedRGBA.setNum(len(values))
     return node

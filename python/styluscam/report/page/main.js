@@ -24,27 +24,31 @@ function widen([low, high], place) {
 async function start() {
   const path = await Path.of(given.path);
   const box = given.part ? boxOf(await unpacked(given.part.points)) : boxOf(path.places);
-  for (const [x, y] of given.fixture.flatMap(outerCorners)) widen(box, [x, y]);
+  for (const shape of given.shapes) for (const corner of boxOf(await unpacked(shape.vertices))) widen(box, corner);
   const stage = new Stage(document.querySelector("#stage canvas"), box);
   const part = given.part && (await PartView.of(stage, given.part));
   const lines = new PathView(stage, path);
   const tool = new ToolView(stage, given.tools);
-  const fixture = new FixtureView(stage, given.fixture);
+  const opposite = given.opposite && new OppositeView(stage, given.opposite, await unpacked(given.opposite.tips));
+  const shapes = await ShapesView.of(stage, given.shapes, given.standing);
   const player = new Player(path);
-  player.show = ({ index, tip }) => {
+  player.show = ({ index, tip, share }) => {
     lines.done(index);
     tool.stand(player.toolAt(index), tip);
+    opposite?.stand(index, share);
+    shapes.stand(index);
   };
   player.seek(path.duration);
   new Findings(stage, player, given.findings);
-  wire(stage, part, lines, fixture);
+  wire(stage, part, lines);
+  new Layers(part, { shapes, tool, opposite });
   await part?.show("");
   lines.show("kind");
   note(path);
-  return { stage, part, player, tool, fixture };
+  return { stage, part, player, tool, shapes, opposite };
 }
 
-function wire(stage, part, lines, fixture) {
+function wire(stage, part, lines) {
   const map = document.getElementById("map");
   const colour = document.getElementById("path-colour");
   colour.addEventListener("change", () => lines.show(colour.value));
@@ -54,8 +58,6 @@ function wire(stage, part, lines, fixture) {
     lines.show(colour.value);
     part.show(map.value);
   });
-  const held = document.getElementById("fixture");
-  held?.addEventListener("change", () => fixture.show(held.checked));
   for (const button of document.querySelectorAll("[data-view]")) {
     button.addEventListener("click", () => stage.look(button.dataset.view));
   }

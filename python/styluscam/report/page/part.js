@@ -5,12 +5,13 @@ class PartView {
     const [points, borders, [at], normals, triangles] = await Promise.all(
       [part.points, part.borders, part.at, part.normals, part.triangles].map(unpacked),
     );
-    stage.scene.add(borderLines(stage, points, borders));
-    return new PartView(stage, part.maps, points, at, normals, triangles);
+    const lines = borderLines(stage, points, borders);
+    return new PartView(stage, part.maps, points, at, normals, triangles, lines);
   }
 
-  constructor(stage, maps, points, at, normals, triangles) {
+  constructor(stage, maps, points, at, normals, triangles, lines) {
     this.stage = stage;
+    this.lines = lines;
     this.maps = maps;
     const count = at.length;
     const position = new Float32Array(3 * count);
@@ -35,7 +36,14 @@ class PartView {
     // behind the lines of a path that lie on it
     const material = new THREE.MeshPhongMaterial({ ...looks, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2 });
     material.onBeforeCompile = litFromTheEye;
-    stage.scene.add(new THREE.Mesh(geometry, material));
+    this.mesh = new THREE.Mesh(geometry, material);
+    stage.scene.add(this.mesh, lines);
+  }
+
+  /** Whether it is drawn. */
+  seen(on) {
+    this.mesh.visible = this.lines.visible = on;
+    this.stage.redraw();
   }
 
   /** Shows the map with this key; none for plain. */

@@ -30,7 +30,7 @@ class Path {
     const takes = this.times[index] - begins;
     const share = takes > 0 ? Math.min(1, (time - begins) / takes) : 1;
     const [from, to] = [this.place(before), this.place(index)];
-    return { index, tip: share >= 1 ? to : from.map((x, k) => x + (to[k] - x) * share) };
+    return { index, share, tip: share >= 1 ? to : from.map((x, k) => x + (to[k] - x) * share) };
   }
 }
 

@@ -49,7 +49,7 @@ class Player {
   /** To a place; several may be reached at the same time. */
   seekPlace(index) {
     this.time = this.path.times[index];
-    this.tell({ index, tip: this.path.place(index) });
+    this.tell({ index, share: 1, tip: this.path.place(index) });
   }
 
   tell(now) {

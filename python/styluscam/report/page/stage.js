@@ -1,6 +1,6 @@
 // The 3-D view: camera, lights, and drawing only when something has changed.
 
-const VIEWS = { slant: [-0.38, -0.72, 0.62], top: [0, -1e-4, 1], front: [0, -1, 0], right: [1, 0, 0] };
+const VIEWS = { slant: [-0.38, -0.72, 0.62], top: [0, -1e-4, 1], front: [0, -1, 0], right: [1, 0, 0], below: [-0.38, -0.72, -0.5] };
 const FLIGHT_MS = 350;
 
 class Stage {

@@ -6,6 +6,7 @@ const SIDES = 96;
 class ToolView {
   constructor(stage, tools) {
     this.stage = stage;
+    this.on = true;
     this.shapes = tools.map((tool) => (tool.profile.length ? revolved(tool.profile) : pointer(stage.size)));
     for (const shape of this.shapes) stage.scene.add(shape);
     this.pointer = pointer(stage.size);
@@ -15,15 +16,49 @@ class ToolView {
   /** Puts a tool's tip at a place; the pointer where none is loaded. */
   stand(tool, tip) {
     const active = this.shapes[tool] ?? this.pointer;
-    for (const shape of [...this.shapes, this.pointer]) shape.visible = shape === active;
+    this.active = active;
     active.position.copy(this.stage.place(tip));
+    this.show(this.on);
+  }
+
+  /** Whether it is drawn. */
+  show(on) {
+    this.on = on;
+    for (const shape of [...this.shapes, this.pointer]) shape.visible = on && shape === this.active;
     this.stage.redraw();
   }
 }
 
-function revolved(profile) {
+/** The tool on the other side of the sheet, upside down. */
+class OppositeView {
+  constructor(stage, { profile, colour }, tips) {
+    this.stage = stage;
+    this.tips = tips;
+    this.on = true;
+    this.shape = revolved(profile, hex(colour));
+    this.shape.rotation.x = Math.PI;
+    stage.scene.add(this.shape);
+  }
+
+  /** Puts its tip where it is on the way to a place of the path, a share of the way behind it. */
+  stand(index, share) {
+    const before = Math.max(index - 1, 0);
+    this.tip = this.tips.map((column) => column[before] + (column[index] - column[before]) * share);
+    this.known = this.tip.every(Number.isFinite);
+    if (this.known) this.shape.position.copy(this.stage.place(this.tip));
+    this.show(this.on);
+  }
+
+  show(on) {
+    this.on = on;
+    this.shape.visible = on && Boolean(this.known);
+    this.stage.redraw();
+  }
+}
+
+function revolved(profile, color = 0xd9a441) {
   const group = new THREE.Group();
-  const material = new THREE.MeshPhongMaterial({ color: 0xd9a441, side: THREE.DoubleSide, shininess: 40, transparent: true, opacity: 0.82 });
+  const material = new THREE.MeshPhongMaterial({ color, side: THREE.DoubleSide, shininess: 40, transparent: true, opacity: 0.82 });
   for (const piece of smoothPieces(profile)) {
     const lathe = new THREE.LatheGeometry(piece.map(([radius, height]) => new THREE.Vector2(radius, height)), SIDES);
     group.add(new THREE.Mesh(lathe.rotateX(Math.PI / 2), material));

@@ -26,7 +26,7 @@ impl Bvh {
 ///
 /// Source: C. Ericson, "Real-Time Collision Detection", 2005, section 5.1.5: the region of the triangle's corners, edges or
 /// inside in which the point lies determines what is nearest.
-fn nearest_on([a, b, c]: &[Vector; 3], point: Vector) -> Vector {
+pub(crate) fn nearest_on([a, b, c]: &[Vector; 3], point: Vector) -> Vector {
     let (ab, ac) = (b - a, c - a);
     let from = |corner: &Vector| [ab.dot(&(point - corner)), ac.dot(&(point - corner))];
     let [d1, d2] = from(a);

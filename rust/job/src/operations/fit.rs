@@ -1,7 +1,7 @@
 //! Passes as lines, or as lines and arcs where the job asks for them and the machine has them.
 
 use styluscam_motion::{Arc, Cancelled, Move};
-use styluscam_toolpath::{link, link_with_arcs, AlongSurface, Arcs, Entered, Fitted, Links};
+use styluscam_toolpath::{link, link_with_arcs, Arcs, Entered, Fitted, LinkRules, Links, PathPoint};
 
 use super::facts::counted;
 use super::{Context, Fact, Fit};
@@ -18,7 +18,7 @@ pub fn asks_for_arcs(context: &Context<'_>) -> bool {
 pub fn linked(
     context: &Context<'_>,
     (passes, deviation): (&[Entered], f64),
-    rules: &AlongSurface<'_>,
+    rules: &impl LinkRules<PathPoint>,
     links: &Links,
 ) -> Result<(Vec<Move>, Vec<Fact>), Cancelled> {
     let Context { machine, common, reference_height, watch, .. } = *context;

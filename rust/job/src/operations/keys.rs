@@ -43,6 +43,24 @@ pub struct OperationKeys {
     #[serde(default = "smallest_feature")]
     #[schemars(extend("x-advanced" = true, "x-unit" = "mm", "minimum" = 0.01, "maximum" = 100.0))]
     pub smallest_feature: f64,
+    /// How high rapids from pass to pass go.
+    #[serde(default)]
+    pub links: LinkHeight,
+    /// Air that rapids below clearance keep above the part, the sheet as it stands and uncut stock, mm.
+    #[serde(default = "link_margin")]
+    #[schemars(extend("x-advanced" = true, "x-unit" = "mm", "minimum" = 0.1, "maximum" = 1000.0))]
+    pub link_margin: f64,
+    /// How the tool comes from the air into a pass and leaves it; straight where that does not fit.
+    #[serde(default)]
+    pub lead: LeadForm,
+    /// Radius of leads, mm.
+    #[serde(default = "lead_radius")]
+    #[schemars(extend("x-advanced" = true, "x-unit" = "mm", "minimum" = 0.1, "maximum" = 1000.0))]
+    pub lead_radius: f64,
+    /// Angle of the arcs of leads, degrees.
+    #[serde(default = "lead_angle")]
+    #[schemars(extend("x-advanced" = true, "x-unit" = "deg", "minimum" = 1.0, "maximum" = 90.0))]
+    pub lead_angle_deg: f64,
     /// Feeds.
     #[serde(default)]
     #[schemars(extend("x-example" = "{ cut = 1500.0, plunge = 300.0 }"))]
@@ -82,6 +100,30 @@ pub enum Fit {
     Arcs,
 }
 
+/// How high rapids from pass to pass go.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum LinkHeight {
+    /// To clearance.
+    #[default]
+    Clearance,
+    /// `link_margin` above what stands under the line that they cross, clearance at most: for machines whose rapids go straight.
+    Low,
+}
+
+/// The form of leads into passes and out of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum LeadForm {
+    /// None: straight down and straight up.
+    #[default]
+    None,
+    /// An arc tangent to the pass, in its plane, on the free side.
+    Tangent,
+    /// An arc tangent to the pass in the vertical plane, from above.
+    Vertical,
+}
+
 /// Feeds, mm/min.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -92,11 +134,33 @@ pub struct Feeds {
     /// Straight down onto it.
     #[schemars(extend("x-unit" = "mm/min", "minimum" = 0.1, "maximum" = 100000.0))]
     pub plunge: f64,
+    /// Along leads into a pass; as `cut` when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm/min", "minimum" = 0.1, "maximum" = 100000.0))]
+    pub approach: Option<f64>,
+    /// Along leads out of a pass; as `cut` when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm/min", "minimum" = 0.1, "maximum" = 100000.0))]
+    pub exit: Option<f64>,
+}
+
+impl Feeds {
+    /// Along leads into a pass, mm/min.
+    #[must_use]
+    pub fn approaching(&self) -> f64 {
+        self.approach.unwrap_or(self.cut)
+    }
+
+    /// Along leads out of a pass, mm/min.
+    #[must_use]
+    pub fn leaving(&self) -> f64 {
+        self.exit.unwrap_or(self.cut)
+    }
 }
 
 impl Default for Feeds {
     fn default() -> Self {
-        Self { cut: 1500.0, plunge: 300.0 }
+        Self { cut: 1500.0, plunge: 300.0, approach: None, exit: None }
     }
 }
 
@@ -147,6 +211,18 @@ pub enum Coolant {
 
 fn path_tolerance() -> f64 {
     0.005
+}
+
+fn link_margin() -> f64 {
+    1.0
+}
+
+fn lead_radius() -> f64 {
+    2.0
+}
+
+fn lead_angle() -> f64 {
+    90.0
 }
 
 fn smallest_feature() -> f64 {

@@ -11,7 +11,7 @@ use styluscam_toolpath::{
     ordered, AlongSurface, Entered, Heights, Links, Pass, PlanError, Rates, Seam, Sense, Surface,
 };
 
-use super::{budget, facts::counted, fit};
+use super::{budget, facts::counted, fit, links};
 use super::{reached, Context, Direction, End, Fact, OperationKeys, OperationKind, Planned, SurfaceFacts};
 use crate::{JobError, Scene};
 
@@ -249,8 +249,9 @@ fn linked(
         }
         (None, None) => (passes.into_iter().map(Entered::from).collect(), Vec::new()),
     };
-    let (moves, fitted) = fit::linked(context, (&entered, deviation), &along, &task.links())?;
-    facts.extend(fitted);
+    let passes = (surface.envelope(), &*entered, deviation);
+    let (moves, linked) = links::linked(context, passes, along, &task.links())?;
+    facts.extend(linked);
     Ok((moves, facts))
 }
 

@@ -2,11 +2,15 @@
 //!
 //! A further process is one file here and one line in the table below.
 
+mod die;
+
 use std::sync::LazyLock;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
 use styluscam_verify::Support;
+
+pub use die::Die;
 
 use crate::tagged::{self, kinds, Family};
 
@@ -36,6 +40,11 @@ pub trait ProcessKind {
     /// What holds the sheet up where it is not formed yet.
     fn support(&self) -> Support {
         Support::Rim
+    }
+
+    /// The die under the sheet, if there is one.
+    fn die(&self) -> Option<Die> {
+        None
     }
 
     /// The channels: programs that run side by side, each on a machine of its own; [`MAIN_CHANNEL`] first.

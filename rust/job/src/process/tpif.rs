@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use styluscam_verify::Support;
 
-use super::{About, ProcessKind};
+use super::{About, Die, ProcessKind};
 
 /// Two-point incremental forming: a sheet over a male die, with a clamp frame that goes down, or into a female one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -17,16 +17,6 @@ pub struct Tpif {
     /// What the sheet is made of, by the name of a shipped material: it sets the steepest wall that the sheet withstands.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
-}
-
-/// A die under the sheet.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Die {
-    /// The part is formed over it from outside, from its top outwards and down; the clamp frame goes down with the path.
-    Male,
-    /// The part is formed into it from inside; the sheet is clamped at its rim.
-    Female,
 }
 
 impl Tpif {
@@ -43,6 +33,10 @@ impl ProcessKind for Tpif {
             Die::Male => Support::DieAndFrame,
             Die::Female => Support::Rim,
         }
+    }
+
+    fn die(&self) -> Option<Die> {
+        Some(self.die)
     }
 
     fn material(&self) -> Option<&str> {

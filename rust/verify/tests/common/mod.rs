@@ -97,6 +97,8 @@ pub fn expected(part: &Part, contact: Contact, heights: [f64; 2], passes: Passes
         tool: 0,
         cut: 600.0,
         plunge: 600.0,
+        leads: None,
+        low_links: None,
         keeps_pace: false,
         spindle: None,
         flood: false,

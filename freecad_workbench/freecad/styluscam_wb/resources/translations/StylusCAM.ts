@@ -4,9 +4,19 @@
 <context>
     <name>App::Property</name>
     <message>
+        <source>Air that rapids below clearance keep above the part, the sheet as it stands and uncut stock, mm.
+Range: 0.1 to 1000 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Angle of ramps along the wall from level to level, degrees: they leave no line of steps; straight down when left out.
 Range: 0.1 to 45 deg
 0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Angle of the arcs of leads, degrees.
+Range: 1 to 90 deg</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -64,9 +74,22 @@ Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>How high rapids from pass to pass go.
+clearance: To clearance.
+low: `link_margin` above what stands under the line that they cross, clearance at most: for machines whose rapids go straight.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>How the thickness behaves as the sheet is formed.
 constant: The same thickness everywhere, along the normal.
 sine: Pure shear: a vertical column keeps its height, so a wall of slope phi is t cos(phi) thick.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How the tool comes from the air into a pass and leaves it; straight where that does not fit.
+none: None: straight down and straight up.
+tangent: An arc tangent to the pass, in its plane, on the free side.
+vertical: An arc tangent to the pass in the vertical plane, from above.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -134,6 +157,11 @@ the feed per revolution and the spindle's speed.</source>
     </message>
     <message>
         <source>Plan what can be reached of named faces that partly face down.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Radius of leads, mm.
+Range: 0.1 to 1000 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -362,6 +390,11 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Air that rapids below clearance keep above the part, the sheet as it stands and uncut stock, mm.
+Range: 0.1 to 1000 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>All faces that face up, when no face is selected</source>
         <translation type="unfinished"></translation>
     </message>
@@ -382,6 +415,14 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>An arc tangent to the pass in the vertical plane, from above.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>An arc tangent to the pass, in its plane, on the free side.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Angle</source>
         <translation type="unfinished"></translation>
     </message>
@@ -393,6 +434,11 @@ mid: The middle of the sheet.</source>
         <source>Angle of ramps along the wall from level to level, degrees: they leave no line of steps; straight down when left out.
 Range: 0.1 to 45 deg
 0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Angle of the arcs of leads, degrees.
+Range: 1 to 90 deg</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -585,6 +631,10 @@ other face of the sheet, block by block; its machine is in `[machines.support]`.
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Draws the job's blank, formed sheet and die instead of the block of stock; again to take them away</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Draws where the tool touches the model along the job's paths; again to take it away</source>
         <translation type="unfinished"></translation>
     </message>
@@ -707,9 +757,22 @@ Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>How high rapids from pass to pass go.
+clearance: To clearance.
+low: `link_margin` above what stands under the line that they cross, clearance at most: for machines whose rapids go straight.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>How the thickness behaves as the sheet is formed.
 constant: The same thickness everywhere, along the normal.
 sine: Pure shear: a vertical column keeps its height, so a wall of slope phi is t cos(phi) thick.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How the tool comes from the air into a pass and leaves it; straight where that does not fit.
+none: None: straight down and straight up.
+tangent: An arc tangent to the pass, in its plane, on the free side.
+vertical: An arc tangent to the pass in the vertical plane, from above.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -763,6 +826,18 @@ Range: above 0 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Lead</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Lead angle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Lead radius</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Left out</source>
         <translation type="unfinished"></translation>
     </message>
@@ -784,6 +859,14 @@ Range: above 0 to 100 mm
     </message>
     <message>
         <source>Lines.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Link margin</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Links</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -886,6 +969,10 @@ Range: above 0 to 10 mm
     </message>
     <message>
         <source>None</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>None: straight down and straight up.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1018,6 +1105,11 @@ the feed per revolution and the spindle's speed.</source>
     </message>
     <message>
         <source>Radius of curvature at the tip (R0), mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Radius of leads, mm.
+Range: 0.1 to 1000 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1425,6 +1517,10 @@ Range: above 0 to 50 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>To clearance.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Tolerance</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1614,6 +1710,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>`link_margin` above what stands under the line that they cross, clearance at most: for machines whose rapids go straight.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>alternate</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1655,6 +1755,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>check</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>clearance</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1738,6 +1842,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>low</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>male</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1779,6 +1887,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>must be {}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>none</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1914,6 +2026,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>tangent</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>thickness</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1943,6 +2059,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>verifying</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>vertical</source>
         <translation type="unfinished"></translation>
     </message>
     <message>

@@ -17,6 +17,7 @@ mod winding;
 use crate::{GeometryError, Vector};
 pub use mending::Mending;
 pub use shapes::Shape;
+pub(crate) use weld::exact as weld_exact;
 
 /// Triangles that make a part.
 #[derive(Clone, Debug)]

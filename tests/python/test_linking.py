@@ -1,0 +1,283 @@
+"""Links from pass to pass: how high rapids go, and what the verifier finds where they are too low."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+import styluscam as sc
+from styluscam.programs.program import ROLES
+
+RAPID = 0
+MARGIN = 1.0
+CLEARANCE = 10.0
+STEP = 1.0
+Mesh = tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]
+
+
+def squares(
+    pits: list[tuple[float, float]], rings: list[tuple[float, float]], cell: tuple[float, float, float]
+) -> Mesh:
+    """Square pits about (x, y), each of rings (half side, height), in cells (half side, half side, height) that touch."""
+    corners = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    points: list[npt.NDArray[np.float64]] = []
+    triangles: list[tuple[int, int, int]] = []
+    for middle in pits:
+        first = sum(len(ring) for ring in points)
+        sides = [(np.array(cell[:2]), cell[2]), *((np.array([half, half]), height) for half, height in rings)]
+        points += [np.column_stack([middle + half * corners, np.full(4, height)]) for half, height in sides]
+        for base in range(first, first + 4 * len(rings), 4):
+            for i in range(4):
+                a, b = base + i, base + (i + 1) % 4
+                triangles += [(a, b, b + 4), (a, b + 4, a + 4)]
+        last = first + 4 * len(rings)
+        triangles += [(last, last + 1, last + 2), (last, last + 2, last + 3)]
+    return np.concatenate(points), np.array(triangles)
+
+
+def two_pits() -> Mesh:
+    """Two square pits of 45 degrees, 8 mm deep, side by side in a flat sheet."""
+    return squares([(-20.0, 0.0), (20.0, 0.0)], [(16.0, 0.0), (8.0, -8.0)], (20.0, 20.0, 0.0))
+
+
+def pits_in_a_pit() -> Mesh:
+    """The same in the floor of a pit that is 4 mm deep."""
+    vertices, triangles = squares([(-20.0, 0.0), (20.0, 0.0)], [(16.0, -4.0), (8.0, -12.0)], (20.0, 20.0, -4.0))
+    around = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    rings = [(40.0, 20.0, -4.0), (44.0, 24.0, 0.0), (54.0, 34.0, 0.0)]
+    outer = np.concatenate([np.column_stack([around * [x, y], np.full(4, z)]) for x, y, z in rings])
+    base = len(vertices)
+    sides = [(base + r + i, base + r + (i + 1) % 4) for r in (0, 4) for i in range(4)]
+    walls = [half for a, b in sides for half in ((a, a + 4, b + 4), (a, b + 4, b))]
+    return np.concatenate([vertices, outer]), np.concatenate([triangles, np.array(walls)])
+
+
+PARTS = {"two": two_pits(), "nested": pits_in_a_pit()}
+
+
+def job(part: str, machine: str = "linuxcnc", process: dict[str, Any] | None = None, **keys: Any) -> sc.Job:
+    document = {
+        "schema": 1,
+        "part": {"file": "made.stl", "units": "mm"},
+        "setup": {"clearance": CLEARANCE, "sheet": {"thickness": 1.0}},
+        "process": process or {"kind": "spif", "max_bridged": 5.0},
+        "tools": {"t": {"number": 1, "profile": {"kind": "ball", "diameter": 6.0}}},
+        "operations": [{"kind": "z-level", "tool": "t", "tolerance": 0.01, "step": {"height": STEP}, **keys}],
+        "machine": {"name": machine},
+    }
+    if document["process"]["kind"] == "milling":
+        del document["setup"]["sheet"]
+    else:
+        document["part"]["model_face"] = "tool"
+    return sc.Job.from_dict(document, part=sc.Part.from_mesh(*PARTS[part]))
+
+
+@lru_cache(maxsize=8)
+def posted(part: str, links: str, machine: str = "linuxcnc") -> tuple[sc.Job, sc.Plan, str]:
+    asked = job(part, machine, links=links)
+    plan = sc.plan(asked)
+    (text,) = sc.post(plan).files.values()
+    return asked, plan, text
+
+
+def crossings(program: sc.Program) -> npt.NDArray[np.float64]:
+    """Heights of the rapids that go sideways, the first one left out."""
+    moves = program.moves
+    ends = moves["end"]
+    sideways = np.any(np.abs(np.diff(ends[:, :2], axis=0)) > 1e-9, axis=1) & (moves["kind"][1:] == RAPID)
+    return np.asarray(ends[1:][sideways][:, 2])
+
+
+def facts(plan: sc.Plan) -> dict[str, Any]:
+    return {fact.fact: fact for fact in plan.summary()[0].operations[0].facts}
+
+
+def findings(text: str, asked: sc.Job) -> list[Any]:
+    return list(sc.verify(text, asked).findings)
+
+
+def test_links_cross_a_margin_above_the_flat_sheet() -> None:
+    asked, plan, text = posted("two", "low")
+    heights = crossings(plan.programs["main"])
+    assert len(heights) >= 6  # between the pits, level by level
+    assert np.all((heights >= MARGIN) & (heights < MARGIN + 0.05)), heights
+    assert findings(text, asked) == []
+    by_clearance = posted("two", "clearance")[1].programs["main"]
+    assert np.all(crossings(by_clearance) == CLEARANCE)
+    assert by_clearance.duration - plan.programs["main"].duration > 0.1 * by_clearance.duration
+    assert facts(plan)["low_links"].value == len(heights)
+    assert "low_links" not in facts(posted("two", "clearance")[1])
+
+
+def test_links_in_a_pit_cross_what_hangs_in_its_loops() -> None:
+    asked, plan, text = posted("nested", "low")
+    heights = crossings(plan.programs["main"])
+    # the pit's floor is at -4; its last loop before it parts is at -3 or lower
+    lower = heights[heights < 0.0]
+    assert len(lower) >= 6 and np.all((lower >= -4.0 + MARGIN) & (lower <= -3.0 + MARGIN + 0.05)), heights
+    assert findings(text, asked) == []
+
+
+def lowered(text: str, by: float) -> str:
+    """The text with its first link that much lower, mm."""
+    height = re.search(r"^G0 Z(1(?:\.0\d*)?)$", text, re.MULTILINE)
+    assert height
+    return f"{text[: height.start()]}G0 Z{float(height[1]) - by:.3f}{text[height.end() :]}"
+
+
+@pytest.mark.parametrize(("by", "kinds"), [(0.1, {"low-rapid"}), (3.0, {"low-rapid", "rapid-into-material"})])
+def test_a_link_too_low_over_the_part_is_found(by: float, kinds: set[str]) -> None:
+    asked, _, text = posted("two", "low")
+    found = findings(lowered(text, by), asked)
+    assert kinds <= {finding.kind for finding in found}
+    assert "Z" in next(finding for finding in found if finding.kind == "low-rapid").message
+
+
+def crossed_inside(text: str, height: float) -> str:
+    """The text with a rapid across the middle of the first pit after its first loop."""
+    link = re.search(r"^G0 Z1(?:\.0\d*)?\n", text, re.MULTILINE)
+    assert link
+    first_is_left = re.findall(r"X(-?[\d.]+)", text[: link.start()])[-1].startswith("-")
+    middle = -20.0 if first_is_left else 20.0
+    planted = [f"G0 X{middle} Y0", f"Z{height}", f"X{middle + 4.0}", "Z1.2", ""]
+    return text[: link.end()] + "\n".join(planted) + text[link.end() :]
+
+
+def test_a_link_too_low_over_sheet_that_is_not_formed_yet_is_found() -> None:
+    """The part is 8 mm deep there, and the sheet hangs from the first loop, at -1."""
+    asked, _, text = posted("two", "low")
+    assert findings(crossed_inside(text, 0.5), asked) == []
+    for height in (-0.3, -4.0):
+        found = findings(crossed_inside(text, height), asked)
+        assert {finding.kind for finding in found} == {"low-rapid"}, height
+        assert all("the sheet" in finding.message for finding in found)
+        assert found[0].limit == pytest.approx(-STEP, abs=0.02)
+
+
+def test_low_rapids_are_found_where_the_job_does_not_ask_for_them() -> None:
+    asked, _, _ = posted("two", "clearance")
+    found = findings(posted("two", "low")[2], asked)
+    assert {finding.kind for finding in found} == {"low-rapid", "deep-rapid"}
+    assert any("below the clearance height" in finding.message for finding in found)
+
+
+def test_rapids_that_may_not_go_straight_stay_at_clearance() -> None:
+    asked, plan, text = posted("two", "low", "fanuc")
+    assert np.all(crossings(plan.programs["main"]) == CLEARANCE)
+    assert facts(plan)["low_links"].value == 0.0 and "fanuc" in facts(plan)["low_links"].words
+    assert findings(text, asked) == []
+    low = posted("two", "low")[1].programs["main"]
+    (written,) = sc.post(low, "fanuc").files.values()
+    assert "low-rapid" in {finding.kind for finding in findings(written, asked)}
+
+
+def test_another_dialect_has_the_same_links() -> None:
+    asked, plan, text = posted("two", "low", "grbl")
+    assert np.all(crossings(plan.programs["main"]) < MARGIN + 0.05)
+    assert findings(text, asked) == []
+
+
+def test_milling_crosses_above_the_stock() -> None:
+    asked = job("nested", process={"kind": "milling"}, links="low")
+    plan = sc.plan(asked)
+    heights = crossings(plan.programs["main"])
+    assert len(heights) > 6 and np.all((heights >= MARGIN) & (heights < MARGIN + 0.05)), heights
+    (text,) = sc.post(plan).files.values()
+    assert findings(text, asked) == []
+    found = findings(lowered(text, 0.5), asked)
+    assert {finding.kind for finding in found} == {"low-rapid"} and "stock" in found[0].message
+
+
+def test_two_tools_that_keep_pace_have_no_low_links() -> None:
+    document = {**job("two", links="low").to_dict(), "process": {"kind": "dsif"}}
+    document["tools"]["below"] = {**document["tools"]["t"], "number": 2}
+    document["process"]["support_tool"] = "below"
+    with pytest.raises(sc.JobError, match="cross at clearance"):
+        sc.Job.from_dict(document)
+
+
+LEAD = ROLES.index("lead")
+MILLING = {"kind": "milling"}
+
+
+@lru_cache(maxsize=8)
+def with_leads(lead: str, process: str = "spif", **keys: Any) -> tuple[sc.Job, sc.Plan, str]:
+    feeds = {"cut": 1200.0, "plunge": 250.0, "approach": 600.0, "exit": 900.0}
+    asked = job(
+        "two", process=MILLING if process == "milling" else None, lead=lead, feeds=feeds, seam_direction_deg=0.0, **keys
+    )
+    plan = sc.plan(asked)
+    (text,) = sc.post(plan).files.values()
+    return asked, plan, text
+
+
+def leads_of(program: sc.Program) -> list[npt.NDArray[Any]]:
+    """The moves of each lead, with the one before."""
+    is_lead = program.moves["role"] == LEAD
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], is_lead, [False]]).astype(int)))
+    return [program.moves[first - 1 : end] for first, end in edges.reshape(-1, 2)]
+
+
+@pytest.mark.parametrize("links", ["clearance", "low"])
+def test_vertical_leads_come_down_tangent_to_their_pass(links: str) -> None:
+    asked, plan, text = with_leads("vertical", lead_radius=1.0, lead_angle_deg=60.0, links=links)
+    found = leads_of(plan.programs["main"])
+    assert len(found) == facts(plan)["leads"].value >= 16
+    for lead in found:
+        rise = lead["end"][:, 2].max() - lead["end"][:, 2].min()
+        along = np.linalg.norm(lead["end"][-1, :2] - lead["end"][0, :2])
+        assert rise == pytest.approx(0.5, abs=1e-6) and along == pytest.approx(np.sin(np.pi / 3), abs=1e-6)
+        assert set(lead["feed"][1:]) in ({600.0}, {900.0})
+    assert findings(text, asked) == []
+    assert "(role lead)" in text and " F600" in text and " F900" in text
+
+
+def test_tangent_leads_are_arcs_on_the_free_side() -> None:
+    asked, plan, text = with_leads("tangent", "milling", lead_radius=1.5)
+    found = leads_of(plan.programs["main"])
+    assert len(found) == facts(plan)["leads"].value >= 16
+    assert all(len(lead) == 2 and np.ptp(lead["end"][:, 2]) < 1e-9 for lead in found)
+    chords = [np.linalg.norm(np.diff(lead["end"][:, :2], axis=0)) for lead in found]
+    assert chords == pytest.approx([1.5 * np.sqrt(2.0)] * len(found), abs=1e-6)
+    inside = [np.abs(lead["end"][:, :2]) for lead in found]
+    assert all(np.all(ends[:, 1] < 16.0) for ends in inside)
+    arcs = [line for line in text.splitlines() if re.match(r"G[23] ", line)]
+    assert len(arcs) == len(found)
+    assert findings(text, asked) == []
+
+
+def test_no_lead_presses_sheet_down_before_its_pass() -> None:
+    """At the height of the pass the sheet inside hangs a step higher, until the loop is closed."""
+    asked, plan, text = with_leads("tangent", lead_radius=1.5)
+    program = plan.programs["main"]
+    assert {move["feed"] for lead in leads_of(program) for move in lead[1:]} == {900.0}
+    assert "none fits" in facts(plan)["leads"].words
+    assert findings(text, asked) == []
+
+
+def test_where_no_lead_fits_the_tool_goes_straight() -> None:
+    asked, plan, text = with_leads("tangent", "milling", lead_radius=40.0)
+    assert leads_of(plan.programs["main"]) == [] and "none fits" in facts(plan)["leads"].words
+    assert findings(text, asked) == []
+
+
+def test_a_lead_that_enters_the_part_is_found() -> None:
+    asked, _, text = with_leads("tangent", "milling", lead_radius=1.5)
+    lines = text.splitlines()
+    number = next(i for i, line in enumerate(lines) if re.match(r"G[23] ", line))
+    (end,) = re.findall(r"X(-?[\d.]+)", lines[number])
+    x = float(end)
+    outward = np.sign(x - np.copysign(20.0, x))
+    past = [f"G1 X{x + 0.5 * outward:.3f} F600", f"X{end}"]  # on, half a millimetre into the wall, and back
+    found = findings("\n".join([*lines[: number + 1], *past, *lines[number + 1 :]]), asked)
+    assert "gouge" in {finding.kind for finding in found}
+
+
+def test_a_lead_at_another_feed_is_found() -> None:
+    asked, _, text = with_leads("vertical", lead_radius=1.0, lead_angle_deg=60.0, links="clearance")
+    assert {finding.kind for finding in findings(text.replace(" F600", " F1100", 1), asked)} == {"feed-differs"}
