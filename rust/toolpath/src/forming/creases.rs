@@ -18,7 +18,7 @@ const LEVEL: f64 = 0.1;
 /// Determinant below which two faces and their edge have no one point in common: 1 degree apart, and more.
 const SOUND: f64 = 1e-3;
 
-/// The creases between selected faces.
+/// The creases between selected faces, and the borders of these.
 pub fn creases(surface: &Surface<'_>) -> Vec<Crease> {
     let (envelope, mesh) = (surface.envelope(), surface.envelope().mesh());
     let mut selected = vec![false; mesh.triangles().len()];
@@ -26,8 +26,12 @@ pub fn creases(surface: &Surface<'_>) -> Vec<Crease> {
     let of_triangle = |triangle: usize| {
         let beyond = envelope.neighbours(triangle as u32).into_iter().enumerate();
         let beyond = beyond.map(|(side, other)| (side, other as usize));
-        let other = beyond.filter(|(_, other)| *other > triangle && selected.get(*other) == Some(&true));
-        other.filter_map(|(side, other)| Crease::between(surface, [triangle, other], side)).collect::<Vec<_>>()
+        let crease = beyond.filter_map(|(side, other)| match selected.get(other) {
+            Some(true) if other > triangle => Crease::between(surface, [triangle, other], side),
+            Some(true) => None,
+            Some(false) | None => Crease::at_border(surface, triangle, side),
+        });
+        crease.collect::<Vec<_>>()
     };
     surface.triangles().collect::<Vec<_>>().into_par_iter().flat_map_iter(of_triangle).collect()
 }
@@ -93,6 +97,19 @@ impl Crease {
             Tips::Convex([ends[0] - first, ends[1] - first, ends[0] - second, ends[1] - second])
         };
         Some(Self { vertices, normals, tips })
+    }
+
+    /// The border of a triangle from the corner `side` to the next: the tool rolls over it until its side is upright there.
+    fn at_border(surface: &Surface<'_>, triangle: usize, side: usize) -> Option<Self> {
+        let mesh = surface.envelope().mesh();
+        let (corners, next) = (mesh.corners(triangle), (side + 1) % 3);
+        let (ends, normal) = ([corners[side], corners[next]], mesh.normal(triangle));
+        let outward = (ends[1] - ends[0]).cross(&normal);
+        let outward = Vector::new(outward.x, outward.y, 0.0).try_normalize(0.0)?;
+        let [first, second] = [normal, outward].map(|way| surface.envelope().touching_point(Vector::zeros(), way));
+        let vertices = [side, next].map(|corner| mesh.triangles()[triangle][corner]);
+        let tips = Tips::Convex([ends[0] - first, ends[1] - first, ends[0] - second, ends[1] - second]);
+        Some(Self { vertices, normals: [normal; 2], tips })
     }
 
     /// What it allows around the positions of the tool that touches both faces, for a scallop of `height` mm; none where passes do
