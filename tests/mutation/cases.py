@@ -255,7 +255,6 @@ FURTHER: list[Document] = [
     {"kind": "spiral", "step": {"scallop": 0.06}, "step_min": 0.2},
     {"kind": "z-level", "step": {"list": [0.8, 1.2, 1.0]}},
     {"kind": "z-level", "step": {"scallop": 0.06}, "step_min": 0.2},
-    {"kind": "zig-zag", "stepover": 2.5, "scallop": 0.05, "angle_deg": 20.0},
     {"kind": "z-level", "step": {"height": 1.2}, "fit": "arcs"},
     {"kind": "spiral", "step": {"height": 1.2}, "fit": "arcs"},
 ]
@@ -272,9 +271,7 @@ def further_case(number: int, folder: Path, family: Family | None = None) -> Cas
     if is_fitted and family is None:
         family = draw.choice(FITTED)
     machine, section, family = _machine(draw, folder, family)
-    # rows that cross the cup's slanted borders leave up to a fifth more there than asked for
-    names = ("pit", "bump") if operation["kind"] == "zig-zag" else ("pit", "bump", "cup")
-    parts = ROUND if is_fitted else {name: PARTS[name] for name in names}
+    parts = ROUND if is_fitted else {name: PARTS[name] for name in ("pit", "bump")}
     part, mesh = draw.choice(list(parts.items()))
     profile = draw.choice(PROFILES[:2])
     # a bump is no sheet's inside

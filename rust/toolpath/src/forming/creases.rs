@@ -13,8 +13,6 @@ use crate::Surface;
 
 /// Cosine of the angle up to which two faces go over into each other smoothly: 1 degree.
 const SMOOTH: f64 = 0.999_847_7;
-/// Height over length of an edge that counts as level.
-const LEVEL: f64 = 0.1;
 /// Determinant below which two faces and their edge have no one point in common: 1 degree apart, and more.
 const SOUND: f64 = 1e-3;
 
@@ -42,8 +40,7 @@ pub fn tips_at_vertices(creases: &[Crease]) -> HashMap<u32, f64> {
     let mut heights: HashMap<u32, f64> = HashMap::new();
     for crease in creases {
         let Tips::Hollow(tips) = crease.tips else { continue };
-        let along = tips[1] - tips[0];
-        if along.z.abs() > LEVEL * along.norm() {
+        if !Spread::Levels.runs_along(tips[1] - tips[0]) {
             continue;
         }
         for (vertex, tip) in crease.vertices.into_iter().zip(tips) {
@@ -128,6 +125,7 @@ impl Crease {
                 let step = on_faces[0].0.min(on_faces[1].0);
                 Some(Allowed { values: values(tips), step, cosines: None })
             }
+            Tips::Hollow(tips) if !spread.runs_along(tips[1] - tips[0]) => None,
             Tips::Hollow(tips) => {
                 let [first, second] = self.normals.map(|normal| spread.section_slope(normal));
                 // half the chord rises as the kink does, and the section over it by its square

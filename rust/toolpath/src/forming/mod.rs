@@ -46,7 +46,6 @@ pub use opposite::{Facing, Opposite, Station};
 pub use ramps::{ramped, Ramp};
 pub use reach::selected_range;
 pub use roundness::{roundness, Roundness};
-pub use scallop::{scallop_steps, ScallopRule, Spread};
 pub use scallop::{scallop_steps, ScallopRule};
 pub use spiral::spirals;
 pub use spread::Spread;

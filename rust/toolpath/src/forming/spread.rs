@@ -14,7 +14,21 @@ pub enum Spread {
     Rows(f64),
 }
 
+/// Sine of the angle to level up to which levels run along an edge,
+const ALONG_LEVELS: f64 = 0.1;
+/// and of the angle to rows, in plan, up to which these do: where they cross it they follow it up and down.
+const ALONG_ROWS: f64 = 0.4;
+
 impl Spread {
+    /// Whether an edge runs along passes.
+    pub(super) fn runs_along(self, edge: Vector) -> bool {
+        let (aside, most) = match self {
+            Self::Levels => (edge.z, ALONG_LEVELS),
+            Self::Rows(angle) => (across(angle).dot(&edge), ALONG_ROWS),
+        };
+        aside.abs() <= most * edge.norm()
+    }
+
     /// Whether passes cross a face of this normal.
     pub(super) fn crosses(self, normal: Vector) -> bool {
         match self {

@@ -4,6 +4,8 @@ use styluscam_geometry::ToolBody;
 
 use super::wall_line::WallLine;
 
+/// Share of a step by which turns are planned: on the long straight sides of a loop they lie up to a tenth farther apart.
+const TURNS: f64 = 0.92;
 /// Heights for which a bound is known.
 const CELLS: usize = 1 << 14;
 
@@ -142,14 +144,14 @@ impl StepBounds {
     }
 
     /// The same for turns that go down evenly from one step to the next: within a step of each value no more is allowed than
-    /// there, for a turn's distance to the next lies between two steps.
+    /// there, for a turn's distance to the next lies between two steps, and of that [`TURNS`].
     #[must_use]
     pub fn for_turns(&self) -> Self {
         let mut most = self.most.clone();
         for (cell, step) in self.most.iter().enumerate() {
             let reach = (step.max(self.limits[0]) / self.cell).ceil() as usize;
             let around = cell.saturating_sub(reach)..(cell + reach + 1).min(most.len());
-            most[around].iter_mut().for_each(|other| *other = other.min(*step));
+            most[around].iter_mut().for_each(|other| *other = other.min(TURNS * *step));
         }
         Self { most, walls: None, ..self.clone() }
     }
@@ -291,7 +293,7 @@ mod tests {
     #[test]
     fn turns_take_the_smaller_step_where_steps_change() {
         let bounds = bounds(&[([0.0, 2.0], 0.5), ([2.0, 3.0], 0.125)]).for_turns();
-        assert_eq!([1.0, 1.8, 1.9, 2.5].map(|value| bounds.at(value)), [0.5, 0.5, 0.125, 0.125]);
+        assert_eq!([1.0, 1.8, 1.9, 2.5].map(|value| bounds.at(value) / TURNS), [0.5, 0.5, 0.125, 0.125]);
     }
 
     #[test]

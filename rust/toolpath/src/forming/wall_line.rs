@@ -37,8 +37,11 @@ impl WallLine {
     pub fn new(low: f64, cell: f64, cosines: &[f64], body: &ToolBody, height: f64) -> Self {
         let (mut travel, mut breaks) = (vec![0.0], vec![0]);
         let (mut sum, mut count, mut before) = (0.0, 0, None);
-        for cosine in cosines {
-            // where nothing is known the tool goes straight down
+        let known = |from: usize| cosines.get(from).is_some_and(|cosine| !cosine.is_nan());
+        let (first, last) = ((0..cosines.len()).find(|i| known(*i)), (0..cosines.len()).rfind(|i| known(*i)));
+        let (first, last) = (first.unwrap_or(0), last.unwrap_or(0));
+        for cosine in (0..cosines.len()).map(|i| cosines[i.clamp(first, last)]) {
+            // beyond both ends the walls go on; where nothing is known between, the tool goes straight down
             let slope = libm::acos(if cosine.is_nan() { 0.0 } else { cosine.clamp(0.0, 1.0) });
             sum += cell * libm::tan(slope).recip().min(FLATTEST);
             // from the lower cell to this one: steeper below than here
@@ -54,11 +57,11 @@ impl WallLine {
     /// before, or nothing is known of them.
     pub fn step(&self, from: f64, first: f64, most: f64) -> Option<f64> {
         let top = self.low + self.cell * (self.travel.len() - 1) as f64;
-        if self.travel.len() < 2 || from > top || from - first < self.low {
+        if self.travel.len() < 2 || from > top || from <= self.low {
             return None;
         }
         let is_over = |step: f64| self.is_over([from - step, from]);
-        let (mut low, mut high) = (0.0, first.min(most));
+        let (mut low, mut high) = (0.0, first.min(most).min(from - self.low));
         while !is_over(high) && high < most && from - high > self.low {
             (low, high) = (high, (1.25 * high).min(most));
         }
