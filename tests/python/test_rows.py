@@ -153,12 +153,18 @@ def without_row(text: str, angle_deg: float) -> str:
     return "\n".join([*lines[: first - 1], *over, *lines[last:]]) + "\n"
 
 
-@pytest.mark.parametrize("part", ["cone_cup", "cap_r60"])
-def test_rows_cross_each_other_and_a_missing_one_of_either_set_is_found(part: str) -> None:
-    asked = job(part, stepover=3.0, **CROSS)
+@pytest.mark.parametrize(
+    ("part", "turns"),
+    [("cap_r60", {}), ("cone_cup", ROUNDED)],
+    ids=["straight", "rounded"],
+)
+def test_rows_cross_each_other_and_a_missing_one_of_either_set_is_found(part: str, turns: dict[str, Any]) -> None:
+    asked = job(part, stepover=3.0, **CROSS, **turns)
     plan, text = verified(asked)
-    single = sc.plan(job(part, stepover=3.0, angle_deg=20.0))
+    single = sc.plan(job(part, stepover=3.0, angle_deg=20.0, **turns))
     assert facts(plan)["rows"] == pytest.approx(2 * facts(single)["rows"], abs=8)
+    if turns:
+        assert facts(plan)["turns"] > 1.5 * facts(single)["turns"] and corners(plan).max() <= CHORD + 0.5
     for angle in (20.0, 80.0):
         found = sc.verify(without_row(text, angle), asked).findings
         assert {one.kind for one in found} & {"missing-pass", "missing-row"}, (angle, [one.message for one in found])
