@@ -88,12 +88,18 @@ pub(crate) fn faults(
     watch: &Watch,
 ) -> Result<Vec<Fault>, Cancelled> {
     let mut worst: BTreeMap<(usize, FindingKind), Fault> = BTreeMap::new();
-    for operation in subject.expected {
+    let sets = subject
+        .expected
+        .iter()
+        .flat_map(|operation| operation.expectation.sets().iter().map(move |passes| (operation, passes)));
+    for (operation, passes) in sets {
         let expectation = &operation.expectation;
-        let Some(passes) = expectation.ordered() else { continue };
-        let own =
-            |segment: &&Segment| segment.kind == SegmentKind::Lateral && assignment.is(segment.operation, operation);
-        let contacts: Vec<&Segment> = segments.iter().filter(own).collect();
+        let is_own = |segment: &&Segment| {
+            segment.kind == SegmentKind::Lateral
+                && assignment.is(segment.operation, operation)
+                && may_be_of(passes, expectation, segment)
+        };
+        let contacts: Vec<&Segment> = segments.iter().filter(is_own).collect();
         if contacts.is_empty() {
             continue;
         }
@@ -113,6 +119,13 @@ pub(crate) fn faults(
         }
     }
     Ok(worst.into_values().collect())
+}
+
+/// Whether a move may be of a set of passes: not one along another set of them, which would hide what this one leaves.
+fn may_be_of(passes: &OrderedPasses, expectation: &Expectation, segment: &Segment) -> bool {
+    let is_along = |set: &OrderedPasses| contact_lines::holds(&*set.scalar, segment);
+    let mut others = expectation.sets().iter().filter(|set| !std::ptr::eq(*set, passes));
+    is_along(passes) || !others.any(is_along)
 }
 
 /// One operation, looked at.

@@ -4,8 +4,18 @@
 <context>
     <name>App::Property</name>
     <message>
+        <source>A second set of rows over the same faces, across the first.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Air that rapids below clearance keep above the part, the sheet as it stands and uncut stock, mm.
 Range: 0.1 to 1000 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Angle from the first set of rows to the second, degrees; 90 when left out.
+Range: 10 to 170 deg
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -343,6 +353,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>A second set of rows over the same faces, across the first.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>A sheet formed with a clothoid stylus, level by level</source>
         <translation type="unfinished"></translation>
     </message>
@@ -409,6 +423,12 @@ Range: 0.1 to 1000 mm</source>
     </message>
     <message>
         <source>Angle between axis and side, degrees.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Angle from the first set of rows to the second, degrees; 90 when left out.
+Range: 10 to 170 deg
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -510,6 +530,14 @@ Range: -360 to 360 deg
     </message>
     <message>
         <source>Corner radius</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Cross</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Cross angle</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
