@@ -72,6 +72,7 @@ fn judged(program: &Program, stated: &[FrameLevel], obstacles: &[Obstacle]) -> R
     let expectation = Expectation {
         contact: Contact::Touch,
         selected: vec![true; part.mesh.triangles().len()],
+        region: Region::default(),
         heights: [-30.0, 30.0],
         passes: Passes::Ordered(passes),
         forms: true,
