@@ -351,6 +351,9 @@ def rows() -> Figure:
         axis.set_aspect("equal")
         labelled(axis, "X, mm", "Y, mm")
         axis.set_title(turns, fontsize=10.5)
+    return figure
+
+
 def cups() -> sc.Part:
     """Two cups of 45 degrees in rings of land: faces 1 to 3 are land, wall and floor of the left one."""
     angles = np.radians(np.arange(0.0, 360.0, 5.0))
