@@ -30,6 +30,7 @@ mod part;
 mod plan;
 mod plates;
 mod process;
+mod region;
 mod resolve;
 mod risk;
 mod scene;

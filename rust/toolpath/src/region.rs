@@ -142,12 +142,17 @@ impl Region<'_> {
             let [a, b] = [a, b].map(|point| boundary.position(envelope, point.tip, point.normal));
             boundary.may_end_on(a, b)
         };
+        self.boundary.as_ref().is_some_and(leaves) || self.may_be_near(a, b)
+    }
+
+    /// Whether the tool may come too near to check faces between two points of a path.
+    pub(crate) fn may_be_near(&self, a: &PathPoint, b: &PathPoint) -> bool {
         let comes_near = |check: &Envelope<'_>| match check.keeps_under([a.tip, b.tip], GRAZES, |_| GRAZES) {
             Keeping::Under => false,
             Keeping::Over => true,
             Keeping::Crowded => (b.tip - a.tip).norm() > NARROW,
         };
-        self.boundary.as_ref().is_some_and(leaves) || self.checks.iter().any(comes_near)
+        self.checks.iter().any(comes_near)
     }
 
     /// Whether it may begin between two points of a path that it does not allow: between edges in plan. What else it allows between

@@ -82,6 +82,12 @@ impl<'a> Surface<'a> {
         }
     }
 
+    /// Whether the tool keeps clear of the check faces between neighbours of these points, wherever else it goes.
+    pub(crate) fn is_clear_along(&self, points: &[PathPoint]) -> bool {
+        let is_clear = |region: &Region<'_>| points.windows(2).all(|pair| !region.may_be_near(&pair[0], &pair[1]));
+        self.region.is_none_or(is_clear)
+    }
+
     /// Whether the region does not end between neighbours of these points, which it allows.
     pub(crate) fn goes_on_along(&self, points: &[PathPoint]) -> bool {
         let goes_on = |region: &Region<'_>| {

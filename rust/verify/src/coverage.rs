@@ -20,7 +20,7 @@ use crate::convex::{lower, EQUAL};
 use crate::flats::{Flats, Need};
 use crate::measure::strokes_of;
 use crate::probes::{self, Probe};
-use crate::region::Asked;
+use crate::region_faults::Asked;
 use crate::segments::{placed, Segment, SegmentKind};
 use crate::stroke::Stroke;
 use crate::subject::{Limits, Subject};

@@ -56,6 +56,7 @@ mod pitch;
 mod probes;
 mod reach;
 mod region;
+mod region_faults;
 mod report;
 mod samples;
 mod scalar;

@@ -10,7 +10,7 @@ use crate::body::Body;
 use crate::clearance::{Prober, Touch};
 use crate::frame::Frame;
 use crate::holding::{colliders, Collider};
-use crate::region::Regions;
+use crate::region_faults::Regions;
 use crate::samples::{lowest, Measured, Sample, Strike};
 use crate::segments::{Segment, SegmentKind};
 use crate::stroke::Stroke;

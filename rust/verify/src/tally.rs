@@ -1,7 +1,7 @@
 //! What the measured moves come to: their faults, the worst positions, and some of the contacts.
 
 use crate::faults::{self, Fault, FaultKind};
-use crate::region::Regions;
+use crate::region_faults::Regions;
 use crate::report::{ContactRecord, Place};
 use crate::samples::{highest, normal_of, Measured, Sample, Strike};
 use crate::segments::{Segment, SegmentKind};

@@ -6,7 +6,7 @@ use styluscam_post::Machine;
 use styluscam_toolpath::PlanError;
 
 use crate::heights::TipHeights;
-use crate::resolve::OperationRegion;
+use crate::region::OperationRegion;
 use crate::{JobError, OperationKeys, Scene};
 
 /// The part, the machine, the tool and the selection of one operation: the job, resolved.

@@ -192,7 +192,8 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
     let task = Task { context, budget, body: &body, allowance, cut: kind.cut_feed(context.common) };
     let surface = Surface::new(&envelope, &selected).between_heights(kind.tip_range(&task));
     let surface = surface.rolling(rolling(context));
-    let region = context.region.planned(tool, scene, &budget, budget::rounding(context.machine));
+    let region =
+        context.region.planned((tool, scene.sheet.as_ref()), scene.inward, &budget, budget::rounding(context.machine));
     let region = region.ready();
     let surface = surface.within(&region);
     let surface = if fit::asks_for_arcs(context) { surface.keeping_witnesses() } else { surface };

@@ -8,5 +8,5 @@ mod tools;
 
 pub use channels::check as check_channels;
 pub use operation::{descent_of, faces_in, faces_of, heights_of, passes_of, selection_of};
-pub use region::{region_of, OperationRegion};
+pub use region::region_of;
 pub use tools::{tools, tools_in_order};
