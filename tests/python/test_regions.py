@@ -327,6 +327,42 @@ def test_the_verifier_misses_a_pass_inside_the_boundary_only(two_cups: sc.Part) 
     assert {"missing-level", "missing-pass", "excess"} & kinds(verified(bounded, lifted)[1])
 
 
+# --- from pass to pass -------------------------------------------------------------------------------------------
+
+
+def test_low_rapids_keep_clear_of_check_faces(two_cups: sc.Part) -> None:
+    """From cup to cup over their lands, 3 mm above them though half a millimetre above the stock is asked for."""
+    keys: Any = {"links": "low", "link_margin": 0.5, "check_faces": ["Face1", "Face4"], "check_clearance": 3.0}
+    planned = job("made.stl", ["Face2", "Face5"], "z-level", two_cups, **keys)
+    _, report = verified(planned)
+    assert not report.findings
+    moves = report.program.moves
+    ends, is_rapid = np.array(moves["end"]), np.array(moves["kind"]) == 0
+    crossings = ends[1:, 2][is_rapid[1:] & (np.abs(np.diff(ends[:, 0])) > 20.0)]
+    assert len(crossings) > 1
+    assert 3.0 < crossings.min() < 5.0
+    keys["check_faces"] = ["Face3", "Face6"]
+    low = sc.post(sc.plan(job("made.stl", ["Face2", "Face5"], "z-level", two_cups, **keys))).text
+    assert "check-clearance" in kinds(verified(planned, low)[1])
+
+
+@pytest.mark.parametrize(
+    ("keys", "fact", "words"),
+    [
+        ({"lead": "vertical", "lead_radius": 3.0}, "leads", "none fits"),
+        ({"turns": "looped", "turn_radius": 3.0}, "straight_turns", "where no turn fits"),
+    ],
+)
+def test_leads_and_turns_keep_clear_of_check_faces(two_cups: sc.Part, keys: Any, fact: str, words: str) -> None:
+    """Rows end as near to the land as its clearance: whatever goes on from there along the wall comes nearer."""
+    region = {"check_faces": ["Face1"], "check_clearance": 1.5}
+    planned = job("made.stl", ["Face2"], "zig-zag", two_cups, **keys, **region)
+    plan = sc.plan(planned)
+    found = {one.fact: one.words for one in plan.summary()[0].operations[0].facts}
+    assert words in found[fact]
+    assert not sc.verify(sc.post(plan), planned).findings
+
+
 # --- edges -------------------------------------------------------------------------------------------------------
 
 

@@ -142,15 +142,16 @@ impl Region<'_> {
             let [a, b] = [a, b].map(|point| boundary.position(envelope, point.tip, point.normal));
             boundary.may_end_on(a, b)
         };
-        self.boundary.as_ref().is_some_and(leaves) || self.may_be_near(a, b)
+        self.boundary.as_ref().is_some_and(leaves) || self.may_be_near([a.tip, b.tip])
     }
 
-    /// Whether the tool may come too near to check faces between two points of a path.
-    pub(crate) fn may_be_near(&self, a: &PathPoint, b: &PathPoint) -> bool {
-        let comes_near = |check: &Envelope<'_>| match check.keeps_under([a.tip, b.tip], GRAZES, |_| GRAZES) {
+    /// Whether the tool may come too near to check faces on the straight line between two tips, its ends included.
+    pub(crate) fn may_be_near(&self, line: [Vector; 2]) -> bool {
+        let is_over = |check: &Envelope<'_>, tip: Vector| check.is_over(tip.x, tip.y, tip.z + GRAZES, &mut None);
+        let comes_near = |check: &Envelope<'_>| match check.keeps_under(line, GRAZES, |_| GRAZES) {
             Keeping::Under => false,
             Keeping::Over => true,
-            Keeping::Crowded => (b.tip - a.tip).norm() > NARROW,
+            Keeping::Crowded => (line[1] - line[0]).norm() > NARROW || line.iter().any(|tip| is_over(check, *tip)),
         };
         self.checks.iter().any(comes_near)
     }

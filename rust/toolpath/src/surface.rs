@@ -84,8 +84,17 @@ impl<'a> Surface<'a> {
 
     /// Whether the tool keeps clear of the check faces between neighbours of these points, wherever else it goes.
     pub(crate) fn is_clear_along(&self, points: &[PathPoint]) -> bool {
-        let is_clear = |region: &Region<'_>| points.windows(2).all(|pair| !region.may_be_near(&pair[0], &pair[1]));
-        self.region.is_none_or(is_clear)
+        points.windows(2).all(|pair| self.is_clear([pair[0].tip, pair[1].tip]))
+    }
+
+    /// Whether the tool keeps clear of the check faces on the straight line between two tips.
+    pub(crate) fn is_clear(&self, line: [Vector; 2]) -> bool {
+        self.region.is_none_or(|region| !region.may_be_near(line))
+    }
+
+    /// The envelopes on the part and on the check faces: the tip stays above all of them.
+    pub(crate) fn envelopes(&self) -> impl Iterator<Item = &'a Envelope<'a>> + '_ {
+        std::iter::once(self.envelope).chain(self.region.iter().flat_map(|region| &region.checks))
     }
 
     /// Whether the region does not end between neighbours of these points, which it allows.

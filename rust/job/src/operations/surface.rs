@@ -265,8 +265,7 @@ fn linked(
         }
         (None, None) => (passes.into_iter().map(Entered::from).collect(), Vec::new()),
     };
-    let passes = (surface.envelope(), &*entered, deviation);
-    let (moves, linked) = links::linked(context, passes, along, &task.links())?;
+    let (moves, linked) = links::linked(context, (&*entered, deviation), along, &task.links())?;
     facts.extend(linked);
     Ok((moves, facts))
 }
