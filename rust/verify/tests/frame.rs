@@ -10,7 +10,7 @@ use styluscam_geometry::{Bvh, Mesh, Tool, Vector};
 use styluscam_motion::{Program, Watch};
 use styluscam_verify::{
     judge, Contact, Expectation, ExpectedOperation, FindingKind, Forming, FrameLevel, Height, Limits, Obstacle,
-    ObstacleKind, OrderedPasses, Passes, Pitch, Report, Severity, Subject, Support, TextFacts, WallAngleSource,
+    ObstacleKind, OrderedPasses, Passes, Pitch, Region, Report, Severity, Subject, Support, TextFacts, WallAngleSource,
 };
 
 const LOW: f64 = 10.0;

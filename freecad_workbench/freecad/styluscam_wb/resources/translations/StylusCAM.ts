@@ -64,6 +64,19 @@ Range: above 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Faces that the tool keeps away from: "rest" (all others that face up, or stand upright where faces = "all" takes upright
+walls), or names; the part's when left out.
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Faces that the tool keeps away from: "rest" (all others), or names: ["Face7"].
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Feed per revolution along the path, mm: the distance between its turns on the part.
 Range: 0.001 to 20 mm/rev</source>
         <translation type="unfinished"></translation>
@@ -71,6 +84,18 @@ Range: 0.001 to 20 mm/rev</source>
     <message>
         <source>How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
 Range: 0.0001 to 1 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far tool, shank and holder, with the sheet under them, stay away from those faces, mm; 0 when left out.
+Range: 0 to 1000 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far tool, shank and holder, with the sheet under them, stay away from those faces, mm; the part's when left out.
+Range: 0 to 1000 mm
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -225,6 +250,14 @@ As JSON
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>What happens at the outer edges of the selected faces; when left out, passes stop there, and in forming roll over those
+that the tool comes down over.
+0 or empty: not stated
+roll: The tool rolls over them, its contact on the edge, until it touches another face or leaves the edge.
+stop: They end where the contact reaches the edge.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>What holds it.
 As JSON
 0 or empty: not stated</source>
@@ -260,6 +293,12 @@ arcs: Arcs and lines, of which fewer are needed; lines where the machine has no 
     </message>
     <message>
         <source>What the sheet is made of, by the name of a shipped material: it sets the steepest wall that the sheet withstands.
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Where passes may run: inside edges in plan, and on contacts of some slopes.
+As JSON
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
@@ -447,6 +486,10 @@ Range: 1 to 90 deg</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Boundary</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Bull nose</source>
         <translation type="unfinished"></translation>
     </message>
@@ -466,6 +509,14 @@ Range: -360 to 360 deg
     </message>
     <message>
         <source>Chamfer</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Check clearance</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Check faces</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -628,6 +679,10 @@ other face of the sheet, block by block; its machine is in `[machines.support]`.
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Edges</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Edit</source>
         <translation type="unfinished"></translation>
     </message>
@@ -653,6 +708,19 @@ other face of the sheet, block by block; its machine is in `[machines.support]`.
     </message>
     <message>
         <source>Exponent</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Faces that the tool keeps away from: "rest" (all others that face up, or stand upright where faces = "all" takes upright
+walls), or names; the part's when left out.
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Faces that the tool keeps away from: "rest" (all others), or names: ["Face7"].
+As JSON
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -735,6 +803,18 @@ Range: 0.0001 to 1 mm</source>
     </message>
     <message>
         <source>How far the points may be from the profile, inside or outside, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far tool, shank and holder, with the sheet under them, stay away from those faces, mm; 0 when left out.
+Range: 0 to 1000 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far tool, shank and holder, with the sheet under them, stay away from those faces, mm; the part's when left out.
+Range: 0 to 1000 mm
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -998,6 +1078,14 @@ the feed per revolution and the spindle's speed.</source>
     </message>
     <message>
         <source>Parameters</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Part check clearance</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Part check faces</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1467,6 +1555,14 @@ the feed per revolution and the spindle's speed.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>The tool rolls over them, its contact on the edge, until it touches another face or leaves the edge.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>They end where the contact reaches the edge.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Thickness, mm.
 Range: above 0 to 50 mm</source>
         <translation type="unfinished"></translation>
@@ -1585,6 +1681,14 @@ As JSON
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>What happens at the outer edges of the selected faces; when left out, passes stop there, and in forming roll over those
+that the tool comes down over.
+0 or empty: not stated
+roll: The tool rolls over them, its contact on the edge, until it touches another face or leaves the edge.
+stop: They end where the contact reaches the edge.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>What holds it.
 As JSON
 0 or empty: not stated</source>
@@ -1624,6 +1728,12 @@ arcs: Arcs and lines, of which fewer are needed; lines where the machine has no 
     </message>
     <message>
         <source>What the sheet is made of, by the name of a shipped material: it sets the steepest wall that the sheet withstands.
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Where passes may run: inside edges in plan, and on contacts of some slopes.
+As JSON
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1916,6 +2026,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>roll</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>rounded</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1977,6 +2091,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>stepover along the wall, mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>stop</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
