@@ -5,6 +5,7 @@ use std::sync::Arc;
 use styluscam_motion::SpindleDirection;
 
 use crate::pitch::Pitch;
+use crate::region::Region;
 use crate::scalar::Scalar;
 
 /// An operation as the job states it.
@@ -42,6 +43,8 @@ pub struct Expectation {
     pub contact: Contact,
     /// The triangles of the part that it is for, one entry a triangle.
     pub selected: Vec<bool>,
+    /// Where its contacts lie beyond that.
+    pub region: Region,
     /// Lowest and highest tip that it is to reach, mm.
     pub heights: [f64; 2],
     /// How its passes lie.

@@ -265,7 +265,9 @@ impl Look<'_> {
     fn spot(&self, probe: &Probe) -> Option<Spot> {
         let up = self.subject.mesh.normal(probe.triangle);
         let position = probe.point - self.body.farthest(up).0;
-        self.asked_for(position).then(|| Spot { point: probe.point, up, position, tip: self.body.tip(position) })
+        let is_asked =
+            self.asked_for(position) && self.expectation.region.takes(self.body, position, (probe.point, up));
+        is_asked.then(|| Spot { point: probe.point, up, position, tip: self.body.tip(position) })
     }
 
     /// What is left at a point, if it is more than the distance between passes explains, and the tool can get there.
@@ -398,7 +400,10 @@ impl Look<'_> {
 
     /// Whether the tool touches the part at a position that is asked for.
     fn goes_on(&self, position: Vector) -> bool {
-        self.asked_for(position) && self.clearance(position).abs() <= TOUCH
+        let takes = |touch: Touch| {
+            touch.value.abs() <= TOUCH && self.expectation.region.takes(self.body, position, (touch.point, -touch.away))
+        };
+        self.asked_for(position) && self.touch(position).is_some_and(takes)
     }
 
     /// Whether the tip is at a height that is asked for.

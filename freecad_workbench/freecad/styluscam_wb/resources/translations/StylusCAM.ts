@@ -74,6 +74,19 @@ Range: above 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Faces that the tool keeps away from: "rest" (all others that face up, or stand upright where faces = "all" takes upright
+walls), or names; the part's when left out.
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Faces that the tool keeps away from: "rest" (all others), or names: ["Face7"].
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Feed per revolution along the path, mm: the distance between its turns on the part.
 Range: 0.001 to 20 mm/rev</source>
         <translation type="unfinished"></translation>
@@ -81,6 +94,18 @@ Range: 0.001 to 20 mm/rev</source>
     <message>
         <source>How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
 Range: 0.0001 to 1 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far tool, shank and holder, with the sheet under them, stay away from those faces, mm; 0 when left out.
+Range: 0 to 1000 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far tool, shank and holder, with the sheet under them, stay away from those faces, mm; the part's when left out.
+Range: 0 to 1000 mm
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -235,6 +260,14 @@ As JSON
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>What happens at the outer edges of the selected faces; when left out, passes stop there, and in forming roll over those
+that the tool comes down over.
+0 or empty: not stated
+roll: The tool rolls over them, its contact on the edge, until it touches another face or leaves the edge.
+stop: They end where the contact reaches the edge.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>What holds it.
 As JSON
 0 or empty: not stated</source>
@@ -270,6 +303,12 @@ arcs: Arcs and lines, of which fewer are needed; lines where the machine has no 
     </message>
     <message>
         <source>What the sheet is made of, by the name of a shipped material: it sets the steepest wall that the sheet withstands.
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Where passes may run: inside edges in plan, and on contacts of some slopes.
+As JSON
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
@@ -467,6 +506,10 @@ Range: 1 to 90 deg</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Boundary</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Bull nose</source>
         <translation type="unfinished"></translation>
     </message>
@@ -486,6 +529,14 @@ Range: -360 to 360 deg
     </message>
     <message>
         <source>Chamfer</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Check clearance</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Check faces</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -656,6 +707,10 @@ other face of the sheet, block by block; its machine is in `[machines.support]`.
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Edges</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Edit</source>
         <translation type="unfinished"></translation>
     </message>
@@ -681,6 +736,19 @@ other face of the sheet, block by block; its machine is in `[machines.support]`.
     </message>
     <message>
         <source>Exponent</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Faces that the tool keeps away from: "rest" (all others that face up, or stand upright where faces = "all" takes upright
+walls), or names; the part's when left out.
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Faces that the tool keeps away from: "rest" (all others), or names: ["Face7"].
+As JSON
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -763,6 +831,18 @@ Range: 0.0001 to 1 mm</source>
     </message>
     <message>
         <source>How far the points may be from the profile, inside or outside, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far tool, shank and holder, with the sheet under them, stay away from those faces, mm; 0 when left out.
+Range: 0 to 1000 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far tool, shank and holder, with the sheet under them, stay away from those faces, mm; the part's when left out.
+Range: 0 to 1000 mm
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1026,6 +1106,14 @@ the feed per revolution and the spindle's speed.</source>
     </message>
     <message>
         <source>Parameters</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Part check clearance</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Part check faces</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1495,6 +1583,14 @@ the feed per revolution and the spindle's speed.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>The tool rolls over them, its contact on the edge, until it touches another face or leaves the edge.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>They end where the contact reaches the edge.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Thickness, mm.
 Range: above 0 to 50 mm</source>
         <translation type="unfinished"></translation>
@@ -1613,6 +1709,14 @@ As JSON
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>What happens at the outer edges of the selected faces; when left out, passes stop there, and in forming roll over those
+that the tool comes down over.
+0 or empty: not stated
+roll: The tool rolls over them, its contact on the edge, until it touches another face or leaves the edge.
+stop: They end where the contact reaches the edge.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>What holds it.
 As JSON
 0 or empty: not stated</source>
@@ -1652,6 +1756,12 @@ arcs: Arcs and lines, of which fewer are needed; lines where the machine has no 
     </message>
     <message>
         <source>What the sheet is made of, by the name of a shipped material: it sets the steepest wall that the sheet withstands.
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Where passes may run: inside edges in plan, and on contacts of some slopes.
+As JSON
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1944,6 +2054,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>roll</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>rounded</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2005,6 +2119,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>stepover along the wall, mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>stop</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
