@@ -39,6 +39,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Rectangle
 from PIL import Image
+from region_picture import regions
 
 import styluscam as sc
 from styluscam.parts.surfaces import Sphere
@@ -346,9 +347,7 @@ def rows() -> Figure:
             chosen = feeds & ((np.abs(end[:, 1] - start[:, 1]) > 1e-6) == is_turn)
             lines = np.stack([start[chosen, :2], end[chosen, :2]], axis=1)
             axis.add_collection(LineCollection(list(lines), colors=colour, linewidths=1.6))
-        axis.set_xlim(10.0, 47.0)
-        axis.set_ylim(2.0, 32.0)
-        axis.set_aspect("equal")
+        axis.set(xlim=(10.0, 47.0), ylim=(2.0, 32.0), aspect="equal")
         labelled(axis, "X, mm", "Y, mm")
         axis.set_title(turns, fontsize=10.5)
     return figure
@@ -575,6 +574,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "waterlines": waterlines,
     "rows": rows,
     "spirals": spirals,
+    "regions": regions,
     "fitting": fitting,
     "verifier": verifier,
     "convexity": convexity,

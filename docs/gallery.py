@@ -104,6 +104,14 @@ EXAMPLES = (
         process={"kind": "milling"},
     ),
     Example(
+        "cross",
+        "Rows that cross",
+        "`cross = true`: a second set of rows across the first. Milling.",
+        "cap_r60",
+        {"kind": "zig-zag", "stepover": 5.0, "angle_deg": 45.0, "cross": True},
+        process={"kind": "milling"},
+    ),
+    Example(
         "male-die",
         "Over a male die",
         '`process.kind = "tpif"`: from the die\'s top outwards and down, the clamp frame goes down with the path.',

@@ -105,3 +105,19 @@ def test_arcs_are_arcs_for_freecad(session: Any, name: str, codes: list[str]) ->
     assert ours == pytest.approx(theirs, abs=1e-4)
     ours, theirs = seen["ends"]
     assert ours == pytest.approx(theirs, abs=ROUNDED)
+
+
+def test_a_sketch_bounds_the_passes(session: Any) -> None:
+    """Its arc becomes chords within a thousandth; the tool's axis stays behind its line at Y2.5."""
+    seen = session["wires"]
+    assert seen["whole"][1] > 20.0
+    assert seen["bounded"] == pytest.approx([seen["whole"][0], 2.5], abs=2e-3)
+    assert len(seen["corners"]) == 1 and seen["corners"][0] > 100
+    assert seen["off"] <= 1e-6, "corners of the polyline lie on the arc"
+    assert "do not close" in seen["open"]
+
+
+def test_check_faces_are_a_property(session: Any) -> None:
+    count, (_, highest) = session["wires"]["rest"]
+    assert count > 100
+    assert highest < session["wires"]["whole"][1] - 1.0

@@ -153,7 +153,7 @@ class Case:
             top - origin[2] + setup.get("retract", 2.0),
             self.family,
             AXES if "file" in self.document["machine"] else None,
-            sheet is not None and all(operation["kind"] == "z-level" for operation in self.document["operations"]),
+            sheet is not None and all(operation["kind"] != "zig-zag" for operation in self.document["operations"]),
         )
 
 
@@ -248,6 +248,40 @@ def made_case(number: int, folder: Path, family: Family | None = None) -> Case:
     if family not in ONE_TOOL and draw.random() < 0.25:
         _add_second(made, draw)
     return Case(f"{number}: {kind} of {part} by {profile['kind']} on {machine}", PARTS[part], made, family)
+
+
+FURTHER: list[Document] = [
+    {"kind": "spiral", "step": {"height": 1.2}},
+    {"kind": "spiral", "step": {"scallop": 0.06}, "step_min": 0.2},
+    {"kind": "z-level", "step": {"list": [0.8, 1.2, 1.0]}},
+    {"kind": "z-level", "step": {"scallop": 0.06}, "step_min": 0.2},
+    {"kind": "z-level", "step": {"height": 1.2}, "fit": "arcs"},
+    {"kind": "spiral", "step": {"height": 1.2}, "fit": "arcs"},
+]
+"""Operations beyond evenly spaced levels and rows of lines."""
+FITTED: tuple[Family, ...] = ("linuxcnc", "grbl", "siemens")
+"""Families whose arcs the engine fits for this."""
+
+
+def further_case(number: int, folder: Path, family: Family | None = None) -> Case:
+    """The case of a number, of the operation `number` among `FURTHER` in turn."""
+    draw = random.Random(f"further {number}")
+    operation = copy.deepcopy(FURTHER[number % len(FURTHER)])
+    is_fitted = "fit" in operation
+    if is_fitted and family is None:
+        family = draw.choice(FITTED)
+    machine, section, family = _machine(draw, folder, family)
+    parts = ROUND if is_fitted else {name: PARTS[name] for name in ("pit", "bump")}
+    part, mesh = draw.choice(list(parts.items()))
+    profile = draw.choice(PROFILES[:2])
+    # a bump is no sheet's inside
+    sheet = draw.choice([None, SHEETS[0]]) if mesh[0][-1, 2] < 0 else None
+    made = document(operation["kind"], profile, section, sheet=sheet)
+    made["operations"] = [{"tool": "tool", **operation}]
+    if sheet is None:
+        made["operations"][0] |= _milled(draw)
+    steps = ", ".join(f"{key} {value}" for key, value in operation.items())
+    return Case(f"further {number}: {steps} of {part} by {profile['kind']} on {machine}", mesh, made, family)
 
 
 def _milled(draw: random.Random) -> Document:

@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -68,15 +68,22 @@ class Trial:
         return f"{self.kind} #{self.seed} ({self.case.name}) at line {first}: {why} | verifier: {self.reported}"
 
 
-def text_defect(kind: str, seed: int, folder: Path, family: Family | None = None) -> Trial | None:
-    """A sound program, of a family where one is asked for, with one defect; none where the kind fits no program."""
+Make: TypeAlias = Callable[[int, Path, Family | None], Case]
+"""Draws a case by its number."""
+
+
+def text_defect(
+    kind: str, seed: int, folder: Path, family: Family | None = None, make: Make | None = None
+) -> Trial | None:
+    """A sound program with one defect, of a family and a maker if these are given; none where the kind fits no program."""
     draw = random.Random(f"{kind} {seed} {family or ''}")
     if family is None and FAMILIES_OF[kind] != FAMILIES:
         family = draw.choice(FAMILIES_OF[kind])
     suits = SUITS.get(kind, _any)
     for _ in range(TRIES):
-        make = arc_case if kind in ARCS or draw.random() < SHARE_WITH_ARCS else made_case
-        case = make(draw.randrange(POOL), folder, family)
+        if make is None:
+            drawn = arc_case if kind in ARCS or draw.random() < SHARE_WITH_ARCS else made_case
+        case = (make or drawn)(draw.randrange(POOL), folder, family)
         if not suits(case):
             continue
         changed = KINDS[kind](Text(case.text, case.family), draw)

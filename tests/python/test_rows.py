@@ -132,3 +132,44 @@ def test_spoiled_turns_are_found() -> None:
 def test_a_radius_belongs_to_loops(keys: dict[str, Any], words: str) -> None:
     with pytest.raises(sc.JobError, match=words):
         sc.plan(job("pyramid", **keys))
+
+
+CROSS = {"cross": True, "angle_deg": 20.0, "cross_angle_deg": 60.0}
+
+
+def without_row(text: str, angle_deg: float) -> str:
+    """A text without one of the rows in a direction, near the part's middle: the tool goes over it at clearance."""
+    moves = sc.read_gcode(text, "linuxcnc").moves
+    across = np.array([-np.sin(np.radians(angle_deg)), np.cos(np.radians(angle_deg))])
+    value = moves["end"][:, :2] @ across
+    feeds = moves["kind"][1:] != 0
+    along = np.flatnonzero(feeds & (np.abs(np.diff(value)) < 2e-3) & (np.abs(value[1:]) < 20.0)) + 1
+    rows = [row for row in np.split(along, np.flatnonzero(np.diff(along) > 1) + 1) if len(row) > 20]
+    row = min(rows, key=lambda row: abs(value[row[0]]))
+    first, last = moves["line"][row[0]], moves["line"][row[-1]]
+    lines = text.splitlines()
+    x, y, z = moves["end"][row[-1]]
+    over = ["G0 Z30.", f"X{x:.3f} Y{y:.3f}", f"Z{z + 1.0:.3f}", f"G1 Z{z:.3f} F300.", "F1500."]
+    return "\n".join([*lines[: first - 1], *over, *lines[last:]]) + "\n"
+
+
+@pytest.mark.parametrize(
+    ("part", "turns"),
+    [("cap_r60", {}), ("cone_cup", ROUNDED)],
+    ids=["straight", "rounded"],
+)
+def test_rows_cross_each_other_and_a_missing_one_of_either_set_is_found(part: str, turns: dict[str, Any]) -> None:
+    asked = job(part, stepover=3.0, **CROSS, **turns)
+    plan, text = verified(asked)
+    single = sc.plan(job(part, stepover=3.0, angle_deg=20.0, **turns))
+    assert facts(plan)["rows"] == pytest.approx(2 * facts(single)["rows"], abs=8)
+    if turns:
+        assert facts(plan)["turns"] > 1.5 * facts(single)["turns"] and corners(plan).max() <= CHORD + 0.5
+    for angle in (20.0, 80.0):
+        found = sc.verify(without_row(text, angle), asked).findings
+        assert {one.kind for one in found} & {"missing-pass", "missing-row"}, (angle, [one.message for one in found])
+
+
+def test_an_angle_between_sets_needs_two() -> None:
+    with pytest.raises(sc.JobError, match="second set of rows"):
+        sc.plan(job("pyramid", cross_angle_deg=45.0))

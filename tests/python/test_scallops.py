@@ -54,13 +54,14 @@ def share_on_wall(found: Scallops) -> float:
     return float((found.heights[on_wall] >= 0.8 * ASKED).mean())
 
 
-@pytest.mark.parametrize("part", ["cone_cup", "pyramid"])
-def test_levels_leave_the_scallop_that_is_asked_for(part: str) -> None:
+@pytest.mark.parametrize(("part", "share"), [("cone_cup", 0.95), ("pyramid", 0.85)])
+def test_levels_leave_the_scallop_that_is_asked_for(part: str, share: float) -> None:
+    """Of the pyramid's ridges the lowest are lower: between its fillet, hardly wider than the tool, and its floor."""
     operation = {"kind": "z-level", "step": {"scallop": ASKED}, "step_min": 0.01}
     found = scallops(verified(job(part, operation)))
     assert found.highest <= 1.02 * ASKED
     assert share_on_wall(found) >= 0.95
-    assert found.share_within(0.8 * ASKED, ASKED) >= 0.75
+    assert found.share_within(0.8 * ASKED, ASKED) >= share
 
 
 def test_a_spiral_leaves_no_more() -> None:

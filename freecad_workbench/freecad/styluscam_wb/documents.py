@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from . import engine, machines, properties, tools
+from . import engine, machines, properties, tools, wires
 from .fields import JOB, OPERATION, PART, PROCESS, SECONDS, SETUP, SHEET
 
 if TYPE_CHECKING:
@@ -154,6 +154,10 @@ def operation_section(obj: Any) -> Document:
     ):
         if abs(depth - automatic) > AUTOMATIC:
             section[key] = depth
+    linked = wires.loops(obj)
+    if linked:
+        boundary = section.setdefault("boundary", {})
+        boundary["wire"] = [*boundary.get("wire", []), *linked]
     return section
 
 

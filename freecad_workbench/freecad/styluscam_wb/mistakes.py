@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from . import documents, engine, machines, motion, properties, tool_keys, tools
+from . import documents, engine, machines, motion, properties, tool_keys, tools, wires
 
 
 class OperationError(ValueError):
@@ -19,6 +19,7 @@ EXPECTED = (
     properties.PropertyError,
     tool_keys.ValueTextError,
     tools.ToolError,
+    wires.WireError,
 )
 """Errors of the addon that state what a user can do; the engine's have a hint."""
 

@@ -15,7 +15,7 @@ import Path
 import Path.Op.Base as PathOp
 from PathScripts import PathUtils
 
-from . import documents, engine, motion, post_list, properties, quiet, setup_sheet, tools, views
+from . import documents, engine, motion, post_list, properties, quiet, setup_sheet, tools, views, wires
 from .long_work import Run, long_work
 from .mistakes import OperationError, is_fault, reason
 from .part import part_of
@@ -187,6 +187,8 @@ def update_properties(obj: Any) -> None:
     properties.update(obj)
     if not hasattr(obj, "WholeModel"):
         obj.addProperty("App::PropertyBool", "WholeModel", properties.GROUP, WHOLE_MODEL)
+    if not hasattr(obj, wires.PROPERTY):
+        obj.addProperty("App::PropertyLinkSubList", wires.PROPERTY, properties.GROUP, wires.TEXT)
     if not hasattr(obj, MODEL):
         obj.addProperty("App::PropertyLink", MODEL, "Path", "The model that the path is for")
         obj.setEditorMode(MODEL, ["Hidden"])

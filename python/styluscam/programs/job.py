@@ -14,7 +14,7 @@ from styluscam import _engine
 from styluscam.arguments import A_FILE, FileName, channel_of, document_of, file_of, json_of, refused
 from styluscam.errors import JobError, ToolError
 from styluscam.files import reason, require_end
-from styluscam.parts import springback
+from styluscam.parts import springback, wires
 from styluscam.parts.arrays import PartArrays
 from styluscam.parts.formats import BREP_ENDINGS, MESH_ENDINGS
 from styluscam.parts.part import Part, PartLike
@@ -75,6 +75,7 @@ class Job:
         job._part = None
         job.document = json.loads(engine.to_json())
         job._tool_files = []
+        job._take_wires()
         job._take_tools()
         job._tool_files += tool_files
         return job
@@ -204,8 +205,16 @@ class Job:
         self.engine = _engine.Job.from_json(json.dumps(self.document))
         self.document = json.loads(self.engine.to_json())
 
+    def _take_wires(self) -> None:
+        """Puts the polylines of files instead of their names, and notes the files."""
+        files = wires.with_wires(self.document, self.folder)
+        if files:
+            self._tool_files += files
+            self.engine = _engine.Job.from_json(json.dumps(self.document))
+            self.document = json.loads(self.engine.to_json())
+
     def inputs(self) -> list[Path]:
-        """The files that the job is read from: itself, the part's, the machine's and the tools'."""
+        """The files that the job is read from: itself, the part's, the machine's, the tools' and those of boundaries."""
         machines = [json.loads(self.engine.machine_of(channel)).get("file") for channel in self.channels]
         named = [self.document["part"]["file"], *machines, *dict.fromkeys(self._tool_files)]
         measured = [] if self._springback is None else springback.files(self._springback)

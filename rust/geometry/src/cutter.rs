@@ -81,8 +81,14 @@ impl Cutter {
     /// `profile` offset outwards by a ball of radius `ball`, mm, not negative.
     #[must_use]
     pub fn new(profile: &Profile, ball: f64) -> Self {
+        Self::of(ToolBody::new(profile, ball))
+    }
+
+    /// A body made ready.
+    #[must_use]
+    pub fn of(body: ToolBody) -> Self {
         let mut cutter = Self {
-            body: ToolBody::new(profile, ball),
+            body,
             cells_per_mm: 0.0,
             lines: Vec::new(),
             rises: Vec::new(),

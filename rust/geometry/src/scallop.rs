@@ -42,7 +42,8 @@ impl ToolBody {
 
     /// Length of the section's chord parallel to a face of a `slope` at `height` mm above it, mm; infinite where the section
     /// does not end below.
-    fn chord(&self, slope: f64, height: f64) -> f64 {
+    #[must_use]
+    pub fn chord(&self, slope: f64, height: f64) -> f64 {
         let (radius, z) = self.point_at(slope);
         let wall = Wall { body: self, slope, foot: [radius, z], normal: libm::sincos(slope), height };
         wall.end(FRAC_PI_2) - wall.end(-FRAC_PI_2)

@@ -39,6 +39,12 @@ impl ToolBody {
         }
     }
 
+    /// The same offset outwards by a ball of radius `ball`, mm, not negative; the tool's tip stays where it is.
+    #[must_use]
+    pub fn grown(&self, ball: f64) -> Self {
+        Self::new(&self.meridian, ball).with_tip_above(self.tip_above + ball)
+    }
+
     /// The same with the tool's tip `above` mm over its lowest point; negative for what stands above the tip.
     #[must_use]
     pub fn with_tip_above(self, above: f64) -> Self {

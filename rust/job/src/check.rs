@@ -8,13 +8,16 @@ use crate::process::Opposite;
 use crate::resolve::check_channels;
 use crate::{
     operations::{Fit, LinkHeight},
-    spindle, Direction, JobDocument, JobError, LengthUnit, MachineSection, OperationKeys, OperationSection, Process,
-    ProcessSection, Selection, SheetSection, Zero,
+    spindle, CheckSelection, Direction, JobDocument, JobError, LengthUnit, MachineSection, OperationKeys,
+    OperationSection, Process, ProcessSection, Selection, SheetSection, Zero,
 };
 
 /// Checks combinations of keys.
 pub fn document(job: &JobDocument) -> Result<(), JobError> {
     some_face("part.faces", &job.part.faces)?;
+    if let Some(CheckSelection::Named(names)) = &job.part.check_faces {
+        some_face("part.check_faces", &Selection::Named(names.clone()))?;
+    }
     setup(job)?;
     process(&job.process)?;
     crate::shaping::check(job)?;
@@ -279,6 +282,7 @@ fn operation(job: &JobDocument, path: &str, section: &OperationSection) -> Resul
     if let Some(selection) = &common.faces {
         some_face(&format!("{path}.faces"), selection)?;
     }
+    region(job, path, common)?;
     heights(path, common, job.units)?;
     direction(path, common)?;
     fit(job, path, common)?;
@@ -286,6 +290,35 @@ fn operation(job: &JobDocument, path: &str, section: &OperationSection) -> Resul
     links(job, path, common)?;
     spindle::check(section, path)?;
     section.kind().check(common, path)
+}
+
+/// A clearance is that of check faces, and rapids keep it too.
+fn region(job: &JobDocument, path: &str, common: &OperationKeys) -> Result<(), JobError> {
+    if let Some(boundary) = &common.boundary {
+        boundary.check(&format!("{path}.boundary"))?;
+    }
+    if let Some(CheckSelection::Named(names)) = &common.check_faces {
+        some_face(&format!("{path}.check_faces"), &Selection::Named(names.clone()))?;
+    }
+    let (clearance, path) = match common.check_clearance {
+        Some(clearance) => (Some(clearance), format!("{path}.check_clearance")),
+        None => (job.part.check_clearance, "part.check_clearance".to_owned()),
+    };
+    let has_faces = common.check_faces.is_some() || job.part.check_faces.is_some();
+    match clearance {
+        Some(_) if common.check_clearance.is_some() && !has_faces => {
+            let message = "a clearance of check faces, and none are named";
+            let hint = "add check_faces = \"rest\" or a list of names, or remove it";
+            Err(JobError::document("conflict", path, message, hint))
+        }
+        Some(clearance) if has_faces && clearance > job.setup.clearance => {
+            let [asked, rapids] = [clearance, job.setup.clearance].map(|mm| job.units.shown(mm));
+            let message =
+                format!("check_clearance = {asked}: rapids cross the part at clearance = {rapids}, nearer than that");
+            Err(JobError::document("conflict", path, message, format!("raise setup.clearance to {asked} or more")))
+        }
+        Some(_) | None => Ok(()),
+    }
 }
 
 /// Climb and conventional are about a tool that turns.

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use styluscam_geometry::{Base, Holder, ModelFace, ProfileDocument, SheetLaw};
 use styluscam_motion::ToolReference;
 
+use crate::selection::CheckSelection;
 use crate::{
     AddendumSection, Chuck, FixtureSection, OperationSection, ProcessSection, Risk, Selection, SpringbackSection,
     Units, UpAxis,
@@ -78,6 +79,13 @@ pub struct PartSection {
     /// "all" (the faces that face up; levels that mill take upright walls too), or names: ["Face3", "Face4"].
     #[serde(default)]
     pub faces: Selection,
+    /// Faces that the tool keeps away from: "rest" (all others), or names: ["Face7"].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub check_faces: Option<CheckSelection>,
+    /// How far tool, shank and holder, with the sheet under them, stay away from those faces, mm; 0 when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm", "minimum" = 0.0, "maximum" = 1000.0))]
+    pub check_clearance: Option<f64>,
     /// Which face of the sheet the model shows; required with a sheet.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub model_face: Option<ModelFace>,

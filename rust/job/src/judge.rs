@@ -16,7 +16,7 @@ use styluscam_verify::{
 
 use crate::limits::{GOUGE, NO_ROOM};
 use crate::operations::{LeadForm, LinkHeight};
-use crate::resolve::{faces_of, heights_of, passes_of, tools_in_order};
+use crate::resolve::{faces_of, heights_of, passes_of, region_of, tools_in_order};
 use crate::{
     clamp, forming, materials, model, plates, portion, spindle, Coolant, JobDocument, JobError, OperationSection,
     Scene, SheetSection,
@@ -415,9 +415,11 @@ fn expectation(
     index: usize,
 ) -> Result<Expectation, JobError> {
     let heights = heights_of(job, scene, section);
+    let faces = faces_of(job, scene, section, index)?;
     Ok(Expectation {
         contact: section.kind().contact(),
-        selected: scene.facing_up(&faces_of(job, scene, section, index)?),
+        selected: scene.facing_up(&faces),
+        region: region_of(job, scene, section, index, &faces)?.expected(),
         heights: [heights.bottom, heights.top.unwrap_or(f64::INFINITY)],
         passes: if scene.opposite.is_some() {
             Passes::Unordered { reason: "they are opposite to the main tool's, whose program is checked for them" }

@@ -5,6 +5,7 @@
 mod advice;
 mod axes;
 mod body;
+mod boundary;
 mod check;
 mod chuck;
 mod clamp;
@@ -30,6 +31,7 @@ mod plan;
 mod plates;
 mod portion;
 mod process;
+mod region;
 mod resolve;
 mod risk;
 mod scene;
@@ -50,6 +52,7 @@ mod up_axis;
 
 pub use advice::{walls, Bend, Corner, Wall, Walls};
 pub use body::{Body, Border, FaceLook, Heights, Hollows, Shell, Side, Thickness, Unformable, SIDES};
+pub use boundary::{BoundaryInside, BoundaryKeys};
 pub use chuck::Chuck;
 pub use document::{
     JobDocument, LengthUnit, MachineSection, OutputSection, PartSection, SetupSection, SheetSection, ToolSection, Zero,
@@ -61,7 +64,7 @@ pub use fixture::{BackingSection, ClampSection, FixtureSection, Opening};
 pub use judge::{coverage, judge, left, needs, read_back, scallops, simulate, Judgement, Text};
 pub use materials::{materials, Angle, Material};
 pub use operations::{
-    BridgedFace, Context, Coolant, Direction, Effort, End, Fact, Feeds, Operation, OperationKeys, OperationKind,
+    BridgedFace, Context, Coolant, Direction, Edges, Effort, End, Fact, Feeds, Operation, OperationKeys, OperationKind,
     OperationSection, PassSpacing, Planned, ReachedFace, Spindle, SurfaceFacts, ZLevel, ZigZag,
 };
 pub use parse::{from_json, from_toml, tool_from_json};
@@ -72,7 +75,7 @@ pub use process::{Die, Process, ProcessKeys, ProcessKind, ProcessSection, MAIN_C
 pub use risk::Risk;
 pub use scene::Scene;
 pub use schema::schema;
-pub use selection::Selection;
+pub use selection::{CheckSelection, Selection};
 pub use shapes::{shapes, standing, Shape, ShapeKind, Travel};
 pub use shaping::{is_shaped, shaped, AddendumKind, AddendumSection, Deviation, MeshPair, SpringbackSection};
 pub use starter::{fitting_radius, starter, Starter, StarterFace, StarterPart};

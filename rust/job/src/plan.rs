@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use styluscam_motion::Watch;
 
 use crate::operations::Context;
-use crate::resolve::{descent_of, faces_of, heights_of, tools};
+use crate::resolve::{descent_of, faces_of, heights_of, region_of, tools};
 use crate::{check, clamp, die, forming, shaping, spindle, JobDocument, JobError, MAIN_CHANNEL};
 
 mod channel;
@@ -53,6 +53,7 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
         let path = format!("operations[{index}]");
         let (tool, record) =
             tools.get(&section.common.tool).ok_or_else(|| check::no_tool(job, &path, &section.common.tool))?;
+        let faces = faces_of(job, scene, section, index)?;
         let context = Context {
             scene,
             machine,
@@ -61,7 +62,8 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
             operation: channel.operations.len() as u32,
             tool,
             reference_height: record.reference_height,
-            faces: faces_of(job, scene, section, index)?,
+            region: region_of(job, scene, section, index, &faces)?,
+            faces,
             heights: heights_of(job, scene, section),
             watch,
         };

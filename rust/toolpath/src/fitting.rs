@@ -100,7 +100,7 @@ pub fn densified(points: &[PathPoint], deviation: f64, longest: f64, course: &mu
 }
 
 /// Whether a point is nearer in plan to both ends than they are to each other: dividing there comes to an end.
-fn divides(m: &PathPoint, a: &PathPoint, b: &PathPoint) -> bool {
+pub fn divides(m: &PathPoint, a: &PathPoint, b: &PathPoint) -> bool {
     let whole = 0.95 * (b.tip - a.tip).xy().norm();
     (m.tip - a.tip).xy().norm() < whole && (b.tip - m.tip).xy().norm() < whole
 }
@@ -170,22 +170,32 @@ pub fn farthest(known: usize, beyond: usize, first_step: usize, mut passes: impl
 pub fn selected_runs(
     points: &[PathPoint],
     closed: bool,
+    between: impl FnMut(&PathPoint, &PathPoint) -> Option<PathPoint>,
+) -> Vec<Vec<PathPoint>> {
+    runs_where((|point: &PathPoint| point.selected, BORDER), points, closed, between)
+}
+
+/// As [`selected_runs`], of the points for which something holds; ends are moved to within `fine` mm of where it ceases to.
+pub fn runs_where(
+    (holds, fine): (impl Fn(&PathPoint) -> bool, f64),
+    points: &[PathPoint],
+    closed: bool,
     mut between: impl FnMut(&PathPoint, &PathPoint) -> Option<PathPoint>,
 ) -> Vec<Vec<PathPoint>> {
-    if points.iter().all(|p| p.selected) {
+    if points.iter().all(&holds) {
         return vec![points.to_vec()];
     }
-    let turned = if closed { from_a_gap(points) } else { points.to_vec() };
+    let turned = if closed { from_a_gap(points, &holds) } else { points.to_vec() };
     let mut runs: Vec<Vec<PathPoint>> = Vec::new();
     let mut run = Vec::new();
     for (i, point) in turned.iter().enumerate() {
-        if point.selected {
+        if holds(point) {
             if run.is_empty() && i > 0 {
-                run.push(border(point, &turned[i - 1], |inside, outside| between(outside, inside)));
+                run.push(border((&holds, fine), point, &turned[i - 1], |inside, outside| between(outside, inside)));
             }
             run.push(*point);
         } else if !run.is_empty() {
-            run.push(border(&turned[i - 1], point, &mut between));
+            run.push(border((&holds, fine), &turned[i - 1], point, &mut between));
             runs.push(std::mem::take(&mut run));
         }
     }
@@ -194,25 +204,27 @@ pub fn selected_runs(
     runs
 }
 
-/// The closed polyline begun at a point that is not selected.
-fn from_a_gap(points: &[PathPoint]) -> Vec<PathPoint> {
+/// The closed polyline begun at a point for which something does not hold.
+fn from_a_gap(points: &[PathPoint], holds: impl Fn(&PathPoint) -> bool) -> Vec<PathPoint> {
     let ring = &points[..points.len() - 1];
-    let gap = ring.iter().position(|p| !p.selected).unwrap_or(0);
+    let gap = ring.iter().position(|p| !holds(p)).unwrap_or(0);
     let mut turned: Vec<PathPoint> = ring[gap..].iter().chain(&ring[..gap]).copied().collect();
     turned.push(ring[gap]);
     turned
 }
 
-/// The last selected point on the path from `inside` to `outside`; `between` is asked in this order.
+/// The last point on the path from `inside` to `outside` for which something holds, to within `fine` mm; `between` is asked in
+/// this order.
 fn border(
+    (holds, fine): (impl Fn(&PathPoint) -> bool, f64),
     inside: &PathPoint,
     outside: &PathPoint,
     mut between: impl FnMut(&PathPoint, &PathPoint) -> Option<PathPoint>,
 ) -> PathPoint {
     let (mut inside, mut outside) = (*inside, *outside);
-    while (outside.tip - inside.tip).norm() > BORDER {
+    while (outside.tip - inside.tip).norm() > fine {
         match between(&inside, &outside).filter(|m| divides(m, &inside, &outside)) {
-            Some(middle) if middle.selected => inside = middle,
+            Some(middle) if holds(&middle) => inside = middle,
             Some(middle) => outside = middle,
             None => outside.tip = (inside.tip + outside.tip) * 0.5,
         }

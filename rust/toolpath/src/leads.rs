@@ -3,7 +3,7 @@
 //! A tangent lead is an arc in the horizontal plane, on the pass' free side; a vertical one stands on the pass in the plane of
 //! its direction and comes down to it, or leaves it upwards. Neither enters the part: piece by piece the envelope is proven to
 //! stay under it, and where that cannot be seen, near the pass that it touches, it is compared at points no farther apart than
-//! [`FINE`]. Neither goes into sheet that stands higher. Where no lead fits there is none. Derived in docs/concepts/linking.md.
+//! [`FINE`]. Neither goes into sheet that stands higher, nor nearer to check faces than their clearance. Where no lead fits there is none. Derived in docs/concepts/linking.md.
 
 use styluscam_geometry::Vector;
 use styluscam_motion::{Arc, Plane, Role};
@@ -129,7 +129,8 @@ impl<R: Sync> Leading<'_, R> {
 
     /// Whether the tool enters nothing anywhere on it.
     fn is_clear(&self, bow: &Bow) -> bool {
-        let envelope = self.standing.envelope();
+        let surface = self.standing.surface();
+        let envelope = surface.envelope();
         let count = bow.pieces(SAG);
         let mut hint = None;
         let mut is_over = |tip: Vector| {
@@ -137,9 +138,9 @@ impl<R: Sync> Leading<'_, R> {
         };
         (0..count).all(|piece| {
             let [a, b] = [0, 1].map(|end| bow.at(f64::from(piece + end) / f64::from(count)));
-            envelope.keeps_under([a, b], ALLOWED, |_| ALLOWED) == Keeping::Under
-                || ((b - a).norm() <= FINE.max(2.0 * bow.arm.norm() * bow.angle / f64::from(count))
-                    && [a, 0.5 * (a + b), b].into_iter().all(&mut is_over))
+            let is_proven = envelope.keeps_under([a, b], ALLOWED, |_| ALLOWED) == Keeping::Under;
+            let is_short = (b - a).norm() <= FINE.max(2.0 * bow.arm.norm() * bow.angle / f64::from(count));
+            surface.is_clear([a, b]) && (is_proven || (is_short && [a, 0.5 * (a + b), b].into_iter().all(&mut is_over)))
         })
     }
 

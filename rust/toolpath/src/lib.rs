@@ -13,6 +13,7 @@ mod linking;
 mod nearest;
 pub mod offset;
 mod pass;
+mod region;
 mod seam;
 mod segment;
 mod standing;
@@ -28,6 +29,7 @@ pub use linking::{
 };
 pub use nearest::ordered;
 pub use pass::{Pass, PathPoint, Sense};
+pub use region::{Boundary, Inside, Region, GRAZES};
 pub use seam::Seam;
 pub use segment::{Curve, Pace, Segment};
 pub use standing::{Low, Standing};

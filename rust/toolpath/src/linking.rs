@@ -132,7 +132,7 @@ pub(crate) fn along_selected(
 ) -> Option<Vec<PathPoint>> {
     let mut crossing = Crossing { surface, hint: None, is_selected: true };
     let runs = fitting::densified(points, deviation, narrow, &mut crossing);
-    runs.into_iter().next().filter(|_| crossing.is_selected)
+    runs.into_iter().next().filter(|run| crossing.is_selected && surface.goes_on_along(run))
 }
 
 /// Short links between points of one height go straight, where the ground between them is cleared.

@@ -1,14 +1,14 @@
 //! What stands under a link, and how low rapids may cross it.
 //!
 //! Two things stand there: the part, with its sheet, and what is not formed or cut yet. The first is the envelope along the
-//! line: sampled, then raised until no triangle asks for more anywhere on it ([`Envelope::keeps_under`]). The second is flat, at
-//! the height of the sheet's clamp plane or of the stock's top; inside a loop that was followed to its end it is no higher than
+//! line: sampled, then raised until no triangle asks for more anywhere on it ([`Envelope::keeps_under`](crate::offset::Envelope)).
+//! Check faces with their clearance stand there as the part does. The second is flat, at the height of the sheet's clamp plane or of the stock's top; inside a loop that was followed to its end it is no higher than
 //! that loop, since sheet inside hangs from what the loop has pressed down. Derived in docs/concepts/linking.md.
 
 use styluscam_geometry::Vector;
 
-use crate::offset::{Envelope, Keeping};
-use crate::{Entered, Heights, Lead, LinkRules, PathPoint, Run, Segment};
+use crate::offset::Keeping;
+use crate::{Entered, Heights, Lead, LinkRules, PathPoint, Run, Segment, Surface};
 
 /// Distance between samples along a link, as a share of the tool's radius: how much too low they are is found by the proof.
 const SAMPLE: f64 = 0.25;
@@ -22,7 +22,7 @@ const LOOPS: usize = 4096;
 
 /// What stands while passes are followed, in their order.
 pub struct Standing<'a> {
-    envelope: &'a Envelope<'a>,
+    surface: &'a Surface<'a>,
     /// Height of the tip on what is not formed, or cut, mm.
     flat: f64,
     /// By pass; none of open ones and where loops lower nothing.
@@ -44,10 +44,10 @@ impl<'a> Standing<'a> {
     /// What stands at `flat` (the tip on it, mm) until it is formed: closed passes lower what is inside where `hangs`. Passes deviate
     /// from their curves by `deviation` mm.
     #[must_use]
-    pub fn new(envelope: &'a Envelope<'a>, flat: f64, (passes, hangs): (&[Entered], bool), deviation: f64) -> Self {
+    pub fn new(surface: &'a Surface<'a>, flat: f64, (passes, hangs): (&[Entered], bool), deviation: f64) -> Self {
         let passes = passes.iter().filter(|entered| !entered.pass.points.is_empty());
         let of = |entered: &Entered| (hangs && entered.pass.closed).then(|| Loop::of(&entered.pass.points));
-        Self { envelope, flat, loops: passes.map(of).collect(), near: 2.0 * deviation }
+        Self { surface, flat, loops: passes.map(of).collect(), near: 2.0 * deviation }
     }
 
     /// The lowest height, mm, at which the tip clears everything on the straight line in plan between two tips, after so many
@@ -66,25 +66,29 @@ impl<'a> Standing<'a> {
         last.map_or(self.flat, |around| around.height.min(self.flat))
     }
 
-    /// The envelope of part and sheet.
-    pub(crate) fn envelope(&self) -> &'a Envelope<'a> {
-        self.envelope
+    /// The part with its sheet, and the check faces.
+    pub(crate) fn surface(&self) -> &'a Surface<'a> {
+        self.surface
     }
 
     /// A height under which no tip has to be over the line: proven, or `ceiling`.
     fn part(&self, [from, to]: [Vector; 2], ceiling: f64) -> f64 {
         let length = (to - from).xy().norm();
-        let count = (length / (SAMPLE * self.envelope.cutter().max_radius())).ceil().clamp(1.0, MOST_SAMPLES) as u32;
-        let mut hint = None;
-        let sampled = (0..=count).filter_map(|i| {
-            let at = from + (to - from) * (f64::from(i) / f64::from(count));
-            self.envelope.contact_near(at.x, at.y, &mut hint).map(|contact| contact.tip)
+        let spacing = SAMPLE * self.surface.envelope().cutter().max_radius();
+        let count = (length / spacing).ceil().clamp(1.0, MOST_SAMPLES) as u32;
+        let sampled = self.surface.envelopes().flat_map(|envelope| {
+            let mut hint = None;
+            (0..=count).filter_map(move |i| {
+                let at = from + (to - from) * (f64::from(i) / f64::from(count));
+                envelope.contact_near(at.x, at.y, &mut hint).map(|contact| contact.tip)
+            })
         });
         let highest = sampled.fold(from.z.max(to.z), f64::max);
         let at = |height: f64| [from, to].map(|end| Vector::new(end.x, end.y, height));
         let mut rise = RISE;
         while highest + rise < ceiling {
-            if self.envelope.keeps_under(at(highest + rise), 0.0, |_| 0.0) == Keeping::Under {
+            let line = at(highest + rise);
+            if self.surface.envelopes().all(|envelope| envelope.keeps_under(line, 0.0, |_| 0.0) == Keeping::Under) {
                 return highest + rise;
             }
             rise *= 2.0;

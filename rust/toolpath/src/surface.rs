@@ -5,7 +5,8 @@ use std::borrow::Cow;
 use styluscam_geometry::Vector;
 
 use crate::fitting;
-use crate::offset::{Contact, Envelope, Keeping};
+use crate::offset::{Contact, Envelope, Keeping, Rolling};
+use crate::region::{Between, Region};
 use crate::{Pass, PathPoint};
 
 /// A contact on an unselected face's border still counts while its normal is this close to what selected facets span, rad:
@@ -21,8 +22,10 @@ pub struct Surface<'a> {
     /// By triangle; none: all of them, and the borders of the mesh.
     selected: Option<&'a [bool]>,
     heights: [f64; 2],
-    /// Whether what rolls over the upper edges of the selection counts.
-    from_above: bool,
+    /// What counts of what rolls over the outer edges of the selection.
+    rolling: Rolling,
+    /// Where passes may run at all; none: everywhere.
+    region: Option<&'a Region<'a>>,
     /// Whether passes keep all their witnesses.
     keeps_witnesses: bool,
 }
@@ -31,13 +34,20 @@ impl<'a> Surface<'a> {
     /// `selected` holds for each triangle whether its face was asked for.
     #[must_use]
     pub fn new(envelope: &'a Envelope<'a>, selected: &'a [bool]) -> Self {
-        Self { envelope, selected: Some(selected), heights: EVERYWHERE, from_above: false, keeps_witnesses: false }
+        Self { selected: Some(selected), ..Self::whole(envelope) }
     }
 
     /// All that the tool can touch counts as selected.
     #[must_use]
     pub fn whole(envelope: &'a Envelope<'a>) -> Self {
-        Self { envelope, selected: None, heights: EVERYWHERE, from_above: false, keeps_witnesses: false }
+        Self {
+            envelope,
+            selected: None,
+            heights: EVERYWHERE,
+            rolling: Rolling::Stop,
+            region: None,
+            keeps_witnesses: false,
+        }
     }
 
     /// The same surface, of which only what has its tip between two heights counts as selected.
@@ -46,11 +56,53 @@ impl<'a> Surface<'a> {
         Self { heights, ..*self }
     }
 
-    /// The same surface, on which the tool also counts as touching what was selected while it rolls over the upper edges
-    /// of that: so a sheet is formed from its flat top down, step by step, though only the walls were selected.
+    /// The same surface, on which the tool also counts as touching what was selected while it rolls over edges of that: from
+    /// above, so that a sheet is formed from its flat top down, step by step, though only the walls were selected, or over all.
     #[must_use]
-    pub fn from_above(&self) -> Self {
-        Self { from_above: true, ..*self }
+    pub fn rolling(&self, rolling: Rolling) -> Self {
+        Self { rolling, ..*self }
+    }
+
+    /// The same surface, of which only what a region allows counts as selected.
+    #[must_use]
+    pub fn within(&self, region: &'a Region<'a>) -> Self {
+        Self { region: Some(region), ..*self }
+    }
+
+    /// The stretches of a line of exact points in which the region lets the tool go, and whether each is closed.
+    pub(crate) fn stretches(
+        &self,
+        points: Vec<PathPoint>,
+        closed: bool,
+        between: impl Between,
+    ) -> Vec<(Vec<PathPoint>, bool)> {
+        match self.region {
+            None => vec![(points, closed)],
+            Some(region) => region.stretches(self.envelope, &points, closed, between),
+        }
+    }
+
+    /// Whether the tool keeps clear of the check faces between neighbours of these points, wherever else it goes.
+    pub(crate) fn is_clear_along(&self, points: &[PathPoint]) -> bool {
+        points.windows(2).all(|pair| self.is_clear([pair[0].tip, pair[1].tip]))
+    }
+
+    /// Whether the tool keeps clear of the check faces on the straight line between two tips.
+    pub(crate) fn is_clear(&self, line: [Vector; 2]) -> bool {
+        self.region.is_none_or(|region| !region.may_be_near(line))
+    }
+
+    /// The envelopes on the part and on the check faces: the tip stays above all of them.
+    pub(crate) fn envelopes(&self) -> impl Iterator<Item = &'a Envelope<'a>> + '_ {
+        std::iter::once(self.envelope).chain(self.region.iter().flat_map(|region| &region.checks))
+    }
+
+    /// Whether the region does not end between neighbours of these points, which it allows.
+    pub(crate) fn goes_on_along(&self, points: &[PathPoint]) -> bool {
+        let goes_on = |region: &Region<'_>| {
+            points.windows(2).all(|pair| !region.may_end_between(self.envelope, &pair[0], &pair[1]))
+        };
+        self.region.is_none_or(goes_on)
     }
 
     /// The same surface, whose passes keep all their witnesses: what is fitted to them later needs them.
@@ -132,6 +184,7 @@ impl<'a> Surface<'a> {
         let limit = |triangle: u32| if selected[triangle as usize] { height } else { -height };
         a.selected
             && b.selected
+            && self.region.is_none_or(|region| !region.may_end_between(self.envelope, a, b))
             && self.envelope.dip([a.tip, b.tip], [a.triangle, b.triangle]) < height
             && self.envelope.keeps_under([a.tip, b.tip], -height, limit) == Keeping::Under
     }
@@ -139,13 +192,14 @@ impl<'a> Surface<'a> {
     /// A contact over (x, y) as a path point.
     #[must_use]
     pub fn path_point(&self, x: f64, y: f64, contact: &Contact) -> PathPoint {
+        let tip = Vector::new(x, y, contact.tip);
+        let is_on_faces = |selected: &[bool]| self.envelope.belongs(contact, selected, SPREAD, self.rolling);
         PathPoint {
-            tip: Vector::new(x, y, contact.tip),
+            tip,
             normal: contact.normal,
             selected: (self.heights[0]..=self.heights[1]).contains(&contact.tip)
-                && self
-                    .selected
-                    .is_none_or(|selected| self.envelope.belongs(contact, selected, SPREAD, self.from_above)),
+                && self.selected.is_none_or(is_on_faces)
+                && self.region.is_none_or(|region| region.allows(self.envelope, tip, contact.normal)),
             triangle: contact.triangle,
         }
     }

@@ -7,7 +7,10 @@ use crate::findings::{Finding, FindingKind, Severity};
 use crate::subject::Subject;
 
 /// For each of the program's operations the job's, where it has one.
-pub(crate) struct Assignment<'a>(Vec<Option<&'a ExpectedOperation>>);
+pub(crate) struct Assignment<'a> {
+    of: Vec<Option<&'a ExpectedOperation>>,
+    expected: &'a [ExpectedOperation],
+}
 
 impl<'a> Assignment<'a> {
     /// By their ids; a job with one operation means it, whatever the text calls it. A text that names none of several means
@@ -18,18 +21,25 @@ impl<'a> Assignment<'a> {
         let of: Vec<_> = program.operations.iter().map(|operation| by_id(&operation.id)).collect();
         let tools = || program.operations.iter().map(|operation| operation.tool as usize);
         let named = of.iter().any(Option::is_some);
-        match expected {
-            [only] => Self(vec![Some(only); of.len()]),
+        let of = match expected {
+            [only] => vec![Some(only); of.len()],
             _ if !named && tools().eq(expected.iter().map(|operation| operation.tool)) => {
-                Self(expected.iter().map(Some).collect())
+                expected.iter().map(Some).collect()
             }
-            _ => Self(of),
-        }
+            _ => of,
+        };
+        Self { of, expected }
     }
 
     /// What is expected of one of the program's operations, by its index.
     pub fn of(&self, index: u32) -> Option<&'a ExpectedOperation> {
-        self.0.get(index as usize).copied().flatten()
+        self.of.get(index as usize).copied().flatten()
+    }
+
+    /// The job's number of one of the program's operations, by its index.
+    pub fn number_of(&self, index: u32) -> Option<usize> {
+        let of = self.of(index)?;
+        self.expected.iter().position(|expected| std::ptr::eq(of, expected))
     }
 
     /// Whether this is expected of one of the program's operations, by its index.
@@ -51,7 +61,7 @@ impl<'a> Assignment<'a> {
     fn out_of_order(&self, program: &Program, subject: &Subject) -> Option<Finding> {
         let position =
             |operation: &ExpectedOperation| subject.expected.iter().position(|other| std::ptr::eq(other, operation));
-        let known = self.0.iter().enumerate().filter_map(|(i, operation)| Some((i, position((*operation)?)?)));
+        let known = self.of.iter().enumerate().filter_map(|(i, operation)| Some((i, position((*operation)?)?)));
         let known: Vec<(usize, usize)> = known.collect();
         let pair = known.windows(2).find(|pair| pair[1].1 < pair[0].1)?;
         let [before, id] = [pair[0], pair[1]].map(|(_, operation)| &subject.expected[operation].id);
@@ -65,7 +75,7 @@ impl<'a> Assignment<'a> {
 
     /// The finding of a text of which nothing can be compared with the job.
     fn unnamed(&self, subject: &Subject) -> Option<Finding> {
-        let known = subject.expected.is_empty() || self.0.is_empty() || self.0.iter().any(Option::is_some);
+        let known = subject.expected.is_empty() || self.of.is_empty() || self.of.iter().any(Option::is_some);
         let message = format!(
             "the text names none of the job's {} operations, and does not load their tools in their order: it cannot be \
              compared with the job's feeds, spindle and passes; post the job again, with its remarks",
@@ -76,7 +86,7 @@ impl<'a> Assignment<'a> {
 
     /// The findings of operations that the job does not have, where others are known.
     fn unknown(&self, program: &Program, subject: &Subject) -> Vec<Finding> {
-        if self.0.iter().all(Option::is_none) {
+        if self.of.iter().all(Option::is_none) {
             return Vec::new(); // nothing is compared then: that is one finding
         }
         let known: Vec<&str> = subject.expected.iter().map(|operation| operation.id.as_str()).collect();
@@ -97,7 +107,7 @@ impl<'a> Assignment<'a> {
     /// Notes of the operations whose passes are not checked.
     fn not_checked<'b>(&'b self, subject: &'b Subject) -> impl Iterator<Item = Finding> + 'b {
         let is_in_text =
-            |operation: &&ExpectedOperation| self.0.iter().flatten().any(|of| std::ptr::eq(*of, *operation));
+            |operation: &&ExpectedOperation| self.of.iter().flatten().any(|of| std::ptr::eq(*of, *operation));
         subject.expected.iter().filter(is_in_text).filter_map(|ExpectedOperation { id, expectation, .. }| {
             let Passes::Unordered { reason } = expectation.passes else { return None };
             let message = format!("operation {id:?}: its passes are not checked, {reason}");

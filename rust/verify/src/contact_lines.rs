@@ -94,7 +94,7 @@ pub(crate) fn passes<'a>(expected: &OrderedPasses, segments: &[&'a Segment]) -> 
 }
 
 /// Whether a move lies on one pass.
-fn holds(scalar: &dyn Scalar, segment: &Segment) -> bool {
+pub(crate) fn holds(scalar: &dyn Scalar, segment: &Segment) -> bool {
     let value = |tip: [f64; 3]| scalar.value(tip.into());
     segment.start.is_some_and(|start| (value(start) - value(segment.end)).abs() <= scalar.same())
 }

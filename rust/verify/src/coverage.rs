@@ -20,6 +20,7 @@ use crate::convex::{lower, EQUAL};
 use crate::flats::{Flats, Need};
 use crate::measure::strokes_of;
 use crate::probes::{self, Probe};
+use crate::region_faults::Asked;
 use crate::segments::{placed, Segment, SegmentKind};
 use crate::stroke::Stroke;
 use crate::subject::{Limits, Subject};
@@ -43,7 +44,7 @@ const SAG: f64 = 1e-4;
 pub struct FaceCoverage {
     /// The face.
     pub face: u32,
-    /// Its area, mm^2, without what faces down.
+    /// Its area, mm^2, without what faces down, and of what the operations' boundaries and check faces leave of it.
     pub area: f64,
     /// Share of it that needs no forming since the blank lies there before.
     pub flat: f64,
@@ -79,20 +80,21 @@ pub fn coverage(
     let sweeps = Sweeps::of_all(&segments, subject);
     let flats = Flats::of(&segments, subject, limits, sweeps.enough);
     let faces = faces(subject, selected);
+    let asked = Asked::of(subject);
     let area: f64 = faces.iter().map(|face| face.area).sum();
     let between_passes = area / sweeps.length.max(f64::MIN_POSITIVE);
     let count = (PER_PASS * area / (between_passes * between_passes)).clamp(POINTS[0], POINTS[1]);
     let of_face = |face: &Face| ((count * face.area / area) as usize).max(OF_A_FACE);
     watch.begin("coverage", faces.iter().map(of_face).sum());
     let looked_at = |face: &Face| {
-        let probes = probes::spread(subject.mesh, &face.triangles, of_face(face));
+        let (probes, share) = asked.of_points(probes::spread(subject.mesh, &face.triangles, of_face(face)));
         let points: Vec<Vector> = probes.iter().map(|probe| probe.point).collect();
         let left = sweeps.left_at(&points, watch)?;
         let need = |probe: &Probe| flats.need(probe.point, subject.mesh.normal(probe.triangle));
         let needs: Vec<Need> = probes.par_iter().map(need).collect();
-        Ok(face.coverage(&points, &left, &needs, sweeps.enough))
+        Ok((share > 0.0).then(|| face.coverage((&points, share), &left, &needs, sweeps.enough)))
     };
-    faces.iter().map(looked_at).collect()
+    faces.iter().filter_map(|face| looked_at(face).transpose()).collect()
 }
 
 /// What each of some points, with its unit normal, asks for.
@@ -153,7 +155,7 @@ fn faces(subject: &Subject, selected: &[bool]) -> Vec<Face> {
 
 impl Face {
     /// Sums up what is left at points that stand for equal areas. A floor that was touched is covered, not carried.
-    fn coverage(&self, points: &[Vector], left: &[f64], needs: &[Need], enough: f64) -> FaceCoverage {
+    fn coverage(&self, (points, asked): (&[Vector], f64), left: &[f64], needs: &[Need], enough: f64) -> FaceCoverage {
         let is_covered = |i: usize| left[i] <= enough;
         let stays = |i: usize| needs[i] == Need::Flat || needs[i] == Need::Carried && !is_covered(i);
         let formed: Vec<usize> = (0..left.len()).filter(|i| !stays(*i)).collect();
@@ -164,7 +166,7 @@ impl Face {
         let flat = needs.iter().filter(|need| **need == Need::Flat).count();
         FaceCoverage {
             face: self.number,
-            area: self.area,
+            area: asked * self.area,
             flat: share(flat),
             carried: share(left.len() - flat - formed.len()),
             covered: if formed.is_empty() { 1.0 } else { covered.len() as f64 / formed.len() as f64 },

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use styluscam_motion::SpindleDirection;
 
 use crate::pitch::Pitch;
+use crate::region::Region;
 use crate::scalar::Scalar;
 
 /// An operation as the job states it.
@@ -42,6 +43,8 @@ pub struct Expectation {
     pub contact: Contact,
     /// The triangles of the part that it is for, one entry a triangle.
     pub selected: Vec<bool>,
+    /// Where its contacts lie beyond that.
+    pub region: Region,
     /// Lowest and highest tip that it is to reach, mm.
     pub heights: [f64; 2],
     /// How its passes lie.
@@ -64,6 +67,8 @@ pub enum Contact {
 pub enum Passes {
     /// In an order that is checked: none may be missing.
     Ordered(OrderedPasses),
+    /// In two orders, one set across the other; each is checked by itself.
+    Crossed([OrderedPasses; 2]),
     /// Nothing is known of their order; the report gives the reason.
     Unordered {
         /// Why they are not checked, as half a sentence.
@@ -99,11 +104,17 @@ impl OrderedPasses {
 }
 
 impl Expectation {
-    /// Its passes, where their order is known.
+    /// Its passes, where their order is known; of two sets the first.
     pub(crate) fn ordered(&self) -> Option<&OrderedPasses> {
+        self.sets().first()
+    }
+
+    /// The sets of its passes whose order is known.
+    pub(crate) fn sets(&self) -> &[OrderedPasses] {
         match &self.passes {
-            Passes::Ordered(passes) => Some(passes),
-            Passes::Unordered { .. } => None,
+            Passes::Ordered(passes) => std::slice::from_ref(passes),
+            Passes::Crossed(sets) => sets,
+            Passes::Unordered { .. } => &[],
         }
     }
 

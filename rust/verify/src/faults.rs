@@ -113,6 +113,35 @@ pub(crate) static BACKING: FaultKind = FaultKind::on_part(
     |fault| near("the sheet under the tool", "the backing plate", fault),
     "use a plate with a wider opening, or move the part in it",
 );
+pub(crate) static CHECK_CLEARANCE: FaultKind = FaultKind::on_part(
+    FindingKind::CheckClearance,
+    |fault| near("the tool", "the operation's check faces", fault),
+    "plan again, or lower check_clearance, or take the faces out of check_faces",
+);
+pub(crate) static OUTSIDE_BOUNDARY: FaultKind = FaultKind::on_part(
+    FindingKind::OutsideBoundary,
+    |fault| {
+        let (value, limit) = (fault.value(), fault.limit());
+        format!(
+            "the tool works {value:.3} mm outside the operation's boundary (up to {limit:.3} mm is within tolerance)"
+        )
+    },
+    "plan again, or widen the operation's boundary",
+);
+pub(crate) static OFF_SLOPE: FaultKind = FaultKind::on_part(
+    FindingKind::OutsideBoundary,
+    |fault| {
+        let (value, limit) = (fault.value(), fault.limit());
+        format!("the tool touches {value:.2} degrees off the slopes of boundary.slope_deg ({limit:.2} are within tolerance)")
+    },
+    "plan again, or widen slope_deg",
+)
+.in_unit("deg");
+pub(crate) static UNSELECTED_CONTACT: FaultKind = FaultKind::on_part(
+    FindingKind::UnselectedContact,
+    |fault| format!("the tool works on faces that are not selected: {:.3} mm from those that are", fault.value()),
+    "plan again, or select those faces",
+);
 
 // two tools
 

@@ -23,6 +23,8 @@ pub enum FindingKind {
     ClampCollision,
     /// The sheet is pressed against the backing plate.
     BackingCollision,
+    /// The tool, its shank or its holder comes nearer to an operation's check faces than their clearance.
+    CheckClearance,
     /// The tools on both sides of the sheet meet.
     ToolCollision,
     /// Two programs that run together have different numbers of moves.
@@ -43,6 +45,10 @@ pub enum FindingKind {
     LowRapid,
     /// A contact move does not touch.
     Excess,
+    /// A contact lies outside the operation's boundary, or on a slope that it does not ask for.
+    OutsideBoundary,
+    /// A contact lies on no face that the operation is for.
+    UnselectedContact,
     /// A position that the tool could touch is left, and the distance between passes does not explain it.
     MissingPass,
     /// Levels are farther apart than expected, or end too soon.
@@ -159,6 +165,7 @@ const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
         (Kind::HolderCollision, "holder collision"),
         (Kind::ClampCollision, "clamp frame collision"),
         (Kind::BackingCollision, "backing plate collision"),
+        (Kind::CheckClearance, "too near to check faces"),
         (Kind::ToolCollision, "collision of both tools"),
         (Kind::BlockCount, "different numbers of moves"),
         (Kind::OutOfStep, "programs out of step"),
@@ -169,6 +176,8 @@ const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
         (Kind::DogLegRapid, "diagonal rapid below the clearance height"),
         (Kind::LowRapid, "rapid across below the clearance height"),
         (Kind::Excess, "excess"),
+        (Kind::OutsideBoundary, "contact outside the boundary"),
+        (Kind::UnselectedContact, "contact on faces that are not selected"),
         (Kind::MissingPass, "missing pass"),
         (Kind::MissingLevel, "missing level"),
         (Kind::MissingRow, "missing row"),

@@ -10,6 +10,7 @@ use crate::body::Body;
 use crate::clearance::{Prober, Touch};
 use crate::frame::Frame;
 use crate::holding::{colliders, Collider};
+use crate::region_faults::Regions;
 use crate::samples::{lowest, Measured, Sample, Strike};
 use crate::segments::{Segment, SegmentKind};
 use crate::stroke::Stroke;
@@ -50,7 +51,8 @@ pub(crate) fn measure(
         |tool| Bodies { profile: Body::new(tool, subject.sheet.as_ref()), colliders: colliders(tool, subject, least) };
     let bodies: Vec<Bodies> = subject.tools.iter().map(bodies).collect();
     let top = subject.mesh.bounds().1.z;
-    let rule = Rule::new(segments, subject, limits);
+    let regions = Regions::of(subject);
+    let rule = Rule::new(segments, subject, limits, &regions);
     let chunks: Vec<&[Segment]> = segments.chunks(CHUNK).collect();
     let tallies = chunks.par_iter().zip(contacts_before(&chunks)).map(|(chunk, mut ordinal)| {
         let mut walk = Walk { subject, limits, frame, bodies: &bodies, top, last: None };
@@ -67,6 +69,7 @@ pub(crate) fn measure(
     });
     let mut whole = Tally::default();
     tallies.collect::<Result<Vec<_>, _>>()?.into_iter().for_each(|tally| whole.join(tally));
+    regions.keep_long(&mut whole.faults, segments);
     Ok(whole)
 }
 
@@ -104,7 +107,11 @@ impl<'a> Walk<'a> {
             None if segment.excess.is_some() => self.along_contact(segment, tool, &prober),
             None => self.along_air(segment, &prober),
         };
-        let strikes = bodies.colliders.iter().filter_map(|collider| self.strike(segment, collider));
+        let colliders = bodies
+            .colliders
+            .iter()
+            .filter(|collider| collider.operation.is_none_or(|operation| segment.expected == Some(operation)));
+        let strikes = colliders.filter_map(|collider| self.strike(segment, collider));
         let room = |strike: &Strike| strike.sample.touch.value - strike.least;
         Measured { struck: strikes.min_by(|a, b| room(a).total_cmp(&room(b))), ..found }
     }

@@ -88,12 +88,18 @@ pub(crate) fn faults(
     watch: &Watch,
 ) -> Result<Vec<Fault>, Cancelled> {
     let mut worst: BTreeMap<(usize, FindingKind), Fault> = BTreeMap::new();
-    for operation in subject.expected {
+    let sets = subject
+        .expected
+        .iter()
+        .flat_map(|operation| operation.expectation.sets().iter().map(move |passes| (operation, passes)));
+    for (operation, passes) in sets {
         let expectation = &operation.expectation;
-        let Some(passes) = expectation.ordered() else { continue };
-        let own =
-            |segment: &&Segment| segment.kind == SegmentKind::Lateral && assignment.is(segment.operation, operation);
-        let contacts: Vec<&Segment> = segments.iter().filter(own).collect();
+        let is_own = |segment: &&Segment| {
+            segment.kind == SegmentKind::Lateral
+                && assignment.is(segment.operation, operation)
+                && may_be_of(passes, expectation, segment)
+        };
+        let contacts: Vec<&Segment> = segments.iter().filter(is_own).collect();
         if contacts.is_empty() || !expectation.selected.contains(&true) {
             continue;
         }
@@ -113,6 +119,13 @@ pub(crate) fn faults(
         }
     }
     Ok(worst.into_values().collect())
+}
+
+/// Whether a move may be of a set of passes: not one along another set of them, which would hide what this one leaves.
+fn may_be_of(passes: &OrderedPasses, expectation: &Expectation, segment: &Segment) -> bool {
+    let is_along = |set: &OrderedPasses| contact_lines::holds(&*set.scalar, segment);
+    let mut others = expectation.sets().iter().filter(|set| !std::ptr::eq(*set, passes));
+    is_along(passes) || !others.any(is_along)
 }
 
 /// One operation, looked at.
@@ -252,7 +265,9 @@ impl Look<'_> {
     fn spot(&self, probe: &Probe) -> Option<Spot> {
         let up = self.subject.mesh.normal(probe.triangle);
         let position = probe.point - self.body.farthest(up).0;
-        self.asked_for(position).then(|| Spot { point: probe.point, up, position, tip: self.body.tip(position) })
+        let is_asked =
+            self.asked_for(position) && self.expectation.region.takes(self.body, position, (probe.point, up));
+        is_asked.then(|| Spot { point: probe.point, up, position, tip: self.body.tip(position) })
     }
 
     /// What is left at a point, if it is more than the distance between passes explains, and the tool can get there.
@@ -385,7 +400,10 @@ impl Look<'_> {
 
     /// Whether the tool touches the part at a position that is asked for.
     fn goes_on(&self, position: Vector) -> bool {
-        self.asked_for(position) && self.clearance(position).abs() <= TOUCH
+        let takes = |touch: Touch| {
+            touch.value.abs() <= TOUCH && self.expectation.region.takes(self.body, position, (touch.point, -touch.away))
+        };
+        self.asked_for(position) && self.touch(position).is_some_and(takes)
     }
 
     /// Whether the tip is at a height that is asked for.

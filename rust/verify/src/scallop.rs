@@ -142,7 +142,8 @@ impl Ridges<'_> {
         let position = probe.point - self.body.farthest(up).0;
         let tip = self.body.tip(position);
         let scalar = &*self.passes.scalar;
-        if !self.operation.expectation.reaches(tip[2]) {
+        let expectation = &self.operation.expectation;
+        if !expectation.reaches(tip[2]) || !expectation.region.takes(self.body, position, (probe.point, up)) {
             return None;
         }
         // by so much, on the plane of the point, does the scalar change by 1 mm

@@ -46,6 +46,8 @@ pub(crate) struct Segment {
     pub index: usize,
     /// Index of the move's operation in the program.
     pub operation: u32,
+    /// The job's operation that this is, by its number.
+    pub expected: Option<usize>,
     pub kind: SegmentKind,
     /// The tool's tip where the move starts, when it is known.
     pub start: Option<[f64; 3]>,
@@ -176,6 +178,7 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
             let segment = Segment {
                 index,
                 operation: step.operation,
+                expected: assignment.number_of(step.operation),
                 kind,
                 start,
                 end: step.end.tip,

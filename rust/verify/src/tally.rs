@@ -1,6 +1,7 @@
 //! What the measured moves come to: their faults, the worst positions, and some of the contacts.
 
 use crate::faults::{self, Fault, FaultKind};
+use crate::region_faults::Regions;
 use crate::report::{ContactRecord, Place};
 use crate::samples::{highest, normal_of, Measured, Sample, Strike};
 use crate::segments::{Segment, SegmentKind};
@@ -96,15 +97,17 @@ impl Tally {
 pub(crate) struct Rule<'a> {
     pub subject: &'a Subject<'a>,
     pub limits: &'a Limits,
+    /// Where the operations' contacts must lie.
+    regions: &'a Regions<'a>,
     /// One of so many pieces that should touch keeps its contacts.
     keep_every: usize,
 }
 
 impl<'a> Rule<'a> {
-    pub fn new(segments: &[Segment], subject: &'a Subject<'a>, limits: &'a Limits) -> Self {
+    pub fn new(segments: &[Segment], subject: &'a Subject<'a>, limits: &'a Limits, regions: &'a Regions<'a>) -> Self {
         let contacts =
             2 * segments.iter().filter(|segment| segment.excess.is_some()).map(Segment::piece_count).sum::<usize>();
-        Self { subject, limits, keep_every: contacts.div_ceil(KEPT).max(1) }
+        Self { subject, limits, regions, keep_every: contacts.div_ceil(KEPT).max(1) }
     }
 
     /// Adds a piece of a move to its tally; `ordinal` counts the pieces before it that should touch.
@@ -120,6 +123,7 @@ impl<'a> Rule<'a> {
             tally.faults.push(fault(&faults::RAPID_PLUNGE, segment, landing, (air, limit), limit - air));
         }
         if let Some(limit) = segment.excess {
+            tally.faults.extend(self.regions.faults(segment, &found.contacts, limit));
             self.contact(tally, segment, found, limit, ordinal.is_multiple_of(self.keep_every));
         }
     }

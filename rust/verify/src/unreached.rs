@@ -101,7 +101,8 @@ impl<'a> Task<'a> {
         }
         let up = subject.mesh.normal(probe.triangle);
         let position = probe.point - self.body.farthest(up).0;
-        if !self.expectation.reaches(self.body.tip(position)[2]) {
+        let takes = self.expectation.region.takes(&self.body, position, (probe.point, up));
+        if !takes || !self.expectation.reaches(self.body.tip(position)[2]) {
             return None;
         }
         let prober = Prober { body: &self.body, mesh: subject.mesh, bvh: subject.bvh };

@@ -75,7 +75,7 @@ fn steepest(mut walls: Vec<Wall>, most: f64, enough: f64) -> Option<Wall> {
 fn forms(expectation: &Expectation, mesh: &Mesh, cutter: &Cutter, above: f64, triangle: usize) -> bool {
     let wall = Wall::new(mesh, triangle);
     let tip = wall.at.z - cutter.point_at(wall.angle).1 + above;
-    expectation.reaches(tip)
+    expectation.reaches(tip) && expectation.region.takes_slope(wall.angle)
 }
 
 fn is_vertical(mesh: &Mesh, triangle: usize) -> bool {

@@ -10,7 +10,7 @@ use styluscam_geometry::{Bvh, Mesh, Tool, Vector};
 use styluscam_motion::{Program, Watch};
 use styluscam_verify::{
     judge, Contact, Expectation, ExpectedOperation, FindingKind, Forming, FrameLevel, Height, Limits, Obstacle,
-    ObstacleKind, OrderedPasses, Passes, Pitch, Report, Severity, Subject, Support, TextFacts, WallAngleSource,
+    ObstacleKind, OrderedPasses, Passes, Pitch, Region, Report, Severity, Subject, Support, TextFacts, WallAngleSource,
 };
 
 const LOW: f64 = 10.0;
@@ -72,6 +72,7 @@ fn judged(program: &Program, stated: &[FrameLevel], obstacles: &[Obstacle]) -> R
     let expectation = Expectation {
         contact: Contact::Touch,
         selected: vec![true; part.mesh.triangles().len()],
+        region: Region::default(),
         heights: [-30.0, 30.0],
         passes: Passes::Ordered(passes),
         forms: true,

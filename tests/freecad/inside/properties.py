@@ -169,6 +169,46 @@ def arcs() -> dict[str, Any]:
     return result
 
 
+def wires(stage: Any) -> dict[str, Any]:
+    """An operation bounded by a sketch of two lines and an arc, by an edge that does not close, and by check faces."""
+    import Part
+
+    from freecad.styluscam_wb import wires as module
+
+    def ends() -> list[float]:
+        """The cuts' farthest Y, and the largest distance from the axis where they are in front."""
+        cuts = [c.Parameters for c in stage.operation.Path.Commands if c.Name == "G1" and "Y" in c.Parameters]
+        return [min(c["Y"] for c in cuts), max(c["Y"] for c in cuts)]
+
+    operation, document = stage.operation, stage.document
+    sketch = document.addObject("Sketcher::SketchObject", "Outline")
+    left, right = FreeCAD.Vector(-60.0, 2.5, 0.0), FreeCAD.Vector(60.0, 2.5, 0.0)
+    arc = Part.ArcOfCircle(
+        Part.Circle(FreeCAD.Vector(0.0, 2.5, 0.0), FreeCAD.Vector(0, 0, 1), 60.0), 3.141592653589793, 0.0
+    )
+    sketch.addGeometry([Part.LineSegment(left, right), arc])
+    document.recompute()
+    whole = ends()
+    operation.BoundaryWires = [(sketch, ("",))]
+    stage.again()
+    bounded, loops = ends(), module.loops(operation)
+    operation.BoundaryWires = [(sketch, ("Edge1",))]
+    stage.again()
+    result = {
+        "whole": whole,
+        "bounded": bounded,
+        "corners": [len(loop) for loop in loops],
+        "off": max(abs((x * x + (y - 2.5) ** 2) ** 0.5 - 60.0) for x, y in loops[0]),
+        "open": stage.operation.Path.Commands[0].Name,
+    }
+    operation.BoundaryWires = []
+    operation.CheckFaces, operation.CheckClearance = '"rest"', 2.0
+    stage.again()
+    result["rest"] = [len(stage.operation.Path.Commands), ends()]
+    stage.close()
+    return result
+
+
 def native_tool() -> dict[str, Any]:
     """An operation in a job whose only tool is FreeCAD's end mill."""
     import Part

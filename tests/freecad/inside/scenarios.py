@@ -568,6 +568,7 @@ SCENARIOS: dict[str, Scenario] = {
     "earlier document": own("earlier_document"),
     "new kind": own("new_kind", Stage),
     "arcs": own("arcs"),
+    "wires": own("wires", Stage),
     "native tool": own("native_tool"),
 }
 

@@ -217,6 +217,24 @@ impl Mesh {
         used.fold((infinite, -infinite), |(low, high), p| (low.inf(&p), high.sup(&p)))
     }
 
+    /// Some of its triangles alone.
+    ///
+    /// # Errors
+    /// [`GeometryError::EmptyMesh`] where none is kept.
+    pub fn part_of(&self, keep: impl Fn(usize) -> bool) -> Result<Self, GeometryError> {
+        let kept: Vec<usize> = (0..self.triangles.len()).filter(|triangle| keep(*triangle)).collect();
+        if kept.is_empty() {
+            return Err(GeometryError::EmptyMesh);
+        }
+        Ok(Self {
+            vertices: self.vertices.clone(),
+            triangles: kept.iter().map(|t| self.triangles[*t]).collect(),
+            faces: kept.iter().map(|t| self.faces[*t]).collect(),
+            normals: kept.iter().filter_map(|t| self.normals.get(*t).copied()).collect(),
+            dropped: self.dropped,
+        })
+    }
+
     /// The other side of some of its triangles: what faces up there faces down here.
     ///
     /// # Errors

@@ -34,7 +34,7 @@ fn left(tolerance: f64, tessellation: f64, rounding: f64, inward: f64) -> Option
 }
 
 /// What a machine's last decimal place takes: half a unit in each of three axes, mm.
-fn rounding(machine: &Machine) -> f64 {
+pub fn rounding(machine: &Machine) -> f64 {
     0.5 * machine.resolution_mm() * 3.0_f64.sqrt()
 }
 

@@ -6,6 +6,7 @@ use styluscam_post::Machine;
 use styluscam_toolpath::PlanError;
 
 use crate::heights::TipHeights;
+use crate::region::OperationRegion;
 use crate::{JobError, OperationKeys, Scene};
 
 /// The part, the machine, the tool and the selection of one operation: the job, resolved.
@@ -26,6 +27,8 @@ pub struct Context<'a> {
     pub reference_height: f64,
     /// The faces that it is for, in the order of their numbers.
     pub faces: Vec<u32>,
+    /// Where its passes may run beyond that.
+    pub(crate) region: OperationRegion,
     /// Between which heights its tip stays.
     pub(crate) heights: TipHeights,
     /// Progress and cancelling.

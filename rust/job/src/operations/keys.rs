@@ -4,6 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use styluscam_motion::SpindleDirection;
 
+use crate::boundary::BoundaryKeys;
+use crate::selection::CheckSelection;
 use crate::Selection;
 
 /// One operation: what is common to all kinds.
@@ -18,6 +20,22 @@ pub struct OperationKeys {
     /// Faces of this operation alone; the part's when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub faces: Option<Selection>,
+    /// Faces that the tool keeps away from: "rest" (all others that face up, or stand upright where faces = "all" takes upright
+    /// walls), or names; the part's when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub check_faces: Option<CheckSelection>,
+    /// How far tool, shank and holder, with the sheet under them, stay away from those faces, mm; the part's when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm", "minimum" = 0.0, "maximum" = 1000.0))]
+    pub check_clearance: Option<f64>,
+    /// Where passes may run: inside edges in plan, and on contacts of some slopes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-example" = "{ slope_deg = [30.0, 60.0] }"))]
+    pub boundary: Option<BoundaryKeys>,
+    /// What happens at the outer edges of the selected faces; when left out, passes stop there, and in forming roll over those
+    /// that the tool comes down over.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub edges: Option<Edges>,
     /// The channel whose program does it, where the process has several; "main" when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub channel: Option<String>,
@@ -87,6 +105,16 @@ pub enum Direction {
     Climb,
     /// All the other way round than `climb`.
     Conventional,
+}
+
+/// What passes do at the outer edges of the selected faces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Edges {
+    /// The tool rolls over them, its contact on the edge, until it touches another face or leaves the edge.
+    Roll,
+    /// They end where the contact reaches the edge.
+    Stop,
 }
 
 /// What the posted path along passes is made of, within the tolerance.

@@ -2,7 +2,6 @@
 
 use styluscam_motion::{Arc, Cancelled, Move, MoveKind, Role};
 use styluscam_post::machine::{CommentForm, Rapids};
-use styluscam_toolpath::offset::Envelope;
 use styluscam_toolpath::{
     AlongSurface, Entered, LeadRule, LeadShape, Leading, LinkRules, Links, Low, PathPoint, Standing,
 };
@@ -13,20 +12,20 @@ use super::{fit, Context, Fact, LeadForm, LinkHeight};
 /// Heights that differ by less are one, mm.
 const SAME: f64 = 1e-9;
 
-/// The moves along passes on an envelope, which arcs leave by at most a deviation, mm, and what there is to say of them.
+/// The moves along passes on a surface, which arcs leave by at most a deviation, mm, and what there is to say of them.
 ///
 /// # Errors
 /// `Cancelled`.
 pub fn linked(
     context: &Context<'_>,
-    (envelope, passes, deviation): (&Envelope<'_>, &[Entered], f64),
+    (passes, deviation): (&[Entered], f64),
     along: AlongSurface<'_>,
     links: &Links,
 ) -> Result<(Vec<Move>, Vec<Fact>), Cancelled> {
     let Context { machine, common, reference_height, scene, .. } = *context;
     // inside a loop sheet hangs no higher than that; stock stays until it is cut
     let is_sheet = scene.sheet.is_some();
-    let standing = Standing::new(envelope, scene.top, (passes, is_sheet), deviation);
+    let standing = Standing::new(along.surface, scene.top, (passes, is_sheet), deviation);
     let fitted = (passes, deviation);
     let Some(shape) = shape(common.lead) else {
         return with_heights(context, fitted, along, (&standing, links));

@@ -15,8 +15,8 @@ use styluscam_verify::{Contact, OrderedPasses, Outwards, Passes, Pitch};
 
 use super::facts::counted;
 use super::surface::{self, FollowsSurface, Task, Traced};
-use super::{About, Areas, Context, Direction, Effort, Fact, OperationKind, PassContext, PassSpacing, Planned};
-use super::{Serves, Spindle};
+use super::{About, Areas, Context, Direction, Effort, Fact, LeadForm, LinkHeight, OperationKind, PassContext};
+use super::{PassSpacing, Planned, Serves, Spindle};
 use crate::numbers::shown;
 use crate::{JobError, OperationKeys};
 
@@ -77,7 +77,7 @@ impl OperationKind for Meridian {
             return Err(JobError::document("conflict", format!("{path}.spindle.mode"), message, hint));
         };
         match common.direction {
-            Direction::Alternate | Direction::Same => Ok(()),
+            Direction::Alternate | Direction::Same => between(common, path),
             Direction::Climb | Direction::Conventional => {
                 let message = "a meridian is run from the axis outwards, whichever way the spindle turns";
                 Err(JobError::document("conflict", format!("{path}.direction"), message, "remove direction"))
@@ -161,6 +161,24 @@ impl Meridian {
         let selected = scene.facing_up(&context.faces);
         Ok(roundness(&scene.mesh, &scene.bvh, &selected, context.watch)?)
     }
+}
+
+/// Low rapids and leads are laid beside what stands still: the disc turns through them.
+fn between(common: &OperationKeys, path: &str) -> Result<(), JobError> {
+    let (key, message, hint) = match (common.links, common.lead) {
+        (LinkHeight::Clearance, LeadForm::None) => return Ok(()),
+        (LinkHeight::Low, _) => (
+            "links",
+            "links = \"low\" is for a sheet that stands still, and this one turns: the tool crosses it at clearance",
+            "write links = \"clearance\"",
+        ),
+        (LinkHeight::Clearance, LeadForm::Tangent | LeadForm::Vertical) => (
+            "lead",
+            "leads are for a sheet that stands still, and this one turns: the tool comes straight down onto it",
+            "write lead = \"none\"",
+        ),
+    };
+    Err(JobError::document("conflict", format!("{path}.{key}"), message, hint))
 }
 
 /// The error of a part that is no surface of revolution.

@@ -30,7 +30,7 @@ pub use context::Context;
 pub use effort::{Areas, Effort};
 pub(crate) use facts::counted;
 pub use facts::{BridgedFace, End, Fact, ReachedFace, SurfaceFacts};
-pub use keys::{Coolant, Direction, Feeds, Fit, LeadForm, LinkHeight, OperationKeys, Spindle};
+pub use keys::{Coolant, Direction, Edges, Feeds, Fit, LeadForm, LinkHeight, OperationKeys, Spindle};
 pub use kind::{About, OperationKind, PassContext, PassSpacing, Planned, Serves, StarterPasses};
 
 kinds! {

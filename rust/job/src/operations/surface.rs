@@ -7,12 +7,12 @@ use styluscam_post::machine::CommentForm;
 use styluscam_toolpath::{
     budget::Budget,
     forming::{ramped, turned, Ramp, Turn, Turned, Turns},
-    offset::Envelope,
+    offset::{Envelope, Rolling},
     ordered, AlongSurface, Entered, Heights, Links, Pass, PlanError, Rates, Seam, Sense, Surface,
 };
 
 use super::{budget, facts::counted, fit, links};
-use super::{reached, Context, Direction, End, Fact, OperationKeys, OperationKind, Planned, SurfaceFacts};
+use super::{reached, Context, Direction, Edges, End, Fact, OperationKeys, OperationKind, Planned, SurfaceFacts};
 use crate::{JobError, Scene};
 
 /// What links along the surface and rows look for, as a share of the distance between the grid's nodes: the tool's rim and its
@@ -144,8 +144,11 @@ impl Task<'_> {
         let (low, high) = self.context.scene.mesh.bounds();
         let size = high - low;
         format!(
-            " (part {:.3} x {:.3} x {:.3} mm): check its units, the tool's size and the selection",
-            size.x, size.y, size.z
+            " (part {:.3} x {:.3} x {:.3} mm): check its units, the tool's size and the selection{}",
+            size.x,
+            size.y,
+            size.z,
+            self.context.region.hint()
         )
     }
 
@@ -188,7 +191,11 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
     let body = tool.body(scene.sheet.as_ref());
     let task = Task { context, budget, body: &body, allowance, cut: kind.cut_feed(context.common) };
     let surface = Surface::new(&envelope, &selected).between_heights(kind.tip_range(&task));
-    let surface = if scene.sheet.is_some() { surface.from_above() } else { surface };
+    let surface = surface.rolling(rolling(context));
+    let region =
+        context.region.planned((tool, scene.sheet.as_ref()), scene.inward, &budget, budget::rounding(context.machine));
+    let region = region.ready();
+    let surface = surface.within(&region);
     let surface = if fit::asks_for_arcs(context) { surface.keeping_witnesses() } else { surface };
     let path = || {
         let traced = kind.trace(&task, &surface).map_err(|error| context.error(error))?;
@@ -224,6 +231,15 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
     })
 }
 
+/// How far over the edges of its faces an operation's passes go.
+fn rolling(context: &Context<'_>) -> Rolling {
+    match (context.common.edges, context.scene.sheet) {
+        (Some(Edges::Roll), _) => Rolling::Over,
+        (Some(Edges::Stop), _) | (None, None) => Rolling::Stop,
+        (None, Some(_)) => Rolling::FromAbove,
+    }
+}
+
 /// The moves along the passes, in their order, and what there is to say of their fit.
 fn linked(
     kind: &impl FollowsSurface,
@@ -249,8 +265,7 @@ fn linked(
         }
         (None, None) => (passes.into_iter().map(Entered::from).collect(), Vec::new()),
     };
-    let passes = (surface.envelope(), &*entered, deviation);
-    let (moves, linked) = links::linked(context, passes, along, &task.links())?;
+    let (moves, linked) = links::linked(context, (&*entered, deviation), along, &task.links())?;
     facts.extend(linked);
     Ok((moves, facts))
 }

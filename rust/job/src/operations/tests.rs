@@ -74,6 +74,7 @@ fn every_kind_plans_and_says_what_it_planned() {
         let body = tools.values().next().unwrap().0.body(None);
         match job.operations[0].kind().passes(&PassContext { smallest_feature: 1.0, top: 0.0, body: &body }) {
             Passes::Ordered(passes) => assert!(passes.pitch.largest() > 0.0, "{name}"),
+            Passes::Crossed(sets) => assert!(sets.iter().all(|set| set.pitch.largest() > 0.0), "{name}"),
             Passes::Unordered { reason } => {
                 assert!(!reason.is_empty(), "{name} does not say why its passes are not checked");
             }

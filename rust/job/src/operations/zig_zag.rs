@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use styluscam_geometry::ToolBody;
 use styluscam_toolpath::{
     forming::{scallop_steps, zig_zag, Rows, ScallopRule, Spread, Turn},
-    PlanError, Surface,
+    Pass, PlanError, Surface,
 };
 use styluscam_verify::{Across, Contact, OrderedPasses, Passes, Pitch};
 
@@ -36,6 +36,13 @@ pub struct ZigZag {
     #[serde(default)]
     #[schemars(extend("x-unit" = "deg", "minimum" = -360.0, "maximum" = 360.0))]
     pub angle_deg: f64,
+    /// A second set of rows over the same faces, across the first.
+    #[serde(default)]
+    pub cross: bool,
+    /// Angle from the first set of rows to the second, degrees; 90 when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-advanced" = true, "x-unit" = "deg", "minimum" = 10.0, "maximum" = 170.0))]
+    pub cross_angle_deg: Option<f64>,
     /// How the tool turns from a row to the next.
     #[serde(default)]
     pub turns: Turns,
@@ -75,6 +82,34 @@ impl ZigZag {
     /// Share of the stepover that is the smallest distance between rows where none is stated.
     const CLOSEST: f64 = 0.1;
 
+    /// Angle between both sets of rows where none is stated, degrees.
+    const ACROSS_DEG: f64 = 90.0;
+
+    /// Directions of the sets of rows from +X, rad: the first, and where there is one the second.
+    fn angles(&self) -> (f64, Option<f64>) {
+        let across = self.angle_deg + self.cross_angle_deg.unwrap_or(Self::ACROSS_DEG);
+        (self.angle_deg.to_radians(), self.cross.then(|| across.to_radians()))
+    }
+
+    /// The passes of one set of rows.
+    fn rows(&self, angle: f64, task: &Task<'_>, surface: &Surface<'_>) -> Result<Vec<Pass>, PlanError> {
+        let closer = match self.pitch_of_rows() {
+            Pitch::Even(_) | Pitch::Listed { .. } => None,
+            Pitch::Scallop { height, steps: limits } => {
+                let rule = ScallopRule { height, limits };
+                Some(scallop_steps(surface, task.body, Spread::Rows(angle), &rule, task.context.watch)?)
+            }
+        };
+        let rows = Rows {
+            angle,
+            stepover: self.stepover,
+            closer,
+            spacing: task.context.node_spacing(),
+            narrow: task.narrow(),
+        };
+        zig_zag(surface, &rows, task.budget.deviation, task.context.watch)
+    }
+
     /// How far apart rows lie.
     fn pitch_of_rows(&self) -> Pitch {
         let least = self.stepover_min.unwrap_or(Self::CLOSEST * self.stepover);
@@ -98,6 +133,11 @@ impl OperationKind for ZigZag {
                 return Err(JobError::document("conflict", format!("{path}.turn_radius"), message, hint));
             }
             (Turns::Looped, Some(_)) | (Turns::Straight | Turns::Rounded, None) => {}
+        }
+        if self.cross_angle_deg.is_some() && !self.cross {
+            let (message, hint) =
+                ("cross_angle_deg is the angle of a second set of rows", "remove it, or set cross = true");
+            return Err(JobError::document("conflict", format!("{path}.cross_angle_deg"), message, hint));
         }
         let Some(least) = self.stepover_min else { return Ok(()) };
         let (message, hint) = if self.scallop.is_none() {
@@ -124,12 +164,16 @@ impl OperationKind for ZigZag {
     }
 
     fn passes(&self, given: &PassContext<'_>) -> Passes {
-        Passes::Ordered(OrderedPasses {
-            scalar: Arc::new(Across { direction_rad: self.angle_deg.to_radians() }),
+        let set = |direction_rad| OrderedPasses {
+            scalar: Arc::new(Across { direction_rad }),
             pitch: self.pitch_of_rows(),
             continuous: false,
             smallest_feature: given.smallest_feature,
-        })
+        };
+        match self.angles() {
+            (angle, None) => Passes::Ordered(set(angle)),
+            (angle, Some(across)) => Passes::Crossed([set(angle), set(across)]),
+        }
     }
 
     fn spacing(&self) -> Option<PassSpacing> {
@@ -143,7 +187,7 @@ impl OperationKind for ZigZag {
         Some(Effort {
             key,
             pitch: self.stepover,
-            length: areas.plan / self.stepover,
+            length: if self.cross { 2.0 } else { 1.0 } * areas.plan / self.stepover,
             samples_grid: false,
             seconds_per_point: 15e-6, // the envelope is asked for its height at a known position
         })
@@ -179,22 +223,13 @@ impl FollowsSurface for ZigZag {
     }
 
     fn trace(&self, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError> {
-        let angle = self.angle_deg.to_radians();
-        let closer = match self.pitch_of_rows() {
-            Pitch::Even(_) | Pitch::Listed { .. } => None,
-            Pitch::Scallop { height, steps: limits } => {
-                let rule = ScallopRule { height, limits };
-                Some(scallop_steps(surface, task.body, Spread::Rows(angle), &rule, task.context.watch)?)
-            }
-        };
-        let rows = Rows {
-            angle,
-            stepover: self.stepover,
-            closer,
-            spacing: task.context.node_spacing(),
-            narrow: task.narrow(),
-        };
-        let passes = zig_zag(surface, &rows, task.budget.deviation, task.context.watch)?;
+        let (angle, across) = self.angles();
+        let mut passes = self.rows(angle, task, surface)?;
+        if let Some(across) = across {
+            let count = passes.last().map_or(0, |last| last.group + 1);
+            let crossing = self.rows(across, task, surface)?;
+            passes.extend(crossing.into_iter().map(|pass| Pass { group: count + pass.group, ..pass }));
+        }
         if passes.is_empty() {
             return Err(PlanError::NothingReached(task.why_nothing()));
         }
@@ -202,7 +237,8 @@ impl FollowsSurface for ZigZag {
     }
 
     fn words(&self, groups: usize, passes: usize) -> String {
-        format!("{} on {}", counted(passes, "pass", "passes"), counted(groups, "row", "rows"))
+        let directions = if self.cross { " in two directions" } else { "" };
+        format!("{} on {}{directions}", counted(passes, "pass", "passes"), counted(groups, "row", "rows"))
     }
 
     fn facts(&self, groups: usize, traced: &Traced) -> Vec<Fact> {

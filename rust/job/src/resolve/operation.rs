@@ -62,7 +62,7 @@ pub fn passes_of(job: &JobDocument, scene: &Scene, tool: &Tool, section: &Operat
 pub fn descent_of(job: &JobDocument, scene: &Scene, tool: &Tool, section: &OperationSection) -> Option<OrderedPasses> {
     match passes_of(job, scene, tool, section) {
         Passes::Ordered(passes) => Some(passes).filter(|passes| passes.scalar.descends()),
-        Passes::Unordered { .. } => None,
+        Passes::Crossed(_) | Passes::Unordered { .. } => None,
     }
 }
 

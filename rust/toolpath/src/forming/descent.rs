@@ -74,8 +74,9 @@ impl Descent<'_> {
             }
         });
         let [run] = &runs[..] else { return None };
-        let is_whole =
-            run.iter().all(|point| point.selected) && run.windows(2).all(|pair| pair[1].tip.z < pair[0].tip.z);
+        let is_whole = run.iter().all(|point| point.selected)
+            && self.surface.goes_on_along(run)
+            && run.windows(2).all(|pair| pair[1].tip.z < pair[0].tip.z);
         is_whole.then(|| self.surface.thinned(run, self.deviation))
     }
 }

@@ -34,7 +34,9 @@ pub fn over_line(
     }
     met.push(run);
     let mut found = Vec::new();
-    for exact in met {
+    let between = |a: &PathPoint, b: &PathPoint| fitting::Course::between(&mut course, a, b);
+    let stretches = met.into_iter().scan(between, |between, exact| Some(surface.stretches(exact, false, between)));
+    for (exact, _) in stretches.flatten().collect::<Vec<_>>() {
         for run in fitting::selected_runs(&exact, false, |a, b| fitting::Course::between(&mut course, a, b)) {
             let runs = fitting::densified(&run, deviation, narrow, &mut course);
             found.extend(runs.iter().map(|run| surface.thinned(run, deviation)));

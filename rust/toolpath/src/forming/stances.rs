@@ -18,12 +18,28 @@ pub(super) fn stances(surface: &Surface<'_>) -> Vec<[Vector; 3]> {
 
 /// The same of some of the mesh's triangles, each with its number.
 pub(super) fn stances_of(surface: &Surface<'_>, triangles: &[usize]) -> Vec<(usize, [Vector; 3])> {
+    let mesh = surface.envelope().mesh();
+    stances_by(surface, triangles, |triangle| [mesh.normal(triangle); 3])
+}
+
+/// The same on the model behind the triangles: each corner is touched by its own normal.
+pub(super) fn smooth_stances_of(surface: &Surface<'_>, triangles: &[usize]) -> Vec<(usize, [Vector; 3])> {
+    let mesh = surface.envelope().mesh();
+    stances_by(surface, triangles, |triangle| mesh.corner_normals(triangle))
+}
+
+fn stances_by(
+    surface: &Surface<'_>,
+    triangles: &[usize],
+    normals: impl Fn(usize) -> [Vector; 3] + Sync,
+) -> Vec<(usize, [Vector; 3])> {
     let (envelope, mesh) = (surface.envelope(), surface.envelope().mesh());
     let stances = triangles.par_iter().filter_map(|triangle| {
-        let normal = mesh.normal(*triangle);
+        let (corners, normals) = (mesh.corners(*triangle), normals(*triangle));
         // at the origin the tool touches a plane of this normal there
-        let touching = (normal.z > WALL).then(|| envelope.touching_point(Vector::zeros(), normal))?;
-        Some((*triangle, mesh.corners(*triangle).map(|corner| corner - touching)))
+        let touching = |normal: Vector| envelope.touching_point(Vector::zeros(), normal);
+        let stands = normals.iter().all(|normal| normal.z > WALL);
+        stands.then(|| (*triangle, std::array::from_fn(|i| corners[i] - touching(normals[i]))))
     });
     stances.collect()
 }

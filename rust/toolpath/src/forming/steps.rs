@@ -1,5 +1,11 @@
 //! How far one level lies below the other: evenly, by a list, or as far as a bound at each height allows.
 
+use styluscam_geometry::ToolBody;
+
+use super::wall_line::WallLine;
+
+/// Share of a step by which turns are planned: on the long straight sides of a loop they lie up to a tenth farther apart.
+const TURNS: f64 = 0.92;
 /// Heights for which a bound is known.
 const CELLS: usize = 1 << 14;
 
@@ -86,35 +92,68 @@ pub struct StepBounds {
     most: Vec<f64>,
     /// The smallest and the largest step, mm, whatever is allowed.
     limits: [f64; 2],
+    /// The walls that allow the least, where their ridges are known as they are.
+    walls: Option<WallLine>,
+}
+
+/// What a face allows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Allowed {
+    /// The lowest and the highest value at which it is touched, mm.
+    pub values: [f64; 2],
+    /// The step, mm.
+    pub step: f64,
+    /// The cosine of its slope at each of the values; none where it is no face but a crease between two.
+    pub cosines: Option<[f64; 2]>,
 }
 
 impl StepBounds {
-    /// Of steps that are allowed over ranges of values (lowest, highest, step), in steps between `limits`.
+    /// Of what faces allow, in steps between `limits`.
     #[must_use]
-    pub fn new(ranges: &[([f64; 2], f64)], limits: [f64; 2]) -> Self {
-        let low = ranges.iter().map(|([low, _], _)| *low).fold(f64::INFINITY, f64::min);
-        let high = ranges.iter().map(|([_, high], _)| *high).fold(f64::NEG_INFINITY, f64::max);
+    pub fn new(allowed: &[Allowed], limits: [f64; 2]) -> Self {
+        Self::with_cosines(allowed, limits).0
+    }
+
+    /// The same for levels of a tool that are to leave ridges of `height` mm.
+    #[must_use]
+    pub fn of_levels(allowed: &[Allowed], limits: [f64; 2], body: &ToolBody, height: f64) -> Self {
+        let (bounds, cosines) = Self::with_cosines(allowed, limits);
+        let walls = Some(WallLine::new(bounds.low, bounds.cell, &cosines, body, height));
+        Self { walls, ..bounds }
+    }
+
+    /// The bounds, and the cosine of the slope by cell of what allows least there; NaN where nothing does.
+    fn with_cosines(allowed: &[Allowed], limits: [f64; 2]) -> (Self, Vec<f64>) {
+        let low = allowed.iter().map(|face| face.values[0]).fold(f64::INFINITY, f64::min);
+        let high = allowed.iter().map(|face| face.values[1]).fold(f64::NEG_INFINITY, f64::max);
         let cell = ((high - low) / CELLS as f64).max(f64::MIN_POSITIVE);
         let cells = if low <= high { CELLS } else { 0 };
-        let mut bounds = Self { low, cell, most: vec![limits[1]; cells], limits };
-        for ([low, high], step) in ranges.iter().filter(|(_, step)| *step < limits[1]) {
-            let [first, last] = [low, high].map(|value| bounds.cell_of(*value));
-            bounds.most[first..=last].iter_mut().for_each(|most| *most = most.min(*step));
+        let mut bounds = Self { low, cell, most: vec![limits[1]; cells], limits, walls: None };
+        let (mut least, mut cosines) = (vec![f64::INFINITY; cells], vec![f64::NAN; cells]);
+        for Allowed { values: [low, high], step, cosines: slopes } in allowed {
+            let [first, last] = [*low, *high].map(|value| bounds.cell_of(value));
+            for cell in first..=last {
+                bounds.most[cell] = bounds.most[cell].min(*step);
+                let Some([from, to]) = slopes.filter(|_| *step < least[cell]) else { continue };
+                let middle = bounds.low + (cell as f64 + 0.5) * bounds.cell;
+                let share = if high > low { ((middle - low) / (high - low)).clamp(0.0, 1.0) } else { 0.5 };
+                (least[cell], cosines[cell]) = (*step, from + share * (to - from));
+            }
         }
-        bounds
+        (bounds, cosines)
     }
 
     /// The same for turns that go down evenly from one step to the next: within a step of each value no more is allowed than
-    /// there, for a turn's distance to the next lies between two steps.
+    /// there, for a turn's distance to the next lies between two steps, and of that [`TURNS`].
     #[must_use]
     pub fn for_turns(&self) -> Self {
         let mut most = self.most.clone();
         for (cell, step) in self.most.iter().enumerate() {
             let reach = (step.max(self.limits[0]) / self.cell).ceil() as usize;
             let around = cell.saturating_sub(reach)..(cell + reach + 1).min(most.len());
-            most[around].iter_mut().for_each(|other| *other = other.min(*step));
+            most[around].iter_mut().for_each(|other| *other = other.min(TURNS * *step));
         }
-        Self { most, ..self.clone() }
+        Self { most, walls: None, ..self.clone() }
     }
 
     fn cell_of(&self, value: f64) -> usize {
@@ -127,8 +166,17 @@ impl StepBounds {
         most.copied().unwrap_or(self.limits[1]).max(self.limits[0])
     }
 
-    /// The value to which a step down from another may lead: as far as the mean over it of what is allowed.
+    /// The value to which a step down from another may lead: as far as the ridge is known to be low enough, or else as the mean
+    /// over the step of what is allowed.
     fn below(&self, from: f64) -> f64 {
+        let [least, most] = self.limits;
+        let by_mean = from - self.below_by_mean(from);
+        let by_walls = self.walls.as_ref().and_then(|walls| walls.step(from, by_mean, most));
+        from - by_walls.unwrap_or(by_mean).clamp(least, most)
+    }
+
+    /// The value to which a step down from another may lead by the mean over it of what is allowed.
+    fn below_by_mean(&self, from: f64) -> f64 {
         let [least, most] = self.limits;
         let cells = ((from - self.low) / self.cell).ceil().clamp(0.0, self.most.len() as f64) as usize;
         let over = (from - (self.low + cells as f64 * self.cell)).max(0.0);
@@ -151,6 +199,7 @@ impl StepBounds {
         let mirrored = Self {
             low: -(self.low + self.cell * self.most.len() as f64),
             most: self.most.iter().rev().copied().collect(),
+            walls: None,
             ..*self
         };
         let first = mirrored.below(-low);
@@ -210,6 +259,12 @@ const CLOSE: f64 = 1e-6;
 mod tests {
     use super::*;
 
+    /// The bounds of faces that allow a step over a range of values each.
+    fn bounds(ranges: &[([f64; 2], f64)]) -> StepBounds {
+        let allowed = ranges.iter().map(|(values, step)| Allowed { values: *values, step: *step, cosines: None });
+        StepBounds::new(&allowed.collect::<Vec<_>>(), [0.05, 2.0])
+    }
+
     #[test]
     fn listed_steps_count_from_where_they_begin() {
         let steps = Steps::Listed { from: 1.0, steps: vec![0.5, 0.25] };
@@ -222,7 +277,7 @@ mod tests {
     #[test]
     fn steps_are_shared_where_what_they_allow_changes() {
         // 0.5 from 0 down to -2, then 0.1 to -3, then 0.4
-        let bounds = StepBounds::new(&[([-2.0, 0.0], 0.5), ([-3.0, -2.0], 0.1), ([-4.0, -3.0], 0.4)], [0.05, 2.0]);
+        let bounds = bounds(&[([-2.0, 0.0], 0.5), ([-3.0, -2.0], 0.1), ([-4.0, -3.0], 0.4)]);
         let steps = Steps::Bounded(bounds.clone());
         let heights: Vec<f64> = steps.heights(0.0).take_while(|z| *z > -4.0).collect();
         let steps: Vec<f64> = heights.windows(2).map(|pair| pair[0] - pair[1]).collect();
@@ -237,13 +292,13 @@ mod tests {
 
     #[test]
     fn turns_take_the_smaller_step_where_steps_change() {
-        let bounds = StepBounds::new(&[([0.0, 2.0], 0.5), ([2.0, 3.0], 0.125)], [0.05, 2.0]).for_turns();
-        assert_eq!([1.0, 1.8, 1.9, 2.5].map(|value| bounds.at(value)), [0.5, 0.5, 0.125, 0.125]);
+        let bounds = bounds(&[([0.0, 2.0], 0.5), ([2.0, 3.0], 0.125)]).for_turns();
+        assert_eq!([1.0, 1.8, 1.9, 2.5].map(|value| bounds.at(value) / TURNS), [0.5, 0.5, 0.125, 0.125]);
     }
 
     #[test]
     fn steps_upwards_are_those_downwards_of_the_mirrored_bounds() {
-        let bounds = StepBounds::new(&[([0.0, 2.0], 0.5), ([2.0, 3.0], 0.1)], [0.05, 2.0]);
+        let bounds = bounds(&[([0.0, 2.0], 0.5), ([2.0, 3.0], 0.1)]);
         let values: Vec<f64> = bounds.upwards(0.0, 3.0).collect();
         assert!(values.windows(2).all(|pair| pair[1] > pair[0]), "{values:?}");
         assert!((values[0] - 0.5).abs() < 1e-9 && (12..=15).contains(&values.len()), "{values:?}");
@@ -251,7 +306,7 @@ mod tests {
 
     #[test]
     fn what_allows_nothing_gets_the_smallest_step_and_nothing_known_the_largest() {
-        let bounds = StepBounds::new(&[([0.0, 1.0], 0.0)], [0.25, 2.0]);
+        let bounds = StepBounds { limits: [0.25, 2.0], ..bounds(&[([0.0, 1.0], 0.0)]) };
         assert_eq!(bounds.below(1.0), 0.75);
         assert!((StepBounds::new(&[], [0.25, 2.0]).below(1.0) + 1.0).abs() < 1e-5);
     }

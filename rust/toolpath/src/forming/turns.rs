@@ -197,7 +197,7 @@ impl Turning<'_> {
             self.clear_chord((last, before), (curve_point, point), HALVINGS, &mut raised, &mut path)?;
             last = curve_point;
         }
-        Some(path)
+        Some(path).filter(|path| self.surface.is_clear_along(path))
     }
 
     /// Adds the end of a chord, with points between where the part may rise over it; none where it still may.

@@ -73,7 +73,12 @@ impl<'a> Level<'a> {
         let mut curve = LevelCurve::new(surface, z);
         let segments = Trace::new(grid, bounds, &mut curve, deviation).segments(watch)?;
         let mut passes = Vec::new();
-        for chain in contour::chains(segments) {
+        let chains = contour::chains(segments).into_iter();
+        let chains: Vec<_> = chains
+            .flat_map(|chain| surface.stretches(chain.points, chain.closed, |a, b| curve.between(a, b)))
+            .collect();
+        for (points, closed) in chains {
+            let chain = contour::Chain { points, closed };
             let chain =
                 gaps::bridged(chain, grid.smallest_feature(), deviation, &mut |a: &_, b: &_| curve.between(a, b));
             let closed = chain.closed && chain.points.iter().all(|p| p.selected);

@@ -145,7 +145,8 @@ impl Lines {
         };
         let met = self.met(surface, row, facets, plain, &mut course.hint);
         let mut passes = Vec::new();
-        for exact in met {
+        let stretches = met.into_iter().flat_map(|exact| surface.stretches(exact, false, |a, b| course.between(a, b)));
+        for (exact, _) in stretches.collect::<Vec<_>>() {
             for run in fitting::selected_runs(&exact, false, |a, b| course.between(a, b)) {
                 let runs = fitting::densified(&run, deviation, self.narrow, &mut course);
                 let pass = |run| Pass { points: surface.thinned(run, deviation), closed: false, group: 0 };

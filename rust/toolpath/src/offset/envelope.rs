@@ -8,7 +8,7 @@
 //! Journal of Production Research 42, 2004. Derivation: docs/concepts/envelope.md.
 
 use rayon::prelude::*;
-use styluscam_geometry::{Cutter, Mesh, Sheet, Tool, Vector};
+use styluscam_geometry::{Cutter, Mesh, Sheet, Tool, ToolBody, Vector};
 use styluscam_motion::{Cancelled, Watch};
 
 use super::contact::{self, Best, Chord, Contacts, Facet, Feature};
@@ -70,12 +70,22 @@ impl<'a> Envelope<'a> {
     /// The envelope of `tool` over `mesh` with `sheet` between them, kept `margin` mm clear along the normal.
     #[must_use]
     pub fn new(mesh: &'a Mesh, index: &'a Index, tool: &Tool, sheet: Option<&Sheet>, margin: f64) -> Self {
-        let cutter = tool.cutter_with(sheet, margin);
+        Self::of_cutter(mesh, index, tool.cutter_with(sheet, margin), Tool::tip_above(sheet, margin), margin)
+    }
+
+    /// The envelope of a solid of a tool over `mesh`: how deep the tool's tip may go for this solid alone.
+    #[must_use]
+    pub fn of_body(mesh: &'a Mesh, index: &'a Index, body: ToolBody) -> Self {
+        let above = body.tip_above();
+        Self::of_cutter(mesh, index, Cutter::of(body), above, 0.0)
+    }
+
+    fn of_cutter(mesh: &'a Mesh, index: &'a Index, cutter: Cutter, above: f64, margin: f64) -> Self {
         let (low, high) = index.bounds();
         Self {
             mesh,
             index,
-            above: Tool::tip_above(sheet, margin),
+            above,
             margin,
             reach: low.amax().max(high.amax()) + cutter.max_radius(),
             facets: contact::prepared(index, &cutter),

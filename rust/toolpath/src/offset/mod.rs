@@ -24,4 +24,5 @@ pub use offset_surface::{OffsetPoint, OffsetSurface, SurfaceFlag};
 pub use push::Line;
 pub use regions::Region;
 pub use search::{Keeping, Verdict};
+pub use selection::Rolling;
 pub use slope_matched::{slope_matched_offset, OffsetFlag};

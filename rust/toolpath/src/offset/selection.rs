@@ -16,20 +16,32 @@ const MOST: usize = 24;
 /// Normals that rise by less are those of the tool's upright side.
 const SIDE: f64 = 1e-9;
 
+/// How far over the outer edges of the selection a contact still belongs to it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Rolling {
+    /// It ends at the edge.
+    #[default]
+    Stop,
+    /// It goes on over edges below which the selection lies, while it is less steep than that.
+    FromAbove,
+    /// It goes on over all of them: until the tool touches something else, or leaves the edge.
+    Over,
+}
+
 impl Envelope<'_> {
     /// Whether the contact belongs to triangles that `selected` accepts: to those that meet there, or to a wall beside them
     /// that the tool's upright side touches as well.
     ///
     /// Rolling over an edge or corner between selected and other faces, the contact belongs to the selected ones while
     /// its normal is within `spread` (rad) of what they span: the rim of a pin touched between two of its facets is the
-    /// pin's wall. `from_above` it also does while it is less steep than one of them.
+    /// pin's wall. What else belongs to them there, `rolling` states.
     #[must_use]
-    pub fn belongs(&self, contact: &Contact, selected: &[bool], spread: f64, from_above: bool) -> bool {
-        self.meets(contact, selected, spread, from_above) || self.has_wall_beside(contact, selected)
+    pub fn belongs(&self, contact: &Contact, selected: &[bool], spread: f64, rolling: Rolling) -> bool {
+        self.meets(contact, selected, spread, rolling) || self.has_wall_beside(contact, selected)
     }
 
     /// Whether the contact belongs to selected triangles of those that meet there.
-    fn meets(&self, contact: &Contact, selected: &[bool], spread: f64, from_above: bool) -> bool {
+    fn meets(&self, contact: &Contact, selected: &[bool], spread: f64, rolling: Rolling) -> bool {
         if contact.feature == Feature::Facet {
             return selected[contact.triangle as usize];
         }
@@ -40,8 +52,12 @@ impl Envelope<'_> {
         }
         let normals = touched.into_iter().filter(is_selected).map(|t| self.mesh().normal(t as usize));
         let normals: Vec<Vector> = normals.collect();
-        normals.iter().any(|normal| from_above && contact.normal.z >= normal.z)
-            || is_spanned(contact.normal, &normals, spread)
+        let rolls = |normal: &Vector| match rolling {
+            Rolling::Stop => false,
+            Rolling::FromAbove => contact.normal.z >= normal.z,
+            Rolling::Over => true,
+        };
+        normals.iter().any(rolls) || is_spanned(contact.normal, &normals, spread)
     }
 
     /// Whether a selected wall that joins the triangle touched stands in the same upright line as the contact, as far as

@@ -7,7 +7,7 @@ use styluscam_geometry::{kinds, Bvh, Cutter, Mesh, ProfileDocument, Sheet, Tool,
 use styluscam_motion::{
     Event, EventKind, Move, MoveKind, OperationRecord, Program, SetupRecord, ToolRecord, ToolReference,
 };
-use styluscam_verify::{Contact, Expectation, ExpectedOperation, Limits, Passes, Subject};
+use styluscam_verify::{Contact, Expectation, ExpectedOperation, Limits, Passes, Region, Subject};
 
 /// Height at and above which rapids travel.
 pub const CLEARANCE: f64 = 10.0;
@@ -90,7 +90,7 @@ pub fn tool(profile: ProfileDocument) -> Tool {
 /// What a job states for its one operation, of all triangles.
 pub fn expected(part: &Part, contact: Contact, heights: [f64; 2], passes: Passes) -> [ExpectedOperation; 1] {
     let selected = vec![true; part.mesh.triangles().len()];
-    let expectation = Expectation { contact, selected, heights, passes, forms: false };
+    let expectation = Expectation { contact, selected, region: Region::default(), heights, passes, forms: false };
     let id = "walls".to_owned();
     [ExpectedOperation {
         id,

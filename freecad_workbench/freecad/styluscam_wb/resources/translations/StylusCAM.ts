@@ -4,8 +4,18 @@
 <context>
     <name>App::Property</name>
     <message>
+        <source>A second set of rows over the same faces, across the first.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Air that rapids below clearance keep above the part, the sheet as it stands and uncut stock, mm.
 Range: 0.1 to 1000 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Angle from the first set of rows to the second, degrees; 90 when left out.
+Range: 10 to 170 deg
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -64,6 +74,19 @@ Range: above 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Faces that the tool keeps away from: "rest" (all others that face up, or stand upright where faces = "all" takes upright
+walls), or names; the part's when left out.
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Faces that the tool keeps away from: "rest" (all others), or names: ["Face7"].
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Feed per revolution along the path, mm: the distance between its turns on the part.
 Range: 0.001 to 20 mm/rev</source>
         <translation type="unfinished"></translation>
@@ -71,6 +94,18 @@ Range: 0.001 to 20 mm/rev</source>
     <message>
         <source>How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
 Range: 0.0001 to 1 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far tool, shank and holder, with the sheet under them, stay away from those faces, mm; 0 when left out.
+Range: 0 to 1000 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far tool, shank and holder, with the sheet under them, stay away from those faces, mm; the part's when left out.
+Range: 0 to 1000 mm
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -233,6 +268,14 @@ As JSON
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>What happens at the outer edges of the selected faces; when left out, passes stop there, and in forming roll over those
+that the tool comes down over.
+0 or empty: not stated
+roll: The tool rolls over them, its contact on the edge, until it touches another face or leaves the edge.
+stop: They end where the contact reaches the edge.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>What holds it.
 As JSON
 0 or empty: not stated</source>
@@ -275,6 +318,12 @@ arcs: Arcs and lines, of which fewer are needed; lines where the machine has no 
     </message>
     <message>
         <source>What the sheet is made of, by the name of a shipped material: it sets the steepest wall that the sheet withstands.
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Where passes may run: inside edges in plan, and on contacts of some slopes.
+As JSON
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
@@ -358,6 +407,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>A second set of rows over the same faces, across the first.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>A sheet formed with a clothoid stylus, level by level</source>
         <translation type="unfinished"></translation>
     </message>
@@ -431,6 +484,12 @@ Range: 0.1 to 1000 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Angle from the first set of rows to the second, degrees; 90 when left out.
+Range: 10 to 170 deg
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Angle of ramps along the wall from level to level, degrees: they leave no line of steps; straight down when left out.
 Range: 0.1 to 45 deg
 0 or empty: not stated</source>
@@ -466,6 +525,10 @@ Range: 1 to 90 deg</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Boundary</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Bull nose</source>
         <translation type="unfinished"></translation>
     </message>
@@ -485,6 +548,14 @@ Range: -360 to 360 deg
     </message>
     <message>
         <source>Chamfer</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Check clearance</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Check faces</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -529,6 +600,14 @@ Range: -360 to 360 deg
     </message>
     <message>
         <source>Corner radius</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Cross</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Cross angle</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -647,6 +726,10 @@ other face of the sheet, block by block; its machine is in `[machines.support]`.
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Edges</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Edit</source>
         <translation type="unfinished"></translation>
     </message>
@@ -672,6 +755,19 @@ other face of the sheet, block by block; its machine is in `[machines.support]`.
     </message>
     <message>
         <source>Exponent</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Faces that the tool keeps away from: "rest" (all others that face up, or stand upright where faces = "all" takes upright
+walls), or names; the part's when left out.
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Faces that the tool keeps away from: "rest" (all others), or names: ["Face7"].
+As JSON
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -754,6 +850,18 @@ Range: 0.0001 to 1 mm</source>
     </message>
     <message>
         <source>How far the points may be from the profile, inside or outside, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far tool, shank and holder, with the sheet under them, stay away from those faces, mm; 0 when left out.
+Range: 0 to 1000 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far tool, shank and holder, with the sheet under them, stay away from those faces, mm; the part's when left out.
+Range: 0 to 1000 mm
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1017,6 +1125,14 @@ the feed per revolution and the spindle's speed.</source>
     </message>
     <message>
         <source>Parameters</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Part check clearance</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Part check faces</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1490,6 +1606,14 @@ the feed per revolution and the spindle's speed.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>The tool rolls over them, its contact on the edge, until it touches another face or leaves the edge.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>They end where the contact reaches the edge.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Thickness, mm.
 Range: above 0 to 50 mm</source>
         <translation type="unfinished"></translation>
@@ -1616,6 +1740,14 @@ As JSON
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>What happens at the outer edges of the selected faces; when left out, passes stop there, and in forming roll over those
+that the tool comes down over.
+0 or empty: not stated
+roll: The tool rolls over them, its contact on the edge, until it touches another face or leaves the edge.
+stop: They end where the contact reaches the edge.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>What holds it.
 As JSON
 0 or empty: not stated</source>
@@ -1662,6 +1794,12 @@ arcs: Arcs and lines, of which fewer are needed; lines where the machine has no 
     </message>
     <message>
         <source>What the sheet is made of, by the name of a shipped material: it sets the steepest wall that the sheet withstands.
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Where passes may run: inside edges in plan, and on contacts of some slopes.
+As JSON
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1954,6 +2092,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>roll</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>rounded</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2015,6 +2157,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>stepover along the wall, mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>stop</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
