@@ -6,6 +6,7 @@ import json
 import re
 import shlex
 import shutil
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,11 @@ from typing import Any
 import pytest
 
 import styluscam as sc
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
 
 from .conftest import CHECKOUT, FIXTURES, run_cli
 from .patching import SOON, Change, patched, run_cargo
@@ -80,10 +86,16 @@ def as_console(text: str, line: int, page: str) -> None:
 
 
 def as_toml(text: str) -> None:
-    """A machine file's end, or tools of a job."""
+    """A machine file's end, keys of a job, or its tools."""
     if "[templates]" in text:
         Path("shop.toml").write_text(Path("shop.toml").read_text() + text)
         assert sc.Machine.read("shop.toml").check()
+        return
+    if "[[operations]]" in text:
+        stated, job = tomllib.loads(text), tomllib.loads(JOB)
+        job["operations"][0] |= stated["operations"][0]
+        job |= {section: job[section] | keys for section, keys in stated.items() if section != "operations"}
+        assert sc.Job.from_dict(job)
         return
     profiles = re.findall(r"^profile = .*$", text, re.MULTILINE)
     assert profiles

@@ -72,7 +72,7 @@ def test_every_face_gets_a_name_and_no_two_overlap(name, tmp_path, monkeypatch):
     from styluscam.parts.reading import read_part
 
     kept = []
-    monkeypatch.setattr(picture, "_save", lambda figure, path: kept.append(figure))
+    monkeypatch.setattr(picture, "save", lambda figure, path: kept.append(figure))
     arrays = read_part(FIXTURES / f"{name}.step", 0.05)
     picture.part_picture(arrays, tmp_path / "part.png")
     (figure,) = kept
@@ -90,7 +90,7 @@ def test_path_behind_a_wall_is_hidden(tmp_path, monkeypatch):
     from styluscam.drawing import picture
 
     kept = []
-    monkeypatch.setattr(picture, "_save", lambda figure, path: kept.append(figure))
+    monkeypatch.setattr(picture, "save", lambda figure, path: kept.append(figure))
     part = sc.Part.read(FIXTURES / "cone_cup.step", 0.05)
     machine = sc.Machine.shipped("linuxcnc")
     text = "G21 G90 G54\nT1 M6\nG0 X-10 Y-10 Z5\nG1 Z{z} F100\nX10\nY10\nX-10\nY-10\nM2\n"

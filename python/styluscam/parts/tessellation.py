@@ -342,7 +342,8 @@ def _sides_to_split(
     `bow` (F,3) is how much farther each side is off the surface than its ends: what splitting removes. A side much
     longer than that one goes too when it bows half as much, or slivers would be cut into ever finer slivers.
     Where no side bows, the surface swings about the triangle: the longest side goes. It goes with the others in a sliver, too
-    (longest-edge bisection: Rivara, International Journal for Numerical Methods in Engineering 20, 1984): all lie in one line there, and were the longest to
+    (longest-edge bisection: Rivara, International Journal for Numerical Methods in Engineering 20, 1984): all lie in one line
+    there, and were the longest to
     stay because the surface crosses it at the samples, each round would put the same slivers against it. A side on the border
     (not `inner`) stays, and a triangle that only its border or its corners keep off the surface is not split.
     """
