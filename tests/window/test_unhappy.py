@@ -22,6 +22,7 @@ def test_a_document_is_not_closed_while_it_is_computed(session: Any) -> None:
 def test_of_two_tools_the_chosen_one_is_used(session: Any) -> None:
     seen = session["two controllers"]
     assert seen["asked"] and seen["state"] == ["Up-to-date"]
+    assert "text" in seen["post"], seen["post"]
     text = seen["post"]["text"]
     assert "T2 M6" in text and "T1 M6" not in text
     assert "TC: Second states no HorizFeed and no VertFeed" in seen["notes"][-1]

@@ -21,8 +21,8 @@ pub(crate) fn margin(segment: &Segment, assignment: &Assignment, limits: &Limits
     let is_low =
         segment.kind == SegmentKind::Rapid && segment.start.is_some() && segment.lowest() < limits.clearance - SLACK;
     let margin = assignment.of(segment.operation)?.low_links.filter(|_| is_low && limits.straight_rapids)?;
-    let goes_down_and_across = segment.travels() && segment.descends();
-    ((segment.travels() || segment.descends()) && !goes_down_and_across).then_some(margin - ROUGH)
+    // either across or down, not both at once
+    (segment.travels() != segment.descends()).then_some(margin - ROUGH)
 }
 
 /// Low rapids that come nearer to the part, or to uncut stock, than their margin.

@@ -60,7 +60,8 @@ def every_kind() -> Any:
     job = stage.job_with_stylus(diameter=12.0)
     yield from stage.workbench("StylusCamWorkbench")
     result = {}
-    for name in commands.groups()["operations"]:
+    # a meridian is formed by spinning: not in the job of a block
+    for name in (name for name in commands.groups()["operations"] if "Meridian" not in name):
         FreeCADGui.Selection.clearSelection()
         yield from stage.press(name)
         operation = job.Operations.Group[-1]

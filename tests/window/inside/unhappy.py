@@ -69,7 +69,7 @@ def two_controllers() -> Any:
     operation = job.Operations.Group[-1]
     driver.choose(driver.one(QtWidgets.QComboBox, name="toolController"), "TC: Second")
     yield until(lambda: operation.ToolController == other, "the second tool")
-    yield from stage.typed(operation, "Step", "5 mm", 5.0)
+    yield from stage.typed(operation, "Step", "2.5 mm", 2.5)
     yield from stage.ok(operation)
     return {**stage.seen(operation), "asked": question is not None, "post": stage.posted(job)}
 

@@ -15,9 +15,10 @@ fn job(kind: usize) -> Result<JobDocument, crate::JobError> {
     crate::from_toml(&milling(&format!("kind = \"{name}\"\n{keys}")))
 }
 
-fn kinds() -> std::ops::Range<usize> {
+/// The kinds that mill: a meridian is formed of a sheet that turns, and is planned by the tests of spinning.
+fn kinds() -> impl Iterator<Item = usize> {
     assert_eq!(Operation::ABOUT.len(), Operation::NAMES.len());
-    0..Operation::ABOUT.len()
+    (0..Operation::ABOUT.len()).filter(|kind| Operation::NAMES[*kind] != "meridian")
 }
 
 #[test]

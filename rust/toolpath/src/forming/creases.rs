@@ -39,11 +39,11 @@ pub fn creases(surface: &Surface<'_>) -> Vec<Crease> {
 pub fn tips_at_vertices(creases: &[Crease]) -> HashMap<u32, f64> {
     let mut heights: HashMap<u32, f64> = HashMap::new();
     for crease in creases {
-        let Tips::Hollow(tips) = crease.tips else { continue };
+        let Tips::Hollow { vertices, tips } = crease.tips else { continue };
         if !Spread::Levels.runs_along(tips[1] - tips[0]) {
             continue;
         }
-        for (vertex, tip) in crease.vertices.into_iter().zip(tips) {
+        for (vertex, tip) in vertices.into_iter().zip(tips) {
             heights.entry(vertex).and_modify(|height| *height = height.max(tip.z)).or_insert(tip.z);
         }
     }
@@ -52,8 +52,6 @@ pub fn tips_at_vertices(creases: &[Crease]) -> HashMap<u32, f64> {
 
 /// An edge along which two faces meet.
 pub struct Crease {
-    /// The vertices of the mesh at its ends.
-    vertices: [u32; 2],
     /// The unit normals of both faces at it.
     normals: [Vector; 2],
     /// Where the tool's tips are beside either end.
@@ -63,9 +61,21 @@ pub struct Crease {
 /// Tips of the tool at a crease.
 enum Tips {
     /// It touches both faces, beside either end.
-    Hollow([Vector; 2]),
+    Hollow {
+        /// The vertices of the mesh at the ends.
+        vertices: [u32; 2],
+        tips: [Vector; 2],
+    },
     /// It touches either face, at either end, and rolls from one to the other.
     Convex([Vector; 4]),
+}
+
+impl Tips {
+    /// Of a tool that rolls over an edge from touching planes of one normal to those of another.
+    fn rolling(surface: &Surface<'_>, ends: [Vector; 2], normals: [Vector; 2]) -> Self {
+        let [first, second] = normals.map(|normal| surface.envelope().touching_point(Vector::zeros(), normal));
+        Self::Convex([ends[0] - first, ends[1] - first, ends[0] - second, ends[1] - second])
+    }
 }
 
 impl Crease {
@@ -81,19 +91,17 @@ impl Crease {
             theirs[nearest.unwrap_or(0)]
         };
         let normals = [own[side] + own[next], at(ends[0]) + at(ends[1])].map(|sum| sum.normalize());
-        let farthest = others.into_iter().map(|corner| (corner - ends[0]).dot(&mesh.normal(triangle)));
-        let is_hollow = farthest.fold(0.0, f64::max) > 0.0;
         if normals[0].dot(&normals[1]) >= SMOOTH {
             return None;
         }
-        let vertices = [side, next].map(|corner| mesh.triangles()[triangle][corner]);
-        let tips = if is_hollow {
-            Tips::Hollow(tips(surface, ends, normals)?)
+        let farthest = others.into_iter().map(|corner| (corner - ends[0]).dot(&mesh.normal(triangle)));
+        let tips = if farthest.fold(0.0, f64::max) > 0.0 {
+            let vertices = [side, next].map(|corner| mesh.triangles()[triangle][corner]);
+            Tips::Hollow { vertices, tips: tips(surface, ends, normals)? }
         } else {
-            let [first, second] = normals.map(|normal| surface.envelope().touching_point(Vector::zeros(), normal));
-            Tips::Convex([ends[0] - first, ends[1] - first, ends[0] - second, ends[1] - second])
+            Tips::rolling(surface, ends, normals)
         };
-        Some(Self { vertices, normals, tips })
+        Some(Self { normals, tips })
     }
 
     /// The border of a triangle from the corner `side` to the next: the tool rolls over it until its side is upright there.
@@ -103,16 +111,16 @@ impl Crease {
         let (ends, normal) = ([corners[side], corners[next]], mesh.normal(triangle));
         let outward = (ends[1] - ends[0]).cross(&normal);
         let outward = Vector::new(outward.x, outward.y, 0.0).try_normalize(0.0)?;
-        let [first, second] = [normal, outward].map(|way| surface.envelope().touching_point(Vector::zeros(), way));
-        let vertices = [side, next].map(|corner| mesh.triangles()[triangle][corner]);
-        let tips = Tips::Convex([ends[0] - first, ends[1] - first, ends[0] - second, ends[1] - second]);
-        Some(Self { vertices, normals: [normal; 2], tips })
+        Some(Self { normals: [normal; 2], tips: Tips::rolling(surface, ends, [normal, outward]) })
     }
 
     /// What it allows around the positions of the tool that touches both faces, for a scallop of `height` mm; none where passes do
     /// not cross it.
     pub fn allowed(&self, spread: Spread, body: &ToolBody, height: f64) -> Option<Allowed> {
         if !self.normals.iter().all(|normal| spread.crosses(*normal) && normal.z > 0.0) {
+            return None;
+        }
+        if matches!(&self.tips, Tips::Hollow { tips, .. } if !spread.runs_along(tips[1] - tips[0])) {
             return None;
         }
         let on_faces = self.normals.map(|normal| spread.step(normal, &Bend::default(), body, height));
@@ -125,8 +133,7 @@ impl Crease {
                 let step = on_faces[0].0.min(on_faces[1].0);
                 Some(Allowed { values: values(tips), step, cosines: None })
             }
-            Tips::Hollow(tips) if !spread.runs_along(tips[1] - tips[0]) => None,
-            Tips::Hollow(tips) => {
+            Tips::Hollow { tips, .. } => {
                 let [first, second] = self.normals.map(|normal| spread.section_slope(normal));
                 // half the chord rises as the kink does, and the section over it by its square
                 let steep = libm::tan(0.5 * (first - second).abs()) / (4.0 * height);

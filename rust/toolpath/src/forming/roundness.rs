@@ -108,9 +108,10 @@ mod tests {
 
     #[test]
     fn a_cone_is_round_but_for_its_facets() {
-        // sides are 20 (1 - cos(pi / n)) nearer to the axis than corners, and the wall is at 45 degrees
+        // sides of the rim are 20 (1 - cos(pi / n)) nearer to the axis than corners; the foot of a turned corner on the wall's plane
+        // would lie below the rim, so that the rim is the nearest
         for sides in [48, 192] {
-            let sag = 20.0 * (1.0 - libm::cos(std::f64::consts::PI / sides as f64)) / 2.0_f64.sqrt();
+            let sag = 20.0 * (1.0 - libm::cos(std::f64::consts::PI / sides as f64));
             let found = measured(&cone(sides, 0.0)).deviation;
             assert!(found <= sag * (1.0 + 1e-9) && found > 0.5 * sag, "{sides}: {found} {sag}");
         }

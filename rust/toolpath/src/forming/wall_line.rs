@@ -108,14 +108,18 @@ impl WallLine {
 
     /// How far in plan from the lowest position the tip is at a height, mm.
     fn travel_at(&self, z: f64) -> f64 {
-        let at = ((z - self.low) / self.cell).clamp(0.0, (self.travel.len() - 1) as f64);
+        let at = self.border(z);
         let cell = (at as usize).min(self.travel.len() - 2);
         self.travel[cell] + (at - cell as f64) * (self.travel[cell + 1] - self.travel[cell])
     }
 
     fn breaks_at(&self, z: f64) -> u32 {
-        let at = ((z - self.low) / self.cell).clamp(0.0, (self.travel.len() - 1) as f64);
-        self.breaks[at as usize]
+        self.breaks[self.border(z) as usize]
+    }
+
+    /// A height by the numbers of the cells' borders, within them.
+    fn border(&self, z: f64) -> f64 {
+        ((z - self.low) / self.cell).clamp(0.0, (self.travel.len() - 1) as f64)
     }
 }
 
