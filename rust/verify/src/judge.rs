@@ -3,12 +3,13 @@
 use styluscam_motion::{Cancelled, Program, Watch};
 
 use crate::assignment::Assignment;
+use crate::faults::Fault;
 use crate::findings::{Finding, FindingKind, Severity};
 use crate::frame::Frame;
 use crate::measure::measure;
 use crate::merge::{merge, Merged};
 use crate::report::Report;
-use crate::segments::placed;
+use crate::segments::{placed, Segment};
 use crate::subject::{Axes, Limits, Subject};
 use crate::{diagnosis, frame, low_links, pair, passes, reach, sequence, settings, travel, unreached, walls};
 
@@ -24,15 +25,11 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let mut tally = measure(&segments, subject, limits, frame.as_ref(), watch)?;
     let mut faults = std::mem::take(&mut tally.faults);
     let axes = subject.axes.unwrap_or(Axes { program, unknown_positions: subject.unknown_positions });
-    let mut beyond = Vec::new();
     let assignment = Assignment::new(program, subject);
+    let mut beyond = Vec::new();
     if !limits.shape_only {
-        faults.extend(travel::faults(program, &segments, &assignment, subject, limits));
+        faults.extend(of_text(program, &segments, &assignment, subject, limits, frame.as_ref(), watch)?);
         beyond.extend(reach::faults(&axes, &limits.reach));
-        faults.extend(low_links::faults(&segments, &assignment, subject, limits, watch)?);
-        faults.extend(settings::faults(program, &segments, &assignment, limits));
-        faults.extend(sequence::faults(program, &segments, &assignment, subject, limits));
-        faults.extend(sequence::punches(program, &segments, &assignment, subject, limits, frame.as_ref()));
     }
     if let Some(frame) = &frame {
         faults.extend(frame::faults(frame, program, &segments, &assignment, subject, limits));
@@ -50,20 +47,11 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let Merged { mut reported, mut counts, lengths } =
         merge([(&faults, program), (&beyond, axes.program)], (high - low).norm());
     let nothing = tally.nothing_touches().then(|| diagnosis::no_contact(program, &segments, &tally, subject));
-    let mut wholes = Vec::new();
-    if !limits.shape_only {
-        wholes.extend(reach::findings(&axes, &limits.reach));
-        wholes.extend(assignment.findings(program, subject));
-        wholes.extend(travel::optional_lines(subject));
-        wholes.extend(travel::modes_not_stated(program, subject));
-    }
     let found = limits.found.iter().map(|(kind, severity, words)| Finding::of_all(*kind, *severity, words.clone()));
-    wholes.extend(found.chain(pair.finding).chain(steep).chain(beyond_reach));
-    wholes.extend(travel::no_feed_moves(program));
-    if !limits.shape_only {
-        wholes.extend(travel::work_offset(program, subject.wcs));
-    }
-    wholes.extend(nothing);
+    let of_shape = found.chain(pair.finding).chain(steep).chain(beyond_reach).chain(travel::no_feed_moves(program));
+    let of_text =
+        if limits.shape_only { Vec::new() } else { of_whole_text(&axes, &assignment, subject, program, limits) };
+    let wholes: Vec<Finding> = of_text.into_iter().chain(of_shape).chain(nothing).collect();
     for whole in &wholes {
         *counts.entry(whole.kind).or_default() += 1;
     }
@@ -84,4 +72,38 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         samples: tally.samples,
         contacts: tally.records(subject),
     })
+}
+
+/// What is checked of the moves of a whole text only, not of a part of it with a shape of its own.
+fn of_text(
+    program: &Program,
+    segments: &[Segment],
+    assignment: &Assignment,
+    subject: &Subject,
+    limits: &Limits,
+    frame: Option<&Frame>,
+    watch: &Watch,
+) -> Result<Vec<Fault>, Cancelled> {
+    let mut faults = travel::faults(program, segments, assignment, subject, limits);
+    faults.extend(low_links::faults(segments, assignment, subject, limits, watch)?);
+    faults.extend(settings::faults(program, segments, assignment, limits));
+    faults.extend(sequence::faults(program, segments, assignment, subject, limits));
+    faults.extend(sequence::punches(program, segments, assignment, subject, limits, frame));
+    Ok(faults)
+}
+
+/// What is found of a text as a whole.
+fn of_whole_text(
+    axes: &Axes,
+    assignment: &Assignment,
+    subject: &Subject,
+    program: &Program,
+    limits: &Limits,
+) -> Vec<Finding> {
+    let mut findings: Vec<Finding> = reach::findings(axes, &limits.reach).into_iter().collect();
+    findings.extend(assignment.findings(program, subject));
+    findings.extend(travel::optional_lines(subject));
+    findings.extend(travel::modes_not_stated(program, subject));
+    findings.extend(travel::work_offset(program, subject.wcs));
+    findings
 }
