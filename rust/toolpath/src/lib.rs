@@ -13,6 +13,7 @@ mod linking;
 mod nearest;
 pub mod offset;
 mod pass;
+mod planes;
 mod region;
 mod seam;
 mod segment;
@@ -29,6 +30,7 @@ pub use linking::{
 };
 pub use nearest::ordered;
 pub use pass::{Pass, PathPoint, Sense};
+pub use planes::Planes;
 pub use region::{Boundary, Inside, Region, GRAZES};
 pub use seam::Seam;
 pub use segment::{Curve, Pace, Segment};

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use styluscam_geometry::ToolBody;
 use styluscam_motion::Move;
-use styluscam_verify::{Contact, Passes};
+use styluscam_verify::{Contact, Layers, Passes};
 
 use super::{Areas, Context, Effort, Fact, SurfaceFacts};
 use crate::numbers::shown;
@@ -41,6 +41,16 @@ pub trait OperationKind {
 
     /// How its passes lie, for the verifier.
     fn passes(&self, given: &PassContext<'_>) -> Passes;
+
+    /// Whether its passes form a sheet in layers.
+    fn forms_in_layers(&self) -> bool {
+        false
+    }
+
+    /// Layers in which its passes form a sheet, for the verifier; none where they are in none.
+    fn layers(&self, _given: &PassContext<'_>) -> Option<Layers> {
+        None
+    }
 
     /// How far its passes lie apart, where they lie in step.
     fn spacing(&self) -> Option<PassSpacing>;

@@ -6,9 +6,9 @@ use styluscam_motion::{Move, SpindleDirection};
 use styluscam_post::machine::CommentForm;
 use styluscam_toolpath::{
     budget::Budget,
-    forming::{ramped, turned, Ramp, Turn, Turned, Turns},
+    forming::{ramped, turned, Layer, Ramp, Turn, Turned, Turns},
     offset::{Envelope, Rolling},
-    ordered, AlongSurface, Entered, Heights, Links, Pass, PlanError, Rates, Seam, Sense, Surface,
+    ordered, AlongSurface, Entered, Heights, Links, Pass, PlanError, Planes, Rates, Seam, Sense, Surface,
 };
 
 use super::{budget, facts::counted, fit, links};
@@ -57,6 +57,11 @@ pub trait FollowsSurface: OperationKind + Sync {
 
     /// Height over length of the ramps from level to level; none where the tool goes straight down the wall.
     fn ramp_slope(&self) -> Option<f64> {
+        None
+    }
+
+    /// Planes on which the sheet stands from layer to layer; none where it is not formed in layers.
+    fn planes(&self, _context: &Context<'_>) -> Option<Planes> {
         None
     }
 
@@ -116,6 +121,35 @@ pub struct Traced {
     pub passes: Vec<Pass>,
     /// Smallest disc that a loop must hold to be sure of being found, mm.
     pub smallest_feature: f64,
+    /// Layers of them, in their order: of each the height of its plane, mm, and how many of the passes are its own. The passes
+    /// after these are in none.
+    pub layers: Vec<(f64, usize)>,
+}
+
+impl Traced {
+    /// Passes that are in no layers.
+    pub fn new(passes: Vec<Pass>, smallest_feature: f64) -> Self {
+        Self { passes, smallest_feature, layers: Vec::new() }
+    }
+
+    /// Passes in layers, and others after them.
+    pub fn in_layers(layers: Vec<Layer>, after: Vec<Pass>, smallest_feature: f64) -> Self {
+        let counts = layers.iter().map(|layer| (layer.floor, layer.passes.len())).collect();
+        let passes = layers.into_iter().flat_map(|layer| layer.passes).chain(after).collect();
+        Self { passes, smallest_feature, layers: counts }
+    }
+
+    /// The passes layer by layer, each with the height of its plane; those after them with none, which is minus infinity.
+    fn by_layer(&self) -> impl Iterator<Item = (f64, &[Pass])> {
+        let mut rest = &self.passes[..];
+        let after = (f64::NEG_INFINITY, self.passes.len());
+        let layers = self.layers.iter().copied().chain([after]).map(move |(floor, count)| {
+            let (passes, after) = rest.split_at(count.min(rest.len()));
+            rest = after;
+            (floor, passes)
+        });
+        layers.filter(|(_, passes)| !passes.is_empty())
+    }
 }
 
 /// What passes are traced with.
@@ -153,9 +187,10 @@ impl Task<'_> {
     }
 
     /// Neighbouring passes are linked along the surface.
-    fn along<'s>(&self, surface: &'s Surface<'s>, pitch: f64) -> AlongSurface<'s> {
+    fn along<'s>(&self, surface: &'s Surface<'s>, planes: Option<Planes>, pitch: f64) -> AlongSurface<'s> {
         AlongSurface {
             surface,
+            planes,
             longest: LINKED_ALONG * pitch,
             deviation: self.budget.deviation,
             narrow: self.narrow(),
@@ -247,27 +282,58 @@ fn linked(
     surface: &Surface<'_>,
     traced: &Traced,
 ) -> Result<(Vec<Move>, Vec<Fact>), JobError> {
+    let context = task.context;
+    let deviation = task.budget.deviation;
+    let along = task.along(surface, kind.planes(context), kind.pitch(task.body));
+    let (mut entered, mut turns) = (Vec::with_capacity(traced.passes.len()), None);
+    for (number, (floor, passes)) in traced.by_layer().enumerate() {
+        let (more, turned) = entered_at(kind, task, &surface.above(floor), &along, (number, passes))?;
+        entered.extend(more);
+        turns = Turned::sum(turns, turned);
+    }
+    let mut facts = turns.map_or_else(Vec::new, turn_facts);
+    let (moves, linked) = links::linked(context, (&*entered, deviation), along, &task.links())?;
+    facts.extend(linked);
+    Ok((moves, facts))
+}
+
+/// The passes of a layer, by its number, in their order, with what leads to each; and how many turns there are, if any are asked for.
+fn entered_at(
+    kind: &impl FollowsSurface,
+    task: &Task<'_>,
+    surface: &Surface<'_>,
+    along: &AlongSurface<'_>,
+    (number, passes): (usize, &[Pass]),
+) -> Result<(Vec<Entered>, Option<Turned>), JobError> {
     let (context, watch) = (task.context, task.context.watch);
     let sense = kind.sense(context.common);
-    let passes = ordered(&traced.passes, sense, kind.seam(), watch)?;
     let deviation = task.budget.deviation;
-    let along = task.along(surface, kind.pitch(task.body));
-    let (entered, mut facts) = match (kind.ramp_slope(), kind.turn()) {
+    let passes = if number % 2 == 1 && sense == Sense::Alternate {
+        // begins where the layer before ends
+        ordered(&backwards(passes), sense, kind.seam(), watch)?
+    } else {
+        ordered(passes, sense, kind.seam(), watch)?
+    };
+    Ok(match (kind.ramp_slope(), kind.turn()) {
         (Some(slope), _) => {
             let ramp = Ramp { slope, sense, deviation, longest: context.node_spacing() };
-            (ramped(surface, passes, &ramp, watch)?, Vec::new())
+            (ramped(surface, passes, &ramp, watch)?, None)
         }
         (None, Some(turn)) => {
             let may_leave = context.machine.comment.form != CommentForm::None; // a remark states that they are links
             let rule = Turns { turn, longest: along.longest, deviation, narrow: along.narrow, may_leave };
             let (entered, counts) = turned(surface, passes, &rule, watch)?;
-            (entered, turn_facts(counts))
+            (entered, Some(counts))
         }
-        (None, None) => (passes.into_iter().map(Entered::from).collect(), Vec::new()),
-    };
-    let (moves, linked) = links::linked(context, (&*entered, deviation), along, &task.links())?;
-    facts.extend(linked);
-    Ok((moves, facts))
+        (None, None) => (passes.into_iter().map(Entered::from).collect(), None),
+    })
+}
+
+/// Rows from the last to the first.
+fn backwards(passes: &[Pass]) -> Vec<Pass> {
+    let mut rows: Vec<&[Pass]> = passes.chunk_by(|a, b| a.group == b.group).collect();
+    rows.reverse();
+    rows.concat()
 }
 
 /// How many turns are as asked for, and between how many rows there is none.
@@ -298,8 +364,10 @@ fn undercut(scene: &Scene, faces: &[u32]) -> Vec<(u32, f64)> {
     faces.iter().filter_map(|face| Some((*face, area(face)?))).collect()
 }
 
+/// Levels or rows: those of layers are the same in each.
 fn count_groups(passes: &[Pass]) -> usize {
     let mut groups: Vec<usize> = passes.iter().map(|p| p.group).collect();
+    groups.sort_unstable();
     groups.dedup();
     groups.len()
 }

@@ -92,6 +92,13 @@ Range: 0.001 to 20 mm/rev</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>How deep a row presses the sheet at most below where it stands, mm: flat sheet is formed by rows in layers so far apart.
+When left out, rows finish what operations before them have formed.
+Range: 0.05 to 100 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
 Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
@@ -844,6 +851,13 @@ Range: 0.001 to 20 mm/rev</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>How deep a row presses the sheet at most below where it stands, mm: flat sheet is formed by rows in layers so far apart.
+When left out, rows finish what operations before them have formed.
+Range: 0.05 to 100 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
 Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
@@ -1003,6 +1017,10 @@ Range: above 0 to 100 mm
     </message>
     <message>
         <source>Max bridged</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Max increment</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
