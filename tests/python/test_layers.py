@@ -78,13 +78,18 @@ def pushes(program: sc.Program, angle_deg: float, spacing: float = 1.0) -> np.nd
             return
         tips = np.concatenate(pending)
         pending.clear()
-        box = [np.searchsorted(nodes[axis], [tips[:, axis].min() - RADIUS, tips[:, axis].max() + RADIUS]) for axis in (0, 1)]
+        box = [
+            np.searchsorted(nodes[axis], [tips[:, axis].min() - RADIUS, tips[:, axis].max() + RADIUS])
+            for axis in (0, 1)
+        ]
         x, y = nodes[0][slice(*box[0])], nodes[1][slice(*box[1])]
         pressed = np.full((len(x), len(y)), np.inf)
         for tip in tips:
             near = [np.searchsorted(axis, [at - RADIUS, at + RADIUS]) for axis, at in ((x, tip[0]), (y, tip[1]))]
             square = (x[slice(*near[0]), None] - tip[0]) ** 2 + (y[None, slice(*near[1])] - tip[1]) ** 2
-            height = np.where(square <= RADIUS**2, tip[2] + RADIUS - np.sqrt(np.maximum(RADIUS**2 - square, 0.0)), np.inf)
+            height = np.where(
+                square <= RADIUS**2, tip[2] + RADIUS - np.sqrt(np.maximum(RADIUS**2 - square, 0.0)), np.inf
+            )
             part = pressed[slice(*near[0]), slice(*near[1])]
             np.minimum(part, height, out=part)
         before = sheet[slice(*box[0]), slice(*box[1])]
