@@ -114,7 +114,8 @@ pub(crate) fn faults(
         let sweeps = Sweeps::of(&contacts, subject);
         let Some(body) = sweeps.body(operation.tool) else { continue };
         let selected = expectation.triangles();
-        let look = Look { subject, limits, expectation, passes, selected: &selected, body, rows: &rows, contacts: &contacts };
+        let look =
+            Look { subject, limits, expectation, passes, selected: &selected, body, rows: &rows, contacts: &contacts };
         let left = look.left(&sweeps, watch)?;
         let on_passes = look.left_on_passes(&sweeps, watch)?;
         let ridges = Ridges { subject, operation, passes, body, sweeps: &sweeps, contacts: &contacts };

@@ -105,7 +105,7 @@ pub(crate) fn punches(
 }
 
 /// Presses the sheet down to where tools were.
-fn press_all<'a>(blank: &mut Blank, rows: &mut Vec<([f64; 3], &'a Cutter)>) {
+fn press_all(blank: &mut Blank, rows: &mut Vec<([f64; 3], &Cutter)>) {
     rows.drain(..).for_each(|(tip, tool)| blank.press(tip, tool));
 }
 
