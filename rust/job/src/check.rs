@@ -7,6 +7,7 @@ use crate::fixture::FixtureSection;
 use crate::process::Opposite;
 use crate::resolve::check_channels;
 use crate::{
+    clamp,
     operations::{Fit, LinkHeight},
     spindle, CheckSelection, Direction, JobDocument, JobError, LengthUnit, MachineSection, OperationKeys,
     OperationSection, Process, ProcessSection, Selection, SheetSection, Zero,
@@ -289,6 +290,7 @@ fn operation(job: &JobDocument, path: &str, section: &OperationSection) -> Resul
     turning(&job.process.process, path, section)?;
     links(job, path, common)?;
     layers(job, path, section)?;
+    order(job, path, section)?;
     spindle::check(section, path)?;
     section.kind().check(common, path)
 }
@@ -394,6 +396,16 @@ fn layers(job: &JobDocument, path: &str, section: &OperationSection) -> Result<(
     let message = format!("max_increment: process.kind = {:?} {reason}", process.name());
     let hint = "remove max_increment: rows then finish what a z-level or a spiral before them has formed";
     Err(JobError::document("conflict", format!("{path}.max_increment"), message, hint))
+}
+
+/// A frame that goes down with the path does not come up again.
+fn order(job: &JobDocument, path: &str, section: &OperationSection) -> Result<(), JobError> {
+    if !clamp::goes_down(job) || !section.kind().comes_back_up() {
+        return Ok(());
+    }
+    let message =
+        "order = \"by-area\": over a male die the frame goes down with the sheet, from level to level".to_owned();
+    Err(JobError::document("conflict", format!("{path}.order"), message, "write order = \"by-level\""))
 }
 
 /// The error of an operation at `path` whose tool the job does not have.

@@ -10,8 +10,8 @@ pub mod forming;
 mod lattice;
 mod leads;
 mod linking;
-mod nearest;
 pub mod offset;
+mod ordering;
 mod pass;
 mod planes;
 mod region;
@@ -28,7 +28,7 @@ pub use linking::{
     join, link, link_with_arcs, AlongSurface, AtDepth, Entered, Heights, Lead, LinkRules, Links, OverClearance,
     Position, Rates, Run,
 };
-pub use nearest::ordered;
+pub use ordering::{ordered, shortly_ordered, Air, Freedom, Ordered};
 pub use pass::{Pass, PathPoint, Sense};
 pub use planes::Planes;
 pub use region::{Boundary, Inside, Region, GRAZES};

@@ -31,6 +31,11 @@ pub trait OperationKind {
         common.feeds.cut
     }
 
+    /// Whether it goes on higher up after a part of the sheet is finished.
+    fn comes_back_up(&self) -> bool {
+        false
+    }
+
     /// Whether its path is for a part that the spindle turns.
     fn turns_part(&self) -> bool {
         false

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use styluscam_geometry::ToolBody;
 use styluscam_toolpath::{
     forming::{layers, scallop_steps, zig_zag, Rows, ScallopRule, Spread, Turn},
-    Pass, PlanError, Planes, Surface,
+    Freedom, Pass, PlanError, Planes, Surface,
 };
 use styluscam_verify::{Across, Contact, Layers, OrderedPasses, Passes, Pitch};
 
@@ -15,7 +15,10 @@ use super::facts::counted;
 use super::surface::{self, FollowsSurface, Task, Traced};
 use super::{About, Areas, Context, Effort, Fact, OperationKind, PassContext, PassSpacing, Planned, Serves};
 use crate::numbers::shown;
-use crate::{JobError, OperationKeys};
+use crate::{Direction, JobError, OperationKeys};
+
+/// Rows that are no farther apart than so many stepovers are neighbours.
+const NEIGHBOURS: f64 = 1.5;
 
 /// Parallel rows over the surface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -283,6 +286,20 @@ impl FollowsSurface for ZigZag {
         self.max_increment.map(|increment| Planes { top, increment })
     }
 
+    /// Rows leave the material on the side that they are asked to leave it on as long as neighbours follow each other.
+    fn freedom<'a>(&self, task: &Task<'_>, traced: &'a Traced) -> Freedom<'a> {
+        if self.max_increment.is_some() {
+            return Freedom::WithinGroups; // each row presses the sheet beside the one before
+        }
+        let reach = NEIGHBOURS * self.stepover;
+        let of_rows = |is_reversible| Freedom::OfRows { sets: &traced.sets, is_reversible, reach };
+        match task.context.common.direction {
+            Direction::Alternate => of_rows(true),
+            Direction::Same => of_rows(false),
+            Direction::Climb | Direction::Conventional => Freedom::OfAreas { reach, inside_first: false },
+        }
+    }
+
     fn turn(&self) -> Option<Turn> {
         match self.turns {
             Turns::Straight => None,
@@ -303,7 +320,9 @@ impl FollowsSurface for ZigZag {
         let (angle, across) = self.angles();
         let mut passes = self.rows(angle, task, surface)?;
         let first_set = passes.last().map_or(0, |last| last.group + 1);
+        let mut sets = vec![0];
         if let Some(across) = across {
+            sets.push(first_set);
             let crossing = self.rows(across, task, surface)?;
             passes.extend(crossing.into_iter().map(|pass| Pass { group: first_set + pass.group, ..pass }));
         }
@@ -311,7 +330,9 @@ impl FollowsSurface for ZigZag {
             return Err(PlanError::NothingReached(task.why_nothing()));
         }
         let smallest_feature = task.context.common.smallest_feature;
-        let Some(planes) = self.planes(task.context) else { return Ok(Traced::new(passes, smallest_feature)) };
+        let Some(planes) = self.planes(task.context) else {
+            return Ok(Traced { sets, ..Traced::new(passes, smallest_feature) });
+        };
         // the second set finishes what the first has formed
         let (rows, crossing): (Vec<Pass>, Vec<Pass>) = passes.into_iter().partition(|pass| pass.group < first_set);
         Ok(Traced::in_layers(layers(&rows, &planes, task.budget.deviation)?, crossing, smallest_feature))
