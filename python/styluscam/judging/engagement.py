@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -81,7 +82,7 @@ def engagement(
     ]
 
 
-def _run(number: int, run: object) -> tuple[FloatArray, str]:
+def _run(number: int, run: Any) -> tuple[FloatArray, str]:  # noqa: ANN401  # whatever was given
     name = f"runs[{number}]"
     match run:
         case (points, str(kind)):
@@ -90,7 +91,7 @@ def _run(number: int, run: object) -> tuple[FloatArray, str]:
             raise refused(name, run, 'points and a kind, like ([[0, 0], [10, 0]], "cut")', GeometryError)
 
 
-def plane_points(values: npt.ArrayLike, name: str) -> FloatArray:
+def plane_points(values: Any, name: str) -> FloatArray:  # noqa: ANN401  # whatever was given
     """Points (N, 2), or (N, 3) with bulges, as points with bulges.
 
     Raises:

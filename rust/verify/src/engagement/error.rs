@@ -4,7 +4,7 @@ use std::fmt;
 
 use styluscam_motion::Cancelled;
 
-use super::{Ground, PlaneRun};
+use super::runs::{Ground, PlaneRun, CHIP};
 
 /// Coordinates lie within this, mm.
 const FARTHEST: f64 = 1e6;
@@ -12,7 +12,7 @@ const FARTHEST: f64 = 1e6;
 /// The engagement could not be measured.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EngagementError {
-    /// A number is missing or out of its range: what, where it stands, what is wanted.
+    /// A number is missing or out of its range: what, where it stands, what is expected.
     Number {
         /// The argument, with the number of the run or outline and of the point.
         key: String,
@@ -76,7 +76,7 @@ impl From<Cancelled> for EngagementError {
 /// Refuses what is no path, no outline, no tool.
 pub fn check(runs: &[PlaneRun], ground: &Ground<'_>) -> Result<(), EngagementError> {
     let radius = ground.radius;
-    if !(radius.is_finite() && radius > 2.0 * super::CHIP && radius <= FARTHEST) {
+    if !(radius.is_finite() && radius > 2.0 * CHIP && radius <= FARTHEST) {
         let key = "tool_radius".to_owned();
         return Err(EngagementError::Number { key, value: radius, allowed: "a radius from 0.002 to 1e6 mm" });
     }

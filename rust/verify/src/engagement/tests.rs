@@ -26,7 +26,7 @@ fn largest(run: &RunEngagement) -> f64 {
     run.measures.iter().map(|m| m.angle.to_degrees()).fold(0.0, f64::max)
 }
 
-/// A pass from the right, round a corner of a right angle of which the legs are the lines x = a and y = a, and down.
+/// A pass from the right, round a corner of a right angle of which the sides are the lines x = a and y = a.
 fn corner(a: f64, radius: f64) -> Vec<[f64; 3]> {
     let bulge = (PI / 8.0).tan();
     let mut points = vec![[a, -60.0, 0.0], [a, a - radius, bulge], [a - radius, a, 0.0], [-60.0, a, 0.0]];
@@ -80,7 +80,7 @@ fn a_sharp_pass_inside_a_sharp_pass_engages_as_the_closed_form_says() {
     let angle = around_corner(3.0, 2.4, 0.0, 0.0);
     assert!((angle - 168.463).abs() < 0.025, "{angle}");
     // what is left of the chip after the 1 um that does not count
-    let exact = 90.0 + f64::acos(1.0 - (2.4 - super::CHIP) / 3.0).to_degrees();
+    let exact = 90.0 + f64::acos(1.0 - (2.4 - super::runs::CHIP) / 3.0).to_degrees();
     assert!((angle - exact).abs() < 1e-6, "{angle} {exact}");
 }
 

@@ -8,9 +8,10 @@ use styluscam_motion::Watch;
 
 use super::area::Area;
 use super::cells::Cells;
+use super::error::EngagementError;
 use super::open::Open;
 use super::rim::Rim;
-use super::{Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, CHIP, RECENT, STEP};
+use super::runs::{Engaged, Ground, PlaneRun, PlaneRunKind, RunEngagement, CHIP, RECENT, STEP};
 
 /// Ends of runs that lie nearer than this are one position, mm.
 const SAME: f64 = 1e-6;
