@@ -98,7 +98,7 @@ pub fn check(runs: &[PlaneRun], ground: &Ground<'_>) -> Result<(), EngagementErr
 
 fn points(key: &str, points: &[[f64; 3]]) -> Result<(), EngagementError> {
     for (number, point) in points.iter().enumerate() {
-        if let Some(value) = point.iter().find(|value| !(value.abs() <= FARTHEST)) {
+        if let Some(value) = point.iter().find(|value| !(-FARTHEST..=FARTHEST).contains(*value)) {
             let key = format!("{key}[{number}]");
             return Err(EngagementError::Number { key, value: *value, allowed: "finite numbers within +/-1e6" });
         }
