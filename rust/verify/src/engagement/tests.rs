@@ -173,8 +173,8 @@ proptest! {
             let heading = [m.at[0] - samples[i - 1][0], m.at[1] - samples[i - 1][1]];
             let onward = [next[0] - m.at[0], next[1] - m.at[1]];
             let turned = (heading[0] * onward[1] - heading[1] * onward[0]).atan2(heading[0] * onward[0] + heading[1] * onward[1]);
-            if turned.abs() > 0.05 {
-                continue; // a corner of the path: the samples do not show the heading
+            if turned.abs() > 0.05 || heading[0].hypot(heading[1]).min(onward[0].hypot(onward[1])) < 1e-6 {
+                continue; // a corner of the path, measured twice: the samples do not show the heading
             }
             let engaged = (0..count).filter(|k| {
                 let angle = 2.0 * PI * f64::from(*k) / f64::from(count);
