@@ -155,7 +155,8 @@ impl Run {
         };
         let mut ends = steps(first, middle);
         let back = steps(last, length - middle);
-        ends.extend(back.iter().rev().map(|at| length - at).filter(|at| *at > middle));
+        ends.extend(back[1..].iter().rev().map(|at| length - at).filter(|at| *at > middle));
+        ends.push(length);
         // no piece between both that is too short
         while let Some(short) = (1..ends.len() - 1).find(|i| ends[i + 1] - ends[*i] < shortest) {
             ends.remove(short);

@@ -171,8 +171,7 @@ impl Machine {
     /// What decides how fast it may turn; none where its acceleration is not known.
     #[must_use]
     pub fn cornering(&self) -> Option<Cornering> {
-        let cut = self.dynamics().corner_tolerance;
-        let deviation = if cut > 0.0 { cut } else { JUNCTION_DEVIATION };
+        let deviation = self.limits.corner_tolerance.filter(|cut| *cut > 0.0).unwrap_or(JUNCTION_DEVIATION);
         let unit = self.resolution_mm();
         self.limits.acceleration.map(|acceleration| Cornering { acceleration, deviation, unit })
     }
