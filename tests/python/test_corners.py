@@ -102,7 +102,7 @@ def test_nothing_changes_where_it_is_not_asked_for() -> None:
 def test_a_feed_that_does_not_drop_is_found_with_its_line() -> None:
     asked, _, text = posted("zig-zag")
     lines = text.splitlines()
-    feeds = [(number, float(found[1])) for number, line in enumerate(lines) if (found := re.search(r" F([\d.]+)", line))]
+    feeds = [(number, float(word[1])) for number, line in enumerate(lines) if (word := re.search(r" F([\d.]+)", line))]
     number, least = next((n, f) for n, f in feeds if f == min(f for _, f in feeds if f != 300.0))
     lines[number] = re.sub(r" F[\d.]+", f" F{1.2 * least:.0f}", lines[number])
     found = findings("\n".join(lines) + "\n", asked)
@@ -114,10 +114,3 @@ def test_higher_feeds_than_the_operations_are_still_found() -> None:
     asked, _, text = posted("z-level")
     found = findings(text.replace(f" F{FEED:.0f}", f" F{FEED + 500:.0f}", 1), asked)
     assert "feed-differs" in {finding.kind for finding in found}
-
-
-def test_a_machine_of_unknown_acceleration_is_refused() -> None:
-    document = job("z-level").to_dict()
-    document["machine"] = {"name": "haas"}
-    with pytest.raises(sc.JobError, match=r"limits\.acceleration|does not state its acceleration"):
-        sc.plan(sc.Job.from_dict(document, part=sc.Part.from_mesh(*PARTS["two"])))
