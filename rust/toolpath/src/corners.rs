@@ -16,6 +16,8 @@ const STEP: f64 = 2.0;
 /// Steps are no shorter, mm, and no shorter than so many units of the last decimal.
 const SHORTEST: f64 = 0.05;
 const SHORTEST_UNITS: f64 = 20.0;
+/// Moves that are shorter, in units of the last decimal, have no direction of their own.
+const SHORTEST_HEADING: f64 = 2.0;
 /// Turns by less are none, rad: rounding of coordinates.
 const STRAIGHT: f64 = 1e-6;
 
@@ -62,7 +64,7 @@ struct Run {
 
 impl Run {
     fn of(start: [f64; 3], moves: &[Move], cornering: &Cornering) -> (Self, usize) {
-        let Cornering { acceleration, deviation, .. } = *cornering;
+        let Cornering { acceleration, deviation, unit } = *cornering;
         let mut from = start;
         let (mut starts, mut lengths, mut tops, mut headings) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut slow = 0;
@@ -82,9 +84,15 @@ impl Run {
         // what the machine stops from within half of the deviation
         let least = (acceleration * deviation).sqrt();
         let mut speeds = vec![f64::INFINITY; moves.len() + 1];
+        let mut last = headings.first().and_then(|ends| ends[1]);
         for number in 1..moves.len() {
+            // what rounding makes of moves that are shorter than the last decimal is no direction
+            let Some(after) = headings[number][0].filter(|_| lengths[number] >= SHORTEST_HEADING * unit) else {
+                continue;
+            };
+            let before = std::mem::replace(&mut last, headings[number][1]);
+            let Some(before) = before else { continue };
             let top = tops[number - 1].min(tops[number]);
-            let (Some(before), Some(after)) = (headings[number - 1][1], headings[number][0]) else { continue };
             let turn = angle(before, after);
             if turn < STRAIGHT {
                 continue;
@@ -115,22 +123,24 @@ impl Run {
     fn write(&self, moves: &[Move], shortest: f64, into: &mut Vec<Move>) {
         let mut last = f64::INFINITY;
         for (number, step) in moves.iter().enumerate() {
-            for (share, allowed) in self.pieces(number, step.arc.is_some(), shortest) {
+            let start = self.starts[number];
+            let is_whole = step.arc.is_some_and(|arc| arc.turns > 0);
+            for (share, allowed) in self.pieces(number, is_whole, shortest) {
                 let is_near = last <= allowed && last >= PLANNED * allowed && allowed < self.tops[number];
                 last = if is_near { last } else { allowed };
-                let piece =
-                    if share < 1.0 { step.to(between(self.starts[number], step.end.tip, share)) } else { *step };
+                let at = || step.path(start).map_or_else(|| between(start, step.end.tip, share), |arc| arc.at(share));
+                let piece = if share < 1.0 { step.to(at()) } else { *step };
                 let feed = if last < step.feed / MINUTE { last * MINUTE } else { step.feed };
                 into.push(piece.with_feed(feed, step.feed_mode));
             }
         }
     }
 
-    /// The pieces of a move: up to which share of it, and how fast, mm/s. An arc is one.
-    fn pieces(&self, number: usize, is_arc: bool, shortest: f64) -> Vec<(f64, f64)> {
+    /// The pieces of a move: up to which share of it, and how fast, mm/s. An arc of several turns is one.
+    fn pieces(&self, number: usize, is_whole: bool, shortest: f64) -> Vec<(f64, f64)> {
         let (length, top) = (self.lengths[number], self.tops[number]);
         let [first, last] = [self.speeds[number].min(top), self.speeds[number + 1].min(top)];
-        if is_arc || length < 2.0 * shortest || (first >= top && last >= top) {
+        if is_whole || length < 2.0 * shortest || (first >= top && last >= top) {
             return vec![(1.0, first.min(last))];
         }
         let reach = |from: f64, way: f64| (from * from + 2.0 * self.acceleration * way).sqrt();
