@@ -97,7 +97,7 @@ impl Run {
             if turn < STRAIGHT {
                 continue;
             }
-            let half = (0.5 * turn).cos();
+            let half = libm::cos(0.5 * turn);
             let around = (acceleration * deviation * half / (1.0 - half)).sqrt();
             let is_chords = moves[number - 1].arc.is_none() && moves[number].arc.is_none();
             let along = (acceleration * 0.5 * (lengths[number - 1] + lengths[number]) / turn).sqrt();
