@@ -383,6 +383,7 @@ fn expected(
             slows_at_corners: common.slow_corners,
             keeps_pace: scene.opposite.is_some(),
             spindle: spindle::turns(job, scene, tool, section, index)?,
+            max_corner: common.max_corner_deg.map(f64::to_radians),
             flood: common.coolant == Coolant::Flood,
             expectation: expectation(job, scene, tool, section, index)?,
         })
@@ -470,6 +471,7 @@ fn limits(job: &JobDocument, scene: &Scene, against: &Against<'_>, machine: &Mac
         excess: widest_tolerance(job, scene.channel),
         retract: scene.retract - 0.5 * machine.resolution_mm(),
         feed_rounding: machine.feed_rounding(fastest(&against.expected)),
+        unit: machine.resolution_mm(),
         reach: reach(machine),
         straight_rapids: machine.motion.rapids == Rapids::Straight,
         forming: job.setup.sheet.filter(|_| is_main).map(|sheet| forming_of(job, &sheet, scene)),

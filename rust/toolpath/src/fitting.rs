@@ -31,6 +31,8 @@ const ASLANT: f64 = 0.35;
 const SHORTEST: f64 = 1e-4;
 /// What is seen to rise between two points no farther apart is passed over, mm: there they may touch a wall by rounding.
 const HIDDEN: f64 = 0.01;
+/// Chords are not divided for their angle below this length in plan, mm: there the path has an edge.
+const EDGE: f64 = 0.02;
 /// The border of the selected faces is found to this, mm.
 pub const BORDER: f64 = 1e-3;
 
@@ -42,6 +44,11 @@ pub trait Course {
     /// Whether all of the path between two of its points is known to deviate by no more than `most` mm from the chord.
     fn keeps_to(&self, _a: &PathPoint, _b: &PathPoint, _most: f64) -> bool {
         false
+    }
+
+    /// Largest angle between two of its chords where it is smooth, rad.
+    fn corner(&self) -> f64 {
+        f64::INFINITY
     }
 
     /// Whether the path between two of its points is seen to rise over the chord by more than `most` mm, or that cannot be
@@ -73,12 +80,17 @@ pub fn densified(points: &[PathPoint], deviation: f64, longest: f64, course: &mu
             let a = run[run.len() - 1];
             let length = (b.tip - a.tip).xy().norm();
             let is_known = || may_keep_to(&a, &b, PROVEN * deviation) && course.keeps_to(&a, &b, PROVEN * deviation);
-            if length <= SHORTEST || is_known() {
+            let turns = length > EDGE && turn(&a, &b) > course.corner();
+            if length <= SHORTEST || (!turns && is_known()) {
                 run.push(b);
                 continue;
             }
             match course.between(&a, &b).filter(|m| divides(m, &a, &b)) {
-                Some(m) if 0.5 * length > longest || deviation_around(&a, &m, &b) > BETWEEN_WITNESSES * deviation => {
+                Some(m)
+                    if turns
+                        || 0.5 * length > longest
+                        || deviation_around(&a, &m, &b) > BETWEEN_WITNESSES * deviation =>
+                {
                     pending.extend([b, m]);
                 }
                 // what hides between two points is looked for in ever smaller pieces
@@ -97,6 +109,14 @@ pub fn densified(points: &[PathPoint], deviation: f64, longest: f64, course: &mu
     runs.push(run);
     runs.retain(|run| run.len() > 1);
     runs
+}
+
+/// By how much a smooth path turns between two of its points, rad, as their normals show.
+fn turn(a: &PathPoint, b: &PathPoint) -> f64 {
+    let along = b.tip - a.tip;
+    let length = along.norm();
+    let at = |point: &PathPoint| libm::asin((along.dot(&point.normal).abs() / length).min(1.0));
+    at(a) + at(b)
 }
 
 /// Whether a point is nearer in plan to both ends than they are to each other: dividing there comes to an end.
@@ -128,6 +148,32 @@ pub fn thinned(points: &[PathPoint], deviation: f64) -> Vec<PathPoint> {
         from = to;
     }
     out
+}
+
+/// As [`thinned`], of chords that turn by no more than `corner` rad from one to the next where the witnesses allow it: each leaves
+/// the polyline through them by half of that at either end.
+pub fn smooth(points: &[PathPoint], deviation: f64, corner: f64) -> Vec<PathPoint> {
+    if corner == f64::INFINITY {
+        return thinned(points, deviation);
+    }
+    let Some(first) = points.first() else { return Vec::new() };
+    let mut out = vec![*first];
+    let mut from = 0;
+    while from + 1 < points.len() {
+        let most = chord_end(points, from, points[from].tip, deviation);
+        let step = |at: usize| points[at + 1].tip - points[at].tip;
+        let to = farthest(from + 1, most + 1, 1, |to| {
+            let chord = points[to].tip - points[from].tip;
+            [step(from), step(to - 1)].iter().all(|side| angle(side, &chord) <= 0.5 * corner)
+        });
+        out.push(points[to]);
+        from = to;
+    }
+    out
+}
+
+fn angle(a: &Vector, b: &Vector) -> f64 {
+    libm::atan2(a.cross(b).norm(), a.dot(b))
 }
 
 /// The number of the farthest witness, at least the next one, to which a chord from `start`, at or beside the witness `from`, may

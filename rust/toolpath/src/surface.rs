@@ -30,6 +30,8 @@ pub struct Surface<'a> {
     region: Option<&'a Region<'a>>,
     /// Whether passes keep all their witnesses.
     keeps_witnesses: bool,
+    /// Largest angle between neighbouring chords where the envelope is smooth, rad.
+    corner: f64,
 }
 
 impl<'a> Surface<'a> {
@@ -50,6 +52,7 @@ impl<'a> Surface<'a> {
             rolling: Rolling::Stop,
             region: None,
             keeps_witnesses: false,
+            corner: f64::INFINITY,
         }
     }
 
@@ -120,12 +123,22 @@ impl<'a> Surface<'a> {
         Self { keeps_witnesses: true, ..*self }
     }
 
+    /// The same surface, on which chords of passes turn by no more than an angle, rad, where it is smooth.
+    #[must_use]
+    pub fn turning(&self, corner: f64) -> Self {
+        Self { corner, ..*self }
+    }
+
+    pub(crate) fn corner(&self) -> f64 {
+        self.corner
+    }
+
     /// The points of a pass through witnesses: as few as keep within `deviation` mm, or all of them.
     pub(crate) fn thinned(&self, witnesses: &[PathPoint], deviation: f64) -> Vec<PathPoint> {
         if self.keeps_witnesses {
             witnesses.to_vec()
         } else {
-            fitting::thinned(witnesses, deviation)
+            fitting::smooth(witnesses, deviation, self.corner)
         }
     }
 

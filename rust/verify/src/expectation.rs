@@ -29,6 +29,8 @@ pub struct ExpectedOperation {
     pub keeps_pace: bool,
     /// Speed and sense of the spindle; it stands when there are none.
     pub spindle: Option<(f64, SpindleDirection)>,
+    /// The most by which its path is to turn at once, rad; none where that is not stated.
+    pub max_corner: Option<f64>,
     /// Whether coolant flows.
     pub flood: bool,
     /// What its moves and passes must do.

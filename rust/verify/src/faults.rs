@@ -300,6 +300,16 @@ pub(crate) static SCALLOP: FaultKind = FaultKind::on_part(
     |fault| format!("passes leave a scallop of {:.4} mm where {:.4} mm is asked for", fault.value(), fault.limit()),
     "plan again: a pass is missing, or passes lie too far apart",
 );
+pub(crate) static CORNER: FaultKind = FaultKind::on_part(
+    FindingKind::Corner,
+    |fault| {
+        let (value, limit) = (fault.value(), fault.limit());
+        format!("the path turns by {value:.2} degrees at once, and max_corner_deg is {limit:.2}")
+    },
+    "an edge of the part, or a straight link: the machine slows down there; round the edge, set turns = \"rounded\", or raise \
+     max_corner_deg",
+)
+.in_unit("deg");
 const REPOST: &str = "post the whole operation, with the job's heights and steps";
 
 // forming

@@ -57,6 +57,8 @@ pub enum FindingKind {
     MissingRow,
     /// Neighbouring passes leave a higher scallop than is asked for.
     Scallop,
+    /// The path turns by more at once than is asked for.
+    Corner,
     /// A wall is steeper than the sheet allows.
     WallAngle,
     /// The sheet becomes thinner than it may.
@@ -186,6 +188,7 @@ const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
         (Kind::MissingLevel, "missing level"),
         (Kind::MissingRow, "missing row"),
         (Kind::Scallop, "scallop above the limit"),
+        (Kind::Corner, "corner of the path"),
         (Kind::WallAngle, "wall angle above the limit"),
         (Kind::Thinning, "thinning below the limit"),
         (Kind::ToolRadius, "tool radius below twice the sheet thickness"),

@@ -36,6 +36,7 @@ mod bounds;
 mod clearance;
 mod contact_lines;
 mod convex;
+mod corner_angles;
 mod corners;
 mod coverage;
 mod diagnosis;

@@ -216,6 +216,8 @@ pub struct Limits {
     /// The same for single operations, by index of the program's operations; those beyond the list
     /// take `excess`.
     pub excess_by_operation: Vec<Option<f64>>,
+    /// The machine's last digit, mm.
+    pub unit: f64,
     /// Height Z at and above which rapids may travel sideways, work coordinates, mm.
     pub clearance: f64,
     /// Air that must be left under a rapid that comes down, mm.
@@ -282,6 +284,7 @@ impl Limits {
             gouge: 0.001,
             excess: Some(0.005),
             excess_by_operation: Vec::new(),
+            unit: 0.001,
             clearance,
             rapid_gap: 0.05,
             straight_rapids: false,

@@ -89,6 +89,7 @@ fn judged(program: &Program, stated: &[FrameLevel], obstacles: &[Obstacle]) -> R
         slows_at_corners: false,
         keeps_pace: false,
         spindle: None,
+        max_corner: None,
         flood: false,
         expectation,
     }];

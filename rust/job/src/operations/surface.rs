@@ -235,6 +235,7 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
     let task = Task { context, budget, body: &body, allowance, cut: kind.cut_feed(context.common) };
     let surface = Surface::new(&envelope, &selected).between_heights(kind.tip_range(&task));
     let surface = surface.rolling(rolling(context));
+    let surface = surface.turning(context.common.max_corner_deg.map_or(f64::INFINITY, f64::to_radians));
     let region =
         context.region.planned((tool, scene.sheet.as_ref()), scene.inward, &budget, budget::rounding(context.machine));
     let region = region.ready();

@@ -103,6 +103,7 @@ pub fn expected(part: &Part, contact: Contact, heights: [f64; 2], passes: Passes
         slows_at_corners: false,
         keeps_pace: false,
         spindle: None,
+        max_corner: None,
         flood: false,
         expectation,
     }]

@@ -158,6 +158,20 @@ by-area: Each area from the top down before the next one, where that is less air
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Largest angle by which the path turns from one cutting move to the next, degrees: rows are made of chords as short as it takes.
+Edges of the part and straight links make larger ones, which the verification names. Not limited when left out.
+Range: 0.1 to 90 deg
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Largest angle by which the path turns from one cutting move to the next, degrees: rows are made of chords as short as it takes.
+Edges of the part and straight links make larger ones, which the verification names. Not limited when left out.
+Range: 0.1 to 90 deg
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Largest deviation of the triangles from the model's surfaces, mm; checked by sampling.
 Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
@@ -1051,6 +1065,10 @@ Range: above 0 to 100 mm
     </message>
     <message>
         <source>Max bridged</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Max corner</source>
         <translation type="unfinished"></translation>
     </message>
     <message>

@@ -1,0 +1,82 @@
+"""Corners of the path: `max_corner_deg` bounds them where the part is smooth, and the finding `corner` names the others."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import styluscam as sc
+
+FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
+FACET = 0.6
+"""Angle between neighbouring triangles of the cap, degrees, and a little for rounding."""
+
+
+def job(part: str, machine: str = "linuxcnc", **keys: Any) -> sc.Job:
+    """Rows 8 mm apart, each from rim to rim, milled."""
+    return sc.Job.from_dict(
+        {
+            "schema": 1,
+            "part": {"file": str(FIXTURES / f"{part}.step")},
+            "process": {"kind": "milling"},
+            "tools": {"ball": {"number": 1, "profile": {"kind": "ball", "diameter": 10.0}}},
+            "machine": {"name": machine},
+            "operations": [{"kind": "zig-zag", "tool": "ball", "stepover": 8.0, "tolerance": 0.01, **keys}],
+        }
+    )
+
+
+def corners(asked: sc.Job, text: str) -> list[Any]:
+    return [finding for finding in sc.verify(text, asked).findings if finding.kind == "corner"]
+
+
+def largest_in_rows(program: sc.Program) -> float:
+    """The largest angle between chords along rows, which run along X, degrees."""
+    moves = program.moves
+    steps = np.diff(moves["end"], axis=0)
+    along = (moves["kind"][1:] != 0) & (np.abs(steps[:, 1]) < 1e-6) & (np.abs(steps[:, 0]) > 0.02)
+    both = along[:-1] & along[1:]
+    a, b = steps[:-1][both], steps[1:][both]
+    angle: np.ndarray = np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), (a * b).sum(axis=1)))
+    return float(angle.max())
+
+
+@pytest.mark.parametrize("machine", ["linuxcnc", "grbl"])
+def test_smooth_rows_turn_by_no_more_than_asked(machine: str) -> None:
+    """But for a facet's own angle: the path runs on triangles."""
+    keys = {"faces": ["Face1"], "turns": "rounded", "tolerance": 0.03}
+    free = sc.plan(job("cap_r60", machine, **keys))
+    assert largest_in_rows(free.programs["main"]) > 2.5
+    asked = job("cap_r60", machine, max_corner_deg=1.0, **keys)
+    plan = sc.plan(asked)
+    assert largest_in_rows(plan.programs["main"]) <= 1.0 + FACET
+    assert len(plan.programs["main"].moves) > len(free.programs["main"].moves)
+
+
+def test_a_corner_put_into_a_text_is_found_where_it_is() -> None:
+    asked = job("cap_r60", max_corner_deg=5.0, faces=["Face1"])
+    lines = sc.post(sc.plan(asked)).text.splitlines()
+    known = {finding.line for finding in corners(asked, "\n".join(lines))}
+    long = [
+        number for number in range(40, len(lines) - 40) if lines[number].startswith("X") and "Y" not in lines[number]
+    ]
+    number = long[len(long) // 2]
+    height = float(lines[number].partition("Z")[2])
+    lines[number] = lines[number].partition("Z")[0] + f"Z{height + 0.8:.3f}"
+    new = [finding for finding in corners(asked, "\n".join(lines)) if finding.line not in known]
+    assert new and {number + 1, number + 2} & {finding.line for finding in new}
+    assert all(finding.value > finding.limit == 5.0 and finding.unit == "deg" for finding in new)
+
+
+def test_links_and_edges_of_the_part_are_named() -> None:
+    """The rows of a cup with sharp edges, linked straight."""
+    asked = job("cap_r60", max_corner_deg=10.0)
+    found = corners(asked, sc.post(sc.plan(asked)).text)
+    assert found and max(finding.value for finding in found) > 45.0
+    assert all(finding.severity == "warning" and finding.line for finding in found)
+    assert "max_corner_deg is 10.00" in found[0].message
+    quiet = job("cap_r60")
+    assert not corners(quiet, sc.post(sc.plan(quiet)).text)
