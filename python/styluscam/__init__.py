@@ -18,6 +18,8 @@ _MODULES = {
     "errors": (
         "Cancelled", "GeometryError", "JobError", "MachineError", "PlanError", "StylusError", "ToolError", "VerifyError",
     ),
+    "flank.positions": ("FlankError", "FlankPositions", "flank_positions"),
+    "flank.rails": ("Rail",),
     "judging.engagement": ("RunEngagement", "engagement"),
     "judging.simulation": ("Simulation", "simulate"),
     "judging.verification": ("Report", "check_program", "verify", "verify_file"),

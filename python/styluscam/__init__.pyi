@@ -11,6 +11,8 @@ from styluscam.errors import (
     ToolError,
     VerifyError,
 )
+from styluscam.flank.positions import FlankError, FlankPositions, flank_positions
+from styluscam.flank.rails import Rail
 from styluscam.judging.engagement import RunEngagement, engagement
 from styluscam.judging.simulation import Simulation, simulate
 from styluscam.judging.verification import Report, check_program, verify, verify_file
@@ -27,6 +29,8 @@ from styluscam.tools.tool import Tool
 __all__ = [
     "CancelToken",
     "Cancelled",
+    "FlankError",
+    "FlankPositions",
     "GeometryError",
     "Job",
     "JobError",
@@ -38,6 +42,7 @@ __all__ = [
     "PlanError",
     "Posted",
     "Program",
+    "Rail",
     "Report",
     "RunEngagement",
     "RunResult",
@@ -50,6 +55,7 @@ __all__ = [
     "check_program",
     "drop_cutter",
     "engagement",
+    "flank_positions",
     "job_schema",
     "offset_surface",
     "plan",

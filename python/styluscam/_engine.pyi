@@ -22,6 +22,7 @@ __all__ = [
     "Part",
     "Plan",
     "Program",
+    "RuledStrip",
     "Scene",
     "Simulation",
     "Tool",
@@ -386,6 +387,15 @@ class Nurbs:
         cls, degrees: tuple[int, int], knots_u: list[float], knots_v: list[float], poles: _F, weights: _F
     ) -> Nurbs: ...
     def __call__(self, parameters: _F) -> tuple[_F, _F, _F]: ...
+
+_Rail = tuple[int, list[float], _F, _F]
+
+@final
+class RuledStrip:
+    def __new__(cls, rail0: _Rail, rail1: _Rail, side: str) -> RuledStrip: ...
+    def positions(self, radius: float, count: int, method: str) -> tuple[_F, _F]: ...
+    def points(self, shares: _F) -> tuple[_F, _F]: ...
+    def left(self, from_: _F, to: _F, radius: float, shares: _F) -> _F: ...
 
 @final
 class FootSearch:

@@ -6,6 +6,7 @@ mod arrays;
 mod channel;
 mod elementary;
 mod errors;
+mod flank;
 mod freecad;
 mod freeform;
 mod job;
@@ -37,6 +38,8 @@ mod _engine {
     use crate::channel::require_channel;
     #[pymodule_export]
     use crate::elementary::Elementary;
+    #[pymodule_export]
+    use crate::flank::Strip;
     #[pymodule_export]
     use crate::freecad::{path_text, program_of_path};
     #[pymodule_export]

@@ -29,7 +29,7 @@ pub use elementary::{Axes, ElementaryKind, ElementarySurface, Spacing};
 pub use error::GeometryError;
 pub use facets::{Creased, Facets};
 pub use frame::Frame;
-pub use freeform::{Foot, FootSearch, NurbsSurface, Pole, SurfacePoint};
+pub use freeform::{CurvePoint, Foot, FootSearch, NurbsCurve, NurbsSurface, Pole, SurfacePoint};
 pub use mesh::{Bvh, Mending, Mesh, Node, Shape, Soup};
 pub use plane::{PlaneCircle, PlanePiece, PlanePoint};
 pub use profile::{kinds, Curved, OutlinePart, Profile, ProfileDocument, ProfileReport, Straight};

@@ -7,6 +7,7 @@ pub mod budget;
 mod corners;
 mod error;
 mod fitting;
+pub mod flank;
 pub mod forming;
 mod lattice;
 mod leads;

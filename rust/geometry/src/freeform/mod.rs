@@ -1,8 +1,10 @@
-//! Freeform surfaces of a model: B-spline surfaces, and the feet of points on any surface that can be evaluated.
+//! Freeform curves and surfaces of a model: B-splines, and the feet of points on any surface that can be evaluated.
 
+mod curve;
 mod feet;
 mod nurbs;
 
+pub use curve::{CurvePoint, NurbsCurve};
 pub use feet::{Foot, FootSearch, Pole};
 pub use nurbs::NurbsSurface;
 

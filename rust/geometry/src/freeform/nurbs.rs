@@ -27,7 +27,7 @@ pub struct NurbsSurface {
 
 /// Knots along u or v.
 #[derive(Clone, Debug)]
-struct Direction {
+pub(super) struct Direction {
     degree: usize,
     /// Flat: multiplicities written out; not periodic.
     knots: Vec<f64>,
@@ -98,7 +98,7 @@ impl NurbsSurface {
 }
 
 impl Direction {
-    fn new(degree: usize, knots: Vec<f64>) -> Result<Self, GeometryError> {
+    pub fn new(degree: usize, knots: Vec<f64>) -> Result<Self, GeometryError> {
         if !(1..=HIGHEST).contains(&degree) {
             let allowed = "1 to 25";
             return Err(GeometryError::OutOfRange { key: "degree", value: degree as f64, allowed });
@@ -117,13 +117,26 @@ impl Direction {
         Ok(Self { degree, knots, spans })
     }
 
+    pub fn degree(&self) -> usize {
+        self.degree
+    }
+
+    pub fn knots(&self) -> &[f64] {
+        &self.knots
+    }
+
+    /// First and last parameter.
+    pub fn domain(&self) -> [f64; 2] {
+        [self.knots[self.degree], self.knots[self.knots.len() - 1 - self.degree]]
+    }
+
     /// Poles along this direction.
-    fn poles(&self) -> usize {
+    pub fn poles(&self) -> usize {
         self.knots.len() - self.degree - 1
     }
 
     /// The span of a parameter, its basis functions and their derivatives.
-    fn basis(&self, at: f64) -> (usize, Basis, Basis) {
+    pub fn basis(&self, at: f64) -> (usize, Basis, Basis) {
         let (degree, knots) = (self.degree, &self.knots);
         let span = self.spans[self.spans.partition_point(|i| knots[*i] <= at).saturating_sub(1)];
         let (mut basis, mut slopes) = ([0.0; HIGHEST + 1], [0.0; HIGHEST + 1]);

@@ -1,0 +1,113 @@
+//! Flank milling of ruled surfaces: positions along a strip, and what they leave of it.
+
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+use styluscam_geometry::{NurbsCurve, Vector};
+use styluscam_toolpath::flank::{positions, FlankError, Method, RuledStrip, Side};
+use styluscam_verify::left_by_flank;
+
+use crate::{arrays, errors};
+
+/// A rail: degree, flat knots, poles (N, 3) in mm, weights (N,).
+type RailArrays<'py> = (usize, Vec<f64>, PyReadonlyArray2<'py, f64>, PyReadonlyArray1<'py, f64>);
+
+/// A strip between two rails, and a side of it: `"left"` or `"right"`.
+#[pyclass(frozen, module = "styluscam._engine", name = "RuledStrip")]
+#[derive(Debug)]
+pub struct Strip {
+    strip: RuledStrip,
+}
+
+#[pymethods]
+impl Strip {
+    #[new]
+    #[allow(clippy::needless_pass_by_value)] // PyO3 hands arrays by value
+    fn new(rail0: RailArrays<'_>, rail1: RailArrays<'_>, side: &str) -> PyResult<Self> {
+        let side = match side {
+            "left" => Side::Left,
+            "right" => Side::Right,
+            other => return Err(word("side", other, "left or right")),
+        };
+        let rails = [rail(&rail0)?, rail(&rail1)?];
+        Ok(Self { strip: RuledStrip::new(rails, side).map_err(|error| of_flank(&error))? })
+    }
+
+    /// Points of the axis beside both rails (N, 2, 3), and contacts (N, 2, 3), mm, in `count` positions of a cylinder.
+    fn positions<'py>(
+        &self,
+        py: Python<'py>,
+        radius: f64,
+        count: usize,
+        method: &str,
+    ) -> PyResult<(Bound<'py, PyArray3<f64>>, Bound<'py, PyArray3<f64>>)> {
+        let method = match method {
+            "swept" => Method::Swept,
+            "rails" => Method::Rails,
+            "three-points" => Method::ThreePoints,
+            "two-points" => Method::TwoPoints,
+            "one-point" => Method::OnePoint,
+            other => return Err(word("method", other, "swept, rails, three-points, two-points or one-point")),
+        };
+        let found = py.detach(|| positions(&self.strip, radius, count, method)).map_err(|error| of_flank(&error))?;
+        Ok((pairs(py, found.iter().map(|stand| stand.axis))?, pairs(py, found.iter().map(|stand| stand.contacts))?))
+    }
+
+    /// Points (N, 3), mm, and unit normals (N, 3) towards the tool at shares (N, 2) of the way along the rails and the rulings.
+    #[allow(clippy::needless_pass_by_value)] // PyO3 hands arrays by value
+    fn points<'py>(
+        &self,
+        py: Python<'py>,
+        shares: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
+        let shares = arrays::rows::<f64, 2>(&shares, "shares")?;
+        let points: Vec<Vec<f64>> = shares.iter().map(|at| self.strip.point(*at).as_slice().to_vec()).collect();
+        let normals: Vec<Vec<f64>> = shares.iter().map(|at| self.strip.normal(*at).as_slice().to_vec()).collect();
+        Ok((PyArray2::from_vec2(py, &points)?, PyArray2::from_vec2(py, &normals)?))
+    }
+
+    /// What a cylinder leaves at shares (N, 2) of the strip when its axis, two points (M, 2, 3) in each position, has moved from
+    /// the first to the last, mm along the normal (N,): below 0 where it is cut too deep, NaN where that is not decided between
+    /// the first position and the last.
+    #[allow(clippy::needless_pass_by_value)] // PyO3 hands arrays by value
+    fn left<'py>(
+        &self,
+        py: Python<'py>,
+        from: PyReadonlyArray2<'py, f64>,
+        to: PyReadonlyArray2<'py, f64>,
+        radius: f64,
+        shares: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let (from, to) = (arrays::vectors(&from, "from")?, arrays::vectors(&to, "to")?);
+        let axes: Vec<[Vector; 2]> = from.into_iter().zip(to).map(|(from, to)| [from, to]).collect();
+        let shares = arrays::rows::<f64, 2>(&shares, "shares")?;
+        let found = py.detach(|| {
+            let points: Vec<_> = shares.iter().map(|at| (self.strip.point(*at), self.strip.normal(*at))).collect();
+            left_by_flank(&axes, radius, &points)
+        });
+        Ok(PyArray1::from_iter(py, found.into_iter().map(|left| left.unwrap_or(f64::NAN))))
+    }
+}
+
+fn rail((degree, knots, poles, weights): &RailArrays<'_>) -> PyResult<NurbsCurve> {
+    let (poles, weights) = (arrays::rows::<f64, 3>(poles, "poles")?, weights.as_array());
+    if poles.len() != weights.len() {
+        let message = format!("{} poles for {} weights: as many expected", poles.len(), weights.len());
+        return Err(errors::raise("GeometryError", &message, "shape", "weights", ""));
+    }
+    let poles: Vec<[f64; 4]> = poles.iter().zip(weights).map(|([x, y, z], w)| [*x, *y, *z, *w]).collect();
+    NurbsCurve::new(*degree, knots.clone(), &poles).map_err(|error| errors::of_geometry(&error))
+}
+
+fn pairs<'py>(py: Python<'py>, of: impl Iterator<Item = [Vector; 2]>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+    let numbers: Vec<f64> = of.flatten().flat_map(<[f64; 3]>::from).collect();
+    let count = numbers.len() / 6;
+    PyArray1::from_vec(py, numbers).reshape([count, 2, 3])
+}
+
+fn of_flank(error: &FlankError) -> PyErr {
+    errors::raise("GeometryError", &error.to_string(), error.code(), "", "")
+}
+
+fn word(name: &str, value: &str, allowed: &str) -> PyErr {
+    errors::raise("GeometryError", &format!("{name} = {value:?}: {allowed} expected"), "argument", name, "")
+}

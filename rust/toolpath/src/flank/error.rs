@@ -1,0 +1,77 @@
+//! Why a strip cannot be milled with the flank of a tool.
+
+use thiserror::Error;
+
+/// No positions were found.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum FlankError {
+    /// The rails meet or cross: a ruling has no length.
+    #[error("the rails meet at u = {u:.4}: a ruling needs a length; part the surface there")]
+    NoRuling {
+        /// Share of the way along the rails, 0 to 1.
+        u: f64,
+    },
+    /// A rail stands still or turns back.
+    #[error("rail{rail} has a cusp at u = {u:.4}: it has no direction there; part the surface there, or give the rail without it")]
+    Cusp {
+        /// Which rail, 0 or 1.
+        rail: usize,
+        /// Share of the way along it, 0 to 1.
+        u: f64,
+    },
+    /// A ruling runs along a rail: the surface has no normal.
+    #[error("the ruling at u = {u:.4} runs along rail{rail}: the surface has no normal there; part it there")]
+    NoNormal {
+        /// Which rail, 0 or 1.
+        rail: usize,
+        /// Share of the way along it, 0 to 1.
+        u: f64,
+    },
+    /// The surface is hollow with a smaller radius than the tool's.
+    #[error("the surface is hollow with a radius of {hollow:.3} mm at u = {u:.4}, the tool's is {radius} mm: take a smaller tool, or the other side")]
+    TooLarge {
+        /// Share of the way along the rails, 0 to 1.
+        u: f64,
+        /// The surface's radius, mm.
+        hollow: f64,
+        /// The tool's radius, mm.
+        radius: f64,
+    },
+    /// No line lies beside both rails at the tool's radius there.
+    #[error("no position touches both rails at u = {u:.4}: the surface is twisted too much for a tool of radius {radius} mm; take a smaller one")]
+    NoPosition {
+        /// Share of the way along the rails, 0 to 1.
+        u: f64,
+        /// The tool's radius, mm.
+        radius: f64,
+    },
+    /// The ruling cannot be touched as well as both rails.
+    #[error("no position touches both rails and the ruling at u = {u:.4}: place the tool by another method, as swept")]
+    NoThreePoints {
+        /// Share of the way along the rails, 0 to 1.
+        u: f64,
+    },
+    /// Fewer positions than make a movement.
+    #[error("count = {0}: two positions at least")]
+    Count(usize),
+    /// A radius that no tool has.
+    #[error("radius = {0} mm: a length above 0 is needed")]
+    Radius(f64),
+}
+
+impl FlankError {
+    /// A stable name for scripts.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::NoRuling { .. } => "rails-meet",
+            Self::Cusp { .. } => "rail-cusp",
+            Self::NoNormal { .. } => "no-normal",
+            Self::TooLarge { .. } => "tool-too-large",
+            Self::NoPosition { .. } => "no-position",
+            Self::NoThreePoints { .. } => "no-three-points",
+            Self::Count(_) => "count",
+            Self::Radius(_) => "radius",
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! Flank milling of ruled surfaces: where a cylinder stands along a strip between two rails.
+//!
+//! The cylinder touches both rails in every position. That leaves the line of its axis one freedom beside its way along the
+//! strip: how far apart the two contacts lie along the rails. It is chosen so that the surface that the moving tool leaves is as
+//! near to the strip as can be. Derivation and comparison with other methods: docs/concepts/flank.md.
+
+mod course;
+mod error;
+mod method;
+mod stand;
+mod strip;
+mod swept;
+
+pub use error::FlankError;
+pub use method::{positions, Method};
+pub use stand::Stand;
+pub use strip::{RuledStrip, Side};
+
+#[cfg(test)]
+mod tests;

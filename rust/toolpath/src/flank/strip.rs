@@ -1,0 +1,117 @@
+//! A ruled surface between two rails, and the side of it on which the tool moves.
+
+use styluscam_geometry::{CurvePoint, NurbsCurve, Vector};
+
+use super::FlankError;
+
+/// Positions along the strip at which it is looked at before anything is planned.
+const LOOKED_AT: usize = 256;
+/// Positions along a ruling for that.
+const ACROSS: usize = 5;
+/// Lengths below this, beside the longest of their kind, are none.
+const NONE: f64 = 1e-9;
+
+/// The side of the strip on which the tool moves, seen from its second rail down to the first, looking along the rails.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// To the left.
+    Left,
+    /// To the right.
+    Right,
+}
+
+/// A ruled surface: straight lines between points of equal parameter of two rails.
+#[derive(Clone, Debug)]
+pub struct RuledStrip {
+    rails: [NurbsCurve; 2],
+    side: Side,
+}
+
+impl RuledStrip {
+    /// The strip between two rails, each from its first parameter to its last.
+    ///
+    /// # Errors
+    /// Rails that meet, cusps, rulings along a rail.
+    pub fn new(rails: [NurbsCurve; 2], side: Side) -> Result<Self, FlankError> {
+        let strip = Self { rails, side };
+        let at = |i: usize| i as f64 / LOOKED_AT as f64;
+        let longest = |of: &dyn Fn(f64) -> f64| (0..=LOOKED_AT).map(|i| of(at(i))).fold(0.0, f64::max);
+        let ruling = |u: f64| (strip.rail(1, u).point - strip.rail(0, u).point).norm();
+        let widest = longest(&ruling);
+        if let Some(i) = (0..=LOOKED_AT).find(|i| ruling(at(*i)) <= NONE * widest.max(NONE)) {
+            return Err(FlankError::NoRuling { u: at(i) });
+        }
+        for rail in 0..2 {
+            let speed = |u: f64| strip.rail(rail, u).first.norm();
+            let fastest = longest(&speed);
+            for i in 0..=LOOKED_AT {
+                let u = at(i);
+                let first = strip.rail(rail, u).first;
+                let turns_back = i > 0 && strip.rail(rail, at(i - 1)).first.dot(&first) < 0.0;
+                if speed(u) <= NONE * fastest.max(NONE) || turns_back {
+                    return Err(FlankError::Cusp { rail, u });
+                }
+                let across = first.cross(&(strip.rail(1, u).point - strip.rail(0, u).point)).norm();
+                if across <= 1e-6 * first.norm() * ruling(u) {
+                    return Err(FlankError::NoNormal { rail, u });
+                }
+            }
+        }
+        Ok(strip)
+    }
+
+    /// A rail at a share of the way along it, 0 to 1; derivatives are per that share.
+    #[must_use]
+    pub fn rail(&self, number: usize, u: f64) -> CurvePoint {
+        let [first, last] = self.rails[number].domain();
+        let length = last - first;
+        let CurvePoint { point, first: rate, second } = self.rails[number].at(first + u * length);
+        CurvePoint { point, first: rate * length, second: second * (length * length) }
+    }
+
+    /// The point at a share of the way along the rails and along the ruling from the first to the second, 0 to 1 each.
+    #[must_use]
+    pub fn point(&self, [u, v]: [f64; 2]) -> Vector {
+        let [a, b] = [0, 1].map(|rail| self.rail(rail, u).point);
+        a + (b - a) * v
+    }
+
+    /// Unit normal there, towards the tool.
+    #[must_use]
+    pub fn normal(&self, [u, v]: [f64; 2]) -> Vector {
+        let [a, b] = [0, 1].map(|rail| self.rail(rail, u));
+        let along = a.first + (b.first - a.first) * v;
+        let left = (b.point - a.point).cross(&along).normalize();
+        match self.side {
+            Side::Left => left,
+            Side::Right => -left,
+        }
+    }
+
+    /// Refuses a tool's radius, mm, that does not fit where the surface is hollow: the normal curvature across the rulings.
+    ///
+    /// # Errors
+    /// [`FlankError::TooLarge`].
+    pub(super) fn takes(&self, radius: f64) -> Result<(), FlankError> {
+        if !(radius > 0.0 && radius.is_finite()) {
+            return Err(FlankError::Radius(radius));
+        }
+        let curvature = |[u, v]: [f64; 2]| {
+            let [a, b] = [0, 1].map(|rail| self.rail(rail, u));
+            let (ruling, along) = (b.point - a.point, a.first + (b.first - a.first) * v);
+            let (twist, bent) = (b.first - a.first, a.second + (b.second - a.second) * v);
+            let share = along.dot(&ruling) / ruling.norm_squared();
+            let across = along - ruling * share;
+            (bent - twist * (2.0 * share)).dot(&self.normal([u, v])) / across.norm_squared()
+        };
+        let positions = (0..=LOOKED_AT).flat_map(|i| (0..ACROSS).map(move |j| [i, j]));
+        let worst = positions
+            .map(|[i, j]| [i as f64 / LOOKED_AT as f64, j as f64 / (ACROSS - 1) as f64])
+            .map(|at| (at[0], curvature(at)))
+            .fold((0.0, 0.0), |worst, other| if other.1 > worst.1 { other } else { worst });
+        if worst.1 * radius >= 1.0 {
+            return Err(FlankError::TooLarge { u: worst.0, hollow: 1.0 / worst.1, radius });
+        }
+        Ok(())
+    }
+}

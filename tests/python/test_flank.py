@@ -1,0 +1,180 @@
+"""Flank milling: positions of a cylinder along ruled surfaces, against published figures, hand-made answers and other methods."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import styluscam as sc
+from styluscam.flank.rails import RailLike
+
+Rails = tuple[RailLike, RailLike]
+TURN = np.radians(20.0)
+UP = np.array([0.0, 0.0, 30.0])
+HP20: Rails = (
+    lambda u: np.outer(60.0 * (u - 0.5), [1.0, 0.0, 0.0]),
+    lambda u: np.outer(60.0 * (u - 0.5), [np.cos(TURN), np.sin(TURN), 0.0]) + UP,
+)
+CV: Rails = (
+    {"poles": [(0, 0, 0), (30, 15, 0), (60, 0, 0)]},
+    {"poles": [(0, 5, 30), (30, 28, 30), (60, -8, 30)]},
+)
+STRIPS: dict[str, Rails] = {"HP20": HP20, "CV": CV}
+OTHERS = ("one-point", "two-points", "rails", "three-points")
+
+
+def cylinder(radius: float) -> dict[str, Any]:
+    return {"profile": {"kind": "flat", "diameter": 2.0 * radius}}
+
+
+def placed(rails: Rails, radius: float, method: Any = "swept", count: int = 200, **how: Any) -> sc.FlankPositions:
+    return sc.flank_positions(*rails, cylinder(radius), count, method=method, **how)
+
+
+def micrometres(error: sc.FlankError) -> tuple[float, float]:
+    middle = error.between(0.25, 0.75)
+    return 1e3 * middle.over, 1e3 * middle.under
+
+
+@pytest.mark.parametrize(
+    ("strip", "radius", "method", "over", "under"),
+    [
+        ("HP20", 5.0, "one-point", 75.97, 0.0),
+        ("HP20", 10.0, "one-point", 151.95, 0.0),
+        ("CV", 5.0, "one-point", 114.79, 0.0),
+        ("CV", 10.0, "one-point", 262.18, 0.0),
+        ("HP20", 5.0, "two-points", 19.32, 57.26),
+        ("HP20", 10.0, "two-points", 38.64, 112.96),
+        ("CV", 5.0, "two-points", 21.66, 63.87),
+        ("CV", 10.0, "two-points", 43.33, 126.09),
+        ("HP20", 5.0, "rails", 76.2, 0.0),
+        ("HP20", 10.0, "rails", 154.0, 0.0),
+        ("CV", 5.0, "rails", 86.8, 0.1),
+        ("CV", 10.0, "rails", 175.5, 0.1),
+    ],
+)
+def test_other_methods_leave_what_is_known_of_them(
+    strip: str, radius: float, method: str, over: float, under: float
+) -> None:
+    found = micrometres(placed(STRIPS[strip], radius, method, 400, side="right").error)
+    assert found == pytest.approx((over, under), rel=0.02, abs=0.15)
+
+
+@pytest.mark.parametrize(
+    ("strip", "radius", "most"), [("HP20", 5.0, 0.2), ("HP20", 10.0, 0.4), ("CV", 5.0, 3.5), ("CV", 10.0, 7.5)]
+)
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_the_swept_surface_is_near(strip: str, radius: float, most: float, side: Any) -> None:
+    assert max(micrometres(placed(STRIPS[strip], radius, count=400, side=side).error)) < most
+
+
+def test_few_positions_cut_in_between() -> None:
+    # chords lie off a curve by the square of their length
+    over = [micrometres(placed(HP20, 5.0, count=count).error)[0] for count in (7, 13, 25)]
+    assert over[0] > 5.0 and over[0] == pytest.approx(4.0 * over[1], rel=0.2) == pytest.approx(16.0 * over[2], rel=0.5)
+
+
+def test_the_cylinder_touches_both_rails() -> None:
+    found = placed(CV, 5.0)
+    aside = np.cross(found.contacts - found.tips[:, None], found.axes[:, None])
+    assert np.linalg.norm(aside, axis=2) == pytest.approx(5.0, abs=1e-10)
+    steps = np.linalg.norm(np.diff(found.axes, axis=0), axis=1)
+    assert steps.max() < 5.0 * steps.mean()
+
+
+def test_a_hyperboloid_of_one_sheet_is_milled_by_its_other_lines() -> None:
+    # the axis is a line of the other family of the hyperboloid that lies off by the radius: about Z all positions are one
+    ring, half, turn = 20.0, 12.0, np.radians(40.0)
+
+    def rail(z: float, ahead: float) -> RailLike:
+        def at(u: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+            angle = 1.5 * u + ahead
+            return np.column_stack([ring * np.cos(angle), ring * np.sin(angle), np.full(len(u), z)])
+
+        return at
+
+    found = placed((rail(-half, 0.0), rail(half, turn)), 3.0, count=401, side="right")
+    middle = slice(100, 301)
+    distances = np.linalg.norm(np.cross(found.tips, found.axes)[middle], axis=1)
+    heights = found.axes[middle, 2]
+    assert np.ptp(heights) < 1e-4 and np.ptp(distances) < 1e-3
+    assert max(micrometres(found.error)) < 2.0
+
+
+def test_developable_surfaces_are_exact() -> None:
+    def circle(radius: float, z: float) -> RailLike:
+        return lambda u: np.column_stack([radius * np.cos(u), radius * np.sin(u), np.full(len(u), z)])
+
+    # so many positions that chords of the movement count for less than 1e-6 mm
+    for rails in ((circle(30.0, 0.0), circle(30.0, 20.0)), (circle(30.0, 0.0), circle(20.0, 20.0))):
+        error = sc.flank_positions(*rails, cylinder(4.0), 8000).error.between(0.25, 0.75)
+        assert max(error.over, error.under) < 1e-6
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_no_other_method_is_better(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    twist, length, radius = np.radians(random.uniform(5, 40)), random.uniform(40, 100), random.uniform(2, 6)
+    base = np.linspace(-0.5, 0.5, 4)[:, None] * [length, 0.0, 0.0]
+    poles = [base + random.uniform(-0.04, 0.04, (4, 3)) * length * [0.5, 1.0, 0.2] for _ in range(2)]
+    turn = np.array([[np.cos(twist), np.sin(twist), 0], [-np.sin(twist), np.cos(twist), 0], [0, 0, 1]])
+    rails = ({"poles": poles[0]}, {"poles": poles[1] @ turn + [0, 0, 25.0]})
+
+    def worst(method: str) -> float:
+        try:
+            return max(micrometres(placed(rails, radius, method).error))
+        except sc.GeometryError as error:
+            assert error.code == "no-three-points"
+            return np.inf
+
+    # up to a twentieth of a micrometre
+    assert worst("swept") < min(map(worst, OTHERS)) + 0.05
+
+
+def test_rails_of_every_form_are_one() -> None:
+    poles = np.array([(0, 0, 0), (30, 15, 0), (60, 0, 0)], dtype=float)
+
+    def bezier(u: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+        u = u[:, None]
+        return np.asarray((1 - u) ** 2 * poles[0] + 2 * u * (1 - u) * poles[1] + u * u * poles[2])
+
+    shares = np.linspace(0.0, 1.0, 9)
+    forms = [sc.Rail.of({"poles": poles}), sc.Rail.of(bezier), sc.Rail.of({"poles": poles, "weights": [2, 2, 2]})]
+    for rail in forms:
+        assert rail.at(shares) == pytest.approx(bezier(shares), abs=1e-7)
+    points = bezier(np.linspace(0.0, 1.0, 200))
+    ends = sc.Rail.of(points).at(np.array([0.0, 1.0]))
+    assert ends == pytest.approx(points[[0, -1]], abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("rails", "code"),
+    [
+        (([(0, 0, 0), (40, 0, 0)], [(0, -10, 0), (40, 10, 0)]), "rails-meet"),
+        (([(0, 0, 0), (40, 0, 0)], {"poles": [(0, 0, 20), (60, 0, 20), (-20, 0, 20), (40, 0, 20)]}), "rail-cusp"),
+        (([(0, 0, 0), (40, 0, 0)], [(50, 0, 0), (90, 0, 0)]), "no-normal"),
+        (([(0, 0, 0), (40, 0, np.nan)], [(0, 0, 20), (40, 0, 20)]), "argument"),
+        (([(0, 0, 0), (0, 0, 0), (40, 0, 0)], [(0, 0, 20), (40, 0, 20)]), "same-points"),
+        (([(0, 0, 0)], [(0, 0, 20), (40, 0, 20)]), "argument"),
+        ((lambda u: np.full((len(u), 3), np.nan), [(0, 0, 20), (40, 0, 20)]), "not-finite"),
+        ((lambda u: np.column_stack([u, np.abs(u - 0.3), 0 * u]) * 40, [(0, 0, 20), (40, 0, 20)]), "not-smooth"),
+        (({"poles": [(0, 0, 0), (40, 0, 0)], "weights": [1, -1]}, [(0, 0, 20), (40, 0, 20)]), "not-finite"),
+    ],
+)
+def test_what_is_no_strip_is_refused(rails: Rails, code: str) -> None:
+    with pytest.raises(sc.GeometryError) as caught:
+        placed(rails, 3.0, count=5)
+    assert caught.value.code == code
+
+
+def test_a_hollow_and_a_taper_are_refused() -> None:
+    arcs = [{"poles": [(0, 0, z), (10, 20, z), (20, 0, z)]} for z in (0, 15)]
+    with pytest.raises(sc.GeometryError, match="hollow with a radius"):
+        sc.flank_positions(*arcs, cylinder(12.0), 5, side="right")
+    with pytest.raises(sc.ToolError) as caught:
+        sc.flank_positions(*arcs, {"profile": {"kind": "clothoid", "diameter": 6.0, "end_slope_deg": 60.0}}, 5)
+    assert caught.value.code in ("tapered-flank", "unknown-key")
+    with pytest.raises(sc.GeometryError, match="count"):
+        placed(CV, 5.0, count=1)
