@@ -130,7 +130,7 @@ impl Run {
                 last = if is_near { last } else { allowed };
                 let at = || step.path(start).map_or_else(|| between(start, step.end.tip, share), |arc| arc.at(share));
                 let piece = if share < 1.0 { step.to(at()) } else { *step };
-                let feed = if last < step.feed / MINUTE { last * MINUTE } else { step.feed };
+                let feed = if last < (1.0 - 1e-9) * step.feed / MINUTE { last * MINUTE } else { step.feed };
                 into.push(piece.with_feed(feed, step.feed_mode));
             }
         }
