@@ -11,9 +11,9 @@ use rstar::{primitives::GeomWithData, RTree};
 use styluscam_geometry::Vector;
 use styluscam_motion::{Cancelled, Watch};
 
+use super::air::{Air, LEAST};
 use super::precedence::Precedence;
 use super::sequence::{Sequence, Stop};
-use super::{Air, LEAST};
 
 /// Nearest items whose neighbours an item may become.
 const NEIGHBOURS: usize = 10;

@@ -5,6 +5,8 @@
 //! ([`improve`]), as long as nothing comes before what it has to follow ([`precedence`]). The shortest of all is taken, which is
 //! never longer than the nearest next. Derived in docs/concepts/linking.md.
 
+mod air;
+mod freedom;
 mod greedy;
 mod improve;
 mod nearest;
@@ -14,49 +16,18 @@ mod sequence;
 use styluscam_motion::{Cancelled, Watch};
 
 use crate::{Pass, Seam, Sense};
+use air::LEAST;
 use improve::improved;
 use nearest::directed_by_groups;
 use precedence::Precedence;
 use sequence::Sequence;
 
+pub use air::Air;
+pub use freedom::Freedom;
 pub use nearest::{begin_nearest, ordered};
 
-/// Orders that differ by less are equally long, mm.
-const LEAST: f64 = 1e-6;
 /// Improvements of a whole order, at most: each begins loops anew where the one before has them begin.
 const ROUNDS: usize = 3;
-
-/// What of the order of passes is free.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Freedom<'a> {
-    /// That of the passes of a group (a level or a row): groups follow one after the other.
-    WithinGroups,
-    /// A pass follows those of the groups above it that lie within a reach of it in plan, or that enclose it.
-    OfAreas {
-        /// mm.
-        reach: f64,
-        /// Whether what is inside of a loop is done before the next loop below around it: sheet hangs there.
-        inside_first: bool,
-    },
-    /// Rows in any order; each set, which begins with one of these groups, after those before it.
-    OfRows {
-        /// Numbers of the first groups of all sets, ascending.
-        sets: &'a [usize],
-        /// Whether a row may be followed in its other direction.
-        is_reversible: bool,
-        /// Rows of another set that are within this reach come first, mm.
-        reach: f64,
-    },
-}
-
-/// What the tool travels from a pass to the next.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Air {
-    /// Height at which rapids cross, mm.
-    pub height: f64,
-    /// Up to this distance in plan the tool goes straight, mm.
-    pub along: f64,
-}
 
 /// Passes in their order, and what the tool travels between them.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,7 +7,7 @@
 
 use styluscam_motion::{Cancelled, Watch};
 
-use super::Freedom;
+use super::freedom::Freedom;
 use crate::{Pass, PathPoint};
 
 /// Cells in half a reach.

@@ -2,7 +2,8 @@
 
 use styluscam_geometry::Vector;
 
-use super::{begin_nearest, Air};
+use super::air::Air;
+use super::nearest::begin_nearest;
 use crate::Pass;
 
 /// A pass in its place in the order.
