@@ -31,7 +31,7 @@ pub use frame::Frame;
 pub use freeform::{Foot, FootSearch, NurbsSurface, Pole, SurfacePoint};
 pub use mesh::{Bvh, Mending, Mesh, Node, Shape, Soup};
 pub use profile::{kinds, Curved, OutlinePart, Profile, ProfileDocument, ProfileReport, Straight};
-pub use shaping::{stage, walled, warped, DisplacementField, Stage, WallFault, WallShape, Walled, Warped};
+pub use shaping::{stage, walled, warped, DisplacementField, Stage, WallEnd, WallFault, WallShape, Walled, Warped};
 pub use sheet::{ModelFace, Sheet, SheetLaw};
 pub use tool::{Base, Holder, Tool, ToolDocument};
 pub use tool_body::ToolBody;
