@@ -113,6 +113,14 @@ EXAMPLES = (
         process={"kind": "milling"},
     ),
     Example(
+        "layers",
+        "Rows in flat sheet",
+        "`max_increment`: rows in layers, none of which presses the sheet farther down at once.",
+        "pyramid",
+        {"kind": "zig-zag", "stepover": 4.0, "max_increment": 2.5},
+        more={"accept": ["wall-angle"]},
+    ),
+    Example(
         "male-die",
         "Over a male die",
         '`process.kind = "tpif"`: from the die\'s top outwards and down, the clamp frame goes down with the path.',

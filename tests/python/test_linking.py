@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from functools import lru_cache
 from typing import Any
@@ -183,7 +184,7 @@ def test_another_dialect_has_the_same_links() -> None:
 
 
 def test_milling_crosses_above_the_stock() -> None:
-    asked = job("nested", process={"kind": "milling"}, links="low")
+    asked = job("nested", process={"kind": "milling"}, links="low", order="by-level")
     plan = sc.plan(asked)
     heights = crossings(plan.programs["main"])
     assert len(heights) > 6 and np.all((heights >= MARGIN) & (heights < MARGIN + 0.05)), heights
@@ -238,7 +239,7 @@ def test_vertical_leads_come_down_tangent_to_their_pass(links: str) -> None:
 
 
 def test_tangent_leads_are_arcs_on_the_free_side() -> None:
-    asked, plan, text = with_leads("tangent", "milling", lead_radius=1.5)
+    asked, plan, text = with_leads("tangent", "milling", lead_radius=1.5, order="by-level")
     found = leads_of(plan.programs["main"])
     assert len(found) == facts(plan)["leads"].value >= 16
     assert all(len(lead) == 2 and np.ptp(lead["end"][:, 2]) < 1e-9 for lead in found)
@@ -281,3 +282,84 @@ def test_a_lead_that_enters_the_part_is_found() -> None:
 def test_a_lead_at_another_feed_is_found() -> None:
     asked, _, text = with_leads("vertical", lead_radius=1.0, lead_angle_deg=60.0, links="clearance")
     assert {finding.kind for finding in findings(text.replace(" F600", " F1100", 1), asked)} == {"feed-differs"}
+
+
+def plate(columns: int, rows: int) -> Mesh:
+    """Square pits of 60 degrees, 6 mm deep, 30 mm apart."""
+    pits = [(30.0 * i, 30.0 * j) for i in range(columns) for j in range(rows)]
+    return squares(pits, [(10.0, 0.0), (6.5, -6.0)], (15.0, 15.0, 0.0))
+
+
+PARTS["plate"] = plate(4, 3)
+
+
+def air(program: sc.Program) -> float:
+    """Length of all rapids and of the feeds down after them, mm."""
+    moves = program.moves
+    lengths = np.linalg.norm(np.diff(moves["end"], axis=0), axis=1)
+    is_rapid = moves["kind"][1:] == RAPID
+    is_down = ~is_rapid & np.concatenate([[False], is_rapid[:-1]])
+    return float(lengths[is_rapid | is_down].sum())
+
+
+def areas_in_order(program: sc.Program) -> list[tuple[float, float]]:
+    """The pits of the plate in which the tool is, as it goes from one to the next."""
+    moves = program.moves
+    pits = [tuple(np.round(end[:2] / 30.0)) for end in moves["end"][moves["kind"] != RAPID]]
+    return [pit for number, pit in enumerate(pits) if number == 0 or pits[number - 1] != pit]
+
+
+@pytest.mark.parametrize("machine", ["linuxcnc", "grbl"])
+def test_areas_are_milled_one_after_the_other(machine: str) -> None:
+    asked = job("plate", machine, MILLING)
+    plan = sc.plan(asked)
+    order = areas_in_order(plan.programs["main"])
+    assert len(order) == len(set(order)) == 12
+    # from pit to pit, to a neighbour each time
+    assert all(abs(a[0] - b[0]) + abs(a[1] - b[1]) == 1.0 for a, b in itertools.pairwise(order))
+    by_level = sc.plan(job("plate", machine, MILLING, order="by-level")).programs["main"]
+    assert len(areas_in_order(by_level)) > 50
+    assert air(plan.programs["main"]) < 0.2 * air(by_level)
+    (text,) = sc.post(plan).files.values()
+    assert findings(text, asked) == []
+
+
+def test_a_sheet_is_formed_evenly_unless_areas_are_asked_for() -> None:
+    by_level = posted("two", "clearance")[1].programs["main"]
+    z = by_level.moves["end"][:, 2][by_level.moves["kind"] != RAPID]
+    assert np.all(np.diff(z) < 1e-9)
+    asked = job("nested", order="by-area", links="low")
+    plan = sc.plan(asked)
+    assert air(plan.programs["main"]) < 0.6 * air(posted("nested", "low")[1].programs["main"])
+    assert facts(plan)["between_passes"].value > 0.0
+    (text,) = sc.post(plan).files.values()
+    assert findings(text, asked) == []
+
+
+def test_an_area_formed_before_the_one_around_it_is_found() -> None:
+    asked = job("nested", order="by-area")
+    (text,) = sc.post(sc.plan(asked)).files.values()
+    lines = text.splitlines()
+    rises = [number for number, line in enumerate(lines) if re.fullmatch(rf"G0 Z{CLEARANCE:.0f}(\.0*)?", line)]
+    start, begin, end = (number + 1 for number in rises[:3])  # the pit, the first pit in it, the second
+    planted = [*lines[:start], *lines[begin:end], *lines[start:begin], *lines[end:]]
+    found = {finding.kind for finding in findings("\n".join(planted) + "\n", asked)}
+    assert "punch" in found, found
+
+
+def test_a_frame_that_goes_down_does_not_come_up_again() -> None:
+    document = {**job("two", order="by-area").to_dict(), "process": {"kind": "tpif", "die": "male"}}
+    with pytest.raises(sc.JobError, match="by-area"):
+        sc.Job.from_dict(document)
+
+
+def test_rows_around_holes_are_done_area_by_area() -> None:
+    rows = {"kind": "zig-zag", "stepover": 2.0, "boundary": {"slope_deg": [0.0, 10.0]}}
+    document = job("plate", process=MILLING).to_dict()
+    document["operations"] = [{"tool": "t", "tolerance": 0.01, **rows}]
+    asked = sc.Job.from_dict(document, part=sc.Part.from_mesh(*PARTS["plate"]))
+    plan = sc.plan(asked)
+    by_nearest = re.search(r"([\d.]+) mm with the nearest", facts(plan)["between_passes"].words)
+    assert by_nearest and facts(plan)["between_passes"].value < 0.3 * float(by_nearest[1])
+    (text,) = sc.post(plan).files.values()
+    assert findings(text, asked) == []

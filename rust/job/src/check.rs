@@ -7,6 +7,7 @@ use crate::fixture::FixtureSection;
 use crate::process::Opposite;
 use crate::resolve::check_channels;
 use crate::{
+    clamp,
     operations::{Fit, LinkHeight},
     spindle, CheckSelection, Direction, JobDocument, JobError, LengthUnit, MachineSection, OperationKeys,
     OperationSection, Process, ProcessSection, Selection, SheetSection, Zero,
@@ -288,6 +289,8 @@ fn operation(job: &JobDocument, path: &str, section: &OperationSection) -> Resul
     fit(job, path, common)?;
     turning(&job.process.process, path, section)?;
     links(job, path, common)?;
+    layers(job, path, section)?;
+    order(job, path, section)?;
     spindle::check(section, path)?;
     section.kind().check(common, path)
 }
@@ -373,6 +376,36 @@ fn links(job: &JobDocument, path: &str, common: &OperationKeys) -> Result<(), Jo
     let kind = job.process.process.name();
     let message = format!("links = \"low\": with process.kind = {kind:?} both tools cross at clearance");
     Err(JobError::document("conflict", format!("{path}.links"), message, "write links = \"clearance\""))
+}
+
+/// Layers are pressed into a sheet that hangs free: a tool below has no contact to follow in them, and no frame goes down with them.
+fn layers(job: &JobDocument, path: &str, section: &OperationSection) -> Result<(), JobError> {
+    let process = &job.process.process;
+    let follows = job.channels().iter().any(|channel| job.opposite(channel).is_some());
+    let reason = if !section.kind().forms_in_layers() {
+        return Ok(());
+    } else if !process.as_kind().forms() {
+        "forms no sheet"
+    } else if follows {
+        "has a tool below that follows contacts, and rows in a layer's plane have none"
+    } else if process.as_kind().support() == Support::DieAndFrame {
+        "has a frame that goes down from level to level, and rows go up and down"
+    } else {
+        return Ok(());
+    };
+    let message = format!("max_increment: process.kind = {:?} {reason}", process.name());
+    let hint = "remove max_increment: rows then finish what a z-level or a spiral before them has formed";
+    Err(JobError::document("conflict", format!("{path}.max_increment"), message, hint))
+}
+
+/// A frame that goes down with the path does not come up again.
+fn order(job: &JobDocument, path: &str, section: &OperationSection) -> Result<(), JobError> {
+    if !clamp::goes_down(job) || !section.kind().comes_back_up() {
+        return Ok(());
+    }
+    let message =
+        "order = \"by-area\": over a male die the frame goes down with the sheet, from level to level".to_owned();
+    Err(JobError::document("conflict", format!("{path}.order"), message, "write order = \"by-level\""))
 }
 
 /// The error of an operation at `path` whose tool the job does not have.

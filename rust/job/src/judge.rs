@@ -17,7 +17,7 @@ use styluscam_verify::{
 use crate::limits::{GOUGE, NO_ROOM};
 use crate::numbers::shown;
 use crate::operations::{LeadForm, LinkHeight};
-use crate::resolve::{faces_of, heights_of, passes_of, region_of, tools_in_order};
+use crate::resolve::{faces_of, heights_of, layers_of, passes_of, region_of, tools_in_order};
 use crate::{
     clamp, forming, materials, model, plates, portion, spindle, Coolant, JobDocument, JobError, OperationSection,
     Scene, SheetSection,
@@ -432,6 +432,7 @@ fn expectation(
             passes_of(job, scene, tool, section)
         },
         forms: job.process.process.as_kind().forms() && scene.opposite.is_none(),
+        layers: layers_of(job, scene, tool, section),
     })
 }
 

@@ -10,9 +10,10 @@ pub mod forming;
 mod lattice;
 mod leads;
 mod linking;
-mod nearest;
 pub mod offset;
+mod ordering;
 mod pass;
+mod planes;
 mod region;
 mod seam;
 mod segment;
@@ -27,8 +28,9 @@ pub use linking::{
     join, link, link_with_arcs, AlongSurface, AtDepth, Entered, Heights, Lead, LinkRules, Links, OverClearance,
     Position, Rates, Run,
 };
-pub use nearest::ordered;
+pub use ordering::{ordered, shortly_ordered, Air, Freedom, Ordered};
 pub use pass::{Pass, PathPoint, Sense};
+pub use planes::Planes;
 pub use region::{Boundary, Inside, Region, GRAZES};
 pub use seam::Seam;
 pub use segment::{Curve, Pace, Segment};

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use styluscam_geometry::Vector;
 use styluscam_motion::{Cancelled, Move, Role, Watch};
 
-use crate::{fitting, fitting::Course, Arcs, Fitted, Pass, PathPoint, Segment, Surface};
+use crate::{fitting, fitting::Course, Arcs, Fitted, Pass, PathPoint, Planes, Segment, Surface};
 
 /// Heights of rapids from run to run, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -103,6 +103,8 @@ impl<P> LinkRules<P> for OverClearance {
 pub struct AlongSurface<'a> {
     /// The envelope, and what of it is selected.
     pub surface: &'a Surface<'a>,
+    /// Planes of layers: no link goes below the one under its ends.
+    pub planes: Option<Planes>,
     /// Longest distance in plan, mm.
     pub longest: f64,
     /// How far a chord may be from the envelope, mm.
@@ -118,7 +120,9 @@ impl LinkRules<PathPoint> for AlongSurface<'_> {
         if (to.tip - from.tip).xy().norm() > self.longest {
             return None;
         }
-        let run = along_selected(self.surface, &[*from, *to], self.deviation, self.narrow)?;
+        let floor = |planes: Planes| planes.under(from.tip.z.min(to.tip.z));
+        let surface = self.surface.above(self.planes.map_or(f64::NEG_INFINITY, floor));
+        let run = along_selected(&surface, &[*from, *to], self.deviation, self.narrow)?;
         Some(lines(&fitting::thinned(&run, self.deviation)[1..], self.feed))
     }
 }

@@ -22,6 +22,8 @@ pub struct Surface<'a> {
     /// By triangle; none: all of them, and the borders of the mesh.
     selected: Option<&'a [bool]>,
     heights: [f64; 2],
+    /// Height below which the tip does not follow the envelope, mm.
+    floor: f64,
     /// What counts of what rolls over the outer edges of the selection.
     rolling: Rolling,
     /// Where passes may run at all; none: everywhere.
@@ -44,6 +46,7 @@ impl<'a> Surface<'a> {
             envelope,
             selected: None,
             heights: EVERYWHERE,
+            floor: f64::NEG_INFINITY,
             rolling: Rolling::Stop,
             region: None,
             keeps_witnesses: false,
@@ -54,6 +57,12 @@ impl<'a> Surface<'a> {
     #[must_use]
     pub fn between_heights(&self, heights: [f64; 2]) -> Self {
         Self { heights, ..*self }
+    }
+
+    /// The same surface, of which what lies below a plane is on that instead: as high as a sheet is to stand for now.
+    #[must_use]
+    pub fn above(&self, floor: f64) -> Self {
+        Self { floor, ..*self }
     }
 
     /// The same surface, on which the tool also counts as touching what was selected while it rolls over edges of that: from
@@ -163,8 +172,7 @@ impl<'a> Surface<'a> {
     #[must_use]
     pub(crate) fn keeps_to(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
         let height = fitting::in_height(a, b, most);
-        self.envelope.dip([a.tip, b.tip], [a.triangle, b.triangle]) <= height
-            && self.envelope.keeps_under([a.tip, b.tip], height, |_| height) == Keeping::Under
+        self.dip(a, b) <= height && self.envelope.keeps_under([a.tip, b.tip], height, |_| height) == Keeping::Under
     }
 
     /// Whether exact positions between two may lie over the straight line by more than `most` mm: false where it is proven
@@ -185,18 +193,28 @@ impl<'a> Surface<'a> {
         a.selected
             && b.selected
             && self.region.is_none_or(|region| !region.may_end_between(self.envelope, a, b))
-            && self.envelope.dip([a.tip, b.tip], [a.triangle, b.triangle]) < height
+            && self.dip(a, b) < height
             && self.envelope.keeps_under([a.tip, b.tip], -height, limit) == Keeping::Under
     }
 
-    /// A contact over (x, y) as a path point.
+    /// How far positions between two may lie under the straight line, mm: no more than the floor does.
+    fn dip(&self, a: &PathPoint, b: &PathPoint) -> f64 {
+        let above_floor = a.tip.z.max(b.tip.z) - self.floor;
+        if a.tip.z <= self.floor || b.tip.z <= self.floor {
+            return above_floor.max(0.0); // what is touched under the floor shows nothing of the line
+        }
+        self.envelope.dip([a.tip, b.tip], [a.triangle, b.triangle]).min(above_floor)
+    }
+
+    /// A contact over (x, y) as a path point; on the floor where that is higher.
     #[must_use]
     pub fn path_point(&self, x: f64, y: f64, contact: &Contact) -> PathPoint {
         let tip = Vector::new(x, y, contact.tip);
         let is_on_faces = |selected: &[bool]| self.envelope.belongs(contact, selected, SPREAD, self.rolling);
+        let is_raised = tip.z < self.floor;
         PathPoint {
-            tip,
-            normal: contact.normal,
+            tip: Vector::new(x, y, tip.z.max(self.floor)),
+            normal: if is_raised { Vector::z() } else { contact.normal },
             selected: (self.heights[0]..=self.heights[1]).contains(&contact.tip)
                 && self.selected.is_none_or(is_on_faces)
                 && self.region.is_none_or(|region| region.allows(self.envelope, tip, contact.normal)),

@@ -18,6 +18,32 @@ use crate::tolerances::ROUGH;
 const CELL: f64 = 0.5;
 /// Cells along a side at most: those of a large part are larger, and forgive more.
 const CELLS: f64 = 128.0;
+/// The same where increments of layers are measured.
+const FINE_CELLS: f64 = 256.0;
+/// What a cell of these may be too low, as a share of the increment: the tool's profile rises by so much within its diagonal.
+const TOO_LOW: f64 = 0.05;
+
+/// How large the cells are.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cells {
+    /// Side, mm.
+    side: f64,
+    /// Along a side of the part, at most.
+    most: f64,
+}
+
+impl Cells {
+    /// For tools that are no narrower than `radius`, mm.
+    pub fn of(radius: f64) -> Self {
+        Self { side: CELL * radius, most: CELLS }
+    }
+
+    /// As fine as it takes to measure an increment of a tool, mm.
+    pub fn fine(self, tool: &Cutter, increment: f64) -> Self {
+        let (radius, _) = tool.at_height(TOO_LOW * increment);
+        Self { side: self.side.min(radius * std::f64::consts::SQRT_2), most: FINE_CELLS }
+    }
+}
 
 /// The sheet over the part, in square cells.
 pub(crate) struct Blank {
@@ -42,11 +68,11 @@ pub(crate) struct Blank {
 }
 
 impl Blank {
-    /// A flat sheet over `part`, its upper side at `top`, for tools that are no narrower than `radius`, mm.
-    pub fn new(part: &Mesh, top: f64, radius: f64, support: Support) -> Self {
+    /// A flat sheet over `part`, its upper side at `top`, mm.
+    pub fn new(part: &Mesh, top: f64, cells: Cells, support: Support) -> Self {
         let (low, high) = part.bounds();
         let [long, wide] = [high.x - low.x, high.y - low.y];
-        let cell = (CELL * radius).max(long.max(wide) / CELLS).max(f64::MIN_POSITIVE);
+        let cell = cells.side.max(long.max(wide) / cells.most).max(f64::MIN_POSITIVE);
         let counts = [long, wide].map(|length| (length / cell).ceil().max(1.0) as usize);
         let mut blank = Self {
             low: [low.x, low.y],
@@ -159,6 +185,27 @@ impl Blank {
             }
         }
         worst
+    }
+
+    /// By how much a tool, its tip at `tip`, would press it down where it does so most, mm, if that is more than `most`.
+    pub fn pressed_by(&mut self, [x, y, z]: [f64; 3], tool: &Cutter, most: f64) -> Option<f64> {
+        let reach = (tool.max_radius() / self.cell).ceil() as i64;
+        let [i, j] = self.cell_at([x, y]);
+        let mut worst = most;
+        for cell in (-reach..=reach).flat_map(|di| (-reach..=reach).map(move |dj| [i + di, j + dj])) {
+            let Some(at) = self.index(cell).filter(|at| self.part[*at] && self.pressed[*at] - z > worst) else {
+                continue;
+            };
+            let [from_x, from_y] = self.middle(cell);
+            let below = z + tool.quick_height_at_radius(libm::hypot(from_x - x, from_y - y));
+            if self.pressed[at] - below > worst {
+                if self.is_stale {
+                    self.hang();
+                }
+                worst = worst.max(self.hanging[at].min(self.pressed[at]) - below);
+            }
+        }
+        (worst > most).then_some(worst)
     }
 
     /// Lets it hang: from where it is held, each cell as high as the best path to it.
@@ -285,7 +332,7 @@ mod tests {
 
     #[test]
     fn inside_a_loop_the_sheet_hangs_as_low_as_the_loop() {
-        let (mut blank, ball) = (Blank::new(&plate(), 0.0, 2.0, Support::Rim), ball(4.0));
+        let (mut blank, ball) = (Blank::new(&plate(), 0.0, Cells::of(2.0), Support::Rim), ball(4.0));
         for i in 0..400 {
             let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(i) / 400.0);
             blank.press([8.0 * cos, 8.0 * sin, -1.0], &ball);
@@ -298,7 +345,7 @@ mod tests {
     #[test]
     fn over_a_die_it_stands_on_that_and_in_the_frame() {
         let hill = plate().placed(&styluscam_geometry::Frame::turning_up(-Vector::z(), 0.0));
-        let (mut blank, ball) = (Blank::new(&hill, 5.0, 2.0, Support::DieAndFrame), ball(4.0));
+        let (mut blank, ball) = (Blank::new(&hill, 5.0, Cells::of(2.0), Support::DieAndFrame), ball(4.0));
         assert_eq!(blank.hangs_at([0.0, 0.0]), 5.0);
         assert_eq!(blank.hangs_at([18.0, 18.0]), 5.0);
         for i in 0..400 {
@@ -314,7 +361,7 @@ mod tests {
 
     #[test]
     fn beside_half_a_loop_it_stands() {
-        let (mut blank, ball) = (Blank::new(&plate(), 0.0, 2.0, Support::Rim), ball(4.0));
+        let (mut blank, ball) = (Blank::new(&plate(), 0.0, Cells::of(2.0), Support::Rim), ball(4.0));
         for i in 0..200 {
             let (sin, cos) = libm::sincos(std::f64::consts::PI * f64::from(i) / 200.0);
             blank.press([8.0 * cos, 8.0 * sin, -1.0], &ball);

@@ -51,6 +51,8 @@ pub struct Expectation {
     pub passes: Passes,
     /// Whether it forms a sheet, and deeper at once than a step is a punch.
     pub forms: bool,
+    /// Layers in which it forms it; none where its passes are in none.
+    pub layers: Option<Layers>,
 }
 
 /// What lateral feeds owe the part.
@@ -74,6 +76,23 @@ pub enum Passes {
         /// Why they are not checked, as half a sentence.
         reason: &'static str,
     },
+}
+
+/// Layers in which passes that are not themselves one below the other press a sheet down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Layers {
+    /// Height of the tip on the sheet before the first one, mm.
+    pub top: f64,
+    /// From one plane to the next, mm, and the most that a pass may press the sheet below where it stands.
+    pub increment: f64,
+}
+
+impl Layers {
+    /// How far a tip is from the nearest plane, mm.
+    pub(crate) fn off_plane(&self, height: f64) -> f64 {
+        let number = ((self.top - height) / self.increment).round().max(1.0);
+        (self.top - number * self.increment - height).abs()
+    }
 }
 
 /// Passes that lie some distance apart.

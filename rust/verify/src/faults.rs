@@ -325,7 +325,16 @@ pub(crate) static PUNCH: FaultKind = FaultKind::on_part(
         let (value, limit) = (fault.value(), fault.limit());
         format!("the tool goes down to Z{value:.3}, and the sheet stands at Z{limit:.3} there: it punches through")
     },
-    "form level by level from the top down, and finish with rows after that; or accept = [\"punch\"]",
+    "form level by level from the top down, and finish with rows after that; or state max_increment for rows in layers; or \
+     accept = [\"punch\"]",
+);
+pub(crate) static INCREMENT: FaultKind = FaultKind::on_part(
+    FindingKind::Increment,
+    |fault| {
+        let (value, limit) = (fault.value(), fault.limit());
+        format!("this pass presses the sheet {value:.3} mm down at once, and max_increment is {limit:.3} mm")
+    },
+    "post the whole operation: a layer is missing or too deep; or raise max_increment",
 );
 pub(crate) static FORMING_ORDER: FaultKind = FaultKind::in_text(
     FindingKind::FormingOrder,

@@ -69,6 +69,8 @@ pub enum FindingKind {
     AxialForce,
     /// The tool goes deeper than a step below all that is formed so far.
     Punch,
+    /// A pass presses the sheet farther down than `max_increment`.
+    Increment,
     /// The tool bridges faces by more than it may: it is less curved than they are.
     Bridged,
     /// The tool reaches less of the faces than it should.
@@ -188,6 +190,7 @@ const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
         (Kind::ClampOpening, "part larger than the clamp frame"),
         (Kind::AxialForce, "axial force above the limit"),
         (Kind::Punch, "punch through the sheet"),
+        (Kind::Increment, "increment into the sheet"),
         (Kind::Bridged, "bridged faces"),
         (Kind::Unreached, "unreached faces"),
         (Kind::SheetThickness, "sheet thickness differs from the model"),

@@ -15,6 +15,7 @@ use crate::coverage::{Sweep, Sweeps};
 use crate::expectation::{Expectation, OrderedPasses};
 use crate::faults::{self, Fault, FaultKind};
 use crate::findings::FindingKind;
+use crate::in_layers;
 use crate::probes::{self, Probe};
 use crate::scalar::{PassKind, Scalar};
 use crate::scallop::Ridges;
@@ -79,6 +80,9 @@ const TOUCHING: usize = 2000;
 /// Passes that are more steps apart are no oversight in a few positions: the program is not the job's. Empirical.
 const MANY: f64 = 3.0;
 
+/// Where so much of an increment is left, a row of the last layer is missing, and no strip between rows.
+const OF_LAYER: f64 = 0.5;
+
 /// Faults in the order of the moves that lie beside the missing passes.
 pub(crate) fn faults(
     segments: &[Segment],
@@ -99,14 +103,19 @@ pub(crate) fn faults(
                 && assignment.is(segment.operation, operation)
                 && may_be_of(passes, expectation, segment)
         };
-        let contacts: Vec<&Segment> = segments.iter().filter(is_own).collect();
-        if contacts.is_empty() || !expectation.selected.contains(&true) {
+        let rows: Vec<&Segment> = segments.iter().filter(is_own).collect();
+        let Some(tool) = subject.tools.get(operation.tool) else { continue };
+        if rows.is_empty() || !expectation.selected.contains(&true) {
             continue;
         }
+        let body = Body::new(tool, subject.sheet.as_ref());
+        let touching = expectation.layers.map(|layers| in_layers::touching(&rows, &layers, (&body, subject, limits)));
+        let contacts = touching.as_ref().map_or_else(|| rows.clone(), |touching| touching.iter().collect());
         let sweeps = Sweeps::of(&contacts, subject);
         let Some(body) = sweeps.body(operation.tool) else { continue };
         let selected = expectation.triangles();
-        let look = Look { subject, limits, expectation, passes, selected: &selected, body, contacts: &contacts };
+        let look =
+            Look { subject, limits, expectation, passes, selected: &selected, body, rows: &rows, contacts: &contacts };
         let left = look.left(&sweeps, watch)?;
         let on_passes = look.left_on_passes(&sweeps, watch)?;
         let ridges = Ridges { subject, operation, passes, body, sweeps: &sweeps, contacts: &contacts };
@@ -137,7 +146,9 @@ struct Look<'a> {
     /// The triangles that its passes are for.
     selected: &'a [usize],
     body: &'a Body,
-    /// The operation's moves that should touch.
+    /// The operation's moves along its passes.
+    rows: &'a [&'a Segment],
+    /// Those that should touch.
     contacts: &'a [&'a Segment],
 }
 
@@ -223,7 +234,7 @@ impl Look<'_> {
     /// Positions that the passes should touch, and do not.
     fn left_on_passes(&self, sweeps: &Sweeps, watch: &Watch) -> Result<Vec<Fault>, Cancelled> {
         let mesh = self.subject.mesh;
-        let probes = contact_lines::spread(mesh, self.selected, self.body, self.passes, self.contacts, POINTS);
+        let probes = contact_lines::spread(mesh, self.selected, self.body, self.passes, self.rows, POINTS);
         let faults = of_all(&probes, watch, |probe, last| {
             let spot = self.spot(probe)?;
             let allowed = ON_PASS + self.tolerated();
@@ -385,7 +396,10 @@ impl Look<'_> {
     /// The fault of a position at which more is left than allowed; it belongs to the move beside it.
     fn missing_pass(&self, spot: &Spot, beside: Option<&(usize, Sweep)>, left: f64, allowed: f64) -> Option<Fault> {
         let beside = self.contacts[beside?.1.segment].fault(&faults::MISSING_PASS);
-        Some(Fault { position: spot.tip, ..beside }.measured(left, allowed).warning())
+        let fault = Fault { position: spot.tip, ..beside }.measured(left, allowed);
+        let layers = self.expectation.layers;
+        // a layer that is missing leaves more than a pass does
+        Some(if layers.is_some_and(|layers| left > OF_LAYER * layers.increment) { fault } else { fault.warning() })
     }
 
     /// How far off the part a move may be, mm.

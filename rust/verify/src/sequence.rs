@@ -7,11 +7,13 @@ use styluscam_geometry::{Cutter, Tool};
 use styluscam_motion::Program;
 
 use crate::assignment::Assignment;
-use crate::blank::Blank;
+use crate::blank::{Blank, Cells};
+use crate::expectation::Layers;
 use crate::faults::{self, Fault};
 use crate::frame::Frame;
 use crate::level_moves::{at_cut, level_moves, LOWER};
 use crate::low_links;
+use crate::rows::Row;
 use crate::segments::{Segment, SegmentKind};
 use crate::subject::{Limits, Subject};
 use crate::tolerances::{ROUGH, WIDE};
@@ -20,13 +22,17 @@ use crate::tolerances::{ROUGH, WIDE};
 /// thickness, and 41 degrees are a wall angle that every sheet withstands.
 const WRAPPED: f64 = 0.75;
 
+/// Distance of positions in layers, as a share of a cell: the sheet stands too high between them by the square of half of it over
+/// the tool's diameter, hundredths of what a cell may be too low.
+const FINE: f64 = 0.25;
+
 /// Positions of a move that are looked at, at most.
 const MOST_PLACES: f64 = 10_000.0;
 
 /// Moves that go deeper than they may below the sheet as it stands around them.
 ///
 /// Levels may go a step deeper than what hangs there. Rows form nothing that is deeper than a dent: they finish what the
-/// operations before them have formed. A fall at the path's own feed is a part of a pass over a wall, and worth a warning.
+/// operations before them have formed. Rows in layers may go an increment deeper than the sheet stood before the row. A fall at the path's own feed is a part of a pass over a wall, and worth a warning.
 pub(crate) fn punches(
     program: &Program,
     segments: &[Segment],
@@ -41,8 +47,11 @@ pub(crate) fn punches(
     };
     let tools: Vec<Cutter> = subject.tools.iter().map(Tool::cutter).collect();
     let narrowest = tools.iter().map(|tool| tool.max_radius()).fold(f64::INFINITY, f64::min);
-    let mut blank = Blank::new(subject.mesh, forming.top, narrowest, forming.support);
+    let layered = subject.expected.iter().filter_map(|order| Some((tools.get(order.tool)?, order.expectation.layers?)));
+    let cells = layered.fold(Cells::of(narrowest), |cells, (tool, layers)| cells.fine(tool, layers.increment));
+    let mut blank = Blank::new(subject.mesh, forming.top, cells, forming.support);
     let mut rows = Vec::new();
+    let mut row = Row::default();
     let mut operation = None;
     let mut faults = Vec::new();
     for segment in segments.iter().filter(|segment| !matches!(segment.kind, SegmentKind::Retract | SegmentKind::Still))
@@ -51,7 +60,13 @@ pub(crate) fn punches(
         let Some(tool) = tools.get(order.tool) else { continue };
         let passes = order.expectation.descending();
         if operation.replace(segment.operation) != Some(segment.operation) {
-            rows.drain(..).for_each(|(tip, tool)| blank.press(tip, tool));
+            press_all(&mut blank, &mut rows);
+            row = Row::default();
+        }
+        let layers = order.expectation.layers;
+        let is_other = segment.kind == SegmentKind::Rapid || row.changes(&order.expectation, segment);
+        if layers.is_some() && is_other {
+            press_all(&mut blank, &mut rows);
         }
         if let Some([before, _]) = frame.map(|frame| frame.at(segment.index)) {
             blank.hold_at(before);
@@ -61,12 +76,17 @@ pub(crate) fn punches(
             continue;
         }
         let dent = dent(tool, forming.thickness) + ROUGH;
-        let positions = positions(segment, blank.cell());
+        let pitch = if layers.is_some() { FINE * blank.cell() } else { blank.cell() };
+        let positions = positions(segment, pitch);
+        if let Some(layers) = layers {
+            faults.extend(increment(&mut blank, segment, (&positions, tool), &layers, limits));
+        }
         let deepest = positions
             .iter()
             .filter_map(|tip| {
                 // whatever step the job states, no sheet wraps the tool up to where it is widest in one go
                 let step = passes.map(|passes| passes.step_at(*tip).min(tool.max_radius() / WIDE));
+                let dent = if layers.is_some() { tool.max_radius() + ROUGH } else { dent };
                 punch(&mut blank, *tip, step, dent)
             })
             .max_by(|a, b| a.depth().total_cmp(&b.depth()));
@@ -82,6 +102,30 @@ pub(crate) fn punches(
         }
     }
     faults
+}
+
+/// Presses the sheet down to where tools were.
+fn press_all(blank: &mut Blank, rows: &mut Vec<([f64; 3], &Cutter)>) {
+    rows.drain(..).for_each(|(tip, tool)| blank.press(tip, tool));
+}
+
+/// A move that presses the sheet farther down than an increment of layers, anywhere under the tool.
+fn increment(
+    blank: &mut Blank,
+    segment: &Segment,
+    (positions, tool): (&[[f64; 3]], &Cutter),
+    layers: &Layers,
+    limits: &Limits,
+) -> Option<Fault> {
+    let mut most = layers.increment + limits.excess_of(segment.operation).unwrap_or(0.0) + ROUGH;
+    let mut worst = None;
+    for tip in positions {
+        if let Some(by) = blank.pressed_by(*tip, tool, most) {
+            (most, worst) = (by, Some(*tip));
+        }
+    }
+    let position = worst?;
+    Some(Fault { position, ..segment.fault(&faults::INCREMENT) }.measured(most, layers.increment))
 }
 
 /// A low rapid, which has to keep a margin above the sheet as it stands, mm.

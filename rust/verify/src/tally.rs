@@ -60,6 +60,8 @@ pub(crate) struct Tally {
     pub contacts: usize,
     /// How many of them do.
     touching: usize,
+    /// Samples of moves in planes of layers that touch nothing.
+    in_layers: usize,
     /// Some of them, spread evenly.
     pub kept: Vec<Kept>,
 }
@@ -74,11 +76,12 @@ impl Tally {
         self.samples += next.samples;
         self.contacts += next.contacts;
         self.touching += next.touching;
+        self.in_layers += next.in_layers;
         self.kept.extend(next.kept);
     }
 
     pub fn nothing_touches(&self) -> bool {
-        self.touching == 0 && self.contacts > 0
+        self.touching == 0 && self.contacts + self.in_layers > 0
     }
 
     /// The share of contacts that touch.
@@ -165,14 +168,22 @@ impl<'a> Rule<'a> {
 
     /// A move that should touch, within `limit` mm. Its middle and its end are counted: its start is the end of another.
     fn contact(&self, tally: &mut Tally, segment: &Segment, found: &Measured, limit: f64, kept: bool) {
-        if let Some(sample) = highest(&found.contacts) {
+        let layers = segment.expected.and_then(|number| self.subject.expected.get(number)?.expectation.layers);
+        // in the plane of a layer the sheet itself is what is touched
+        let is_in_layer = |sample: &Sample| {
+            self.distance(sample) > limit + SLACK
+                && layers.is_some_and(|layers| layers.off_plane(sample.tip[2]) <= limit + SLACK)
+        };
+        let owed = found.contacts.map(|sample| sample.filter(|sample| !is_in_layer(sample)));
+        tally.in_layers += found.contacts[1..].iter().flatten().filter(|sample| is_in_layer(sample)).count();
+        if let Some(sample) = highest(&owed) {
             let excess = self.distance(&sample);
             tally.excess.take(excess, place(segment, &sample));
             if excess > limit + SLACK {
                 tally.faults.push(fault(&faults::EXCESS, segment, &sample, (excess, limit), excess));
             }
         }
-        for sample in found.contacts[1..].iter().flatten() {
+        for sample in owed[1..].iter().flatten() {
             let shallow = self.depth(sample) <= self.limits.gouge + SLACK;
             let touches = shallow && self.distance(sample) <= limit + SLACK;
             tally.contacts += 1;

@@ -76,6 +76,7 @@ fn judged(program: &Program, stated: &[FrameLevel], obstacles: &[Obstacle]) -> R
         heights: [-30.0, 30.0],
         passes: Passes::Ordered(passes),
         forms: true,
+        layers: None,
     };
     let id = "walls".to_owned();
     let expected = [ExpectedOperation {

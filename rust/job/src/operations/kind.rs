@@ -3,7 +3,7 @@
 use serde::Serialize;
 use styluscam_geometry::ToolBody;
 use styluscam_motion::Move;
-use styluscam_verify::{Contact, Passes};
+use styluscam_verify::{Contact, Layers, Passes};
 
 use super::{Areas, Context, Effort, Fact, SurfaceFacts};
 use crate::numbers::shown;
@@ -31,6 +31,11 @@ pub trait OperationKind {
         common.feeds.cut
     }
 
+    /// Whether it goes on higher up after a part of the sheet is finished.
+    fn comes_back_up(&self) -> bool {
+        false
+    }
+
     /// Whether its path is for a part that the spindle turns.
     fn turns_part(&self) -> bool {
         false
@@ -41,6 +46,16 @@ pub trait OperationKind {
 
     /// How its passes lie, for the verifier.
     fn passes(&self, given: &PassContext<'_>) -> Passes;
+
+    /// Whether its passes form a sheet in layers.
+    fn forms_in_layers(&self) -> bool {
+        false
+    }
+
+    /// Layers in which its passes form a sheet, for the verifier; none where they are in none.
+    fn layers(&self, _given: &PassContext<'_>) -> Option<Layers> {
+        None
+    }
 
     /// How far its passes lie apart, where they lie in step.
     fn spacing(&self) -> Option<PassSpacing>;

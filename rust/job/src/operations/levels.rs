@@ -61,7 +61,7 @@ pub fn trace(keys: &LevelKeys<'_>, task: &Task<'_>, surface: &Surface<'_>) -> Re
     if passes.is_empty() {
         return Err(PlanError::Empty { top, bottom: bottom.max(lowest) });
     }
-    Ok(Traced { passes, smallest_feature: grid.smallest_feature() })
+    Ok(Traced::new(passes, grid.smallest_feature()))
 }
 
 /// The distances between levels.

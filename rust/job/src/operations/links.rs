@@ -51,6 +51,17 @@ pub fn linked(
     Ok((moves, facts))
 }
 
+/// About how high rapids of an operation cross, mm.
+pub fn crossing_height(context: &Context<'_>) -> f64 {
+    let Context { machine, common, scene, .. } = *context;
+    match common.links {
+        LinkHeight::Low if machine.motion.rapids != Rapids::DogLeg => {
+            (scene.top + common.link_margin).min(scene.clearance)
+        }
+        LinkHeight::Low | LinkHeight::Clearance => scene.clearance,
+    }
+}
+
 /// Leads touch nothing, which a remark has to state.
 fn no_leads(machine: &str) -> Fact {
     let words = format!("no leads, for texts of {machine} have no remarks that state them");

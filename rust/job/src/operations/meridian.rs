@@ -246,7 +246,7 @@ impl FollowsSurface for Meridian {
         if passes.is_empty() {
             return Err(PlanError::NothingReached(task.why_nothing()));
         }
-        Ok(Traced { passes, smallest_feature: context.common.smallest_feature })
+        Ok(Traced::new(passes, context.common.smallest_feature))
     }
 
     /// A turn where a path begins beside the axis, and where it ends: else the spiral's first and last turn are formed on one side.

@@ -6,9 +6,10 @@ use styluscam_motion::{Move, SpindleDirection};
 use styluscam_post::machine::CommentForm;
 use styluscam_toolpath::{
     budget::Budget,
-    forming::{ramped, turned, Ramp, Turn, Turned, Turns},
+    forming::{ramped, turned, Layer, Ramp, Turn, Turned, Turns},
     offset::{Envelope, Rolling},
-    ordered, AlongSurface, Entered, Heights, Links, Pass, PlanError, Rates, Seam, Sense, Surface,
+    shortly_ordered, Air, AlongSurface, Entered, Freedom, Heights, Links, Ordered, Pass, PlanError, Planes, Rates,
+    Seam, Sense, Surface,
 };
 
 use super::{budget, facts::counted, fit, links};
@@ -50,6 +51,11 @@ pub trait FollowsSurface: OperationKind + Sync {
         sense(common, self.has_material_on_right())
     }
 
+    /// What of the order of its passes is free.
+    fn freedom<'a>(&self, _task: &Task<'_>, _traced: &'a Traced) -> Freedom<'a> {
+        Freedom::WithinGroups
+    }
+
     /// Where its loops begin.
     fn seam(&self) -> Seam {
         Seam::Nearest
@@ -57,6 +63,11 @@ pub trait FollowsSurface: OperationKind + Sync {
 
     /// Height over length of the ramps from level to level; none where the tool goes straight down the wall.
     fn ramp_slope(&self) -> Option<f64> {
+        None
+    }
+
+    /// Planes on which the sheet stands from layer to layer; none where it is not formed in layers.
+    fn planes(&self, _context: &Context<'_>) -> Option<Planes> {
         None
     }
 
@@ -116,6 +127,37 @@ pub struct Traced {
     pub passes: Vec<Pass>,
     /// Smallest disc that a loop must hold to be sure of being found, mm.
     pub smallest_feature: f64,
+    /// Of rows: the numbers of the first groups of all sets, each of which covers the faces.
+    pub sets: Vec<usize>,
+    /// Layers of them, in their order: of each the height of its plane, mm, and how many of the passes are its own. The passes
+    /// after these are in none.
+    pub layers: Vec<(f64, usize)>,
+}
+
+impl Traced {
+    /// Passes that are in no layers.
+    pub fn new(passes: Vec<Pass>, smallest_feature: f64) -> Self {
+        Self { passes, smallest_feature, layers: Vec::new(), sets: Vec::new() }
+    }
+
+    /// Passes in layers, and others after them.
+    pub fn in_layers(layers: Vec<Layer>, after: Vec<Pass>, smallest_feature: f64) -> Self {
+        let counts = layers.iter().map(|layer| (layer.floor, layer.passes.len())).collect();
+        let passes = layers.into_iter().flat_map(|layer| layer.passes).chain(after).collect();
+        Self { passes, smallest_feature, layers: counts, sets: Vec::new() }
+    }
+
+    /// The passes layer by layer, each with the height of its plane; those after them with none, which is minus infinity.
+    fn by_layer(&self) -> impl Iterator<Item = (f64, &[Pass])> {
+        let mut rest = &self.passes[..];
+        let after = (f64::NEG_INFINITY, self.passes.len());
+        let layers = self.layers.iter().copied().chain([after]).map(move |(floor, count)| {
+            let (passes, after) = rest.split_at(count.min(rest.len()));
+            rest = after;
+            (floor, passes)
+        });
+        layers.filter(|(_, passes)| !passes.is_empty())
+    }
 }
 
 /// What passes are traced with.
@@ -153,9 +195,10 @@ impl Task<'_> {
     }
 
     /// Neighbouring passes are linked along the surface.
-    fn along<'s>(&self, surface: &'s Surface<'s>, pitch: f64) -> AlongSurface<'s> {
+    fn along<'s>(&self, surface: &'s Surface<'s>, planes: Option<Planes>, pitch: f64) -> AlongSurface<'s> {
         AlongSurface {
             surface,
+            planes,
             longest: LINKED_ALONG * pitch,
             deviation: self.budget.deviation,
             narrow: self.narrow(),
@@ -247,27 +290,77 @@ fn linked(
     surface: &Surface<'_>,
     traced: &Traced,
 ) -> Result<(Vec<Move>, Vec<Fact>), JobError> {
+    let context = task.context;
+    let deviation = task.budget.deviation;
+    let along = task.along(surface, kind.planes(context), kind.pitch(task.body));
+    let (mut entered, mut turns, mut between) = (Vec::with_capacity(traced.passes.len()), None, [0.0; 2]);
+    for (number, (floor, passes)) in traced.by_layer().enumerate() {
+        let layer = (number, passes);
+        let followed = entered_at(kind, (task, traced), &surface.above(floor), &along, layer)?;
+        entered.extend(followed.entered);
+        turns = Turned::sum(turns, followed.turns);
+        between = [0, 1].map(|i| between[i] + followed.between[i]);
+    }
+    let mut facts = turns.map_or_else(Vec::new, turn_facts);
+    let (moves, linked) = links::linked(context, (&*entered, deviation), along, &task.links())?;
+    facts.extend(order_fact(between).into_iter().chain(linked));
+    Ok((moves, facts))
+}
+
+/// Passes in their order.
+struct Followed {
+    /// With what leads to each.
+    entered: Vec<Entered>,
+    /// How many turns there are, if any are asked for.
+    turns: Option<Turned>,
+    /// What the tool travels between them, mm: with the nearest next, and so.
+    between: [f64; 2],
+}
+
+/// The passes of a layer, by its number, in their order.
+fn entered_at(
+    kind: &impl FollowsSurface,
+    (task, traced): (&Task<'_>, &Traced),
+    surface: &Surface<'_>,
+    along: &AlongSurface<'_>,
+    (number, passes): (usize, &[Pass]),
+) -> Result<Followed, JobError> {
     let (context, watch) = (task.context, task.context.watch);
     let sense = kind.sense(context.common);
-    let passes = ordered(&traced.passes, sense, kind.seam(), watch)?;
     let deviation = task.budget.deviation;
-    let along = task.along(surface, kind.pitch(task.body));
-    let (entered, mut facts) = match (kind.ramp_slope(), kind.turn()) {
+    let backwards = (number % 2 == 1 && sense == Sense::Alternate).then(|| backwards(passes));
+    // every other layer begins where the layer before ends
+    let passes = backwards.as_deref().unwrap_or(passes);
+    let freedom = kind.freedom(task, traced);
+    let air = Air { height: links::crossing_height(context), along: along.longest };
+    let Ordered { passes, between } = shortly_ordered(passes, (sense, kind.seam()), freedom, &air, watch)?;
+    let (entered, turns) = match (kind.ramp_slope(), kind.turn()) {
         (Some(slope), _) => {
             let ramp = Ramp { slope, sense, deviation, longest: context.node_spacing() };
-            (ramped(surface, passes, &ramp, watch)?, Vec::new())
+            (ramped(surface, passes, &ramp, watch)?, None)
         }
         (None, Some(turn)) => {
             let may_leave = context.machine.comment.form != CommentForm::None; // a remark states that they are links
             let rule = Turns { turn, longest: along.longest, deviation, narrow: along.narrow, may_leave };
             let (entered, counts) = turned(surface, passes, &rule, watch)?;
-            (entered, turn_facts(counts))
+            (entered, Some(counts))
         }
-        (None, None) => (passes.into_iter().map(Entered::from).collect(), Vec::new()),
+        (None, None) => (passes.into_iter().map(Entered::from).collect(), None),
     };
-    let (moves, linked) = links::linked(context, (&*entered, deviation), along, &task.links())?;
-    facts.extend(linked);
-    Ok((moves, facts))
+    Ok(Followed { entered, turns, between })
+}
+
+/// Rows from the last to the first.
+fn backwards(passes: &[Pass]) -> Vec<Pass> {
+    let mut rows: Vec<&[Pass]> = passes.chunk_by(|a, b| a.group == b.group).collect();
+    rows.reverse();
+    rows.concat()
+}
+
+/// By how much another order than the nearest pass next shortens what the tool travels between passes, if it does.
+fn order_fact([nearest, between]: [f64; 2]) -> Option<Fact> {
+    let words = format!("{between:.1} mm between passes, in this order; {nearest:.1} mm with the nearest pass next");
+    (between < nearest).then_some(Fact { fact: "between_passes", value: between, unit: "mm", words })
 }
 
 /// How many turns are as asked for, and between how many rows there is none.
@@ -298,8 +391,10 @@ fn undercut(scene: &Scene, faces: &[u32]) -> Vec<(u32, f64)> {
     faces.iter().filter_map(|face| Some((*face, area(face)?))).collect()
 }
 
+/// Levels or rows: those of layers are the same in each.
 fn count_groups(passes: &[Pass]) -> usize {
     let mut groups: Vec<usize> = passes.iter().map(|p| p.group).collect();
+    groups.sort_unstable();
     groups.dedup();
     groups.len()
 }

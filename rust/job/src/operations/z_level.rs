@@ -5,7 +5,7 @@ use std::sync::Arc;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use styluscam_geometry::ToolBody;
-use styluscam_toolpath::{PlanError, Seam, Surface};
+use styluscam_toolpath::{Freedom, PlanError, Seam, Surface};
 use styluscam_verify::{Contact, Height, OrderedPasses, Passes};
 
 use super::facts::counted;
@@ -42,10 +42,24 @@ pub struct ZLevel {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "deg", "minimum" = -360.0, "maximum" = 360.0))]
     pub seam_spread_deg: Option<f64>,
+    /// In which order loops of several areas are run: areas are apart by more than the tool's diameter. When left out by level
+    /// in forming, else by area.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub order: Option<LevelOrder>,
     /// Angle of ramps along the wall from level to level, degrees: they leave no line of steps; straight down when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "deg", "minimum" = 0.1, "maximum" = 45.0))]
     pub ramp_angle_deg: Option<f64>,
+}
+
+/// Which loops come first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum LevelOrder {
+    /// All of a level before the next one: a sheet is formed evenly.
+    ByLevel,
+    /// Each area from the top down before the next one, where that is less air.
+    ByArea,
 }
 
 impl ZLevel {
@@ -69,6 +83,10 @@ impl OperationKind for ZLevel {
 
     fn cuts_upright_walls(&self) -> bool {
         true
+    }
+
+    fn comes_back_up(&self) -> bool {
+        self.order == Some(LevelOrder::ByArea)
     }
 
     fn plan(&self, context: &Context<'_>) -> Result<Planned, JobError> {
@@ -120,6 +138,18 @@ impl FollowsSurface for ZLevel {
             (None, None) => Seam::Nearest,
             (first, spread) => {
                 Seam::Bearing { first: first.unwrap_or(0.0).to_radians(), spread: spread.unwrap_or(0.0).to_radians() }
+            }
+        }
+    }
+
+    fn freedom<'a>(&self, task: &Task<'_>, _traced: &'a Traced) -> Freedom<'a> {
+        let Context { scene, tool, .. } = *task.context;
+        let default = if scene.sheet.is_some() { LevelOrder::ByLevel } else { LevelOrder::ByArea };
+        match self.order.unwrap_or(default) {
+            LevelOrder::ByLevel => Freedom::WithinGroups,
+            LevelOrder::ByArea => {
+                let thickness = scene.sheet.map_or(0.0, |sheet| sheet.thickness);
+                Freedom::OfAreas { reach: tool.diameter() + 2.0 * thickness, inside_first: scene.sheet.is_some() }
             }
         }
     }

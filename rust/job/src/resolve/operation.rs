@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use styluscam_geometry::Tool;
-use styluscam_verify::{OrderedPasses, Passes};
+use styluscam_verify::{Layers, OrderedPasses, Passes};
 
 use crate::faces::{chosen, FaceView, Look};
 use crate::heights::TipHeights;
@@ -51,7 +51,22 @@ pub fn faces_in(
 
 /// How the passes of an operation lie that a tool makes.
 pub fn passes_of(job: &JobDocument, scene: &Scene, tool: &Tool, section: &OperationSection) -> Passes {
-    section.kind().passes(&PassContext {
+    with_passes(job, scene, tool, section, |given| section.kind().passes(given))
+}
+
+/// The layers in which they form a sheet, if any.
+pub fn layers_of(job: &JobDocument, scene: &Scene, tool: &Tool, section: &OperationSection) -> Option<Layers> {
+    with_passes(job, scene, tool, section, |given| section.kind().layers(given))
+}
+
+fn with_passes<T>(
+    job: &JobDocument,
+    scene: &Scene,
+    tool: &Tool,
+    section: &OperationSection,
+    asked: impl FnOnce(&PassContext<'_>) -> T,
+) -> T {
+    asked(&PassContext {
         smallest_feature: section.common.smallest_feature,
         top: heights_of(job, scene, section).top.unwrap_or(scene.top),
         body: &tool.body(scene.sheet.as_ref()),

@@ -7,7 +7,7 @@
 //! Derived in docs/concepts/spirals.md.
 
 use super::{level_curve::LevelCurve, stitch, stitch::Beside};
-use crate::{fitting, nearest, Pass, PathPoint, Surface};
+use crate::{fitting, ordering, Pass, PathPoint, Surface};
 
 /// The line between two points is looked at this far beyond both, mm: on upright walls they lie over each other.
 const BEYOND: f64 = 0.02;
@@ -85,7 +85,7 @@ impl Descent<'_> {
 /// far apart.
 fn facing(above: &Level, below: &Pass) -> Option<(Level, Vec<[usize; 2]>)> {
     let mut points = below.points.clone();
-    nearest::begin_nearest(&mut points, above.points.first()?.tip);
+    ordering::begin_nearest(&mut points, above.points.first()?.tip);
     let pairs = stitch::pairs(&above.points, &points);
     let beside = stitch::beside(&pairs, [&above.points, &points]);
     let turned: Vec<[usize; 2]> = pairs.iter().map(|[i, j]| [*j, *i]).collect();

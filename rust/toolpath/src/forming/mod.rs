@@ -8,6 +8,7 @@ mod extra_rows;
 mod floors;
 mod gaps;
 mod grid;
+mod layers;
 mod left_out;
 mod level_curve;
 mod levels;
@@ -39,6 +40,7 @@ mod zig_zag;
 
 pub use floors::Floors;
 pub use grid::Grid;
+pub use layers::{layers, Layer};
 pub use left_out::left_out;
 pub use levels::{levels, raise_last, with_levels_at, LevelRange};
 pub use line::over_line;

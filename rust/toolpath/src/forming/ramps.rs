@@ -7,7 +7,7 @@
 use styluscam_motion::{Cancelled, Role, Watch};
 
 use super::{descent::Descent, nesting};
-use crate::{nearest, seam, Entered, Pass, PathPoint, Sense, Surface};
+use crate::{ordering, seam, Entered, Pass, PathPoint, Sense, Surface};
 
 /// How ramps go down.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,22 +37,32 @@ pub fn ramped(
     let followers = nesting::followers(&outlines);
     let descent = Descent { surface, deviation: ramp.deviation, longest: ramp.longest, is_turned: false };
     let mut entered: Vec<Entered> = Vec::with_capacity(ordered.len());
-    let mut levels: usize = 0;
+    let levels = levels(&ordered);
+    let level = |group: usize| levels.partition_point(|level| *level < group);
     for (number, (pass, outline)) in ordered.into_iter().zip(&outlines).enumerate() {
         watch.advance(0)?;
-        let last = entered.last().map(|last| last.pass.group);
-        levels += usize::from(last.is_some_and(|last| last != pass.group));
-        let descent = Descent { is_turned: ramp.sense.turns(levels), ..descent };
+        let descent = Descent { is_turned: ramp.sense.turns(level(pass.group)), ..descent };
         let before = number.checked_sub(1).filter(|before| followers[*before] == Some(number));
         let above = before.and_then(|before| entered.get(before));
         let mut above = above.map(|above| surface.chords(&above.pass.points, ramp.deviation).into_owned());
-        if let (Some(above), true) = (&mut above, levels > 0 && ramp.sense.turns(levels - 1) != descent.is_turned) {
+        let is_turned_above = before.and_then(|before| entered.get(before)).map(|above| level(above.pass.group));
+        if let (Some(above), true) =
+            (&mut above, is_turned_above.is_some_and(|above| ramp.sense.turns(above) != descent.is_turned))
+        {
             above.reverse(); // as its own follower runs
         }
         let found = above.and_then(|above| to_loop(&descent, above, [&pass, outline], ramp.slope));
         entered.push(found.unwrap_or_else(|| Entered::from(begun_beside(entered.last(), pass))));
     }
     Ok(entered)
+}
+
+/// The numbers of all groups, ascending.
+fn levels(passes: &[Pass]) -> Vec<usize> {
+    let mut levels: Vec<usize> = passes.iter().map(|pass| pass.group).collect();
+    levels.sort_unstable();
+    levels.dedup();
+    levels
 }
 
 /// A pass; a loop after one whose end a ramp has moved begins beside that end.
@@ -70,7 +80,7 @@ fn to_loop(descent: &Descent<'_>, above: Vec<PathPoint>, [pass, outline]: [&Pass
     let share = fall / slope / length(&above);
     let ramp = descent.ramp(above, outline, share)?;
     let mut points = pass.points.clone();
-    nearest::begin_nearest(&mut points, ramp.last()?.tip);
+    ordering::begin_nearest(&mut points, ramp.last()?.tip);
     Some(Entered { pass: Pass { points, ..*pass }, ramp, role: Some(Role::Ramp) })
 }
 

@@ -7,7 +7,7 @@ use styluscam_motion::Watch;
 
 use super::descent::{Descent, Level};
 use super::nesting;
-use crate::{nearest, Pass, PlanError, Surface};
+use crate::{ordering, Pass, PlanError, Surface};
 
 /// Loops of levels, in the order of their groups, joined to spirals: a loop at the first height, one descent, a loop at the last.
 /// Where a loop parts, ends, or cannot be followed down to the next level, its spiral ends; open passes stay as they are.
@@ -73,7 +73,7 @@ fn close(found: &mut [Pass], last: Option<&(Level, &Pass)>) {
     if let (Some(spiral), Some((_, pass))) = (found.last_mut(), last) {
         if let (true, Some(end)) = (spiral.descends(), spiral.points.last()) {
             let mut points = pass.points.clone();
-            nearest::begin_nearest(&mut points, end.tip);
+            ordering::begin_nearest(&mut points, end.tip);
             spiral.points.extend_from_slice(&points[1..]);
             spiral.closed = false;
         }

@@ -60,6 +60,20 @@ pub struct Turned {
     pub apart: usize,
 }
 
+impl Turned {
+    /// Those of two sets of rows together.
+    #[must_use]
+    pub fn sum(a: Option<Self>, b: Option<Self>) -> Option<Self> {
+        let (Some(a), Some(b)) = (a, b) else { return a.or(b) };
+        Some(Self {
+            turns: a.turns + b.turns,
+            free: a.free + b.free,
+            straight: a.straight + b.straight,
+            apart: a.apart + b.apart,
+        })
+    }
+}
+
 /// Rows in the order in which they are followed, each with the turn to it where one fits.
 ///
 /// # Errors

@@ -59,6 +59,9 @@ const ON_TOOL: f64 = 1e-5;
 const ALONG_WALL: f64 = 2.5;
 /// Share of the distance to a triangle's middle by which points are moved inside.
 const INSIDE: f64 = 0.02;
+/// Of a face's points that a line does not show to be touched, so many of the worst are measured first, and one in so many.
+const EVERY: usize = 4;
+const WORST: usize = 4;
 /// Steps of a climb at most: across a face of 200 samples it is one or two dozen.
 const CLIMB: usize = 200;
 /// Positions tried around a point: shares of the tool's radius, the widest first, and directions.
@@ -86,37 +89,20 @@ pub fn bridges(
 ) -> Result<Vec<Bridges>, Cancelled> {
     watch.begin("bridging", points.len());
     let probe = Probe { envelope, tool, sheet, limit, left };
-    let found: Result<Vec<Option<Bridge>>, Cancelled> = points
-        .par_iter()
-        .with_min_len(16)
-        .map(|stopped| {
-            watch.advance(1)?;
-            let [a, b, c] = envelope.mesh().corners(stopped.triangle as usize);
-            Ok(probe.at(stopped.triangle, inside(stopped.point, (a + b + c) / 3.0), limit))
-        })
-        .collect();
-    let mut by_face: BTreeMap<u32, Candidates> = BTreeMap::new();
-    for (stopped, bridge) in points.iter().zip(found?) {
-        let of_face = by_face.entry(envelope.mesh().faces()[stopped.triangle as usize]).or_default();
-        let area = if stopped.is_smooth { 0.0 } else { stopped.area };
-        of_face.corners += area;
-        if let Some(bridge) = bridge {
-            of_face.left += area;
-            of_face.worst =
-                of_face.worst.filter(|(_, worst)| worst.excess >= bridge.excess).or(Some((*stopped, bridge)));
-        }
+    let face = |stopped: &Stopped| envelope.mesh().faces()[stopped.triangle as usize];
+    let mut by_face: BTreeMap<u32, Vec<Stopped>> = BTreeMap::new();
+    for stopped in points {
+        by_face.entry(face(stopped)).or_default().push(*stopped);
     }
-    watch.advance(0)?;
-    let bridges = by_face.into_iter().collect::<Vec<_>>().into_par_iter().map(|(face, found)| Bridges {
-        face,
-        share_left: found.share_left(),
-        worst: found.worst.map(|(stopped, bridge)| probe.climbed(&stopped, bridge)),
-    });
-    Ok(bridges.collect())
+    let of_face = |(face, points): (u32, Vec<Stopped>)| {
+        let found = probe.of_face(&points, watch)?;
+        let worst = found.worst.map(|(stopped, bridge)| probe.climbed(&stopped, bridge));
+        Ok(Bridges { face, share_left: found.share_left(), worst })
+    };
+    by_face.into_iter().collect::<Vec<_>>().into_par_iter().map(of_face).collect()
 }
 
 /// What a face's points came to.
-#[derive(Default)]
 struct Candidates {
     /// Area in corners, and of it the left, mm^2.
     corners: f64,
@@ -124,7 +110,20 @@ struct Candidates {
     worst: Option<(Stopped, Bridge)>,
 }
 
+/// A point that the tool does not touch along the steepest line through it: there it stays so far away, mm.
+#[derive(Clone, Copy)]
+struct Open<'p> {
+    stopped: &'p Stopped,
+    along: f64,
+}
+
 impl Candidates {
+    /// Keeps the worst.
+    fn consider(&mut self, stopped: &Stopped, bridge: Option<Bridge>) {
+        let worse = |bridge: &Bridge| self.worst.is_none_or(|(_, worst)| bridge.excess > worst.excess);
+        self.worst = bridge.filter(worse).map(|bridge| (*stopped, bridge)).or(self.worst);
+    }
+
     /// The share of the corners at which something is left; of none, it is not known that the tool gets there.
     fn share_left(&self) -> f64 {
         if self.corners > 0.0 {
@@ -144,6 +143,57 @@ struct Probe<'a> {
 }
 
 impl Probe<'_> {
+    /// What the points of a face come to.
+    ///
+    /// The distance along a line shows most of those that are touched, and is more where more stays. Of the others a few are
+    /// measured; where these are parted by that distance into some at which something stays and some at which nothing does, so
+    /// are the rest, and only those between are measured too.
+    fn of_face(&self, points: &[Stopped], watch: &Watch) -> Result<Candidates, Cancelled> {
+        let along = points.par_iter().map(|stopped| self.along_line(stopped.triangle, self.probed(stopped)));
+        let along: Vec<Option<f64>> = along.collect();
+        let open = points.iter().zip(along).filter_map(|(stopped, along)| Some(Open { stopped, along: along? }));
+        let mut open: Vec<Open<'_>> = open.filter(|point| point.along > self.limit).collect();
+        watch.advance(points.len() - open.len())?;
+        open.sort_by(|a, b| b.along.total_cmp(&a.along));
+        let (few, rest): (Vec<_>, Vec<_>) = open.iter().enumerate().partition(|(i, _)| *i < WORST || i % EVERY == 0);
+        let [few, rest] = [few, rest].map(|points| points.into_iter().map(|(_, point)| *point).collect::<Vec<_>>());
+        let mut measured = self.measured(few, watch)?;
+        let range = |measured: &[(Open<'_>, Option<Bridge>)], stays: bool| {
+            let of = measured.iter().filter(move |(_, bridge)| bridge.is_some() == stays).map(|(point, _)| point.along);
+            of.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+        };
+        let ([_, touched], [left, _]) = (range(&measured, false), range(&measured, true));
+        let is_open = |point: &Open<'_>| left <= touched || (point.along > touched && point.along < left);
+        let (between, known): (Vec<_>, Vec<_>) = rest.into_iter().partition(is_open);
+        watch.advance(known.len())?;
+        measured.extend(self.measured(between, watch)?);
+        let area = |stopped: &Stopped| if stopped.is_smooth { 0.0 } else { stopped.area };
+        let left_at = measured.iter().filter(|(_, bridge)| bridge.is_some()).map(|(point, _)| point.stopped);
+        let known_left = known.iter().filter(|point| point.along >= left).map(|point| point.stopped);
+        let mut found = Candidates {
+            corners: points.iter().map(area).sum(),
+            left: left_at.chain(known_left).map(area).sum(),
+            worst: None,
+        };
+        measured.into_iter().for_each(|(point, bridge)| found.consider(point.stopped, bridge));
+        Ok(found)
+    }
+
+    /// The points with what stays at each, if it is more than the limit.
+    fn measured<'p>(&self, points: Vec<Open<'p>>, watch: &Watch) -> Result<Vec<(Open<'p>, Option<Bridge>)>, Cancelled> {
+        let of_point = |point: Open<'p>| {
+            watch.advance(1)?;
+            let Open { stopped, along } = point;
+            Ok((point, self.beside(stopped.triangle, self.probed(stopped), along, self.limit)))
+        };
+        points.into_par_iter().map(of_point).collect()
+    }
+
+    /// Where it is looked for what stays at a point.
+    fn probed(&self, stopped: &Stopped) -> Vector {
+        let [a, b, c] = self.envelope.mesh().corners(stopped.triangle as usize);
+        inside(stopped.point, (a + b + c) / 3.0)
+    }
     /// The worst of the corners and the middles of some triangles, with its triangle, if it is clearly worse than `bridge`.
     fn worse(&self, triangles: impl Iterator<Item = u32>, bridge: &Bridge) -> Option<(u32, Bridge)> {
         let mut worst = None;
@@ -192,18 +242,29 @@ impl Probe<'_> {
     /// What stays between a point of a triangle and the nearest free position, if it is more than `least`, mm, which is the
     /// limit or more.
     fn at(&self, triangle: u32, point: Vector, least: f64) -> Option<Bridge> {
-        let mesh = self.envelope.mesh();
-        let normal = mesh.normal(triangle as usize);
+        let along = self.along_line(triangle, point).filter(|along| *along > least)?;
+        self.beside(triangle, point, along, least)
+    }
+
+    /// The distance from a point of a triangle to the nearest free position along the steepest line there, mm: quickly found, and
+    /// no shorter than what stays. None where the tool touches the point.
+    fn along_line(&self, triangle: u32, point: Vector) -> Option<f64> {
+        let normal = self.envelope.mesh().normal(triangle as usize);
         let (matched, _) = slope_matched_offset(self.tool, self.sheet, point, normal);
         let free = self.envelope.contact_near(matched.x, matched.y, &mut Some(triangle))?;
         if (free.tip - matched.z) * normal.z.abs() <= self.limit {
             return None;
         }
-        // the distance along a line is quicker found, and no shorter
-        let excess = Some(self.nearest(triangle, point)?).filter(|excess| *excess > least)?;
+        self.nearest(triangle, point)
+    }
+
+    /// What stays at a point, of which the distance `along` a line is known, if it is more than `least`, mm.
+    fn beside(&self, triangle: u32, point: Vector, along: f64, least: f64) -> Option<Bridge> {
+        let excess = Some(along).filter(|along| *along > least)?;
         let excess = excess.min((self.left)(triangle, point, least));
         let excess = if excess > least { excess.min(self.around(point, least)) } else { excess };
-        (excess > least).then(|| Bridge { point, face: mesh.faces()[triangle as usize], excess })
+        let face = self.envelope.mesh().faces()[triangle as usize];
+        (excess > least).then_some(Bridge { point, face, excess })
     }
 
     /// The least distance from a point to the tool in free positions all around it, mm, or the first that is `enough`: the

@@ -92,6 +92,13 @@ Range: 0.001 to 20 mm/rev</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>How deep a row presses the sheet at most below where it stands, mm: flat sheet is formed by rows in layers so far apart.
+When left out, rows finish what operations before them have formed.
+Range: 0.05 to 100 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
 Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
@@ -140,6 +147,14 @@ alternate: Every other one in the other direction: counters the twist of a forme
 same: All in the same direction: the higher ground on the right of levels, rows along `angle_deg`.
 climb: All so that the turning tool meets the material from its uncut side: on the right of a tool that turns clockwise.
 conventional: All the other way round than `climb`.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>In which order loops of several areas are run: areas are apart by more than the tool's diameter. When left out by level
+in forming, else by area.
+0 or empty: not stated
+by-level: All of a level before the next one: a sheet is formed evenly.
+by-area: Each area from the top down before the next one, where that is less air.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -456,6 +471,10 @@ Range: 0.1 to 1000 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>All of a level before the next one: a sheet is formed evenly.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>All so that the turning tool meets the material from its uncut side: on the right of a tool that turns clockwise.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -722,6 +741,10 @@ other face of the sheet, block by block; its machine is in `[machines.support]`.
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Each area from the top down before the next one, where that is less air.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Each machine file NAME.toml in this folder is a post of every job. Without a folder of your own it is the one in FreeCAD's user data</source>
         <translation type="unfinished"></translation>
     </message>
@@ -844,6 +867,13 @@ Range: 0.001 to 20 mm/rev</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>How deep a row presses the sheet at most below where it stands, mm: flat sheet is formed by rows in layers so far apart.
+When left out, rows finish what operations before them have formed.
+Range: 0.05 to 100 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
 Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
@@ -900,6 +930,14 @@ alternate: Every other one in the other direction: counters the twist of a forme
 same: All in the same direction: the higher ground on the right of levels, rows along `angle_deg`.
 climb: All so that the turning tool meets the material from its uncut side: on the right of a tool that turns clockwise.
 conventional: All the other way round than `climb`.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>In which order loops of several areas are run: areas are apart by more than the tool's diameter. When left out by level
+in forming, else by area.
+0 or empty: not stated
+by-level: All of a level before the next one: a sheet is formed evenly.
+by-area: Each area from the top down before the next one, where that is less air.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1003,6 +1041,10 @@ Range: above 0 to 100 mm
     </message>
     <message>
         <source>Max bridged</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Max increment</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1113,6 +1155,10 @@ the feed per revolution and the spindle's speed.</source>
     </message>
     <message>
         <source>Opens FreeCAD's own simulator, which cuts the job's stock</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Order</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1892,6 +1938,14 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>by-area</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>by-level</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>check</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2113,6 +2167,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>scallops</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>shortening links</source>
         <translation type="unfinished"></translation>
     </message>
     <message>

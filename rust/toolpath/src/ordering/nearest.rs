@@ -37,6 +37,16 @@ pub fn ordered(passes: &[Pass], sense: Sense, seam: Seam, watch: &Watch) -> Resu
     Ok(ordered)
 }
 
+/// All passes in the directions and from the beginnings that [`ordered`] has them in, in the order given.
+pub(super) fn directed_by_groups(passes: &[Pass], sense: Sense, seam: Seam) -> Vec<Pass> {
+    let groups = passes.chunk_by(|a, b| a.group == b.group).enumerate();
+    let directed = |(number, group): (usize, &[Pass])| -> Vec<Pass> {
+        let begun = |pass: &Pass| seam.bearing(number).map_or_else(|| pass.clone(), |bearing| begun_at(pass, bearing));
+        group.iter().map(|pass| directed(&begun(pass), sense.turns(number), None)).collect()
+    };
+    groups.flat_map(directed).collect()
+}
+
 /// A pass; a loop begins in a direction from its middle.
 fn begun_at(pass: &Pass, bearing: f64) -> Pass {
     let mut pass = pass.clone();
@@ -131,14 +141,16 @@ fn least(points: &[PathPoint], from: Vector) -> f64 {
     points.iter().map(|point| square(point, from)).fold(f64::INFINITY, f64::min)
 }
 
-fn stretches(pass: usize, points: &[PathPoint]) -> impl Iterator<Item = Stretch<'_>> {
+/// Stretches of some points of a pass.
+pub(super) fn stretches(pass: usize, points: &[PathPoint]) -> impl Iterator<Item = Stretch<'_>> {
     points.chunks(STRETCH).map(move |points| Stretch { pass, points })
 }
 
 /// Some neighbouring points of a pass.
 #[derive(PartialEq)]
-struct Stretch<'a> {
-    pass: usize,
+pub(super) struct Stretch<'a> {
+    /// Its number.
+    pub pass: usize,
     points: &'a [PathPoint],
 }
 
