@@ -153,7 +153,9 @@ def test_no_stage_makes_more_sheet_than_there_is() -> None:
     assert area == pytest.approx(0.553, abs=0.001)
     assert kinds(report) == {"thinning"}
     messages = [one.message for one in report.findings]
-    assert any(words.startswith(f"z-level-1 makes the sheet {area:.3f} mm thin on average") for words in messages), messages
+    assert any(words.startswith(f"z-level-1 makes the sheet {area:.3f} mm thin on average") for words in messages), (
+        messages
+    )
     assert any(words.startswith("stage of 66 degrees") and "on average" in words for words in messages), messages
 
 

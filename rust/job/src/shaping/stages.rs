@@ -2,11 +2,10 @@
 //!
 //! Derivation: docs/concepts/stages.md.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use styluscam_geometry::{stage, Mesh};
 use styluscam_verify::Support;
 
+use super::section::Stages;
 use crate::faces;
 use crate::numbers::shown;
 use crate::operations::Fact;
@@ -23,27 +22,6 @@ const ANGLES: [f64; 2] = [5.0, 89.0];
 const RESERVE: f64 = 1.0;
 /// Triangles that are steeper count as a wall of the part when they have more area than this, mm^2, and this share of all.
 const AREA: (f64, f64) = (1.0, 1e-3);
-
-/// The intermediate stages, by their number or by their wall angles.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged, expecting = "expected a number of stages, or their wall angles like [50.0, 65.0], degrees")]
-pub enum Stages {
-    /// So many, spread evenly from what the sheet withstands to the part's steepest wall.
-    Count(f64),
-    /// Their wall angles, degrees, rising.
-    Angles(Vec<f64>),
-}
-
-impl Stages {
-    /// How many they are.
-    #[must_use]
-    pub fn count(&self) -> usize {
-        match self {
-            Self::Count(count) => *count as usize,
-            Self::Angles(angles) => angles.len(),
-        }
-    }
-}
 
 /// Checks what the schema cannot state of the stages.
 ///

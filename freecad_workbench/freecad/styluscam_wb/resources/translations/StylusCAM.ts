@@ -158,6 +158,15 @@ by-area: Each area from the top down before the next one, where that is less air
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Intermediate stages: their wall angles, degrees, rising, [50.0, 65.0]; or how many, 2, which are then spread evenly between
+what the sheet withstands in one pass and the part's steepest wall. All operations are done for each stage first, whose walls
+are no steeper, and for the part at last; for walls that the sheet does not withstand in one pass.
+Range: 1 to 89
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Largest deviation of the triangles from the model's surfaces, mm; checked by sampling.
 Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
@@ -264,14 +273,6 @@ Range: above 0 to 50 mm</source>
     <message>
         <source>Thinnest that the sheet may become, by the sine law, mm; not checked when left out.
 Range: above 0 to 50 mm
-0 or empty: not stated</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Wall angles of intermediate stages, degrees, rising: [50.0, 65.0]. All operations are done for each stage first, whose walls
-are no steeper, and for the part at last; for walls that the sheet does not withstand in one pass.
-Range: 5 to 89 deg
-As JSON
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
@@ -942,6 +943,15 @@ by-area: Each area from the top down before the next one, where that is less air
     </message>
     <message>
         <source>Included angle, degrees.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Intermediate stages: their wall angles, degrees, rising, [50.0, 65.0]; or how many, 2, which are then spread evenly between
+what the sheet withstands in one pass and the part's steepest wall. All operations are done for each stage first, whose walls
+are no steeper, and for the part at last; for walls that the sheet does not withstand in one pass.
+Range: 1 to 89
+As JSON
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1760,14 +1770,6 @@ Range: above 0 to 50 mm
     </message>
     <message>
         <source>Verify programs before they are written</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Wall angles of intermediate stages, degrees, rising: [50.0, 65.0]. All operations are done for each stage first, whose walls
-are no steeper, and for the part at last; for walls that the sheet does not withstand in one pass.
-Range: 5 to 89 deg
-As JSON
-0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>

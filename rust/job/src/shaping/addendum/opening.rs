@@ -2,7 +2,6 @@
 
 use styluscam_geometry::{Mesh, Vector};
 
-use super::SECTION;
 use crate::{plates, JobDocument, JobError, Opening, Zero};
 
 /// The addendum ends so much before the margin, mm: what is rounded on the way does not reach into it.
@@ -18,7 +17,7 @@ pub fn outline(job: &JobDocument, part: &Mesh, formed: &[bool]) -> Result<Vec<[f
     let Some((fixture, backing)) = fixture.and_then(|fixture| Some((fixture, fixture.backing?))) else {
         let message = "end = \"opening\" and the job states no backing plate";
         let hint = "state setup.fixture.backing.opening, or remove end and state height";
-        return Err(JobError::document("missing", format!("{SECTION}.end"), message, hint));
+        return Err(JobError::document("missing", "part.addendum.end", message, hint));
     };
     let less = fixture.margin + GAP;
     let opening = match backing.opening {
