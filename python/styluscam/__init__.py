@@ -18,6 +18,7 @@ _MODULES = {
     "errors": (
         "Cancelled", "GeometryError", "JobError", "MachineError", "PlanError", "StylusError", "ToolError", "VerifyError",
     ),
+    "judging.engagement": ("RunEngagement", "engagement"),
     "judging.simulation": ("Simulation", "simulate"),
     "judging.verification": ("Report", "check_program", "verify", "verify_file"),
     "offset.positions": ("drop_cutter", "push_cutter", "slope_matched_offset", "waterline", "waterlines"),

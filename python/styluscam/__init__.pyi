@@ -11,6 +11,7 @@ from styluscam.errors import (
     ToolError,
     VerifyError,
 )
+from styluscam.judging.engagement import RunEngagement, engagement
 from styluscam.judging.simulation import Simulation, simulate
 from styluscam.judging.verification import Report, check_program, verify, verify_file
 from styluscam.offset.positions import drop_cutter, push_cutter, slope_matched_offset, waterline, waterlines
@@ -38,6 +39,7 @@ __all__ = [
     "Posted",
     "Program",
     "Report",
+    "RunEngagement",
     "RunResult",
     "Simulation",
     "StylusError",
@@ -47,6 +49,7 @@ __all__ = [
     "__version__",
     "check_program",
     "drop_cutter",
+    "engagement",
     "job_schema",
     "offset_surface",
     "plan",

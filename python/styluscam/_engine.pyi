@@ -28,6 +28,7 @@ __all__ = [
     "__version__",
     "cl_text",
     "drop_cutter",
+    "engagement",
     "finding_kinds",
     "job_schema",
     "judge",
@@ -276,6 +277,14 @@ def drop_cutter(
     progress: _Progress | None = None,
     cancel: CancelToken | None = None,
 ) -> _F: ...
+def engagement(
+    runs: Sequence[tuple[_F, str]],
+    tool_radius: float,
+    stock: Sequence[_F],
+    boundary: Sequence[_F],
+    progress: _Progress | None = None,
+    cancel: CancelToken | None = None,
+) -> list[_F]: ...
 def push_cutter(
     part: Part,
     tool: Tool,

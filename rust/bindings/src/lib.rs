@@ -14,6 +14,7 @@ mod machine;
 mod offset;
 mod part;
 mod plan;
+mod plane;
 mod posting;
 mod program;
 mod reading;
@@ -50,6 +51,8 @@ mod _engine {
     use crate::part::{mended, Part};
     #[pymodule_export]
     use crate::plan::{plan, Plan};
+    #[pymodule_export]
+    use crate::plane::engagement;
     #[pymodule_export]
     use crate::posting::{cl_text, lines_of_moves, post, post_to};
     #[pymodule_export]

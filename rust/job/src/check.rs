@@ -291,6 +291,7 @@ fn operation(job: &JobDocument, path: &str, section: &OperationSection) -> Resul
     links(job, path, common)?;
     layers(job, path, section)?;
     order(job, path, section)?;
+    corners(job, path, section)?;
     spindle::check(section, path)?;
     section.kind().check(common, path)
 }
@@ -396,6 +397,17 @@ fn layers(job: &JobDocument, path: &str, section: &OperationSection) -> Result<(
     let message = format!("max_increment: process.kind = {:?} {reason}", process.name());
     let hint = "remove max_increment: rows then finish what a z-level or a spiral before them has formed";
     Err(JobError::document("conflict", format!("{path}.max_increment"), message, hint))
+}
+
+/// Feeds per revolution, and those with which two tools keep pace, are none that drop at corners.
+fn corners(job: &JobDocument, path: &str, section: &OperationSection) -> Result<(), JobError> {
+    let follows = job.channels().iter().any(|channel| job.opposite(channel).is_some());
+    if !section.common.slow_corners || !(follows || section.kind().turns_part()) {
+        return Ok(());
+    }
+    let kind = job.process.process.name();
+    let message = format!("slow_corners: with process.kind = {kind:?} feeds are not in mm/min, and stay as they are");
+    Err(JobError::document("conflict", format!("{path}.slow_corners"), message, "remove it"))
 }
 
 /// A frame that goes down with the path does not come up again.

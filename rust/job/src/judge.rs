@@ -385,6 +385,7 @@ fn expected(
             plunge: common.feeds.plunge,
             leads: (common.lead != LeadForm::None).then(|| [common.feeds.approaching(), common.feeds.leaving()]),
             low_links: (common.links == LinkHeight::Low).then_some(common.link_margin),
+            slows_at_corners: common.slow_corners,
             keeps_pace: scene.opposite.is_some(),
             spindle: spindle::turns(job, scene, tool, section, index)?,
             flood: common.coolant == Coolant::Flood,
@@ -520,5 +521,6 @@ fn reach(machine: &Machine) -> Reach {
         travel: limits.travel,
         feed: limits.max_feed,
         rpm: (rpm != (None, None)).then(|| [rpm.0.unwrap_or(0.0), rpm.1.unwrap_or(f64::INFINITY)]),
+        cornering: machine.cornering(),
     }
 }

@@ -18,6 +18,17 @@ pub struct Dynamics {
     pub blocks_per_second: Option<f64>,
 }
 
+/// What of a machine decides how fast it may turn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cornering {
+    /// Acceleration along the path, mm/s^2.
+    pub acceleration: f64,
+    /// How far the path at a corner may be from it, mm.
+    pub deviation: f64,
+    /// The last decimal of posted coordinates, mm.
+    pub unit: f64,
+}
+
 impl Dynamics {
     /// A machine of which only the speed of rapids is known, mm/min.
     #[must_use]

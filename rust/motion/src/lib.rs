@@ -20,7 +20,7 @@ mod watch;
 
 pub use arc::{Arc, ArcPath, Plane};
 pub use cycle::{Cycle, CycleKind, CycleStart, CycleStep};
-pub use dynamics::Dynamics;
+pub use dynamics::{Cornering, Dynamics};
 pub use event::{Event, EventKind, SpindleDirection, Upcoming};
 pub use feed_rounding::FeedRounding;
 pub use pose::{NotUnit, Pose, UnitAxis};

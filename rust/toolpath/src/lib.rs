@@ -4,6 +4,7 @@
 
 mod arcs;
 pub mod budget;
+mod corners;
 mod error;
 mod fitting;
 pub mod forming;
@@ -21,6 +22,7 @@ mod standing;
 mod surface;
 
 pub use arcs::{Arcs, Fitted};
+pub use corners::slowed;
 pub use error::PlanError;
 pub use lattice::{Cells, Lattice};
 pub use leads::{LeadRule, LeadShape, Leading};

@@ -23,6 +23,8 @@ pub struct ExpectedOperation {
     pub leads: Option<[f64; 2]>,
     /// Air that rapids below clearance keep above what stands, mm; none where all cross at clearance.
     pub low_links: Option<f64>,
+    /// Whether it is slower at sharp turns and on small arcs, as far as the machine's acceleration asks for it.
+    pub slows_at_corners: bool,
     /// Whether its feeds are instead those with which it keeps pace with another program: they are checked with that one.
     pub keeps_pace: bool,
     /// Speed and sense of the spindle; it stands when there are none.

@@ -501,6 +501,17 @@ pub(crate) static FEED_LIMIT: FaultKind = FaultKind::in_text(
     "correct F",
 )
 .in_unit("mm/min");
+pub(crate) static CORNER_FEED: FaultKind =
+    FaultKind::in_text(FindingKind::CornerFeed, |fault| too_fast("at a sharp turn", fault), SLOW_DOWN)
+        .in_unit("mm/min");
+pub(crate) static ARC_FEED: FaultKind =
+    FaultKind::in_text(FindingKind::CornerFeed, |fault| too_fast("on an arc", fault), SLOW_DOWN).in_unit("mm/min");
+const SLOW_DOWN: &str = "lower F there, or set slow_corners = false";
+
+fn too_fast(position: &str, fault: &Fault) -> String {
+    let (feed, most) = (plain(fault.value()), plain(fault.limit()));
+    format!("the feed is {feed} mm/min {position}, where the machine's acceleration allows {most}")
+}
 
 fn no_level(side: &str, fault: &Fault) -> String {
     let (value, limit, height) = (fault.value(), fault.limit(), fault.position[2]);

@@ -143,6 +143,8 @@ pub enum FindingKind {
     Travel,
     /// A feed above the machine's largest.
     FeedLimit,
+    /// A feed above what the machine's acceleration allows at a turn, or on an arc.
+    CornerFeed,
     /// A spindle speed that the machine does not have.
     SpindleLimit,
     /// A coordinate that is not a number, or absurd (beyond 10 km).
@@ -227,6 +229,7 @@ const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
         (Kind::ZLimit, "position beyond the Z limit"),
         (Kind::Travel, "travel longer than the machine's"),
         (Kind::FeedLimit, "feed above the machine's limit"),
+        (Kind::CornerFeed, "feed too high at a turn"),
         (Kind::SpindleLimit, "spindle speed outside the machine's range"),
         (Kind::NotFinite, "invalid coordinate"),
         (Kind::ToolAxis, "tool axis is not +Z"),

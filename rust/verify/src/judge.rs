@@ -11,7 +11,7 @@ use crate::merge::{merge, Merged};
 use crate::report::Report;
 use crate::segments::{placed, Segment};
 use crate::subject::{Axes, Limits, Subject};
-use crate::{diagnosis, frame, low_links, pair, passes, reach, sequence, settings, travel, unreached, walls};
+use crate::{corners, diagnosis, frame, low_links, pair, passes, reach, sequence, settings, travel, unreached, walls};
 
 /// Checks a program read back from posted text against the part.
 ///
@@ -87,6 +87,7 @@ fn of_text(
     let mut faults = travel::faults(program, segments, assignment, subject, limits);
     faults.extend(low_links::faults(segments, assignment, subject, limits, watch)?);
     faults.extend(settings::faults(program, segments, assignment, limits));
+    faults.extend(corners::faults(program, assignment, limits));
     faults.extend(sequence::faults(program, segments, assignment, subject, limits));
     faults.extend(sequence::punches(program, segments, assignment, subject, limits, frame));
     Ok(faults)

@@ -1,6 +1,6 @@
 //! The moves on the levels of operations that form a sheet from the top down.
 
-use styluscam_motion::Program;
+use styluscam_motion::{MoveKind, Program};
 
 use crate::assignment::Assignment;
 use crate::expectation::{ExpectedOperation, OrderedPasses};
@@ -24,7 +24,7 @@ pub(crate) fn level_moves<'a>(
 ) -> impl Iterator<Item = Segment> + 'a {
     let mut away_from: Option<f64> = None;
     segments.iter().flat_map(Segment::pieces).filter(move |segment| {
-        let along = at_cut(program, segment, order.cut, limits)
+        let along = at_cut(program, segment, order, limits)
             && matches!(segment.kind, SegmentKind::Plunge | SegmentKind::Retract);
         match (segment.kind, away_from, segment.start) {
             (SegmentKind::Rapid, ..) => away_from = None,
@@ -40,7 +40,9 @@ pub(crate) fn level_moves<'a>(
 }
 
 /// Whether a move along a pass has the feed of the path.
-pub(crate) fn at_cut(program: &Program, segment: &Segment, cut: f64, limits: &Limits) -> bool {
-    let step = &program.moves[segment.index];
-    step.is_along_pass() && (step.feed - cut).abs() <= limits.feed_slack(cut, segment.length())
+pub(crate) fn at_cut(program: &Program, segment: &Segment, order: &ExpectedOperation, limits: &Limits) -> bool {
+    let (step, cut) = (&program.moves[segment.index], order.cut);
+    let before = segment.index.checked_sub(1).map(|before| program.moves[before].kind);
+    let is_slow = order.slows_at_corners && step.feed < cut && before == Some(MoveKind::Feed);
+    step.is_along_pass() && (is_slow || (step.feed - cut).abs() <= limits.feed_slack(cut, segment.length()))
 }

@@ -36,8 +36,10 @@ mod bounds;
 mod clearance;
 mod contact_lines;
 mod convex;
+mod corners;
 mod coverage;
 mod diagnosis;
+mod engagement;
 mod expectation;
 mod faults;
 mod findings;
@@ -81,6 +83,7 @@ mod walls_beside;
 mod words;
 
 pub use coverage::{coverage, left, needs, FaceCoverage};
+pub use engagement::{engagement, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement};
 pub use expectation::{Contact, Expectation, ExpectedOperation, Layers, OrderedPasses, Passes};
 pub use findings::{Finding, FindingKind, Severity};
 pub use flats::Need;

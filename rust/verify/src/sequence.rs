@@ -92,7 +92,7 @@ pub(crate) fn punches(
             .max_by(|a, b| a.depth().total_cmp(&b.depth()));
         if let Some(Punch { tip, stands }) = deepest {
             let fault = Fault { position: tip, ..segment.fault(&faults::PUNCH) }.measured(tip[2], stands);
-            let falls = segment.kind == SegmentKind::Plunge && at_cut(program, segment, order.cut, limits);
+            let falls = segment.kind == SegmentKind::Plunge && at_cut(program, segment, order, limits);
             faults.push(if falls { fault.warning() } else { fault });
         }
         if passes.is_some() {

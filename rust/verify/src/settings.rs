@@ -41,7 +41,8 @@ pub(crate) fn faults(program: &Program, segments: &[Segment], assignment: &Assig
 
 /// From a rapid the tool comes down at the plunge's feed; on its path along the part straight down is as good as any
 /// other direction. Leads have one of
-/// their feeds, where the job states them; else leads, ramps and links are no faster than the faster of both.
+/// their feeds, where the job states them; else leads, ramps and links are no faster than the faster of both. Where the job has
+/// the tool slow down at corners, lower feeds are as good.
 fn feed_fault(
     operation: &ExpectedOperation,
     (segment, role): (&Segment, Option<Role>),
@@ -60,7 +61,8 @@ fn feed_fault(
         SegmentKind::Plunge | SegmentKind::Lateral | SegmentKind::Rapid if is_along_pass => operation.cut,
         SegmentKind::Plunge | SegmentKind::Lateral | SegmentKind::Rapid => no_faster,
     });
-    let same = (feed - expected).abs() <= slack + SAME_FEED * expected;
+    let is_slow = operation.slows_at_corners && !comes_down && feed < expected;
+    let same = is_slow || (feed - expected).abs() <= slack + SAME_FEED * expected;
     (feed > 0.0 && !same && !operation.keeps_pace).then(|| segment.fault(&faults::FEED).measured(feed, expected))
 }
 

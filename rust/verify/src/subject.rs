@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use styluscam_geometry::{Bvh, Mesh, Sheet, Tool};
-use styluscam_motion::{FeedRounding, MachineMove, Program};
+use styluscam_motion::{Cornering, FeedRounding, MachineMove, Program};
 
 use crate::expectation::ExpectedOperation;
 use crate::findings::{FindingKind, Severity};
@@ -258,6 +258,8 @@ pub struct Reach {
     pub feed: Option<f64>,
     /// Smallest and largest speed of the spindle, rev/min.
     pub rpm: Option<[f64; 2]>,
+    /// How fast it may turn.
+    pub cornering: Option<Cornering>,
 }
 
 impl Subject<'_> {

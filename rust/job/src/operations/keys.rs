@@ -83,6 +83,10 @@ pub struct OperationKeys {
     #[serde(default)]
     #[schemars(extend("x-example" = "{ cut = 1500.0, plunge = 300.0 }"))]
     pub feeds: Feeds,
+    /// Lower feeds before and behind sharp turns and on small arcs, as far as the machine's acceleration asks for them
+    /// (`limits.acceleration` and `limits.corner_tolerance` of its file).
+    #[serde(default)]
+    pub slow_corners: bool,
     /// The spindle.
     #[serde(default)]
     #[schemars(extend("x-example" = "{ mode = \"off\" }"))]

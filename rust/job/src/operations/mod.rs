@@ -13,6 +13,7 @@ use crate::MAIN_CHANNEL;
 
 pub(crate) mod budget;
 mod context;
+mod corners;
 mod effort;
 mod facts;
 mod fit;

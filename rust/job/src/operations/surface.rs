@@ -12,7 +12,7 @@ use styluscam_toolpath::{
     Seam, Sense, Surface,
 };
 
-use super::{budget, facts::counted, fit, links};
+use super::{budget, corners, facts::counted, fit, links};
 use super::{reached, Context, Direction, Edges, End, Fact, OperationKeys, OperationKind, Planned, SurfaceFacts};
 use crate::{JobError, Scene};
 
@@ -304,6 +304,11 @@ fn linked(
     let mut facts = turns.map_or_else(Vec::new, turn_facts);
     let (moves, linked) = links::linked(context, (&*entered, deviation), along, &task.links())?;
     facts.extend(order_fact(between).into_iter().chain(linked));
+    if !context.common.slow_corners {
+        return Ok((moves, facts));
+    }
+    let (moves, slow) = corners::slowed_down(context, &moves)?;
+    facts.push(slow);
     Ok((moves, facts))
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use styluscam_motion::{Cycle, Dynamics, FeedRounding};
+use styluscam_motion::{Cornering, Cycle, Dynamics, FeedRounding};
 
 use super::option::OptionRule;
 use super::rules::*;
@@ -100,6 +100,9 @@ pub struct Machine {
     pub reader: ReaderRules,
 }
 
+/// How far a path may be from corners, mm, where a machine file does not state it: what GRBL is shipped with ($11).
+const JUNCTION_DEVIATION: f64 = 0.01;
+
 impl Machine {
     /// One unit of the last posted decimal, mm: rounding moves a coordinate by half of it at most.
     #[must_use]
@@ -163,6 +166,14 @@ impl Machine {
             corner_tolerance: limits.corner_tolerance.unwrap_or(self.path_tolerance_mm()),
             blocks_per_second: limits.blocks_per_second,
         }
+    }
+
+    /// What decides how fast it may turn; none where its acceleration is not known.
+    #[must_use]
+    pub fn cornering(&self) -> Option<Cornering> {
+        let deviation = self.limits.corner_tolerance.filter(|cut| *cut > 0.0).unwrap_or(JUNCTION_DEVIATION);
+        let unit = self.resolution_mm();
+        self.limits.acceleration.map(|acceleration| Cornering { acceleration, deviation, unit })
     }
 
     /// Decimal places in the output's units.

@@ -178,6 +178,11 @@ Range: above 0 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Lower feeds before and behind sharp turns and on small arcs, as far as the machine's acceleration asks for them
+(`limits.acceleration` and `limits.corner_tolerance` of its file).</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Most that may be left on the faces where the tool cannot get, mm; 1 mm of a sheet, and not checked in milling, when left
 out.
 Range: 0 to 1000 mm
@@ -1034,6 +1039,11 @@ Range: above 0 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Lower feeds before and behind sharp turns and on small arcs, as far as the machine's acceleration asks for them
+(`limits.acceleration` and `limits.corner_tolerance` of its file).</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Machine of new jobs</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1431,6 +1441,10 @@ the centre outwards, once. X is the distance from the axis, Y stays 0. Parts tha
     </message>
     <message>
         <source>Slope at which the curve ends, degrees; 90 unless given.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Slow corners</source>
         <translation type="unfinished"></translation>
     </message>
     <message>

@@ -258,9 +258,9 @@ pub struct Limits {
     pub max_feed: Option<f64>,
     /// Speed of rapids, mm/min: for estimates of time.
     pub rapid_rate: f64,
-    /// Acceleration along the path, mm/s^2: for estimates of time; without it speeds change at once.
+    /// Acceleration along the path, mm/s^2: for estimates of time, and for `slow_corners`; without it speeds change at once.
     pub acceleration: Option<f64>,
-    /// How far the controller cuts corners, mm: for estimates of time; the smoothing's tolerance when left out.
+    /// How far the controller cuts corners, mm: for estimates of time, where it is the smoothing's tolerance when left out, and for `slow_corners`, where it is 0.01.
     pub corner_tolerance: Option<f64>,
     /// Blocks that the controller reads in a second: for estimates of time.
     pub blocks_per_second: Option<f64>,

@@ -1,0 +1,61 @@
+//! What is measured, and what comes of it: plane paths, what they cut, the angle at every position.
+
+/// Thickness of a chip from which it counts, mm.
+pub const CHIP: f64 = 1e-3;
+/// Length of a step, in radii of the tool.
+pub const STEP: f64 = 0.02;
+/// Path of which the sweep is taken as it is, in radii of the tool: longer than a step, so that 1 um beside it is no angle.
+pub const RECENT: f64 = 1.0;
+
+/// What a stretch of a plane path is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlaneRunKind {
+    /// Cutting.
+    Cut,
+    /// The way into the material: a helix or a ramp, seen from above.
+    Entry,
+    /// At depth, through what is cleared: it should cut nothing.
+    Link,
+    /// Over the stock: it neither cuts nor clears.
+    Rapid,
+}
+
+/// A stretch of a plane path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlaneRun {
+    /// Points (x, y, bulge of the piece that begins there), mm.
+    pub points: Vec<[f64; 3]>,
+    /// What it is for.
+    pub kind: PlaneRunKind,
+}
+
+/// The engagement along one run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RunEngagement {
+    /// Where it was measured.
+    pub measures: Vec<Engaged>,
+}
+
+/// The engagement at one position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Engaged {
+    /// The tool's centre, mm.
+    pub at: [f64; 2],
+    /// Length of the run up to there, mm.
+    pub travelled: f64,
+    /// The engagement angle, rad.
+    pub angle: f64,
+    /// Distance from the centre to the pocket's nearest wall, mm; infinite beyond two radii.
+    pub clearance: f64,
+}
+
+/// What a path cuts.
+#[derive(Clone, Copy, Debug)]
+pub struct Ground<'a> {
+    /// The tool's radius, mm.
+    pub radius: f64,
+    /// Outlines (x, y, bulge) of the material, mm; islands are outlines within outlines.
+    pub stock: &'a [Vec<[f64; 3]>],
+    /// Outlines of the pocket, mm.
+    pub pocket: &'a [Vec<[f64; 3]>],
+}

@@ -1,0 +1,192 @@
+//! Along the path, a step at a time: what is swept so far, and what the rim meets of the rest.
+
+use std::collections::VecDeque;
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use styluscam_geometry::{PlanePiece, PlanePoint};
+use styluscam_motion::Watch;
+
+use super::area::Area;
+use super::cells::Cells;
+use super::error::EngagementError;
+use super::open::Open;
+use super::rim::Rim;
+use super::runs::{Engaged, Ground, PlaneRun, PlaneRunKind, RunEngagement, CHIP, RECENT, STEP};
+
+/// Ends of runs that lie nearer than this are one position, mm.
+const SAME: f64 = 1e-6;
+/// Turns above this are corners of the path, rad.
+const CORNER: f64 = 0.01;
+/// The watch is asked after so many positions.
+const ASKED: usize = 256;
+
+/// A tool on its way.
+pub struct Walk {
+    radius: f64,
+    stock: Area,
+    pocket: Area,
+    swept: Vec<PlanePiece>,
+    near: Cells,
+    /// Pieces that are recent still, with the length of the path up to their end.
+    pending: VecDeque<(PlanePiece, f64)>,
+    /// Length of the path so far, mm.
+    travelled: f64,
+    /// Length of the path up to which all is swept, mm.
+    behind: f64,
+    open: Open,
+    scratch: Vec<f64>,
+}
+
+impl Walk {
+    pub fn new(ground: &Ground<'_>) -> Self {
+        let radius = ground.radius;
+        Self {
+            radius,
+            stock: Area::new(ground.stock, 2.0 * radius),
+            pocket: Area::new(ground.pocket, 2.0 * radius),
+            swept: Vec::new(),
+            near: Cells::new(0.5 * radius, 2.0 * radius),
+            pending: VecDeque::new(),
+            travelled: 0.0,
+            behind: 0.0,
+            open: Open::default(),
+            scratch: Vec::new(),
+        }
+    }
+
+    /// The engagement along every run.
+    pub fn along(&mut self, runs: &[PlaneRun], watch: &Watch) -> Result<Vec<RunEngagement>, EngagementError> {
+        watch.begin("measuring the engagement", runs.len());
+        let mut last: Option<PlanePoint> = None;
+        let mut found = Vec::with_capacity(runs.len());
+        for run in runs {
+            let pieces = PlanePiece::path(&run.points);
+            let (Some(start), Some(end)) = (run.points.first(), run.points.last()) else {
+                found.push(RunEngagement::default());
+                continue;
+            };
+            if run.kind == PlaneRunKind::Rapid {
+                last = None;
+                found.push(RunEngagement::default());
+            } else {
+                let goes_on = last.is_some_and(|[x, y]| libm::hypot(start[0] - x, start[1] - y) < SAME);
+                if !goes_on {
+                    self.commit(f64::INFINITY);
+                }
+                found.push(self.run(&pieces, [start[0], start[1]], goes_on, watch)?);
+                last = Some([end[0], end[1]]);
+            }
+            watch.advance(1)?;
+        }
+        Ok(found)
+    }
+
+    fn run(
+        &mut self,
+        pieces: &[PlanePiece],
+        start: PlanePoint,
+        goes_on: bool,
+        watch: &Watch,
+    ) -> Result<RunEngagement, EngagementError> {
+        let step = STEP * self.radius;
+        let (begin, mut measures) = (self.travelled, Vec::new());
+        if !goes_on {
+            // the tool comes down here: what it meets is what it meets all around
+            self.open.all();
+            measures.push(self.measure(start, 0.0));
+            self.pending.push_back((PlanePiece::new(start, start, 0.0), begin));
+        }
+        let mut next = begin + step;
+        let mut before: Option<f64> = None;
+        for piece in pieces {
+            let length = piece.length();
+            if length <= 0.0 {
+                continue;
+            }
+            let from = self.travelled;
+            if let Some(before) = before.filter(|before| turned(*before, heading(piece, 0.0)) > CORNER) {
+                // the angle may be largest at the corner itself, with the one heading or the other
+                measures.push(self.facing(piece.start, before, from, begin));
+                measures.push(self.facing(piece.start, heading(piece, 0.0), from, begin));
+            }
+            before = Some(heading(piece, 1.0));
+            self.travelled += length;
+            self.pending.push_back((*piece, self.travelled));
+            while next <= self.travelled {
+                let share = (next - from) / length;
+                measures.push(self.facing(piece.at(share), heading(piece, share), next, begin));
+                next += step;
+                if measures.len() % ASKED == 0 {
+                    watch.advance(0)?;
+                }
+            }
+        }
+        if let (Some(piece), true) = (pieces.last(), self.travelled > next - step) {
+            measures.push(self.facing(piece.end, heading(piece, 1.0), self.travelled, begin));
+        }
+        Ok(RunEngagement { measures })
+    }
+
+    /// The engagement at a position with a heading, after a length of the path.
+    fn facing(&mut self, at: PlanePoint, heading: f64, length: f64, begin: f64) -> Engaged {
+        self.behind = length - STEP * self.radius;
+        self.commit(length - RECENT * self.radius);
+        self.open.ahead(heading);
+        self.measure(at, length - begin)
+    }
+
+    /// Lists what ends before a length of the path: it is no longer recent.
+    fn commit(&mut self, length: f64) {
+        while let Some((piece, end)) = self.pending.front().copied() {
+            if end > length {
+                break;
+            }
+            self.near.insert(self.swept.len() as u32, &piece);
+            self.swept.push(piece);
+            self.pending.pop_front();
+        }
+    }
+
+    /// The engagement of the open directions with the tool's centre at a point.
+    fn measure(&mut self, at: PlanePoint, travelled: f64) -> Engaged {
+        let rim = Rim { centre: at, radius: self.radius };
+        let (exact, thicker) = (self.radius, self.radius + CHIP);
+        let scratch = &mut self.scratch;
+        for (piece, end) in self.pending.iter().rev() {
+            let length = piece.length();
+            if end - length > self.behind || (length <= 0.0 && *end > self.behind) {
+                continue;
+            }
+            let swept = if *end > self.behind { piece.up_to(1.0 - (end - self.behind) / length) } else { *piece };
+            self.open.keep(|interval, left| rim.outside_sweep(interval, &swept, exact, scratch, left));
+        }
+        for number in self.near.near(at).iter().rev() {
+            if self.open.is_empty() {
+                break;
+            }
+            if let Some(piece) = self.swept.get(*number as usize) {
+                self.open.keep(|interval, left| rim.outside_sweep(interval, piece, thicker, scratch, left));
+            }
+        }
+        for area in [&self.pocket, &self.stock] {
+            if !self.open.is_empty() {
+                self.open.keep(|interval, left| area.within(&rim, interval, scratch, left));
+            }
+        }
+        Engaged { at, travelled, angle: self.open.total(), clearance: self.pocket.clearance(at) }
+    }
+}
+
+/// Angle between two headings, rad.
+fn turned(a: f64, b: f64) -> f64 {
+    let turn = (a - b).rem_euclid(TAU);
+    turn.min(TAU - turn)
+}
+
+/// Direction of travel at a share of a piece, rad.
+fn heading(piece: &PlanePiece, share: f64) -> f64 {
+    match &piece.circle {
+        Some(circle) => circle.from + share * circle.turn + FRAC_PI_2.copysign(circle.turn),
+        None => libm::atan2(piece.end[1] - piece.start[1], piece.end[0] - piece.start[0]),
+    }
+}
