@@ -124,44 +124,11 @@ fn refused(job: &JobDocument, section: &AddendumSection, fault: &WallFault, back
             let message = "the part's edge lies in a level flange already: it is clamped there, and needs no addendum";
             JobError::document("not-needed", SECTION, message, "remove [part.addendum], or state its height")
         }
-        WallFault::Steep { at: point } => {
-            let point = back.point(*point);
-            let message = format!(
-                "the part's edge climbs more steeply than wall_angle_deg = {} at X{:.3} Y{:.3} Z{:.3} of its file: no wall of \
-                 that angle meets it there",
-                section.wall_angle_deg, point.x, point.y, point.z
-            );
-            JobError::document("steep-edge", at("wall_angle_deg"), message, "choose a steeper wall, or turn the part")
-        }
-        WallFault::Falls { at: point } => {
-            let point = back.point(*point);
-            let message = format!(
-                "the part falls outwards at its edge, at X{:.3} Y{:.3} Z{:.3} of its file: a wall that leaves it by its own slope \
-                 would go {side} it from there",
-                point.x, point.y, point.z,
-                side = if side == "below" { "above" } else { "below" },
-            );
-            let hint = "take kind = \"wall\", which may leave the edge with a crease; or turn the part with setup.up";
-            JobError::document("falling-edge", at("kind"), message, hint)
-        }
-        WallFault::Outside { beyond } => {
-            let message = format!("the part reaches {beyond:.3} mm into the margin inside the backing plate's opening");
-            let hint = "state a wider setup.fixture.backing.opening, or where it is, setup.fixture.center";
-            JobError::document("beyond-opening", at("end"), message, hint)
-        }
-        WallFault::Beyond { beyond } if section.end == AddendumEnd::Opening => {
-            let message =
-                format!("the part reaches {beyond:.3} mm beyond the plane of a wall that ends at the opening");
-            let hint = "take a steeper wall_angle_deg, a smaller corner_radius or a wider opening";
-            JobError::document("beyond-blank", at("end"), message, hint)
-        }
-        WallFault::Arc { least, height } if section.end == AddendumEnd::Opening => {
-            let message = format!(
-                "a wall that ends at the opening is {height:.3} mm high, and its arcs of corner_radius = {} take {least:.3} mm",
-                section.corner_radius
-            );
-            let hint = "take a steeper wall_angle_deg, a smaller corner_radius or a wider opening";
-            JobError::document("no-height", at("end"), message, hint)
+        WallFault::Steep { at: point } => steep(back.point(*point), section.wall_angle_deg),
+        WallFault::Falls { at: point } => falling(back.point(*point), side),
+        WallFault::Outside { beyond } => outside(*beyond),
+        WallFault::Beyond { .. } | WallFault::Arc { .. } if section.end == AddendumEnd::Opening => {
+            narrow(fault, section.corner_radius)
         }
         WallFault::Beyond { beyond } => {
             let message = format!(
@@ -198,6 +165,44 @@ fn refused(job: &JobDocument, section: &AddendumSection, fault: &WallFault, back
         }
         WallFault::Mesh(error) => JobError::Geometry { error: error.clone(), location: SECTION.to_owned() },
     }
+}
+
+/// An edge that no wall of an angle in degrees meets at a point of the part's file.
+fn steep(point: Vector, wall_angle_deg: f64) -> JobError {
+    let message = format!(
+        "the part's edge climbs more steeply than wall_angle_deg = {wall_angle_deg} at X{:.3} Y{:.3} Z{:.3} of its file: no wall of \
+         that angle meets it there",
+        point.x, point.y, point.z
+    );
+    let hint = "choose a steeper wall, or turn the part";
+    JobError::document("steep-edge", format!("{SECTION}.wall_angle_deg"), message, hint)
+}
+
+/// A part that falls outwards at its edge, at a point of its file; the blank's plane lies on that `side` of it.
+fn falling(point: Vector, side: &str) -> JobError {
+    let other = if side == "below" { "above" } else { "below" };
+    let message = format!(
+        "the part falls outwards at its edge, at X{:.3} Y{:.3} Z{:.3} of its file: a wall that leaves it by its own slope would go \
+         {other} it from there",
+        point.x, point.y, point.z
+    );
+    let hint = "take kind = \"wall\", which may leave the edge with a crease; or turn the part with setup.up";
+    JobError::document("falling-edge", format!("{SECTION}.kind"), message, hint)
+}
+
+/// A part that is too large for the opening at which its addendum is to end.
+fn outside(beyond: f64) -> JobError {
+    let message = format!("the part reaches {beyond:.3} mm into the margin inside the backing plate's opening");
+    let hint = "state a wider setup.fixture.backing.opening, or where it is, setup.fixture.center";
+    JobError::document("beyond-opening", format!("{SECTION}.end"), message, hint)
+}
+
+/// An opening that leaves the addendum too little height, as the fault states.
+fn narrow(fault: &WallFault, corner_radius: f64) -> JobError {
+    let code = if matches!(fault, WallFault::Beyond { .. }) { "beyond-blank" } else { "no-height" };
+    let message = format!("{fault}, where a wall with arcs of corner_radius = {corner_radius} ends at the opening");
+    let hint = "take a steeper wall_angle_deg, a smaller corner_radius or a wider opening";
+    JobError::document(code, format!("{SECTION}.end"), message, hint)
 }
 
 /// What the addendum amounts to.
