@@ -39,6 +39,7 @@ class Example:
     more: dict[str, Any] = field(default_factory=dict)
     part_keys: dict[str, Any] = field(default_factory=dict)
     law: str = "constant"
+    sheet: dict[str, Any] = field(default_factory=dict)
     machine: dict[str, Any] = field(default_factory=lambda: {"name": "linuxcnc"})
 
     def document(self) -> dict[str, Any]:
@@ -47,7 +48,7 @@ class Example:
         setup = deepcopy(self.setup)
         if self.process["kind"] != "milling":
             part["model_face"] = "tool"
-            setup["sheet"] = {"thickness": 1.0, "law": self.law}
+            setup["sheet"] = {"thickness": 1.0, "law": self.law, **self.sheet}
         feeds = {"cut": 1500.0, "plunge": 300.0}
         return {
             "schema": 1,
@@ -155,6 +156,15 @@ EXAMPLES = (
                 "addendum": {"wall_angle_deg": 45.0, "height": 8.0},
             },
         },
+    ),
+    Example(
+        "stages",
+        "Stages",
+        "`part.stages = 2`: a wall of 65 degrees in a sheet that withstands 50 in one pass, by way of two gentler walls.",
+        "vwaf",
+        {"kind": "z-level", "step": {"height": 2.0}},
+        sheet={"max_wall_angle_deg": 50.0},
+        part_keys={"stages": 2},
     ),
     Example(
         "double-sided",

@@ -129,19 +129,24 @@ def test_operations_name_the_addendum(tmp_path: Path) -> None:
 
 
 def test_over_a_male_die_the_wall_goes_down(part_of: Callable[[str], sc.Part], tmp_path: Path) -> None:
-    found = job_document("cap_r60", "z-level", BALL, step={"height": 4.0})
-    found["part"] |= {"faces": "all", "addendum": {"wall_angle_deg": 45.0, "height": 6.0}}
+    found = job_document("cap_r60", "z-level", BALL, step={"height": 1.5})
+    found["part"] |= {"faces": "all", "addendum": {"wall_angle_deg": 50.0, "height": 15.0}}
     found["process"] = {"kind": "tpif", "die": "male"}
     found["accept"] = ["solid"]
     job = sc.Job.from_dict(found, tmp_path, part_of("cap_r60"))
-    report = sc.verify(sc.post(sc.plan(job)).text, job)
+    plan = sc.plan(job)
+    # none is left out while the tool rolls from the flange over its edge to the wall
+    heights = np.unique(plan.programs["main"].moves["end"][:, 2].round(2))
+    heights = heights[heights < 0.0]
+    assert np.diff(heights).max() < 1.51, heights
+    report = sc.verify(sc.post(plan).text, job)
     assert report.ok, report.findings
     edge = job.part().engine.trim[0][:, 2]
     assert np.ptp(edge) < 1e-9
     arrays = job.part().arrays
     assert arrays is not None
     blank = arrays.faces[-1]
-    assert blank.centre[2] == pytest.approx(edge[0] - 6.0, abs=1e-9) and blank.slope_max_deg == pytest.approx(0.0)
+    assert blank.centre[2] == pytest.approx(edge[0] - 15.0, abs=1e-9) and blank.slope_max_deg == pytest.approx(0.0)
 
 
 def test_what_cannot_be_is_refused_with_what_to_do() -> None:
@@ -162,6 +167,16 @@ def test_what_cannot_be_is_refused_with_what_to_do() -> None:
         == "beyond-blank"
     )
     assert refused(level, {"wall_angle_deg": 90.0}).code == "out-of-range"
+    for key in ("wall_angle_deg", "height", "corner_radius", "flange_width"):
+        for value in (float("nan"), float("inf"), -1.0):
+            with pytest.raises(sc.JobError) as caught:
+                job_of(level, {**wall, key: value})
+            assert caught.value.where == f"part.addendum.{key}"
+    blended = {**wall, "kind": "blended"}
+    assert refused(level, {**blended, "corner_radius": 0.0}).code == "conflict"
+    assert refused((level[0] * [1.0, 1.0, -1.0], level[1]), {**blended, "height": 40.0}).code == "falling-edge"
+    assert refused(level, {**wall, "end": "opening"}).code == "missing"
+    assert refused(level, {**wall, "end": "opening", "height": 3.0}).code == "conflict"
     assert refused(level, wall, springback={"deviations": ["a.csv"]}).code == "conflict"
     milling = {**document(wall), "process": {"kind": "milling"}, "setup": {}}
     milling["part"].pop("model_face")
@@ -184,3 +199,45 @@ def test_a_wall_that_leaves_the_plates_opening_is_refused(plate: str) -> None:
         with pytest.raises(sc.JobError, match=r"addendum reaches 0\.2") as caught:
             sc.plan(job)
         assert caught.value.code == "beyond-opening"
+
+
+@pytest.mark.parametrize("uneven", [0.0, 2.0])
+def test_a_blended_wall_goes_on_by_the_parts_own_slope(uneven: float) -> None:
+    mesh = bowl(30.0, 12.0, uneven)
+    keys = {"wall_angle_deg": 55.0, "corner_radius": 8.0, "height": 14.0, "flange_width": 5.0}
+    kinks = []
+    for kind in ("wall", "blended"):
+        vertices, triangles, faces, _ = job_of(mesh, {"kind": kind, **keys}).part().engine.arrays()
+        corners = vertices[triangles]
+        cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        normals = cross / np.linalg.norm(cross, axis=1)[:, None]
+        ends = np.round(np.sort(corners[:, [[0, 1], [1, 2], [2, 0]]], axis=2), 9)
+        sides: dict[bytes, list[int]] = {}
+        for triangle in np.flatnonzero(faces != 3):
+            for side in ends[triangle]:
+                sides.setdefault(np.ascontiguousarray(side + 0.0).tobytes(), []).append(int(triangle))
+        pairs = [pair for pair in sides.values() if len(pair) == 2 and {*faces[pair]} == {1, 2}]
+        assert len(pairs) == 120  # the wall has all sides of the edge, and no others
+        cosines = [normals[a] @ normals[b] for a, b in pairs]
+        kinks.append(np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0))).max())
+        slopes = np.degrees(np.arccos(normals[(faces == 2) & (np.linalg.norm(cross, axis=1) > 1e-3), 2]))
+        assert slopes.max() < 55.6
+    # the bowl reaches its edge by 39 degrees; what is left are chords of the bowl and of the arc
+    assert kinks[0] > 14.0 and kinks[1] < 3.5, kinks
+
+
+def test_a_blended_wall_is_formed_up_to_the_opening_of_the_backing_plate(tmp_path: Path) -> None:
+    found = document({"kind": "blended", "wall_angle_deg": 50.0, "corner_radius": 8.0, "end": "opening"})
+    found["setup"]["fixture"] = {"backing": {"opening": 84.0}}
+    found["machine"] = {"name": "grbl"}
+    job = sc.Job.from_dict(found, tmp_path, sc.Part.from_mesh(*bowl(30.0, 12.0)))
+    vertices, triangles, faces, _ = job.part().engine.arrays()
+    reach = np.linalg.norm(vertices[np.unique(triangles[faces == 2])][:, :2], axis=1).max()
+    assert 42.0 - 1.0 - 0.05 < reach <= 42.0 - 1.0
+    plan = sc.plan(job)
+    report = sc.verify(sc.post(plan).text, job)
+    assert report.ok, report.findings
+    found["setup"]["fixture"]["backing"]["opening"] = 58.0
+    with pytest.raises(sc.JobError) as caught:
+        sc.Job.from_dict(found, tmp_path, sc.Part.from_mesh(*bowl(30.0, 12.0))).part()
+    assert caught.value.code == "beyond-opening"

@@ -74,6 +74,8 @@ def _document(result: running.RunResult, written: list[Path]) -> Document:
     }
     main = channels.pop(MAIN_CHANNEL)
     document = {"ok": result.ok, "notes": _notes(result), **main, "written": [str(path) for path in written]}
+    trim = [curve.tolist() for curve in result.plan.trim]
+    document |= {"trim": trim} if trim else {}
     return {**document, "channels": channels} if channels else document
 
 

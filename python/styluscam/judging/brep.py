@@ -28,7 +28,9 @@ def recheck(report: Document, job: Job, scene: _engine.Scene) -> None:
     rows = np.array(scene.frame)
     points = (np.array([c["point"] for c in contacts]) - rows[:, 3]) @ rows[:, :3]
     points = formed.target_points(points)
-    known = np.flatnonzero(np.isfinite(points).all(axis=1))
+    # on the edge between them a contact may be the addendum's, which no surface of the model is
+    of_model = np.array([c["face"] for c in contacts]) <= len(arrays.surfaces)
+    known = np.flatnonzero(np.isfinite(points).all(axis=1) & of_model)
     report["brep_checked"] = len(known)
     if not len(known):
         return

@@ -33,7 +33,7 @@ pub use freeform::{CurvePoint, Foot, FootSearch, NurbsCurve, NurbsSurface, Pole,
 pub use mesh::{Bvh, Mending, Mesh, Node, Shape, Soup};
 pub use plane::{PlaneCircle, PlanePiece, PlanePoint};
 pub use profile::{kinds, Curved, OutlinePart, Profile, ProfileDocument, ProfileReport, Straight};
-pub use shaping::{stage, walled, warped, DisplacementField, Stage, WallFault, WallShape, Walled, Warped};
+pub use shaping::{stage, walled, warped, DisplacementField, Stage, WallEnd, WallFault, WallShape, Walled, Warped};
 pub use sheet::{ModelFace, Sheet, SheetLaw};
 pub use tool::{Base, Holder, Tool, ToolDocument};
 pub use tool_body::ToolBody;

@@ -13,7 +13,7 @@ use styluscam_motion::ToolReference;
 use crate::selection::CheckSelection;
 use crate::{
     AddendumSection, Chuck, FixtureSection, OperationSection, ProcessSection, Risk, Selection, SpringbackSection,
-    Units, UpAxis,
+    Stages, Units, UpAxis,
 };
 
 /// A whole job: from a part's faces to a machine's program.
@@ -107,11 +107,12 @@ pub struct PartSection {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-advanced" = true, "x-example" = "{ wall_angle_deg = 45.0 }"))]
     pub addendum: Option<AddendumSection>,
-    /// Wall angles of intermediate stages, degrees, rising: [50.0, 65.0]. All operations are done for each stage first, whose walls
+    /// Intermediate stages: their wall angles, degrees, rising, [50.0, 65.0]; or how many, 2, which are then spread evenly between
+    /// what the sheet withstands in one pass and the part's steepest wall. All operations are done for each stage first, whose walls
     /// are no steeper, and for the part at last; for walls that the sheet does not withstand in one pass.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(extend("x-advanced" = true, "x-example" = "[50.0, 65.0]", "x-unit" = "deg", "minimum" = 5.0, "maximum" = 89.0))]
-    pub stages: Vec<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-advanced" = true, "x-example" = "[50.0, 65.0]", "minimum" = 1.0, "maximum" = 89.0))]
+    pub stages: Option<Stages>,
 }
 
 /// How the part lies on the machine.

@@ -6,7 +6,7 @@ use styluscam_geometry::Vector;
 use crate::operations::Areas;
 use crate::resolve::selection_of;
 use crate::selection::face_number;
-use crate::{JobDocument, Part, Selection};
+use crate::{JobDocument, Part, Selection, Stages};
 
 /// Seconds that a facet of the selected faces, and a node of a grid over the part, take.
 const SECONDS_PER_FACET: f64 = 5e-6;
@@ -40,7 +40,7 @@ pub fn estimates(job: &JobDocument, part: &Part) -> Vec<Estimate> {
     let (low, high) = part.mesh.bounds();
     let size = high - low;
     let plan_box = (size.product() / size.dot(&up).abs()).abs();
-    let times = 1.0 + job.part.stages.len() as f64; // once for each stage, and for the part
+    let times = 1.0 + job.part.stages.as_ref().map_or(0, Stages::count) as f64; // once for each stage, and for the part
     let sections = job.operations.iter().enumerate();
     let estimates = sections.filter_map(|(index, section)| {
         let (selection, _) = selection_of(job, section, index);

@@ -16,6 +16,8 @@ use crate::{plates, JobDocument, JobError, OperationSection, Scene};
 const LEAST_RADIUS: f64 = 2.0;
 /// Lengths that differ by less are equal, mm.
 const SAME: f64 = 1e-9;
+/// The sheet is as flat as it was down to so far below where it was, mm.
+const FLAT: f64 = 1e-3;
 /// Slopes at which radii and forces are looked at are this far apart at most, degrees.
 const PITCH_DEG: f64 = 1.0;
 
@@ -76,6 +78,24 @@ pub(crate) fn warnings(job: &JobDocument, scene: &Scene, machine: &Machine) -> R
     Ok(found)
 }
 
+/// What is thinner by its volume than the sheet may become, of a stage or of a part that is formed in stages: for the sine law
+/// holds for the first stage only.
+///
+/// # Errors
+/// Tools that do not build, faces that do not exist.
+pub(crate) fn thin(job: &JobDocument, scene: &Scene) -> Result<Vec<Found>, JobError> {
+    let Some(least) = job.setup.sheet.and_then(|sheet| sheet.min_thickness) else { return Ok(Vec::new()) };
+    let tools = tools(job)?;
+    let mut found = Vec::new();
+    for (index, section) in job.operations_of(scene.channel) {
+        let Some((tool, _)) = tools.get(&section.common.tool) else { continue };
+        let selected = scene.facing_up(&faces_of(job, scene, section, index)?);
+        let forming = Forming::of(job, scene, tool, section, selected);
+        found.extend(forming.and_then(|forming| forming.thin(least, &section.id(index))));
+    }
+    Ok(found)
+}
+
 impl<'a> Forming<'a> {
     fn of(
         job: &JobDocument,
@@ -111,20 +131,43 @@ impl<'a> Forming<'a> {
         Some(Fact { fact: "thinnest", value: thickness, unit: "mm", words })
     }
 
-    /// How thin the sheet becomes on average by its volume, t = t0 A0 / A, with the area A of its upper side and A0 in plan: what is
+    /// How thin the sheet becomes on average by its volume over what is not left flat, t = t0 A0 / A, with the area A of its upper side and A0 in plan: what is
     /// formed in stages takes from where it was formed before, and the sine law does not hold for it.
     fn mean_thickness(&self) -> Option<Fact> {
-        let mesh = &self.scene.mesh;
-        let selected = (0..self.selected.len()).filter(|triangle| self.selected[*triangle]);
-        let [area, plan] = selected.fold([0.0; 2], |[area, plan], triangle| {
-            [area + mesh.area(triangle), plan + mesh.area(triangle) * mesh.normal(triangle).z.max(0.0)]
-        });
-        let thickness = Some(self.thickness * plan / area).filter(|thickness| thickness.is_finite())?;
+        let thickness = self.mean(|triangle| self.is_formed(triangle))?;
         let words = format!(
-            "the sheet becomes {thickness:.3} mm thin on average, by its area; where it is thinnest depends on the stages, and no \
+            "the sheet becomes {thickness:.3} mm thin on average over what is formed, by its volume; where it is thinnest depends on the stages, and no \
              law states that"
         );
         Some(Fact { fact: "mean_thickness", value: thickness, unit: "mm", words })
+    }
+
+    /// The mean thickness of those of its triangles, by their volume, mm; none of no area.
+    fn mean(&self, takes: impl Fn(usize) -> bool) -> Option<f64> {
+        let mesh = &self.scene.mesh;
+        let own = (0..self.selected.len()).filter(|triangle| self.selected[*triangle] && takes(*triangle));
+        let [area, plan] = own.fold([0.0; 2], |[area, plan], triangle| {
+            [area + mesh.area(triangle), plan + mesh.area(triangle) * mesh.normal(triangle).z.max(0.0)]
+        });
+        Some(self.thickness * plan / area).filter(|thickness| thickness.is_finite())
+    }
+
+    /// Whether a triangle lies where the sheet is not left flat.
+    fn is_formed(&self, triangle: usize) -> bool {
+        let flat = self.scene.flat - self.scene.sheet.map_or(0.0, |sheet| sheet.raise());
+        self.scene.mesh.corners(triangle).iter().any(|corner| corner.z < flat - FLAT)
+    }
+
+    /// What is thinner than `least` on average over what is not left flat: wherever the sheet is drawn from, it is thinner still
+    /// somewhere.
+    fn thin(&self, least: f64, id: &str) -> Option<Found> {
+        let thickness = self.mean(|triangle| self.is_formed(triangle)).filter(|thickness| *thickness < least - SAME)?;
+        let words = format!(
+            "{id} makes the sheet {thickness:.3} mm thin on average over what is formed, by its volume, and min_thickness is {} mm: in \
+             whatever stages, it becomes thinner than that; form a less deep part, or a thicker sheet, or accept = [\"thinning\"]",
+            shown(least)
+        );
+        Some((FindingKind::Thinning, Severity::Error, words))
     }
 
     /// The largest axial force in N, on any of its slopes; none where the strength of the sheet is not known, or the passes do

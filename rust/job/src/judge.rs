@@ -15,6 +15,7 @@ use styluscam_verify::{
 };
 
 use crate::limits::{GOUGE, NO_ROOM};
+use crate::numbers::shown;
 use crate::operations::{LeadForm, LinkHeight};
 use crate::resolve::{faces_of, heights_of, layers_of, passes_of, region_of, tools_in_order};
 use crate::{
@@ -153,7 +154,7 @@ fn with_stages(
     mut whole: Report,
     watch: &Watch,
 ) -> Result<Report, JobError> {
-    for (stage, angle) in scene.stages.iter().zip(&job.part.stages) {
+    for stage in &scene.stages {
         let against = Against::new(job, stage)?;
         let ids: Vec<&str> = against.expected.iter().map(|operation| operation.id.as_str()).collect();
         let (program, unknown) = portion::own(&reading.program, &ids, |index| {
@@ -161,10 +162,11 @@ fn with_stages(
         });
         let of_job = limits(job, stage, &against, machine);
         let excess_by_operation = excess(job, stage, &program);
-        let limits = Limits { excess_by_operation, shape_only: true, ..of_job };
+        let found = forming::thin(job, stage)?;
+        let limits = Limits { excess_by_operation, found, shape_only: true, ..of_job };
         let subject = Subject { pairing: Pairing::Alone, ..against.subject(&unknown) };
         let report = styluscam_verify::judge(&program, &subject, &limits, watch)?;
-        whole = whole.with_stage(report, &format!("stage of {angle} degrees"));
+        whole = whole.with_stage(report, &format!("stage of {} degrees", shown(stage.stage_angle_deg)));
     }
     Ok(whole)
 }
@@ -196,6 +198,9 @@ impl<'a> Prepared<'a> {
         if scene.opposite.is_none() {
             found.extend(model::mismatches(job, scene));
             found.extend(forming::warnings(job, scene, machine)?);
+            if !scene.stages.is_empty() {
+                found.extend(forming::thin(job, scene)?);
+            }
         }
         let of_job = limits(job, scene, &against, machine);
         let limits = Limits { excess_by_operation: excess(job, scene, &reading.program), found, ..of_job };

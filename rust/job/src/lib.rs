@@ -77,7 +77,9 @@ pub use scene::Scene;
 pub use schema::schema;
 pub use selection::{CheckSelection, Selection};
 pub use shapes::{shapes, standing, Shape, ShapeKind, Travel};
-pub use shaping::{is_shaped, shaped, AddendumKind, AddendumSection, Deviation, MeshPair, SpringbackSection};
+pub use shaping::{
+    is_shaped, shaped, AddendumEnd, AddendumKind, AddendumSection, Deviation, MeshPair, SpringbackSection, Stages,
+};
 pub use starter::{fitting_radius, starter, Starter, StarterFace, StarterPart};
 pub use summary::Summary;
 pub use up_axis::UpAxis;

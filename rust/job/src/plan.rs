@@ -76,6 +76,9 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
         let frame = descent.map_or_else(Vec::new, |passes| channel.frame(&passes, &planned.moves));
         let of_frame = clamp::fact(&frame);
         let lines = force.iter().chain(&of_frame).map(|fact| fact.words.clone()).collect();
+        if scene.stage.is_some() {
+            planned.facts.extend(scene.changes.iter().cloned());
+        }
         planned.facts.extend(thinnest.into_iter().chain(force).chain(of_frame));
         channel.add(
             (scene.operation_id(section.id(index)), section),

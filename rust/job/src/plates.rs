@@ -112,7 +112,7 @@ pub(crate) fn obstacles(scene: &Scene) -> Result<Vec<Obstacle>, JobError> {
 }
 
 /// The corners of an opening about the origin, counterclockwise.
-fn corners(opening: Opening) -> Vec<[f64; 2]> {
+pub(crate) fn corners(opening: Opening) -> Vec<[f64; 2]> {
     match opening {
         Opening::Sides([w, h]) => {
             [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]].map(|[x, y]| [0.5 * w * x, 0.5 * h * y]).to_vec()

@@ -42,6 +42,8 @@ pub struct Scene {
     pub retract: f64,
     /// Which of the part's intermediate stages it shows, from 1; none for the part itself.
     pub stage: Option<usize>,
+    /// That stage's wall angle, degrees; 0 of the part itself.
+    pub stage_angle_deg: f64,
     /// The part's intermediate stages, in their order.
     pub stages: Vec<Scene>,
     /// What was changed of the part in the file.

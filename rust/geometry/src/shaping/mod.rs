@@ -12,5 +12,5 @@ mod warp;
 
 pub use field::DisplacementField;
 pub use stage::{stage, Stage};
-pub use wall::{walled, WallFault, WallShape, Walled};
+pub use wall::{walled, WallEnd, WallFault, WallShape, Walled};
 pub use warp::{warped, Warped};

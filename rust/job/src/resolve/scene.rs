@@ -15,10 +15,15 @@ impl Scene {
     /// A sheet that is out of range, a stage of too many triangles.
     pub fn new(job: &JobDocument, channel: &'static str, part: &Part) -> Result<Self, JobError> {
         let mut scene = Self::of(job, channel, part)?;
-        for (number, angle) in (1..).zip(&job.part.stages) {
+        for (number, angle) in (1..).zip(shaping::stage_angles(job, part)?) {
             // a face that a stage does not have yet keeps its name
-            let stage = Self::of(job, channel, &shaping::staged(job, part, *angle)?)?;
-            scene.stages.push(Self { stage: Some(number), views: scene.views.clone(), ..stage });
+            let stage = Self::of(job, channel, &shaping::staged(job, part, angle)?)?;
+            scene.stages.push(Self {
+                stage: Some(number),
+                stage_angle_deg: angle,
+                views: scene.views.clone(),
+                ..stage
+            });
         }
         Ok(scene)
     }
@@ -51,6 +56,7 @@ impl Scene {
             views,
             rims,
             stage: None,
+            stage_angle_deg: 0.0,
             stages: Vec::new(),
             changes: part.changes().to_vec(),
             mesh,

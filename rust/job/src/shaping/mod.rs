@@ -15,10 +15,10 @@ use styluscam_geometry::DisplacementField;
 
 use crate::{JobDocument, JobError, Part};
 
-pub use addendum::{fits, AddendumKind, AddendumSection};
+pub use addendum::{fits, AddendumEnd, AddendumKind, AddendumSection};
 pub use compensation::Compensation;
-pub use section::{Deviation, MeshPair, SpringbackSection};
-pub use stages::staged;
+pub use section::{Deviation, MeshPair, SpringbackSection, Stages};
+pub use stages::{angles as stage_angles, staged};
 
 /// Checks what the schema cannot state of what changes a part.
 ///

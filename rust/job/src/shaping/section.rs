@@ -1,4 +1,4 @@
-//! What a job states of its part's springback.
+//! What a job states of its part's springback, and of its stages.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -52,4 +52,25 @@ fn whole() -> f64 {
 
 fn max_gap() -> f64 {
     5.0
+}
+
+/// The intermediate stages, by their number or by their wall angles.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "expected a number of stages, or their wall angles like [50.0, 65.0], degrees")]
+pub enum Stages {
+    /// So many, spread evenly from what the sheet withstands to the part's steepest wall.
+    Count(f64),
+    /// Their wall angles, degrees, rising.
+    Angles(Vec<f64>),
+}
+
+impl Stages {
+    /// How many they are.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        match self {
+            Self::Count(count) => *count as usize,
+            Self::Angles(angles) => angles.len(),
+        }
+    }
 }

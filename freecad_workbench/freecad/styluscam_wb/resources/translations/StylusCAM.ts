@@ -158,16 +158,11 @@ by-area: Each area from the top down before the next one, where that is less air
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Largest angle by which the path turns from one cutting move to the next, degrees: rows are made of chords as short as it takes.
-Edges of the part and straight links make larger ones, which the verification names. Not limited when left out.
-Range: 0.1 to 90 deg
-0 or empty: not stated</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Largest angle by which the path turns from one cutting move to the next, degrees: rows are made of chords as short as it takes.
-Edges of the part and straight links make larger ones, which the verification names. Not limited when left out.
-Range: 0.1 to 90 deg
+        <source>Intermediate stages: their wall angles, degrees, rising, [50.0, 65.0]; or how many, 2, which are then spread evenly between
+what the sheet withstands in one pass and the part's steepest wall. All operations are done for each stage first, whose walls
+are no steeper, and for the part at last; for walls that the sheet does not withstand in one pass.
+Range: 1 to 89
+As JSON
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
@@ -283,14 +278,6 @@ Range: above 0 to 50 mm</source>
     <message>
         <source>Thinnest that the sheet may become, by the sine law, mm; not checked when left out.
 Range: above 0 to 50 mm
-0 or empty: not stated</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Wall angles of intermediate stages, degrees, rising: [50.0, 65.0]. All operations are done for each stage first, whose walls
-are no steeper, and for the part at last; for walls that the sheet does not withstand in one pass.
-Range: 5 to 89 deg
-As JSON
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
@@ -964,6 +951,15 @@ by-area: Each area from the top down before the next one, where that is less air
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Intermediate stages: their wall angles, degrees, rising, [50.0, 65.0]; or how many, 2, which are then spread evenly between
+what the sheet withstands in one pass and the part's steepest wall. All operations are done for each stage first, whose walls
+are no steeper, and for the part at last; for walls that the sheet does not withstand in one pass.
+Range: 1 to 89
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Its diameter, mm.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1065,10 +1061,6 @@ Range: above 0 to 100 mm
     </message>
     <message>
         <source>Max bridged</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Max corner</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1792,14 +1784,6 @@ Range: above 0 to 50 mm
     </message>
     <message>
         <source>Verify programs before they are written</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Wall angles of intermediate stages, degrees, rising: [50.0, 65.0]. All operations are done for each stage first, whose walls
-are no steeper, and for the part at last; for walls that the sheet does not withstand in one pass.
-Range: 5 to 89 deg
-As JSON
-0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>

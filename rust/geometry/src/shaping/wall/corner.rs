@@ -25,6 +25,11 @@ impl Corner {
         radius * (1.0 - libm::cos(angle))
     }
 
+    /// How much higher the wall alone would be where the arc ends on the plane, mm.
+    pub fn beyond(angle: f64, radius: f64) -> f64 {
+        radius * libm::tan(0.5 * angle) * libm::tan(angle)
+    }
+
     pub fn slope(&self) -> f64 {
         self.slope
     }

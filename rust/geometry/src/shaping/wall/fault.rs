@@ -19,6 +19,18 @@ pub enum WallFault {
         /// Where, in the frame of the mesh.
         at: Vector,
     },
+    /// The part's own face falls outwards at its edge: a wall that leaves it by the same slope would go down first.
+    #[error("the part falls outwards at its edge, at X{:.3} Y{:.3} Z{:.3}", at.x, at.y, at.z)]
+    Falls {
+        /// Where, in the frame of the mesh.
+        at: Vector,
+    },
+    /// The part's edge does not lie within the line at which the wall is to end.
+    #[error("the part reaches {beyond:.3} mm beyond the line within which its wall is to end")]
+    Outside {
+        /// By how much, mm.
+        beyond: f64,
+    },
     /// The part rises above the blank's plane.
     #[error("the part rises {beyond:.3} mm beyond the blank's plane")]
     Beyond {

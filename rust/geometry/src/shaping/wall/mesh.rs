@@ -35,6 +35,13 @@ impl HasPosition for Numbered {
     }
 }
 
+/// Where a triangle is to be divided.
+struct Missing {
+    at: [f64; 2],
+    /// The side on which that is, if on one.
+    side: Option<[u32; 2]>,
+}
+
 /// What is triangulated.
 pub struct Ground<'a> {
     walls: &'a Walls,
@@ -115,12 +122,20 @@ impl<'a> Ground<'a> {
         for _ in 0..ROUNDS {
             let triangles = self.outside()?;
             let sides = self.sides(&triangles);
-            let (missing, off): (Vec<Vec<[f64; 2]>>, Vec<f64>) =
+            let (missing, off): (Vec<Vec<Missing>>, Vec<f64>) =
                 triangles.par_iter().map(|triangle| self.coarse(*triangle, &sides)).unzip();
             self.deviation = off.into_iter().fold(0.0, f64::max);
             let before = self.points.len();
-            for at in missing.into_iter().flatten() {
-                self.add(at);
+            let mut numbers: HashMap<[u32; 2], usize> =
+                self.kept.iter().enumerate().map(|(number, [a, b])| ([*a.min(b), *a.max(b)], number)).collect();
+            for Missing { at, side } in missing.into_iter().flatten() {
+                let middle = self.add(at);
+                // a point that rounding puts beside a side that is kept would leave the side as it is
+                if let Some(number) = side.and_then(|side| numbers.remove(&side)) {
+                    let [a, b] = self.kept[number];
+                    self.kept[number] = [a, middle];
+                    self.kept.push([middle, b]);
+                }
             }
             if self.points.len() == before {
                 return Ok(triangles);
@@ -174,7 +189,7 @@ impl<'a> Ground<'a> {
     }
 
     /// Where a triangle is to be divided, and how far what remains lies off the wall, mm.
-    fn coarse(&self, triangle: [u32; 3], sides: &HashMap<[u32; 2], (f64, f64)>) -> (Vec<[f64; 2]>, f64) {
+    fn coarse(&self, triangle: [u32; 3], sides: &HashMap<[u32; 2], (f64, f64)>) -> (Vec<Missing>, f64) {
         let [a, b, c] = triangle.map(|corner| self.points[corner as usize]);
         let normal = (b - a).cross(&(c - a));
         let lean = normal.z / normal.norm().max(f64::MIN_POSITIVE);
@@ -185,14 +200,14 @@ impl<'a> Ground<'a> {
             if off * lean > self.tolerance {
                 let [from, to] = side.map(|corner| self.points[corner as usize]);
                 let at = from + (to - from) * *share;
-                missing.push([at.x, at.y]);
+                missing.push(Missing { at: [at.x, at.y], side: Some(side) });
             }
             worst = worst.max(off * lean);
         }
         let middle = (a + b + c) / 3.0;
         let off = (self.height([middle.x, middle.y]) - middle.z).abs() * lean;
         if missing.is_empty() && off > self.tolerance {
-            missing.push([middle.x, middle.y]);
+            missing.push(Missing { at: [middle.x, middle.y], side: None });
         }
         (missing, worst.max(off))
     }
@@ -238,7 +253,7 @@ impl<'a> Ground<'a> {
             let at = corner + INWARDS * (middle - corner);
             let risen = self.walls.at([at.x, at.y]);
             let away = (at - risen.foot).xy().try_normalize(0.0).unwrap_or_default();
-            let rise = self.corner.rise(risen.height);
+            let rise = self.corner.rise(risen.height) * risen.rise / self.walls.slope();
             Vector::new(-rise * away.x, -rise * away.y, 1.0).normalize()
         })
     }

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use rayon::prelude::*;
 
+use super::bend::Bend;
 use super::corner::Corner;
 use super::field::Walls;
 use crate::Vector;
@@ -14,6 +15,14 @@ const PITCH: f64 = 2.0;
 const HALVINGS: u32 = 40;
 /// A wall is overtaken by another one where that is lower by more than this, mm.
 const OVERTAKEN: f64 = 1e-9;
+/// With arcs at the edge they bend in plan where it rises or falls; straight ones serve while they deviate by less than this share
+/// of the tolerance.
+const BENT: f64 = 0.25;
+/// Corners of arcs at the edge lie no nearer to each other than this, mm: none on the edge itself.
+const APART: f64 = 0.02;
+
+/// A slope from which there is an ascent.
+const LEAST: f64 = 1e-6;
 
 /// A ray: corners of the wall above it.
 #[derive(Clone, Debug)]
@@ -34,6 +43,8 @@ struct Start {
     direction: [f64; 2],
     /// The sides, by their numbers, whose walls the ray is a part of.
     own: [usize; 2],
+    /// How the wall leaves the edge there.
+    bend: Bend,
 }
 
 /// The rays of one closed line, counter-clockwise, whose sides have numbers from `first` on; `longest` bounds their lengths, mm.
@@ -42,8 +53,10 @@ pub fn rays(line: &[Vector], first: usize, walls: &Walls, corner: &Corner, level
     let longest = (levels.last().copied().unwrap_or(low) - low).max(tolerance) / corner.slope();
     // a turn that a chord over it cuts off by no more than the tolerance, along the wall's normal
     let most = (8.0 * tolerance / longest).sqrt();
-    let starts = starts(line, first, corner.slope(), most);
-    starts.par_iter().map(|start| start.ray(walls, corner.slope(), levels)).collect()
+    let starts = starts(line, first, walls, most);
+    let chords = walls.chords(tolerance);
+    let overtaken = if chords > 0 { BENT * tolerance } else { OVERTAKEN };
+    starts.par_iter().map(|start| start.ray(walls, levels, chords, overtaken)).collect()
 }
 
 /// The direction of steepest ascent from a side with the rise `m` per length in plan, along the unit vector (x, y).
@@ -55,13 +68,17 @@ fn ascent([a, b]: [Vector; 2], slope: f64) -> [f64; 2] {
     [(m * x + across * y) / slope, (m * y - across * x) / slope]
 }
 
-fn starts(line: &[Vector], first: usize, slope: f64, most: f64) -> Vec<Start> {
+fn starts(line: &[Vector], first: usize, walls: &Walls, most: f64) -> Vec<Start> {
     let count = line.len();
     let side = |i: usize| [line[i % count], line[(i + 1) % count]];
     let mut starts = Vec::new();
     for (i, corner) in line.iter().enumerate() {
         let before = (i + count - 1) % count;
-        let (from, to) = (ascent(side(before), slope), ascent(side(i), slope));
+        let bends = [walls.bend(first + before, 1.0), walls.bend(first + i, 0.0)];
+        let [from, to] = [(before, bends[0]), (i, bends[1])].map(|(side_of, bend)| {
+            let along = side(side_of)[1] - side(side_of)[0];
+            ascent(side(side_of), bend.rise(0.0).max(along.z.abs() / along.xy().norm()).max(LEAST))
+        });
         let turn = libm::atan2(from[0] * to[1] - from[1] * to[0], from[0] * to[0] + from[1] * to[1]);
         // a fan about a corner that juts out; where the edge turns inwards, one ray along the crease of both walls
         let fan = if turn > most { (turn / most).ceil() as u32 } else { 0 };
@@ -70,13 +87,15 @@ fn starts(line: &[Vector], first: usize, slope: f64, most: f64) -> Vec<Start> {
             let share = if fan == 0 { 0.5 } else { f64::from(k) / f64::from(fan) };
             let (sin, cos) = libm::sincos(begin + share * turn);
             let own = [first + before, first + i];
-            starts.push(Start { corner: Some(i), foot: *corner, direction: [cos, sin], own });
+            let bend = Bend { from: bends[0].from + share * (bends[1].from - bends[0].from), ..bends[0] };
+            starts.push(Start { corner: Some(i), foot: *corner, direction: [cos, sin], own, bend });
         }
         let [a, b] = side(i);
         let parts = ((b - a).xy().norm() / PITCH).ceil().max(1.0) as u32;
         for k in 1..parts {
-            let foot = a + (b - a) * (f64::from(k) / f64::from(parts));
-            starts.push(Start { corner: None, foot, direction: to, own: [first + i; 2] });
+            let share = f64::from(k) / f64::from(parts);
+            let (foot, bend) = (a + (b - a) * share, walls.bend(first + i, share));
+            starts.push(Start { corner: None, foot, direction: to, own: [first + i; 2], bend });
         }
         debug_assert!(turn.abs() <= PI);
     }
@@ -88,11 +107,12 @@ impl Start {
         [self.foot.x + length * self.direction[0], self.foot.y + length * self.direction[1]]
     }
 
-    fn ray(&self, walls: &Walls, slope: f64, levels: &[f64]) -> Ray {
+    fn ray(&self, walls: &Walls, levels: &[f64], chords: u32, overtaken: f64) -> Ray {
+        let slope = walls.slope();
         let own = |length: f64| {
             self.own.map(|side| walls.of_side(side, self.at(length))).into_iter().fold(f64::INFINITY, f64::min)
         };
-        let is_own = |length: f64| walls.at(self.at(length)).height >= own(length) - OVERTAKEN;
+        let is_own = |length: f64| walls.at(self.at(length)).height >= own(length) - overtaken;
         let top = levels.last().copied().unwrap_or(self.foot.z);
         // along the crease of two walls it rises less steeply than they do
         let mut far = ((top - self.foot.z) / slope).max(0.0);
@@ -105,8 +125,9 @@ impl Start {
         let end = if is_own(far) { None } else { Some(bisected(0.0, far, is_own)) };
         let reach = end.unwrap_or(far);
         let reached = levels.iter().take_while(|level| end.is_none() || own(reach) > **level);
-        let crossings = reached.map(|level| self.at(bisected(0.0, reach, |length| own(length) < *level)));
-        let crossings = crossings.collect();
+        let crossed = reached.map(|level| self.at(bisected(0.0, reach, |length| own(length) < *level)));
+        let bent = self.bend.corners(chords, APART).take_while(|length| *length < reach).map(|length| self.at(length));
+        let crossings = bent.chain(crossed).collect();
         Ray { corner: self.corner, crossings, end: end.map(|length| self.at(length)) }
     }
 }

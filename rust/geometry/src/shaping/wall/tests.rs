@@ -16,7 +16,8 @@ fn dish(corners: u32, radius: f64, height: impl Fn(f64) -> f64) -> Mesh {
 
 fn shape(angle_deg: f64, radius: f64, height: f64) -> WallShape {
     let angle = angle_deg.to_radians();
-    WallShape { angle, radius, height: Some(height), margin: 5.0, tolerance: 0.002, goes_down: false }
+    let end = WallEnd::Height(height);
+    WallShape { angle, radius, blended: false, end, margin: 5.0, tolerance: 0.002, goes_down: false }
 }
 
 fn built(part: &Mesh, shape: &WallShape) -> Walled {
@@ -73,8 +74,7 @@ fn over_an_uneven_edge_no_wall_is_steeper_and_all_of_the_edge_is_met() {
         assert!(area.norm() < 1e-3 || area.normalize().z > least, "{a} {b} {c}");
     }
     assert!((found.plane - 10.0).abs() < 1e-12);
-    let on_wall: std::collections::HashSet<[u64; 3]> =
-        of_wall(&found).flatten().map(|p| <[u64; 3]>::from(p.map(f64::to_bits))).collect();
+    let on_wall: HashSet<[u64; 3]> = of_wall(&found).flatten().map(|p| <[u64; 3]>::from(p.map(f64::to_bits))).collect();
     assert!(found.edges[0].iter().all(|p| on_wall.contains(&<[u64; 3]>::from(p.map(f64::to_bits)))));
     assert_eq!(found.edges[0].len(), 360);
 }
@@ -152,6 +152,62 @@ fn what_cannot_be_is_refused() {
         &[],
     )
     .unwrap();
-    let flange = WallShape { height: None, ..shape(45.0, 0.0, 0.0) };
+    let flange = WallShape { end: WallEnd::Least, ..shape(45.0, 0.0, 0.0) };
     assert_eq!(refused(&flat, &flange), WallFault::Flange);
+}
+
+#[test]
+fn a_blended_wall_goes_on_by_the_slope_of_the_part() {
+    // cones of 63 and of 34 degrees, a wall of 45
+    for depth in [60.0, 20.0] {
+        let steep = Mesh::new(
+            dish(360, 30.0, |_| 0.0).vertices().iter().map(|p| Vector::new(p.x, p.y, p.z * depth / 20.0)).collect(),
+            &(0..360).map(|i| [i, (i + 1) % 360, 360]).collect::<Vec<_>>(),
+            &[],
+        )
+        .unwrap();
+        let found = built(&steep, &WallShape { blended: true, ..shape(45.0, 6.0, 12.0) });
+        let own = libm::atan(depth / 30.0);
+        let bend = bend::Bend { from: own, to: 45_f64.to_radians(), radius: 6.0 };
+        let corner = Corner::new(45_f64.to_radians(), 12.0, 6.0);
+        let (mut nearest, mut least) = (f64::INFINITY, 1.0);
+        for corners in of_wall(&found) {
+            let middle = corners.iter().sum::<Vector>() / 3.0;
+            let away = libm::hypot(middle.x, middle.y) - 30.0;
+            let exact = corner.height(bend.height(away.max(0.0)));
+            assert!((middle.z - exact).abs() < 0.006, "{middle} {exact}");
+            let up = (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).normalize().z;
+            if away < nearest {
+                (nearest, least) = (away, up);
+            }
+        }
+        assert!((libm::acos(least) - own).abs() < 0.06, "{} {own}", libm::acos(least));
+    }
+}
+
+#[test]
+fn a_wall_may_end_within_a_line_and_what_hangs_from_the_edge_gives_way_to_it() {
+    let part = dish(360, 30.0, |_| 0.0);
+    let square = vec![[-40.0, -40.0], [40.0, -40.0], [40.0, 40.0], [-40.0, 40.0]];
+    let within = |line: Vec<[f64; 2]>| WallShape { end: WallEnd::Within(line), ..shape(45.0, 3.0, 0.0) };
+    let found = built(&part, &within(square.clone()));
+    let reach = found.extent[1][0] - 5.0;
+    assert!((reach - 40.0).abs() < 1e-3, "{reach}");
+    let small = square.iter().map(|corner| corner.map(|x| 0.5 * x)).collect();
+    let fault = walled(&part, &[true; 360], &within(small)).unwrap_err();
+    assert!(matches!(fault, WallFault::Outside { beyond } if (beyond - 10.0).abs() < 1e-9), "{fault}");
+    // the dish with a skirt that hangs down from its edge
+    let mut vertices = part.vertices().to_vec();
+    vertices.extend((0..360).map(|i| part.vertices()[i] - Vector::new(0.0, 0.0, 25.0)));
+    let mut triangles: Vec<[i64; 3]> = part.triangles().iter().map(|corners| corners.map(i64::from)).collect();
+    triangles.extend((0..360).map(|i| [i, i + 361, (i + 1) % 360]));
+    let skirted = Mesh::new(vertices, &triangles, &[]).unwrap();
+    let keep: Vec<bool> = (0..720).map(|triangle| triangle < 360).collect();
+    let plain = walled(&part, &[true; 360], &shape(45.0, 3.0, 8.0)).unwrap();
+    let other = walled(&skirted, &keep, &shape(45.0, 3.0, 8.0)).unwrap();
+    assert_eq!(other.mesh.triangles().len(), plain.mesh.triangles().len());
+    assert_eq!(other.formed, plain.formed);
+    let fall = dish(90, 30.0, |_| -30.0);
+    let falls = walled(&fall, &[true; 90], &WallShape { blended: true, ..shape(45.0, 3.0, 20.0) });
+    assert!(matches!(falls, Err(WallFault::Falls { .. })));
 }

@@ -2,9 +2,10 @@
 //!
 //! Derivation: docs/concepts/addendum.md.
 
+mod opening;
 mod section;
 
-use styluscam_geometry::{walled, Bvh, Frame, Mesh, Vector, WallFault, WallShape, Walled};
+use styluscam_geometry::{walled, Bvh, Frame, Vector, WallEnd, WallFault, WallShape, Walled};
 use styluscam_verify::Support;
 
 use crate::faces;
@@ -12,7 +13,7 @@ use crate::operations::Fact;
 use crate::part::Undone;
 use crate::{plates, JobDocument, JobError, Opening, Part, Scene, Shaped};
 
-pub use section::{AddendumKind, AddendumSection};
+pub use section::{AddendumEnd, AddendumKind, AddendumSection};
 
 const SECTION: &str = "part.addendum";
 /// The name of the wall's face.
@@ -25,7 +26,7 @@ const BLANK: &str = "Blank";
 /// # Errors
 /// A process that forms nothing, springback beside it.
 pub fn check(job: &JobDocument) -> Result<(), JobError> {
-    if job.part.addendum.is_none() {
+    let Some(section) = &job.part.addendum else {
         if job.output.trim.is_empty() {
             return Ok(());
         }
@@ -37,7 +38,7 @@ pub fn check(job: &JobDocument) -> Result<(), JobError> {
             message,
             "add [part.addendum], or remove output.trim",
         ));
-    }
+    };
     let process = &job.process.process;
     if !process.as_kind().forms() {
         let message = format!("process.kind = {:?} cuts, and what is cut needs no addendum", process.name());
@@ -47,6 +48,16 @@ pub fn check(job: &JobDocument) -> Result<(), JobError> {
         let message = "springback is compensated on parts without an addendum only";
         let hint = "remove [part.springback] or [part.addendum]; or model the addendum as a part of the part";
         return Err(JobError::document("conflict", SECTION, message, hint));
+    }
+    if section.end == AddendumEnd::Opening && section.height.is_some() {
+        let message = "the height of an addendum that ends at the opening follows from that, and one is stated";
+        let hint = "remove height, or end = \"opening\"";
+        return Err(JobError::document("conflict", format!("{SECTION}.height"), message, hint));
+    }
+    if section.kind == AddendumKind::Blended && section.corner_radius <= 0.0 {
+        let message = "kind = \"blended\" joins wall and part by an arc, and corner_radius is 0";
+        let hint = "state a radius of the tool's at least, or take kind = \"wall\"";
+        return Err(JobError::document("conflict", format!("{SECTION}.corner_radius"), message, hint));
     }
     Ok(())
 }
@@ -60,14 +71,19 @@ pub fn extended(job: &JobDocument, section: &AddendumSection, part: &Part) -> Re
     let shape = WallShape {
         angle: section.wall_angle_deg.to_radians(),
         radius: section.corner_radius,
-        height: section.height,
+        blended: section.kind == AddendumKind::Blended,
+        end: match (section.end, section.height) {
+            (AddendumEnd::Opening, _) => WallEnd::Within(opening::outline(job, &placed, &keep)?),
+            (AddendumEnd::Height, Some(height)) => WallEnd::Height(height),
+            (AddendumEnd::Height, None) => WallEnd::Least,
+        },
         margin: section.flange_width,
         tolerance: job.part.tolerance,
         goes_down: goes_down(job),
     };
     let back = frame.inverse();
     let walled = walled(&placed, &keep, &shape).map_err(|fault| refused(job, section, &fault, &back))?;
-    let facts = facts(section, &walled, &keep);
+    let facts = facts(section, &walled);
     let mesh = walled.mesh.placed(&back);
     let trim = walled.edges.iter().map(|edge| edge.iter().map(|point| back.point(*point)).collect()).collect();
     let shaped = Shaped {
@@ -108,14 +124,11 @@ fn refused(job: &JobDocument, section: &AddendumSection, fault: &WallFault, back
             let message = "the part's edge lies in a level flange already: it is clamped there, and needs no addendum";
             JobError::document("not-needed", SECTION, message, "remove [part.addendum], or state its height")
         }
-        WallFault::Steep { at: point } => {
-            let point = back.point(*point);
-            let message = format!(
-                "the part's edge climbs more steeply than wall_angle_deg = {} at X{:.3} Y{:.3} Z{:.3} of its file: no wall of \
-                 that angle meets it there",
-                section.wall_angle_deg, point.x, point.y, point.z
-            );
-            JobError::document("steep-edge", at("wall_angle_deg"), message, "choose a steeper wall, or turn the part")
+        WallFault::Steep { at: point } => steep(back.point(*point), section.wall_angle_deg),
+        WallFault::Falls { at: point } => falling(back.point(*point), side),
+        WallFault::Outside { beyond } => outside(*beyond),
+        WallFault::Beyond { .. } | WallFault::Arc { .. } if section.end == AddendumEnd::Opening => {
+            narrow(fault, section.corner_radius)
         }
         WallFault::Beyond { beyond } => {
             let message = format!(
@@ -130,7 +143,7 @@ fn refused(job: &JobDocument, section: &AddendumSection, fault: &WallFault, back
         }
         WallFault::Arc { least, height } => {
             let message = format!(
-                "the arc of corner_radius = {} takes {least:.3} mm of height, and the blank's plane lies {height:.3} mm {side} \
+                "arcs of corner_radius = {} take {least:.3} mm of height, and the blank's plane lies {height:.3} mm {side} \
                  the part's edge",
                 section.corner_radius
             );
@@ -154,15 +167,57 @@ fn refused(job: &JobDocument, section: &AddendumSection, fault: &WallFault, back
     }
 }
 
+/// An edge that no wall of an angle in degrees meets at a point of the part's file.
+fn steep(point: Vector, wall_angle_deg: f64) -> JobError {
+    let message = format!(
+        "the part's edge climbs more steeply than wall_angle_deg = {wall_angle_deg} at X{:.3} Y{:.3} Z{:.3} of its file: no wall of \
+         that angle meets it there",
+        point.x, point.y, point.z
+    );
+    let hint = "choose a steeper wall, or turn the part";
+    JobError::document("steep-edge", format!("{SECTION}.wall_angle_deg"), message, hint)
+}
+
+/// A part that falls outwards at its edge, at a point of its file; the blank's plane lies on that `side` of it.
+fn falling(point: Vector, side: &str) -> JobError {
+    let other = if side == "below" { "above" } else { "below" };
+    let message = format!(
+        "the part falls outwards at its edge, at X{:.3} Y{:.3} Z{:.3} of its file: a wall that leaves it by its own slope would go \
+         {other} it from there",
+        point.x, point.y, point.z
+    );
+    let hint = "take kind = \"wall\", which may leave the edge with a crease; or turn the part with setup.up";
+    JobError::document("falling-edge", format!("{SECTION}.kind"), message, hint)
+}
+
+/// A part that is too large for the opening at which its addendum is to end.
+fn outside(beyond: f64) -> JobError {
+    let message = format!("the part reaches {beyond:.3} mm into the margin inside the backing plate's opening");
+    let hint = "state a wider setup.fixture.backing.opening, or where it is, setup.fixture.center";
+    JobError::document("beyond-opening", format!("{SECTION}.end"), message, hint)
+}
+
+/// An opening that leaves the addendum too little height, as the fault states.
+fn narrow(fault: &WallFault, corner_radius: f64) -> JobError {
+    let code = if matches!(fault, WallFault::Beyond { .. }) { "beyond-blank" } else { "no-height" };
+    let message = format!("{fault}, where a wall with arcs of corner_radius = {corner_radius} ends at the opening");
+    let hint = "take a steeper wall_angle_deg, a smaller corner_radius or a wider opening";
+    JobError::document(code, format!("{SECTION}.end"), message, hint)
+}
+
 /// What the addendum amounts to.
-fn facts(section: &AddendumSection, walled: &Walled, keep: &[bool]) -> Vec<Fact> {
+fn facts(section: &AddendumSection, walled: &Walled) -> Vec<Fact> {
     let of_edge = walled.edges.iter().flatten().map(|point| (walled.plane - point.z).abs());
     let height = of_edge.fold(0.0, f64::max);
     let Walled { wall, blank, extent: [low, high], .. } = walled;
     let [x, y] = [0, 1].map(|axis| high[axis] - low[axis]);
     let words = format!(
-        "addendum: a wall of {} degrees, Face{wall} ({WALL}), up to {height:.3} mm high, in a level blank, Face{blank} ({BLANK})",
-        section.wall_angle_deg
+        "addendum: a wall of {} degrees{}, Face{wall} ({WALL}), up to {height:.3} mm high, in a level blank, Face{blank} ({BLANK})",
+        section.wall_angle_deg,
+        match section.kind {
+            AddendumKind::Wall => "",
+            AddendumKind::Blended => ", blended into the part",
+        }
     );
     let size = |fact, value| Fact {
         fact,
@@ -171,7 +226,7 @@ fn facts(section: &AddendumSection, walled: &Walled, keep: &[bool]) -> Vec<Fact>
         words: format!("blank {x:.1} x {y:.1} mm, with {} mm around the wall", section.flange_width),
     };
     let length: f64 = walled.edges.iter().map(|edge| length(edge)).sum();
-    let [area, plan] = areas(&walled.mesh, keep, *wall);
+    let [area, plan] = areas(walled);
     let stretch = Fact {
         fact: "area_stretch",
         value: area / plan,
@@ -202,12 +257,8 @@ fn length(edge: &[Vector]) -> f64 {
 }
 
 /// Area of the part's upper side with the wall, and in plan, mm^2.
-fn areas(mesh: &Mesh, keep: &[bool], wall: u32) -> [f64; 2] {
-    let is_formed = |triangle: usize| match keep.get(triangle) {
-        Some(keep) => *keep,
-        None => mesh.faces()[triangle] == wall,
-    };
-    let formed = (0..mesh.triangles().len()).filter(|triangle| is_formed(*triangle));
+fn areas(Walled { mesh, formed, .. }: &Walled) -> [f64; 2] {
+    let formed = (0..formed.len()).filter(|triangle| formed[*triangle]);
     formed.fold([0.0; 2], |[area, plan], triangle| {
         [area + mesh.area(triangle), plan + mesh.area(triangle) * mesh.normal(triangle).z.max(0.0)]
     })
