@@ -167,6 +167,13 @@ As JSON
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Largest angle by which the path turns from one cutting move to the next, degrees: rows are made of chords as short as it takes.
+Edges of the part and straight links make larger ones, which the verification names. Not limited when left out.
+Range: 0.1 to 90 deg
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Largest deviation of the triangles from the model's surfaces, mm; checked by sampling.
 Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
@@ -976,6 +983,13 @@ As JSON
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Largest angle by which the path turns from one cutting move to the next, degrees: rows are made of chords as short as it takes.
+Edges of the part and straight links make larger ones, which the verification names. Not limited when left out.
+Range: 0.1 to 90 deg
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Largest deviation of the triangles from the model's surfaces, mm; checked by sampling.
 Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
@@ -1061,6 +1075,10 @@ Range: above 0 to 100 mm
     </message>
     <message>
         <source>Max bridged</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Max corner</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2063,6 +2081,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>measuring roundness</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>measuring the engagement</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
