@@ -71,8 +71,8 @@ class FlankPositions:
         """What the tool leaves when it moves from position to position, its axis straight between them."""
         u, v = np.linspace(0.0, 1.0, ALONG), np.linspace(0.0, 1.0, ACROSS)
         shares = np.ascontiguousarray(np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1).reshape(-1, 2))
-        ends = (np.ascontiguousarray(self._beside_rails[:, end]) for end in (0, 1))
-        return FlankError(self._strip.left(*ends, self.radius, shares).reshape(ALONG, ACROSS), u, v)
+        first, second = (np.ascontiguousarray(self._beside_rails[:, end]) for end in (0, 1))
+        return FlankError(self._strip.left(first, second, self.radius, shares).reshape(ALONG, ACROSS), u, v)
 
 
 def flank_positions(
