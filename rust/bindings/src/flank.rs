@@ -11,6 +11,12 @@ use crate::{arrays, errors};
 /// A rail: degree, flat knots, poles (N, 3) in mm, weights (N,).
 type RailArrays<'py> = (usize, Vec<f64>, PyReadonlyArray2<'py, f64>, PyReadonlyArray1<'py, f64>);
 
+/// Pairs of points (N, 2, 3), twice.
+type Pairs<'py> = (Bound<'py, PyArray3<f64>>, Bound<'py, PyArray3<f64>>);
+
+/// Points and directions, each (N, 3).
+type Rows<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>);
+
 /// A strip between two rails, and a side of it: `"left"` or `"right"`.
 #[pyclass(frozen, module = "styluscam._engine", name = "RuledStrip")]
 #[derive(Debug)]
@@ -33,13 +39,7 @@ impl Strip {
     }
 
     /// Points of the axis beside both rails (N, 2, 3), and contacts (N, 2, 3), mm, in `count` positions of a cylinder.
-    fn positions<'py>(
-        &self,
-        py: Python<'py>,
-        radius: f64,
-        count: usize,
-        method: &str,
-    ) -> PyResult<(Bound<'py, PyArray3<f64>>, Bound<'py, PyArray3<f64>>)> {
+    fn positions<'py>(&self, py: Python<'py>, radius: f64, count: usize, method: &str) -> PyResult<Pairs<'py>> {
         let method = match method {
             "swept" => Method::Swept,
             "rails" => Method::Rails,
@@ -54,11 +54,7 @@ impl Strip {
 
     /// Points (N, 3), mm, and unit normals (N, 3) towards the tool at shares (N, 2) of the way along the rails and the rulings.
     #[allow(clippy::needless_pass_by_value)] // PyO3 hands arrays by value
-    fn points<'py>(
-        &self,
-        py: Python<'py>,
-        shares: PyReadonlyArray2<'py, f64>,
-    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
+    fn points<'py>(&self, py: Python<'py>, shares: PyReadonlyArray2<'py, f64>) -> PyResult<Rows<'py>> {
         let shares = arrays::rows::<f64, 2>(&shares, "shares")?;
         let points: Vec<Vec<f64>> = shares.iter().map(|at| self.strip.point(*at).as_slice().to_vec()).collect();
         let normals: Vec<Vec<f64>> = shares.iter().map(|at| self.strip.normal(*at).as_slice().to_vec()).collect();

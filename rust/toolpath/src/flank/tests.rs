@@ -39,8 +39,8 @@ fn the_axis_moves_as_its_derivative_says() {
         let at = |spread: f64| stand(&strip, 10.0, [u - spread, u + spread], [-1.0, 1.0]).unwrap();
         let h = 1e-6;
         let ((_, rates), (less, _), (more, _)) = (at(0.01), at(0.01 - h), at(0.01 + h));
-        for i in 0..2 {
-            assert!(((more.axis[i] - less.axis[i]) / (2.0 * h) - rates[i]).norm() < 1e-6, "{u}");
+        for (rate, (more, less)) in rates.iter().zip(more.axis.iter().zip(&less.axis)) {
+            assert!(((more - less) / (2.0 * h) - rate).norm() < 1e-6, "{u}");
         }
     }
 }
