@@ -333,6 +333,7 @@ def test_the_verifier_misses_a_pass_inside_the_boundary_only(two_cups: sc.Part) 
 def test_low_rapids_keep_clear_of_check_faces(two_cups: sc.Part) -> None:
     """From cup to cup over their lands, 3 mm above them though half a millimetre above the stock is asked for."""
     keys: Any = {"links": "low", "link_margin": 0.5, "check_faces": ["Face1", "Face4"], "check_clearance": 3.0}
+    keys["order"] = "by-level"  # by areas it crosses once
     planned = job("made.stl", ["Face2", "Face5"], "z-level", two_cups, **keys)
     _, report = verified(planned)
     assert not report.findings

@@ -111,7 +111,7 @@ pub struct PartSection {
     /// what the sheet withstands in one pass and the part's steepest wall. All operations are done for each stage first, whose walls
     /// are no steeper, and for the part at last; for walls that the sheet does not withstand in one pass.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-advanced" = true, "x-example" = "[50.0, 65.0]"))]
+    #[schemars(extend("x-advanced" = true, "x-example" = "[50.0, 65.0]", "minimum" = 1.0, "maximum" = 89.0))]
     pub stages: Option<Stages>,
 }
 

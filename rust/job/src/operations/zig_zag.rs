@@ -288,8 +288,9 @@ impl FollowsSurface for ZigZag {
 
     /// Rows leave the material on the side that they are asked to leave it on as long as neighbours follow each other.
     fn freedom<'a>(&self, task: &Task<'_>, traced: &'a Traced) -> Freedom<'a> {
-        if self.max_increment.is_some() {
-            return Freedom::WithinGroups; // each row presses the sheet beside the one before
+        // each row presses the sheet beside the one before; turns lead from each to the one beside it
+        if self.max_increment.is_some() || self.turn().is_some() {
+            return Freedom::WithinGroups;
         }
         let reach = NEIGHBOURS * self.stepover;
         let of_rows = |is_reversible| Freedom::OfRows { sets: &traced.sets, is_reversible, reach };

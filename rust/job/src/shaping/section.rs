@@ -59,9 +59,9 @@ fn max_gap() -> f64 {
 #[serde(untagged, expecting = "expected a number of stages, or their wall angles like [50.0, 65.0], degrees")]
 pub enum Stages {
     /// So many, spread evenly from what the sheet withstands to the part's steepest wall.
-    Count(#[schemars(extend("x-unit" = "1", "minimum" = 1.0, "maximum" = 20.0))] f64),
+    Count(#[schemars(extend("x-unit" = "1"))] f64),
     /// Their wall angles, degrees, rising.
-    Angles(#[schemars(extend("x-unit" = "deg", "minimum" = 5.0, "maximum" = 89.0))] Vec<f64>),
+    Angles(#[schemars(extend("x-unit" = "deg"))] Vec<f64>),
 }
 
 impl Stages {

@@ -161,6 +161,7 @@ by-area: Each area from the top down before the next one, where that is less air
         <source>Intermediate stages: their wall angles, degrees, rising, [50.0, 65.0]; or how many, 2, which are then spread evenly between
 what the sheet withstands in one pass and the part's steepest wall. All operations are done for each stage first, whose walls
 are no steeper, and for the part at last; for walls that the sheet does not withstand in one pass.
+Range: 1 to 89
 As JSON
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
@@ -960,6 +961,7 @@ by-area: Each area from the top down before the next one, where that is less air
         <source>Intermediate stages: their wall angles, degrees, rising, [50.0, 65.0]; or how many, 2, which are then spread evenly between
 what the sheet withstands in one pass and the part's steepest wall. All operations are done for each stage first, whose walls
 are no steeper, and for the part at last; for walls that the sheet does not withstand in one pass.
+Range: 1 to 89
 As JSON
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
