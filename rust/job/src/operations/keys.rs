@@ -57,8 +57,8 @@ pub struct OperationKeys {
     /// What the posted path is made of.
     #[serde(default)]
     pub fit: Fit,
-    /// Largest angle by which the path turns from one cutting move to the next, degrees: rows are made of chords as short as it takes.
-    /// Edges of the part and straight links make larger ones, which the verification names. Not limited when left out.
+    /// Largest angle by which the path turns from one cutting move to the next, degrees: rows get shorter chords for it, up to what the
+    /// part's facets turn by; levels and spirals do not. The verification names every larger one. Not limited when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-advanced" = true, "x-unit" = "deg", "minimum" = 0.1, "maximum" = 90.0))]
     pub max_corner_deg: Option<f64>,
