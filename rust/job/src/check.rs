@@ -359,7 +359,7 @@ fn turning(process: &Process, path: &str, section: &OperationSection) -> Result<
 
 /// A tool on the other side of the sheet is planned along straight moves.
 fn fit(job: &JobDocument, path: &str, common: &OperationKeys) -> Result<(), JobError> {
-    let follows = job.channels().iter().any(|channel| job.opposite(channel).is_some());
+    let follows = job.follower().is_some();
     if common.fit == Fit::Lines || !follows {
         return Ok(());
     }
@@ -370,7 +370,7 @@ fn fit(job: &JobDocument, path: &str, common: &OperationKeys) -> Result<(), JobE
 
 /// Two tools that keep pace over clearance have no low links.
 fn links(job: &JobDocument, path: &str, common: &OperationKeys) -> Result<(), JobError> {
-    let follows = job.channels().iter().any(|channel| job.opposite(channel).is_some());
+    let follows = job.follower().is_some();
     if common.links == LinkHeight::Clearance || !follows {
         return Ok(());
     }
@@ -382,7 +382,7 @@ fn links(job: &JobDocument, path: &str, common: &OperationKeys) -> Result<(), Jo
 /// Layers are pressed into a sheet that hangs free: a tool below has no contact to follow in them, and no frame goes down with them.
 fn layers(job: &JobDocument, path: &str, section: &OperationSection) -> Result<(), JobError> {
     let process = &job.process.process;
-    let follows = job.channels().iter().any(|channel| job.opposite(channel).is_some());
+    let follows = job.follower().is_some();
     let reason = if !section.kind().forms_in_layers() {
         return Ok(());
     } else if !process.as_kind().forms() {
@@ -401,7 +401,7 @@ fn layers(job: &JobDocument, path: &str, section: &OperationSection) -> Result<(
 
 /// Feeds per revolution, and those with which two tools keep pace, are none that drop at corners.
 fn corners(job: &JobDocument, path: &str, section: &OperationSection) -> Result<(), JobError> {
-    let follows = job.channels().iter().any(|channel| job.opposite(channel).is_some());
+    let follows = job.follower().is_some();
     if !section.common.slow_corners || !(follows || section.kind().turns_part()) {
         return Ok(());
     }

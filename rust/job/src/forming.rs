@@ -62,17 +62,12 @@ pub(crate) fn facts(
 /// # Errors
 /// Tools that do not build, faces that do not exist.
 pub(crate) fn warnings(job: &JobDocument, scene: &Scene, machine: &Machine) -> Result<Vec<Found>, JobError> {
-    let tools = tools(job)?;
-    let mut found = Vec::new();
-    for (index, section) in job.operations_of(scene.channel) {
-        let Some((tool, _)) = tools.get(&section.common.tool) else { continue };
-        let selected = scene.facing_up(&faces_of(job, scene, section, index)?);
-        let Some(forming) = Forming::of(job, scene, tool, section, selected) else { continue };
-        let id = section.id(index);
-        found.extend(forming.sharp_tool());
-        found.extend(forming.large_part(job.process.process.as_kind().support(), &id));
-        found.extend(machine.limits.max_axial_force.and_then(|most| forming.strong(most, &id)));
-    }
+    let found = found_by(job, scene, |forming, id| {
+        let strong = machine.limits.max_axial_force.and_then(|most| forming.strong(most, id));
+        let large = forming.large_part(job.process.process.as_kind().support(), id);
+        forming.sharp_tool().into_iter().chain(large).chain(strong).collect()
+    });
+    let mut found = found?;
     // what several operations share is reported once
     found.dedup();
     Ok(found)
@@ -85,13 +80,22 @@ pub(crate) fn warnings(job: &JobDocument, scene: &Scene, machine: &Machine) -> R
 /// Tools that do not build, faces that do not exist.
 pub(crate) fn thin(job: &JobDocument, scene: &Scene) -> Result<Vec<Found>, JobError> {
     let Some(least) = job.setup.sheet.and_then(|sheet| sheet.min_thickness) else { return Ok(Vec::new()) };
+    found_by(job, scene, |forming, id| forming.thin(least, id).into_iter().collect())
+}
+
+/// What is found by each operation of a channel that forms, with its name.
+fn found_by(
+    job: &JobDocument,
+    scene: &Scene,
+    of: impl Fn(&Forming<'_>, &str) -> Vec<Found>,
+) -> Result<Vec<Found>, JobError> {
     let tools = tools(job)?;
     let mut found = Vec::new();
     for (index, section) in job.operations_of(scene.channel) {
         let Some((tool, _)) = tools.get(&section.common.tool) else { continue };
         let selected = scene.facing_up(&faces_of(job, scene, section, index)?);
-        let forming = Forming::of(job, scene, tool, section, selected);
-        found.extend(forming.and_then(|forming| forming.thin(least, &section.id(index))));
+        let Some(forming) = Forming::of(job, scene, tool, section, selected) else { continue };
+        found.extend(of(&forming, &section.id(index)));
     }
     Ok(found)
 }
@@ -131,8 +135,8 @@ impl<'a> Forming<'a> {
         Some(Fact { fact: "thinnest", value: thickness, unit: "mm", words })
     }
 
-    /// How thin the sheet becomes on average by its volume over what is not left flat, t = t0 A0 / A, with the area A of its upper side and A0 in plan: what is
-    /// formed in stages takes from where it was formed before, and the sine law does not hold for it.
+    /// How thin the sheet becomes on average by its volume over what is not left flat, t = t0 A0 / A, with the area A of its upper
+    /// side and A0 in plan: what is formed in stages takes from where it was formed before, and the sine law does not hold for it.
     fn mean_thickness(&self) -> Option<Fact> {
         let thickness = self.mean(|triangle| self.is_formed(triangle))?;
         let words = format!(

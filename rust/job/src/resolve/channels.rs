@@ -33,10 +33,16 @@ impl JobDocument {
         self.process.process.as_kind().opposite(channel)
     }
 
+    /// The channel whose tool follows the main one from the other side of the sheet, where there is one.
+    #[must_use]
+    pub fn follower(&self) -> Option<&'static str> {
+        self.channels().iter().copied().find(|channel| self.opposite(channel).is_some())
+    }
+
     /// The channel that works together with another, move by move, where there is one.
     #[must_use]
     pub fn partner_of(&self, channel: &str) -> Option<&'static str> {
-        let follower = self.channels().iter().copied().find(|other| self.opposite(other).is_some())?;
+        let follower = self.follower()?;
         match channel {
             MAIN_CHANNEL => Some(follower),
             _ if channel == follower => Some(MAIN_CHANNEL),

@@ -56,16 +56,15 @@ impl Course {
     pub fn fitted(strip: &RuledStrip, radius: f64) -> Result<Self, FlankError> {
         let samples = samples(strip);
         let left = |course: &Self| Heights::of(course, strip, &samples, radius);
-        let course = least_squares(Self::straight(), &left)?;
+        let start = least_squares(Self::straight(), &left)?;
         // the other of the two best spreads lies on about the other side
-        let mirrored = least_squares(Self { coefficients: -&course.coefficients }, &left);
-        let better = |a: &Self, b: &Self| Ok::<_, FlankError>(left(b)?.squares() < left(a)?.squares());
-        let course = match mirrored {
-            Ok(mirrored) if better(&course, &mirrored)? => mirrored,
+        let mirrored = least_squares(Self { coefficients: -&start.0.coefficients }, &left);
+        let start = match mirrored {
+            Ok(mirrored) if mirrored.1.squares() < start.1.squares() => mirrored,
             // also where no position lies there
-            Ok(_) | Err(_) => course,
+            Ok(_) | Err(_) => start,
         };
-        least_largest(course, &left)
+        Ok(least_largest(start, &left))
     }
 
     /// Moved by Newton's step for weighted squares, damped.
@@ -80,8 +79,8 @@ impl Course {
 /// What courses leave.
 type LeftBy<'a> = dyn Fn(&Course) -> Result<Heights, FlankError> + 'a;
 
-/// A damped Gauss-Newton search (Levenberg, Marquardt).
-fn least_squares(start: Course, left: &LeftBy<'_>) -> Result<Course, FlankError> {
+/// A damped Gauss-Newton search (Levenberg, Marquardt): the course and what it leaves.
+fn least_squares(start: Course, left: &LeftBy<'_>) -> Result<(Course, Heights), FlankError> {
     let mut course = start;
     let mut found = left(&course)?;
     let counts = vec![1.0; found.left.len()];
@@ -103,13 +102,12 @@ fn least_squares(start: Course, left: &LeftBy<'_>) -> Result<Course, FlankError>
             break;
         }
     }
-    Ok(course)
+    Ok((course, found))
 }
 
 /// Least squares whose weights grow where heights are large, until along every ruling the largest are equal (C. L. Lawson:
 /// Contributions to the theory of linear least maximum approximation. UCLA 1961); the best of the courses on the way.
-fn least_largest(start: Course, left: &LeftBy<'_>) -> Result<Course, FlankError> {
-    let mut found = left(&start)?;
+fn least_largest((start, mut found): (Course, Heights), left: &LeftBy<'_>) -> Course {
     let (mut course, mut best) = (start.clone(), (found.largest(), start));
     let mut counts = vec![1.0; found.left.len()];
     for _ in 0..LAWSON_STEPS {
@@ -127,7 +125,7 @@ fn least_largest(start: Course, left: &LeftBy<'_>) -> Result<Course, FlankError>
             best = (found.largest(), course.clone());
         }
     }
-    Ok(best.1)
+    best.1
 }
 
 /// The first of four coefficients that count at a share of the strip, and how much each does: a uniform cubic B-spline.

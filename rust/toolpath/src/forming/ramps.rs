@@ -43,15 +43,13 @@ pub fn ramped(
         watch.advance(0)?;
         let descent = Descent { is_turned: ramp.sense.turns(level(pass.group)), ..descent };
         let before = number.checked_sub(1).filter(|before| followers[*before] == Some(number));
-        let above = before.and_then(|before| entered.get(before));
-        let mut above = above.map(|above| surface.chords(&above.pass.points, ramp.deviation).into_owned());
-        let is_turned_above = before.and_then(|before| entered.get(before)).map(|above| level(above.pass.group));
-        if let (Some(above), true) =
-            (&mut above, is_turned_above.is_some_and(|above| ramp.sense.turns(above) != descent.is_turned))
-        {
-            above.reverse(); // as its own follower runs
-        }
-        let found = above.and_then(|above| to_loop(&descent, above, [&pass, outline], ramp.slope));
+        let found = before.and_then(|before| entered.get(before)).and_then(|before| {
+            let mut above = surface.chords(&before.pass.points, ramp.deviation).into_owned();
+            if ramp.sense.turns(level(before.pass.group)) != descent.is_turned {
+                above.reverse(); // as its own follower runs
+            }
+            to_loop(&descent, above, [&pass, outline], ramp.slope)
+        });
         entered.push(found.unwrap_or_else(|| Entered::from(begun_beside(entered.last(), pass))));
     }
     Ok(entered)
