@@ -9,7 +9,7 @@ use styluscam_geometry::Vector;
 use styluscam_motion::{Arc, Plane, Role};
 
 use crate::offset::Keeping;
-use crate::{Curve, Heights, Lead, LinkRules, Pace, PathPoint, Run, Segment, Standing};
+use crate::{Curve, Followed, Heights, Lead, LinkRules, Pace, PathPoint, Segment, Standing};
 
 /// How far a piece's chord may be off the arc, mm: a fifth of what is still no gouge.
 const SAG: f64 = 2e-4;
@@ -189,15 +189,13 @@ impl<R: LinkRules<PathPoint>> LinkRules<PathPoint> for Leading<'_, R> {
         self.rules.heights(number, from, to, ceiling)
     }
 
-    fn lead_in(&self, number: usize, run: &Run<PathPoint>) -> Option<Lead> {
-        let first = run.segments.first()?;
-        self.lead(Side::In, number, (&run.from, heading(run.from.tip, first, 0.0)))
+    fn lead_in(&self, number: usize, run: &Followed<'_, PathPoint>) -> Option<Lead> {
+        self.lead(Side::In, number, (run.from, heading(run.from.tip, &run.first()?, 0.0)))
     }
 
-    fn lead_out(&self, number: usize, run: &Run<PathPoint>) -> Option<Lead> {
-        let (last, before) = run.segments.split_last()?;
-        let start = before.last().map_or(run.from.tip, |before| before.end);
-        self.lead(Side::Out, number, (&run.to, heading(start, last, 1.0)))
+    fn lead_out(&self, number: usize, run: &Followed<'_, PathPoint>) -> Option<Lead> {
+        let (start, last) = run.last()?;
+        self.lead(Side::Out, number, (run.to, heading(start, &last, 1.0)))
     }
 }
 

@@ -28,8 +28,8 @@ pub use error::PlanError;
 pub use lattice::{Cells, Lattice};
 pub use leads::{LeadRule, LeadShape, Leading};
 pub use linking::{
-    join, link, link_with_arcs, AlongSurface, AtDepth, Entered, Heights, Lead, LinkRules, Links, OverClearance,
-    Position, Rates, Run,
+    join, link, link_with_arcs, AlongSurface, AtDepth, Entered, Followed, Heights, Lead, LinkRules, Links,
+    OverClearance, Position, Rates, Run,
 };
 pub use ordering::{ordered, shortly_ordered, Air, Freedom, Ordered};
 pub use pass::{Pass, PathPoint, Sense};

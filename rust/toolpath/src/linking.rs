@@ -70,12 +70,12 @@ pub trait LinkRules<P>: Sync {
     }
 
     /// The lead into a run, by its number, where the tool comes to it through the air; none where it comes straight down.
-    fn lead_in(&self, _number: usize, _run: &Run<P>) -> Option<Lead> {
+    fn lead_in(&self, _number: usize, _run: &Followed<'_, P>) -> Option<Lead> {
         None
     }
 
     /// The lead out of a run, where the tool leaves it into the air; none where it goes straight up.
-    fn lead_out(&self, _number: usize, _run: &Run<P>) -> Option<Lead> {
+    fn lead_out(&self, _number: usize, _run: &Followed<'_, P>) -> Option<Lead> {
         None
     }
 }
@@ -123,7 +123,7 @@ impl LinkRules<PathPoint> for AlongSurface<'_> {
         let floor = |planes: Planes| planes.under(from.tip.z.min(to.tip.z));
         let surface = self.surface.above(self.planes.map_or(f64::NEG_INFINITY, floor));
         let run = along_selected(&surface, &[*from, *to], self.deviation, self.narrow)?;
-        Some(lines(&fitting::thinned(&run, self.deviation)[1..], self.feed))
+        Some(lines(&fitting::thinned(&run, self.deviation)[1..], self.feed).collect())
     }
 }
 
@@ -170,6 +170,64 @@ pub struct Run<P> {
     pub segments: Vec<Segment>,
 }
 
+impl<P> Run<P> {
+    fn followed(&self) -> Followed<'_, P> {
+        Followed { from: &self.from, to: &self.to, along: Along::Segments(&self.segments) }
+    }
+}
+
+/// A run, whatever it is kept as.
+#[derive(Clone, Copy, Debug)]
+pub struct Followed<'a, P> {
+    /// Where it begins.
+    pub from: &'a P,
+    /// Where it ends.
+    pub to: &'a P,
+    along: Along<'a>,
+}
+
+/// What leads from a run's beginning to its end.
+#[derive(Clone, Copy, Debug)]
+enum Along<'a> {
+    Segments(&'a [Segment]),
+    /// Straight lines at a feed, mm/min, to the points after the first.
+    Lines(&'a [PathPoint], f64),
+}
+
+impl<'a> Followed<'a, PathPoint> {
+    /// Lines along a pass, at a feed in mm/min; none where it has no points.
+    fn along_pass(entered: &'a Entered, feed: f64) -> Option<Self> {
+        let points = &entered.pass.points;
+        Some(Self { from: points.first()?, to: points.last()?, along: Along::Lines(points, feed) })
+    }
+}
+
+impl<P: Position> Followed<'_, P> {
+    /// Its first segment.
+    #[must_use]
+    pub fn first(&self) -> Option<Segment> {
+        match self.along {
+            Along::Segments(segments) => segments.first().copied(),
+            Along::Lines(points, feed) => points.get(1).map(|point| Segment::line(point.tip, feed)),
+        }
+    }
+
+    /// Where its last segment begins, and that.
+    #[must_use]
+    pub fn last(&self) -> Option<(Vector, Segment)> {
+        match self.along {
+            Along::Segments(segments) => {
+                let (last, before) = segments.split_last()?;
+                Some((before.last().map_or(self.from.tip(), |before| before.end), *last))
+            }
+            Along::Lines(points, feed) => {
+                let [.., start, end] = points else { return None };
+                Some((start.tip, Segment::line(end.tip, feed)))
+            }
+        }
+    }
+}
+
 /// A pass as it is followed, and how the tool gets to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entered {
@@ -189,17 +247,36 @@ impl From<Pass> for Entered {
 
 /// The moves along all passes, in their order, joined by their ramps and by the rules.
 ///
+/// The passes are given up one by one as their moves are made: of long paths there is room for one of both.
+///
 /// # Errors
 /// `Cancelled`.
 pub fn link(
-    passes: &[Entered],
+    mut passes: Vec<Entered>,
     rules: &impl LinkRules<PathPoint>,
     links: &Links,
     watch: &Watch,
 ) -> Result<Vec<Move>, Cancelled> {
+    passes.retain(|entered| !entered.pass.points.is_empty());
     watch.begin("linking", passes.len());
-    let along = |points: &[PathPoint]| lines(points.get(1..).unwrap_or_default(), links.rates.cut);
-    moves(passes, along, rules, links, watch)
+    let cut = links.rates.cut;
+    let of_pass = |entered| Followed::along_pass(entered, cut);
+    let runs: Vec<Followed<'_, PathPoint>> = passes.iter().filter_map(of_pass).collect();
+    let known = |number: usize| {
+        let Entered { ramp, role, .. } = &passes[number];
+        ramp.get(1..).map(|points| lines(points, cut).map(|segment| Segment { role: *role, ..segment }).collect())
+    };
+    let gaps = gaps(&runs, known, rules, links, watch)?;
+    let count = passes.iter().map(|entered| entered.pass.points.len()).sum::<usize>()
+        + gaps.iter().map(Vec::len).sum::<usize>();
+    let mut moves = Vec::with_capacity(count);
+    let mut passes = passes.into_iter();
+    for gap in gaps {
+        moves.extend(gap.iter().map(|segment| segment.to_move(links.operation)));
+        let points = passes.next().map_or_else(Vec::new, |entered| entered.pass.points);
+        moves.extend(lines(points.get(1..).unwrap_or_default(), cut).map(|line| line.to_move(links.operation)));
+    }
+    Ok(moves)
 }
 
 /// As [`link`], with arcs and lines along the passes and their ramps, whose points are all witnesses
@@ -208,50 +285,36 @@ pub fn link(
 /// # Errors
 /// `Cancelled`.
 pub fn link_with_arcs(
-    passes: &[Entered],
+    mut passes: Vec<Entered>,
     (arcs, deviation): (&Arcs<'_>, f64),
     rules: &impl LinkRules<PathPoint>,
     links: &Links,
     watch: &Watch,
 ) -> Result<(Vec<Move>, Fitted), Cancelled> {
+    passes.retain(|entered| !entered.pass.points.is_empty());
     watch.begin("fitting arcs", passes.len());
-    let fitted = |entered: &Entered| {
+    let fitted = |Entered { pass: Pass { points, .. }, ramp, role }: Entered| {
         watch.advance(1)?;
         let along = |points: &[PathPoint]| {
             let segments = arcs.along(points, deviation, links.rates.cut);
             let figures = Fitted::of(points, &segments, deviation);
             (segments, figures)
         };
-        Ok([along(&entered.pass.points), along(&entered.ramp)])
+        let ((segments, of_pass), (down, of_ramp)) = (along(&points), along(&ramp));
+        let run = Run { from: points[0], to: points[points.len() - 1], segments };
+        let down: Vec<Segment> = down.into_iter().map(|segment| Segment { role, ..segment }).collect();
+        Ok((run, (!ramp.is_empty()).then_some(down), of_pass.and(of_ramp)))
     };
-    let fitted: Result<Vec<_>, Cancelled> = passes.par_iter().map(fitted).collect();
-    watch.begin("linking", passes.len());
-    let fitted = fitted?.into_iter().flatten();
-    let figures = fitted.clone().fold(Fitted::default(), |all, (_, figures)| all.and(figures));
-    let mut fitted = fitted.map(|(segments, _)| segments);
-    let moves = moves(passes, |_| fitted.next().unwrap_or_default(), rules, links, watch)?;
-    Ok((moves, figures))
-}
-
-/// The moves along all passes, each of which and its ramp are followed as `along` has it, in this order.
-fn moves(
-    passes: &[Entered],
-    mut along: impl FnMut(&[PathPoint]) -> Vec<Segment>,
-    rules: &impl LinkRules<PathPoint>,
-    links: &Links,
-    watch: &Watch,
-) -> Result<Vec<Move>, Cancelled> {
-    let (mut runs, mut ramps) = (Vec::with_capacity(passes.len()), Vec::with_capacity(passes.len()));
-    for Entered { pass, ramp, role } in passes {
-        let (segments, down) = (along(&pass.points), along(ramp));
-        if let (Some(first), Some(last)) = (pass.points.first(), pass.points.last()) {
-            runs.push(Run { from: *first, to: *last, segments });
-            let down = down.into_iter().map(|segment| Segment { role: *role, ..segment });
-            ramps.push((!ramp.is_empty()).then(|| down.collect()));
-        }
+    let fitted: Result<Vec<_>, Cancelled> = passes.into_par_iter().map(fitted).collect();
+    watch.begin("linking", 0);
+    let (mut runs, mut ramps, mut figures) = (Vec::new(), Vec::new(), Fitted::default());
+    for (run, ramp, of_run) in fitted? {
+        runs.push(run);
+        ramps.push(ramp);
+        figures = figures.and(of_run);
     }
-    let segments = joined(&runs, &ramps, rules, links, watch)?;
-    Ok(segments.iter().map(|segment| segment.to_move(links.operation)).collect())
+    let segments = joined(runs, |number| ramps[number].clone(), rules, links, watch)?;
+    Ok((segments.iter().map(|segment| segment.to_move(links.operation)).collect(), figures))
 }
 
 /// All runs in their order, joined by the rules: from clearance height to clearance height.
@@ -261,30 +324,46 @@ fn moves(
 /// # Errors
 /// `Cancelled`.
 pub fn join<P: Position + Sync>(
-    runs: &[Run<P>],
+    runs: Vec<Run<P>>,
     rules: &impl LinkRules<P>,
     links: &Links,
     watch: &Watch,
 ) -> Result<Vec<Segment>, Cancelled> {
-    joined(runs, &[], rules, links, watch)
+    joined(runs, |_| None, rules, links, watch)
 }
 
 /// As [`join`], where some of the paths to the runs are known.
 fn joined<P: Position + Sync>(
-    runs: &[Run<P>],
-    known: &[Option<Vec<Segment>>],
+    runs: Vec<Run<P>>,
+    known: impl Fn(usize) -> Option<Vec<Segment>> + Sync,
     rules: &impl LinkRules<P>,
     links: &Links,
     watch: &Watch,
 ) -> Result<Vec<Segment>, Cancelled> {
+    let followed: Vec<Followed<'_, P>> = runs.iter().map(Run::followed).collect();
+    let gaps = gaps(&followed, known, rules, links, watch)?;
+    let mut joined = Vec::new();
+    let mut runs = runs.into_iter();
+    for gap in gaps {
+        joined.extend(gap);
+        joined.extend(runs.next().into_iter().flat_map(|run| run.segments));
+    }
+    Ok(joined)
+}
+
+/// The path to each run, and that up from the last: known, by the rules, or over clearance.
+fn gaps<P: Position + Sync>(
+    runs: &[Followed<'_, P>],
+    known: impl Fn(usize) -> Option<Vec<Segment>> + Sync,
+    rules: &impl LinkRules<P>,
+    links: &Links,
+    watch: &Watch,
+) -> Result<Vec<Vec<Segment>>, Cancelled> {
     let gap = |number: usize| {
         watch.advance(1)?;
-        if let Some(Some(path)) = known.get(number) {
-            return Ok(path.clone());
-        }
         let run = &runs[number];
         let before = number.checked_sub(1).map(|before| (before, &runs[before]));
-        let path = before.and_then(|(_, before)| rules.path(&before.to, &run.from));
+        let path = known(number).or_else(|| before.and_then(|(_, before)| rules.path(before.to, run.from)));
         Ok(path.unwrap_or_else(|| {
             let (out, into) = (before.map(|(number, run)| out_of(number, run, rules)), rules.lead_in(number, run));
             let (from, to) = (out.as_ref().map(|out| out.far), into.as_ref().map_or(run.from.tip(), |into| into.far));
@@ -295,27 +374,23 @@ fn joined<P: Position + Sync>(
             leaving.chain(through_air).chain(into.into_iter().flat_map(|into| into.segments)).collect()
         }))
     };
-    let paths: Result<Vec<Vec<Segment>>, Cancelled> = (0..runs.len()).into_par_iter().map(gap).collect();
-    let mut joined = Vec::new();
-    for (run, path) in runs.iter().zip(paths?) {
-        joined.extend(path);
-        joined.extend_from_slice(&run.segments);
-    }
+    let gaps: Result<Vec<Vec<Segment>>, Cancelled> = (0..runs.len()).into_par_iter().map(gap).collect();
+    let mut gaps = gaps?;
     if let Some(last) = runs.last() {
-        let out = out_of(runs.len() - 1, last, rules);
-        joined.extend(out.segments);
-        joined.push(up(out.far, links.heights.clearance));
+        let mut out = out_of(runs.len() - 1, last, rules);
+        out.segments.push(up(out.far, links.heights.clearance));
+        gaps.push(out.segments);
     }
-    Ok(joined)
+    Ok(gaps)
 }
 
 /// The lead out of a run; of no length where there is none.
-fn out_of<P: Position>(number: usize, run: &Run<P>, rules: &impl LinkRules<P>) -> Lead {
+fn out_of<P: Position>(number: usize, run: &Followed<'_, P>, rules: &impl LinkRules<P>) -> Lead {
     rules.lead_out(number, run).unwrap_or_else(|| Lead { far: run.to.tip(), segments: Vec::new() })
 }
 
-fn lines(points: &[PathPoint], feed: f64) -> Vec<Segment> {
-    points.iter().map(|point| Segment::line(point.tip, feed)).collect()
+fn lines(points: &[PathPoint], feed: f64) -> impl Iterator<Item = Segment> + '_ {
+    points.iter().map(move |point| Segment::line(point.tip, feed))
 }
 
 /// Straight up to a height.

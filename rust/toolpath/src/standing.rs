@@ -8,7 +8,7 @@
 use styluscam_geometry::Vector;
 
 use crate::offset::Keeping;
-use crate::{Entered, Heights, Lead, LinkRules, PathPoint, Run, Segment, Surface};
+use crate::{Entered, Followed, Heights, Lead, LinkRules, PathPoint, Segment, Surface};
 
 /// Distance between samples along a link, as a share of the tool's radius: how much too low they are is found by the proof.
 const SAMPLE: f64 = 0.25;
@@ -184,11 +184,11 @@ impl<R: LinkRules<PathPoint>> LinkRules<PathPoint> for Low<'_, R> {
         Heights { clearance, retract }
     }
 
-    fn lead_in(&self, number: usize, run: &Run<PathPoint>) -> Option<Lead> {
+    fn lead_in(&self, number: usize, run: &Followed<'_, PathPoint>) -> Option<Lead> {
         self.rules.lead_in(number, run)
     }
 
-    fn lead_out(&self, number: usize, run: &Run<PathPoint>) -> Option<Lead> {
+    fn lead_out(&self, number: usize, run: &Followed<'_, PathPoint>) -> Option<Lead> {
         self.rules.lead_out(number, run)
     }
 }

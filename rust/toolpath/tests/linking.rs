@@ -72,9 +72,9 @@ fn over() -> Vec<Move> {
 
 fn linked(surface: &Surface<'_>, rules: &impl LinkRules<PathPoint>) -> Vec<Move> {
     let watch = Watch::default();
-    let passes = ordered(&rows(surface), Sense::Alternate, Seam::Nearest, &watch).unwrap();
+    let passes = ordered(rows(surface), Sense::Alternate, Seam::Nearest, &watch).unwrap();
     let entered: Vec<Entered> = passes.into_iter().map(Entered::from).collect();
-    link(&entered, rules, &LINKS, &watch).unwrap()
+    link(entered, rules, &LINKS, &watch).unwrap()
 }
 
 #[test]
@@ -113,8 +113,8 @@ fn arcs(z: f64) -> Vec<Run<Vector>> {
 fn a_link_at_depth_goes_straight_over_cleared_ground_of_one_height() {
     let rules = |longest, cleared| AtDepth { longest, same_height: 1e-9, is_cleared: move |_, _| cleared, feed: 900.0 };
     let count =
-        |z, longest, cleared| join(&arcs(z), &rules(longest, cleared), &LINKS, &Watch::default()).unwrap().len();
-    let joined = join(&arcs(-1.0), &rules(5.5, true), &LINKS, &Watch::default()).unwrap();
+        |z, longest, cleared| join(arcs(z), &rules(longest, cleared), &LINKS, &Watch::default()).unwrap().len();
+    let joined = join(arcs(-1.0), &rules(5.5, true), &LINKS, &Watch::default()).unwrap();
     assert_eq!(joined[4], Segment::line(Vector::new(7.0, 0.0, -1.0), 900.0));
     // down in three, two arcs, up; a link of one, or up and down again
     assert_eq!(count(-1.0, 5.5, true), 7);
@@ -127,5 +127,5 @@ fn a_link_at_depth_goes_straight_over_cleared_ground_of_one_height() {
 fn it_can_be_cancelled() {
     let watch = Watch::default();
     watch.cancel();
-    assert_eq!(join(&arcs(-1.0), &OverClearance, &LINKS, &watch), Err(Cancelled));
+    assert_eq!(join(arcs(-1.0), &OverClearance, &LINKS, &watch), Err(Cancelled));
 }

@@ -17,7 +17,7 @@ pub fn asks_for_arcs(context: &Context<'_>) -> bool {
 /// `Cancelled`.
 pub fn linked(
     context: &Context<'_>,
-    (passes, deviation): (&[Entered], f64),
+    (passes, deviation): (Vec<Entered>, f64),
     rules: &impl LinkRules<PathPoint>,
     links: &Links,
 ) -> Result<(Vec<Move>, Vec<Fact>), Cancelled> {

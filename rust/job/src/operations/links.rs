@@ -18,14 +18,14 @@ const SAME: f64 = 1e-9;
 /// `Cancelled`.
 pub fn linked(
     context: &Context<'_>,
-    (passes, deviation): (&[Entered], f64),
+    (passes, deviation): (Vec<Entered>, f64),
     along: AlongSurface<'_>,
     links: &Links,
 ) -> Result<(Vec<Move>, Vec<Fact>), Cancelled> {
     let Context { machine, common, reference_height, scene, .. } = *context;
     // inside a loop sheet hangs no higher than that; stock stays until it is cut
     let is_sheet = scene.sheet.is_some();
-    let standing = Standing::new(along.surface, scene.top, (passes, is_sheet), deviation);
+    let standing = Standing::new(along.surface, scene.top, (&passes, is_sheet), deviation);
     let fitted = (passes, deviation);
     let Some(shape) = shape(common.lead) else {
         return with_heights(context, fitted, along, (&standing, links));
@@ -79,7 +79,7 @@ fn shape(form: LeadForm) -> Option<LeadShape> {
 /// The moves by some rules, whose rapids go as high as the operation states.
 fn with_heights(
     context: &Context<'_>,
-    passes: (&[Entered], f64),
+    passes: (Vec<Entered>, f64),
     rules: impl LinkRules<PathPoint>,
     (standing, links): (&Standing<'_>, &Links),
 ) -> Result<(Vec<Move>, Vec<Fact>), Cancelled> {

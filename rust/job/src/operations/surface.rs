@@ -147,16 +147,14 @@ impl Traced {
         Self { passes, smallest_feature, layers: counts, sets: Vec::new() }
     }
 
-    /// The passes layer by layer, each with the height of its plane; those after them with none, which is minus infinity.
-    fn by_layer(&self) -> impl Iterator<Item = (f64, &[Pass])> {
-        let mut rest = &self.passes[..];
-        let after = (f64::NEG_INFINITY, self.passes.len());
-        let layers = self.layers.iter().copied().chain([after]).map(move |(floor, count)| {
-            let (passes, after) = rest.split_at(count.min(rest.len()));
-            rest = after;
-            (floor, passes)
-        });
-        layers.filter(|(_, passes)| !passes.is_empty())
+    /// Takes the passes layer by layer, each with the height of its plane; those after them with none, which is minus infinity.
+    fn take_by_layer(&mut self) -> Vec<(f64, Vec<Pass>)> {
+        let mut rest = std::mem::take(&mut self.passes).into_iter();
+        let mut layers: Vec<(f64, Vec<Pass>)> =
+            self.layers.iter().map(|(floor, count)| (*floor, rest.by_ref().take(*count).collect())).collect();
+        layers.push((f64::NEG_INFINITY, rest.collect()));
+        layers.retain(|(_, passes)| !passes.is_empty());
+        layers
     }
 }
 
@@ -216,6 +214,15 @@ impl Task<'_> {
     }
 }
 
+/// What there is to say of passes, which linking gives up.
+struct Found {
+    groups: usize,
+    passes: usize,
+    /// The lowest tip, mm.
+    lowest: f64,
+    facts: Vec<Fact>,
+}
+
 /// Plans an operation whose tool follows the selected faces.
 ///
 /// # Errors
@@ -243,8 +250,16 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
     let surface = if fit::asks_for_arcs(context) { surface.keeping_witnesses() } else { surface };
     let path = || {
         let traced = kind.trace(&task, &surface).map_err(|error| context.error(error))?;
-        let (moves, fitted) = linked(kind, &task, &surface, &traced)?;
-        Ok::<_, JobError>((traced, moves, fitted))
+        let facts = kind.facts(count_groups(&traced.passes), &traced);
+        let lowest = traced.passes.iter().flat_map(|pass| &pass.points).map(|point| point.tip.z);
+        let found = Found {
+            groups: count_groups(&traced.passes),
+            passes: traced.passes.len(),
+            lowest: lowest.fold(f64::INFINITY, f64::min),
+            facts,
+        };
+        let (moves, fitted) = linked(kind, &task, &surface, traced)?;
+        Ok::<_, JobError>((found, moves, fitted))
     };
     let beside = watch.beside();
     let reach = || {
@@ -254,11 +269,11 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
     };
     // each has stretches in which one thread works alone
     let (path, reach) = rayon::join(path, reach);
-    let ((traced, moves, fitted), (offset, bridges)) = (path?, reach?);
-    let (groups, passes) = (count_groups(&traced.passes), traced.passes.len());
+    let ((found, moves, fitted), (offset, bridges)) = (path?, reach?);
+    let Found { groups, passes, lowest, facts: of_passes } = found;
     let facts = SurfaceFacts {
         wall_angle_max_deg: scene.steepest(&selected).to_degrees(),
-        ends: ends(&task, kind.lowest_rest(&body), tool, &traced.passes, &selected),
+        ends: ends(&task, kind.lowest_rest(&body), tool, lowest, &selected),
         reached: reached::reached(scene, &offset, &bridges),
         reached_coarsely: offset.is_coarse.then_some(offset.fine),
         bridged: reached::bridged(&bridges),
@@ -269,7 +284,7 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
         waits: kind.waits(&moves, context.common),
         words: kind.words(groups, passes),
         note: kind.note(groups, passes),
-        facts: kind.facts(groups, &traced).into_iter().chain(kind.task_facts(&task)).chain(fitted).collect(),
+        facts: of_passes.into_iter().chain(kind.task_facts(&task)).chain(fitted).collect(),
         surface: Some(facts),
         moves,
     })
@@ -289,21 +304,21 @@ fn linked(
     kind: &impl FollowsSurface,
     task: &Task<'_>,
     surface: &Surface<'_>,
-    traced: &Traced,
+    mut traced: Traced,
 ) -> Result<(Vec<Move>, Vec<Fact>), JobError> {
     let context = task.context;
     let deviation = task.budget.deviation;
     let along = task.along(surface, kind.planes(context), kind.pitch(task.body));
     let (mut entered, mut turns, mut between) = (Vec::with_capacity(traced.passes.len()), None, [0.0; 2]);
-    for (number, (floor, passes)) in traced.by_layer().enumerate() {
+    for (number, (floor, passes)) in traced.take_by_layer().into_iter().enumerate() {
         let layer = (number, passes);
-        let followed = entered_at(kind, (task, traced), &surface.above(floor), &along, layer)?;
+        let followed = entered_at(kind, (task, &traced), &surface.above(floor), &along, layer)?;
         entered.extend(followed.entered);
         turns = Turned::sum(turns, followed.turns);
         between = [0, 1].map(|i| between[i] + followed.between[i]);
     }
     let mut facts = turns.map_or_else(Vec::new, turn_facts);
-    let (moves, linked) = links::linked(context, (&*entered, deviation), along, &task.links())?;
+    let (moves, linked) = links::linked(context, (entered, deviation), along, &task.links())?;
     facts.extend(order_fact(between).into_iter().chain(linked));
     if !context.common.slow_corners {
         return Ok((moves, facts));
@@ -329,14 +344,15 @@ fn entered_at(
     (task, traced): (&Task<'_>, &Traced),
     surface: &Surface<'_>,
     along: &AlongSurface<'_>,
-    (number, passes): (usize, &[Pass]),
+    (number, mut passes): (usize, Vec<Pass>),
 ) -> Result<Followed, JobError> {
     let (context, watch) = (task.context, task.context.watch);
     let sense = kind.sense(context.common);
     let deviation = task.budget.deviation;
-    let backwards = (number % 2 == 1 && sense == Sense::Alternate).then(|| backwards(passes));
-    // every other layer begins where the layer before ends
-    let passes = backwards.as_deref().unwrap_or(passes);
+    if number % 2 == 1 && sense == Sense::Alternate {
+        // every other layer begins where the layer before ends
+        backwards(&mut passes);
+    }
     let freedom = kind.freedom(task, traced);
     let air = Air { height: links::crossing_height(context), along: along.longest };
     let Ordered { passes, between } = shortly_ordered(passes, (sense, kind.seam()), freedom, &air, watch)?;
@@ -356,11 +372,10 @@ fn entered_at(
     Ok(Followed { entered, turns, between })
 }
 
-/// Rows from the last to the first.
-fn backwards(passes: &[Pass]) -> Vec<Pass> {
-    let mut rows: Vec<&[Pass]> = passes.chunk_by(|a, b| a.group == b.group).collect();
-    rows.reverse();
-    rows.concat()
+/// Puts rows from the last to the first.
+fn backwards(passes: &mut [Pass]) {
+    passes.reverse();
+    passes.chunk_by_mut(|a, b| a.group == b.group).for_each(<[Pass]>::reverse);
 }
 
 /// By how much another order than the nearest pass next shortens what the tool travels between passes, if it does.
@@ -382,10 +397,9 @@ fn turn_facts(counts: Turned) -> Vec<Fact> {
     ]
 }
 
-/// The end that the heights are to an operation, if the tool would go on below.
-fn ends(task: &Task<'_>, lowest_rest: f64, tool: &Tool, passes: &[Pass], selected: &[bool]) -> Option<End> {
+/// The end that the heights are to an operation whose tool is at `lowest` mm at least, if it would go on below.
+fn ends(task: &Task<'_>, lowest_rest: f64, tool: &Tool, lowest: f64, selected: &[bool]) -> Option<End> {
     let (scene, common) = (task.context.scene, task.context.common);
-    let lowest = passes.iter().flat_map(|pass| &pass.points).map(|point| point.tip.z).fold(f64::INFINITY, f64::min);
     let stopped = lowest - task.context.heights.bottom <= lowest_rest;
     let untouched = task.context.heights.untouched(scene, tool, selected, common.tolerance).filter(|_| stopped)?;
     Some(End { z: lowest, at_foot: common.z_bottom.is_none(), untouched })

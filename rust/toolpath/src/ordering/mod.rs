@@ -18,7 +18,6 @@ use styluscam_motion::{Cancelled, Watch};
 use crate::{Pass, Seam, Sense};
 use air::LEAST;
 use improve::improved;
-use nearest::directed_by_groups;
 use precedence::Precedence;
 use sequence::Sequence;
 
@@ -43,7 +42,7 @@ pub struct Ordered {
 /// # Errors
 /// `Cancelled`.
 pub fn shortly_ordered(
-    passes: &[Pass],
+    passes: Vec<Pass>,
     (sense, seam): (Sense, Seam),
     freedom: Freedom<'_>,
     air: &Air,
@@ -51,32 +50,27 @@ pub fn shortly_ordered(
 ) -> Result<Ordered, Cancelled> {
     let nearest = ordered(passes, sense, seam, watch)?;
     let before = air.between(&nearest);
-    let unchanged = |passes| Ok(Ordered { passes, between: [before; 2] });
     if !air.is_crossed(&nearest) || nearest.iter().any(|pass| pass.points.is_empty()) {
-        return unchanged(nearest);
+        return Ok(Ordered { passes: nearest, between: [before; 2] });
     }
-    watch.begin("shortening links", passes.len());
+    watch.begin("shortening links", nearest.len());
     let is_free = matches!(seam, Seam::Nearest);
-    let by_groups = shortened(Sequence::of(&nearest, is_free), &Precedence::by_groups(&nearest), air, watch)?;
-    let mut best = (by_groups, &nearest);
-    let given: Vec<Pass>;
-    if let Some(precedence) = Precedence::of_areas(passes, freedom, watch)? {
-        given = directed_by_groups(passes, sense, seam);
+    let mut best = shortened(Sequence::of(&nearest, is_free), &Precedence::by_groups(&nearest), air, watch)?;
+    if let Some(precedence) = Precedence::of_areas(&nearest, freedom, watch)? {
         let turns = matches!(freedom, Freedom::OfRows { is_reversible: true, .. });
-        let free = Sequence::of(&given, is_free).turning(turns);
+        let free = Sequence::of(&nearest, is_free).turning(turns);
         let greedy = free.reordered(greedy::nearest_next(&free, &precedence, watch)?, air);
         let by_areas = shortened(greedy, &precedence, air, watch)?;
-        if by_areas.length < best.0.length - LEAST {
-            best = (by_areas, &given);
+        if by_areas.length < best.length - LEAST {
+            best = by_areas;
         }
     }
-    let (sequence, of) = best;
-    let shorter = sequence.passes(of);
+    let shorter = best.passes();
     let after = air.between(&shorter);
     if after < before - LEAST {
         Ok(Ordered { passes: shorter, between: [before, after] })
     } else {
-        unchanged(nearest)
+        Ok(Ordered { passes: nearest, between: [before; 2] })
     }
 }
 

@@ -18,47 +18,26 @@ const STRETCH: usize = 16;
 ///
 /// # Errors
 /// `Cancelled`.
-pub fn ordered(passes: &[Pass], sense: Sense, seam: Seam, watch: &Watch) -> Result<Vec<Pass>, Cancelled> {
+pub fn ordered(mut passes: Vec<Pass>, sense: Sense, seam: Seam, watch: &Watch) -> Result<Vec<Pass>, Cancelled> {
     watch.begin("ordering", passes.len());
     let mut ordered: Vec<Pass> = Vec::with_capacity(passes.len());
-    for (number, group) in passes.chunk_by(|a, b| a.group == b.group).enumerate() {
+    for (number, group) in passes.chunk_by_mut(|a, b| a.group == b.group).enumerate() {
         let turned = sense.turns(number);
-        let begun: Option<Vec<Pass>> =
-            seam.bearing(number).map(|bearing| group.iter().map(|pass| begun_at(pass, bearing)).collect());
-        let group = begun.as_deref().unwrap_or(group);
-        let is_begun = begun.is_some();
-        let mut left = Left::of(group, turned, is_begun);
-        for _ in group {
-            watch.advance(1)?;
-            let last = ordered.last().and_then(|pass| pass.points.last()).map(|point| point.tip);
-            ordered.extend(left.take(last).map(|pass| directed(pass, turned, last.filter(|_| !is_begun))));
+        let bearing = seam.bearing(number);
+        for pass in group.iter_mut().filter(|pass| pass.closed) {
+            bearing.into_iter().for_each(|bearing| seam::begin_at(&mut pass.points, bearing));
+        }
+        let last = ordered.last().and_then(|pass| pass.points.last()).map(|point| point.tip);
+        for (number, from) in Left::of(group, turned, bearing.is_some()).in_order(last, watch)? {
+            let pass = Pass { points: std::mem::take(&mut group[number].points), ..group[number] };
+            ordered.push(directed(pass, turned, from.filter(|_| bearing.is_none())));
         }
     }
     Ok(ordered)
 }
 
-/// All passes in the directions and from the beginnings that [`ordered`] has them in, in the order given.
-pub(super) fn directed_by_groups(passes: &[Pass], sense: Sense, seam: Seam) -> Vec<Pass> {
-    let groups = passes.chunk_by(|a, b| a.group == b.group).enumerate();
-    let directed = |(number, group): (usize, &[Pass])| -> Vec<Pass> {
-        let begun = |pass: &Pass| seam.bearing(number).map_or_else(|| pass.clone(), |bearing| begun_at(pass, bearing));
-        group.iter().map(|pass| directed(&begun(pass), sense.turns(number), None)).collect()
-    };
-    groups.flat_map(directed).collect()
-}
-
-/// A pass; a loop begins in a direction from its middle.
-fn begun_at(pass: &Pass, bearing: f64) -> Pass {
-    let mut pass = pass.clone();
-    if pass.closed {
-        seam::begin_at(&mut pass.points, bearing);
-    }
-    pass
-}
-
 /// A pass in its direction; a loop begins at its point nearest to `from`, if that is given.
-fn directed(pass: &Pass, turned: bool, from: Option<Vector>) -> Pass {
-    let mut pass = pass.clone();
+fn directed(mut pass: Pass, turned: bool, from: Option<Vector>) -> Pass {
     if turned {
         pass.points.reverse();
     }
@@ -71,10 +50,15 @@ fn directed(pass: &Pass, turned: bool, from: Option<Vector>) -> Pass {
 /// Has a closed polyline begin at its point nearest to `from`, the first of equals.
 pub fn begin_nearest(points: &mut Vec<PathPoint>, from: Vector) {
     points.pop();
-    let distances = points.iter().map(|point| square(point, from)).enumerate();
-    let nearest = distances.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(i, _)| i);
+    let nearest = nearest(points.iter(), from);
     points.rotate_left(nearest);
     points.extend(points.first().copied());
+}
+
+/// The number of the point nearest to another, the first of equals.
+fn nearest<'a>(points: impl Iterator<Item = &'a PathPoint>, to: Vector) -> usize {
+    let distances = points.map(|point| square(point, to)).enumerate();
+    distances.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(i, _)| i)
 }
 
 fn square(point: &PathPoint, from: Vector) -> f64 {
@@ -100,8 +84,19 @@ impl<'a> Left<'a> {
         Self { group, turned, is_begun, is_taken: vec![false; group.len()], tree }
     }
 
+    /// The numbers of all passes in their order, each with where the tool comes from.
+    fn in_order(mut self, from: Option<Vector>, watch: &Watch) -> Result<Vec<(usize, Option<Vector>)>, Cancelled> {
+        let (mut order, mut from) = (Vec::with_capacity(self.group.len()), from);
+        while let Some(number) = self.take(from) {
+            watch.advance(1)?;
+            order.push((number, from));
+            from = left_at(&self.group[number], self.turned, from.filter(|_| !self.is_begun)).or(from);
+        }
+        Ok(order)
+    }
+
     /// Takes the pass nearest to `from`, or the first.
-    fn take(&mut self, from: Option<Vector>) -> Option<&'a Pass> {
+    fn take(&mut self, from: Option<Vector>) -> Option<usize> {
         let number = match (from, &self.tree) {
             (None, _) => self.numbers().next(),
             (Some(from), Some(tree)) => {
@@ -119,12 +114,25 @@ impl<'a> Left<'a> {
                 tree.remove(&stretch);
             }
         }
-        Some(pass)
+        Some(number)
     }
 
     fn numbers(&self) -> impl Iterator<Item = usize> + use<'_, 'a> {
         (0..self.group.len()).filter(|number| !self.is_taken[*number])
     }
+}
+
+/// Where a pass ends that is followed as [`directed`] has it.
+fn left_at(pass: &Pass, turned: bool, from: Option<Vector>) -> Option<Vector> {
+    let points = &pass.points;
+    let end = match (from.filter(|_| pass.closed), turned) {
+        // a loop ends where it begins; its last point is its first
+        (Some(from), false) => points.get(nearest(points[..points.len().saturating_sub(1)].iter(), from)),
+        (Some(from), true) => points.iter().rev().nth(nearest(points.iter().skip(1).rev(), from)),
+        (None, false) => points.last(),
+        (None, true) => points.first(),
+    };
+    end.map(|point| point.tip)
 }
 
 /// The points at which a pass may begin.
@@ -195,7 +203,7 @@ mod tests {
                 let last = ordered.last().and_then(|pass| pass.points.last()).map(|point| point.tip);
                 let distance = |pass: &Pass| last.map_or(0.0, |from| least(entries(pass, turned, false), from));
                 let nearest = (0..left.len()).min_by(|a, b| distance(left[*a]).total_cmp(&distance(left[*b]))).unwrap();
-                ordered.push(directed(left.remove(nearest), turned, last));
+                ordered.push(directed(left.remove(nearest).clone(), turned, last));
             }
         }
         ordered
@@ -218,7 +226,7 @@ mod tests {
             passes in any_passes(),
             sense in prop::sample::select(vec![Sense::Forward, Sense::Reversed, Sense::Alternate]),
         ) {
-            let ordered = ordered(&passes, sense, Seam::Nearest, &Watch::default()).unwrap();
+            let ordered = ordered(passes.clone(), sense, Seam::Nearest, &Watch::default()).unwrap();
             prop_assert_eq!(ordered, ordered_slowly(&passes, sense));
         }
     }
@@ -232,7 +240,10 @@ mod tests {
         let loops: Vec<Pass> =
             (0..6400).map(|i| pass(&std::array::from_fn::<_, 60, _>(|k| corner(i, k)), true, 0)).collect();
         let began = std::time::Instant::now();
-        assert_eq!(ordered(&loops, Sense::Forward, Seam::Nearest, &Watch::default()).unwrap().len(), loops.len());
+        assert_eq!(
+            ordered(loops.clone(), Sense::Forward, Seam::Nearest, &Watch::default()).unwrap().len(),
+            loops.len()
+        );
         // half a second of work; to look at all of them takes 40, and machines are busy
         assert!(began.elapsed().as_secs_f64() < 30.0, "{:?}", began.elapsed());
     }
@@ -241,6 +252,9 @@ mod tests {
     fn it_can_be_cancelled() {
         let watch = Watch::default();
         watch.cancel();
-        assert_eq!(ordered(&[pass(&[[0.0; 3]; 2], false, 0)], Sense::Forward, Seam::Nearest, &watch), Err(Cancelled));
+        assert_eq!(
+            ordered(vec![pass(&[[0.0; 3]; 2], false, 0)], Sense::Forward, Seam::Nearest, &watch),
+            Err(Cancelled)
+        );
     }
 }

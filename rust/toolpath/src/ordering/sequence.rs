@@ -117,9 +117,9 @@ impl<'a> Sequence<'a> {
     }
 
     /// The passes as they are followed.
-    pub fn passes(&self, given: &[Pass]) -> Vec<Pass> {
+    pub fn passes(&self) -> Vec<Pass> {
         let followed = |(stop, [start, _]): (&Stop, &[Vector; 2])| {
-            let mut pass = given[stop.pass].clone();
+            let mut pass = self.given[stop.pass].clone();
             if stop.is_turned && self.may_turn(stop.pass) {
                 pass.points.reverse();
             }

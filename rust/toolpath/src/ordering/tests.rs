@@ -22,7 +22,7 @@ fn square([x, y]: [f64; 2], half: f64, group: usize) -> Pass {
 }
 
 fn short(passes: &[Pass], sense: Sense, freedom: Freedom<'_>) -> Ordered {
-    shortly_ordered(passes, (sense, Seam::Nearest), freedom, &AIR, &Watch::default()).unwrap()
+    shortly_ordered(passes.to_vec(), (sense, Seam::Nearest), freedom, &AIR, &Watch::default()).unwrap()
 }
 
 /// The points of a pass, wherever it begins and whichever way it runs.
@@ -92,7 +92,10 @@ proptest! {
             }
         }
         // loops keep their sense, and so do open passes that may not be turned
-        let given = directed_by_groups(&passes, sense, Seam::Nearest);
+        let mut given = passes;
+        for (number, group) in given.chunk_by_mut(|a, b| a.group == b.group).enumerate() {
+            group.iter_mut().filter(|_| sense.turns(number)).for_each(|pass| pass.points.reverse());
+        }
         let begins = |pass: &Pass, with: &Pass| {
             let side = [pass.points[0].tip, pass.points[1].tip];
             with.points.windows(2).any(|pair| [pair[0].tip, pair[1].tip] == side)
