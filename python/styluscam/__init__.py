@@ -26,6 +26,7 @@ _MODULES = {
     "offset.positions": ("drop_cutter", "push_cutter", "slope_matched_offset", "waterline", "waterlines"),
     "offset.surface": ("OffsetSurface", "offset_surface"),
     "parts.part": ("Part",),
+    "pocketing.path": ("PocketPath", "pocket_path"),
     "programs.job": ("Job", "job_schema", "starter_job"),
     "programs.machine": ("Machine",),
     "programs.planning": ("Plan", "Posted", "plan", "post", "read_gcode"),

@@ -19,6 +19,7 @@ from styluscam.judging.verification import Report, check_program, verify, verify
 from styluscam.offset.positions import drop_cutter, push_cutter, slope_matched_offset, waterline, waterlines
 from styluscam.offset.surface import OffsetSurface, offset_surface
 from styluscam.parts.part import Part
+from styluscam.pocketing.path import PocketPath, pocket_path
 from styluscam.programs.job import Job, job_schema, starter_job
 from styluscam.programs.machine import Machine
 from styluscam.programs.planning import Plan, Posted, plan, post, read_gcode
@@ -40,6 +41,7 @@ __all__ = [
     "Part",
     "Plan",
     "PlanError",
+    "PocketPath",
     "Posted",
     "Program",
     "Rail",
@@ -59,6 +61,7 @@ __all__ = [
     "job_schema",
     "offset_surface",
     "plan",
+    "pocket_path",
     "post",
     "push_cutter",
     "read_gcode",

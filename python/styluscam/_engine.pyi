@@ -41,6 +41,7 @@ __all__ = [
     "offset_surface",
     "path_text",
     "plan",
+    "pocket_path",
     "post",
     "post_to",
     "profile_starters",
@@ -286,6 +287,18 @@ def engagement(
     progress: _Progress | None = None,
     cancel: CancelToken | None = None,
 ) -> list[_F]: ...
+def pocket_path(
+    boundary: _F,
+    islands: Sequence[_F],
+    open_edges: Sequence[int],
+    stock: Sequence[_F] | None,
+    tool_radius: float,
+    angle: float,
+    smoothing: float,
+    climb: bool,
+    progress: _Progress | None = None,
+    cancel: CancelToken | None = None,
+) -> tuple[list[tuple[_F, str]], float]: ...
 def push_cutter(
     part: Part,
     tool: Tool,

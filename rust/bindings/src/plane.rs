@@ -1,7 +1,8 @@
-//! Plane paths and outlines: the engagement along them.
+//! Plane paths and outlines: paths that clear pockets, and the engagement along them.
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
+use styluscam_toolpath::pocket::{self, Pocket, PocketError, PocketRunKind};
 use styluscam_verify::{EngagementError, Ground, PlaneRun, PlaneRunKind};
 
 use crate::{
@@ -68,4 +69,60 @@ fn of_engagement(error: &EngagementError) -> PyErr {
         return errors::cancelled(styluscam_motion::Cancelled);
     }
     errors::raise("GeometryError", &error.to_string(), error.code(), error.key(), "")
+}
+
+/// Runs as Python gets them, and the area that was not cleared, mm^2.
+type PathArrays<'py> = (Vec<(Bound<'py, PyArray2<f64>>, &'static str)>, f64);
+
+/// A path that clears a pocket: points (N, 3) with bulges and kind of each run, and the area left, mm^2.
+#[pyfunction]
+#[pyo3(signature = (boundary, islands, open_edges, stock, tool_radius, angle, smoothing, climb, progress=None, cancel=None))]
+#[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)] // PyO3 hands arrays by value; one for each argument of Python's
+pub fn pocket_path<'py>(
+    py: Python<'py>,
+    boundary: PyReadonlyArray2<'py, f64>,
+    islands: Vec<PyReadonlyArray2<'py, f64>>,
+    open_edges: Vec<usize>,
+    stock: Option<Vec<PyReadonlyArray2<'py, f64>>>,
+    tool_radius: f64,
+    angle: f64,
+    smoothing: f64,
+    climb: bool,
+    progress: Option<&Bound<'py, PyAny>>,
+    cancel: Option<&CancelToken>,
+) -> PyResult<PathArrays<'py>> {
+    let boundary = arrays::rows::<f64, 3>(&boundary, "boundary")?;
+    let islands = outlines(&islands, "islands")?;
+    let stock = stock.map(|stock| outlines(&stock, "stock")).transpose()?;
+    let asked = Pocket {
+        boundary: &boundary,
+        islands: &islands,
+        open_edges: &open_edges,
+        stock: stock.as_deref(),
+        radius: tool_radius,
+        angle,
+        smoothing,
+        climb,
+    };
+    let path = watched(py, progress, cancel, |watch| pocket::pocket_path(&asked, watch))?;
+    let path = path.map_err(|error| of_pocket(&error))?;
+    let runs = path.runs.into_iter().map(|run| {
+        let kind = match run.kind {
+            PocketRunKind::Cut => "cut",
+            PocketRunKind::Entry => "entry",
+            PocketRunKind::Link => "link",
+            PocketRunKind::Rapid => "rapid",
+        };
+        Ok((arrays::matrix(py, run.points.into_iter())?, kind))
+    });
+    Ok((runs.collect::<PyResult<_>>()?, path.left))
+}
+
+fn of_pocket(error: &PocketError) -> PyErr {
+    let class = match error {
+        PocketError::Cancelled => return errors::cancelled(styluscam_motion::Cancelled),
+        PocketError::Number { .. } | PocketError::Outline { .. } | PocketError::Edge { .. } => "GeometryError",
+        PocketError::TooSmall { .. } | PocketError::Empty => "PlanError",
+    };
+    errors::raise(class, &error.to_string(), error.code(), error.key(), "")
 }

@@ -16,6 +16,7 @@ pub mod offset;
 mod ordering;
 mod pass;
 mod planes;
+pub mod pocket;
 mod region;
 mod seam;
 mod segment;

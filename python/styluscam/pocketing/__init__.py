@@ -1,0 +1,1 @@
+"""Paths that clear pockets with a bounded engagement angle."""

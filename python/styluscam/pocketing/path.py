@@ -1,0 +1,129 @@
+"""A path that clears a plane pocket, and what the simulated engagement along it is."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy.typing as npt
+
+from styluscam import _engine
+from styluscam.arguments import number_of, refused
+from styluscam.errors import GeometryError
+from styluscam.judging.engagement import RunEngagement, engagement, outlines, plane_points
+from styluscam.types import FloatArray, Progress
+
+MSR = 0.05
+"""The smallest radius of the centre's path unless another is given, in tool radii."""
+
+DIRECTIONS = ("climb", "conventional")
+
+
+@dataclass(frozen=True)
+class ExemptPlace:
+    """Cutting that the bound is not for. Lengths mm."""
+
+    reason: str
+    """``"entry"``: the helix into the material."""
+    at: tuple[float, float]
+    """Where it begins."""
+    peak_deg: float
+    """The largest engagement angle there."""
+    length: float
+    """Length of the path, once around a helix."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PocketPath:
+    """A path that clears a pocket. Lengths mm."""
+
+    runs: list[tuple[FloatArray, str]]
+    """Points (N, 3), each with the bulge of what begins there, and kind: ``"cut"``, ``"entry"`` (a helix, seen from above),
+    ``"link"`` (at depth, through what is cleared), ``"rapid"`` (over the stock)."""
+    engagement: list[RunEngagement]
+    """The simulated engagement along each run: see :func:`styluscam.engagement`."""
+    uncleared_area: float
+    """What the tool could reach and did not clear, mm^2."""
+
+    @property
+    def engagement_max_deg(self) -> float:
+        """The largest simulated angle on cuts and links: on all that is not exempt."""
+        return max((run.max_deg for run in self.engagement if run.kind != "entry"), default=0.0)
+
+    @property
+    def exempt(self) -> list[ExemptPlace]:
+        """The places for which the bound does not hold."""
+        return [
+            ExemptPlace(
+                "entry", (float(run.points[0, 0]), float(run.points[0, 1])), run.max_deg, float(run.distances[-1])
+            )
+            for run in self.engagement
+            if run.kind == "entry"
+        ]
+
+
+def pocket_path(
+    boundary: npt.ArrayLike,
+    islands: Sequence[npt.ArrayLike] = (),
+    *,
+    tool_radius: float,
+    engagement_deg: float,
+    growth_deg: float = 0.0,
+    smoothing_radius: float | None = None,
+    open_edges: Sequence[int] = (),
+    stock: npt.ArrayLike | Sequence[npt.ArrayLike] | None = None,
+    direction: str = "climb",
+    progress: Progress | None = None,
+    cancel: _engine.CancelToken | None = None,
+) -> PocketPath:
+    """A path that clears a plane pocket with a bounded engagement angle.
+
+    The bound is ``engagement_deg + growth_deg``, 10 to 90 deg. The path is measured by :func:`styluscam.engagement`, which knows
+    nothing of how it was planned: ``engagement_max_deg`` is what that finds, all of the path but the entries.
+
+    Args:
+        boundary: outline of the pocket: points (N, 2), or (N, 3) with the bulge of the edge that begins there.
+        islands: outlines that stay.
+        tool_radius: mm.
+        engagement_deg: base angle.
+        growth_deg: how much larger the angle may become.
+        smoothing_radius: smallest radius of the centre's path (MSR), mm; 0.05 tool radii unless given. Corners stay rounded by the
+            tool's radius and as much more; necks narrower than twice that sum are not entered.
+        open_edges: numbers of the boundary's edges beyond which is air.
+        stock: outline of the material, or several; None: all of the pocket.
+        direction: ``"climb"`` or ``"conventional"``, for a spindle that turns clockwise.
+        progress: called with phase and fraction; ``False`` cancels.
+        cancel: cancels from another thread.
+
+    Raises:
+        GeometryError: what is no outline, no edge, no radius, no angle.
+        PlanError: the tool fits nowhere, or nothing is to be cut.
+        Cancelled: when it is cancelled.
+    """
+    if direction not in DIRECTIONS:
+        raise refused("direction", direction, '"climb" or "conventional"', GeometryError)
+    radius = number_of(tool_radius, "tool_radius")
+    bound = number_of(engagement_deg, "engagement_deg") + number_of(growth_deg, "growth_deg")
+    smoothing = MSR * radius if smoothing_radius is None else number_of(smoothing_radius, "smoothing_radius")
+    walls = [plane_points(boundary, "boundary"), *(plane_points(one, f"islands[{i}]") for i, one in enumerate(islands))]
+    material = None if stock is None else outlines(stock, "stock")
+    runs, left = _engine.pocket_path(
+        walls[0],
+        walls[1:],
+        [_edge(edge) for edge in open_edges],
+        material,
+        radius,
+        math.radians(bound),
+        smoothing,
+        direction == "climb",
+        progress=progress,
+        cancel=cancel,
+    )
+    return PocketPath(runs, engagement(runs, radius, material, walls, progress=progress, cancel=cancel), left)
+
+
+def _edge(value: object) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or value < 0:
+        raise refused("open_edges", value, "numbers of edges, from 0", GeometryError)
+    return value

@@ -1,0 +1,178 @@
+//! The pocket as areas: what the tool's centre may reach, and what is to be cleared.
+
+use styluscam_geometry::PlanePiece;
+
+use super::error::PocketError;
+use super::growth::WALL;
+use super::polygons::{Kernel, Point, Polygons};
+use super::request::Pocket;
+
+/// Coordinates lie within this, mm: on the grid of the booleans that leaves 4 nm.
+const FARTHEST: f64 = 2000.0;
+/// What is left on walls for the chords of their arcs and for the arcs that are put back, mm.
+const GAP: f64 = 8e-4;
+/// What of the goal's rim is not looked for, mm: no more than chips that do not count.
+const RIM: f64 = 1e-3;
+/// How far the tool's centre may go beyond an open edge, in tool radii: so far that it is free of the material there.
+const BEYOND: f64 = 2.5;
+
+/// The pocket's areas.
+#[derive(Debug)]
+pub struct Ground {
+    pub kernel: Kernel,
+    /// Where the tool's centre may be.
+    pub free: Polygons,
+    /// What is to be cleared.
+    pub goal: Polygons,
+}
+
+impl Ground {
+    pub fn new(pocket: &Pocket<'_>) -> Result<Self, PocketError> {
+        check(pocket)?;
+        let (r, smoothing) = (pocket.radius, pocket.smoothing);
+        let outlines = std::iter::once(pocket.boundary).chain(pocket.islands.iter().map(Vec::as_slice));
+        let farthest = outlines.clone().flatten().fold(0.0, |most: f64, [x, y, _]| most.max(x.abs()).max(y.abs()));
+        let kernel = Kernel::new(2.0 * farthest + 20.0 * r);
+        let walls = area(&kernel, pocket)?;
+        let open = kernel.union(&walls, &beyond(&kernel, pocket));
+        let free = kernel.offset(&open, -(r + GAP), WALL);
+        let core = kernel.offset(&free, -smoothing, WALL);
+        if core.is_empty() {
+            return Err(PocketError::TooSmall { radius: r, smoothing });
+        }
+        let free = kernel.offset(&core, smoothing, WALL);
+        let mut goal = kernel.intersection(&kernel.offset(&core, smoothing + r - RIM, WALL), &walls);
+        if let Some(stock) = pocket.stock {
+            let chords: Vec<Vec<Point>> = stock.iter().map(|outline| chords(outline)).collect();
+            goal = kernel.intersection(&goal, &kernel.even_odd(&chords));
+        }
+        if goal.is_empty() {
+            return Err(PocketError::Empty);
+        }
+        Ok(Self { kernel, free, goal })
+    }
+}
+
+/// The pocket without its islands.
+fn area(kernel: &Kernel, pocket: &Pocket<'_>) -> Result<Polygons, PocketError> {
+    let outer = kernel.even_odd(&[chords(pocket.boundary)]);
+    if outer.is_empty() {
+        return Err(PocketError::Outline { key: "boundary".to_owned(), count: pocket.boundary.len() });
+    }
+    let mut islands = Polygons::default();
+    for island in pocket.islands {
+        islands = kernel.union(&islands, &kernel.even_odd(&[chords(island)]));
+    }
+    Ok(kernel.difference(&outer, &islands))
+}
+
+/// The air beyond open edges, as far as the tool may go there.
+fn beyond(kernel: &Kernel, pocket: &Pocket<'_>) -> Polygons {
+    let pieces = PlanePiece::outline(pocket.boundary);
+    let far = BEYOND * pocket.radius;
+    let turns_left = signed_area(&pieces) > 0.0;
+    let mut air = Polygons::default();
+    for piece in pocket.open_edges.iter().filter_map(|edge| pieces.get(*edge)) {
+        let edge = flat(piece);
+        let outer = edge.windows(2).filter_map(|pair| match pair {
+            [a, b] => {
+                let along = [b[0] - a[0], b[1] - a[1]];
+                let length = libm::hypot(along[0], along[1]);
+                let share = if turns_left { far / length } else { -far / length };
+                let out = [along[1] * share, -along[0] * share];
+                Some(vec![*a, [a[0] + out[0], a[1] + out[1]], [b[0] + out[0], b[1] + out[1]], *b])
+            }
+            _ => None,
+        });
+        for strip in outer {
+            air = kernel.union(&air, &kernel.even_odd(&[strip]));
+        }
+    }
+    air
+}
+
+fn signed_area(pieces: &[PlanePiece]) -> f64 {
+    pieces
+        .iter()
+        .flat_map(|piece| flat(piece).windows(2).map(|pair| pair.to_vec()).collect::<Vec<_>>())
+        .map(|pair| match pair.as_slice() {
+            [a, b] => a[0] * b[1] - a[1] * b[0],
+            _ => 0.0,
+        })
+        .sum()
+}
+
+/// A closed outline as chords.
+fn chords(outline: &[[f64; 3]]) -> Vec<Point> {
+    let pieces = PlanePiece::outline(outline);
+    pieces
+        .iter()
+        .flat_map(|piece| {
+            let mut points = flat(piece);
+            points.pop();
+            points
+        })
+        .collect()
+}
+
+/// A path of points with bulges as chords.
+pub fn path_chords(points: &[[f64; 3]]) -> Vec<Point> {
+    let pieces = PlanePiece::path(points);
+    let mut chords: Vec<Point> = pieces.first().map(|piece| piece.start).into_iter().collect();
+    chords.extend(pieces.iter().flat_map(|piece| flat(piece).into_iter().skip(1)));
+    chords
+}
+
+/// A piece as chords that are off it by no more than walls allow.
+fn flat(piece: &PlanePiece) -> Vec<Point> {
+    let count = piece.circle.map_or(1, |circle| {
+        let step = (8.0 * WALL / circle.radius).sqrt();
+        libm::ceil(circle.turn.abs() / step).clamp(4.0, 20_000.0) as usize
+    });
+    let mut points: Vec<Point> = (0..count).map(|i| piece.at(i as f64 / count as f64)).collect();
+    points.push(piece.end);
+    points
+}
+
+fn check(pocket: &Pocket<'_>) -> Result<(), PocketError> {
+    let number = |key: &str, value: f64, ok: bool, allowed| {
+        if ok {
+            Ok(())
+        } else {
+            Err(PocketError::Number { key: key.to_owned(), value, allowed })
+        }
+    };
+    let r = pocket.radius;
+    number("tool_radius", r, (0.01..=500.0).contains(&r), "0.01 to 500 mm")?;
+    let degrees = pocket.angle.to_degrees();
+    let allowed = "engagement_deg + growth_deg from 10 to 90 deg: past a right angle the method proves nothing";
+    number("engagement_deg", degrees, (10.0 - 1e-9..=90.0 + 1e-9).contains(&degrees), allowed)?;
+    let share = pocket.smoothing / r;
+    number("smoothing_radius", pocket.smoothing, (0.01..=10.0).contains(&share), "0.01 to 10 tool radii")?;
+    let outlines = std::iter::once(("boundary".to_owned(), pocket.boundary))
+        .chain(pocket.islands.iter().enumerate().map(|(i, island)| (format!("islands[{i}]"), island.as_slice())))
+        .chain(
+            pocket
+                .stock
+                .unwrap_or(&[])
+                .iter()
+                .enumerate()
+                .map(|(i, outline)| (format!("stock[{i}]"), outline.as_slice())),
+        );
+    for (key, outline) in outlines {
+        for (i, point) in outline.iter().enumerate() {
+            for value in point {
+                number(&format!("{key}[{i}]"), *value, value.abs() <= FARTHEST, "finite numbers within +/-2000")?;
+            }
+        }
+        let is_curved = outline.iter().any(|[_, _, bulge]| *bulge != 0.0);
+        if outline.len() < 2 || (outline.len() == 2 && !is_curved) {
+            return Err(PocketError::Outline { key, count: outline.len() });
+        }
+    }
+    let count = pocket.boundary.len();
+    match pocket.open_edges.iter().find(|edge| **edge >= count) {
+        Some(edge) => Err(PocketError::Edge { edge: *edge, count }),
+        None => Ok(()),
+    }
+}
