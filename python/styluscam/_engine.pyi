@@ -298,7 +298,7 @@ def pocket_path(
     climb: bool,
     progress: _Progress | None = None,
     cancel: CancelToken | None = None,
-) -> tuple[list[tuple[_F, str]], float]: ...
+) -> tuple[list[tuple[_F, str]], list[float]]: ...
 def push_cutter(
     part: Part,
     tool: Tool,

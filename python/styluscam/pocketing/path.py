@@ -43,8 +43,10 @@ class PocketPath:
     ``"link"`` (at depth, through what is cleared), ``"rapid"`` (over the stock)."""
     engagement: list[RunEngagement]
     """The simulated engagement along each run: see :func:`styluscam.engagement`."""
+    reachable_area: float
+    """What of the stock the tool can reach, corners rounded by its radius and the smoothing radius, mm^2."""
     uncleared_area: float
-    """What the tool could reach and did not clear, mm^2."""
+    """What of that the planner did not clear, mm^2."""
 
     @property
     def engagement_max_deg(self) -> float:
@@ -88,8 +90,8 @@ def pocket_path(
         tool_radius: mm.
         engagement_deg: base angle.
         growth_deg: how much larger the angle may become.
-        smoothing_radius: smallest radius of the centre's path (MSR), mm; 0.05 tool radii unless given. Corners stay rounded by the
-            tool's radius and as much more; necks narrower than twice that sum are not entered.
+        smoothing_radius: smallest radius of the centre's path (MSR), mm; 0.05 tool radii unless given. Corners stay
+            rounded by the tool's radius and as much more; necks narrower than twice that sum are not cleared.
         open_edges: numbers of the boundary's edges beyond which is air.
         stock: outline of the material, or several; None: all of the pocket.
         direction: ``"climb"`` or ``"conventional"``, for a spindle that turns clockwise.
@@ -108,7 +110,7 @@ def pocket_path(
     smoothing = MSR * radius if smoothing_radius is None else number_of(smoothing_radius, "smoothing_radius")
     walls = [plane_points(boundary, "boundary"), *(plane_points(one, f"islands[{i}]") for i, one in enumerate(islands))]
     material = None if stock is None else outlines(stock, "stock")
-    runs, left = _engine.pocket_path(
+    runs, areas = _engine.pocket_path(
         walls[0],
         walls[1:],
         [_edge(edge) for edge in open_edges],
@@ -120,7 +122,7 @@ def pocket_path(
         progress=progress,
         cancel=cancel,
     )
-    return PocketPath(runs, engagement(runs, radius, material, walls, progress=progress, cancel=cancel), left)
+    return PocketPath(runs, engagement(runs, radius, material, walls, progress=progress, cancel=cancel), *areas)
 
 
 def _edge(value: object) -> int:

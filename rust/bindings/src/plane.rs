@@ -71,10 +71,10 @@ fn of_engagement(error: &EngagementError) -> PyErr {
     errors::raise("GeometryError", &error.to_string(), error.code(), error.key(), "")
 }
 
-/// Runs as Python gets them, and the area that was not cleared, mm^2.
-type PathArrays<'py> = (Vec<(Bound<'py, PyArray2<f64>>, &'static str)>, f64);
+/// Runs as Python gets them, the area that can be cleared and what of it is left, mm^2.
+type PathArrays<'py> = (Vec<(Bound<'py, PyArray2<f64>>, &'static str)>, [f64; 2]);
 
-/// A path that clears a pocket: points (N, 3) with bulges and kind of each run, and the area left, mm^2.
+/// A path that clears a pocket: points (N, 3) with bulges and kind of each run; the area that can be cleared and what of it is left, mm^2.
 #[pyfunction]
 #[pyo3(signature = (boundary, islands, open_edges, stock, tool_radius, angle, smoothing, climb, progress=None, cancel=None))]
 #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)] // PyO3 hands arrays by value; one for each argument of Python's
@@ -115,7 +115,7 @@ pub fn pocket_path<'py>(
         };
         Ok((arrays::matrix(py, run.points.into_iter())?, kind))
     });
-    Ok((runs.collect::<PyResult<_>>()?, path.left))
+    Ok((runs.collect::<PyResult<_>>()?, [path.goal, path.left]))
 }
 
 fn of_pocket(error: &PocketError) -> PyErr {

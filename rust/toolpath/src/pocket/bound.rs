@@ -5,11 +5,11 @@
 //! rim ahead is nearer. Two discs of radii rho1, cleared, and rho2 may lie rho1 + r - f(rho2) apart; concentric ones
 //! give the profile smoothing radius, equal ones the trochoid (docs/concepts/pockets.md).
 
-/// What is kept below the bound for chords, the grid and the joints between pieces, rad (0.7 deg).
-const RESERVE: f64 = 0.012_217_304_763_960_307;
+/// What is kept below the bound for chords, the grid and the joints between pieces, rad (1 deg).
+const RESERVE: f64 = 0.017_453_292_519_943_295;
 
 /// Share of the reserve that is kept where the tool is steered: there the arcs are exact.
-const STEERED: f64 = 0.2;
+const STEERED: f64 = 0.15;
 /// Chords are never farther than this off their arcs, mm: arcs are put back through their corners (fit.rs), which has to tell them from lines.
 const COARSEST: f64 = 5e-4;
 

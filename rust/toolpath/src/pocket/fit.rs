@@ -4,6 +4,10 @@ use super::polygons::Point;
 
 /// Corners and chords' middles are at most this far off the arcs that take their place, mm.
 const OFF: f64 = 5e-4;
+/// Headings of chords and of what takes their place differ by less than this, rad: the engagement changes by as much.
+const TURNED: f64 = 6e-3;
+/// What corners are off by that thinning moved and the grid rounded, mm.
+const NOISE: f64 = 1.8e-4;
 /// Larger circles are lines, mm.
 const LARGEST: f64 = 1e4;
 /// An arc turns by less than this, rad: a longer one would be found by its middle less well.
@@ -32,7 +36,7 @@ fn longest(points: &[Point], from: usize) -> (usize, f64) {
     let (mut step, mut to) = (1, from + 2);
     // doubling steps forward, then halving them: n log n
     loop {
-        let bulge = points.get(from..=to).and_then(|stretch| one_piece(stretch));
+        let bulge = points.get(from..=to).and_then(one_piece);
         if let Some(bulge) = bulge {
             (good, best) = (to, bulge);
             step *= 2;
@@ -60,7 +64,7 @@ fn longest(points: &[Point], from: usize) -> (usize, f64) {
 fn one_piece(points: &[Point]) -> Option<f64> {
     let (first, last) = (*points.first()?, *points.last()?);
     let middle = *points.get(points.len() / 2)?;
-    if points.iter().all(|p| off_line(*p, first, last) < OFF) && advances(points) {
+    if points.iter().all(|p| off_line(*p, first, last) < OFF) && keeps_heading(points) {
         return Some(0.0);
     }
     let (centre, radius) = circle([first, middle, last])?;
@@ -79,7 +83,10 @@ fn one_piece(points: &[Point]) -> Option<f64> {
         );
         let off = (libm::hypot(arms[1][0], arms[1][1]) - radius).abs();
         let off_half = radius - libm::hypot(half[0], half[1]);
-        if off > OFF || off_half.abs() > 2.0 * OFF || turn * sign < 0.0 {
+        // the tangent in the chord's middle, in the arc's sense
+        let tangent = if turn > 0.0 { [-half[1], half[0]] } else { [half[1], -half[0]] };
+        if !agrees([b[0] - a[0], b[1] - a[1]], tangent) || off > OFF || off_half.abs() > 2.0 * OFF || turn * sign < 0.0
+        {
             return None;
         }
         sign = turn;
@@ -88,13 +95,22 @@ fn one_piece(points: &[Point]) -> Option<f64> {
     (turned.abs() < MOST).then(|| libm::tan(0.25 * turned))
 }
 
-fn advances(points: &[Point]) -> bool {
+/// Whether all chords have the heading of the line from the first corner to the last.
+fn keeps_heading(points: &[Point]) -> bool {
     let (Some(a), Some(b)) = (points.first(), points.last()) else { return false };
     let along = [b[0] - a[0], b[1] - a[1]];
     points.windows(2).all(|pair| match pair {
-        [p, q] => (q[0] - p[0]) * along[0] + (q[1] - p[1]) * along[1] >= 0.0,
+        [p, q] => agrees([q[0] - p[0], q[1] - p[1]], along),
         _ => true,
     })
+}
+
+/// Whether a chord has a heading, as far as it can be told of one so short.
+fn agrees(chord: Point, heading: Point) -> bool {
+    let sin = chord[0] * heading[1] - chord[1] * heading[0];
+    let cos = chord[0] * heading[0] + chord[1] * heading[1];
+    let turned = TURNED + NOISE / libm::hypot(chord[0], chord[1]);
+    cos > 0.0 && sin.abs() < turned * cos
 }
 
 fn off_line(p: Point, a: Point, b: Point) -> f64 {

@@ -53,7 +53,7 @@ pub fn plan(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketErro
         watch.advance(done.saturating_sub(told))?;
         told = told.max(done);
     }
-    Ok(PocketPath { runs: planner.runs, left: planner.material.area.area() })
+    Ok(PocketPath { runs: planner.runs, goal: whole, left: planner.material.area.area().max(0.0) })
 }
 
 /// The path so far and what is left.
@@ -168,8 +168,7 @@ fn without_slivers(area: Polygons) -> Polygons {
             twice += a[0] * b[1] - a[1] * b[0];
             round += libm::hypot(b[0] - a[0], b[1] - a[1]);
         }
-        // holes stay as they are
-        twice < 0.0 || twice > SHALLOWEST * round
+        twice.abs() > SHALLOWEST * round
     };
     Polygons { contours: area.contours.into_iter().filter(is_thick).collect() }
 }

@@ -31,6 +31,8 @@ const HIGHEST: f64 = 536_870_912.0;
 const GENTLE: f64 = 0.99;
 /// How far coarse chords are off, as a share of the offset.
 const COARSE: f64 = 0.01;
+/// Turns up to this get one corner, rad; larger ones get their arc from tangent to tangent, for its ends are the path's headings.
+const SMOOTH: f64 = 0.01;
 /// Turns with a smaller sine are straight on.
 const STRAIGHT: f64 = 1e-9;
 
@@ -111,7 +113,7 @@ impl Kernel {
         self.back(Overlay::from_subj_and_clip(&a, &b).overlay(rule, FillRule::NonZero))
     }
 
-    fn to_grid(&self, contours: &[Vec<Point>]) -> Vec<Vec<IntPoint<i32>>> {
+    fn to_grid(self, contours: &[Vec<Point>]) -> Vec<Vec<IntPoint<i32>>> {
         let on_grid = |point: &Point| {
             let [x, y] = point.map(|x| libm::round(x * self.scale).clamp(-HIGHEST * 2.0, HIGHEST * 2.0 - 1.0) as i32);
             IntPoint::new(x, y)
@@ -304,7 +306,7 @@ fn join(curve: &mut Vec<Point>, corner: Point, [before, after]: [Point; 2], dist
     let is_hollow = sin * distance < 0.0 && !is_reversal;
     if (cos > 0.0 && sin.abs() < STRAIGHT)
         || (is_hollow && cos > gentle)
-        || (!is_hollow && cos > 0.0 && sin.abs() < step)
+        || (!is_hollow && cos > 0.0 && sin.abs() < step.min(SMOOTH))
     {
         // where the two sides' lines meet
         let scale = distance / (1.0 + cos);

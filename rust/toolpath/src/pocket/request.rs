@@ -48,6 +48,8 @@ pub struct PocketRun {
 pub struct PocketPath {
     /// In the order in which they are cut.
     pub runs: Vec<PocketRun>,
-    /// What the tool could reach and did not clear, mm^2.
+    /// What of the stock the tool can reach, mm^2.
+    pub goal: f64,
+    /// What of that it did not clear, mm^2.
     pub left: f64,
 }

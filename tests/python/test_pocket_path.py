@@ -1,0 +1,114 @@
+"""Paths that clear pockets: the bound as simulated, what is left, and what is cut into walls."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import styluscam as sc
+
+RADIUS = 2.5
+
+
+def rectangle(x: float, y: float) -> list[list[float]]:
+    return [[-x, -y], [x, -y], [x, y], [-x, y]]
+
+
+ELL = [[0.0, 0.0], [40.0, 0.0], [40.0, 15.0], [15.0, 15.0], [15.0, 40.0], [0.0, 40.0]]
+HALF = [[12.0, 0.0, 1.0], [-12.0, 0.0, 1.0]]
+POCKETS = {
+    "square": (rectangle(12.0, 12.0), []),
+    "ell": (ELL, []),
+    "slot": (rectangle(20.0, 4.0), []),
+    "round with an island": (HALF, [[[3.0, 0.0, 1.0], [-3.0, 0.0, 1.0]]]),
+}
+
+
+def length(points: np.ndarray, bulges: bool = True) -> float:
+    chords = np.hypot(*np.diff(points[:, :2], axis=0).T)
+    quarter = np.arctan(np.abs(points[:-1, 2])) if bulges else np.zeros(len(chords))
+    return float((chords * np.where(quarter > 0, 2 * quarter / np.maximum(np.sin(2 * quarter), 1e-300), 1.0)).sum())
+
+
+@pytest.mark.parametrize("name", POCKETS)
+def test_the_simulated_angle_stays_below_the_bound_and_all_is_cleared(name):
+    boundary, islands = POCKETS[name]
+    path = sc.pocket_path(boundary, islands, tool_radius=RADIUS, engagement_deg=50.0, growth_deg=10.0)
+    over = sum(int((run.angles_deg > 60.5).sum()) for run in path.engagement if run.kind != "entry")
+    assert over == 0 and 55.0 < path.engagement_max_deg <= 60.5
+    assert path.uncleared_area < 1e-3
+    clearance = min(float(run.clearances.min()) for run in path.engagement if run.clearances.size)
+    assert RADIUS - 1e-6 < clearance < RADIUS + 5e-3
+    assert [place.reason for place in path.exempt] == ["entry"] and path.exempt[0].peak_deg == pytest.approx(360.0)
+    (_, kind), *_ = path.runs
+    assert kind == "entry" and {kind for _, kind in path.runs} <= {"entry", "cut", "link", "rapid"}
+
+
+def test_runs_join_and_cut_no_less_than_the_area_asks_for():
+    path = sc.pocket_path(rectangle(12.0, 12.0), tool_radius=RADIUS, engagement_deg=60.0)
+    for (before, _), (after, _) in zip(path.runs, path.runs[1:], strict=False):
+        assert np.allclose(before[-1, :2], after[0, :2], atol=1e-9)
+    cut = sum(length(points) for points, kind in path.runs if kind == "cut")
+    least = (24.0**2 - (2 * (RADIUS * 1.7)) ** 2) / (RADIUS * (1.0 - math.cos(math.radians(60.0))))
+    assert least < cut < 2.5 * least
+
+
+def test_conventional_is_the_mirror_of_climb():
+    mirrored = [[-x, y] for x, y in reversed(ELL)]
+    climb = sc.pocket_path(ELL, tool_radius=4.0, engagement_deg=75.0)
+    other = sc.pocket_path(mirrored, tool_radius=4.0, engagement_deg=75.0, direction="conventional")
+    totals = [sum(length(points) for points, kind in path.runs if kind == "cut") for path in (climb, other)]
+    assert totals[0] == pytest.approx(totals[1], rel=0.05)
+    assert other.engagement_max_deg < 75.5 and other.uncleared_area < 1e-3
+
+
+def test_an_open_edge_needs_no_entry_and_stock_is_all_that_counts():
+    path = sc.pocket_path(rectangle(15.0, 10.0), tool_radius=RADIUS, engagement_deg=60.0, open_edges=[1])
+    assert not path.exempt and path.engagement_max_deg < 60.5 and path.uncleared_area < 1e-3
+    far = max(float(points[:, 0].max()) for points, _ in path.runs)
+    assert 15.0 < far < 15.0 + 2.5 * RADIUS
+    rest = [[5.0, -10.0], [15.0, -10.0], [15.0, 10.0], [5.0, 10.0]]
+    less = sc.pocket_path(rectangle(15.0, 10.0), tool_radius=RADIUS, engagement_deg=60.0, stock=rest)
+    assert less.engagement_max_deg < 60.5 and min(float(points[:, 0].min()) for points, _ in less.runs) > -10.0
+
+
+@pytest.mark.parametrize(
+    ("boundary", "more", "failure", "where"),
+    [
+        (rectangle(2.0, 10.0), {}, sc.PlanError, "tool_radius"),
+        (rectangle(10.0, 10.0), {"growth_deg": 40.0}, sc.GeometryError, "engagement_deg"),
+        (rectangle(10.0, 10.0), {"open_edges": [4]}, sc.GeometryError, "open_edges"),
+        (rectangle(10.0, 10.0), {"direction": "up"}, sc.GeometryError, "direction"),
+        (rectangle(10.0, 10.0), {"stock": [[50.0, 0.0], [60.0, 0.0], [60.0, 9.0]]}, sc.PlanError, "stock"),
+        ([[0.0, 0.0], [10.0, 0.0], [20.0, 0.0]], {}, sc.GeometryError, "boundary"),
+        ([[0.0, 0.0], [10.0, math.inf], [20.0, 0.0]], {}, sc.GeometryError, "boundary[1]"),
+    ],
+)
+def test_what_cannot_be_planned_is_refused_by_name(boundary, more, failure, where):
+    with pytest.raises(failure) as refused:
+        sc.pocket_path(boundary, tool_radius=RADIUS, engagement_deg=60.0, **more)
+    assert refused.value.where == where
+
+
+@pytest.mark.parametrize(
+    "boundary",
+    [
+        [[0.0, 0.0], [30.0, 20.0], [30.0, 0.0], [0.0, 20.0]],  # crosses itself
+        [[0.0, 0.0], [0.0, 0.0], [30.0, 0.0], [30.0, 20.0], [30.0, 20.0], [0.0, 20.0]],  # points twice
+        [
+            [0.0, 0.0],
+            [15.0, 0.0],
+            [15.0, 8.0],
+            [15.0, 0.0],
+            [30.0, 0.0],
+            [30.0, 20.0],
+            [0.0, 20.0],
+        ],  # a wall without width
+        [[0.0, 0.0, 1e-9], [30.0, 0.0, 0.0], [30.0, 20.0, -1e-6], [0.0, 20.0, 0.0]],  # arcs of huge radii
+    ],
+)
+def test_odd_outlines_have_a_path_within_the_bound(boundary):
+    path = sc.pocket_path(boundary, tool_radius=RADIUS, engagement_deg=60.0)
+    assert path.engagement_max_deg < 60.5 and any(kind == "cut" for _, kind in path.runs)
