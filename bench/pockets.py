@@ -66,9 +66,7 @@ def row(name: str, pocket: Pocket, angle: float) -> str:
 def main() -> None:
     """The table."""
     names = sys.argv[1:] or list(POCKETS)
-    print(
-        f"{'pocket':18} {'b':>3} {'max deg':>7} {'over mm':>7} {'ent':>3} {'left %':>8} {'cut um':>6} {'ratio':>6} {'link%':>5} {'lift':>4} {'s':>7}"
-    )
+    print("pocket               b max deg over mm ent   left % cut um  ratio link% lift       s")
     for name in names:
         for angle in ANGLES_DEG:
             try:
