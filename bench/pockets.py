@@ -55,7 +55,7 @@ def row(name: str, pocket: Pocket, angle: float) -> str:
     share = total["cut"] * RADIUS * (1.0 - math.cos(math.radians(angle))) / cut_area
     clear = min((float(run.clearances.min()) for run in path.engagement if run.clearances.size), default=math.inf)
     overcut = 0.0 if pocket.open_edges else max(0.0, RADIUS - clear)
-    entries = [place for place in path.exempt if place.reason == "entry"]
+    entries = [exempt for exempt in path.exempt if exempt.reason == "entry"]
     return (
         f"{name:18} {angle:3.0f} {path.engagement_max_deg:7.2f} {over(path, angle):7.2f} {len(entries):3d} "
         f"{100.0 * path.uncleared_area / (cut_area + path.uncleared_area):8.4f} {1e3 * overcut:6.2f} "

@@ -41,7 +41,7 @@ def test_the_simulated_angle_stays_below_the_bound_and_all_is_cleared(name):
     assert path.uncleared_area < 1e-3
     clearance = min(float(run.clearances.min()) for run in path.engagement if run.clearances.size)
     assert RADIUS - 1e-6 < clearance < RADIUS + 5e-3
-    assert [place.reason for place in path.exempt] == ["entry"] and path.exempt[0].peak_deg == pytest.approx(360.0)
+    assert [exempt.reason for exempt in path.exempt] == ["entry"] and path.exempt[0].peak_deg == pytest.approx(360.0)
     (_, kind), *_ = path.runs
     assert kind == "entry" and {kind for _, kind in path.runs} <= {"entry", "cut", "link", "rapid"}
 

@@ -105,7 +105,7 @@ fn keeps_heading(points: &[Point]) -> bool {
     })
 }
 
-/// Whether a chord has a heading, as far as it can be told of one so short.
+/// Whether a chord has a heading, as far as one so short shows it.
 fn agrees(chord: Point, heading: Point) -> bool {
     let sin = chord[0] * heading[1] - chord[1] * heading[0];
     let cos = chord[0] * heading[0] + chord[1] * heading[1];
