@@ -92,6 +92,10 @@ fn one_piece(points: &[Point]) -> Option<f64> {
         sign = turn;
         turned += turn;
     }
+    // a single turn to the right is a joint of two arcs, where the heading jumps: an arc's would go past both
+    if sign < 0.0 && points.len() < 5 {
+        return None;
+    }
     (turned.abs() < MOST).then(|| libm::tan(0.25 * turned))
 }
 

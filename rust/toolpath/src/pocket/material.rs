@@ -29,6 +29,12 @@ impl Material {
         self.sides.nearest_neighbor(point).map_or(f64::INFINITY, |side| side.distance_2(&point).sqrt())
     }
 
+    /// The sides of it nearer than `distance` to a point, mm.
+    pub fn sides_within(&self, point: Point, distance: f64) -> impl Iterator<Item = (Point, Point)> + '_ {
+        let sides = self.sides.locate_within_distance(point, distance * distance);
+        sides.map(|side| (side.geom().from, side.geom().to))
+    }
+
     /// Distance to the material, 0 within it, mm.
     pub fn away(&self, point: Point) -> f64 {
         if self.area.holds(point) {

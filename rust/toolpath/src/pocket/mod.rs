@@ -6,6 +6,7 @@
 //! the order of the pieces is free. What the construction guarantees, and where it does not, stands in docs/concepts/pockets.md.
 
 mod bound;
+mod check;
 mod entry;
 mod error;
 mod fit;

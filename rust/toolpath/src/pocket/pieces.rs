@@ -17,6 +17,9 @@ pub struct Piece {
 /// Material nearer than this to the rim is none, mm: chips from there on are thinner than 1 um.
 pub const SHALLOWEST: f64 = 1.5e-3;
 
+/// Sides shorter than this have no heading: they are what the grid makes of crossings, mm.
+const NOISE: f64 = 5e-5;
+
 /// The pieces of a boundary where a tool of `radius` stands deeper than `SHALLOWEST` in the material.
 pub fn pieces(reach: &Polygons, material: &Material, radius: f64) -> Vec<Piece> {
     let mut found = Vec::new();
@@ -59,6 +62,9 @@ fn divided(contour: &[Point], step: f64) -> Vec<Point> {
     let mut points = Vec::new();
     for (a, b) in sides(contour) {
         let length = libm::hypot(b[0] - a[0], b[1] - a[1]);
+        if length < NOISE {
+            continue;
+        }
         let parts = libm::ceil(length / step).max(1.0) as usize;
         for part in 0..parts {
             let share = part as f64 / parts as f64;

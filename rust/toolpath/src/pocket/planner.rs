@@ -3,6 +3,7 @@
 use styluscam_motion::Watch;
 
 use super::bound::Bound;
+use super::check::bounded;
 use super::entry::{helix, largest_disc};
 use super::error::PocketError;
 use super::fit::arcs;
@@ -25,6 +26,11 @@ const SHALLOW: f64 = 0.35;
 const LEVELS: usize = 20_000;
 const ENTRIES: usize = 200;
 
+/// What a piece may exceed the bound by, rad (0.3 deg): half a degree is allowed, and the account here is good to a twentieth.
+const ALLOWED: f64 = 0.3 * std::f64::consts::PI / 180.0;
+/// How much lower the bound is taken where nothing within it was found, rad (2 deg).
+const LOWER: f64 = 2.0 * std::f64::consts::PI / 180.0;
+
 /// Plans the path of a pocket by climb milling.
 pub fn plan(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketError> {
     let ground = Ground::new(pocket)?;
@@ -32,18 +38,22 @@ pub fn plan(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketErro
     let widest = largest_disc(&ground.kernel, &ground.free, pocket.radius).map_or(0.0, |(_, radius)| radius);
     let largest = widest.min(LARGEST * pocket.radius).max(pocket.smoothing);
     let growth = Growth::new(&ground.kernel, &ground.free, &bound, [largest, pocket.smoothing]);
+    let lower = Bound::new(pocket.radius, pocket.angle - LOWER);
+    let cautious = Growth::new(&ground.kernel, &ground.free, &lower, [largest, pocket.smoothing]);
+    let most = pocket.angle + ALLOWED;
     let material = Material::new(ground.goal.clone());
     let free = Material::new(ground.free.clone());
     let whole = material.area.area();
     let steering = Bound::steering(pocket.radius, pocket.angle);
-    let mut planner = Planner { ground, bound, steering, growth, material, free, runs: Vec::new(), at: None };
+    let growths = [growth, cautious];
+    let mut planner = Planner { ground, bound, steering, growths, most, material, free, runs: Vec::new(), at: None };
     watch.begin("clearing the pocket", 1000);
     let (mut told, mut entries) = (0, 0);
     for _ in 0..LEVELS {
         if planner.material.is_empty() {
             break;
         }
-        if !planner.level() {
+        if !(0..planner.growths.len()).any(|growth| planner.level(growth)) {
             entries += 1;
             if entries > ENTRIES || !planner.enter() {
                 break;
@@ -61,7 +71,10 @@ struct Planner {
     ground: Ground,
     bound: Bound,
     steering: Bound,
-    growth: Growth,
+    /// At the bound, and somewhat below: for where a joint of the first goes beyond.
+    growths: [Growth; 2],
+    /// The largest angle of a piece that is cut, rad.
+    most: f64,
     material: Material,
     free: Material,
     runs: Vec<PocketRun>,
@@ -70,8 +83,9 @@ struct Planner {
 
 impl Planner {
     /// Cuts all pieces of what is reached next; false where there are none.
-    fn level(&mut self) -> bool {
-        let reach = self.growth.reach(&self.ground.kernel, &self.material.area);
+    fn level(&mut self, growth: usize) -> bool {
+        let Some(growth) = self.growths.get(growth) else { return false };
+        let reach = growth.reach(&self.ground.kernel, &self.material.area);
         let found = pieces(&reach, &self.material, self.bound.radius);
         let mut shallow = SHALLOW * self.bound.stepover();
         let mut chosen: Vec<Piece> = Vec::new();
@@ -113,6 +127,7 @@ impl Planner {
         } else {
             arcs(&piece.points)
         };
+        let path = bounded(path, &self.material, self.bound.radius, self.most);
         let (Some([x, y, _]), Some([end_x, end_y, _])) = (path.first(), path.last()) else { return false };
         self.go([*x, *y]);
         self.clear(&path);
