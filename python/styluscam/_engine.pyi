@@ -295,7 +295,7 @@ def pocket_path(
     tool_radius: float,
     angle: float,
     smoothing: float,
-    climb: bool,
+    direction: str,
     progress: _Progress | None = None,
     cancel: CancelToken | None = None,
 ) -> tuple[list[tuple[_F, str]], list[float]]: ...

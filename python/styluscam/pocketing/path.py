@@ -17,7 +17,7 @@ from styluscam.types import FloatArray, Progress
 MSR = 0.05
 """The smallest radius of the centre's path unless another is given, in tool radii."""
 
-DIRECTIONS = ("climb", "conventional")
+DIRECTIONS = ("climb", "conventional", "either")
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ def pocket_path(
             rounded by the tool's radius and as much more; necks narrower than twice that sum are not cleared.
         open_edges: numbers of the boundary's edges beyond which is air.
         stock: outline of the material, or several; None: all of the pocket.
-        direction: ``"climb"`` or ``"conventional"``, for a spindle that turns clockwise.
+        direction: ``"climb"`` or ``"conventional"``, for a spindle that turns clockwise; ``"either"``: both, whichever has the shorter way.
         progress: called with phase and fraction; ``False`` cancels.
         cancel: cancels from another thread.
 
@@ -104,7 +104,7 @@ def pocket_path(
         Cancelled: when it is cancelled.
     """
     if direction not in DIRECTIONS:
-        raise refused("direction", direction, '"climb" or "conventional"', GeometryError)
+        raise refused("direction", direction, '"climb", "conventional" or "either"', GeometryError)
     radius = number_of(tool_radius, "tool_radius")
     bound = number_of(engagement_deg, "engagement_deg") + number_of(growth_deg, "growth_deg")
     smoothing = MSR * radius if smoothing_radius is None else number_of(smoothing_radius, "smoothing_radius")
@@ -118,7 +118,7 @@ def pocket_path(
         radius,
         math.radians(bound),
         smoothing,
-        direction == "climb",
+        direction,
         progress=progress,
         cancel=cancel,
     )

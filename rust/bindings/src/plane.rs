@@ -76,7 +76,7 @@ type PathArrays<'py> = (Vec<(Bound<'py, PyArray2<f64>>, &'static str)>, [f64; 2]
 
 /// A path that clears a pocket: points (N, 3) with bulges and kind of each run; the area that can be cleared and what of it is left, mm^2.
 #[pyfunction]
-#[pyo3(signature = (boundary, islands, open_edges, stock, tool_radius, angle, smoothing, climb, progress=None, cancel=None))]
+#[pyo3(signature = (boundary, islands, open_edges, stock, tool_radius, angle, smoothing, direction, progress=None, cancel=None))]
 #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)] // PyO3 hands arrays by value; one for each argument of Python's
 pub fn pocket_path<'py>(
     py: Python<'py>,
@@ -87,7 +87,7 @@ pub fn pocket_path<'py>(
     tool_radius: f64,
     angle: f64,
     smoothing: f64,
-    climb: bool,
+    direction: &str,
     progress: Option<&Bound<'py, PyAny>>,
     cancel: Option<&CancelToken>,
 ) -> PyResult<PathArrays<'py>> {
@@ -102,7 +102,8 @@ pub fn pocket_path<'py>(
         radius: tool_radius,
         angle,
         smoothing,
-        climb,
+        climb: direction != "conventional",
+        two_way: direction == "either",
     };
     let path = watched(py, progress, cancel, |watch| pocket::pocket_path(&asked, watch))?;
     let path = path.map_err(|error| of_pocket(&error))?;

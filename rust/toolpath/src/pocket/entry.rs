@@ -1,6 +1,7 @@
 //! Where the tool goes down: a helix in the middle of the largest disc that the walls leave.
 
 use super::growth::WALL;
+use super::material::Material;
 use super::polygons::{Kernel, Point, Polygons};
 
 /// Radius of the helix, in radii of the tool: no core is left in its middle.
@@ -33,7 +34,7 @@ pub fn largest_disc(kernel: &Kernel, area: &Polygons, tool_radius: f64) -> Optio
     let contour = left.contours.iter().max_by(|a, b| a.len().cmp(&b.len()))?;
     let count = contour.len().max(1) as f64;
     let mean = contour.iter().fold([0.0, 0.0], |sum, p| [sum[0] + p[0] / count, sum[1] + p[1] / count]);
-    let centre = if left.holds(mean) { mean } else { *contour.first()? };
+    let centre = if Material::new(left.clone()).holds(mean) { mean } else { *contour.first()? };
     Some((centre, least))
 }
 

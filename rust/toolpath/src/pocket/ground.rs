@@ -123,6 +123,12 @@ pub fn path_chords(points: &[[f64; 3]]) -> Vec<Point> {
     chords
 }
 
+/// A path of points with bulges from its end to its start.
+pub fn reversed(points: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let bulges = points.iter().rev().skip(1).map(|[_, _, bulge]| -bulge).chain([0.0]);
+    points.iter().rev().zip(bulges).map(|([x, y, _], bulge)| [*x, *y, bulge]).collect()
+}
+
 /// A piece as chords that are off it by no more than walls allow.
 fn flat(piece: &PlanePiece) -> Vec<Point> {
     let count = piece.circle.map_or(1, |circle| {

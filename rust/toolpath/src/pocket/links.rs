@@ -8,6 +8,8 @@ use super::polygons::Point;
 
 /// How much nearer than its radius to material the tool may pass, mm: what is cut there is thinner than 1 um.
 const SLACK: f64 = 5e-4;
+/// Positions of a line that are looked at where it passes near to material, in tool radii.
+const STRIDE: f64 = 0.05;
 /// Lattice positions that are looked at, at most.
 const MOST: usize = 60_000;
 
@@ -21,19 +23,31 @@ pub struct Ground<'a> {
 }
 
 impl Ground<'_> {
-    fn is_clear(&self, point: Point) -> bool {
-        let inside = self.free.area.holds(point) || self.free.distance(point) < SLACK;
-        inside && self.material.distance(point) > self.radius - SLACK && !self.material.area.holds(point)
+    /// How far the tool may go from a position in any direction, mm; below 0 it may not be there.
+    fn room(&self, point: Point) -> f64 {
+        let wall = self.free.distance(point) + SLACK;
+        if wall > 2.0 * SLACK && !self.free.holds(point) {
+            return -wall;
+        }
+        let room = wall.min(self.material.distance(point) - self.radius + SLACK);
+        if room > 0.0 && self.material.holds(point) {
+            return -room;
+        }
+        room
     }
 
     /// Whether the straight line keeps clear: from position to position as far as the last one is clear.
     fn is_straight_clear(&self, a: Point, b: Point) -> bool {
         let length = libm::hypot(b[0] - a[0], b[1] - a[1]);
-        let steps = libm::ceil(length / (0.05 * self.radius)).max(1.0) as usize;
-        (0..=steps).all(|i| {
-            let share = i as f64 / steps as f64;
-            self.is_clear([0, 1].map(|k| a[k] + share * (b[k] - a[k])))
-        })
+        let mut travelled = 0.0;
+        loop {
+            let share = if length > 0.0 { travelled / length } else { 1.0 };
+            let room = self.room([0, 1].map(|k| a[k] + share * (b[k] - a[k])));
+            if room <= 0.0 || travelled >= length {
+                return room > 0.0;
+            }
+            travelled = (travelled + room.max(STRIDE * self.radius)).min(length);
+        }
     }
 
     /// Positions from a to b at depth; None where there is no way.

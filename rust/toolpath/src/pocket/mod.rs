@@ -18,6 +18,7 @@ mod pieces;
 mod planner;
 mod polygons;
 mod request;
+mod sequence;
 mod steering;
 
 #[cfg(test)]

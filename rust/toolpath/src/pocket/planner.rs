@@ -1,4 +1,4 @@
-//! Level by level: what is reached next, the pieces of its boundary, and the moves between them.
+//! Level by level: what is reached next, and the pieces of its boundary.
 
 use styluscam_motion::Watch;
 
@@ -7,13 +7,13 @@ use super::check::bounded;
 use super::entry::{helix, largest_disc};
 use super::error::PocketError;
 use super::fit::arcs;
-use super::ground::{path_chords, Ground};
+use super::ground::{path_chords, reversed, Ground};
 use super::growth::{Growth, WALL};
-use super::links;
 use super::material::Material;
 use super::pieces::{pieces, Piece, SHALLOWEST};
-use super::polygons::{Point, Polygons};
-use super::request::{Pocket, PocketPath, PocketRun, PocketRunKind};
+use super::polygons::{sides, Kernel, Point, Polygons};
+use super::request::{Pocket, PocketPath};
+use super::sequence::{sequenced, Cut};
 use super::steering::onto_ring;
 
 /// The largest disc that is tried, in tool radii: larger ones engage as straight passes do.
@@ -23,7 +23,7 @@ const SLIVER: f64 = 4e-4;
 /// Pieces shallower than this share of a straight pass's stepover wait until nothing else is left.
 const SHALLOW: f64 = 0.35;
 /// Levels and entries, at most: more would mean that the path gains no ground.
-const LEVELS: usize = 20_000;
+const LEVELS: u32 = 20_000;
 const ENTRIES: usize = 200;
 
 /// What a piece may exceed the bound by, rad (0.3 deg): half a degree is allowed, and the account here is good to a twentieth.
@@ -46,16 +46,27 @@ pub fn plan(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketErro
     let whole = material.area.area();
     let steering = Bound::steering(pocket.radius, pocket.angle);
     let growths = [growth, cautious];
-    let mut planner = Planner { ground, bound, steering, growths, most, material, free, runs: Vec::new(), at: None };
+    let mut planner = Planner {
+        ground,
+        bound,
+        steering,
+        growths,
+        most,
+        two_way: pocket.two_way,
+        material,
+        free,
+        cuts: Vec::new(),
+        at: None,
+    };
     watch.begin("clearing the pocket", 1000);
     let (mut told, mut entries) = (0, 0);
-    for _ in 0..LEVELS {
+    for level in 0..LEVELS {
         if planner.material.is_empty() {
             break;
         }
-        if !(0..planner.growths.len()).any(|growth| planner.level(growth)) {
+        if !(0..planner.growths.len()).any(|growth| planner.level(level, growth)) {
             entries += 1;
-            if entries > ENTRIES || !planner.enter() {
+            if entries > ENTRIES || !planner.enter(level) {
                 break;
             }
         }
@@ -63,10 +74,12 @@ pub fn plan(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketErro
         watch.advance(done.saturating_sub(told))?;
         told = told.max(done);
     }
-    Ok(PocketPath { runs: planner.runs, goal: whole, left: planner.material.area.area().max(0.0) })
+    let left = planner.material.area.area().max(0.0);
+    let runs = sequenced(&planner.cuts, &planner.ground, &planner.free, pocket.radius, watch)?;
+    Ok(PocketPath { runs, goal: whole, left })
 }
 
-/// The path so far and what is left.
+/// The pieces so far and what is left.
 struct Planner {
     ground: Ground,
     bound: Bound,
@@ -75,49 +88,41 @@ struct Planner {
     growths: [Growth; 2],
     /// The largest angle of a piece that is cut, rad.
     most: f64,
+    /// Whether pieces may be cut from either end.
+    two_way: bool,
     material: Material,
     free: Material,
-    runs: Vec<PocketRun>,
+    cuts: Vec<Cut>,
+    /// Where the last piece ends.
     at: Option<Point>,
 }
 
 impl Planner {
-    /// Cuts all pieces of what is reached next; false where there are none.
-    fn level(&mut self, growth: usize) -> bool {
+    /// Takes all pieces of what is reached next; false where there are none.
+    fn level(&mut self, level: u32, growth: usize) -> bool {
         let Some(growth) = self.growths.get(growth) else { return false };
         let reach = growth.reach(&self.ground.kernel, &self.material.area);
         let found = pieces(&reach, &self.material, self.bound.radius);
         let mut shallow = SHALLOW * self.bound.stepover();
-        let mut chosen: Vec<Piece> = Vec::new();
+        let mut chosen: Vec<&Piece> = Vec::new();
         while chosen.is_empty() && shallow > SHALLOWEST {
-            chosen = found.iter().filter(|piece| piece.depth >= shallow).cloned().collect();
+            chosen = found.iter().filter(|piece| piece.depth >= shallow).collect();
             shallow *= 0.5;
         }
-        let mut has_cut = false;
-        while !chosen.is_empty() {
-            let next = self.nearest(&chosen);
-            has_cut |= self.cut(&chosen.swap_remove(next));
-        }
+        // each is within the bound with the material as it is, whatever of the others is cut before it
+        let mut cuts: Vec<Cut> = chosen.iter().filter_map(|piece| self.cut(level, piece)).collect();
+        self.clear(&cuts);
+        self.at = cuts.last().and_then(Cut::end).or(self.at);
+        let has_cut = !cuts.is_empty();
+        self.cuts.append(&mut cuts);
         has_cut
     }
 
-    /// The piece that begins nearest to the tool; of rings any point is a beginning.
-    fn nearest(&self, pieces: &[Piece]) -> usize {
-        let Some(at) = self.at else { return 0 };
-        let away = |p: &Point| libm::hypot(p[0] - at[0], p[1] - at[1]);
-        let distance = |piece: &Piece| {
-            let starts = if piece.is_ring { piece.points.as_slice() } else { piece.points.get(..1).unwrap_or(&[]) };
-            starts.iter().map(away).fold(f64::INFINITY, f64::min)
-        };
-        let by_distance = |a: &(usize, f64), b: &(usize, f64)| a.1.total_cmp(&b.1);
-        pieces.iter().map(distance).enumerate().min_by(by_distance).map_or(0, |(i, _)| i)
-    }
-
-    /// Cuts one piece; false where there is no way onto it.
-    fn cut(&mut self, piece: &Piece) -> bool {
+    /// The path of one piece; None where there is no way onto it.
+    fn cut(&self, level: u32, piece: &Piece) -> Option<Cut> {
+        let (r, material) = (self.bound.radius, &self.material);
         let path = if piece.is_ring {
-            let steered = onto_ring(&piece.points, self.at, &self.material, &self.ground.free, &self.steering);
-            let Some((mut path, side)) = steered else { return false };
+            let (mut path, side) = onto_ring(&piece.points, self.at, material, &self.free, &self.steering)?;
             let count = piece.points.len() - 1;
             let crossing = path.pop().map(|[x, y, _]| [x, y]);
             let around = (1..=count).filter_map(|i| piece.points.get((side + i) % count)).copied();
@@ -127,59 +132,46 @@ impl Planner {
         } else {
             arcs(&piece.points)
         };
-        let path = bounded(path, &self.material, self.bound.radius, self.most);
-        let (Some([x, y, _]), Some([end_x, end_y, _])) = (path.first(), path.last()) else { return false };
-        self.go([*x, *y]);
-        self.clear(&path);
-        self.at = Some([*end_x, *end_y]);
-        self.runs.push(PocketRun { points: path, kind: PocketRunKind::Cut });
-        true
+        let points = path.len();
+        let path = bounded(path, material, r, self.most);
+        let is_whole = path.len() == points && !piece.is_ring;
+        let two_way = self.two_way && is_whole && bounded(reversed(&path), material, r, self.most).len() == points;
+        let swept = self.ground.kernel.sweep(&path_chords(&path), r + SLIVER, WALL);
+        (path.len() > 1).then_some(Cut { path, swept, level, is_entry: false, two_way })
     }
 
-    /// To a position, through what is cleared or over it.
-    fn go(&mut self, to: Point) {
-        let Some(from) = self.at else { return };
-        let ground = links::Ground { material: &self.material, free: &self.free, radius: self.bound.radius };
-        let way = ground.way(from, to);
-        let kind = if way.is_some() { PocketRunKind::Link } else { PocketRunKind::Rapid };
-        let points = way.unwrap_or_else(|| vec![from, to]).iter().map(|[x, y]| [*x, *y, 0.0]).collect();
-        self.runs.push(PocketRun { points, kind });
-    }
-
-    fn clear(&mut self, path: &[[f64; 3]]) {
-        let kernel = &self.ground.kernel;
-        let swept = kernel.sweep(&path_chords(path), self.bound.radius + SLIVER, WALL);
-        let left = without_slivers(kernel.difference(&self.material.area, &swept));
-        self.material = Material::new(left.thinned(0.3 * WALL));
+    fn clear(&mut self, cuts: &[Cut]) {
+        self.material = left_of(&self.ground.kernel, &self.material, cuts);
     }
 
     /// Goes down into the material where there is most room; false where there is none.
-    fn enter(&mut self) -> bool {
+    fn enter(&mut self, level: u32) -> bool {
         let kernel = &self.ground.kernel;
         let under = kernel.intersection(&self.ground.free, &self.material.area);
         let Some(disc) = largest_disc(kernel, &under, self.bound.radius).filter(|(_, radius)| *radius > 0.0) else {
             return false;
         };
         let helix = helix(disc, self.bound.radius);
-        let begin = [helix.centre[0] + helix.radius, helix.centre[1]];
-        if let Some([x, y]) = self.at {
-            let points = vec![[x, y, 0.0], [begin[0], begin[1], 0.0]];
-            self.runs.push(PocketRun { points, kind: PocketRunKind::Rapid });
-        }
-        self.runs.push(PocketRun { points: helix.points(), kind: PocketRunKind::Entry });
-        self.at = Some(begin);
         let swept = Polygons::disc(helix.centre, helix.radius + self.bound.radius, WALL);
-        let left = without_slivers(kernel.difference(&self.material.area, &swept));
-        self.material = Material::new(left.thinned(0.3 * WALL));
+        let cut = Cut { path: helix.points(), swept, level, is_entry: true, two_way: false };
+        self.clear(std::slice::from_ref(&cut));
+        self.at = cut.end();
+        self.cuts.push(cut);
         true
     }
+}
+
+/// What pieces leave of material.
+pub fn left_of(kernel: &Kernel, material: &Material, cuts: &[Cut]) -> Material {
+    let swept = Polygons { contours: cuts.iter().flat_map(|cut| cut.swept.contours.clone()).collect() };
+    Material::new(without_slivers(kernel.difference(&material.area, &swept)).thinned(0.3 * WALL))
 }
 
 /// The areas that are thicker than chips that do not count.
 fn without_slivers(area: Polygons) -> Polygons {
     let is_thick = |contour: &Vec<Point>| {
         let (mut twice, mut round) = (0.0, 0.0);
-        for (a, b) in super::polygons::sides(contour) {
+        for (a, b) in sides(contour) {
             twice += a[0] * b[1] - a[1] * b[0];
             round += libm::hypot(b[0] - a[0], b[1] - a[1]);
         }

@@ -166,17 +166,6 @@ impl Polygons {
             [[low[0].min(p[0]), low[1].min(p[1])], [high[0].max(p[0]), high[1].max(p[1])]]
         }))
     }
-
-    /// Whether a point lies in it.
-    pub fn holds(&self, [x, y]: Point) -> bool {
-        let mut inside = false;
-        for contour in &self.contours {
-            for (a, b) in sides(contour) {
-                inside ^= (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
-            }
-        }
-        inside
-    }
 }
 
 /// The sides of a closed contour.

@@ -19,6 +19,8 @@ pub struct Pocket<'a> {
     pub smoothing: f64,
     /// Whether the material is right of the tool (climb milling, spindle clockwise), or left.
     pub climb: bool,
+    /// Whether pieces may be cut in both directions, whichever has the shorter way.
+    pub two_way: bool,
 }
 
 /// What a run is for.

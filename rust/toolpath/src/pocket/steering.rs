@@ -5,7 +5,7 @@
 
 use super::bound::Bound;
 use super::material::Material;
-use super::polygons::{Point, Polygons};
+use super::polygons::Point;
 
 /// A position with a heading, rad.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +19,7 @@ pub fn onto_ring(
     ring: &[Point],
     at: Option<Point>,
     material: &Material,
-    free: &Polygons,
+    free: &Material,
     bound: &Bound,
 ) -> Option<(Vec<[f64; 3]>, usize)> {
     let count = ring.len().saturating_sub(1);
@@ -41,7 +41,7 @@ fn steered(
     ring: &[Point],
     from: usize,
     material: &Material,
-    free: &Polygons,
+    free: &Material,
     bound: &Bound,
 ) -> Option<(Vec<[f64; 3]>, usize)> {
     let r = bound.radius;
@@ -114,7 +114,7 @@ fn widest(stance: Stance, material: &Material, bound: &Bound) -> Option<f64> {
         let lacks = bound.keep(rho) - material.distance(centre);
         if lacks > NEARLY * r {
             rho -= 0.5 * lacks;
-        } else if material.area.holds(centre) {
+        } else if material.holds(centre) {
             rho *= 0.7;
         } else {
             return Some(rho);

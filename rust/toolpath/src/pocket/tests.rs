@@ -21,6 +21,7 @@ fn pocket(boundary: &[[f64; 3]]) -> Pocket<'_> {
         angle: PI / 3.0,
         smoothing: 0.125,
         climb: true,
+        two_way: false,
     }
 }
 

@@ -1,0 +1,145 @@
+//! The engagement along a piece before it is cut, by the planner's own account of the material: polygons, and discs along the
+//! piece itself. The verifier measures the finished path by arcs of its own and shares nothing with this.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use styluscam_geometry::PlanePiece;
+
+use super::material::Material;
+use super::polygons::Point;
+
+/// Distance of the positions that are looked at, in tool radii.
+const STEP: f64 = 0.04;
+/// The rim is taken this much smaller: chips so thin do not count, and the polygons are no better, mm.
+const THIN: f64 = 7e-4;
+/// Positions of the piece itself that have swept what is near, at most: the way once around a small circle.
+const OWN: usize = 160;
+
+/// A piece that is cut short ends so many positions before what is beyond the bound, and is not cut if it has fewer.
+const BACK: usize = 3;
+const LEAST: usize = 8;
+
+/// A position on a piece with the angle that the tool engages there.
+#[derive(Clone, Copy, Debug)]
+struct Looked {
+    /// Number of the piece's line or arc, and the share of it.
+    at: (usize, f64),
+    /// Engagement angle, rad.
+    angle: f64,
+}
+
+/// The angle along a path of points with bulges, in the order in which it is cut.
+fn along(path: &[[f64; 3]], material: &Material, radius: f64) -> Vec<Looked> {
+    let mut looked = Vec::new();
+    let mut own: Vec<Point> = Vec::new();
+    for (number, piece) in PlanePiece::path(path).iter().enumerate() {
+        let length = piece.length();
+        if length <= 0.0 {
+            continue;
+        }
+        let parts = libm::ceil(length / (STEP * radius)).max(1.0) as usize;
+        for part in 0..=parts {
+            let share = part as f64 / parts as f64;
+            let position = piece.at(share);
+            let angle = engaged(position, heading(piece, share), &own, material, radius);
+            looked.push(Looked { at: (number, share), angle });
+            if part < parts {
+                own.push(position);
+            }
+        }
+    }
+    looked
+}
+
+/// The path up to where it first engages more than `most`, rad; empty where that is so soon that nothing is gained.
+pub fn bounded(path: Vec<[f64; 3]>, material: &Material, radius: f64, most: f64) -> Vec<[f64; 3]> {
+    let looked = along(&path, material, radius);
+    let Some(first) = looked.iter().position(|looked| looked.angle > most) else { return path };
+    let Some(last) = first.checked_sub(BACK).and_then(|last| looked.get(last)).filter(|_| first > LEAST) else {
+        return Vec::new();
+    };
+    let (number, share) = last.at;
+    let mut kept: Vec<[f64; 3]> = path.iter().take(number + 1).copied().collect();
+    if let (Some(piece), Some([_, _, bulge])) = (PlanePiece::path(&path).get(number), kept.last_mut()) {
+        *bulge = libm::tan(share * libm::atan(*bulge));
+        let [x, y] = piece.at(share);
+        kept.push([x, y, 0.0]);
+    }
+    kept
+}
+
+/// Angle of the directions ahead in which the rim lies in the material, and in none of the discs about the positions before, rad.
+fn engaged(at: Point, heading: f64, own: &[Point], material: &Material, radius: f64) -> f64 {
+    let from = heading - FRAC_PI_2;
+    let mut inside = within(at, from, material, radius - THIN);
+    for before in own.iter().rev().take(OWN) {
+        if inside.is_empty() {
+            break;
+        }
+        let arm = [before[0] - at[0], before[1] - at[1]];
+        let half_distance = 0.5 * libm::hypot(arm[0], arm[1]);
+        if half_distance < radius && half_distance > 0.0 {
+            let middle = (libm::atan2(arm[1], arm[0]) - from).rem_euclid(TAU);
+            let half = libm::acos(half_distance / radius);
+            // as seen from `from` the disc may begin before or end after a full turn
+            for turn in [-TAU, 0.0] {
+                take(&mut inside, middle - half + turn, middle + half + turn);
+            }
+        }
+    }
+    inside.iter().map(|[a, b]| b - a).sum()
+}
+
+/// Takes the directions between two out of intervals.
+fn take(intervals: &mut Vec<[f64; 2]>, from: f64, to: f64) {
+    if intervals.iter().all(|[a, b]| to <= *a || from >= *b) {
+        return;
+    }
+    let left = intervals.iter().flat_map(|[a, b]| [[*a, b.min(from)], [a.max(to), *b]]);
+    *intervals = left.filter(|[a, b]| a < b).collect();
+}
+
+/// Directions within half a turn on from `from` in which the rim lies in the material, as angles from there.
+fn within(at: Point, from: f64, material: &Material, radius: f64) -> Vec<[f64; 2]> {
+    // (direction, whether the rim comes into the material there): the material lies left of its sides
+    let mut crossings: Vec<(f64, bool)> = Vec::new();
+    for (a, b) in material.sides_within(at, radius) {
+        let (along, arm) = ([b[0] - a[0], b[1] - a[1]], [a[0] - at[0], a[1] - at[1]]);
+        let square = along[0] * along[0] + along[1] * along[1];
+        let half = arm[0] * along[0] + arm[1] * along[1];
+        let root = half * half - square * (arm[0] * arm[0] + arm[1] * arm[1] - radius * radius);
+        if root <= 0.0 || square <= 0.0 {
+            continue;
+        }
+        for sign in [-1.0, 1.0] {
+            let share = (sign * root.sqrt() - half) / square;
+            if (0.0..1.0).contains(&share) {
+                let on = [arm[0] + share * along[0], arm[1] + share * along[1]];
+                // the side leaves the disc at its second crossing: the rim then comes over to its left
+                crossings.push(((libm::atan2(on[1], on[0]) - from).rem_euclid(TAU), sign > 0.0));
+            }
+        }
+    }
+    crossings.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let is_in = match crossings.last() {
+        Some((_, comes_in)) => *comes_in,
+        None => material.holds([at[0] + radius * libm::cos(from), at[1] + radius * libm::sin(from)]),
+    };
+    let (mut intervals, mut begin) = (Vec::new(), is_in.then_some(0.0));
+    for (direction, comes_in) in crossings.into_iter().take_while(|(direction, _)| *direction < PI) {
+        if comes_in {
+            begin.get_or_insert(direction);
+        } else if let Some(begin) = begin.take() {
+            intervals.push([begin, direction]);
+        }
+    }
+    intervals.extend(begin.map(|begin| [begin, PI]));
+    intervals
+}
+
+fn heading(piece: &PlanePiece, share: f64) -> f64 {
+    match &piece.circle {
+        Some(circle) => circle.from + share * circle.turn + FRAC_PI_2.copysign(circle.turn),
+        None => libm::atan2(piece.end[1] - piece.start[1], piece.end[0] - piece.start[0]),
+    }
+}
