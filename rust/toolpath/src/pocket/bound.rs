@@ -38,11 +38,6 @@ impl Bound {
         (rho * rho + r * r + 2.0 * rho * r * self.cos).sqrt()
     }
 
-    /// Stepover of a straight pass at the bound, mm.
-    pub fn stepover(&self) -> f64 {
-        self.radius * (1.0 - self.cos)
-    }
-
     /// How far chords may be off the arcs of the distances kept about circles of radius rho: a tenth of what the reserve is there.
     pub fn tolerance(&self, rho: f64) -> f64 {
         let sin = (1.0 - self.cos * self.cos).sqrt();

@@ -1,7 +1,14 @@
-//! What the tool's centre may reach next without exceeding the bound: the union of all discs on whose circles it engages
+//! What the tool's centre may reach next without exceeding the bound: the union of discs on whose circles it engages
 //! less, by the material as it is.
+//!
+//! Large discs go first, a few radii at a time: as long as they gain ground smaller ones are not asked, and those that the material is nowhere near
+//! to any more, never again.
+
+use rayon::prelude::*;
 
 use super::bound::{ladder, Bound};
+use super::material::Material;
+use super::pieces::{pieces, Piece, SHALLOWEST};
 use super::polygons::{Kernel, Polygons};
 
 /// Chords of walls are at most this far off their arcs, mm: what the offsets take off the part, they leave.
@@ -10,6 +17,13 @@ pub const WALL: f64 = 4e-4;
 /// How much larger than it is the material may be taken, in tool radii: half a percent of a pass, for a third of the corners.
 const SAG: f64 = 0.002;
 
+/// Radii that are asked together.
+const TOGETHER: usize = 3;
+/// Pieces shallower than this share of what the discs can gain wait until nothing else is left.
+const SHALLOW: f64 = 0.35;
+/// Radii that gain nothing are left out for so many steps, at most.
+const LONGEST_WAIT: u32 = 4;
+
 /// Discs of one radius.
 #[derive(Debug)]
 struct Rung {
@@ -17,14 +31,22 @@ struct Rung {
     /// Distance that material keeps from their centres, mm.
     keep: f64,
     tolerance: f64,
+    /// How far a pass beside an equal one may be from it, mm.
+    gain: f64,
     /// Where their centres may be, by the walls.
     centres: Polygons,
+    /// Steps for which they are left out: now, and the last time.
+    waits: [u32; 2],
+    /// Whether no material is near to any of them.
+    is_done: bool,
 }
 
 /// The discs that fit between the walls.
 #[derive(Debug)]
 pub struct Growth {
     rungs: Vec<Rung>,
+    /// The tool's radius, mm.
+    radius: f64,
     /// How much larger the material may be taken than it is, mm.
     sag: f64,
 }
@@ -36,24 +58,62 @@ impl Growth {
             radius,
             keep: bound.keep(radius),
             tolerance: bound.tolerance(radius),
+            gain: radius + bound.radius - bound.keep(radius),
             centres: kernel.offset(free, -radius, WALL),
+            waits: [0, 0],
+            is_done: false,
         };
-        Self { rungs: ladder(largest, smallest).into_iter().map(rung).collect(), sag: SAG * bound.radius }
+        let mut rungs: Vec<Rung> = ladder(largest, smallest).into_iter().map(rung).collect();
+        rungs.retain(|rung| !rung.centres.is_empty());
+        Self { rungs, radius: bound.radius, sag: SAG * bound.radius }
     }
 
-    /// All positions on permissible discs.
-    pub fn reach(&self, kernel: &Kernel, material: &Polygons) -> Polygons {
+    /// The pieces that are next: deep ones of the largest discs that have any; else the deepest of all.
+    pub fn next(&mut self, kernel: &Kernel, material: &Material) -> Vec<Piece> {
         // more material than there is: the safe side
-        let material = material.filled(self.sag);
-        let mut reach = Polygons::default();
-        for rung in self.rungs.iter().filter(|rung| !rung.centres.is_empty()) {
-            let kept = kernel.offset(&material, rung.keep, rung.tolerance);
-            let centres = kernel.difference(&rung.centres, &kept);
-            if !centres.is_empty() {
+        let filled = material.area.filled(self.sag);
+        let mut shallow: Vec<Piece> = Vec::new();
+        // those that wait are asked where the others have nothing
+        for is_last in [false, true] {
+            let mut asked: Vec<&mut Rung> = Vec::new();
+            for rung in self.rungs.iter_mut().filter(|rung| !rung.is_done) {
+                match (is_last, rung.waits[0]) {
+                    (false, 0) => asked.push(rung),
+                    (false, _) => rung.waits[0] -= 1,
+                    (true, now) if now < rung.waits[1] => asked.push(rung),
+                    (true, _) => {}
+                }
+            }
+            for group in asked.chunks_mut(TOGETHER) {
+                let reaches: Vec<Polygons> = group.par_iter_mut().map(|rung| rung.reach(kernel, &filled)).collect();
                 // one after the other: their edges nearly coincide, and all at once that is slow
-                reach = kernel.union(&reach, &kernel.offset(&centres, rung.radius, rung.tolerance));
+                let reach = reaches.iter().fold(Polygons::default(), |sum, reach| kernel.union(&sum, reach));
+                let mut found = pieces(&reach.thinned(0.3 * WALL), material, self.radius);
+                let deep = SHALLOW * group.first().map_or(0.0, |rung| rung.gain);
+                if found.iter().any(|piece| piece.depth >= deep) {
+                    group.iter_mut().for_each(|rung| rung.waits = [0, 0]);
+                    found.retain(|piece| piece.depth >= deep);
+                    return found;
+                }
+                for rung in group {
+                    let wait = (2 * rung.waits[1]).clamp(1, LONGEST_WAIT);
+                    rung.waits = [wait, wait];
+                }
+                shallow.append(&mut found);
             }
         }
-        reach.thinned(0.3 * WALL)
+        let deepest = shallow.iter().fold(0.0, |deepest: f64, piece| deepest.max(piece.depth));
+        shallow.retain(|piece| piece.depth >= 0.5 * deepest && piece.depth > SHALLOWEST);
+        shallow
+    }
+}
+
+impl Rung {
+    /// All positions on permissible discs of the radius.
+    fn reach(&mut self, kernel: &Kernel, material: &Polygons) -> Polygons {
+        let kept = kernel.offset(material, self.keep, self.tolerance);
+        let centres = kernel.difference(&self.centres, &kept);
+        self.is_done = self.centres.area() - centres.area() <= 0.0;
+        kernel.offset(&centres, self.radius, self.tolerance)
     }
 }

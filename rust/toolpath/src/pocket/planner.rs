@@ -10,7 +10,7 @@ use super::fit::arcs;
 use super::ground::{path_chords, reversed, Ground};
 use super::growth::{Growth, WALL};
 use super::material::Material;
-use super::pieces::{pieces, Piece, SHALLOWEST};
+use super::pieces::{Piece, SHALLOWEST};
 use super::polygons::{sides, Kernel, Point, Polygons};
 use super::request::{Pocket, PocketPath};
 use super::sequence::{sequenced, Cut};
@@ -20,8 +20,6 @@ use super::steering::onto_ring;
 const LARGEST: f64 = 12.0;
 /// What a pass is taken to sweep beyond the tool's radius, mm: slivers between chords, thinner than the chips that count.
 const SLIVER: f64 = 4e-4;
-/// Pieces shallower than this share of a straight pass's stepover wait until nothing else is left.
-const SHALLOW: f64 = 0.35;
 /// Levels and entries, at most: more would mean that the path gains no ground.
 const LEVELS: u32 = 20_000;
 const ENTRIES: usize = 200;
@@ -100,15 +98,8 @@ struct Planner {
 impl Planner {
     /// Takes all pieces of what is reached next; false where there are none.
     fn level(&mut self, level: u32, growth: usize) -> bool {
-        let Some(growth) = self.growths.get(growth) else { return false };
-        let reach = growth.reach(&self.ground.kernel, &self.material.area);
-        let found = pieces(&reach, &self.material, self.bound.radius);
-        let mut shallow = SHALLOW * self.bound.stepover();
-        let mut chosen: Vec<&Piece> = Vec::new();
-        while chosen.is_empty() && shallow > SHALLOWEST {
-            chosen = found.iter().filter(|piece| piece.depth >= shallow).collect();
-            shallow *= 0.5;
-        }
+        let Some(growth) = self.growths.get_mut(growth) else { return false };
+        let chosen = growth.next(&self.ground.kernel, &self.material);
         // each is within the bound with the material as it is, whatever of the others is cut before it
         let mut cuts: Vec<Cut> = chosen.iter().filter_map(|piece| self.cut(level, piece)).collect();
         self.clear(&cuts);
