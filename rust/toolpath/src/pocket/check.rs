@@ -51,6 +51,12 @@ fn along(path: &[[f64; 3]], material: &Material, radius: f64) -> Vec<Looked> {
     looked
 }
 
+/// The largest angle along a path, rad.
+#[cfg(test)]
+pub fn worst(path: &[[f64; 3]], material: &Material, radius: f64) -> f64 {
+    along(path, material, radius).iter().fold(0.0, |worst, looked| worst.max(looked.angle))
+}
+
 /// The path up to where it first engages more than `most`, rad; empty where that is so soon that nothing is gained.
 pub fn bounded(path: Vec<[f64; 3]>, material: &Material, radius: f64, most: f64) -> Vec<[f64; 3]> {
     let looked = along(&path, material, radius);

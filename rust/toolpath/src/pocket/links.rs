@@ -4,9 +4,10 @@ use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
 
 use super::material::Material;
+use super::pieces::SHALLOWEST;
 use super::polygons::Point;
 
-/// How much nearer than its radius to material the tool may pass, mm: what is cut there is thinner than 1 um.
+/// How far out of the positions that walls leave it may be, mm: pieces' chords are as much off.
 const SLACK: f64 = 5e-4;
 /// Positions of a line that are looked at where it passes near to material, in tool radii.
 const STRIDE: f64 = 0.05;
@@ -29,7 +30,7 @@ impl Ground<'_> {
         if wall > 2.0 * SLACK && !self.free.holds(point) {
             return -wall;
         }
-        let room = wall.min(self.material.distance(point) - self.radius + SLACK);
+        let room = wall.min(self.material.distance(point) - self.radius + SHALLOWEST);
         if room > 0.0 && self.material.holds(point) {
             return -room;
         }

@@ -1,45 +1,112 @@
-//! Material that is still there: how far a point is from it.
-
-use rstar::primitives::{GeomWithData, Line};
-use rstar::{PointDistance, RTree};
+//! Material that is still there: how far a point is from it, and whether it lies in it.
 
 use super::polygons::{sides, Point, Polygons};
 
-/// An area with an index of its sides.
+/// An area with its sides by the square cells that they pass.
 #[derive(Debug)]
 pub struct Material {
     pub area: Polygons,
-    sides: RTree<GeomWithData<Line<Point>, u32>>,
-    rows: Rows,
+    sides: Vec<(Point, Point)>,
+    low: Point,
+    size: f64,
+    count: [usize; 2],
+    /// Of each cell, row by row, where its list begins; and all lists.
+    begins: Vec<u32>,
+    listed: Vec<u32>,
 }
+
+/// Cells along an axis, at most.
+const MOST: f64 = 256.0;
 
 impl Material {
     pub fn new(area: Polygons) -> Self {
-        let lines: Vec<(Point, Point)> = area.contours.iter().flat_map(|contour| sides(contour)).collect();
-        let rows = Rows::new(&lines);
-        let numbered = (0u32..).zip(lines).map(|(number, (a, b))| GeomWithData::new(Line::new(a, b), number));
-        let sides = RTree::bulk_load(numbered.collect());
-        Self { area, sides, rows }
+        let sides: Vec<(Point, Point)> = area.contours.iter().flat_map(|contour| sides(contour)).collect();
+        let [low, high] = area.bounds().unwrap_or_default();
+        let span = (high[0] - low[0]).max(high[1] - low[1]);
+        let size = (span / (sides.len() as f64).sqrt().clamp(1.0, MOST)).max(1e-9);
+        let count = [0, 1].map(|i| libm::floor((high[i] - low[i]) / size) as usize + 1);
+        let mut material = Self { area, sides, low, size, count, begins: Vec::new(), listed: Vec::new() };
+        let mut entries: Vec<(u32, u32)> = Vec::new();
+        for (number, (a, b)) in (0u32..).zip(&material.sides) {
+            material.passed(*a, *b, |cell| entries.push((cell as u32, number)));
+        }
+        entries.sort_unstable();
+        let mut begins = vec![0u32; count[0] * count[1] + 1];
+        for (cell, _) in &entries {
+            if let Some(begin) = begins.get_mut(*cell as usize + 1) {
+                *begin += 1;
+            }
+        }
+        let mut sum = 0;
+        for begin in &mut begins {
+            sum += *begin;
+            *begin = sum;
+        }
+        material.begins = begins;
+        material.listed = entries.into_iter().map(|(_, number)| number).collect();
+        material
     }
 
     pub fn is_empty(&self) -> bool {
         self.area.is_empty()
     }
 
-    /// Whether a point lies in it.
-    pub fn holds(&self, point: Point) -> bool {
-        self.rows.hold(point)
+    /// Whether a point lies in it: the parity of the sides that the ray to +X crosses.
+    pub fn holds(&self, [x, y]: Point) -> bool {
+        let [column, row] = self.cell([x, y]);
+        let high = self.low[1] + self.count[1] as f64 * self.size;
+        if self.sides.is_empty() || y < self.low[1] || y > high {
+            return false;
+        }
+        // a side is counted in the cell in which it crosses the ray's height
+        (column..self.count[0]).fold(false, |inside, column| {
+            self.list([column, row]).fold(inside, |inside, (a, b)| {
+                if (a[1] > y) == (b[1] > y) {
+                    return inside;
+                }
+                let at = a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+                inside ^ (x < at && self.cell([at, y])[0] == column)
+            })
+        })
     }
 
     /// Distance from a point to the nearest side, mm: to the material, for points outside of it. Infinite where there is none.
     pub fn distance(&self, point: Point) -> f64 {
-        self.sides.nearest_neighbor(point).map_or(f64::INFINITY, |side| side.distance_2(&point).sqrt())
+        let [column, row] = self.cell(point).map(|cell| cell as isize);
+        let most = self.count[0].max(self.count[1]) as isize;
+        let mut nearest = f64::INFINITY;
+        for ring in 0..=most {
+            // what lies in the rings from here on is at least so far
+            let beyond = (ring - 1).max(0) as f64 * self.size;
+            if self.sides.is_empty() || beyond * beyond > nearest {
+                break;
+            }
+            for y in (row - ring).max(0)..=(row + ring).min(self.count[1] as isize - 1) {
+                let is_edge = (y - row).abs() == ring;
+                let step = if is_edge || ring == 0 { 1 } else { 2 * ring };
+                let mut x = column - ring;
+                while x <= column + ring {
+                    if (0..self.count[0] as isize).contains(&x) {
+                        let list = self.list([x as usize, y as usize]);
+                        nearest = list.fold(nearest, |nearest, (a, b)| nearest.min(square_distance(point, a, b)));
+                    }
+                    x += step;
+                }
+            }
+        }
+        nearest.sqrt()
     }
 
     /// The sides of it nearer than `distance` to a point, mm.
-    pub fn sides_within(&self, point: Point, distance: f64) -> impl Iterator<Item = (Point, Point)> + '_ {
-        let sides = self.sides.locate_within_distance(point, distance * distance);
-        sides.map(|side| (side.geom().from, side.geom().to))
+    pub fn sides_within(&self, point: Point, distance: f64) -> Vec<(Point, Point)> {
+        let low = self.cell(point.map(|x| x - distance));
+        let high = self.cell(point.map(|x| x + distance));
+        let cells = (low[1]..=high[1]).flat_map(|y| (low[0]..=high[0]).map(move |x| [x, y]));
+        let mut numbers: Vec<u32> = cells.flat_map(|cell| self.numbers(cell)).copied().collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        let near = numbers.into_iter().filter_map(|number| self.sides.get(number as usize)).copied();
+        near.filter(|(a, b)| square_distance(point, *a, *b) < distance * distance).collect()
     }
 
     /// Distance to the material, 0 within it, mm.
@@ -50,44 +117,51 @@ impl Material {
             self.distance(point)
         }
     }
-}
 
-/// Sides by rows of equal height, for the ray from a point to +X.
-#[derive(Debug)]
-struct Rows {
-    low: f64,
-    height: f64,
-    rows: Vec<Vec<(Point, Point)>>,
-}
+    /// Column and row of the cell of a point, or of the nearest one.
+    fn cell(&self, point: Point) -> [usize; 2] {
+        [0, 1].map(|i| (((point[i] - self.low[i]) / self.size).max(0.0) as usize).min(self.count[i] - 1))
+    }
 
-/// Rows, at most.
-const MOST_ROWS: usize = 512;
+    fn numbers(&self, [x, y]: [usize; 2]) -> &[u32] {
+        let cell = y * self.count[0] + x;
+        match (self.begins.get(cell), self.begins.get(cell + 1)) {
+            (Some(from), Some(to)) => self.listed.get(*from as usize..*to as usize).unwrap_or(&[]),
+            _ => &[],
+        }
+    }
 
-impl Rows {
-    fn new(lines: &[(Point, Point)]) -> Self {
-        let ends = |pick: fn(f64, f64) -> f64, start| lines.iter().fold(start, |y, (a, b)| pick(y, pick(a[1], b[1])));
-        let (low, high) = (ends(f64::min, f64::INFINITY), ends(f64::max, f64::NEG_INFINITY));
-        let count = lines.len().clamp(1, MOST_ROWS);
-        let height = ((high - low) / count as f64).max(f64::MIN_POSITIVE);
-        let mut rows = Self { low, height, rows: vec![Vec::new(); count] };
-        for (a, b) in lines {
-            let (from, to) = (rows.row(a[1].min(b[1])), rows.row(a[1].max(b[1])));
-            for row in rows.rows.iter_mut().take(to + 1).skip(from) {
-                row.push((*a, *b));
+    fn list(&self, cell: [usize; 2]) -> impl Iterator<Item = (Point, Point)> + '_ {
+        self.numbers(cell).iter().filter_map(|number| self.sides.get(*number as usize)).copied()
+    }
+
+    /// The numbers of the cells that a side passes: row by row those between its crossings with the row's edges, and one more at
+    /// either end, for rounding.
+    fn passed(&self, a: Point, b: Point, mut found: impl FnMut(usize)) {
+        let [from, to] = if a[1] <= b[1] { [a, b] } else { [b, a] };
+        let (first, last) = (self.cell(from)[1], self.cell(to)[1]);
+        for row in first..=last {
+            let edges = [row, row + 1].map(|row| self.low[1] + row as f64 * self.size);
+            let at = edges.map(|y| {
+                let share = if to[1] > from[1] { ((y - from[1]) / (to[1] - from[1])).clamp(0.0, 1.0) } else { 0.0 };
+                from[0] + share * (to[0] - from[0])
+            });
+            let [low, high] = if to[1] > from[1] { at } else { [from[0], to[0]] };
+            let (low, high) = (low.min(high), low.max(high));
+            let columns = [low, high].map(|x| self.cell([x, edges[0]])[0]);
+            for column in columns[0].saturating_sub(1)..=(columns[1] + 1).min(self.count[0] - 1) {
+                found(row * self.count[0] + column);
             }
         }
-        rows
     }
+}
 
-    /// Number of the row of a height; above and below there are the last and the first.
-    fn row(&self, y: f64) -> usize {
-        (((y - self.low) / self.height).max(0.0) as usize).min(self.rows.len() - 1)
-    }
-
-    fn hold(&self, [x, y]: Point) -> bool {
-        let sides = self.rows.get(self.row(y)).map_or(&[] as &[_], Vec::as_slice);
-        sides.iter().fold(false, |inside, (a, b)| {
-            inside ^ ((a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
-        })
-    }
+/// Square of the distance between a point and a side.
+fn square_distance(p: Point, a: Point, b: Point) -> f64 {
+    let (along, arm) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
+    let square = along[0] * along[0] + along[1] * along[1];
+    let dot = along[0] * arm[0] + along[1] * arm[1];
+    let share = if square > 0.0 { (dot / square).clamp(0.0, 1.0) } else { 0.0 };
+    let off = [arm[0] - share * along[0], arm[1] - share * along[1]];
+    off[0] * off[0] + off[1] * off[1]
 }
