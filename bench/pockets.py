@@ -1,10 +1,12 @@
 """Pockets of the corpus at four angles: the engagement as simulated, what is left, length, links, time; as a table.
 
-Run: ``python bench/pockets.py [NAME ...]``. Angles and walls are the verifier's; what is left is the planner's account.
+Run: ``python bench/pockets.py [--direction either] [--angles 45,90] [NAME ...]``. Angles and walls are the verifier's; what is left is
+the planner's account; ``plan`` is the time of planning alone, ``all`` with the measurement of the angles.
 """
 
 from __future__ import annotations
 
+import argparse
 import math
 import sys
 import time
@@ -42,11 +44,23 @@ def over(path: sc.PocketPath, bound: float) -> float:
     return total
 
 
-def row(name: str, pocket: Pocket, angle: float) -> str:
+def row(name: str, pocket: Pocket, angle: float, direction: str = "climb") -> str:
     """One line of the table."""
     begin = time.perf_counter()
+    planned: list[float] = []
+
+    def progress(phase: str, _fraction: float) -> None:
+        if phase == "measuring the engagement" and not planned:
+            planned.append(time.perf_counter() - begin)
+
     path = sc.pocket_path(
-        pocket.boundary, pocket.islands, tool_radius=RADIUS, engagement_deg=angle, open_edges=pocket.open_edges
+        pocket.boundary,
+        pocket.islands,
+        tool_radius=RADIUS,
+        engagement_deg=angle,
+        open_edges=pocket.open_edges,
+        direction=direction,
+        progress=progress,
     )
     seconds = time.perf_counter() - begin
     total = lengths(path)
@@ -55,22 +69,26 @@ def row(name: str, pocket: Pocket, angle: float) -> str:
     share = total["cut"] * RADIUS * (1.0 - math.cos(math.radians(angle))) / cut_area
     clear = min((float(run.clearances.min()) for run in path.engagement if run.clearances.size), default=math.inf)
     overcut = 0.0 if pocket.open_edges else max(0.0, RADIUS - clear)
-    entries = [exempt for exempt in path.exempt if exempt.reason == "entry"]
     return (
-        f"{name:18} {angle:3.0f} {path.engagement_max_deg:7.2f} {over(path, angle):7.2f} {len(entries):3d} "
-        f"{100.0 * path.uncleared_area / (cut_area + path.uncleared_area):8.4f} {1e3 * overcut:6.2f} "
-        f"{share:6.2f} {100.0 * (moved - total['cut']) / moved:5.0f} {sum(k == 'rapid' for _, k in path.runs):4d} {seconds:7.2f}"
+        f"{name:18} {angle:3.0f} {path.engagement_max_deg:7.2f} {over(path, angle):6.2f} {len(path.exempt):3d} "
+        f"{100.0 * cut_area / path.reachable_area:8.3f} {1e3 * overcut:6.2f} {share:6.2f} "
+        f"{100.0 * (moved - total['cut']) / moved:5.0f} {sum(k == 'rapid' for _, k in path.runs):4d} "
+        f"{planned[0] if planned else seconds:6.2f} {seconds:6.2f}"
     )
 
 
 def main() -> None:
     """The table."""
-    names = sys.argv[1:] or list(POCKETS)
-    print("pocket               b max deg over mm ent   left % cut um  ratio link% lift       s")
-    for name in names:
-        for angle in ANGLES_DEG:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("names", nargs="*", metavar="NAME", default=list(POCKETS))
+    parser.add_argument("--direction", default="climb")
+    parser.add_argument("--angles", default=",".join(map(str, ANGLES_DEG)))
+    asked = parser.parse_args()
+    print("pocket               b max deg   over ent  cleared cut um  ratio link% lift   plan    all")
+    for angle in map(float, asked.angles.split(",")):
+        for name in asked.names or POCKETS:
             try:
-                print(row(name, POCKETS[name], angle), flush=True)
+                print(row(name, POCKETS[name], angle, asked.direction), flush=True)
             except sc.StylusError as error:
                 print(f"{name:18} {angle:3.0f} refused: {error}", flush=True)
 

@@ -55,6 +55,46 @@ def test_runs_join_and_cut_no_less_than_the_area_asks_for():
     assert least < cut < 2.5 * least
 
 
+def centres(path: sc.PocketPath, step: float) -> np.ndarray:
+    """Positions of the tool's centre on all that is cut."""
+    found = []
+    for points, kind in path.runs:
+        for (x, y, bulge), (u, v, _) in zip(points, points[1:], strict=False):
+            if kind in ("cut", "entry"):
+                a, b, quarter = complex(x, y), complex(u, v), math.atan(bulge)
+                span = abs(b - a) * (2 * quarter / math.sin(2 * quarter) if quarter else 1.0)
+                shares = np.linspace(0.0, 1.0, 2 + int(span / step))
+                # on the arc: sin(share * half) / sin(half) of the chord, turned
+                half = 2 * quarter
+                part = np.sin(shares * half) / math.sin(half) if abs(half) > 1e-9 else shares
+                found.append(a + (b - a) * part * np.exp(1j * (shares - 1.0) * half))
+    return np.concatenate(found)
+
+
+def test_every_place_that_the_tool_can_reach_is_swept():
+    half, fillet = 8.0, RADIUS * 1.05
+    path = sc.pocket_path(rectangle(half, half), tool_radius=RADIUS, engagement_deg=75.0)
+    line = np.concatenate([np.linspace(-half, half, 65)[1:-1], [0.002 - half, half - 0.002]])
+    x, y = (axis.ravel() for axis in np.meshgrid(line, line))
+    corner = np.hypot(np.maximum(abs(x) - half + fillet, 0), np.maximum(abs(y) - half + fillet, 0))
+    reached = (x + 1j * y)[corner < fillet - 0.002]
+    least = np.full(len(reached), np.inf)
+    for some in np.array_split(centres(path, 0.04), 40):
+        least = np.minimum(least, abs(reached[:, None] - some[None, :]).min(axis=1))
+    assert len(reached) > 3500 and (least < RADIUS + 1e-3).all(), float(least.max())
+
+
+def test_both_ways_need_less_linking_than_one():
+    shares, cuts = [], []
+    for direction in ("climb", "either"):
+        path = sc.pocket_path(ELL, tool_radius=4.0, engagement_deg=75.0, direction=direction)
+        moves = {kind: sum(length(p) for p, k in path.runs if k == kind) for kind in ("cut", "link", "rapid")}
+        shares.append(1.0 - moves["cut"] / sum(moves.values()))
+        cuts.append(moves["cut"])
+        assert path.engagement_max_deg < 75.5 and path.uncleared_area < 1e-3
+    assert shares[1] < 0.8 * shares[0] and cuts[1] == pytest.approx(cuts[0], rel=0.02)
+
+
 def test_conventional_is_the_mirror_of_climb():
     mirrored = [[-x, y] for x, y in reversed(ELL)]
     climb = sc.pocket_path(ELL, tool_radius=4.0, engagement_deg=75.0)

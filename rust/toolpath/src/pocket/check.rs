@@ -10,8 +10,8 @@ use super::polygons::Point;
 
 /// Distance of the positions that are looked at, in tool radii.
 const STEP: f64 = 0.04;
-/// The rim is taken this much smaller: chips so thin do not count, and the polygons are no better, mm.
-const THIN: f64 = 7e-4;
+/// Angle between their headings, at most, rad.
+const TURN: f64 = 0.1;
 /// Positions of the piece itself that have swept what is near, at most: the way once around a small circle.
 const OWN: usize = 160;
 
@@ -37,7 +37,8 @@ fn along(path: &[[f64; 3]], material: &Material, radius: f64) -> Vec<Looked> {
         if length <= 0.0 {
             continue;
         }
-        let parts = libm::ceil(length / (STEP * radius)).max(1.0) as usize;
+        let turn = piece.circle.map_or(0.0, |circle| circle.turn.abs());
+        let parts = libm::ceil((length / (STEP * radius)).max(turn / TURN)).max(1.0) as usize;
         for part in 0..=parts {
             let share = part as f64 / parts as f64;
             let position = piece.at(share);
@@ -77,7 +78,7 @@ pub fn bounded(path: Vec<[f64; 3]>, material: &Material, radius: f64, most: f64)
 /// Angle of the directions ahead in which the rim lies in the material, and in none of the discs about the positions before, rad.
 fn engaged(at: Point, heading: f64, own: &[Point], material: &Material, radius: f64) -> f64 {
     let from = heading - FRAC_PI_2;
-    let mut inside = within(at, from, material, radius - THIN);
+    let mut inside = within(at, from, material, radius);
     for before in own.iter().rev().take(OWN) {
         if inside.is_empty() {
             break;

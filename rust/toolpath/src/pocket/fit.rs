@@ -2,8 +2,10 @@
 
 use super::polygons::Point;
 
-/// Corners and chords' middles are at most this far off the arcs that take their place, mm.
+/// Corners are at most this far off the arcs that take their place, mm.
 const OFF: f64 = 5e-4;
+/// Arcs stand out over their chords by less than this, mm.
+const OUT: f64 = 1e-3;
 /// Headings of chords and of what takes their place differ by less than this, rad: the engagement changes by as much.
 const TURNED: f64 = 6e-3;
 /// What corners are off by that thinning moved and the grid rounded, mm.
@@ -85,8 +87,7 @@ fn one_piece(points: &[Point]) -> Option<f64> {
         let off_half = radius - libm::hypot(half[0], half[1]);
         // the tangent in the chord's middle, in the arc's sense
         let tangent = if turn > 0.0 { [-half[1], half[0]] } else { [half[1], -half[0]] };
-        if !agrees([b[0] - a[0], b[1] - a[1]], tangent) || off > OFF || off_half.abs() > 2.0 * OFF || turn * sign < 0.0
-        {
+        if !agrees([b[0] - a[0], b[1] - a[1]], tangent) || off > OFF || off_half.abs() > OUT || turn * sign < 0.0 {
             return None;
         }
         sign = turn;
