@@ -1,7 +1,7 @@
 """Pockets of the corpus at four angles: the engagement as simulated, what is left, length, links, time; as a table.
 
-Run: ``python bench/pockets.py [--direction either] [--angles 45,90] [NAME ...]``. Angles and walls are the verifier's; what is left is
-the planner's account; ``plan`` is the time of planning alone, ``all`` with the measurement of the angles.
+Run: ``python bench/pockets.py [--direction either] [--angles 45,90] [NAME ...]``. Angles and walls are the verifier's;
+what is cleared is the planner's account; ``plan`` is the time of planning alone, ``all`` with the measurement of the angles.
 """
 
 from __future__ import annotations

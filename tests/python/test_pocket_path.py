@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -59,7 +60,7 @@ def centres(path: sc.PocketPath, step: float) -> np.ndarray:
     """Positions of the tool's centre on all that is cut."""
     found = []
     for points, kind in path.runs:
-        for (x, y, bulge), (u, v, _) in zip(points, points[1:], strict=False):
+        for (x, y, bulge), (u, v, _) in itertools.pairwise(points):
             if kind in ("cut", "entry"):
                 a, b, quarter = complex(x, y), complex(u, v), math.atan(bulge)
                 span = abs(b - a) * (2 * quarter / math.sin(2 * quarter) if quarter else 1.0)

@@ -94,7 +94,8 @@ def pocket_path(
             rounded by the tool's radius and as much more; necks narrower than twice that sum are not cleared.
         open_edges: numbers of the boundary's edges beyond which is air.
         stock: outline of the material, or several; None: all of the pocket.
-        direction: ``"climb"`` or ``"conventional"``, for a spindle that turns clockwise; ``"either"``: both, whichever has the shorter way.
+        direction: ``"climb"`` or ``"conventional"``, for a spindle that turns clockwise; ``"either"``: both, whichever has
+            the shorter way.
         progress: called with phase and fraction; ``False`` cancels.
         cancel: cancels from another thread.
 

@@ -7,6 +7,7 @@
 
 mod bound;
 mod check;
+mod cut;
 mod entry;
 mod error;
 mod fit;

@@ -4,6 +4,7 @@ use styluscam_motion::Watch;
 
 use super::bound::Bound;
 use super::check::bounded;
+use super::cut::{left_of, Cut};
 use super::entry::{helix, largest_disc};
 use super::error::PocketError;
 use super::fit::arcs;
@@ -11,9 +12,9 @@ use super::ground::{path_chords, reversed, Ground};
 use super::growth::{Growth, WALL};
 use super::material::Material;
 use super::pieces::{Piece, SHALLOWEST};
-use super::polygons::{sides, Kernel, Point, Polygons};
+use super::polygons::{Point, Polygons};
 use super::request::{Pocket, PocketPath};
-use super::sequence::{sequenced, Cut};
+use super::sequence::sequenced;
 use super::steering::onto_ring;
 
 /// The largest disc that is tried, in tool radii: larger ones engage as straight passes do.
@@ -150,23 +151,4 @@ impl Planner {
         self.cuts.push(cut);
         true
     }
-}
-
-/// What pieces leave of material.
-pub fn left_of(kernel: &Kernel, material: &Material, cuts: &[Cut]) -> Material {
-    let swept = Polygons { contours: cuts.iter().flat_map(|cut| cut.swept.contours.clone()).collect() };
-    Material::new(without_slivers(kernel.difference(&material.area, &swept)).thinned(0.3 * WALL))
-}
-
-/// The areas that are thicker than chips that do not count.
-fn without_slivers(area: Polygons) -> Polygons {
-    let is_thick = |contour: &Vec<Point>| {
-        let (mut twice, mut round) = (0.0, 0.0);
-        for (a, b) in sides(contour) {
-            twice += a[0] * b[1] - a[1] * b[0];
-            round += libm::hypot(b[0] - a[0], b[1] - a[1]);
-        }
-        twice.abs() > SHALLOWEST * round
-    };
-    Polygons { contours: area.contours.into_iter().filter(is_thick).collect() }
 }

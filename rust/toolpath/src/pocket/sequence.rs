@@ -8,38 +8,13 @@ use std::collections::HashMap;
 use styluscam_geometry::PlanePiece;
 use styluscam_motion::Watch;
 
+use super::cut::{left_of, Cut};
 use super::error::PocketError;
 use super::ground::{reversed, Ground};
 use super::links;
 use super::material::Material;
-use super::planner::left_of;
-use super::polygons::{Point, Polygons};
+use super::polygons::Point;
 use super::request::{PocketRun, PocketRunKind};
-
-/// A piece of the path.
-#[derive(Clone, Debug)]
-pub struct Cut {
-    /// Points with bulges.
-    pub path: Vec<[f64; 3]>,
-    /// What the tool clears on it.
-    pub swept: Polygons,
-    /// Number of the step of growth at which it was found.
-    pub level: u32,
-    /// Whether it is a helix into the material.
-    pub is_entry: bool,
-    /// Whether it may be cut from its end as well.
-    pub two_way: bool,
-}
-
-impl Cut {
-    pub fn start(&self) -> Option<Point> {
-        self.path.first().map(|[x, y, _]| [*x, *y])
-    }
-
-    pub fn end(&self) -> Option<Point> {
-        self.path.last().map(|[x, y, _]| [*x, *y])
-    }
-}
 
 /// The runs: all pieces, and the moves between them.
 pub fn sequenced(

@@ -1,0 +1,50 @@
+//! Pieces of the path, and what they leave of the material.
+
+use super::growth::WALL;
+use super::material::Material;
+use super::pieces::SHALLOWEST;
+use super::polygons::{sides, Kernel, Point, Polygons};
+
+/// A piece of the path.
+#[derive(Clone, Debug)]
+pub struct Cut {
+    /// Points with bulges.
+    pub path: Vec<[f64; 3]>,
+    /// What the tool clears on it.
+    pub swept: Polygons,
+    /// Number of the step of growth at which it was found.
+    pub level: u32,
+    /// Whether it is a helix into the material.
+    pub is_entry: bool,
+    /// Whether it may be cut from its end as well.
+    pub two_way: bool,
+}
+
+impl Cut {
+    pub fn start(&self) -> Option<Point> {
+        self.path.first().map(|[x, y, _]| [*x, *y])
+    }
+
+    pub fn end(&self) -> Option<Point> {
+        self.path.last().map(|[x, y, _]| [*x, *y])
+    }
+}
+
+/// What pieces leave of material.
+pub fn left_of(kernel: &Kernel, material: &Material, cuts: &[Cut]) -> Material {
+    let swept = Polygons { contours: cuts.iter().flat_map(|cut| cut.swept.contours.clone()).collect() };
+    Material::new(without_slivers(kernel.difference(&material.area, &swept)).thinned(0.3 * WALL))
+}
+
+/// The areas that are thicker than chips that do not count.
+fn without_slivers(area: Polygons) -> Polygons {
+    let is_thick = |contour: &Vec<Point>| {
+        let (mut twice, mut round) = (0.0, 0.0);
+        for (a, b) in sides(contour) {
+            twice += a[0] * b[1] - a[1] * b[0];
+            round += libm::hypot(b[0] - a[0], b[1] - a[1]);
+        }
+        twice.abs() > SHALLOWEST * round
+    };
+    Polygons { contours: area.contours.into_iter().filter(is_thick).collect() }
+}
