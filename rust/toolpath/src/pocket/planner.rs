@@ -11,7 +11,7 @@ use super::fit::arcs;
 use super::ground::{path_chords, reversed, Ground};
 use super::growth::{Growth, WALL};
 use super::material::Material;
-use super::pieces::{Piece, SHALLOWEST};
+use super::pieces::Piece;
 use super::polygons::{Point, Polygons};
 use super::request::{Pocket, PocketPath};
 use super::sequence::sequenced;
