@@ -44,6 +44,26 @@ def over(path: sc.PocketPath, bound: float) -> float:
     return total
 
 
+def contour_parallel(corner: list[float], angle: float) -> tuple[float, float, float]:
+    """Plain passes parallel to the walls of an upright rectangle about the origin, inside out with the stepover of ``angle``.
+
+    Largest angle, deg, length of the path, and length of it with more than the bound, mm.
+    """
+    x, y = corner
+    step = RADIUS * (1.0 - math.cos(math.radians(angle)))
+    rings = [(x - RADIUS - i * step, y - RADIUS - i * step) for i in range(int((min(x, y) - RADIUS) / step) + 1)]
+    path = [
+        [sx * u, sy * v, 0.0] for u, v in reversed(rings) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1), (-1, -1))
+    ]
+    u, v = rings[-1]
+    first = np.array([[-u, -v, 0.0], [u, -v, 0.0], [u, v, 0.0], [-u, v, 0.0], [-u, -v, 0.0]])
+    runs = [(first, "entry"), (np.array(path), "cut")]
+    walls = [np.array([[-x, -y, 0.0], [x, -y, 0.0], [x, y, 0.0], [-x, y, 0.0]])]
+    _, run = sc.engagement(runs, RADIUS, None, walls)
+    above = np.diff(run.distances, prepend=0.0)[run.angles_deg > angle + ABOVE_DEG]
+    return run.max_deg, float(run.distances[-1]), float(above.sum())
+
+
 def row(name: str, pocket: Pocket, angle: float, direction: str = "climb") -> str:
     """One line of the table."""
     begin = time.perf_counter()
@@ -83,7 +103,16 @@ def main() -> None:
     parser.add_argument("names", nargs="*", metavar="NAME", default=list(POCKETS))
     parser.add_argument("--direction", default="climb")
     parser.add_argument("--angles", default=",".join(map(str, ANGLES_DEG)))
+    parser.add_argument(
+        "--contours", action="store_true", help="plain passes parallel to the walls of the upright rectangles"
+    )
     asked = parser.parse_args()
+    if asked.contours:
+        for name in ("square-12", "square-30", "square-80", "rectangle-60x20", "rectangle-120x15"):
+            for angle in map(float, asked.angles.split(",")):
+                most, length, above = contour_parallel(POCKETS[name].boundary[2], angle)
+                print(f"{name:18} {angle:3.0f} {most:7.2f} deg {length:8.1f} mm, {above:6.1f} mm above")
+        return
     print("pocket               b max deg   over ent  cleared cut um  ratio link% lift   plan    all")
     for angle in map(float, asked.angles.split(",")):
         for name in asked.names or POCKETS:

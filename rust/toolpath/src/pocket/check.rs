@@ -10,6 +10,8 @@ use super::polygons::Point;
 
 /// Distance of the positions that are looked at, in tool radii.
 const STEP: f64 = 0.04;
+/// Of its own way the tool has not swept yet what lies this close behind, in tool radii.
+const CLOSE: f64 = 0.02;
 /// Angle between their headings, at most, rad.
 const TURN: f64 = 0.1;
 /// Positions of the piece itself that have swept what is near, at most: the way once around a small circle.
@@ -31,7 +33,8 @@ struct Looked {
 /// The angle along a path of points with bulges, in the order in which it is cut.
 fn along(path: &[[f64; 3]], material: &Material, radius: f64) -> Vec<Looked> {
     let mut looked = Vec::new();
-    let mut own: Vec<Point> = Vec::new();
+    let mut own: Vec<(Point, f64)> = Vec::new();
+    let mut travelled = 0.0;
     for (number, piece) in PlanePiece::path(path).iter().enumerate() {
         let length = piece.length();
         if length <= 0.0 {
@@ -42,12 +45,16 @@ fn along(path: &[[f64; 3]], material: &Material, radius: f64) -> Vec<Looked> {
         for part in 0..=parts {
             let share = part as f64 / parts as f64;
             let position = piece.at(share);
-            let angle = engaged(position, heading(piece, share), &own, material, radius);
+            // a disc close behind would hide what a turn of the heading brings before the tool
+            let now = travelled + share * length;
+            let behind = own.partition_point(|(_, when)| *when <= now - CLOSE * radius);
+            let angle = engaged(position, heading(piece, share), own.get(..behind).unwrap_or(&[]), material, radius);
             looked.push(Looked { at: (number, share), angle });
             if part < parts {
-                own.push(position);
+                own.push((position, now));
             }
         }
+        travelled += length;
     }
     looked
 }
@@ -76,10 +83,10 @@ pub fn bounded(path: Vec<[f64; 3]>, material: &Material, radius: f64, most: f64)
 }
 
 /// Angle of the directions ahead in which the rim lies in the material, and in none of the discs about the positions before, rad.
-fn engaged(at: Point, heading: f64, own: &[Point], material: &Material, radius: f64) -> f64 {
+fn engaged(at: Point, heading: f64, own: &[(Point, f64)], material: &Material, radius: f64) -> f64 {
     let from = heading - FRAC_PI_2;
     let mut inside = within(at, from, material, radius);
-    for before in own.iter().rev().take(OWN) {
+    for (before, _) in own.iter().rev().take(OWN) {
         if inside.is_empty() {
             break;
         }
