@@ -136,10 +136,11 @@ impl<'a> Surface<'a> {
     /// The points of a pass through witnesses: as few as keep within `deviation` mm, or all of them.
     pub(crate) fn thinned(&self, witnesses: &[PathPoint], deviation: f64) -> Vec<PathPoint> {
         if self.keeps_witnesses {
-            witnesses.to_vec()
-        } else {
-            fitting::smooth(witnesses, deviation, self.corner)
+            return witnesses.to_vec();
         }
+        let mut points = fitting::smooth(witnesses, deviation, self.corner);
+        points.shrink_to_fit(); // all passes are kept until they are linked
+        points
     }
 
     /// The points of a pass as the ends of chords, also where it keeps its witnesses.

@@ -99,7 +99,11 @@ impl Channel {
         self.frame = frame.last().map_or(self.frame, |level| level.z);
         program.events.extend(frame.into_iter().map(|level| clamp::remark(level, first)));
         program.operations.push(OperationRecord { id: id.clone(), kind: kind.to_owned(), tool });
-        program.moves.extend(moves);
+        if first == 0 {
+            program.moves = moves; // of millions of moves there are not two lists
+        } else {
+            program.moves.extend(moves);
+        }
         self.operations.push(OperationSummary { id, kind, words, facts, surface, note, lines });
     }
 

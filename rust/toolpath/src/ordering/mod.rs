@@ -65,10 +65,9 @@ pub fn shortly_ordered(
             best = by_areas;
         }
     }
-    let shorter = best.passes();
-    let after = air.between(&shorter);
+    let (order, after) = (best.order(), best.length);
     if after < before - LEAST {
-        Ok(Ordered { passes: shorter, between: [before, after] })
+        Ok(Ordered { passes: order.of(nearest), between: [before, after] })
     } else {
         Ok(Ordered { passes: nearest, between: [before; 2] })
     }

@@ -116,18 +116,41 @@ impl<'a> Sequence<'a> {
         }
     }
 
-    /// The passes as they are followed.
-    pub fn passes(&self) -> Vec<Pass> {
-        let followed = |(stop, [start, _]): (&Stop, &[Vector; 2])| {
-            let mut pass = self.given[stop.pass].clone();
-            if stop.is_turned && self.may_turn(stop.pass) {
+    /// How the passes are followed, in their order.
+    pub fn order(&self) -> Order {
+        let visit = |(stop, [start, _]): (&Stop, &[Vector; 2])| Visit {
+            pass: stop.pass,
+            is_turned: stop.is_turned && self.may_turn(stop.pass),
+            begins_at: self.begins_anywhere(stop.pass).then_some(*start),
+        };
+        Order(self.stops.iter().zip(&self.ends).map(visit).collect())
+    }
+}
+
+/// An order that no longer holds the passes.
+pub struct Order(Vec<Visit>);
+
+struct Visit {
+    pass: usize,
+    is_turned: bool,
+    /// Where a loop begins, if it is free to.
+    begins_at: Option<Vector>,
+}
+
+impl Order {
+    /// The given passes as they are followed; none is copied.
+    pub fn of(&self, mut given: Vec<Pass>) -> Vec<Pass> {
+        let follow = |visit: &Visit| {
+            let pass = &mut given[visit.pass];
+            let mut pass = Pass { points: std::mem::take(&mut pass.points), ..*pass };
+            if visit.is_turned {
                 pass.points.reverse();
             }
-            if self.begins_anywhere(stop.pass) {
-                begin_nearest(&mut pass.points, *start);
+            if let Some(start) = visit.begins_at {
+                begin_nearest(&mut pass.points, start);
             }
             pass
         };
-        self.stops.iter().zip(&self.ends).map(followed).collect()
+        self.0.iter().map(follow).collect()
     }
 }
