@@ -11,8 +11,11 @@ import pytest
 import styluscam as sc
 
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
-FACET = 0.6
-"""Angle between neighbouring triangles of the cap, degrees, and a little for rounding."""
+ROUNDING = 0.12
+"""What three decimals turn chords of 0.5 mm and more by, degrees."""
+
+
+ROWS = {"kind": "zig-zag", "stepover": 8.0}
 
 
 def job(part: str, machine: str = "linuxcnc", **keys: Any) -> sc.Job:
@@ -24,7 +27,7 @@ def job(part: str, machine: str = "linuxcnc", **keys: Any) -> sc.Job:
             "process": {"kind": "milling"},
             "tools": {"ball": {"number": 1, "profile": {"kind": "ball", "diameter": 10.0}}},
             "machine": {"name": machine},
-            "operations": [{"kind": "zig-zag", "tool": "ball", "stepover": 8.0, "tolerance": 0.01, **keys}],
+            "operations": [{"tool": "ball", "tolerance": 0.01, **(keys if "kind" in keys else {**ROWS, **keys})}],
         }
     )
 
@@ -46,14 +49,31 @@ def largest_in_rows(program: sc.Program) -> float:
 
 @pytest.mark.parametrize("machine", ["linuxcnc", "grbl"])
 def test_smooth_rows_turn_by_no_more_than_asked(machine: str) -> None:
-    """But for a facet's own angle: the path runs on triangles."""
     keys = {"faces": ["Face1"], "turns": "rounded", "tolerance": 0.03}
     free = sc.plan(job("cap_r60", machine, **keys))
     assert largest_in_rows(free.programs["main"]) > 2.5
     asked = job("cap_r60", machine, max_corner_deg=1.0, **keys)
     plan = sc.plan(asked)
-    assert largest_in_rows(plan.programs["main"]) <= 1.0 + FACET
+    assert largest_in_rows(plan.programs["main"]) <= 1.0 + ROUNDING
     assert len(plan.programs["main"].moves) > len(free.programs["main"].moves)
+
+
+def moves_with_corners(asked: sc.Job, text: str) -> int:
+    """How many moves lie between the first and the last corner of each place."""
+    return sum(finding.moves for finding in corners(asked, text))
+
+
+@pytest.mark.parametrize(("kind", "fit"), [("z-level", "lines"), ("spiral", "lines"), ("spiral", "arcs")])
+def test_levels_and_spirals_keep_it_but_where_the_tool_plunges(kind: str, fit: str) -> None:
+    """On the cone cup's wall, which is smooth round about."""
+    keys = {"kind": kind, "fit": fit, "step": {"height": 6.0}, "tolerance": 0.03, "faces": ["Face4"]}
+    asked = job("cone_cup", max_corner_deg=2.0, **keys)
+    text = sc.post(sc.plan(asked)).text
+    assert sc.verify(text, asked).ok
+    assert 0 < moves_with_corners(asked, text) < 10
+    if fit == "lines":
+        free = sc.post(sc.plan(job("cone_cup", **keys))).text
+        assert moves_with_corners(asked, free) > 100
 
 
 def test_a_corner_put_into_a_text_is_found_where_it_is() -> None:

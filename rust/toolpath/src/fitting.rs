@@ -31,8 +31,8 @@ const ASLANT: f64 = 0.35;
 const SHORTEST: f64 = 1e-4;
 /// What is seen to rise between two points no farther apart is passed over, mm: there they may touch a wall by rounding.
 const HIDDEN: f64 = 0.01;
-/// Chords are not divided for their angle below this length in plan, mm: there the path has an edge.
-const EDGE: f64 = 0.02;
+/// Chords are not divided for their angle below this length, mm: there the path has an edge.
+pub const EDGE: f64 = 0.02;
 /// The border of the selected faces is found to this, mm.
 pub const BORDER: f64 = 1e-3;
 
@@ -46,8 +46,8 @@ pub trait Course {
         false
     }
 
-    /// Largest angle between two of its chords where it is smooth, rad.
-    fn corner(&self) -> f64 {
+    /// Largest angle by which it turns between two witnesses where it is smooth, rad.
+    fn bend(&self) -> f64 {
         f64::INFINITY
     }
 
@@ -65,6 +65,24 @@ impl<F: FnMut(&PathPoint, &PathPoint) -> Option<PathPoint>> Course for F {
     }
 }
 
+/// The same, which turns by no more than `bend` rad between two witnesses where it is smooth.
+pub struct Bending<F> {
+    /// The exact point over the middle of two others.
+    pub between: F,
+    /// rad.
+    pub bend: f64,
+}
+
+impl<F: FnMut(&PathPoint, &PathPoint) -> Option<PathPoint>> Course for Bending<F> {
+    fn between(&mut self, a: &PathPoint, b: &PathPoint) -> Option<PathPoint> {
+        (self.between)(a, b)
+    }
+
+    fn bend(&self) -> f64 {
+        self.bend
+    }
+}
+
 /// Adds exact points between those given, dense enough for [`thinned`] to keep chords within `deviation` mm of the path,
 /// and in plan no farther apart than `longest` mm where nothing is proven: there what is narrower may be missed.
 ///
@@ -79,15 +97,19 @@ pub fn densified(points: &[PathPoint], deviation: f64, longest: f64, course: &mu
         while let Some(b) = pending.pop() {
             let a = run[run.len() - 1];
             let length = (b.tip - a.tip).xy().norm();
-            let is_known = || may_keep_to(&a, &b, PROVEN * deviation) && course.keeps_to(&a, &b, PROVEN * deviation);
-            let turns = length > EDGE && turn(&a, &b) > course.corner();
-            if length <= SHORTEST || (!turns && is_known()) {
+            let is_long = (b.tip - a.tip).norm() > EDGE;
+            let is_known = || {
+                may_keep_to(&a, &b, PROVEN * deviation)
+                    && !(is_long && turn(&a, &b) > course.bend())
+                    && course.keeps_to(&a, &b, PROVEN * deviation)
+            };
+            if length <= SHORTEST || is_known() {
                 run.push(b);
                 continue;
             }
             match course.between(&a, &b).filter(|m| divides(m, &a, &b)) {
                 Some(m)
-                    if turns
+                    if (is_long && angle(&(m.tip - a.tip), &(b.tip - m.tip)) > course.bend())
                         || 0.5 * length > longest
                         || deviation_around(&a, &m, &b) > BETWEEN_WITNESSES * deviation =>
                 {
@@ -111,11 +133,14 @@ pub fn densified(points: &[PathPoint], deviation: f64, longest: f64, course: &mu
     runs
 }
 
-/// By how much a smooth path turns between two of its points, rad, as their normals show.
+/// By how much a smooth path in a vertical plane turns between two of its points, rad, as their normals show.
 fn turn(a: &PathPoint, b: &PathPoint) -> f64 {
     let along = b.tip - a.tip;
-    let length = along.norm();
-    let at = |point: &PathPoint| libm::asin((along.dot(&point.normal).abs() / length).min(1.0));
+    let Some(level) = Vector::new(along.x, along.y, 0.0).try_normalize(f64::MIN_POSITIVE) else { return 0.0 };
+    let at = |point: &PathPoint| {
+        let in_plane = libm::hypot(level.dot(&point.normal), point.normal.z);
+        libm::asin((along.dot(&point.normal).abs() / (along.norm() * in_plane)).min(1.0))
+    };
     at(a) + at(b)
 }
 
@@ -150,29 +175,8 @@ pub fn thinned(points: &[PathPoint], deviation: f64) -> Vec<PathPoint> {
     out
 }
 
-/// As [`thinned`], of chords that turn by no more than `corner` rad from one to the next where the witnesses allow it: each leaves
-/// the polyline through them by half of that at either end.
-pub fn smooth(points: &[PathPoint], deviation: f64, corner: f64) -> Vec<PathPoint> {
-    if corner == f64::INFINITY {
-        return thinned(points, deviation);
-    }
-    let Some(first) = points.first() else { return Vec::new() };
-    let mut out = vec![*first];
-    let mut from = 0;
-    while from + 1 < points.len() {
-        let most = chord_end(points, from, points[from].tip, deviation);
-        let step = |at: usize| points[at + 1].tip - points[at].tip;
-        let to = farthest(from + 1, most + 1, 1, |to| {
-            let chord = points[to].tip - points[from].tip;
-            [step(from), step(to - 1)].iter().all(|side| angle(side, &chord) <= 0.5 * corner)
-        });
-        out.push(points[to]);
-        from = to;
-    }
-    out
-}
-
-fn angle(a: &Vector, b: &Vector) -> f64 {
+/// The angle between two directions, rad.
+pub fn angle(a: &Vector, b: &Vector) -> f64 {
     libm::atan2(a.cross(b).norm(), a.dot(b))
 }
 

@@ -8,7 +8,11 @@ use rayon::prelude::*;
 use styluscam_geometry::Vector;
 use styluscam_motion::{Cancelled, Move, Role, Watch};
 
+use crate::arcs::Neighbours;
 use crate::{fitting, fitting::Course, Arcs, Fitted, Pass, PathPoint, Planes, Segment, Surface};
+
+/// So many witnesses at an end show in which direction a path goes on from it.
+const JOINT: usize = 64;
 
 /// Heights of rapids from run to run, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,6 +115,8 @@ pub struct AlongSurface<'a> {
     pub deviation: f64,
     /// What is narrower may be missed, mm.
     pub narrow: f64,
+    /// Largest angle between two chords where the envelope is smooth, rad.
+    pub corner: f64,
     /// mm/min.
     pub feed: f64,
 }
@@ -123,6 +129,9 @@ impl LinkRules<PathPoint> for AlongSurface<'_> {
         let floor = |planes: Planes| planes.under(from.tip.z.min(to.tip.z));
         let surface = self.surface.above(self.planes.map_or(f64::NEG_INFINITY, floor));
         let run = along_selected(&surface, &[*from, *to], self.deviation, self.narrow)?;
+        if self.corner < f64::INFINITY {
+            return Some(Arcs::none(self.corner).along(&run, Neighbours::default(), self.deviation, self.feed));
+        }
         Some(lines(&fitting::thinned(&run, self.deviation)[1..], self.feed).collect())
     }
 }
@@ -293,19 +302,23 @@ pub fn link_with_arcs(
 ) -> Result<(Vec<Move>, Fitted), Cancelled> {
     passes.retain(|entered| !entered.pass.points.is_empty());
     watch.begin("fitting arcs", passes.len());
-    let fitted = |Entered { pass: Pass { points, .. }, ramp, role }: Entered| {
+    let joints = if arcs.corner < f64::INFINITY { joints(&passes) } else { Vec::new() };
+    let joint = |number: usize| joints.get(number).map_or([&[][..]; 2], |[end, start]| [&end[..], &start[..]]);
+    let fitted = |(number, Entered { pass: Pass { points, .. }, ramp, role }): (usize, Entered)| {
         watch.advance(1)?;
-        let along = |points: &[PathPoint]| {
-            let segments = arcs.along(points, deviation, links.rates.cut);
+        let along = |points: &[PathPoint], neighbours: Neighbours<'_>| {
+            let segments = arcs.along(points, neighbours, deviation, links.rates.cut);
             let figures = Fitted::of(points, &segments, deviation);
             (segments, figures)
         };
-        let ((segments, of_pass), (down, of_ramp)) = (along(&points), along(&ramp));
+        let ([_, after], [before, _]) = (joint(number + 1), joint(number));
+        let (segments, of_pass) = along(&points, Neighbours { before: &ramp, after });
+        let (down, of_ramp) = along(&ramp, Neighbours { before, after: &points });
         let run = Run { from: points[0], to: points[points.len() - 1], segments };
         let down: Vec<Segment> = down.into_iter().map(|segment| Segment { role, ..segment }).collect();
         Ok((run, (!ramp.is_empty()).then_some(down), of_pass.and(of_ramp)))
     };
-    let fitted: Result<Vec<_>, Cancelled> = passes.into_par_iter().map(fitted).collect();
+    let fitted: Result<Vec<_>, Cancelled> = passes.into_par_iter().enumerate().map(fitted).collect();
     watch.begin("linking", 0);
     let (mut runs, mut ramps, mut figures) = (Vec::new(), Vec::new(), Fitted::default());
     for (run, ramp, of_run) in fitted? {
@@ -315,6 +328,17 @@ pub fn link_with_arcs(
     }
     let segments = joined(runs, |number| ramps[number].clone(), rules, links, watch)?;
     Ok((segments.iter().map(|segment| segment.to_move(links.operation)).collect(), figures))
+}
+
+/// By pass, where a ramp leads to it: how the pass before ends, and how the ramp begins.
+fn joints(passes: &[Entered]) -> Vec<[Vec<PathPoint>; 2]> {
+    let joint = |number: usize| {
+        let Entered { ramp, .. } = &passes[number];
+        let before = number.checked_sub(1).filter(|_| !ramp.is_empty()).map(|before| &passes[before].pass.points);
+        let end = before.map_or(&[][..], |points| &points[points.len().saturating_sub(JOINT)..]);
+        [end.to_vec(), ramp[..ramp.len().min(JOINT)].to_vec()]
+    };
+    (0..passes.len()).map(joint).collect()
 }
 
 /// All runs in their order, joined by the rules: from clearance height to clearance height.
@@ -422,6 +446,10 @@ impl Course for Crossing<'_> {
 
     fn keeps_to(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
         self.surface.keeps_to_selected(a, b, most)
+    }
+
+    fn bend(&self) -> f64 {
+        self.surface.bend()
     }
 
     fn may_rise(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {

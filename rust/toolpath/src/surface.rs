@@ -13,6 +13,9 @@ use crate::{Pass, PathPoint};
 /// wide enough for tessellated tangent joins, too narrow to roll round an edge.
 const SPREAD: f64 = 0.0175;
 
+/// Share of the angle between two pieces by which a path may turn between witnesses: so longer pieces have room.
+const WITNESSED: f64 = 0.4;
+
 /// Heights without limits.
 const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
@@ -30,8 +33,8 @@ pub struct Surface<'a> {
     region: Option<&'a Region<'a>>,
     /// Whether passes keep all their witnesses.
     keeps_witnesses: bool,
-    /// Largest angle between neighbouring chords where the envelope is smooth, rad.
-    corner: f64,
+    /// Largest angle by which passes turn between two witnesses where the envelope is smooth, rad.
+    bend: f64,
 }
 
 impl<'a> Surface<'a> {
@@ -52,7 +55,7 @@ impl<'a> Surface<'a> {
             rolling: Rolling::Stop,
             region: None,
             keeps_witnesses: false,
-            corner: f64::INFINITY,
+            bend: f64::INFINITY,
         }
     }
 
@@ -123,14 +126,15 @@ impl<'a> Surface<'a> {
         Self { keeps_witnesses: true, ..*self }
     }
 
-    /// The same surface, on which chords of passes turn by no more than an angle, rad, where it is smooth.
+    /// The same surface, whose passes have witnesses enough for lines and arcs ([`crate::Arcs`]) that turn by no more than an angle, rad,
+    /// where it is smooth.
     #[must_use]
     pub fn turning(&self, corner: f64) -> Self {
-        Self { corner, ..*self }
+        Self { keeps_witnesses: true, bend: WITNESSED * corner, ..*self }
     }
 
-    pub(crate) fn corner(&self) -> f64 {
-        self.corner
+    pub(crate) fn bend(&self) -> f64 {
+        self.bend
     }
 
     /// The points of a pass through witnesses: as few as keep within `deviation` mm, or all of them.
@@ -138,7 +142,7 @@ impl<'a> Surface<'a> {
         if self.keeps_witnesses {
             return witnesses.to_vec();
         }
-        let mut points = fitting::smooth(witnesses, deviation, self.corner);
+        let mut points = fitting::thinned(witnesses, deviation);
         points.shrink_to_fit(); // all passes are kept until they are linked
         points
     }

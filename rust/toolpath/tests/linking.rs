@@ -36,7 +36,15 @@ fn rows(surface: &Surface<'_>) -> Vec<Pass> {
 }
 
 fn along<'a>(surface: &'a Surface<'a>, longest: f64) -> AlongSurface<'a> {
-    AlongSurface { surface, planes: None, longest, deviation: 0.002, narrow: f64::INFINITY, feed: RATES.cut }
+    AlongSurface {
+        surface,
+        planes: None,
+        longest,
+        deviation: 0.002,
+        narrow: f64::INFINITY,
+        corner: f64::INFINITY,
+        feed: RATES.cut,
+    }
 }
 
 /// Compares moves, with 1e-9 mm for arithmetic.

@@ -22,14 +22,24 @@ pub fn linked(
     links: &Links,
 ) -> Result<(Vec<Move>, Vec<Fact>), Cancelled> {
     let Context { machine, common, reference_height, watch, .. } = *context;
+    let corner = common.corner();
     let Some(arc_rules) = machine.arc.as_ref().filter(|_| common.fit == Fit::Arcs) else {
-        let moves = link(passes, rules, links, watch)?;
+        let moves = if corner < f64::INFINITY {
+            link_with_arcs(passes, (&Arcs::none(corner), deviation), rules, links, watch)?.0
+        } else {
+            link(passes, rules, links, watch)?
+        };
         let asked = (common.fit == Fit::Arcs).then(|| no_arcs(&machine.name));
         return Ok((moves, asked.into_iter().collect()));
     };
     let takes = |ends: [[f64; 3]; 2], arc: &Arc| machine.posts_arc(ends, arc, reference_height);
-    let arcs =
-        Arcs { planes: &arc_rules.planes, unit: machine.resolution_mm(), height: reference_height, takes: &takes };
+    let arcs = Arcs {
+        planes: &arc_rules.planes,
+        unit: machine.resolution_mm(),
+        height: reference_height,
+        takes: &takes,
+        corner,
+    };
     let (moves, fitted) = link_with_arcs(passes, (&arcs, deviation), rules, links, watch)?;
     Ok((moves, facts(&fitted, &machine.name)))
 }

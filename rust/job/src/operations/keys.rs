@@ -57,8 +57,8 @@ pub struct OperationKeys {
     /// What the posted path is made of.
     #[serde(default)]
     pub fit: Fit,
-    /// Largest angle by which the path turns from one cutting move to the next, degrees: rows get shorter chords for it, up to what the
-    /// part's facets turn by; levels and spirals do not. The verification names every larger one. Not limited when left out.
+    /// Largest angle by which the path turns from one cutting move to the next, degrees: passes that follow the surface get shorter lines
+    /// and arcs for it. Edges of the part, straight links and plunges turn by more; the verification names each. Not limited when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-advanced" = true, "x-unit" = "deg", "minimum" = 0.1, "maximum" = 90.0))]
     pub max_corner_deg: Option<f64>,
@@ -146,6 +146,14 @@ pub enum LinkHeight {
     Clearance,
     /// `link_margin` above what stands under the line that they cross, clearance at most: for machines whose rapids go straight.
     Low,
+}
+
+impl OperationKeys {
+    /// Largest angle by which the path is to turn from one cutting move to the next, rad; infinite where it is not limited.
+    #[must_use]
+    pub fn corner(&self) -> f64 {
+        self.max_corner_deg.map_or(f64::INFINITY, f64::to_radians)
+    }
 }
 
 /// The form of leads into passes and out of them.

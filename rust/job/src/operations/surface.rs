@@ -200,6 +200,7 @@ impl Task<'_> {
             longest: LINKED_ALONG * pitch,
             deviation: self.budget.deviation,
             narrow: self.narrow(),
+            corner: self.context.common.corner(),
             feed: self.cut,
         }
     }
@@ -242,12 +243,15 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
     let task = Task { context, budget, body: &body, allowance, cut: kind.cut_feed(context.common) };
     let surface = Surface::new(&envelope, &selected).between_heights(kind.tip_range(&task));
     let surface = surface.rolling(rolling(context));
-    let surface = surface.turning(context.common.max_corner_deg.map_or(f64::INFINITY, f64::to_radians));
     let region =
         context.region.planned((tool, scene.sheet.as_ref()), scene.inward, &budget, budget::rounding(context.machine));
     let region = region.ready();
     let surface = surface.within(&region);
-    let surface = if fit::asks_for_arcs(context) { surface.keeping_witnesses() } else { surface };
+    let surface = match context.common.corner() {
+        f64::INFINITY if fit::asks_for_arcs(context) => surface.keeping_witnesses(),
+        f64::INFINITY => surface,
+        corner => surface.turning(corner),
+    };
     let path = || {
         let traced = kind.trace(&task, &surface).map_err(|error| context.error(error))?;
         let facts = kind.facts(count_groups(&traced.passes), &traced);

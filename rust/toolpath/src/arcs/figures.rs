@@ -1,8 +1,8 @@
 //! What fitting lines and arcs to passes comes to.
 
 use styluscam_geometry::Vector;
-use styluscam_motion::Plane;
 
+use super::directions::of_segment;
 use crate::{fitting, Curve, PathPoint, Segment};
 
 /// Pieces of passes, counted, and the corners between them.
@@ -31,7 +31,7 @@ impl Fitted {
         let mut before: Option<(Vector, bool)> = None;
         for segment in segments {
             let is_arc = segment.curve != Curve::Line;
-            let [start, end] = directions(segment, at);
+            let [start, end] = of_segment(segment, at);
             if let Some((last, _)) = before.filter(|(_, was_arc)| *was_arc || is_arc) {
                 found.corner = found.corner.max(libm::atan2(last.cross(&start).norm(), last.dot(&start)));
             }
@@ -49,18 +49,4 @@ impl Fitted {
             corner: self.corner.max(other.corner),
         }
     }
-}
-
-/// In which directions a segment begins and ends; not of unit length.
-fn directions(segment: &Segment, start: Vector) -> [Vector; 2] {
-    let Some(arc) = segment.turning() else { return [segment.end - start; 2] };
-    let sweep = arc.path(start.into(), segment.end.into()).sweep();
-    let [first, second, third] = Plane::axes(arc.plane);
-    [start, segment.end].map(|point| {
-        let mut along = Vector::zeros();
-        along[first] = sweep * (arc.centre[second] - point[second]);
-        along[second] = sweep * (point[first] - arc.centre[first]);
-        along[third] = segment.end[third] - start[third];
-        along
-    })
 }

@@ -3,10 +3,12 @@
 //! The path is known by its witnesses ([`crate::fitting`]), and between them proven to keep near the chord. From the end of
 //! one piece on, the longest line and the longest arc are looked for that keep near the polyline through the witnesses, everywhere;
 //! the one that goes farther is taken. An arc passes through the end of the piece before; its own end is free to lie beside
-//! the witness, so that what is jagged by facets is passed in the middle. Derived in docs/concepts/fitting.md.
+//! the witness, so that what is jagged by facets is passed in the middle. Where the angle between pieces is limited, no piece begins or
+//! ends farther than half of it from the direction that the path has there. Derived in docs/concepts/fitting.md.
 
 mod circle;
 mod course;
+mod directions;
 mod figures;
 #[cfg(test)]
 mod tests;
@@ -17,6 +19,8 @@ use styluscam_motion::{Arc, Plane};
 use crate::{fitting, Curve, PathPoint, Segment};
 use circle::Position;
 use course::Candidate;
+pub use directions::Neighbours;
+use directions::{of_segment, Directions};
 pub use figures::Fitted;
 
 /// Rows lie in a plane that they leave by no more, mm: rounding.
@@ -32,6 +36,8 @@ pub struct Arcs<'a> {
     pub height: f64,
     /// Whether an arc between two points is posted as it is.
     pub takes: &'a (dyn Fn([[f64; 3]; 2], &Arc) -> bool + Sync),
+    /// Largest angle between a piece and the next where the witnesses allow it, rad.
+    pub corner: f64,
 }
 
 /// A line or an arc from one witness, or beside it, to another.
@@ -42,16 +48,31 @@ struct Piece {
 }
 
 impl Arcs<'_> {
-    /// A path through witnesses as lines and arcs at a feed, mm/min, which deviate from it by at most `deviation` mm. Both ends are
-    /// kept.
+    /// Lines that turn by no more than `corner` rad where the witnesses allow it, and no arcs.
     #[must_use]
-    pub fn along(&self, witnesses: &[PathPoint], deviation: f64, feed: f64) -> Vec<Segment> {
+    pub fn none(corner: f64) -> Self {
+        Self { planes: &[], unit: 1.0, height: 0.0, takes: &|_, _| false, corner }
+    }
+
+    /// A path through witnesses as lines and arcs at a feed, mm/min, which deviate from it by at most `deviation` mm. Both ends are
+    /// kept; `neighbours` are what it goes on from and to.
+    #[must_use]
+    pub fn along(
+        &self,
+        witnesses: &[PathPoint],
+        neighbours: Neighbours<'_>,
+        deviation: f64,
+        feed: f64,
+    ) -> Vec<Segment> {
         let Some(first) = witnesses.first() else { return Vec::new() };
         let plane = plane_of(witnesses).filter(|plane| self.planes.contains(plane));
-        let path = Path { witnesses, arcs: self, plane, deviation, feed };
-        let (mut segments, mut start, mut from) = (Vec::new(), first.tip, 0);
+        let directions =
+            (self.corner < f64::INFINITY).then_some(Directions { witnesses, neighbours, corner: self.corner });
+        let path = Path { witnesses, arcs: self, plane, deviation, feed, directions };
+        let (mut segments, mut start, mut from, mut entering) = (Vec::new(), first.tip, 0, None);
         while from + 1 < witnesses.len() {
-            let Piece { to, segment } = path.longest(start, from);
+            let Piece { to, segment } = path.longest(start, from, entering);
+            entering = Some(of_segment(&segment, start)[1]);
             (start, from) = (segment.end, to);
             segments.push(segment);
         }
@@ -91,24 +112,68 @@ struct Path<'a> {
     plane: Option<Plane>,
     deviation: f64,
     feed: f64,
+    /// Of the path, where pieces are to turn little.
+    directions: Option<Directions<'a>>,
 }
 
 impl Path<'_> {
-    /// The longest piece from a point at or beside a witness.
-    fn longest(&self, start: Vector, from: usize) -> Piece {
+    /// The longest piece from a point at or beside a witness, to which a piece comes that ends in the direction `entering`.
+    fn longest(&self, start: Vector, from: usize, entering: Option<Vector>) -> Piece {
         let count = self.witnesses.len();
-        let line = fitting::chord_end(self.witnesses, from, start, self.deviation);
+        let line = self.line_end(start, from, entering);
         let by_line = Piece { to: line, segment: Segment::line(self.witnesses[line].tip, self.feed) };
         let Some(plane) = self.plane else { return by_line };
         let mut best = None;
         // short arcs are no better than lines: where one fits, far more than a line passes is tried first
         fitting::farthest(line, count, line - from, |to| {
-            let found = self.arc(plane, start, from, to);
+            let found = self.arc(plane, start, from, to).filter(|Piece { to, segment }| {
+                self.may_follow((from, entering), (*to, segment.end), of_segment(segment, start))
+            });
             let passes = found.is_some();
             best = found.or(best.take());
             passes
         });
         best.unwrap_or(by_line)
+    }
+
+    /// The number of the witness to which the longest line goes.
+    fn line_end(&self, start: Vector, from: usize, entering: Option<Vector>) -> usize {
+        let most = fitting::chord_end(self.witnesses, from, start, self.deviation);
+        let Some(directions) = &self.directions else { return most };
+        let line = |to: usize| [self.witnesses[to].tip - start; 2];
+        let least = self.shortest_line(start, from, entering, most).unwrap_or_else(|| {
+            let turns = |to: &usize| directions.turns((from, *to), entering, line(*to));
+            let long = (from + 1..=most).filter(|to| line(*to)[0].norm() > fitting::EDGE);
+            long.min_by(|a, b| turns(a).total_cmp(&turns(b))).unwrap_or(most)
+        });
+        fitting::farthest(least, most + 1, 1, |to| {
+            self.may_follow((from, entering), (to, self.witnesses[to].tip), line(to))
+        })
+    }
+
+    /// The number of the nearest witness up to `most` to which a line may go: the piece before may have ended beside its witness, and what
+    /// is shorter than some length shows no direction.
+    fn shortest_line(&self, start: Vector, from: usize, entering: Option<Vector>, most: usize) -> Option<usize> {
+        let directions = self.directions.as_ref()?;
+        let line = |to: usize| self.witnesses[to].tip - start;
+        let mut long = (from + 1..=most).filter(|to| line(*to).norm() > fitting::EDGE);
+        long.find(|to| directions.turns((from, *to), entering, [line(*to); 2]) <= 1.0)
+    }
+
+    /// Whether a piece to a witness, or beside it, which begins and ends in some directions, turns as little as asked for, and a line may
+    /// follow that does.
+    fn may_follow(
+        &self,
+        (from, entering): (usize, Option<Vector>),
+        (to, end): (usize, Vector),
+        ends: [Vector; 2],
+    ) -> bool {
+        let Some(directions) = &self.directions else { return true };
+        let goes_on = || {
+            let most = fitting::chord_end(self.witnesses, to, end, self.deviation);
+            self.shortest_line(end, to, Some(ends[1]), most).is_some()
+        };
+        directions.turns((from, to), entering, ends) <= 1.0 && (to + 1 == self.witnesses.len() || goes_on())
     }
 
     /// An arc from a point at or beside a witness to, or beside, another.

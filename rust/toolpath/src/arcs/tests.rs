@@ -17,7 +17,7 @@ fn takes([start, end]: [[f64; 3]; 2], arc: &Arc) -> bool {
 }
 
 fn arcs() -> Arcs<'static> {
-    Arcs { planes: &ALL, unit: UNIT, height: 0.0, takes: &takes }
+    Arcs { planes: &ALL, unit: UNIT, height: 0.0, takes: &takes, corner: f64::INFINITY }
 }
 
 /// A point whose contact is on the left of its direction of travel in plan, and `rise` from the horizontal, rad.
@@ -28,7 +28,7 @@ fn point(tip: Vector, along: Vector, rise: f64) -> PathPoint {
 }
 
 fn fitted(witnesses: &[PathPoint]) -> Vec<Segment> {
-    let segments = arcs().along(witnesses, DEVIATION, 500.0);
+    let segments = arcs().along(witnesses, Neighbours::default(), DEVIATION, 500.0);
     assert_eq!(segments.last().map(|last| last.end), witnesses.get(1..).and_then(<[_]>::last).map(|last| last.tip));
     let mut at = witnesses[0].tip;
     for segment in &segments {
@@ -182,7 +182,7 @@ fn centres_stand_in_units_of_the_posted_point() {
         })
         .collect();
     let arcs = Arcs { height: 2.0003, ..arcs() };
-    let segments = arcs.along(&witnesses, DEVIATION, 500.0);
+    let segments = arcs.along(&witnesses, Neighbours::default(), DEVIATION, 500.0);
     let [Segment { curve: Curve::Arc { centre: [z, x], .. }, .. }] = segments[..] else { panic!("{segments:?}") };
     for posted in [z + 2.0003, x] {
         let count = posted / UNIT;
@@ -202,7 +202,8 @@ fn a_machine_that_takes_no_arc_gets_the_chords() {
     let none = Arcs { takes: &|_, _| false, ..arcs() };
     let no_plane = Arcs { planes: &[Plane::Zx], ..arcs() };
     for arcs in [none, no_plane] {
-        let ends: Vec<Vector> = arcs.along(&witnesses, DEVIATION, 500.0).iter().map(|line| line.end).collect();
+        let ends: Vec<Vector> =
+            arcs.along(&witnesses, Neighbours::default(), DEVIATION, 500.0).iter().map(|line| line.end).collect();
         assert_eq!(ends, chords);
     }
 }
@@ -239,4 +240,34 @@ fn figures_count_pieces_and_corners() {
     let found = Fitted::of(&witnesses, &fitted(&witnesses), DEVIATION);
     assert_eq!((found.pieces, found.arcs), (2, 1), "{found:?}");
     assert!(found.chords > 100 && (found.corner - FRAC_PI_2).abs() < 1e-3, "{found:?}");
+}
+
+#[test]
+fn pieces_turn_by_no_more_than_asked_and_two_paths_meet_in_the_same_direction() {
+    let at = |i: u32| {
+        let (tip, along) = flower([20.0, 1.0, 0.3, 0.0], 3, TAU * f64::from(i) / 3000.0);
+        point(tip, along, 0.3)
+    };
+    let witnesses: Vec<PathPoint> = (0..=3000).map(at).collect();
+    let largest = |segments: &[Segment]| {
+        let (mut at, mut before, mut most) = (witnesses[0].tip, None, 0.0_f64);
+        for segment in segments {
+            let [start, end] = of_segment(segment, at);
+            most = before.map_or(most, |before| most.max(fitting::angle(&before, &start)));
+            (before, at) = (Some(end), segment.end);
+        }
+        most
+    };
+    let corner = 0.01;
+    let coarse = 20.0 * DEVIATION;
+    for smooth in [Arcs { corner, ..arcs() }, Arcs::none(corner)] {
+        let free = Arcs { corner: f64::INFINITY, ..smooth };
+        let none = Neighbours::default();
+        assert!(largest(&free.along(&witnesses, none, coarse, 500.0)) > corner);
+        assert!(largest(&smooth.along(&witnesses, none, coarse, 500.0)) <= corner);
+        let (first, second) = (&witnesses[..=1000], &witnesses[1000..]);
+        let mut both = smooth.along(first, Neighbours { after: second, ..none }, coarse, 500.0);
+        both.extend(smooth.along(second, Neighbours { before: first, ..none }, coarse, 500.0));
+        assert!(largest(&both) <= corner, "{}", largest(&both));
+    }
 }

@@ -7,7 +7,8 @@
 //! Derived in docs/concepts/spirals.md.
 
 use super::{level_curve::LevelCurve, stitch, stitch::Beside};
-use crate::{fitting, ordering, Pass, PathPoint, Surface};
+use crate::fitting::{self, Bending};
+use crate::{ordering, Pass, PathPoint, Surface};
 
 /// The line between two points is looked at this far beyond both, mm: on upright walls they lie over each other.
 const BEYOND: f64 = 0.02;
@@ -65,14 +66,16 @@ impl Descent<'_> {
         let mut curve = LevelCurve::new(self.surface, 0.0);
         let down = if self.surface.keeps_witnesses() { evenly_down } else { half_down };
         let exact = exact(&mut curve, above, below, (pairs, whole), down)?;
-        let runs = fitting::densified(&exact, self.deviation, self.longest, &mut |a: &PathPoint, b: &PathPoint| {
+        let between = |a: &PathPoint, b: &PathPoint| {
             let level = curve.at_height(0.5 * (a.tip.z + b.tip.z));
             if self.is_turned {
                 level.between(b, a)
             } else {
                 level.between(a, b)
             }
-        });
+        };
+        let mut course = Bending { between, bend: self.surface.bend() };
+        let runs = fitting::densified(&exact, self.deviation, self.longest, &mut course);
         let [run] = &runs[..] else { return None };
         let is_whole = run.iter().all(|point| point.selected)
             && self.surface.goes_on_along(run)

@@ -53,6 +53,11 @@ impl<'a> LevelCurve<'a> {
         self
     }
 
+    /// Largest angle by which it turns between two witnesses, rad.
+    pub fn bend(&self) -> f64 {
+        self.surface.bend()
+    }
+
     /// Height of the level, mm.
     pub fn z(&self) -> f64 {
         self.z

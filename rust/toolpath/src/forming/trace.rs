@@ -17,7 +17,8 @@ use super::grid::Grid;
 use super::level_curve::LevelCurve;
 use super::sides::{Crossing, Sides, LOOKED_AT};
 use super::square::{Edge, Square, PARTS};
-use crate::{fitting, lattice::Node, PathPoint};
+use crate::fitting::{self, Bending};
+use crate::{lattice::Node, PathPoint};
 
 /// How far outside its square a segment may go, as a share of the square.
 const OUTSIDE: f64 = 0.1;
@@ -127,8 +128,9 @@ impl<'a, 'c> Trace<'a, 'c> {
             let [low, _, high, _] = square.corners().map(|node| self.sides.position(node));
             let slack = OUTSIDE * (high[0] - low[0]);
             let is_inside = |m: &PathPoint| (0..2).all(|i| m.tip[i] >= low[i] - slack && m.tip[i] <= high[i] + slack);
-            let mut between = |a: &PathPoint, b: &PathPoint| self.curve.between(a, b).filter(is_inside);
-            let runs = fitting::densified(&chord, self.deviation, f64::INFINITY, &mut between);
+            let bend = self.curve.bend();
+            let between = |a: &PathPoint, b: &PathPoint| self.curve.between(a, b).filter(is_inside);
+            let runs = fitting::densified(&chord, self.deviation, f64::INFINITY, &mut Bending { between, bend });
             runs.into_iter().find(|run| run[0] == a && run[run.len() - 1] == b)
         } else {
             Some(chord.to_vec())

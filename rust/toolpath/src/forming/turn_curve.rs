@@ -66,20 +66,28 @@ pub(super) struct CurvePoint {
     pub share: f64,
 }
 
-/// Half a circle beyond the ends of two rows that run against each other, the shorter one extended; without its ends. Its chords
-/// are nearer to it than `sagitta` mm.
-pub(super) fn outer(ends: &Ends, sagitta: f64) -> Option<Vec<CurvePoint>> {
-    looped(ends, 0.5 * ends.apart, sagitta)
+/// How near chords are to their curve.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fine {
+    /// Largest distance between both, mm.
+    pub sagitta: f64,
+    /// Largest angle between two chords, rad.
+    pub bend: f64,
+}
+
+/// Half a circle beyond the ends of two rows that run against each other, the shorter one extended; without its ends.
+pub(super) fn outer(ends: &Ends, fine: Fine) -> Option<Vec<CurvePoint>> {
+    looped(ends, 0.5 * ends.apart, fine)
 }
 
 /// A loop of arcs of one radius, mm, beyond the ends of two rows that run against each other: out, round, and back; between rows that
 /// are farther apart than a circle is wide, a quarter of it on either side of a line.
-pub(super) fn looped(ends: &Ends, radius: f64, sagitta: f64) -> Option<Vec<CurvePoint>> {
+pub(super) fn looped(ends: &Ends, radius: f64, fine: Fine) -> Option<Vec<CurvePoint>> {
     if !ends.runs_back() || radius <= 0.0 {
         return None;
     }
     let (half, side) = (0.5 * ends.apart, ends.side());
-    let mut pen = Pen::new(ends.from, ends.leaving, side, sagitta);
+    let mut pen = Pen::new(ends.from, ends.leaving, side, fine);
     pen.straight(ends.ahead().max(0.0));
     if radius < half {
         pen.turn(radius, FRAC_PI_2);
@@ -98,7 +106,7 @@ pub(super) fn looped(ends: &Ends, radius: f64, sagitta: f64) -> Option<Vec<Curve
 
 /// What is taken off both rows' ends, mm, and the line between these ends with its corners rounded by half the distance between
 /// the rows: half a circle where the ends lie side by side. No corner takes more than that distance off a row, nor more than `most`.
-pub(super) fn rounded(ends: &Ends, most: [f64; 2], sagitta: f64) -> Option<([f64; 2], Vec<CurvePoint>)> {
+pub(super) fn rounded(ends: &Ends, most: [f64; 2], fine: Fine) -> Option<([f64; 2], Vec<CurvePoint>)> {
     let half = 0.5 * ends.apart;
     let line = minus(ends.to, ends.from);
     let length = norm(line);
@@ -117,7 +125,7 @@ pub(super) fn rounded(ends: &Ends, most: [f64; 2], sagitta: f64) -> Option<([f64
             0.0
         }
     };
-    let mut pen = Pen::new(start, ends.leaving, 1.0, sagitta);
+    let mut pen = Pen::new(start, ends.leaving, 1.0, fine);
     pen.turn(radius(0), corners[0]);
     pen.straight((length - tangents[0] - tangents[1]).max(0.0));
     pen.turn(radius(1), corners[1]);
@@ -131,15 +139,15 @@ struct Pen {
     heading: f64,
     /// 1 or -1: turns are counted to this side.
     side: f64,
-    sagitta: f64,
+    fine: Fine,
     length: f64,
     points: Vec<(Flat, f64)>,
 }
 
 impl Pen {
-    fn new(at: Flat, direction: Flat, side: f64, sagitta: f64) -> Self {
+    fn new(at: Flat, direction: Flat, side: f64, fine: Fine) -> Self {
         let heading = libm::atan2(direction[1], direction[0]);
-        Self { at, heading, side, sagitta, length: 0.0, points: Vec::new() }
+        Self { at, heading, side, fine, length: 0.0, points: Vec::new() }
     }
 
     fn straight(&mut self, length: f64) {
@@ -153,8 +161,8 @@ impl Pen {
         if !(radius > 0.0 && angle.abs() > STRAIGHT) {
             return;
         }
-        let finest = 2.0 * libm::acos((1.0 - self.sagitta / radius).max(0.0));
-        let chords = (angle.abs() / CHORD.min(finest)).ceil().max(1.0);
+        let finest = 2.0 * libm::acos((1.0 - self.fine.sagitta / radius).max(0.0));
+        let chords = (angle.abs() / CHORD.min(self.fine.bend).min(finest)).ceil().max(1.0);
         let signed = self.side * angle;
         let (sin, cos) = libm::sincos(self.heading);
         let left = signed.signum();
@@ -209,6 +217,10 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    fn to(sagitta: f64) -> Fine {
+        Fine { sagitta, bend: f64::INFINITY }
+    }
+
     fn ends(apart: f64, ahead: f64, back: bool) -> Ends {
         let arriving = if back { [-1.0, 0.0] } else { [1.0, 0.0] };
         Ends { from: [2.0, 1.0], to: [2.0 + ahead, 1.0 + apart], leaving: [1.0, 0.0], arriving, apart: apart.abs() }
@@ -231,12 +243,12 @@ mod tests {
                                 back in any::<bool>(), radius in 0.05..5.0_f64) {
             let ends = ends(apart, ahead, back);
             let allowed = CHORD + 1e-4;
-            let (taken, curve) = rounded(&ends, [10.0; 2], 1e-3).unwrap();
+            let (taken, curve) = rounded(&ends, [10.0; 2], to(1e-3)).unwrap();
             let begin = [ends.from[0] - taken[0], ends.from[1]];
             let finish = [ends.to[0] + taken[1] * ends.arriving[0], ends.to[1]];
             prop_assert!(taken.iter().all(|taken| *taken <= 0.5 * ends.apart + 1e-12));
             prop_assert!(largest_corner(&ends, begin, &curve, finish) < allowed);
-            let loops = [looped(&ends, radius, 1e-3), outer(&ends, 1e-3)];
+            let loops = [looped(&ends, radius, to(1e-3)), outer(&ends, to(1e-3))];
             for curve in loops {
                 prop_assert_eq!(curve.is_some(), back);
                 let Some(curve) = curve else { continue };
@@ -251,16 +263,16 @@ mod tests {
     #[test]
     fn ends_side_by_side_get_half_a_circle() {
         let ends = ends(1.0, 0.0, true);
-        let (taken, curve) = rounded(&ends, [1.0; 2], 1e-4).unwrap();
+        let (taken, curve) = rounded(&ends, [1.0; 2], to(1e-4)).unwrap();
         assert!(taken.iter().all(|taken| (taken - 0.5).abs() < 1e-12));
         assert!(curve.iter().all(|point| (norm(minus(point.at, [1.5, 1.5])) - 0.5).abs() < 1e-9));
-        assert!(rounded(&ends, [0.4, 1.0], 1e-4).is_none());
+        assert!(rounded(&ends, [0.4, 1.0], to(1e-4)).is_none());
     }
 
     #[test]
     fn a_loop_has_its_radius() {
         let ends = ends(1.0, 0.0, true);
-        let curve = looped(&ends, 2.0, 1e-4).unwrap();
+        let curve = looped(&ends, 2.0, to(1e-4)).unwrap();
         // right of the first row's direction: the centre of the first arc; the middle one reaches 2 beyond its centre
         let far = curve.iter().map(|point| point.at[0]).fold(0.0, f64::max);
         let centre = 2.0 + libm::sqrt(16.0 - 2.5 * 2.5);

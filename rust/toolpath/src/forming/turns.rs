@@ -8,7 +8,7 @@
 use styluscam_geometry::Vector;
 use styluscam_motion::{Cancelled, Role, Watch};
 
-use super::turn_curve::{looped, outer, rounded, CurvePoint, Ends, Flat};
+use super::turn_curve::{looped, outer, rounded, CurvePoint, Ends, Fine, Flat};
 use crate::linking::along_selected;
 use crate::{fitting, Entered, Pass, PathPoint, Surface};
 
@@ -139,10 +139,10 @@ struct Turning<'a> {
 impl Turning<'_> {
     fn found(&self, before: &Pass, after: &Pass, most: [f64; 2]) -> Option<Found> {
         let (from, to) = (before.points.last()?, after.points.first()?);
-        let sagitta = 0.5 * self.rule.deviation;
+        let fine = Fine { sagitta: 0.5 * self.rule.deviation, bend: self.surface.bend() };
         let beyond = match self.rule.turn {
-            Turn::Rounded => outer(self.ends, sagitta),
-            Turn::Looped(radius) => looped(self.ends, radius, sagitta),
+            Turn::Rounded => outer(self.ends, fine),
+            Turn::Looped(radius) => looped(self.ends, radius, fine),
         };
         let whole = |(points, role)| Found { points, role, taken: [0.0; 2] };
         let outside = beyond.as_deref().and_then(|curve| self.on_selected(from, curve, to));
@@ -150,7 +150,7 @@ impl Turning<'_> {
             return Some(whole((points, None)));
         }
         let inside = || {
-            let (taken, curve) = rounded(self.ends, most, sagitta)?;
+            let (taken, curve) = rounded(self.ends, most, fine)?;
             let from = *shortened(&before.points, taken[0]).last()?;
             let turned: Vec<PathPoint> = after.points.iter().rev().copied().collect();
             let to = *shortened(&turned, taken[1]).last()?;

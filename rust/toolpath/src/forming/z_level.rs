@@ -4,7 +4,8 @@ use rayon::prelude::*;
 use styluscam_motion::Watch;
 
 use super::{bounds::Bounds, contour, gaps, grid::Grid, level_curve::LevelCurve, trace::Trace};
-use crate::{fitting, Pass, PathPoint, PlanError, Surface};
+use crate::fitting::{self, Bending};
+use crate::{Pass, PathPoint, PlanError, Surface};
 
 /// All passes at the given heights, in their order; chords deviate by at most `deviation` mm along the normal.
 ///
@@ -79,8 +80,9 @@ impl<'a> Level<'a> {
             .collect();
         for (points, closed) in chains {
             let chain = contour::Chain { points, closed };
-            let chain =
-                gaps::bridged(chain, grid.smallest_feature(), deviation, &mut |a: &_, b: &_| curve.between(a, b));
+            let bend = surface.bend();
+            let mut course = Bending { between: |a: &_, b: &_| curve.between(a, b), bend };
+            let chain = gaps::bridged(chain, grid.smallest_feature(), deviation, &mut course);
             let closed = chain.closed && chain.points.iter().all(|p| p.selected);
             let runs = fitting::selected_runs(&chain.points, chain.closed, |a, b| curve.between(a, b));
             let pass = |run: &Vec<PathPoint>| Pass { points: surface.thinned(run, deviation), closed, group };

@@ -76,9 +76,8 @@ impl Course for SurfaceCourse<'_> {
         self.surface.keeps_to(a, b, most)
     }
 
-    /// Chords through witnesses are to leave each other by half of it at most, so that longer ones have room.
-    fn corner(&self) -> f64 {
-        0.5 * self.surface.corner()
+    fn bend(&self) -> f64 {
+        self.surface.bend()
     }
 
     fn may_rise(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {

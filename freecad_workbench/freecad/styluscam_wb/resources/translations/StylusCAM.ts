@@ -167,8 +167,8 @@ As JSON
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Largest angle by which the path turns from one cutting move to the next, degrees: rows get shorter chords for it, up to what the
-part's facets turn by; levels and spirals do not. The verification names every larger one. Not limited when left out.
+        <source>Largest angle by which the path turns from one cutting move to the next, degrees: passes that follow the surface get shorter lines
+and arcs for it. Edges of the part, straight links and plunges turn by more; the verification names each. Not limited when left out.
 Range: 0.1 to 90 deg
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
@@ -983,8 +983,8 @@ As JSON
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Largest angle by which the path turns from one cutting move to the next, degrees: rows get shorter chords for it, up to what the
-part's facets turn by; levels and spirals do not. The verification names every larger one. Not limited when left out.
+        <source>Largest angle by which the path turns from one cutting move to the next, degrees: passes that follow the surface get shorter lines
+and arcs for it. Edges of the part, straight links and plunges turn by more; the verification names each. Not limited when left out.
 Range: 0.1 to 90 deg
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
