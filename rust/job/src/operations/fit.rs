@@ -1,14 +1,19 @@
 //! Passes as lines, or as lines and arcs where the job asks for them and the machine has them.
 
 use styluscam_motion::{Arc, Cancelled, Move};
-use styluscam_toolpath::{link, link_with_arcs, Arcs, Entered, Fitted, LinkRules, Links, PathPoint};
+use styluscam_toolpath::{link, link_with_arcs, Arcs, Entered, Fitted, LinkRules, Links, PathPoint, Surface};
 
 use super::facts::counted;
 use super::{Context, Fact, Fit};
 
-/// Whether arcs are asked for and the machine has any.
-pub fn asks_for_arcs(context: &Context<'_>) -> bool {
-    context.common.fit == Fit::Arcs && context.machine.arc.is_some()
+/// A surface whose passes keep the witnesses that arcs, or lines that turn little, are fitted to, where an operation asks for either.
+pub fn witnessed<'a>(surface: Surface<'a>, context: &Context<'_>) -> Surface<'a> {
+    let has_arcs = context.common.fit == Fit::Arcs && context.machine.arc.is_some();
+    match context.common.corner() {
+        f64::INFINITY if has_arcs => surface.keeping_witnesses(),
+        f64::INFINITY => surface,
+        corner => surface.turning(corner),
+    }
 }
 
 /// The moves along the passes, which arcs leave by at most `deviation` mm, and what there is to say of how they were fitted.

@@ -247,11 +247,7 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
         context.region.planned((tool, scene.sheet.as_ref()), scene.inward, &budget, budget::rounding(context.machine));
     let region = region.ready();
     let surface = surface.within(&region);
-    let surface = match context.common.corner() {
-        f64::INFINITY if fit::asks_for_arcs(context) => surface.keeping_witnesses(),
-        f64::INFINITY => surface,
-        corner => surface.turning(corner),
-    };
+    let surface = fit::witnessed(surface, context);
     let path = || {
         let traced = kind.trace(&task, &surface).map_err(|error| context.error(error))?;
         let facts = kind.facts(count_groups(&traced.passes), &traced);
