@@ -3,6 +3,8 @@
 //! Over a position p it is z(p) = max over all points q of the shape of h(q) - tan(angle) |p - q|: the highest of the cones that hang
 //! down from it. Derivation: docs/concepts/stages.md.
 
+use std::collections::HashMap;
+
 use rayon::prelude::*;
 
 use super::{cone, refine::Pieces};
@@ -12,6 +14,10 @@ use crate::{Bvh, GeometryError, Mesh, Vector};
 const FINEST: f64 = 0.3;
 /// How far a stage's triangles may lie off it where they are not as small as that, mm.
 const TOLERANCE: f64 = 0.01;
+/// Triangles that are gentler than the stage by this share of its slope count as steep: rounding.
+const NEARLY: f64 = 1e-9;
+/// Triangles whose normal has a smaller part along Z show no direction in plan.
+const UPRIGHT: f64 = 1e-3;
 /// Triangles of less area in plan are walls of the shape that the stage does not have, mm^2.
 const LEAST_AREA: f64 = 1e-9;
 
@@ -37,9 +43,14 @@ pub fn stage(mesh: &Mesh, keep: &[bool], angle: f64) -> Result<Stage, GeometryEr
     let triangles: Vec<[i64; 3]> = kept().map(|triangle| mesh.triangles()[triangle].map(i64::from)).collect();
     let faces: Vec<u32> = kept().map(|triangle| mesh.faces()[triangle]).collect();
     let shape = Mesh::new(mesh.vertices().to_vec(), &triangles, &faces)?;
-    let (bvh, slope) = (Bvh::new(&shape), libm::tan(angle));
-    let raised =
-        |point: Vector| Vector::new(point.x, point.y, height(&shape, &bvh, [point.x, point.y], slope).max(point.z));
+    let slope = libm::tan(angle);
+    let holding: Vec<[i64; 3]> = holding(&shape, slope).into_iter().map(|i| triangles[i]).collect();
+    let holding = if holding.is_empty() { None } else { Some(Mesh::new(shape.vertices().to_vec(), &holding, &[])?) };
+    let holding = holding.map(|mesh| (Bvh::new(&mesh), mesh));
+    let raised = |point: Vector| {
+        let held = |(bvh, mesh): &(Bvh, Mesh)| height(mesh, bvh, point, slope);
+        Vector::new(point.x, point.y, holding.as_ref().map_or(point.z, held))
+    };
     let pieces = Pieces::of(&shape, &raised, TOLERANCE, FINEST)?;
     let moved = |corners: [u32; 3]| corners.map(|corner| pieces.moved[corner as usize]);
     let is_seen = |corners: [u32; 3]| {
@@ -55,14 +66,61 @@ pub fn stage(mesh: &Mesh, keep: &[bool], angle: f64) -> Result<Stage, GeometryEr
     Ok(Stage { mesh: Mesh::new(pieces.moved, &triangles, &faces)?, target, above })
 }
 
-/// The height of the stage over a position, mm.
-fn height(mesh: &Mesh, bvh: &Bvh, at: [f64; 2], slope: f64) -> f64 {
+/// The triangles from which the highest cones hang, over positions that lie above the shape: those at its border, the gentle ones
+/// beside steep ones, and steep ones that fall away on both sides of an edge.
+///
+/// A cone that hangs down from within a gentle triangle is below one that hangs down from nearer by, and one from within a steep triangle
+/// below one from farther up. Derivation: docs/concepts/stages.md.
+fn holding(shape: &Mesh, slope: f64) -> Vec<usize> {
+    let triangles = shape.triangles();
+    let mut beside: HashMap<(u32, u32), Vec<usize>> = HashMap::new();
+    for (number, corners) in triangles.iter().enumerate() {
+        for side in sides(*corners) {
+            beside.entry(side).or_default().push(number);
+        }
+    }
+    let rising = |triangle: usize| -shape.normal(triangle).xy();
+    let is_steep = |triangle: usize| {
+        let normal = shape.normal(triangle);
+        normal.xy().norm() >= slope * normal.z * (1.0 - NEARLY)
+    };
+    let is_upright = |triangle: usize| shape.normal(triangle).z < UPRIGHT;
+    let holds = |triangle: &usize| {
+        let [a, b, c] = triangles[*triangle];
+        [(a, b), (b, c), (c, a)].into_iter().any(|(from, to)| {
+            let others = beside.get(&(from.min(to), from.max(to))).map_or(&[][..], Vec::as_slice);
+            let [Some(other), None] = [0, 1].map(|i| others.iter().filter(|other| *other != triangle).nth(i)) else {
+                return true; // the border, or more than two of them
+            };
+            match [*triangle, *other].map(is_steep) {
+                [false, steep] => steep,
+                [true, false] => is_upright(*triangle),
+                [true, true] => {
+                    let along = shape.vertices()[to as usize] - shape.vertices()[from as usize];
+                    let outwards = nalgebra::Vector2::new(along.y, -along.x);
+                    let is_ridge = rising(*triangle).dot(&outwards) >= 0.0 && rising(*other).dot(&outwards) <= 0.0;
+                    is_ridge || is_upright(*triangle)
+                }
+            }
+        })
+    };
+    (0..triangles.len()).filter(holds).collect()
+}
+
+/// A triangle's sides, each from its end with the smaller number.
+fn sides([a, b, c]: [u32; 3]) -> [(u32, u32); 3] {
+    [(a, b), (b, c), (c, a)].map(|(from, to)| (from.min(to), from.max(to)))
+}
+
+/// The height of the stage over a position of the shape, mm.
+fn height(mesh: &Mesh, bvh: &Bvh, point: Vector, slope: f64) -> f64 {
+    let at = [point.x, point.y];
     let bound = |node: &crate::Node| {
         let away = |axis: usize| (node.low[axis] - at[axis]).max(at[axis] - node.high[axis]).max(0.0);
         node.high.z - slope * libm::hypot(away(0), away(1))
     };
     let visit = |triangle: u32, best: f64| best.max(hanging(&mesh.corners(triangle as usize), at, slope));
-    bvh.maximise(f64::NEG_INFINITY, bound, visit)
+    bvh.maximise(point.z, bound, visit)
 }
 
 /// The highest of the cones that hang down from the points of a triangle, over a position: from the point above it, or from one of
@@ -121,6 +179,33 @@ mod tests {
             assert!(middle(&found.mesh) >= middle(&found.target) - 1e-9);
         }
         assert!((found.above - 15.0).abs() < 1e-6 && found.mesh.triangles().len() < 150_000);
+    }
+
+    #[test]
+    fn the_triangles_that_hold_it_give_what_all_of_them_give() {
+        // a cup with a steep hill in a stepped floor, whose rings are not round
+        let rings = [(50.0, 0.0), (30.0, 0.0), (28.0, -9.0), (22.0, -9.5), (20.0, -15.0), (9.0, -15.2), (6.0, -4.0)];
+        let mut mesh = cup(&rings);
+        for twist in [0.0, 0.35] {
+            let bent = |p: &Vector| Vector::new(p.x, p.y * (1.0 + twist), p.z + twist * libm::sin(0.3 * p.x));
+            let triangles: Vec<[i64; 3]> = mesh.triangles().iter().map(|corners| corners.map(i64::from)).collect();
+            mesh = Mesh::new(mesh.vertices().iter().map(bent).collect(), &triangles, &[]).unwrap();
+            for degrees in [20.0_f64, 45.0, 60.0, 75.0] {
+                let slope = libm::tan(degrees.to_radians());
+                let found = holding(&mesh, slope);
+                let some: Vec<[i64; 3]> = found.iter().map(|i| triangles[*i]).collect();
+                let held = Mesh::new(mesh.vertices().to_vec(), &some, &[]).unwrap();
+                let bvh = Bvh::new(&held);
+                let all = 0..triangles.len();
+                for number in all.clone().step_by(7) {
+                    let point = mesh.corners(number).iter().sum::<Vector>() / 3.0;
+                    let hangs = |i: usize| hanging(&mesh.corners(i), [point.x, point.y], slope);
+                    let exact = all.clone().map(hangs).fold(f64::NEG_INFINITY, f64::max);
+                    assert!((height(&held, &bvh, point, slope) - exact).abs() < 1e-9, "{degrees} {point}");
+                }
+                assert!(found.len() < all.len());
+            }
+        }
     }
 
     #[test]
