@@ -18,6 +18,7 @@ _MODULES = {
     "errors": (
         "Cancelled", "GeometryError", "JobError", "MachineError", "PlanError", "StylusError", "ToolError", "VerifyError",
     ),
+    "flank.path": ("flank_program",),
     "flank.positions": ("FlankError", "FlankPositions", "flank_positions"),
     "flank.rails": ("Rail",),
     "judging.engagement": ("RunEngagement", "engagement"),

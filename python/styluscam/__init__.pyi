@@ -11,6 +11,7 @@ from styluscam.errors import (
     ToolError,
     VerifyError,
 )
+from styluscam.flank.path import flank_program
 from styluscam.flank.positions import FlankError, FlankPositions, flank_positions
 from styluscam.flank.rails import Rail
 from styluscam.judging.engagement import RunEngagement, engagement
@@ -58,6 +59,7 @@ __all__ = [
     "drop_cutter",
     "engagement",
     "flank_positions",
+    "flank_program",
     "job_schema",
     "offset_surface",
     "plan",

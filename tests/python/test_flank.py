@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 
 import styluscam as sc
 from styluscam.flank.rails import RailLike
+from styluscam.programs.posting import cl_text
 
 Rails = tuple[RailLike, RailLike]
 TURN = np.radians(20.0)
@@ -113,24 +115,98 @@ def test_developable_surfaces_are_exact() -> None:
         assert max(error.over, error.under) < 1e-6
 
 
-@pytest.mark.parametrize("seed", range(6))
-def test_no_other_method_is_better(seed: int) -> None:
-    random = np.random.default_rng(seed)
-    twist, length, radius = np.radians(random.uniform(5, 40)), random.uniform(40, 100), random.uniform(2, 6)
-    base = np.linspace(-0.5, 0.5, 4)[:, None] * [length, 0.0, 0.0]
-    poles = [base + random.uniform(-0.04, 0.04, (4, 3)) * length * [0.5, 1.0, 0.2] for _ in range(2)]
-    turn = np.array([[np.cos(twist), np.sin(twist), 0], [-np.sin(twist), np.cos(twist), 0], [0, 0, 1]])
-    rails = ({"poles": poles[0]}, {"poles": poles[1] @ turn + [0, 0, 25.0]})
+def test_no_other_method_is_better() -> None:
+    # 200 of them: bench/flank.py
+    random = np.random.default_rng(4)
+    for degree in (1, 3, 2, 3):
+        twist, length, radius = np.radians(random.uniform(3, 40)), random.uniform(40, 100), random.uniform(2, 6)
+        base = np.linspace(-0.5, 0.5, degree + 1)[:, None] * [length, 0.0, 0.0]
+        poles = [base + random.uniform(-0.04, 0.04, base.shape) * length * [0.5, 1.0, 0.2] for _ in range(2)]
+        turn = np.array([[np.cos(twist), np.sin(twist), 0], [-np.sin(twist), np.cos(twist), 0], [0, 0, 1]])
+        rails = ({"poles": poles[0]}, {"poles": poles[1] @ turn + [0, 0, 25.0]})
+        left = {}
+        for method in ("swept", *OTHERS):
+            try:
+                error = placed(rails, radius, method, 60).error
+            except sc.GeometryError as refusal:
+                assert refusal.code == "no-three-points"
+                continue
+            left[method] = max(error.over, error.under)
+        swept = left.pop("swept")
+        assert swept <= max(min(left.values()), 1e-6)
 
-    def worst(method: str) -> float:
-        try:
-            return max(micrometres(placed(rails, radius, method).error))
-        except sc.GeometryError as error:
-            assert error.code == "no-three-points"
-            return np.inf
 
-    # up to a twentieth of a micrometre
-    assert worst("swept") < min(map(worst, OTHERS)) + 0.05
+CONES: list[dict[str, Any]] = [
+    {"kind": "tapered-ball", "tip_radius": 3.0, "half_angle_deg": 5.0, "diameter": 16.0},
+    {"kind": "v", "tip_diameter": 6.0, "angle_deg": 16.0, "diameter": 20.0},
+]
+
+
+@pytest.mark.parametrize("profile", CONES, ids=["ball end", "flat end"])
+def test_a_cone_lies_along_what_is_developable(profile: dict[str, Any]) -> None:
+    def circle(radius: float, z: float) -> RailLike:
+        return lambda u: np.column_stack([radius * np.cos(0.1 * u), radius * np.sin(0.1 * u), np.full(len(u), z)])
+
+    for side in ("left", "right"):
+        found = sc.flank_positions(circle(40.0, 0.0), circle(34.0, 20.0), {"profile": profile}, 900, side=side)
+        error = found.error.between(0.25, 0.75)
+        assert max(error.over, error.under) < 1e-6
+        # the whole tool touches, between the rails as well
+        middle = 37.0 * np.array([[np.cos(0.05), np.sin(0.05), 10.0 / 37.0]])
+        assert found.clearance(middle) == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("profile", CONES, ids=["ball end", "flat end"])
+def test_a_cone_on_a_twisted_strip(profile: dict[str, Any]) -> None:
+    found = {m: sc.flank_positions(*HP20, {"profile": profile}, 200, method=m) for m in ("swept", "two-points")}
+    swept, offset = (micrometres(found[method].error) for method in ("swept", "two-points"))
+    assert max(swept) < 13.0 < 0.5 * max(offset)
+    with pytest.raises(sc.ToolError) as caught:
+        sc.flank_positions(*HP20, {"profile": {**profile, "diameter": 8.0}}, 20)
+    assert caught.value.code == "short-flank"
+
+
+def test_the_ball_end_is_found_in_a_floor() -> None:
+    # a wall upright on a floor that lies higher than the tip
+    wall: Rails = ([(0, 0, 0), (40, 0, 0)], [(0, 0, 20), (40, 0, 20)])
+    found = sc.flank_positions(*wall, {"profile": {"kind": "ball", "diameter": 6.0}}, 9)
+    assert found.tips[:, 2] == pytest.approx(-3.0)
+    floor = [(20.0, 3.0, -2.9), (20.0, 3.0, -3.2), (20.0, 0.0, 5.0)]
+    assert found.clearance(floor) == pytest.approx([-0.1, 0.2, 0.0], abs=1e-9)
+
+
+def test_how_fast_the_axis_turns() -> None:
+    # a cone's axis turns evenly about its own: once in 2 pi of the rails' parameter
+    def circle(radius: float, z: float) -> RailLike:
+        return lambda u: np.column_stack([radius * np.cos(u), radius * np.sin(u), np.full(len(u), z)])
+
+    turning = sc.flank_positions(circle(30.0, 0.0), circle(20.0, 20.0), cylinder(4.0), 200).turning(600.0)
+    lean = np.arctan2(10.0, 20.0)
+    # 10 mm/s along the middle circle of radius 25
+    assert turning.speed == pytest.approx(np.degrees(10.0 / 25.0 * np.sin(lean)), rel=1e-3)
+    # the axis of that turn goes round too
+    assert turning.acceleration == pytest.approx(np.degrees(0.4**2 * np.sin(lean) * np.cos(lean)), rel=1e-3)
+
+
+def test_the_path_as_cutter_locations() -> None:
+    positions = placed(CV, 5.0, count=30)
+    program = sc.flank_program(positions, feed=600.0, clearance=20.0, extension=2.0, lead=5.0, rpm=3000.0)
+    lines = [line.removeprefix("GOTO/") for line in cl_text(program).splitlines() if line.startswith("GOTO/")]
+    found = np.array([[float(number) for number in line.split(",")] for line in lines])
+    # down, in and on; out and up
+    assert len(found) == 3 + 30 + 3
+    assert found[3:-3, :3] == pytest.approx(positions.tips, abs=5.1e-5)
+    assert found[3:-3, 3:] == pytest.approx(positions.axes, abs=5.1e-8)
+    lengths = np.linalg.norm(np.diff(found[:, :3], axis=0), axis=1)
+    assert lengths[[0, 1, 2, -3, -2, -1]] == pytest.approx([20.0, 5.0, 2.0, 2.0, 5.0, 20.0], abs=2e-4)
+    # in from the free side: the whole tool clear of the strip but where it begins
+    away = np.vstack([positions.tips[:1], found[1:2, :3]])
+    entering = replace(positions, tips=away, axes=positions.axes[[0, 0]])
+    assert entering.clearance(positions.contacts[5:].reshape(-1, 3)).min() > 0.0
+    with pytest.raises(sc.MachineError, match="cannot turn it"):
+        sc.post(program, "linuxcnc")
+    with pytest.raises(sc.GeometryError, match="feed"):
+        sc.flank_program(positions, feed=0.0, clearance=20.0)
 
 
 def test_rails_of_every_form_are_one() -> None:

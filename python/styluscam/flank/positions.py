@@ -8,20 +8,20 @@ from functools import cached_property
 from typing import Literal, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from styluscam import _engine
 from styluscam.arguments import refused
 from styluscam.errors import GeometryError, ToolError
 from styluscam.flank.rails import Rail, RailLike
+from styluscam.flank.shape import Flank
 from styluscam.tools.tool import Tool, ToolLike
-from styluscam.types import FloatArray
+from styluscam.types import FloatArray, points
 
 Method: TypeAlias = Literal["swept", "rails", "three-points", "two-points", "one-point"]
 
 ALONG, ACROSS = 161, 41
 """Points of the strip at which its error is measured."""
-UPRIGHT = 1e-9
-"""A profile that ends this near to upright goes on as a cylinder, rad."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,14 +55,14 @@ class FlankPositions:
     """Positions of a tool along a ruled surface. Lengths mm."""
 
     tips: FloatArray
-    """The tool's tip, (N, 3): its cylinder begins beside the first rail."""
+    """The tool's tip, (N, 3): its flank begins beside the first rail."""
     axes: FloatArray
     """Unit vectors from the tip up, (N, 3)."""
     contacts: FloatArray
     """Two points of each position at which it was made to touch, (N, 2, 3)."""
-    radius: float
-    """Of the flank."""
+    tool: Tool
     method: Method
+    _flank: Flank = field(repr=False)
     _strip: _engine.RuledStrip = field(repr=False)
     _beside_rails: FloatArray = field(repr=False)
 
@@ -72,7 +72,44 @@ class FlankPositions:
         u, v = np.linspace(0.0, 1.0, ALONG), np.linspace(0.0, 1.0, ACROSS)
         shares = np.ascontiguousarray(np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1).reshape(-1, 2))
         first, second = (np.ascontiguousarray(self._beside_rails[:, end]) for end in (0, 1))
-        return FlankError(self._strip.left(first, second, self.radius, shares).reshape(ALONG, ACROSS), u, v)
+        # the first of the points lies higher than the lower end, where the flank is wider
+        shape = self._flank.radius / math.cos(self._flank.half_angle) ** 2, self._flank.growth
+        return FlankError(self._strip.left(first, second, shape, shares).reshape(ALONG, ACROSS), u, v)
+
+    @property
+    def radius(self) -> float:
+        """Of the flank, where it begins."""
+        return self._flank.radius
+
+    def clearance(self, others: npt.ArrayLike) -> FloatArray:
+        """How near the whole tool comes to points (N, 3) of other faces when it moves from position to position, mm (N,).
+
+        Below 0 it enters, by so much: with its end, with its flank, or above it; the shank is taken to be as wide as the flank's
+        wide end.
+        """
+        given = np.ascontiguousarray(points(others, 3, "others"))
+        return _engine.clearance_of_tilted(self.tool._engine, self.tips, self.axes, given)
+
+    def turning(self, feed: float) -> AxisTurning:
+        """How fast the axis turns when the contacts move at ``feed``, mm/min."""
+        if not (math.isfinite(feed) and feed > 0.0):
+            raise refused("feed", feed, "mm/min, above 0", GeometryError)
+        lengths = np.linalg.norm(np.diff(self.contacts.mean(axis=1), axis=0), axis=1)
+        times = 60.0 * lengths / feed
+        rates = np.cross(self.axes[:-1], self.axes[1:]) / times[:, None]
+        between = 0.5 * (times[1:] + times[:-1])
+        changes = np.linalg.norm(np.diff(rates, axis=0), axis=1) / between
+        return AxisTurning(np.degrees(np.linalg.norm(rates, axis=1)), np.degrees(changes))
+
+
+@dataclass(frozen=True, eq=False)
+class AxisTurning:
+    """How a tool's axis turns along its positions."""
+
+    speed: FloatArray
+    """In every move, deg/s (N - 1,)."""
+    acceleration: FloatArray
+    """From one to the next, deg/s^2 (N - 2,)."""
 
 
 def flank_positions(
@@ -84,32 +121,34 @@ def flank_positions(
     side: Literal["left", "right"] = "left",
     method: Method = "swept",
 ) -> FlankPositions:
-    """``count`` positions of a cylinder along the ruled surface between two rails, evenly spread over their parameters.
+    """``count`` positions of a tool's flank along the ruled surface between two rails, evenly spread over their parameters.
 
-    The tool's tip lies at the first rail's end. ``side`` is the one on which it moves, seen along the rails with the second above
-    the first. Of the methods ``"swept"`` leaves least by far: both rails are touched, and the contacts are spread along them so
-    that the surface that the movement leaves is nearest to the strip. ``"rails"`` touches both at equal parameters,
-    ``"three-points"`` the ruling too, ``"two-points"`` and ``"one-point"`` offset points of the ruling. Any profile with an
-    upright end, or a flat one, has a cylinder for a flank. See docs/concepts/flank.md.
+    The flank begins at the first rail, the tip lies beyond it. ``side`` is the one on which it moves, seen along the rails with
+    the second above the first. Of the methods ``"swept"`` leaves least by far: both rails are touched, and the contacts are
+    spread along them so that the surface that the movement leaves is nearest to the strip. ``"rails"`` touches both at equal
+    parameters, ``"three-points"`` the ruling too, ``"two-points"`` and ``"one-point"`` offset points of the ruling. Any profile
+    with an upright end, or a flat one, has a cylinder for a flank; one that ends in a slanting line, a cone. See
+    docs/concepts/flank.md.
 
     Raises:
         GeometryError: rails that meet, a cusp, a surface without a normal, a hollow that is too tight for the tool, no position.
-        ToolError: the tool's flank is no cylinder.
+        ToolError: the tool's flank is neither cylinder nor cone, or too short for the rulings.
     """
     if isinstance(count, bool) or not isinstance(count, int):
         raise refused("count", count, "a whole number", GeometryError)
     cutter = Tool.of(tool)
-    if 0.0 < cutter.max_slope < 0.5 * math.pi - UPRIGHT:
-        raise ToolError(
-            f"tool: {cutter.description} has a tapered flank, and positions are known of cylinders only",
-            code="tapered-flank",
-            where="tool",
-            hint="take a tool whose profile ends upright: flat, ball, ...",
-        )
-    radius = 0.5 * cutter.diameter
+    flank = Flank.of(cutter)
     strip = _engine.RuledStrip(Rail.of(rail0, "rail0").columns, Rail.of(rail1, "rail1").columns, side)
-    beside, contacts = strip.positions(radius, max(count, 0), method)
+    beside, contacts = strip.positions(flank.radius, flank.half_angle, max(count, 0), method)
     along = beside[:, 1] - beside[:, 0]
-    axes = along / np.linalg.norm(along, axis=1, keepdims=True)
-    tips = beside[:, 0] - float(cutter.height_at_radius(radius)) * axes
-    return FlankPositions(tips, axes, contacts, radius, method, strip, beside)
+    lengths = np.linalg.norm(along, axis=1)
+    needed = flank.needed(float(lengths.max()))
+    if needed > flank.top:
+        raise ToolError(
+            f"tool: {cutter.description} reaches {flank.top:.3f} mm up from its tip, the rulings {needed:.3f} mm",
+            code="short-flank",
+            where="tool",
+            hint="take a longer tool, or part the surface along its rulings' length",
+        )
+    axes = along / lengths[:, None]
+    return FlankPositions(beside[:, 0] - flank.rise * axes, axes, contacts, cutter, method, flank, strip, beside)

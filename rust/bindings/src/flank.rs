@@ -3,9 +3,10 @@
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use styluscam_geometry::{NurbsCurve, Vector};
-use styluscam_toolpath::flank::{positions, FlankError, Method, RuledStrip, Side};
-use styluscam_verify::left_by_flank;
+use styluscam_toolpath::flank::{positions, Flank, FlankError, Method, RuledStrip, Side};
+use styluscam_verify::{clearance_of_tool, left_by_flank, FlankShape};
 
+use crate::tool::Tool;
 use crate::{arrays, errors};
 
 /// A rail: degree, flat knots, poles (N, 3) in mm, weights (N,).
@@ -38,8 +39,16 @@ impl Strip {
         Ok(Self { strip: RuledStrip::new(rails, side).map_err(|error| of_flank(&error))? })
     }
 
-    /// Points of the axis beside both rails (N, 2, 3), and contacts (N, 2, 3), mm, in `count` positions of a cylinder.
-    fn positions<'py>(&self, py: Python<'py>, radius: f64, count: usize, method: &str) -> PyResult<Pairs<'py>> {
+    /// Points of the axis beside both rails (N, 2, 3), and contacts (N, 2, 3), mm, in `count` positions of a flank
+    /// of this radius beside the first rail, mm, that widens by a half angle, rad.
+    fn positions<'py>(
+        &self,
+        py: Python<'py>,
+        radius: f64,
+        half_angle: f64,
+        count: usize,
+        method: &str,
+    ) -> PyResult<Pairs<'py>> {
         let method = match method {
             "swept" => Method::Swept,
             "rails" => Method::Rails,
@@ -48,7 +57,8 @@ impl Strip {
             "one-point" => Method::OnePoint,
             other => return Err(word("method", other, "swept, rails, three-points, two-points or one-point")),
         };
-        let found = py.detach(|| positions(&self.strip, radius, count, method)).map_err(|error| of_flank(&error))?;
+        let flank = Flank::new(radius, half_angle).map_err(|error| of_flank(&error))?;
+        let found = py.detach(|| positions(&self.strip, &flank, count, method)).map_err(|error| of_flank(&error))?;
         Ok((pairs(py, found.iter().map(|stand| stand.axis))?, pairs(py, found.iter().map(|stand| stand.contacts))?))
     }
 
@@ -61,27 +71,49 @@ impl Strip {
         Ok((PyArray2::from_vec2(py, &points)?, PyArray2::from_vec2(py, &normals)?))
     }
 
-    /// What a cylinder leaves at shares (N, 2) of the strip when its axis, two points (M, 2, 3) in each position, has moved from
+    /// What a flank leaves at shares (N, 2) of the strip when its axis, `from` and `to` (M, 3) in each position, has moved from
     /// the first to the last, mm along the normal (N,): below 0 where it is cut too deep, NaN where that is not decided between
-    /// the first position and the last.
+    /// the first position and the last. `shape` is its radius across the axis at `from`, mm, and how much that grows for each mm from there.
     #[allow(clippy::needless_pass_by_value)] // PyO3 hands arrays by value
     fn left<'py>(
         &self,
         py: Python<'py>,
         from: PyReadonlyArray2<'py, f64>,
         to: PyReadonlyArray2<'py, f64>,
-        radius: f64,
+        shape: (f64, f64),
         shares: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let (from, to) = (arrays::vectors(&from, "from")?, arrays::vectors(&to, "to")?);
-        let axes: Vec<[Vector; 2]> = from.into_iter().zip(to).map(|(from, to)| [from, to]).collect();
+        let axes = pairs_of(from, to);
         let shares = arrays::rows::<f64, 2>(&shares, "shares")?;
         let found = py.detach(|| {
             let points: Vec<_> = shares.iter().map(|at| (self.strip.point(*at), self.strip.normal(*at))).collect();
-            left_by_flank(&axes, radius, &points)
+            left_by_flank(&axes, FlankShape { radius: shape.0, growth: shape.1 }, &points)
         });
         Ok(PyArray1::from_iter(py, found.into_iter().map(|left| left.unwrap_or(f64::NAN))))
     }
+}
+
+/// How near a tool whose tip moves along `tips` (M, 3), its axis along `axes` (M, 3), comes to points (N, 3), mm (N,); below 0 it
+/// enters.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)] // PyO3 hands arrays by value
+pub fn clearance_of_tilted<'py>(
+    py: Python<'py>,
+    tool: &Tool,
+    tips: PyReadonlyArray2<'py, f64>,
+    axes: PyReadonlyArray2<'py, f64>,
+    points: PyReadonlyArray2<'py, f64>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let (tips, axes) = (arrays::vectors(&tips, "tips")?, arrays::vectors(&axes, "axes")?);
+    let above = tips.iter().zip(axes).map(|(tip, axis)| tip + axis).collect();
+    let (positions, points) = (pairs_of(tips, above), arrays::vectors(&points, "points")?);
+    let found = py.detach(|| clearance_of_tool(&positions, &tool.cutter, &points));
+    Ok(PyArray1::from_vec(py, found))
+}
+
+fn pairs_of(from: Vec<Vector>, to: Vec<Vector>) -> Vec<[Vector; 2]> {
+    from.into_iter().zip(to).map(|(from, to)| [from, to]).collect()
 }
 
 fn rail((degree, knots, poles, weights): &RailArrays<'_>) -> PyResult<NurbsCurve> {

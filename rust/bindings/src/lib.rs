@@ -39,7 +39,7 @@ mod _engine {
     #[pymodule_export]
     use crate::elementary::Elementary;
     #[pymodule_export]
-    use crate::flank::Strip;
+    use crate::flank::{clearance_of_tilted, Strip};
     #[pymodule_export]
     use crate::freecad::{path_text, program_of_path};
     #[pymodule_export]

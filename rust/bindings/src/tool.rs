@@ -18,7 +18,7 @@ type OutlinePart = (bool, [f64; 2], [(f64, f64); 2]);
 #[pyclass(frozen, module = "styluscam._engine")]
 pub struct Tool {
     pub(crate) tool: styluscam_geometry::Tool,
-    cutter: styluscam_geometry::Cutter,
+    pub(crate) cutter: styluscam_geometry::Cutter,
 }
 
 #[pymethods]

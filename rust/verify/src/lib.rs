@@ -88,7 +88,7 @@ pub use coverage::{coverage, left, needs, FaceCoverage};
 pub use engagement::{engagement, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement};
 pub use expectation::{Contact, Expectation, ExpectedOperation, Layers, OrderedPasses, Passes};
 pub use findings::{Finding, FindingKind, Severity};
-pub use flank::left_by_flank;
+pub use flank::{clearance_of_tool, left_by_flank, FlankShape};
 pub use flats::Need;
 pub use groups::Group;
 pub use judge::judge;

@@ -57,6 +57,9 @@ pub enum FlankError {
     /// A radius that no tool has.
     #[error("radius = {0} mm: a length above 0 is needed")]
     Radius(f64),
+    /// A half angle that no flank has.
+    #[error("half_angle = {0} deg: 0 to 80 is needed, and the wide end above")]
+    Taper(f64),
 }
 
 impl FlankError {
@@ -72,6 +75,7 @@ impl FlankError {
             Self::NoThreePoints { .. } => "no-three-points",
             Self::Count(_) => "count",
             Self::Radius(_) => "radius",
+            Self::Taper(_) => "taper",
         }
     }
 }

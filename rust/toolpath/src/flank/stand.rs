@@ -1,21 +1,25 @@
-//! The position of a cylinder that touches both rails.
+//! The position of a cylinder or a cone that touches both rails.
 //!
-//! `P_i` is the contact with rail i, `q_i` the unit vector from there to the axis, across the rail; the axis passes
-//! `M_i = P_i + r q_i`. That the cylinder touches there means `(M_2 - M_1) . q_1 = 0` and `(M_2 - M_1) . q_2 = 0`, two equations
-//! for the angles of both `q` about the rails, solved by Newton's steps with exact derivatives. The angles are counted from where
-//! `q` is, so that no frame can flip at an inflection or along a straight rail.
+//! `P_i` is the contact with rail i, `q_i` the unit vector from there to the axis, across the rail and across the flank; the axis
+//! passes `M_i = P_i + r_i q_i`, the centre of the ball of radius `r_i` that touches the flank from inside. On a cylinder all have
+//! one radius, in a cone of half angle g they grow along the axis. With `a = M_2 - M_1`, `l = |a|`:
+//! `a . q_1 = l sin g`, `a . q_2 = l sin g` and `r_2 - r_1 = l sin g`, three equations
+//! for the angles of both `q` about the rails and for `r_2`, solved by Newton's steps with exact derivatives. The angles are counted
+//! from where `q` is, so that no frame can flip at an inflection or along a straight rail.
 
-use nalgebra::{Matrix2, Vector2};
-use styluscam_geometry::Vector;
+use nalgebra::{Matrix3, Vector3};
+use styluscam_geometry::{CurvePoint, Vector};
 
+use super::cutter::Flank;
+use super::swept::Station;
 use super::{FlankError, RuledStrip};
 
 /// Steps at most; five are usual.
 const STEPS: usize = 40;
 /// Turn at most in one step, rad: the equations have solutions on the rails' other sides too.
 const FARTHEST: f64 = 0.3;
-/// A turn below this ends the search, rad.
-const SETTLED: f64 = 1e-15;
+/// A turn below this ends the search, rad: what is left after it is its square.
+const SETTLED: f64 = 1e-9;
 /// What may be left of the equations, as a share of the axis' length.
 const RESIDUAL: f64 = 1e-13;
 
@@ -47,8 +51,7 @@ struct Rail {
 }
 
 impl Rail {
-    fn of(strip: &RuledStrip, number: usize, u: f64) -> Self {
-        let at = strip.rail(number, u);
+    fn of(at: &CurvePoint) -> Self {
         let speed = at.first.norm();
         let tangent = at.first / speed;
         let turn = (at.second - tangent * tangent.dot(&at.second)) / speed;
@@ -56,56 +59,92 @@ impl Rail {
     }
 }
 
-/// The position with contacts at shares `u` of both rails, and how the two points of its axis move when the contacts move at
-/// `rates`, mm per unit.
+/// A position on its way to touching: contacts, ways from there to the axis, and the second ball's radius.
+struct Trial {
+    q: [Vector; 2],
+    radii: [f64; 2],
+}
+
+impl Trial {
+    fn axis(&self, rails: &[Rail; 2]) -> [Vector; 2] {
+        [0, 1].map(|i| rails[i].point + self.q[i] * self.radii[i])
+    }
+
+    /// Where each way turns to when its angle grows.
+    fn aside(&self, rails: &[Rail; 2]) -> [Vector; 2] {
+        [0, 1].map(|i| rails[i].tangent.cross(&self.q[i]))
+    }
+
+    fn equations(&self, rails: &[Rail; 2], growth: f64) -> Vector3<f64> {
+        let [m1, m2] = self.axis(rails);
+        let a = m2 - m1;
+        let grown = a.norm() * growth;
+        Vector3::new(a.dot(&self.q[0]) - grown, a.dot(&self.q[1]) - grown, self.radii[1] - self.radii[0] - grown)
+    }
+
+    /// Their derivatives by both angles and the second radius.
+    fn slopes(&self, rails: &[Rail; 2], growth: f64) -> Matrix3<f64> {
+        let ([m1, m2], [t1, t2], [q1, q2]) = (self.axis(rails), self.aside(rails), self.q);
+        let a = m2 - m1;
+        let along = a.normalize() * growth;
+        let [moved1, moved2] = [t1 * self.radii[0], t2 * self.radii[1]];
+        let [grown1, grown2, grown] = [-along.dot(&moved1), along.dot(&moved2), along.dot(&q2)];
+        Matrix3::new(
+            a.dot(&t1) - grown1,
+            moved2.dot(&q1) - grown2,
+            q2.dot(&q1) - grown,
+            -moved1.dot(&q2) - grown1,
+            a.dot(&t2) - grown2,
+            1.0 - grown,
+            -grown1,
+            -grown2,
+            1.0 - grown,
+        )
+    }
+}
+
+/// The position with contacts at shares `u` of both rails, and how its axis moves when the contacts move at `rates`, mm per unit.
 ///
 /// # Errors
 /// [`FlankError::NoPosition`].
-pub fn stand(
-    strip: &RuledStrip,
-    radius: f64,
-    u: [f64; 2],
-    rates: [f64; 2],
-) -> Result<(Stand, [Vector; 2]), FlankError> {
+pub fn stand(strip: &RuledStrip, flank: &Flank, u: [f64; 2], rates: [f64; 2]) -> Result<(Stand, Station), FlankError> {
+    let (radius, growth) = (flank.radius(), flank.growth());
     let none = || FlankError::NoPosition { u: 0.5 * (u[0] + u[1]), radius };
-    let rails = [0, 1].map(|i| Rail::of(strip, i, u[i]));
-    let mut q = [0, 1].map(|i| strip.normal([u[i], i as f64]));
-    let aside = |q: &[Vector; 2]| [0, 1].map(|i| rails[i].tangent.cross(&q[i]));
-    let axis = |q: &[Vector; 2]| [0, 1].map(|i| rails[i].point + q[i] * radius);
-    let slopes = |q: &[Vector; 2]| {
-        let ([m1, m2], [t1, t2]) = (axis(q), aside(q));
-        let a = m2 - m1;
-        Matrix2::new(a.dot(&t1), radius * t2.dot(&q[0]), -radius * t1.dot(&q[1]), a.dot(&t2))
-    };
-    let equations = |q: &[Vector; 2]| {
-        let [m1, m2] = axis(q);
-        Vector2::new((m2 - m1).dot(&q[0]), (m2 - m1).dot(&q[1]))
-    };
+    let ends = u.map(|u| strip.ends(u));
+    let rails = [0, 1].map(|i| Rail::of(&ends[i][i]));
+    let normals = [0, 1].map(|i| strip.normal_between(&ends[i], i as f64));
+    let ruling = (rails[1].point - rails[0].point).norm();
+    let mut trial = Trial { q: normals, radii: [radius, flank.radius_at(ruling, 1.0)] };
     for _ in 0..STEPS {
-        let step = slopes(&q).try_inverse().ok_or_else(none)? * -equations(&q);
-        let step = step.map(|angle| angle.clamp(-FARTHEST, FARTHEST));
-        let t = aside(&q);
+        let step = trial.slopes(&rails, growth).try_inverse().ok_or_else(none)? * -trial.equations(&rails, growth);
+        let aside = trial.aside(&rails);
+        let turns = [step[0], step[1]].map(|angle| angle.clamp(-FARTHEST, FARTHEST));
         for i in 0..2 {
-            let (sin, cos) = libm::sincos(step[i]);
-            q[i] = (q[i] * cos + t[i] * sin).normalize();
+            let (sin, cos) = libm::sincos(turns[i]);
+            trial.q[i] = (trial.q[i] * cos + aside[i] * sin).normalize();
         }
-        if step.amax() <= SETTLED {
+        trial.radii[1] = (trial.radii[1] + step[2]).max(0.5 * radius);
+        if step[0].abs().max(step[1].abs()).max(step[2].abs() / ruling) <= SETTLED {
             break;
         }
     }
-    let [m1, m2] = axis(&q);
-    let length = (m2 - m1).norm();
-    let is_beside = (0..2).all(|i| q[i].dot(&strip.normal([u[i], i as f64])) > 0.0);
-    if !(equations(&q).amax() <= RESIDUAL * length.max(radius) && is_beside) {
+    let [m1, m2] = trial.axis(&rails);
+    let is_beside = (0..2).all(|i| trial.q[i].dot(&normals[i]) > 0.0);
+    let left = trial.equations(&rails, growth).amax();
+    if !(left <= RESIDUAL * (m2 - m1).norm().max(radius) && is_beside) {
         return Err(none());
     }
     // both contacts move, each q is carried along across its rail, and turns as the equations ask
-    let carried = [0, 1].map(|i| -rails[i].tangent * q[i].dot(&rails[i].turn) * rates[i]);
-    let moved = [0, 1].map(|i| rails[i].rate * rates[i] + carried[i] * radius);
-    let along = moved[1] - moved[0];
-    let change = [0, 1].map(|i| along.dot(&q[i]) + (m2 - m1).dot(&carried[i]));
-    let turns = slopes(&q).try_inverse().ok_or_else(none)? * -Vector2::from(change);
-    let t = aside(&q);
-    let rates = [0, 1].map(|i| moved[i] + t[i] * (radius * turns[i]));
-    Ok((Stand { axis: [m1, m2], contacts: [rails[0].point, rails[1].point] }, rates))
+    let carried = [0, 1].map(|i| -rails[i].tangent * trial.q[i].dot(&rails[i].turn) * rates[i]);
+    let moved = [0, 1].map(|i| rails[i].rate * rates[i] + carried[i] * trial.radii[i]);
+    let apart = moved[1] - moved[0];
+    let grown = growth * apart.dot(&(m2 - m1).normalize());
+    let [change1, change2] = [0, 1].map(|i| apart.dot(&trial.q[i]) + (m2 - m1).dot(&carried[i]) - grown);
+    let change = Vector3::new(change1, change2, -grown);
+    let answer = trial.slopes(&rails, growth).try_inverse().ok_or_else(none)? * -change;
+    let aside = trial.aside(&rails);
+    let turned = [0, 1].map(|i| moved[i] + aside[i] * (trial.radii[i] * answer[i]));
+    let rates = [turned[0], turned[1] + trial.q[1] * answer[2]];
+    let stand = Stand { axis: [m1, m2], contacts: [rails[0].point, rails[1].point] };
+    Ok((stand, Station { axis: stand.axis, rates, swell: answer[2] }))
 }

@@ -2,6 +2,7 @@
 
 use styluscam_geometry::{CurvePoint, NurbsCurve, Vector};
 
+use super::cutter::Flank;
 use super::FlankError;
 
 /// Positions along the strip at which it is looked at before anything is planned.
@@ -76,10 +77,19 @@ impl RuledStrip {
         a + (b - a) * v
     }
 
+    /// Both ends of the ruling there.
+    pub(super) fn ends(&self, u: f64) -> [CurvePoint; 2] {
+        [0, 1].map(|rail| self.rail(rail, u))
+    }
+
     /// Unit normal there, towards the tool.
     #[must_use]
     pub fn normal(&self, [u, v]: [f64; 2]) -> Vector {
-        let [a, b] = [0, 1].map(|rail| self.rail(rail, u));
+        self.normal_between(&self.ends(u), v)
+    }
+
+    /// The same where the ends of the ruling are known.
+    pub(super) fn normal_between(&self, [a, b]: &[CurvePoint; 2], v: f64) -> Vector {
         let along = a.first + (b.first - a.first) * v;
         let left = (b.point - a.point).cross(&along).normalize();
         match self.side {
@@ -88,29 +98,30 @@ impl RuledStrip {
         }
     }
 
-    /// Refuses a tool's radius, mm, that does not fit where the surface is hollow: the normal curvature across the rulings.
+    /// Refuses a flank that does not fit where the surface is hollow: by the normal curvature across the rulings.
     ///
     /// # Errors
     /// [`FlankError::TooLarge`].
-    pub(super) fn takes(&self, radius: f64) -> Result<(), FlankError> {
-        if !(radius > 0.0 && radius.is_finite()) {
-            return Err(FlankError::Radius(radius));
-        }
-        let curvature = |[u, v]: [f64; 2]| {
-            let [a, b] = [0, 1].map(|rail| self.rail(rail, u));
+    pub(super) fn takes(&self, flank: &Flank) -> Result<(), FlankError> {
+        // the share of the hollow's radius that the flank fills, and both radii
+        let filled = |[u, v]: [f64; 2]| {
+            let [a, b] = self.ends(u);
             let (ruling, along) = (b.point - a.point, a.first + (b.first - a.first) * v);
             let (twist, bent) = (b.first - a.first, a.second + (b.second - a.second) * v);
             let share = along.dot(&ruling) / ruling.norm_squared();
             let across = along - ruling * share;
-            (bent - twist * (2.0 * share)).dot(&self.normal([u, v])) / across.norm_squared()
+            let curvature =
+                (bent - twist * (2.0 * share)).dot(&self.normal_between(&[a, b], v)) / across.norm_squared();
+            let radius = flank.radius() + flank.growth_along_line() * ruling.norm() * v;
+            (curvature * radius, 1.0 / curvature, radius)
         };
         let positions = (0..=LOOKED_AT).flat_map(|i| (0..ACROSS).map(move |j| [i, j]));
-        let worst = positions
+        let (u, (share, hollow, radius)) = positions
             .map(|[i, j]| [i as f64 / LOOKED_AT as f64, j as f64 / (ACROSS - 1) as f64])
-            .map(|at| (at[0], curvature(at)))
-            .fold((0.0, 0.0), |worst, other| if other.1 > worst.1 { other } else { worst });
-        if worst.1 * radius >= 1.0 {
-            return Err(FlankError::TooLarge { u: worst.0, hollow: 1.0 / worst.1, radius });
+            .map(|at| (at[0], filled(at)))
+            .fold((0.0, (0.0, 0.0, 0.0)), |worst, other| if other.1 .0 > worst.1 .0 { other } else { worst });
+        if share >= 1.0 {
+            return Err(FlankError::TooLarge { u, hollow, radius });
         }
         Ok(())
     }

@@ -1,13 +1,29 @@
-//! What a moving cylinder leaves of a strip, as far as planning needs it: the distance along the surface's normal, and how it
+//! What a moving flank leaves of a strip, as far as planning needs it: the distance along the surface's normal, and how it
 //! changes with the positions.
 
 use styluscam_geometry::Vector;
+
+use super::cutter::Flank;
 
 /// A position of the axis, two points of it, mm, and how they move with the free parameter.
 #[derive(Clone, Copy, Debug)]
 pub struct Station {
     pub axis: [Vector; 2],
     pub rates: [Vector; 2],
+    /// How the radius at the second grows with it.
+    pub swell: f64,
+}
+
+impl Station {
+    /// Part of the way to another, straight.
+    pub fn towards(&self, next: &Self, share: f64) -> Self {
+        let between = |from: Vector, to: Vector| from + (to - from) * share;
+        Self {
+            axis: [0, 1].map(|end| between(self.axis[end], next.axis[end])),
+            rates: [0, 1].map(|end| between(self.rates[end], next.rates[end])),
+            swell: self.swell + (next.swell - self.swell) * share,
+        }
+    }
 }
 
 /// A point of the strip and its unit normal towards the tool.
@@ -30,23 +46,19 @@ pub struct Left {
     pub station: f64,
 }
 
-/// How far over the strip's point the cylinder is met along the normal, mm; infinite where it is not.
-fn met(sample: &Sample, axis: &[Vector; 2], radius: f64) -> f64 {
+/// How far over the strip's point the flank is met along the normal, mm; infinite where it is not.
+fn met(sample: &Sample, axis: &[Vector; 2], flank: &Flank) -> f64 {
     let direction = (axis[1] - axis[0]).normalize();
-    let across = |v: Vector| v - direction * v.dot(&direction);
-    let (from, normal) = (across(sample.point - axis[0]), across(sample.normal));
-    let (a, b, c) = (normal.norm_squared(), from.dot(&normal), from.norm_squared() - radius * radius);
-    let root = b * b - a * c;
-    if root > 0.0 {
-        (-b - root.sqrt()) / a
-    } else {
-        f64::INFINITY
-    }
+    let from = sample.point - axis[0];
+    let along = [from.dot(&direction), sample.normal.dot(&direction)];
+    let (beside, normal) = (from - direction * along[0], sample.normal - direction * along[1]);
+    flank.met(along, [beside.norm_squared(), beside.dot(&normal), normal.norm_squared()])
 }
 
 /// What stands over a sample; none where the nearest station is the first or the last, for what lies beyond is not known.
-pub fn left(sample: &Sample, stations: &[Station], radius: f64) -> Option<Left> {
-    let height = |i: usize| met(sample, &stations[i].axis, radius);
+/// Straight moves of `parts` stations each leave a ripple, in which the lowest lies within one of them.
+pub fn left(sample: &Sample, stations: &[Station], flank: &Flank, parts: usize) -> Option<Left> {
+    let height = |i: usize| met(sample, &stations[i].axis, flank);
     let (mut at, mut least) = (sample.near, height(sample.near));
     // downhill from station to station
     loop {
@@ -54,6 +66,11 @@ pub fn left(sample: &Sample, stations: &[Station], radius: f64) -> Option<Left> 
         let lower = beside.into_iter().flatten().map(|i| (i, height(i))).find(|(_, height)| *height < least);
         let Some((next, lower)) = lower else { break };
         (at, least) = (next, lower);
+    }
+    if parts > 1 {
+        let about = at.saturating_sub(parts)..=(at + parts).min(stations.len() - 1);
+        (at, least) =
+            about.map(|i| (i, height(i))).fold((at, least), |best, next| if next.1 < best.1 { next } else { best });
     }
     if at == 0 || at + 1 >= stations.len() || !least.is_finite() {
         return None;
@@ -67,12 +84,16 @@ pub fn left(sample: &Sample, stations: &[Station], radius: f64) -> Option<Left> 
     } else {
         (0.0, least)
     };
-    let Station { axis: [first, second], rates } = stations[at];
+    let Station { axis: [first, second], rates, swell } = stations[at];
     let met = sample.point + sample.normal * least;
-    let along = second - first;
-    let share = (met - first).dot(&along) / along.norm_squared();
+    let (along, growth) = (second - first, flank.growth());
+    let length = along.norm();
+    // the ball that touches there: its centre lies higher up the axis, for a cone's surface looks down
+    let height = ((met - first).dot(&along) / length + flank.radius() * growth) / (1.0 - growth * growth);
+    let share = height / length;
     let outwards = met - first - along * share;
     let moved = rates[0] + (rates[1] - rates[0]) * share;
-    let rate = outwards.dot(&moved) / outwards.dot(&sample.normal);
+    let swollen = swell * share * flank.radius_at(length, share);
+    let rate = (outwards.dot(&moved) + swollen) / outwards.dot(&sample.normal);
     Some(Left { height: lowest, rate, station: at as f64 + offset })
 }
