@@ -1,7 +1,6 @@
 //! Ways to place the tool along a strip.
 
 use rayon::prelude::*;
-use styluscam_geometry::Vector;
 
 use super::course::{Course, STRAIGHT_MOVES};
 use super::cutter::Flank;
