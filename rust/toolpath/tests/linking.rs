@@ -120,8 +120,7 @@ fn arcs(z: f64) -> Vec<Run<Vector>> {
 #[test]
 fn a_link_at_depth_goes_straight_over_cleared_ground_of_one_height() {
     let rules = |longest, cleared| AtDepth { longest, same_height: 1e-9, is_cleared: move |_, _| cleared, feed: 900.0 };
-    let count =
-        |z, longest, cleared| join(arcs(z), &rules(longest, cleared), &LINKS, &Watch::default()).unwrap().len();
+    let count = |z, longest, cleared| join(arcs(z), &rules(longest, cleared), &LINKS, &Watch::default()).unwrap().len();
     let joined = join(arcs(-1.0), &rules(5.5, true), &LINKS, &Watch::default()).unwrap();
     assert_eq!(joined[4], Segment::line(Vector::new(7.0, 0.0, -1.0), 900.0));
     // down in three, two arcs, up; a link of one, or up and down again
