@@ -50,38 +50,40 @@ def flank_program(
     events: list[dict[str, object]] = [{"before": 0, "kind": "tool-change", "tool": 0}]
     if rpm is not None:
         events.append({"before": 0, "kind": "spindle-on", "rpm": float(rpm), "direction": "clockwise"})
+    document = {
+        "schema": 1,
+        "setup": _setup(positions, clearance),
+        "tools": [_tool(positions, tool_number)],
+        "operations": [{"id": "flank", "kind": "flank", "tool": 0}],
+        "moves": moves,
+        "events": events,
+    }
+    return Program.from_json(json.dumps(document))
+
+
+def _setup(positions: FlankPositions, clearance: float) -> dict[str, object]:
     contacts = positions.contacts.reshape(-1, 3)
-    description = positions.tool.description
-    return Program.from_json(
-        json.dumps(
-            {
-                "schema": 1,
-                "setup": {
-                    "title": "flank",
-                    "wcs": "G54",
-                    "zero": "as the rails",
-                    "part_min": contacts.min(axis=0).tolist(),
-                    "part_max": contacts.max(axis=0).tolist(),
-                    "clearance": clearance,
-                    "notes": [],
-                },
-                "tools": [
-                    {
-                        "name": positions.tool.name or "tool",
-                        "number": tool_number,
-                        "length_offset": tool_number,
-                        "description": description,
-                        "reference": "tip",
-                        "reference_height": 0.0,
-                        "diameter": positions.tool.diameter,
-                    }
-                ],
-                "operations": [{"id": "flank", "kind": "flank", "tool": 0}],
-                "moves": moves,
-                "events": events,
-            }
-        )
-    )
+    return {
+        "title": "flank",
+        "wcs": "G54",
+        "zero": "as the rails",
+        "part_min": contacts.min(axis=0).tolist(),
+        "part_max": contacts.max(axis=0).tolist(),
+        "clearance": clearance,
+        "notes": [],
+    }
+
+
+def _tool(positions: FlankPositions, number: int) -> dict[str, object]:
+    return {
+        "name": positions.tool.name or "tool",
+        "number": number,
+        "length_offset": number,
+        "description": positions.tool.description,
+        "reference": "tip",
+        "reference_height": 0.0,
+        "diameter": positions.tool.diameter,
+    }
 
 
 def _end(positions: FlankPositions, number: int, extension: float, lead: float) -> list[FloatArray]:
