@@ -1988,6 +1988,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>clearing the pocket</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>climb</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2061,6 +2065,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>linking</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>linking the pieces</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
