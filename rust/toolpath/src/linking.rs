@@ -319,9 +319,10 @@ pub fn link_with_arcs(
         Ok((run, (!ramp.is_empty()).then_some(down), of_pass.and(of_ramp)))
     };
     let fitted: Result<Vec<_>, Cancelled> = passes.into_par_iter().enumerate().map(fitted).collect();
-    watch.begin("linking", 0);
+    let fitted = fitted?;
+    watch.begin("linking", fitted.len());
     let (mut runs, mut ramps, mut figures) = (Vec::new(), Vec::new(), Fitted::default());
-    for (run, ramp, of_run) in fitted? {
+    for (run, ramp, of_run) in fitted {
         runs.push(run);
         ramps.push(ramp);
         figures = figures.and(of_run);

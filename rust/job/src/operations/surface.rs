@@ -250,14 +250,10 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
     let surface = fit::witnessed(surface, context);
     let path = || {
         let traced = kind.trace(&task, &surface).map_err(|error| context.error(error))?;
-        let facts = kind.facts(count_groups(&traced.passes), &traced);
+        let groups = count_groups(&traced.passes);
+        let facts = kind.facts(groups, &traced);
         let lowest = traced.passes.iter().flat_map(|pass| &pass.points).map(|point| point.tip.z);
-        let found = Found {
-            groups: count_groups(&traced.passes),
-            passes: traced.passes.len(),
-            lowest: lowest.fold(f64::INFINITY, f64::min),
-            facts,
-        };
+        let found = Found { groups, passes: traced.passes.len(), lowest: lowest.fold(f64::INFINITY, f64::min), facts };
         let (moves, fitted) = linked(kind, &task, &surface, traced)?;
         Ok::<_, JobError>((found, moves, fitted))
     };

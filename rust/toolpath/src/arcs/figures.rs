@@ -33,7 +33,7 @@ impl Fitted {
             let is_arc = segment.curve != Curve::Line;
             let [start, end] = of_segment(segment, at);
             if let Some((last, _)) = before.filter(|(_, was_arc)| *was_arc || is_arc) {
-                found.corner = found.corner.max(libm::atan2(last.cross(&start).norm(), last.dot(&start)));
+                found.corner = found.corner.max(fitting::angle(&last, &start));
             }
             (before, at) = (Some((end, is_arc)), segment.end);
         }

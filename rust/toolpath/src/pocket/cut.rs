@@ -3,7 +3,7 @@
 use super::growth::WALL;
 use super::material::Material;
 use super::pieces::SHALLOWEST;
-use super::polygons::{sides, Kernel, Point, Polygons};
+use super::polygons::{sides, signed_area, Kernel, Point, Polygons};
 
 /// A piece of the path.
 #[derive(Clone, Debug)]
@@ -39,12 +39,8 @@ pub fn left_of(kernel: &Kernel, material: &Material, cuts: &[Cut]) -> Material {
 /// The areas that are thicker than chips that do not count.
 fn without_slivers(area: Polygons) -> Polygons {
     let is_thick = |contour: &Vec<Point>| {
-        let (mut twice, mut round) = (0.0, 0.0);
-        for (a, b) in sides(contour) {
-            twice += a[0] * b[1] - a[1] * b[0];
-            round += libm::hypot(b[0] - a[0], b[1] - a[1]);
-        }
-        twice.abs() > SHALLOWEST * round
+        let round: f64 = sides(contour).map(|(a, b)| libm::hypot(b[0] - a[0], b[1] - a[1])).sum();
+        2.0 * signed_area(contour).abs() > SHALLOWEST * round
     };
     Polygons { contours: area.contours.into_iter().filter(is_thick).collect() }
 }

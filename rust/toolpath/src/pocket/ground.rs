@@ -4,7 +4,7 @@ use styluscam_geometry::PlanePiece;
 
 use super::error::PocketError;
 use super::growth::WALL;
-use super::polygons::{Kernel, Point, Polygons};
+use super::polygons::{signed_area, Kernel, Point, Polygons};
 use super::request::Pocket;
 
 /// Coordinates lie within this, mm: on the grid of the booleans that leaves 4 nm.
@@ -71,7 +71,7 @@ fn area(kernel: &Kernel, pocket: &Pocket<'_>) -> Result<Polygons, PocketError> {
 fn beyond(kernel: &Kernel, pocket: &Pocket<'_>) -> Polygons {
     let pieces = PlanePiece::outline(pocket.boundary);
     let far = BEYOND * pocket.radius;
-    let turns_left = signed_area(&pieces) > 0.0;
+    let turns_left = signed_area(&chords(pocket.boundary)) > 0.0;
     let mut air = Polygons::default();
     for piece in pocket.open_edges.iter().filter_map(|edge| pieces.get(*edge)) {
         let edge = flat(piece);
@@ -90,17 +90,6 @@ fn beyond(kernel: &Kernel, pocket: &Pocket<'_>) -> Polygons {
         }
     }
     air
-}
-
-fn signed_area(pieces: &[PlanePiece]) -> f64 {
-    pieces
-        .iter()
-        .flat_map(|piece| flat(piece).windows(2).map(|pair| pair.to_vec()).collect::<Vec<_>>())
-        .map(|pair| match pair.as_slice() {
-            [a, b] => a[0] * b[1] - a[1] * b[0],
-            _ => 0.0,
-        })
-        .sum()
 }
 
 /// A closed outline as chords.

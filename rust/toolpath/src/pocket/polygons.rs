@@ -207,7 +207,8 @@ fn is_straight(contour: &[Point], from: usize, to: usize, tolerance: f64) -> boo
     length > 0.0 && contour.get(from + 1..to).is_some_and(|between| between.iter().all(off))
 }
 
-fn signed_area(contour: &[Point]) -> f64 {
+/// mm^2, below 0 clockwise.
+pub fn signed_area(contour: &[Point]) -> f64 {
     0.5 * sides(contour).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>()
 }
 
