@@ -10,7 +10,7 @@ use super::request::Pocket;
 /// Coordinates lie within this, mm: on the grid of the booleans that leaves 4 nm.
 const FARTHEST: f64 = 2000.0;
 /// What is left on walls for the chords of their arcs and for the arcs that are put back, mm.
-const GAP: f64 = 2e-3;
+const GAP: f64 = 3e-3;
 /// What of the goal's rim is not looked for, mm: no more than chords are off. A rim that comes to a wall is nearly along it, and of a strip of
 /// 1 um there would meet a degree and a half that nobody had counted.
 const RIM: f64 = 2e-4;

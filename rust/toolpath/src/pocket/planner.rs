@@ -27,8 +27,8 @@ const ENTRIES: usize = 200;
 
 /// What a piece may exceed the bound by, rad (0.3 deg): half a degree is allowed, and the account here is good to a twentieth.
 const ALLOWED: f64 = 0.3 * std::f64::consts::PI / 180.0;
-/// How much lower the bound is taken where nothing within it was found, rad (2 deg).
-const LOWER: f64 = 2.0 * std::f64::consts::PI / 180.0;
+/// How much lower the bound is taken, one after the other, where nothing within it was found, deg.
+const LOWER: [f64; 4] = [0.0, 2.0, 5.0, 9.0];
 
 /// Plans the path of a pocket by climb milling.
 pub fn plan(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketError> {
@@ -36,15 +36,15 @@ pub fn plan(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketErro
     let bound = Bound::new(pocket.radius, pocket.angle);
     let widest = largest_disc(&ground.kernel, &ground.free, pocket.radius).map_or(0.0, |(_, radius)| radius);
     let largest = widest.min(LARGEST * pocket.radius).max(pocket.smoothing);
-    let growth = Growth::new(&ground.kernel, &ground.free, &bound, [largest, pocket.smoothing]);
-    let lower = Bound::new(pocket.radius, pocket.angle - LOWER);
-    let cautious = Growth::new(&ground.kernel, &ground.free, &lower, [largest, pocket.smoothing]);
+    let growths = LOWER.map(|lower| {
+        let bound = Bound::new(pocket.radius, pocket.angle - lower.to_radians());
+        Growth::new(&ground.kernel, &ground.free, &bound, [largest, pocket.smoothing])
+    });
     let most = pocket.angle + ALLOWED;
     let material = Material::new(ground.goal.clone());
     let free = Material::new(ground.free.clone());
     let whole = material.area.area();
     let steering = Bound::steering(pocket.radius, pocket.angle);
-    let growths = [growth, cautious];
     let mut planner = Planner {
         ground,
         bound,
@@ -83,8 +83,8 @@ struct Planner {
     ground: Ground,
     bound: Bound,
     steering: Bound,
-    /// At the bound, and somewhat below: for where a joint of the first goes beyond.
-    growths: [Growth; 2],
+    /// At the bound, and by [`LOWER`] below: for where a joint of those before goes beyond.
+    growths: [Growth; LOWER.len()],
     /// The largest angle of a piece that is cut, rad.
     most: f64,
     /// Whether pieces may be cut from either end.
