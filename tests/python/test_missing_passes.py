@@ -47,10 +47,10 @@ OPERATIONS = {
 }
 
 
-def job_of(part: str, kind: str, smallest_feature: float) -> sc.Job:
+def job_of(part: str, kind: str, smallest_feature: float, keys: dict[str, Any] | None = None) -> sc.Job:
     """A part milled with a ball that is as wide as the rows are apart."""
     vertices, triangles = PARTS[part]
-    operation: dict[str, Any] = {"tool": "ball", "smallest_feature": smallest_feature, **OPERATIONS[kind]}
+    operation = {"tool": "ball", "smallest_feature": smallest_feature, **(keys or OPERATIONS[kind])}
     document = {
         "schema": 1,
         "part": {"file": f"{part}.stl", "units": "mm"},
@@ -95,6 +95,38 @@ def test_passes_that_were_taken_out_are_found(
     found = {finding["kind"]: finding for finding in sc.verify(text, job).findings}
     assert found[kind]["severity"] == severity
     assert found[kind]["value_mm"] > found[kind]["limit"]
+
+
+ENDING = {
+    "spiral": {"kind": "spiral", "step": {"height": 1.0}},
+    "levels": {"kind": "z-level", "step": {"height": 1.0}},
+    "scallop": {"kind": "z-level", "step": {"scallop": 0.06}, "step_min": 0.2},
+}
+
+
+def ended_early(text: str, share: float) -> str:
+    """A text without the last moves on its last level, this share of them by their number, or without all of it."""
+    lines = text.splitlines()
+    feeds = [number for number, line in enumerate(lines) if line[:1] in "XYG" and ("X" in line or "Y" in line)]
+    level = []
+    for number in reversed(feeds):
+        level.append(number)
+        if "Z" in lines[number]:
+            break
+    left_off = set(level[: max(1, round(share * len(level)))])
+    return "\n".join(line for number, line in enumerate(lines) if number not in left_off) + "\n"
+
+
+@pytest.mark.parametrize("operation", ENDING)
+@pytest.mark.parametrize("part", ["pyramid", "funnel"])
+def test_a_program_that_ends_too_soon_is_found(part: str, operation: str) -> None:
+    """In the midst of its last level, or a level before it: nothing lies below that shows it."""
+    job = job_of(part, "missing-level", 1.0, ENDING[operation])
+    whole = sc.post(sc.plan(job)).text
+    assert not sc.verify(whole, job).findings
+    for share in (0.65, 1.0):  # of 0.4 the turn above leaves less than the tolerance
+        found = {finding["kind"] for finding in sc.verify(ended_early(whole, share), job).findings}
+        assert found & {"missing-pass", "missing-level"}, share
 
 
 def rib(height: float, wall_deg: float) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64], npt.NDArray[np.int64]]:

@@ -1,6 +1,8 @@
 //! Where the passes that a text has should touch: lines on the triangles, because along a facet the tool's height and its
 //! position change as evenly as the point that it touches.
 
+use std::ops::Range;
+
 use styluscam_geometry::{Mesh, Vector};
 
 use crate::body::Body;
@@ -11,27 +13,24 @@ use crate::segments::Segment;
 
 /// Moves at one height are a pass when they are as long as so many steps: links along the part are shorter.
 const LONG: f64 = 6.0;
-/// Points spread evenly over the lines at which the passes of `segments` should touch the triangles `selected`, about `count`
-/// of them.
-///
-/// `segments` are those of one operation that should touch.
+
+/// Points spread evenly over the lines at which passes of these values, ascending, should touch the triangles `selected`,
+/// about `count` of them.
 pub(crate) fn spread(
     mesh: &Mesh,
     selected: &[usize],
     body: &Body,
-    passes: &OrderedPasses,
-    segments: &[&Segment],
+    scalar: &dyn Scalar,
+    values: &[f64],
     count: usize,
 ) -> Vec<Probe> {
-    let values = values(passes, segments);
-    let scalar = &*passes.scalar;
     let facets: Vec<Facet> = selected.iter().filter_map(|triangle| Facet::new(mesh, *triangle, body, scalar)).collect();
-    let length: f64 = facets.iter().map(|facet| facet.lines(&values).map(|[a, b]| (b - a).norm()).sum::<f64>()).sum();
+    let length: f64 = facets.iter().map(|facet| facet.lines(values).map(|[a, b]| (b - a).norm()).sum::<f64>()).sum();
     let each = length / count as f64;
     let mut probes = Vec::with_capacity(count);
     let mut passed = 0.0;
     for facet in &facets {
-        for [a, b] in facet.lines(&values) {
+        for [a, b] in facet.lines(values) {
             let line = (b - a).norm();
             while (probes.len() as f64 + 0.5) * each < passed + line {
                 let share = ((probes.len() as f64 + 0.5) * each - passed) / line;
@@ -44,7 +43,9 @@ pub(crate) fn spread(
 }
 
 /// Values of the passes that are long enough and go on over the whole part: ascending. A pass that moves on has none.
-fn values(passes: &OrderedPasses, segments: &[&Segment]) -> Vec<f64> {
+///
+/// `segments` are those of one operation that should touch.
+pub(crate) fn values(passes: &OrderedPasses, segments: &[&Segment]) -> Vec<f64> {
     let scalar = &*passes.scalar;
     let value = |tip: [f64; 3]| scalar.value(tip.into());
     let mut begun = None;
@@ -65,6 +66,40 @@ fn values(passes: &OrderedPasses, segments: &[&Segment]) -> Vec<f64> {
     values.sort_by(f64::total_cmp);
     values.dedup_by(|b, a| *b - *a <= scalar.same());
     values
+}
+
+/// Where passes end that are to end all around: with a level at the foot of what they are for.
+pub(crate) struct End {
+    /// The value of the last one.
+    pub value: f64,
+    /// The moves that go down to it, by their numbers; none where all of the operation do.
+    pub moves: Option<Range<usize>>,
+}
+
+/// The ends of one operation's passes: where they move on, the lowest value of each chain of moves that goes down; else the
+/// lowest of all, and the one at which the program ends.
+pub(crate) fn ends(passes: &OrderedPasses, segments: &[&Segment]) -> Vec<End> {
+    let scalar = &*passes.scalar;
+    if !scalar.ends_all_around() {
+        return Vec::new();
+    }
+    let value = |segment: &&Segment| scalar.value(segment.end.into());
+    if !passes.continuous {
+        let levels = || segments.iter().filter(|segment| holds(scalar, segment)).map(value);
+        let mut ends: Vec<f64> = levels().min_by(f64::total_cmp).into_iter().chain(levels().last()).collect();
+        ends.dedup_by(|last, lowest| (*last - *lowest).abs() <= scalar.same());
+        return ends.into_iter().map(|value| End { value, moves: None }).collect();
+    }
+    let mut first = 0;
+    let mut ends = Vec::new();
+    for chain in segments.chunk_by(|a, b| b.start == Some(a.end)) {
+        let moves = first..first + chain.len();
+        first = moves.end;
+        let lowest = chain.iter().map(value).fold(f64::INFINITY, f64::min);
+        let goes_down = chain.iter().any(|segment| value(segment) > lowest + passes.pitch.smallest());
+        ends.extend(goes_down.then_some(End { value: lowest, moves: Some(moves) }));
+    }
+    ends
 }
 
 /// A value of the scalar at which moves lie.

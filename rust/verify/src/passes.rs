@@ -10,12 +10,13 @@ use styluscam_motion::{Cancelled, Watch};
 use crate::assignment::Assignment;
 use crate::body::Body;
 use crate::clearance::{Prober, Touch};
-use crate::contact_lines;
+use crate::contact_lines::{self, End, Pass};
 use crate::coverage::{Sweep, Sweeps};
 use crate::expectation::{Expectation, OrderedPasses};
 use crate::faults::{self, Fault, FaultKind};
 use crate::findings::FindingKind;
 use crate::in_layers;
+use crate::pitch::Pitch;
 use crate::probes::{self, Probe};
 use crate::scalar::{PassKind, Scalar};
 use crate::scallop::Ridges;
@@ -29,6 +30,8 @@ use crate::tolerances::{ROOM, ROUGH, WIDE};
 
 /// Points that are looked at for an operation. Empirical: one for each 0.7 mm on a face of 100 x 100 mm.
 const POINTS: usize = 20_000;
+/// Points that are looked at where passes end. Empirical: one for each 0.2 mm round 100 x 100 mm.
+const POINTS_AT_END: usize = 2000;
 /// Points in a piece of work. Fixed, so that the result does not depend on the number of threads.
 const CHUNK: usize = 256;
 /// What may be left where passes lie a whole step away, as a share of what such a pass leaves on a plane: the part is curved.
@@ -75,6 +78,8 @@ const TOUCH: f64 = 0.03;
 /// Planes that slope by less, a sine, are level: a tenth of a millimetre over a metre.
 const LEVEL: f64 = 1e-4;
 
+/// So many steps by scallop above the lowest level tell how large the next would be: the last one may be short.
+const ALIKE_STEPS: usize = 3;
 /// Points at which it is looked at whether the tool can touch beside passes. Empirical.
 const TOUCHING: usize = 2000;
 /// Passes that are more steps apart are no oversight in a few positions: the program is not the job's. Empirical.
@@ -118,9 +123,10 @@ pub(crate) fn faults(
             Look { subject, limits, expectation, passes, selected: &selected, body, rows: &rows, contacts: &contacts };
         let left = look.left(&sweeps, watch)?;
         let on_passes = look.left_on_passes(&sweeps, watch)?;
+        let at_ends = look.left_at_ends(&sweeps, watch)?;
         let ridges = Ridges { subject, operation, passes, body, sweeps: &sweeps, contacts: &contacts };
         let scallops = ridges.faults(watch)?;
-        for fault in left.into_iter().chain(on_passes).chain(look.gaps()).chain(scallops) {
+        for fault in left.into_iter().chain(on_passes).chain(at_ends).chain(look.gaps()).chain(scallops) {
             let known = worst.entry((fault.index, fault.kind.finding)).or_insert(fault);
             if fault.weight > known.weight {
                 *known = fault;
@@ -194,7 +200,7 @@ impl Look<'_> {
             let wide = ends.filter(|(gap, spot)| wide(*gap, steps, step) && self.holds_feature(spot));
             wide.map(|(gap, _)| gap).max_by(f64::total_cmp)
         };
-        let [step_below, step_above] = [lowest, highest].map(|pass| pitch.at(pass.value));
+        let [step_below, step_above] = [self.last_step(&passes), pitch.at(highest.value)];
         let below = farthest(&|value| lowest.value - value, rest_low, step_below);
         let below = below.map(|gap| (lowest.last, gap, step_below, kind(false)));
         let above = farthest(&|value| value - highest.value, rest_high, step_above);
@@ -209,6 +215,16 @@ impl Look<'_> {
             }
         };
         gaps.map(fault).collect()
+    }
+
+    /// The step below the lowest pass, mm: where steps follow from the scallop, as large as the last ones above it.
+    fn last_step(&self, passes: &[Pass]) -> f64 {
+        let step = passes.first().map_or(0.0, |lowest| self.passes.pitch.at(lowest.value));
+        let above = passes.windows(2).take(ALIKE_STEPS).map(|pair| pair[1].value - pair[0].value);
+        match self.passes.pitch {
+            Pitch::Scallop { .. } if !self.passes.continuous => above.reduce(f64::max).unwrap_or(step).min(step),
+            Pitch::Scallop { .. } | Pitch::Even(_) | Pitch::Listed { .. } => step,
+        }
     }
 
     /// Heights, or positions across the rows, at which the tool can touch, with where.
@@ -234,7 +250,8 @@ impl Look<'_> {
     /// Positions that the passes should touch, and do not.
     fn left_on_passes(&self, sweeps: &Sweeps, watch: &Watch) -> Result<Vec<Fault>, Cancelled> {
         let mesh = self.subject.mesh;
-        let probes = contact_lines::spread(mesh, self.selected, self.body, self.passes, self.rows, POINTS);
+        let values = contact_lines::values(self.passes, self.rows);
+        let probes = contact_lines::spread(mesh, self.selected, self.body, self.scalar(), &values, POINTS);
         let faults = of_all(&probes, watch, |probe, last| {
             let spot = self.spot(probe)?;
             let allowed = ON_PASS + self.tolerated();
@@ -243,6 +260,37 @@ impl Look<'_> {
             missing.then(|| self.missing_pass(&spot, last.as_ref(), left, allowed)).flatten()
         })?;
         Ok(self.of_long_gaps(faults))
+    }
+
+    /// Positions all around at the end of the passes that the last one should touch, and does not.
+    fn left_at_ends(&self, sweeps: &Sweeps, watch: &Watch) -> Result<Vec<Fault>, Cancelled> {
+        let (mesh, allowed) = (self.subject.mesh, ON_PASS + self.tolerated());
+        let mut found = Vec::new();
+        for end in contact_lines::ends(self.passes, self.contacts) {
+            // as far up as the tool can go down: on the floor itself none is expected
+            let over = [end.value + self.strip()];
+            let probes = contact_lines::spread(mesh, self.selected, self.body, self.scalar(), &over, POINTS_AT_END);
+            let faults = of_all(&probes, watch, |probe, last| {
+                let spot = self.spot(probe)?;
+                let left = sweeps.left_beyond(spot.point, allowed, spot.position, last)?;
+                let missing = self.can_touch(&spot) && self.is_of(&end, &spot, sweeps);
+                missing.then(|| self.missing_pass(&spot, last.as_ref(), left, allowed)).flatten()
+            })?;
+            found.extend(self.of_long_gaps(faults));
+        }
+        Ok(found)
+    }
+
+    /// Whether the moves of an end run by above a spot, no farther than a step, and none of the end itself does.
+    fn is_of(&self, end: &End, spot: &Spot, sweeps: &Sweeps) -> bool {
+        let step = self.next(spot).map_or(self.body.radius(), |step| step.norm());
+        let runs_by = |sweep: &Sweep| end.moves.as_ref().is_none_or(|moves| moves.contains(&sweep.segment));
+        let ends = |sweep: &Sweep| {
+            let value = self.scalar().value(self.contacts[sweep.segment].end.into());
+            (value - end.value).abs() <= ROUGH
+        };
+        sweeps.near(spot.position, APART * step + ROUGH).any(runs_by)
+            && !sweeps.near(spot.position, BESIDE * self.body.radius()).any(ends)
     }
 
     /// Those that have company on their pass: what is shorter than the smallest feature may be missing.
@@ -430,10 +478,14 @@ impl Look<'_> {
     /// not for keeps it off.
     fn can_touch(&self, spot: &Spot) -> bool {
         let down = (spot.up * spot.up.z - Vector::z()).try_normalize(LEVEL);
-        let strip = 2.0 * ROOM.max(self.tolerated());
-        let lower = spot.position + down.map_or(Vector::zeros(), |down| strip * down);
+        let lower = spot.position + down.map_or(Vector::zeros(), |down| self.strip() * down);
         [spot.position, lower].into_iter().all(|position| self.clearance(position) >= -ROOM)
             && self.rests_on_selected(spot)
+    }
+
+    /// How far below a spot the tool is to have room, mm.
+    fn strip(&self) -> f64 {
+        2.0 * ROOM.max(self.tolerated())
     }
 
     /// Whether the tool, let down beside a spot, comes to rest on what the passes are for: as far off the part as a move may

@@ -100,6 +100,11 @@ pub trait Scalar: Debug + Send + Sync {
         false
     }
 
+    /// Whether the last pass is to be followed all around at the lowest value that it comes to.
+    fn ends_all_around(&self) -> bool {
+        false
+    }
+
     /// The gradient's part in a plane of normal `up`.
     fn on_plane(&self, tip: Vector, up: Vector) -> Vector {
         let gradient = self.gradient(tip);
@@ -168,6 +173,10 @@ impl Scalar for Height {
     }
 
     fn descends(&self) -> bool {
+        true
+    }
+
+    fn ends_all_around(&self) -> bool {
         true
     }
 }
