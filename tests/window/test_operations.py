@@ -42,6 +42,7 @@ def test_every_kind_of_the_engine_works_on_the_first_click(session: Any) -> None
 def test_cancel_leaves_nothing_of_a_new_operation(session: Any) -> None:
     seen = session["cancelled new"]
     assert seen["after"] == seen["before"]
+    assert "Traceback" not in seen["report"] and "deleted object" not in seen["report"]
 
 
 def test_cancel_restores_every_value(session: Any) -> None:

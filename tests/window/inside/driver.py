@@ -81,16 +81,24 @@ def windows() -> list[Any]:
 def visible(kind: Any, *, name: str = "", text: str = "", inside: Any = None) -> list[Any]:
     """Visible widgets of a class, by object name or text, in the windows in front or inside one widget.
 
-    Asked for as narrowly as possible: a Python object for a widget that Qt deletes on its own is a crash to come.
+    Asked for as narrowly as possible: a Python object for a widget that Qt deletes on its own is a crash to come, or is taken for
+    the next widget at its address. Such widgets are left out.
     """
     found = []
     for root in [inside] if inside is not None else windows():
         children = root.findChildren(kind, name) if name else root.findChildren(kind)
         itself = [root] if isinstance(root, kind) and name in ("", root.objectName()) else []
         for widget in [*itself, *children]:
-            if widget.isVisible() and widget not in found and (not text or _text(widget) == text):
+            if _is_visible(widget) and widget not in found and (not text or _text(widget) == text):
                 found.append(widget)
     return found
+
+
+def _is_visible(widget: Any) -> bool:
+    try:
+        return bool(widget.isVisible())
+    except RuntimeError:
+        return False
 
 
 def one(kind: Any, **criteria: Any) -> Any:
@@ -114,6 +122,9 @@ def panel_button(which: Any) -> Any:
         button = box.button(which)
         if button is not None and button.isVisible():
             return button
+    box = QtWidgets.QDialogButtonBox(which)  # where FreeCAD's own cannot be asked: a button with the same words
+    for button in visible(QtWidgets.QPushButton, text=_text(box.button(which))):
+        return button
     raise LookupError(f"no task panel with a button {which}")
 
 

@@ -78,10 +78,13 @@ def cancelled_new() -> Any:
     yield from stage.workbench("StylusCamWorkbench")
     before = sorted(obj.Name for obj in FreeCAD.ActiveDocument.Objects)
     yield from stage.press("StylusCAM_Operation_ZigZag")
+    # the keys leave the field when its operation is gone
+    yield driver.focused(driver.one(QtWidgets.QWidget, name="Stepover"))
     driver.click(driver.panel_button(QtWidgets.QDialogButtonBox.Cancel))
     yield until(stage.panel_is_closed, "a closed panel")
     yield driver.settled()
-    return {"before": before, "after": sorted(obj.Name for obj in FreeCAD.ActiveDocument.Objects)}
+    after = sorted(obj.Name for obj in FreeCAD.ActiveDocument.Objects)
+    return {"before": before, "after": after, "report": driver.report_view()}
 
 
 def values_of(operation: Any) -> dict[str, str]:

@@ -26,6 +26,15 @@ NARROWEST = 90
 """Width (pixels) below which no editor is squeezed."""
 
 
+def connected(widget: Any, signal: str, called: Any) -> None:
+    """Has a widget of FreeCAD's call something.
+
+    By the signal's text: PySide never frees a widget of FreeCAD's once an attribute of it was taken as a signal, and what is
+    left of it is then taken for the next widget at the same address, which is said to be deleted.
+    """
+    QtCore.QObject.connect(widget, QtCore.SIGNAL(signal), called)
+
+
 class Editor(QtCore.QObject):
     """A widget bound to a property."""
 
@@ -82,7 +91,10 @@ class Quantity(Editor):
         widget.setProperty("unit", getattr(obj, field.name).getUserPreferred()[2])
         widget.setProperty("binding", f"{obj.Name}.{field.name}")
         self._shown, self._exact = "", 0.0
-        widget.editingFinished.connect(self.changed)
+        connected(widget, "editingFinished()", self._edited)
+
+    def _edited(self) -> None:
+        self.changed.emit()
 
     def _show(self) -> None:
         expression = self._expression()

@@ -47,6 +47,11 @@ class Form:
         """Emitted when a value was changed by hand."""
         return [editor.changed for _, editor, _ in self._rows]
 
+    def release(self) -> None:
+        """Stores nothing any more, whatever the keys leave."""
+        for _, editor, _ in self._rows:
+            editor.blockSignals(True)
+
     def read(self, names: Iterable[str] | None = None) -> None:
         """Shows the properties' values; those of `names` only, where they are given."""
         wanted = None if names is None else set(names)

@@ -75,6 +75,15 @@ class OperationPage(PathOpGui.TaskPanelPage):
             defaults.follow_tool(obj, before)
             self._fields.read()
 
+    def onDirtyChanged(self, callback: Any) -> None:
+        """CAM sets its callback, and takes it away before it closes the panel.
+
+        A field that the keys leave later than that belongs to an operation that may have been taken back: it is not stored.
+        """
+        super().onDirtyChanged(callback)
+        if callback is None:
+            self._fields.release()
+
     def getSignalsForUpdate(self, obj: Any) -> list[Any]:
         """What is stored as soon as it is changed."""
         tool, coolant = (box.currentIndexChanged for box in (self.form.toolController, self.form.coolantController))

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import gc
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -63,6 +64,9 @@ class ViewProviderStylus(PathOpGui.ViewProvider):
         """Opens the panel; what is wrong with it is shown, and the panel stays closed."""
         from . import messages
 
+        # panels that were closed are cycles of objects: what is left of their widgets in Python would be taken for new widgets
+        # at the same addresses, and these be said to be deleted
+        gc.collect()
         with messages.shown("StylusCAM"):
             self.OpIcon = icon_of((vobj or self.vobj).Object)
             return bool(super().setEdit(vobj, mode))

@@ -10,6 +10,7 @@ import FreeCADGui
 from PySide import QtCore, QtWidgets
 
 from ..tool_keys import NUMBER, POINTS, ToolKey, text_of, value_of
+from .editors import connected
 from .messages import ERROR, translated
 
 DIGITS = 9
@@ -111,9 +112,7 @@ class _Number(QtCore.QObject):
         self.widget.setProperty("unit", self._unit)
         self.widget.setProperty("singleStep", 0.1)
         self.widget.setMinimumWidth(NARROWEST)
-        # by the signal's text: PySide2 never frees a widget of FreeCAD's once an attribute of it was taken as a signal, and
-        # what is left of it is then taken for the next widget at the same address
-        QtCore.QObject.connect(self.widget, QtCore.SIGNAL("valueChanged(double)"), self._typed)
+        connected(self.widget, "valueChanged(double)", self._typed)
 
     def titled(self, label: str) -> str:
         """The label, with a unit that the box does not show."""
