@@ -113,6 +113,15 @@ EXAMPLES = (
         process={"kind": "milling"},
     ),
     Example(
+        "pocket",
+        "Pocket with a bounded engagement angle",
+        "`pocket`: clears the stock, the part's box, level by level, down by helices. Milling.",
+        "pyramid",
+        {"kind": "pocket", "step": {"height": 8.0}, "engagement_deg": 75.0, "fit": "arcs", "tolerance": 0.02},
+        process={"kind": "milling"},
+        more={"tools": {"stylus": {"profile": {"kind": "flat", "diameter": 20.0}}}},
+    ),
+    Example(
         "layers",
         "Rows in flat sheet",
         "`max_increment`: rows in layers, none of which presses the sheet farther down at once.",

@@ -2,8 +2,8 @@
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
-use styluscam_toolpath::pocket::{self, Pocket, PocketError, PocketRunKind};
-use styluscam_verify::{EngagementError, Ground, PlaneRun, PlaneRunKind};
+use styluscam_toolpath::pocket::{self, Pocket, PocketError, PocketRunKind, Shape};
+use styluscam_verify::{EngagementError, Ground, PlaneRun, PlaneRunKind, CHIP};
 
 use crate::{
     arrays, errors,
@@ -37,7 +37,7 @@ pub fn engagement<'py>(
     let runs = runs.iter().enumerate().map(|(number, run)| plane_run(number, run)).collect::<PyResult<Vec<_>>>()?;
     let stock = outlines(&stock, "stock")?;
     let pocket = outlines(&boundary, "boundary")?;
-    let ground = Ground { radius: tool_radius, stock: &stock, pocket: &pocket };
+    let ground = Ground { radius: tool_radius, stock: &stock, pocket: &pocket, chip: CHIP };
     let found = watched(py, progress, cancel, |watch| styluscam_verify::engagement(&runs, &ground, watch))?;
     let found = found.map_err(|error| of_engagement(&error))?;
     let rows = found.into_iter().map(|run| {
@@ -94,11 +94,10 @@ pub fn pocket_path<'py>(
     let boundary = arrays::rows::<f64, 3>(&boundary, "boundary")?;
     let islands = outlines(&islands, "islands")?;
     let stock = stock.map(|stock| outlines(&stock, "stock")).transpose()?;
+    let shape =
+        Shape::Walls { boundary: &boundary, islands: &islands, open_edges: &open_edges, stock: stock.as_deref() };
     let asked = Pocket {
-        boundary: &boundary,
-        islands: &islands,
-        open_edges: &open_edges,
-        stock: stock.as_deref(),
+        shape,
         radius: tool_radius,
         angle,
         smoothing,

@@ -38,9 +38,6 @@ pub struct ExpectedOperation {
 }
 
 /// What is expected of an operation's moves and passes. Gouges, collisions and rapids are checked whatever is stated here.
-///
-/// Stock and engagement are not checked yet: what is expected of them becomes a field here, so that every kind of operation
-/// has to state it.
 #[derive(Clone, Debug)]
 pub struct Expectation {
     /// Whether its lateral feeds must touch.
@@ -75,11 +72,28 @@ pub enum Passes {
     Ordered(OrderedPasses),
     /// In two orders, one set across the other; each is checked by itself.
     Crossed([OrderedPasses; 2]),
+    /// In no order that is checked: what they engage, and what they leave of the stock, is.
+    Clearing(Clearing),
     /// Nothing is known of their order; the report gives the reason.
     Unordered {
         /// Why they are not checked, as half a sentence.
         reason: &'static str,
     },
+}
+
+/// How passes clear stock: in layers between level passes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clearing {
+    /// The largest engagement angle, but on entries, rad.
+    pub angle: f64,
+    /// The smallest radius of the path of the tool's centre, mm: corners and necks that need a smaller one stay.
+    pub smoothing: f64,
+    /// Height over length of the ways into the material, at most.
+    pub entry_slope: f64,
+    /// Height of the stock, mm.
+    pub top: f64,
+    /// The distance between levels.
+    pub pitch: Pitch,
 }
 
 /// Layers in which passes that are not themselves one below the other press a sheet down.
@@ -137,7 +151,7 @@ impl Expectation {
         match &self.passes {
             Passes::Ordered(passes) => std::slice::from_ref(passes),
             Passes::Crossed(sets) => sets,
-            Passes::Unordered { .. } => &[],
+            Passes::Clearing(_) | Passes::Unordered { .. } => &[],
         }
     }
 
@@ -149,6 +163,14 @@ impl Expectation {
     /// Whether it is for a triangle.
     pub(crate) fn selects(&self, triangle: usize) -> bool {
         self.selected.get(triangle) == Some(&true)
+    }
+
+    /// How it clears stock, where it does.
+    pub(crate) fn clearing(&self) -> Option<&Clearing> {
+        match &self.passes {
+            Passes::Clearing(clearing) => Some(clearing),
+            Passes::Ordered(_) | Passes::Crossed(_) | Passes::Unordered { .. } => None,
+        }
     }
 
     /// The triangles that it is for.

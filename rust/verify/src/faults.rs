@@ -196,6 +196,27 @@ pub(crate) static OTHER_WAIT: FaultKind = FaultKind::in_text(
     "plan both programs again",
 );
 
+// stock that is cleared
+
+pub(crate) static ENGAGEMENT: FaultKind = FaultKind::on_part(
+    FindingKind::Engagement,
+    |fault| {
+        let (value, limit) = (fault.value(), fault.limit());
+        format!("the tool engages {value:.1} degrees of the stock at once ({limit:.1} degrees are allowed)")
+    },
+    "post the job again, or raise engagement_deg",
+)
+.in_unit("deg");
+pub(crate) static STEEP_ENTRY: FaultKind = FaultKind::on_part(
+    FindingKind::SteepEntry,
+    |fault| {
+        let (value, limit) = (fault.value(), fault.limit());
+        format!("the tool goes down into stock at {value:.1} degrees ({limit:.1} degrees are allowed)")
+    },
+    "come down by a helix, or where the stock is cleared",
+)
+.in_unit("deg");
+
 // rapids
 
 pub(crate) static RAPID_INTO_MATERIAL: FaultKind = FaultKind::on_part(
@@ -215,6 +236,14 @@ pub(crate) static RAPID_PLUNGE: FaultKind = FaultKind::on_part(
     },
     "retract first, and come down at a feed",
 );
+pub(crate) static RAPID_IN_STOCK: FaultKind = FaultKind::on_part(
+    FindingKind::RapidIntoStock,
+    |fault| {
+        format!("a rapid enters stock that is not cleared: {:.1} degrees of the tool's rim are in it", fault.value())
+    },
+    "retract first, and come down where the stock is cleared",
+)
+.in_unit("deg");
 pub(crate) static DOG_LEG_RAPID: FaultKind = FaultKind::in_text(
     FindingKind::DogLegRapid,
     |fault| {

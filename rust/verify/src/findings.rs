@@ -55,6 +55,14 @@ pub enum FindingKind {
     MissingLevel,
     /// Rows are farther apart than expected, or end too soon.
     MissingRow,
+    /// A tool that clears stock engages more of it at once than it may.
+    Engagement,
+    /// Stock is left that the tool reaches.
+    Uncleared,
+    /// The tool goes down into stock more steeply than asked.
+    SteepEntry,
+    /// A rapid enters stock that is not cleared.
+    RapidIntoStock,
     /// Neighbouring passes leave a higher scallop than is asked for.
     Scallop,
     /// The path turns by more at once than is asked for.
@@ -187,6 +195,10 @@ const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
         (Kind::MissingPass, "missing pass"),
         (Kind::MissingLevel, "missing level"),
         (Kind::MissingRow, "missing row"),
+        (Kind::Engagement, "engagement angle too large"),
+        (Kind::Uncleared, "stock not cleared"),
+        (Kind::SteepEntry, "entry into stock too steep"),
+        (Kind::RapidIntoStock, "rapid into stock"),
         (Kind::Scallop, "scallop above the limit"),
         (Kind::Corner, "corner of the path"),
         (Kind::WallAngle, "wall angle above the limit"),

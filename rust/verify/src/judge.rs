@@ -12,8 +12,8 @@ use crate::report::Report;
 use crate::segments::{placed, Segment};
 use crate::subject::{Axes, Limits, Subject};
 use crate::{
-    corner_angles, corners, diagnosis, frame, low_links, pair, passes, reach, sequence, settings, travel, unreached,
-    walls,
+    clearing, corner_angles, corners, diagnosis, frame, low_links, pair, passes, reach, sequence, settings, travel,
+    unreached, walls,
 };
 
 /// Checks a program read back from posted text against the part.
@@ -38,6 +38,8 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         faults.extend(frame::faults(frame, program, &segments, &assignment, subject, limits));
     }
     faults.extend(passes::faults(&segments, &assignment, subject, limits, watch)?);
+    let (of_stock, left) = clearing::judged(&segments, &assignment, subject, limits, watch)?;
+    faults.extend(of_stock);
     let pair = pair::judged(program, &segments, subject, limits, watch)?;
     faults.extend(pair.faults);
     let beyond_reach = unreached::findings(&segments, subject, limits, watch)?;
@@ -51,7 +53,8 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         merge([(&faults, program), (&beyond, axes.program)], (high - low).norm());
     let nothing = tally.nothing_touches().then(|| diagnosis::no_contact(program, &segments, &tally, subject));
     let found = limits.found.iter().map(|(kind, severity, words)| Finding::of_all(*kind, *severity, words.clone()));
-    let of_shape = found.chain(pair.finding).chain(steep).chain(beyond_reach).chain(travel::no_feed_moves(program));
+    let of_shape =
+        found.chain(pair.finding).chain(steep).chain(left).chain(beyond_reach).chain(travel::no_feed_moves(program));
     let of_text =
         if limits.shape_only { Vec::new() } else { of_whole_text(&axes, &assignment, subject, program, limits) };
     let wholes: Vec<Finding> = of_text.into_iter().chain(of_shape).chain(nothing).collect();

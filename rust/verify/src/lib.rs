@@ -34,6 +34,7 @@ mod blank;
 mod body;
 mod bounds;
 mod clearance;
+mod clearing;
 mod contact_lines;
 mod convex;
 mod corner_angles;
@@ -85,8 +86,8 @@ mod walls_beside;
 mod words;
 
 pub use coverage::{coverage, left, needs, FaceCoverage};
-pub use engagement::{engagement, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement};
-pub use expectation::{Contact, Expectation, ExpectedOperation, Layers, OrderedPasses, Passes};
+pub use engagement::{engagement, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, CHIP};
+pub use expectation::{Clearing, Contact, Expectation, ExpectedOperation, Layers, OrderedPasses, Passes};
 pub use findings::{Finding, FindingKind, Severity};
 pub use flank::{clearance_of_tool, left_by_flank, FlankShape};
 pub use flats::Need;

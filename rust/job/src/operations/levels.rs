@@ -1,5 +1,7 @@
 //! The loops of levels, which several kinds begin with.
 
+use styluscam_geometry::ToolBody;
+use styluscam_motion::Watch;
 use styluscam_toolpath::{
     forming::{
         left_out, levels, raise_last, scallop_steps, selected_range, with_levels_at, z_levels, z_levels_beside, Floors,
@@ -68,12 +70,25 @@ pub fn trace(keys: &LevelKeys<'_>, task: &Task<'_>, surface: &Surface<'_>) -> Re
 fn steps(keys: &LevelKeys<'_>, task: &Task<'_>, surface: &Surface<'_>) -> Result<Steps, PlanError> {
     let context = task.context;
     let top = context.heights.top.unwrap_or(context.scene.top);
-    Ok(match keys.step.pitch(keys.limits, top, task.body) {
+    steps_of(keys, (top, task.body), surface, context.watch)
+}
+
+/// The distances between levels from a height, mm, down, of a tool with its sheet.
+///
+/// # Errors
+/// `Cancelled`.
+pub fn steps_of(
+    keys: &LevelKeys<'_>,
+    (top, body): (f64, &ToolBody),
+    surface: &Surface<'_>,
+    watch: &Watch,
+) -> Result<Steps, PlanError> {
+    Ok(match keys.step.pitch(keys.limits, top, body) {
         Pitch::Even(step) => Steps::Even(step),
         Pitch::Listed { from, steps } => Steps::Listed { from, steps },
         Pitch::Scallop { height, steps: limits } => {
             let rule = ScallopRule { height, limits };
-            let bounds = scallop_steps(surface, task.body, Spread::Levels, &rule, context.watch)?;
+            let bounds = scallop_steps(surface, body, Spread::Levels, &rule, watch)?;
             Steps::Bounded(if keys.of_turns { bounds.for_turns() } else { bounds })
         }
     })

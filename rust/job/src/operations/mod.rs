@@ -41,6 +41,7 @@ kinds! {
         zig_zag::ZigZag = "zig-zag",
         spiral::Spiral = "spiral",
         meridian::Meridian = "meridian",
+        pocket::Pocket = "pocket",
     }
 }
 

@@ -76,6 +76,7 @@ fn every_kind_plans_and_says_what_it_planned() {
         match job.operations[0].kind().passes(&PassContext { smallest_feature: 1.0, top: 0.0, body: &body }) {
             Passes::Ordered(passes) => assert!(passes.pitch.largest() > 0.0, "{name}"),
             Passes::Crossed(sets) => assert!(sets.iter().all(|set| set.pitch.largest() > 0.0), "{name}"),
+            Passes::Clearing(clearing) => assert!(clearing.angle > 0.0 && clearing.pitch.largest() > 0.0, "{name}"),
             Passes::Unordered { reason } => {
                 assert!(!reason.is_empty(), "{name} does not say why its passes are not checked");
             }

@@ -5,7 +5,7 @@ use styluscam_geometry::PlanePiece;
 use super::error::PocketError;
 use super::growth::WALL;
 use super::polygons::{signed_area, Kernel, Point, Polygons};
-use super::request::Pocket;
+use super::request::{Pocket, Shape};
 
 /// Coordinates lie within this, mm: on the grid of the booleans that leaves 4 nm.
 const FARTHEST: f64 = 2000.0;
@@ -31,19 +31,31 @@ impl Ground {
     pub fn new(pocket: &Pocket<'_>) -> Result<Self, PocketError> {
         check(pocket)?;
         let (r, smoothing) = (pocket.radius, pocket.smoothing);
-        let outlines = std::iter::once(pocket.boundary).chain(pocket.islands.iter().map(Vec::as_slice));
-        let farthest = outlines.clone().flatten().fold(0.0, |most: f64, [x, y, _]| most.max(x.abs()).max(y.abs()));
+        let outlines = pocket.shape.outlines();
+        let corners = outlines.iter().flat_map(|(_, outline)| outline.iter());
+        let farthest = corners.fold(0.0, |most: f64, [x, y, _]| most.max(x.abs()).max(y.abs()));
         let kernel = Kernel::new(2.0 * farthest + 20.0 * r);
-        let walls = area(&kernel, pocket)?;
-        let open = kernel.union(&walls, &beyond(&kernel, pocket));
-        let free = kernel.offset(&open, -(r + GAP), WALL);
+        let (walls, free) = match pocket.shape {
+            Shape::Walls { boundary, islands, open_edges, .. } => {
+                let walls = area(&kernel, boundary, islands)?;
+                let open = kernel.union(&walls, &beyond(&kernel, boundary, open_edges, r));
+                (Some(walls), kernel.offset(&open, -(r + GAP), WALL))
+            }
+            Shape::Centres { outlines, .. } => {
+                let chords: Vec<Vec<Point>> = outlines.iter().map(|outline| chords(outline)).collect();
+                (None, kernel.offset(&kernel.even_odd(&chords), -GAP, WALL))
+            }
+        };
         let core = kernel.offset(&free, -smoothing, WALL);
         if core.is_empty() {
             return Err(PocketError::TooSmall { radius: r, smoothing });
         }
         let free = kernel.offset(&core, smoothing, WALL);
-        let mut goal = kernel.intersection(&kernel.offset(&core, smoothing + r - RIM, WALL), &walls);
-        if let Some(stock) = pocket.stock {
+        let mut goal = kernel.offset(&core, smoothing + r - RIM, WALL);
+        if let Some(walls) = walls {
+            goal = kernel.intersection(&goal, &walls);
+        }
+        if let Some(stock) = pocket.shape.stock() {
             let chords: Vec<Vec<Point>> = stock.iter().map(|outline| chords(outline)).collect();
             goal = kernel.intersection(&goal, &kernel.even_odd(&chords));
         }
@@ -55,25 +67,25 @@ impl Ground {
 }
 
 /// The pocket without its islands.
-fn area(kernel: &Kernel, pocket: &Pocket<'_>) -> Result<Polygons, PocketError> {
-    let outer = kernel.even_odd(&[chords(pocket.boundary)]);
+fn area(kernel: &Kernel, boundary: &[[f64; 3]], islands: &[Vec<[f64; 3]>]) -> Result<Polygons, PocketError> {
+    let outer = kernel.even_odd(&[chords(boundary)]);
     if outer.is_empty() {
-        return Err(PocketError::Outline { key: "boundary".to_owned(), count: pocket.boundary.len() });
+        return Err(PocketError::Outline { key: "boundary".to_owned(), count: boundary.len() });
     }
-    let mut islands = Polygons::default();
-    for island in pocket.islands {
-        islands = kernel.union(&islands, &kernel.even_odd(&[chords(island)]));
+    let mut all = Polygons::default();
+    for island in islands {
+        all = kernel.union(&all, &kernel.even_odd(&[chords(island)]));
     }
-    Ok(kernel.difference(&outer, &islands))
+    Ok(kernel.difference(&outer, &all))
 }
 
 /// The air beyond open edges, as far as the tool may go there.
-fn beyond(kernel: &Kernel, pocket: &Pocket<'_>) -> Polygons {
-    let pieces = PlanePiece::outline(pocket.boundary);
-    let far = BEYOND * pocket.radius;
-    let turns_left = signed_area(&chords(pocket.boundary)) > 0.0;
+fn beyond(kernel: &Kernel, boundary: &[[f64; 3]], open_edges: &[usize], radius: f64) -> Polygons {
+    let pieces = PlanePiece::outline(boundary);
+    let far = BEYOND * radius;
+    let turns_left = signed_area(&chords(boundary)) > 0.0;
     let mut air = Polygons::default();
-    for piece in pocket.open_edges.iter().filter_map(|edge| pieces.get(*edge)) {
+    for piece in open_edges.iter().filter_map(|edge| pieces.get(*edge)) {
         let edge = flat(piece);
         let outer = edge.windows(2).filter_map(|pair| match pair {
             [a, b] => {
@@ -93,7 +105,7 @@ fn beyond(kernel: &Kernel, pocket: &Pocket<'_>) -> Polygons {
 }
 
 /// A closed outline as chords.
-fn chords(outline: &[[f64; 3]]) -> Vec<Point> {
+pub fn chords(outline: &[[f64; 3]]) -> Vec<Point> {
     let pieces = PlanePiece::outline(outline);
     pieces
         .iter()
@@ -145,16 +157,9 @@ fn check(pocket: &Pocket<'_>) -> Result<(), PocketError> {
     number("engagement_deg", degrees, (10.0 - 1e-9..=90.0 + 1e-9).contains(&degrees), allowed)?;
     let share = pocket.smoothing / r;
     number("smoothing_radius", pocket.smoothing, (0.01..=10.0).contains(&share), "0.01 to 10 tool radii")?;
-    let outlines = std::iter::once(("boundary".to_owned(), pocket.boundary))
-        .chain(pocket.islands.iter().enumerate().map(|(i, island)| (format!("islands[{i}]"), island.as_slice())))
-        .chain(
-            pocket
-                .stock
-                .unwrap_or(&[])
-                .iter()
-                .enumerate()
-                .map(|(i, outline)| (format!("stock[{i}]"), outline.as_slice())),
-        );
+    let stock = pocket.shape.stock().unwrap_or(&[]).iter().enumerate();
+    let stock = stock.map(|(i, outline)| (format!("stock[{i}]"), outline.as_slice()));
+    let outlines = pocket.shape.outlines().into_iter().chain(stock);
     for (key, outline) in outlines {
         for (i, point) in outline.iter().enumerate() {
             for value in point {
@@ -166,8 +171,9 @@ fn check(pocket: &Pocket<'_>) -> Result<(), PocketError> {
             return Err(PocketError::Outline { key, count: outline.len() });
         }
     }
-    let count = pocket.boundary.len();
-    match pocket.open_edges.iter().find(|edge| **edge >= count) {
+    let Shape::Walls { boundary, open_edges, .. } = pocket.shape else { return Ok(()) };
+    let count = boundary.len();
+    match open_edges.iter().find(|edge| **edge >= count) {
         Some(edge) => Err(PocketError::Edge { edge: *edge, count }),
         None => Ok(()),
     }

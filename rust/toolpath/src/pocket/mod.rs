@@ -5,6 +5,7 @@
 //! pieces of its boundary on which the tool cuts are the path, until nothing is left. Clearing more only lowers the angle, so
 //! the order of the pieces is free. What the construction guarantees, and where it does not, stands in docs/concepts/pockets.md.
 
+mod areas;
 mod bound;
 mod check;
 mod cut;
@@ -15,6 +16,7 @@ mod ground;
 mod growth;
 mod links;
 mod material;
+mod moves;
 mod pieces;
 mod planner;
 mod polygons;
@@ -27,8 +29,10 @@ mod tests;
 
 use styluscam_motion::Watch;
 
+pub use areas::CentreArea;
 pub use error::PocketError;
-pub use request::{Pocket, PocketPath, PocketRun, PocketRunKind};
+pub use moves::{segments, Layer};
+pub use request::{Pocket, PocketPath, PocketRun, PocketRunKind, Shape};
 
 /// Plans the path.
 ///
@@ -39,13 +43,22 @@ pub fn pocket_path(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, Poc
         return planner::plan(pocket, watch);
     }
     // the other way round is climb milling of the mirrored pocket
-    let boundary = mirrored(pocket.boundary);
-    let islands: Vec<Vec<[f64; 3]>> = pocket.islands.iter().map(|island| mirrored(island)).collect();
-    let stock: Option<Vec<Vec<[f64; 3]>>> =
-        pocket.stock.map(|stock| stock.iter().map(|outline| mirrored(outline)).collect());
-    let there =
-        Pocket { boundary: &boundary, islands: &islands, stock: stock.as_deref(), climb: true, ..pocket.clone() };
-    let mut path = planner::plan(&there, watch)?;
+    let all = |outlines: &[Vec<[f64; 3]>]| outlines.iter().map(|outline| mirrored(outline)).collect::<Vec<_>>();
+    let stock = pocket.shape.stock().map(all);
+    let there = Pocket { climb: true, ..*pocket };
+    let mut path = match pocket.shape {
+        Shape::Walls { boundary, islands, open_edges, .. } => {
+            let (boundary, islands) = (mirrored(boundary), all(islands));
+            let stock = stock.as_deref();
+            let shape = Shape::Walls { boundary: &boundary, islands: &islands, open_edges, stock };
+            planner::plan(&Pocket { shape, ..there }, watch)?
+        }
+        Shape::Centres { outlines, .. } => {
+            let (outlines, stock) = (all(outlines), stock.unwrap_or_default());
+            let shape = Shape::Centres { outlines: &outlines, stock: &stock };
+            planner::plan(&Pocket { shape, ..there }, watch)?
+        }
+    };
     for run in &mut path.runs {
         run.points = mirrored(&run.points);
     }

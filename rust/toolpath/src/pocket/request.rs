@@ -1,16 +1,10 @@
 //! What is asked for, and the path that answers it.
 
 /// What is cleared, with what.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Pocket<'a> {
-    /// The pocket's outline: points (x, y, bulge of the edge that begins there), mm.
-    pub boundary: &'a [[f64; 3]],
-    /// Outlines that stay.
-    pub islands: &'a [Vec<[f64; 3]>],
-    /// Numbers of the boundary's edges beyond which is air.
-    pub open_edges: &'a [usize],
-    /// Outlines of the material, where it is less than the pocket.
-    pub stock: Option<&'a [Vec<[f64; 3]>]>,
+    /// Where the tool may go, and what it meets there.
+    pub shape: Shape<'a>,
     /// The tool's radius, mm.
     pub radius: f64,
     /// The largest engagement angle, rad.
@@ -21,6 +15,52 @@ pub struct Pocket<'a> {
     pub climb: bool,
     /// Whether pieces may be cut in both directions, whichever has the shorter way.
     pub two_way: bool,
+}
+
+/// Where the tool may go: outlines are points (x, y, bulge of the edge that begins there), mm.
+#[derive(Clone, Copy, Debug)]
+pub enum Shape<'a> {
+    /// Between walls.
+    Walls {
+        /// The pocket's outline.
+        boundary: &'a [[f64; 3]],
+        /// Outlines that stay.
+        islands: &'a [Vec<[f64; 3]>],
+        /// Numbers of the boundary's edges beyond which is air.
+        open_edges: &'a [usize],
+        /// Outlines of the material, where it is less than the pocket.
+        stock: Option<&'a [Vec<[f64; 3]>]>,
+    },
+    /// With its centre within outlines, by the even-odd rule: for a part whose walls lean, or a tool whose sides do.
+    Centres {
+        /// Outlines of where the centre may be.
+        outlines: &'a [Vec<[f64; 3]>],
+        /// Outlines of the material.
+        stock: &'a [Vec<[f64; 3]>],
+    },
+}
+
+impl<'a> Shape<'a> {
+    /// All outlines of where the tool may go, each with its name.
+    pub(super) fn outlines(&self) -> Vec<(String, &'a [[f64; 3]])> {
+        let listed = |name: &'static str, outlines: &'a [Vec<[f64; 3]>]| {
+            outlines.iter().enumerate().map(move |(i, outline)| (format!("{name}[{i}]"), outline.as_slice()))
+        };
+        match *self {
+            Self::Walls { boundary, islands, .. } => {
+                std::iter::once(("boundary".to_owned(), boundary)).chain(listed("islands", islands)).collect()
+            }
+            Self::Centres { outlines, .. } => listed("outlines", outlines).collect(),
+        }
+    }
+
+    /// Outlines of the material, where they are given.
+    pub(super) fn stock(&self) -> Option<&'a [Vec<[f64; 3]>]> {
+        match *self {
+            Self::Walls { stock, .. } => stock,
+            Self::Centres { stock, .. } => Some(stock),
+        }
+    }
 }
 
 /// What a run is for.

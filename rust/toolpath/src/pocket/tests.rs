@@ -9,7 +9,7 @@ use styluscam_motion::Watch;
 use super::check::{bounded, worst};
 use super::material::Material;
 use super::polygons::{sides, Kernel, Polygons};
-use super::{pocket_path, Pocket, PocketError, PocketPath, PocketRunKind};
+use super::{pocket_path, Pocket, PocketError, PocketPath, PocketRunKind, Shape};
 
 fn rectangle(x: f64, y: f64) -> Vec<[f64; 3]> {
     vec![[-x, -y, 0.0], [x, -y, 0.0], [x, y, 0.0], [-x, y, 0.0]]
@@ -17,10 +17,7 @@ fn rectangle(x: f64, y: f64) -> Vec<[f64; 3]> {
 
 fn pocket(boundary: &[[f64; 3]]) -> Pocket<'_> {
     Pocket {
-        boundary,
-        islands: &[],
-        open_edges: &[],
-        stock: None,
+        shape: Shape::Walls { boundary, islands: &[], open_edges: &[], stock: None },
         radius: 2.5,
         angle: PI / 3.0,
         smoothing: 0.125,
@@ -115,7 +112,8 @@ fn what_is_no_pocket_is_refused_by_name() {
     let refused = |pocket: &Pocket<'_>| pocket_path(pocket, &Watch::default()).unwrap_err();
     assert_eq!(refused(&Pocket { radius: 16.0, smoothing: 0.8, ..pocket(&square) }).code(), "tool-too-large");
     assert_eq!(refused(&Pocket { angle: 2.0, ..pocket(&square) }).key(), "engagement_deg");
-    assert_eq!(refused(&Pocket { open_edges: &[4], ..pocket(&square) }), PocketError::Edge { edge: 4, count: 4 });
+    let beyond = Shape::Walls { boundary: &square, islands: &[], open_edges: &[4], stock: None };
+    assert_eq!(refused(&Pocket { shape: beyond, ..pocket(&square) }), PocketError::Edge { edge: 4, count: 4 });
     assert_eq!(refused(&pocket(&square[..2])), PocketError::Outline { key: "boundary".to_owned(), count: 2 });
     let line = [[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [20.0, 0.0, 0.0]];
     assert_eq!(refused(&pocket(&line)).code(), "outline");
@@ -150,7 +148,8 @@ proptest! {
         let outline = |corners: Vec<(f64, f64, f64)>| corners.into_iter().map(|(x, y, bulge)| [x, y, bulge]).collect();
         let boundary: Vec<[f64; 3]> = outline(corners);
         let islands: Vec<Vec<[f64; 3]>> = if with_island { vec![outline(island)] } else { Vec::new() };
-        let asked = Pocket { islands: &islands, angle: 1.3, radius: 2.0, smoothing: 0.1, ..pocket(&boundary) };
+        let shape = Shape::Walls { boundary: &boundary, islands: &islands, open_edges: &[], stock: None };
+        let asked = Pocket { shape, angle: 1.3, radius: 2.0, smoothing: 0.1, ..pocket(&boundary) };
         match pocket_path(&asked, &Watch::default()) {
             Ok(path) => {
                 prop_assert!(path.left < 1e-3 * path.goal, "{} of {} left", path.left, path.goal);

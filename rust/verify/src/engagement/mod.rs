@@ -7,7 +7,7 @@
 //!
 //! So a direction ahead is engaged where the rim's point lies in the pocket, in the stock, outside the discs of the tool's radius along
 //! the path of the last radius up to one step of 0.02 radii before, and outside the discs 1 um larger along all that came
-//! earlier. The 1 um is not taken off the chip that the step itself cuts, which thins out towards the sides at any depth: that would
+//! earlier (more, where the text rounds positions). The 1 um is not taken off the chip that the step itself cuts, which thins out towards the sides at any depth: that would
 //! take a degree off every angle. The discs along a straight or circular piece are exactly the points within the
 //! radius of the piece: the angles at which the rim enters and leaves them are those of crossings with circles and lines,
 //! found in closed form. Nothing is sampled but the positions along the path, a step apart and at its corners.
@@ -28,7 +28,9 @@ mod tests;
 use styluscam_motion::Watch;
 
 pub use error::EngagementError;
-pub use runs::{Engaged, Ground, PlaneRun, PlaneRunKind, RunEngagement};
+pub use runs::{Engaged, Ground, PlaneRun, PlaneRunKind, RunEngagement, CHIP};
+
+pub(crate) use cells::Cells;
 
 /// The engagement along every run of a path, in the order in which they are cut.
 ///

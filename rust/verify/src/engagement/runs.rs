@@ -58,4 +58,6 @@ pub struct Ground<'a> {
     pub stock: &'a [Vec<[f64; 3]>],
     /// Outlines of the pocket, mm.
     pub pocket: &'a [Vec<[f64; 3]>],
+    /// Thickness of a chip from which it counts, mm: [`CHIP`], and more where positions are rounded.
+    pub chip: f64,
 }

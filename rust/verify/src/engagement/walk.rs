@@ -11,7 +11,7 @@ use super::cells::Cells;
 use super::error::EngagementError;
 use super::open::Open;
 use super::rim::Rim;
-use super::runs::{Engaged, Ground, PlaneRun, PlaneRunKind, RunEngagement, CHIP, RECENT, STEP};
+use super::runs::{Engaged, Ground, PlaneRun, PlaneRunKind, RunEngagement, RECENT, STEP};
 
 /// Ends of runs that lie nearer than this are one position, mm.
 const SAME: f64 = 1e-6;
@@ -23,6 +23,7 @@ const ASKED: usize = 256;
 /// A tool on its way.
 pub struct Walk {
     radius: f64,
+    chip: f64,
     stock: Area,
     pocket: Area,
     swept: Vec<PlanePiece>,
@@ -42,6 +43,7 @@ impl Walk {
         let radius = ground.radius;
         Self {
             radius,
+            chip: ground.chip,
             stock: Area::new(ground.stock, 2.0 * radius),
             pocket: Area::new(ground.pocket, 2.0 * radius),
             swept: Vec::new(),
@@ -150,7 +152,7 @@ impl Walk {
     /// The engagement of the open directions with the tool's centre at a point.
     fn measure(&mut self, at: PlanePoint, travelled: f64) -> Engaged {
         let rim = Rim { centre: at, radius: self.radius };
-        let (exact, thicker) = (self.radius, self.radius + CHIP);
+        let (exact, thicker) = (self.radius, self.radius + self.chip);
         let scratch = &mut self.scratch;
         for (piece, end) in self.pending.iter().rev() {
             let length = piece.length();

@@ -30,9 +30,19 @@ Range: 1 to 90 deg</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Angle of the helices down into the material, degrees.
+Range: 0.1 to 30 deg</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>By how much that direction turns from level to level, degrees: 137.5 spreads the beginnings evenly.
 Range: -360 to 360 deg
 0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>By how much the angle may become larger, degrees; with the engagement angle 90 at most.
+Range: 0 to 80 deg</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -223,7 +233,9 @@ spiral: One descent along the walls: a loop at the top, turns that fall evenly a
 wall's loops part (two pockets in one cup) each part has a spiral of its own. It runs one way: the higher ground on its right.
 meridian: The path along the part's meridian, from the axis outwards, in X and Z, while the spindle turns the part: for parts that are
 surfaces of revolution about X = Y = 0, which is measured, with a tool that stands parallel to that axis. `feeds.cut` follows from
-the feed per revolution and the spindle's speed.</source>
+the feed per revolution and the spindle's speed.
+pocket: Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
+Stock is the part's box, as high as the part. Entries are helices.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -259,6 +271,13 @@ Range: above 0 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Smallest radius of the path of the tool's centre, mm: corners stay rounded by it and the tool's radius; a twentieth of the
+tool's radius when left out.
+Range: above 0 to 1000 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Smallest step by scallop, mm: gentler slopes keep it and a larger scallop; what the scallop allows at 10 degrees when left
 out.
 Range: above 0 to 100 mm
@@ -275,6 +294,11 @@ Range: 1 to 90 deg
         <source>Tensile strength of its material, MPa: for an estimate of the axial force; none is made when left out.
 Range: 1 to 3000 MPa
 0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The engagement angle that the path keeps to, degrees: of the arc along which the tool's rim is in the material.
+Range: 10 to 90 deg</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -533,6 +557,11 @@ Range: 1 to 90 deg</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Angle of the helices down into the material, degrees.
+Range: 0.1 to 30 deg</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Apex radius</source>
         <translation type="unfinished"></translation>
     </message>
@@ -571,6 +600,11 @@ Range: -360 to 360 deg
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>By how much the angle may become larger, degrees; with the engagement angle 90 at most.
+Range: 0 to 80 deg</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Cancel</source>
         <translation type="unfinished"></translation>
     </message>
@@ -592,6 +626,11 @@ Range: -360 to 360 deg
     </message>
     <message>
         <source>Choose...</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
+Stock is the part's box, as high as the part. Entries are helices.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -778,7 +817,15 @@ other face of the sheet, block by block; its machine is in `[machines.support]`.
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Engagement</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Engine missing</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Entry angle</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -853,6 +900,10 @@ Range: 0.001 to 20 mm/rev</source>
     </message>
     <message>
         <source>General</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Growth</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1188,7 +1239,9 @@ spiral: One descent along the walls: a loop at the top, turns that fall evenly a
 wall's loops part (two pockets in one cup) each part has a spiral of its own. It runs one way: the higher ground on its right.
 meridian: The path along the part's meridian, from the axis outwards, in X and Z, while the spindle turns the part: for parts that are
 surfaces of revolution about X = Y = 0, which is measured, with a tool that stands parallel to that axis. `feeds.cut` follows from
-the feed per revolution and the spindle's speed.</source>
+the feed per revolution and the spindle's speed.
+pocket: Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
+Stock is the part's box, as high as the part. Entries are helices.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1241,6 +1294,10 @@ the feed per revolution and the spindle's speed.</source>
     </message>
     <message>
         <source>Play</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Pocket</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1477,10 +1534,21 @@ Range: above 0 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Smallest radius of the path of the tool's centre, mm: corners stay rounded by it and the tool's radius; a twentieth of the
+tool's radius when left out.
+Range: above 0 to 1000 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Smallest step by scallop, mm: gentler slopes keep it and a larger scallop; what the scallop allows at 10 degrees when left
 out.
 Range: above 0 to 100 mm
 0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Smoothing radius</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1609,6 +1677,11 @@ Range: 1 to 3000 MPa
     </message>
     <message>
         <source>The curve from tip to base; this or `library`.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The engagement angle that the path keeps to, degrees: of the arc along which the tool's rim is in the material.
+Range: 10 to 90 deg</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2149,6 +2222,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>pair</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>pocket</source>
         <translation type="unfinished"></translation>
     </message>
     <message>

@@ -1,0 +1,343 @@
+//! Pocket: clears stock level by level, with an engagement angle that stays below a bound.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use styluscam_motion::{Arc, Move, MoveKind, Role};
+use styluscam_toolpath::forming::{levels, selected_range, with_levels_at, z_levels, Floors, Grid, LevelRange};
+use styluscam_toolpath::offset::Envelope;
+use styluscam_toolpath::pocket::{pocket_path, segments, CentreArea, Layer, Pocket as Asked, PocketError, Shape};
+use styluscam_toolpath::{Heights, Pass, PlanError, Rates, Segment, Sense, Surface};
+use styluscam_verify::{Clearing, Contact, Passes};
+
+use super::budget;
+use super::facts::counted;
+use super::levels::{self, LevelKeys};
+use super::step::{Step, StepLimits};
+use super::surface::sense;
+use super::{About, Areas, Context, Effort, Fact, Fit, OperationKind, PassContext, PassSpacing, Planned, Serves};
+use crate::{JobError, OperationKeys};
+
+/// The smallest radius of the centre's path where none is stated, in tool radii.
+const MSR: f64 = 0.05;
+/// How far the tool's centre may go beyond the stock, in tool radii: so far that it is free of it there.
+const BEYOND: f64 = 2.5;
+/// Positions across an area of which some must touch the selected faces, at least.
+const LOOKED: f64 = 24.0;
+/// Chords are off the arcs that a machine does not take by no more than this, mm: thinner than the chips that count.
+const CHORDS: f64 = 5e-4;
+
+/// By how much lower the bound is planned where arcs become chords, rad (2.5 degrees): at their corners the heading is off by half a
+/// chord's turn, and rounding to a micrometre turns the chords of small arcs by as much.
+const CORNERS: f64 = 2.5 * std::f64::consts::PI / 180.0;
+/// The least bound that is planned, rad (10 degrees).
+const LEAST: f64 = 10.0 * std::f64::consts::PI / 180.0;
+
+/// Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
+/// Stock is the part's box, as high as the part. Entries are helices.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Pocket {
+    /// Distance between levels.
+    #[schemars(extend("x-example" = "{ height = 2.0 }"))]
+    pub step: Step,
+    /// The engagement angle that the path keeps to, degrees: of the arc along which the tool's rim is in the material.
+    #[serde(default = "engagement")]
+    #[schemars(extend("x-unit" = "deg", "minimum" = 10.0, "maximum" = 90.0))]
+    pub engagement_deg: f64,
+    /// By how much the angle may become larger, degrees; with the engagement angle 90 at most.
+    #[serde(default)]
+    #[schemars(extend("x-unit" = "deg", "minimum" = 0.0, "maximum" = 80.0))]
+    pub growth_deg: f64,
+    /// Smallest radius of the path of the tool's centre, mm: corners stay rounded by it and the tool's radius; a twentieth of the
+    /// tool's radius when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-advanced" = true, "x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
+    pub smoothing_radius: Option<f64>,
+    /// Angle of the helices down into the material, degrees.
+    #[serde(default = "entry_angle")]
+    #[schemars(extend("x-unit" = "deg", "minimum" = 0.1, "maximum" = 30.0))]
+    pub entry_angle_deg: f64,
+}
+
+impl Pocket {
+    pub(super) const ABOUT: About = About {
+        purpose: "for clearing stock with a bounded engagement angle",
+        serves: Serves::OnRequest,
+        starter: |passes| {
+            format!(
+                "step = {{ height = {:?} }}    # distance between levels\nengagement_deg = 60.0      # largest engagement \
+                 angle\n",
+                passes.pitch
+            )
+        },
+    };
+
+    /// The largest angle, rad.
+    fn angle(&self) -> f64 {
+        (self.engagement_deg + self.growth_deg).to_radians()
+    }
+
+    fn smoothing(&self, radius: f64) -> f64 {
+        self.smoothing_radius.unwrap_or(MSR * radius)
+    }
+
+    fn entry_slope(&self) -> f64 {
+        libm::tan(self.entry_angle_deg.to_radians())
+    }
+}
+
+impl OperationKind for Pocket {
+    fn check(&self, common: &OperationKeys, path: &str) -> Result<(), JobError> {
+        StepLimits::default().check(&self.step, path)?;
+        let sum = self.engagement_deg + self.growth_deg;
+        if sum > 90.0 {
+            let message = format!("engagement_deg and growth_deg come to {sum} degrees, and at most 90 are held");
+            return Err(JobError::document("conflict", format!("{path}.growth_deg"), message, "lower either"));
+        }
+        let refused = [
+            ("boundary", common.boundary.is_some()),
+            ("check_faces", common.check_faces.is_some()),
+            ("max_corner_deg", common.max_corner_deg.is_some()),
+        ];
+        match refused.into_iter().find(|(_, is_stated)| *is_stated) {
+            Some((key, _)) => {
+                let message = format!("{key} is not kept to by a pocket: its path lies within walls and stock");
+                let hint = format!("remove {key}, and select the faces to be cleared with faces");
+                Err(JobError::document("conflict", format!("{path}.{key}"), message, hint))
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn cuts_upright_walls(&self) -> bool {
+        true
+    }
+
+    fn plan(&self, context: &Context<'_>) -> Result<Planned, JobError> {
+        if context.scene.sheet.is_some() {
+            let message = "a pocket is cut from stock, and this job forms a sheet";
+            return Err(JobError::document("conflict", context.path.clone(), message, "remove setup.sheet"));
+        }
+        if context.region.check.is_some() {
+            let message = "part.check_faces are not kept away from by a pocket";
+            return Err(JobError::document("conflict", context.path.clone(), message, "remove part.check_faces"));
+        }
+        let tolerance = context.common.tolerance;
+        let budget = budget::of(tolerance, context.scene, context.machine).map_err(|error| context.error(error))?;
+        let envelope = Envelope::new(&context.scene.mesh, &context.scene.index, context.tool, None, budget.margin);
+        let selected = context.scene.facing_up(&context.faces);
+        let surface = Surface::new(&envelope, &selected);
+        let layers = self.layers(context, &surface, budget.deviation).map_err(|error| context.error(error))?;
+        let mut cleared = Cleared::default();
+        for (layer, outlines) in &layers {
+            let before = cleared.areas;
+            self.clear(context, (&surface, *layer), outlines, &mut cleared)?;
+            cleared.levels += usize::from(cleared.areas > before);
+        }
+        if cleared.moves.is_empty() {
+            let words = " where stock is left: check the faces, z_top, z_bottom and the tool's size";
+            return Err(context.error(PlanError::NothingReached(words.to_owned())));
+        }
+        let levels = cleared.levels;
+        Ok(Planned {
+            waits: Vec::new(),
+            words: format!("{} on {}", counted(cleared.areas, "area", "areas"), counted(levels, "level", "levels")),
+            note: format!("{levels} levels, {} areas", cleared.areas),
+            facts: cleared.facts(),
+            surface: None,
+            moves: cleared.moves,
+        })
+    }
+
+    fn contact(&self) -> Contact {
+        Contact::Clear
+    }
+
+    fn passes(&self, given: &PassContext<'_>) -> Passes {
+        Passes::Clearing(Clearing {
+            angle: self.angle(),
+            smoothing: self.smoothing(given.body.max_radius()),
+            entry_slope: self.entry_slope(),
+            top: given.top,
+            pitch: self.step.pitch(StepLimits::default(), given.top, given.body),
+        })
+    }
+
+    fn spacing(&self) -> Option<PassSpacing> {
+        self.step.even().map(|pitch| PassSpacing::Height { pitch })
+    }
+
+    fn effort(&self, _areas: &Areas) -> Option<Effort> {
+        None // it is the stock that counts, and not the faces
+    }
+}
+
+/// Where the material's top and the tip are on a level, mm.
+type Depth = [f64; 2];
+/// Closed outlines, points (x, y, bulge), mm.
+type Outlines = Vec<Vec<[f64; 3]>>;
+
+impl Pocket {
+    /// The layers from the top down, each with the outlines between which the tool's centre may be.
+    fn layers(
+        &self,
+        context: &Context<'_>,
+        surface: &Surface<'_>,
+        deviation: f64,
+    ) -> Result<Vec<(Depth, Outlines)>, PlanError> {
+        let (watch, scene) = (context.watch, context.scene);
+        let nothing = || PlanError::NothingReached(String::new());
+        let whole = Surface::whole(surface.envelope());
+        let grid = Grid::sample(&whole, context.node_spacing(), watch)?.ok_or_else(nothing)?;
+        let resolution = context.machine.resolution_mm();
+        let (reachable, _) = selected_range(surface, &grid, resolution, watch)?.ok_or_else(nothing)?;
+        let (top, bottom) = (context.heights.top.unwrap_or(scene.top), context.heights.bottom);
+        let body = context.tool.body(None);
+        let keys = LevelKeys { step: &self.step, limits: StepLimits::default(), at_flats: true, of_turns: false };
+        let steps = levels::steps_of(&keys, (top, &body), surface, watch)?;
+        let range = LevelRange { top, bottom, reachable, steps, resolution };
+        let floors = Floors::of(surface.envelope());
+        let heights = levels(&range, &floors)?;
+        let heights = with_levels_at(&heights, &floors.bands(), &range, &floors).unwrap_or(heights);
+        let lowest = heights.iter().copied().filter(|z| *z >= reachable).collect::<Vec<f64>>();
+        let passes = z_levels(&whole, &grid, &lowest, deviation, watch)?;
+        let mut above = top;
+        let layers = lowest.iter().enumerate().map(|(group, z)| {
+            let depth = [std::mem::replace(&mut above, *z), *z];
+            let loops = passes.iter().filter(|pass| pass.group == group && pass.closed);
+            let flat = |pass: &Pass| pass.points.iter().skip(1).map(|point| [point.tip.x, point.tip.y, 0.0]).collect();
+            (depth, loops.map(flat).collect())
+        });
+        Ok(layers.collect())
+    }
+
+    /// Clears the areas of a level that are over selected faces.
+    fn clear(
+        &self,
+        context: &Context<'_>,
+        (surface, [top, floor]): (&Surface<'_>, Depth),
+        outlines: &[Vec<[f64; 3]>],
+        cleared: &mut Cleared,
+    ) -> Result<(), JobError> {
+        let Context { scene, common, machine, tool, reference_height, operation, watch, .. } = *context;
+        let radius = tool.cutter().at_height(top - floor).0;
+        let stock = [box_around(scene, 0.0)];
+        let air = box_around(scene, BEYOND * tool.diameter());
+        let all: Vec<Vec<[f64; 3]>> = outlines.iter().cloned().chain([air]).collect();
+        let direction = sense(common, true);
+        let arcs = common.fit == Fit::Arcs && machine.arc.is_some();
+        for area in CentreArea::parted(&all).iter().filter(|area| is_over_selected(surface, area, floor, radius)) {
+            let asked = Asked {
+                shape: Shape::Centres { outlines: &area.outlines, stock: &stock },
+                radius,
+                angle: if arcs { self.angle() } else { (self.angle() - CORNERS).max(LEAST) },
+                smoothing: self.smoothing(0.5 * tool.diameter()),
+                climb: direction != Sense::Reversed,
+                two_way: direction == Sense::Alternate,
+            };
+            let path = match pocket_path(&asked, watch) {
+                Ok(path) => path,
+                Err(PocketError::Cancelled) => return Err(JobError::Cancelled),
+                Err(PocketError::TooSmall { .. }) => {
+                    cleared.narrow += 1;
+                    continue;
+                }
+                Err(PocketError::Empty) => continue, // an area beside the stock, or one that is open above
+                Err(error @ (PocketError::Number { .. } | PocketError::Outline { .. } | PocketError::Edge { .. })) => {
+                    let at = format!("{}.{}", context.path, error.key());
+                    return Err(JobError::document(error.code(), at, error.to_string(), "correct it"));
+                }
+            };
+            let takes = |ends: [[f64; 3]; 2], arc: &Arc| {
+                arcs && machine.arc.as_ref().is_some_and(|rules| rules.planes.contains(&arc.plane))
+                    && machine.posts_arc(ends, arc, reference_height)
+            };
+            let layer = Layer {
+                top,
+                floor,
+                heights: Heights { clearance: scene.clearance, retract: scene.retract },
+                rates: Rates { cut: common.feeds.cut, plunge: common.feeds.plunge },
+                entry_slope: self.entry_slope(),
+                deviation: CHORDS,
+                takes: &takes,
+            };
+            cleared.areas += 1;
+            cleared.goal += path.goal;
+            cleared.moves.extend(segments(&path, &layer).iter().map(|segment: &Segment| segment.to_move(operation)));
+        }
+        Ok(())
+    }
+}
+
+/// What was planned so far.
+#[derive(Default)]
+struct Cleared {
+    moves: Vec<Move>,
+    /// Levels on which something was cleared.
+    levels: usize,
+    areas: usize,
+    /// Areas that the tool does not fit into.
+    narrow: usize,
+    /// mm^2, level by level.
+    goal: f64,
+}
+
+impl Cleared {
+    fn facts(&self) -> Vec<Fact> {
+        let mut lengths = [0.0; 2];
+        for pair in self.moves.windows(2) {
+            let [before, step] = pair else { continue };
+            let is_cut = step.kind == MoveKind::Feed && step.role == Some(Role::Cut);
+            if let Some(length) = lengths.get_mut(usize::from(is_cut)) {
+                *length += step.length(before.end.tip);
+            }
+        }
+        let [air, cut] = lengths;
+        let narrow = (self.narrow > 0).then(|| {
+            let words = format!("{} too narrow for the tool", counted(self.narrow, "area is", "areas are"));
+            Fact { fact: "narrow_areas", value: self.narrow as f64, unit: "", words }
+        });
+        let area = format!("{:.1} mm^2 to be cleared, all levels together", self.goal);
+        [
+            Fact::count(self.levels, "level", "levels"),
+            Fact::count(self.areas, "area", "areas"),
+            Fact { fact: "to_be_cleared", value: self.goal, unit: "mm^2", words: area },
+            Fact::length("cut", cut, "cutting"),
+            Fact::length("not_cutting", air, "entering, linking and through the air"),
+        ]
+        .into_iter()
+        .chain(narrow)
+        .collect()
+    }
+}
+
+/// The outline of the part's box in plan, `by` mm larger on all sides.
+fn box_around(scene: &crate::Scene, by: f64) -> Vec<[f64; 3]> {
+    let (low, high) = scene.mesh.bounds();
+    let [x0, y0, x1, y1] = [low.x - by, low.y - by, high.x + by, high.y + by];
+    vec![[x0, y0, 0.0], [x1, y0, 0.0], [x1, y1, 0.0], [x0, y1, 0.0]]
+}
+
+/// Whether a tool that is lowered in an area touches selected faces there.
+fn is_over_selected(surface: &Surface<'_>, area: &CentreArea, floor: f64, radius: f64) -> bool {
+    let Some([low, high]) = area.bounds() else { return false };
+    let size = [high[0] - low[0], high[1] - low[1]];
+    let apart = (0.5 * radius).min(size[0].min(size[1]) / LOOKED).max(1e-3);
+    let [columns, rows] = size.map(|length| (length / apart) as usize);
+    let mut hint = None;
+    (0..=rows).any(|row| {
+        (0..=columns).any(|column| {
+            let at = [low[0] + (column as f64 + 0.5) * apart, low[1] + (row as f64 + 0.5) * apart];
+            area.holds(at)
+                && surface.at(at[0], at[1], &mut hint).is_some_and(|point| point.selected && point.tip.z <= floor)
+        })
+    })
+}
+
+fn engagement() -> f64 {
+    60.0
+}
+
+fn entry_angle() -> f64 {
+    3.0
+}

@@ -1,0 +1,115 @@
+//! Stock that is cleared: what the tool engages on its way, and what it leaves.
+//!
+//! An operation that clears works in layers: each lies between the heights of two of its level passes, the first between
+//! the stock's top and the first of them. A layer is looked at in the plane just below its top, with the tool's radius there. The
+//! stock is the part's box; what no move of the layer has swept stands. What is measured there is the engagement angle
+//! ([`crate::engagement`]); what is looked for is stock that a tool could have cleared (`rest`), by positions at which the tool is found
+//! free of the part. Both know nothing of how the path was planned.
+
+mod layer;
+mod rest;
+
+use styluscam_motion::{Cancelled, Watch};
+
+use crate::assignment::Assignment;
+use crate::body::Body;
+use crate::expectation::{Clearing, ExpectedOperation};
+use crate::faults::Fault;
+use crate::findings::{Finding, FindingKind, Severity};
+use crate::segments::{Segment, SegmentKind};
+use crate::subject::{Limits, Subject};
+use crate::tolerances::{ROUGH, SAME_LEVEL, SLACK, WIDE};
+
+use layer::Layer;
+
+/// Faults of the moves that clear stock, and findings of what they leave.
+///
+/// # Errors
+/// `Cancelled`.
+pub(crate) fn judged(
+    segments: &[Segment],
+    assignment: &Assignment,
+    subject: &Subject,
+    limits: &Limits,
+    watch: &Watch,
+) -> Result<(Vec<Fault>, Vec<Finding>), Cancelled> {
+    let (mut faults, mut findings) = (Vec::new(), Vec::new());
+    for operation in subject.expected {
+        let Some(clearing) = operation.expectation.clearing() else { continue };
+        let own: Vec<&Segment> =
+            segments.iter().filter(|segment| assignment.is(segment.operation, operation)).collect();
+        let Some(tool) = subject.tools.get(operation.tool).filter(|_| !own.is_empty()) else { continue };
+        let heights = heights(&own, clearing.top);
+        let body = Body::new(tool, subject.sheet.as_ref());
+        let mut top = clearing.top;
+        for floor in &heights {
+            let layer = Layer {
+                top,
+                floor: *floor,
+                radius: tool.cutter().at_height(top - floor).0,
+                chip: crate::engagement::CHIP + 2.0 * limits.unit,
+                clearing,
+                operation,
+            };
+            let swept = layer.judged(&own, subject, watch, &mut faults)?;
+            findings.extend(rest::left(&layer, &swept, &body, subject, watch)?);
+            top = *floor;
+        }
+        findings.extend(missing_levels(operation, clearing, &heights, subject));
+    }
+    faults.sort_by_key(|fault| fault.index);
+    Ok((faults, findings))
+}
+
+/// The heights of the tip on level feeds, from the top down.
+fn heights(own: &[&Segment], top: f64) -> Vec<f64> {
+    let is_level = |segment: &&&Segment| segment.kind == SegmentKind::Lateral && !segment.falls();
+    let mut heights: Vec<f64> =
+        own.iter().filter(is_level).map(|segment| segment.end[2]).filter(|z| *z < top - SLACK).collect();
+    heights.sort_by(|a, b| b.total_cmp(a));
+    heights.dedup_by(|a, b| (*a - *b).abs() <= SAME_LEVEL);
+    heights
+}
+
+/// Levels that lie farther apart than a step, and level floors of the selected faces on which there is none.
+fn missing_levels(
+    operation: &ExpectedOperation,
+    clearing: &Clearing,
+    heights: &[f64],
+    subject: &Subject,
+) -> Vec<Finding> {
+    let id = &operation.id;
+    let missing = |message: String| Finding::of_all(FindingKind::MissingLevel, Severity::Error, message);
+    let all: Vec<f64> = std::iter::once(clearing.top).chain(heights.iter().copied()).collect();
+    let wide = all.windows(2).filter_map(|pair| {
+        let [above, below] = pair else { return None };
+        let most = WIDE * clearing.pitch.at(*above) + ROUGH;
+        (above - below > most).then(|| {
+            missing(format!(
+                "operation {id:?}: from Z{above:.3} to Z{below:.3} there is no level, and they are to be {most:.3} mm apart at \
+                 most; post the job again"
+            ))
+        })
+    });
+    let [lowest, highest] = operation.expectation.heights;
+    let mut floors: Vec<f64> = operation
+        .expectation
+        .triangles()
+        .into_iter()
+        .filter(|triangle| subject.mesh.normal(*triangle).z > 1.0 - SLACK)
+        .map(|triangle| subject.mesh.corners(triangle)[0].z)
+        .filter(|z| *z < clearing.top - ROUGH && (lowest..=highest).contains(z))
+        .collect();
+    floors.sort_by(f64::total_cmp);
+    floors.dedup_by(|a, b| (*a - *b).abs() <= SAME_LEVEL);
+    let bare =
+        floors.into_iter().filter(|floor| !heights.iter().any(|z| (-SAME_LEVEL..=2.0 * ROUGH).contains(&(z - floor))));
+    let bare: Vec<Finding> = bare
+        .map(|floor| {
+            missing(format!(
+                "operation {id:?}: no level lies on the floor at Z{floor:.3}; post the job again, or take its face out of faces"
+            ))
+        })
+        .collect();
+    wide.chain(bare).collect()
+}

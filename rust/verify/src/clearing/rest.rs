@@ -1,0 +1,232 @@
+//! What is left of a layer that the tool could have cleared.
+//!
+//! On a grid of positions the tool is found free of the part, or not, at the layer's height. Free positions around which a disc of
+//! the smallest path's radius is free, and that hang together with one over a selected face, are where the tool is to have been: all stock
+//! within its radius of them is to be swept. The grid itself never asks for more than the tool can do: its positions are exact.
+
+use styluscam_geometry::PlanePiece;
+use styluscam_motion::{Cancelled, Watch};
+
+use super::layer::Layer;
+use crate::body::Body;
+use crate::clearance::Prober;
+use crate::engagement::Cells;
+use crate::findings::{Finding, FindingKind, Severity};
+use crate::stroke::Stroke;
+use crate::subject::Subject;
+use crate::sweep::Question;
+use crate::tolerances::{ROUGH, SLACK};
+
+/// Distance of the grid's positions, in tool radii.
+const SPACING: f64 = 0.1;
+/// Positions at most.
+const MOST: f64 = 40_000.0;
+/// Share of what the tool reaches that may be left: slivers.
+const SHARE: f64 = 1e-3;
+/// How far from what is swept stock may be left, in tool radii.
+const THICK: f64 = 0.05;
+/// Triangles whose normals have less of Z are none that a position lies over.
+const UPRIGHT: f64 = 1e-3;
+
+/// The finding of stock that is left.
+pub(super) fn left(
+    layer: &Layer<'_>,
+    swept: &[PlanePiece],
+    body: &Body,
+    subject: &Subject,
+    watch: &Watch,
+) -> Result<Option<Finding>, Cancelled> {
+    let grid = Grid::new(layer, subject);
+    let free = grid.free(layer, body, subject, watch)?;
+    let core = grid.core(&free, layer.clearing.smoothing);
+    let entered = grid.over_selected(layer, subject).into_iter().chain(grid.passed(swept));
+    let within = grid.connected(&core, entered);
+    let reached = grid.widened(&within, layer.clearing.smoothing);
+    let asked = grid.widened(&reached, layer.radius - ROUGH);
+    let mut cells = Cells::new(0.5 * layer.radius, layer.radius + grid.spacing);
+    (0_u32..).zip(swept).for_each(|(number, piece)| cells.insert(number, piece));
+    let (mut count, mut left, mut worst) = (0.0, 0.0, (0.0, [0.0; 2]));
+    for node in (0..asked.len()).filter(|node| asked[*node] && grid.in_stock[*node]) {
+        count += 1.0;
+        let at = grid.at(node);
+        let near = cells.near(at).iter().filter_map(|number| swept.get(*number as usize));
+        let beside = near.map(|piece| piece.distance(at)).fold(f64::INFINITY, f64::min) - layer.radius;
+        if beside > layer.chip + SLACK {
+            left += 1.0;
+            // beyond what is listed it is farther
+            let beside = if beside.is_finite() { beside } else { layer.radius };
+            if beside > worst.0 {
+                worst = (beside, at);
+            }
+        }
+    }
+    if left <= SHARE * count && worst.0 <= THICK * layer.radius {
+        return Ok(None);
+    }
+    let (thick, [x, y]) = worst;
+    let area = grid.spacing * grid.spacing;
+    let message = format!(
+        "operation {:?}: at Z{:.3} some {:.2} mm^2 of {:.1} mm^2 of the stock that the tool reaches are not cleared, up to {thick:.3} mm \
+         from where it goes, near X{x:.3} Y{y:.3}; post the job again",
+        layer.operation.id,
+        layer.floor,
+        left * area,
+        count * area
+    );
+    let finding = Finding::of_all(FindingKind::Uncleared, Severity::Error, message);
+    let limit = Some(THICK * layer.radius);
+    Ok(Some(Finding {
+        position: Some([x, y, layer.floor]),
+        value_mm: Some(thick),
+        value: Some(thick),
+        limit,
+        ..finding
+    }))
+}
+
+/// Positions over the stock, and around it as far as the tool's centre may matter.
+struct Grid {
+    low: [f64; 2],
+    spacing: f64,
+    columns: usize,
+    rows: usize,
+    /// Which of them lie in the stock.
+    in_stock: Vec<bool>,
+}
+
+impl Grid {
+    fn new(layer: &Layer<'_>, subject: &Subject) -> Self {
+        let (low, high) = subject.mesh.bounds();
+        let around = 1.5 * layer.radius;
+        let size = [high.x - low.x + 2.0 * around, high.y - low.y + 2.0 * around];
+        let spacing = (SPACING * layer.radius).max((size[0] * size[1] / MOST).sqrt());
+        let [columns, rows] = size.map(|length| libm::ceil(length / spacing) as usize + 1);
+        let grid = Self { low: [low.x - around, low.y - around], spacing, columns, rows, in_stock: Vec::new() };
+        let in_stock = (0..columns * rows).map(|node| {
+            let [x, y] = grid.at(node);
+            (low.x..=high.x).contains(&x) && (low.y..=high.y).contains(&y)
+        });
+        let in_stock = in_stock.collect();
+        Self { in_stock, ..grid }
+    }
+
+    fn at(&self, node: usize) -> [f64; 2] {
+        let (column, row) = (node % self.columns, node / self.columns);
+        [self.low[0] + column as f64 * self.spacing, self.low[1] + row as f64 * self.spacing]
+    }
+
+    /// The node nearest to a point, if it lies on the grid.
+    fn nearest(&self, [x, y]: [f64; 2]) -> Option<usize> {
+        let [column, row] =
+            [(x, self.low[0]), (y, self.low[1])].map(|(value, low)| libm::round((value - low) / self.spacing));
+        let fits = column >= 0.0 && row >= 0.0 && (column as usize) < self.columns && (row as usize) < self.rows;
+        fits.then(|| row as usize * self.columns + column as usize)
+    }
+
+    /// Where the tool is free of the part.
+    fn free(&self, layer: &Layer<'_>, body: &Body, subject: &Subject, watch: &Watch) -> Result<Vec<bool>, Cancelled> {
+        let prober = Prober { body, mesh: subject.mesh, bvh: subject.bvh };
+        let below = subject.deviation_inward + SLACK;
+        let is_free = |node: usize| {
+            let [x, y] = self.at(node);
+            let stroke = Stroke::still(body.position([x, y, layer.floor]));
+            prober.survey(Question { stroke, positions: [None; 2], below }, None).deepest.is_none()
+        };
+        let mut free = Vec::with_capacity(self.columns * self.rows);
+        for row in 0..self.rows {
+            free.extend((row * self.columns..(row + 1) * self.columns).map(is_free));
+            watch.advance(0)?;
+        }
+        Ok(free)
+    }
+
+    /// The free positions around which all are free within a radius, mm, and the space between them.
+    fn core(&self, free: &[bool], radius: f64) -> Vec<bool> {
+        let blocked: Vec<bool> = free.iter().map(|free| !free).collect();
+        let near = self.widened(&blocked, radius + self.spacing);
+        near.iter().map(|near| !near).collect()
+    }
+
+    /// All positions within a radius of some, mm.
+    fn widened(&self, some: &[bool], radius: f64) -> Vec<bool> {
+        let reach = (radius / self.spacing) as isize;
+        let within = |x: isize, y: isize| libm::hypot(x as f64, y as f64) * self.spacing <= radius;
+        let offsets: Vec<[isize; 2]> = (-reach..=reach)
+            .flat_map(|y| (-reach..=reach).map(move |x| [x, y]))
+            .filter(|[x, y]| within(*x, *y))
+            .collect();
+        let mut all = vec![false; some.len()];
+        for node in (0..some.len()).filter(|node| some[*node]) {
+            let (column, row) = ((node % self.columns) as isize, (node / self.columns) as isize);
+            // of what lies deep within, the neighbours do the work
+            let is_inside = self.neighbours(node).filter(|near| some[*near]).count() == 4;
+            let offsets = if is_inside { &[[0, 0]][..] } else { &offsets };
+            for [x, y] in offsets {
+                let (x, y) = (column + x, row + y);
+                if x >= 0 && y >= 0 && (x as usize) < self.columns && (y as usize) < self.rows {
+                    all[y as usize * self.columns + x as usize] = true;
+                }
+            }
+        }
+        all
+    }
+
+    fn neighbours(&self, node: usize) -> impl Iterator<Item = usize> + '_ {
+        let (column, row) = (node % self.columns, node / self.columns);
+        [
+            (column > 0).then(|| node - 1),
+            (column + 1 < self.columns).then(|| node + 1),
+            (row > 0).then(|| node - self.columns),
+            (row + 1 < self.rows).then(|| node + self.columns),
+        ]
+        .into_iter()
+        .flatten()
+    }
+
+    /// The nodes that lie over selected triangles no higher than the layer's floor.
+    fn over_selected(&self, layer: &Layer<'_>, subject: &Subject) -> Vec<usize> {
+        let mut over = Vec::new();
+        for triangle in layer.operation.expectation.triangles() {
+            let corners = subject.mesh.corners(triangle);
+            if subject.mesh.normal(triangle).z < UPRIGHT || corners.iter().all(|corner| corner.z > layer.floor) {
+                continue;
+            }
+            let flat = corners.map(|corner| [corner.x, corner.y]);
+            let range = |i: usize| {
+                let low = flat.iter().fold(f64::INFINITY, |low, p| low.min(p[i]));
+                let high = flat.iter().fold(f64::NEG_INFINITY, |high, p| high.max(p[i]));
+                [low, high].map(|value| ((value - self.low[i]) / self.spacing).max(0.0) as usize)
+            };
+            let ([x0, x1], [y0, y1]) = (range(0), range(1));
+            for row in y0..=y1.min(self.rows - 1) {
+                let nodes = (x0..=x1.min(self.columns - 1)).map(|column| row * self.columns + column);
+                over.extend(nodes.filter(|node| is_within(self.at(*node), flat)));
+            }
+        }
+        over
+    }
+
+    /// The nodes beside which the tool has been.
+    fn passed<'a>(&'a self, swept: &'a [PlanePiece]) -> impl Iterator<Item = usize> + 'a {
+        swept.iter().filter_map(|piece| self.nearest(piece.end)).filter(|node| self.in_stock[*node])
+    }
+
+    /// The positions of some that hang together with those at which the tool enters.
+    fn connected(&self, some: &[bool], entered: impl Iterator<Item = usize>) -> Vec<bool> {
+        let mut found = vec![false; some.len()];
+        let mut open: Vec<usize> = entered.filter(|node| some[*node]).collect();
+        while let Some(node) = open.pop() {
+            if !std::mem::replace(&mut found[node], true) {
+                open.extend(self.neighbours(node).filter(|near| some[*near] && !found[*near]));
+            }
+        }
+        found
+    }
+}
+
+/// Whether a point lies in a triangle in plan.
+fn is_within([x, y]: [f64; 2], [a, b, c]: [[f64; 2]; 3]) -> bool {
+    let side = |p: [f64; 2], q: [f64; 2]| (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
+    let sides = [side(a, b), side(b, c), side(c, a)];
+    sides.iter().all(|side| *side >= 0.0) || sides.iter().all(|side| *side <= 0.0)
+}

@@ -1,0 +1,165 @@
+"""Pockets as an operation: planned, posted, read back and verified; each defect planted in the posted text is found."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+
+import styluscam as sc
+
+SIZE, WALL, TOP, FLOOR = (20.0, 16.0), 3.0, 6.0, 2.0
+"""A block with a rectangular pocket: its sides and the walls around the pocket, the heights of its top and of the floor, mm."""
+
+
+def block() -> sc.Part:
+    """Faces: 1 the rim on top, 2 the sides, 3 the pocket's walls, 4 its floor, 5 the block's foot."""
+    x, y = SIZE
+    rings = [
+        np.array([[a, b, z], [x - a, b, z], [x - a, y - b, z], [a, y - b, z]])
+        for a, b, z in ((0.0, 0.0, 0.0), (0.0, 0.0, TOP), (WALL, WALL, TOP), (WALL, WALL, FLOOR))
+    ]
+    quads = [
+        (face, [4 * ring + i, 4 * ring + j, 4 * ring + 4 + j, 4 * ring + 4 + i])
+        for face, ring in ((2, 0), (1, 1), (3, 2))
+        for i, j in ((0, 1), (1, 2), (2, 3), (3, 0))
+    ]
+    quads += [(4, [12, 13, 14, 15]), (5, [3, 2, 1, 0])]
+    triangles = np.array([half for _, (a, b, c, d) in quads for half in ([a, b, c], [a, c, d])])
+    return sc.Part.from_mesh(np.concatenate(rings), triangles, face_ids=np.repeat([face for face, _ in quads], 2))
+
+
+def job(machine: str = "linuxcnc", **keys: Any) -> sc.Job:
+    operation = {"kind": "pocket", "tool": "mill", "step": {"height": 2.0}, "engagement_deg": 80.0, "fit": "arcs"}
+    operation["spindle"] = {"mode": "fixed", "rpm": 8000.0}
+    document = {
+        "schema": 1,
+        "part": {"file": "block.stl", "units": "mm"},
+        "process": {"kind": "milling"},
+        "setup": {"zero": "model"},
+        "tools": {"mill": {"profile": {"kind": "flat", "diameter": 4.0}}},
+        "operations": [operation | keys],
+        "machine": {"name": machine},
+    }
+    return sc.Job.from_dict(document, part=block())
+
+
+def text_of(job: sc.Job) -> str:
+    (text,) = sc.post(sc.plan(job)).files.values()
+    return text
+
+
+@pytest.fixture(scope="module")
+def sound() -> tuple[sc.Job, list[str]]:
+    """A job, and its text with all words of every move on its line, so that lines can be taken out."""
+    asked = job()
+    lines, at, code = [], dict[str, str](), ""
+    for line in text_of(asked).splitlines():
+        found = re.match(r"^(G[0-3])? ?((?:[XYZIJF]-?[\d.]+ ?)+)$", line)
+        if found is None:
+            lines.append(line)
+            continue
+        code = found.group(1) or code
+        words = {word[0]: word for word in found.group(2).split()}
+        at |= {axis: words[axis] for axis in "XYZ" if axis in words}
+        lines.append(" ".join([code, *at.values(), *(words[axis] for axis in "IJF" if axis in words)]))
+    return asked, lines
+
+
+def kinds(job: sc.Job, lines: list[str]) -> set[str]:
+    report = sc.verify("\n".join([*lines, ""]), job)
+    return {finding["kind"] for finding in report.to_dict()["findings"] if finding["severity"] == "error"}
+
+
+def roles(lines: list[str], role: str) -> list[int]:
+    return [number for number, line in enumerate(lines) if line == f"(role {role})"]
+
+
+def straight(line: str) -> str:
+    return "G1 " + " ".join(word for word in line.split()[1:] if word[0] in "XYZ")
+
+
+def test_a_pocket_is_planned_and_nothing_is_found(sound: tuple[sc.Job, list[str]]) -> None:
+    asked, lines = sound
+    assert kinds(asked, lines) == set()
+    program = sc.read_gcode("\n".join([*lines, ""]), "linuxcnc")
+    heights = np.unique(np.round(program.moves["end"][program.moves["end"][:, 2] < TOP - 1e-6, 2], 3))
+    # the floor's level stands on the floor, within the tolerance
+    assert heights[-1] < 6.0 and 4.0 in heights and FLOOR < heights[0] < FLOOR + 0.005
+    cut = program.moves["end"][program.moves["end"][:, 2] < TOP - 1e-6]
+    for axis in (0, 1):
+        assert cut[:, axis].min() > WALL + 2.0 and cut[:, axis].max() < SIZE[axis] - WALL - 2.0
+        assert cut[:, axis].min() < WALL + 2.02 and cut[:, axis].max() > SIZE[axis] - WALL - 2.02
+
+
+@pytest.mark.parametrize("keys", [{"fit": "lines"}, {"direction": "conventional", "growth_deg": 5.0}])
+def test_chords_on_another_controller_and_the_other_direction_are_as_sound(keys: dict[str, Any]) -> None:
+    asked = job("grbl", z_bottom=4.0, **keys)
+    report = sc.verify(text_of(asked), asked)
+    # the floor is deeper, as the job has it
+    assert {finding["kind"] for finding in report.to_dict()["findings"]} <= {"missing-level"}
+
+
+def test_a_pass_that_is_left_out_makes_the_next_one_engage_more(sound: tuple[sc.Job, list[str]]) -> None:
+    asked, lines = sound
+    links = roles(lines, "link")
+    ends = {
+        number: min(link for link in links if link > number) for number in roles(lines, "cut") if number < links[-1]
+    }
+    longest = max(ends, key=lambda number: ends[number] - number)
+    assert "engagement" in kinds(asked, lines[:longest] + lines[ends[longest] :])
+
+
+def test_passes_that_are_missing_at_the_end_leave_stock(sound: tuple[sc.Job, list[str]]) -> None:
+    asked, lines = sound
+    ends = [number for number, line in enumerate(lines) if line.startswith("G0 Z16")]
+    low = next(number for number, line in enumerate(lines) if re.search(r" Z2\.\d+", line))
+    cuts = [number for number in roles(lines, "cut") if number > low]
+    assert "uncleared" in kinds(asked, lines[: cuts[len(cuts) // 2]] + lines[ends[-1] :])
+
+
+def test_a_way_down_without_its_helix_is_found(sound: tuple[sc.Job, list[str]]) -> None:
+    asked, lines = sound
+    ramp = roles(lines, "ramp")[0]
+    around = next(number for number, line in enumerate(lines) if number > ramp and "Z4" in line.split())
+    spoilt = [*lines[: ramp + 1], straight(lines[around]) + " F300", *lines[around + 1 :]]
+    assert "steep-entry" in kinds(asked, spoilt)
+
+
+def test_a_rapid_down_into_stock_is_found(sound: tuple[sc.Job, list[str]]) -> None:
+    asked, lines = sound
+    down = next(number for number, line in enumerate(lines) if line.startswith("G1"))
+    spoilt = [*lines[:down], "G0 Z4", "G0 Z8", *lines[down:]]
+    assert {"rapid-into-stock"} <= kinds(asked, spoilt)
+
+
+def test_a_level_that_is_missing_is_found(sound: tuple[sc.Job, list[str]]) -> None:
+    asked, lines = sound
+    low = [number for number, line in enumerate(lines) if re.search(r" Z2\.\d+", line)]
+    high = [number for number, line in enumerate(lines) if line.startswith("G0") and number < low[0]]
+    end = [number for number, line in enumerate(lines) if line.startswith("G0") and number > low[-1]]
+    assert "missing-level" in kinds(asked, lines[: high[-1]] + lines[end[0] :])
+
+
+@pytest.mark.parametrize(
+    ("keys", "where"),
+    [
+        ({"growth_deg": 20.0}, "operations[0].growth_deg"),
+        ({"boundary": {"slope_deg": [0.0, 30.0]}}, "operations[0].boundary"),
+        ({"engagement_deg": 5.0}, "operations[0].engagement_deg"),
+    ],
+)
+def test_what_a_pocket_does_not_keep_to_is_refused(keys: dict[str, Any], where: str) -> None:
+    with pytest.raises(sc.JobError) as refused:
+        job(**keys)
+    assert refused.value.where == where and refused.value.hint
+
+
+def test_a_tool_that_fits_nowhere_is_refused_in_words() -> None:
+    asked = job(z_top=4.0)
+    document = asked.to_dict()
+    document["tools"]["mill"]["profile"]["diameter"] = 12.0
+    with pytest.raises(sc.PlanError):
+        sc.plan(sc.Job.from_dict(document, part=block()))
