@@ -94,6 +94,17 @@ def test_a_pocket_is_planned_and_nothing_is_found(sound: tuple[sc.Job, list[str]
         assert cut[:, axis].min() < WALL + 2.02 and cut[:, axis].max() > SIZE[axis] - WALL - 2.02
 
 
+def test_the_summary_states_levels_areas_and_lengths() -> None:
+    (operation,) = sc.plan(job(z_bottom=4.0)).summary()[0].operations
+    facts = {fact.fact: fact.value for fact in operation.facts}
+    assert operation.words == "1 area on 1 level" and (facts["levels"], facts["areas"]) == (1, 1)
+    # the tool's radius and 0.1 mm more round the corners of 14 by 10 mm; 3 um are left on the walls
+    assert abs(facts["to_be_cleared"] - (14 * 10 - (4 - np.pi) * 2.1**2)) < 0.4
+    # at 80 degrees all along, it would be the area over r (1 - cos 80) of passes
+    straight_on = facts["to_be_cleared"] / (2.0 * (1.0 - np.cos(np.radians(80.0))))
+    assert straight_on < facts["cut"] < 1.65 * straight_on and facts["not_cutting"] > 0 and "narrow_areas" not in facts
+
+
 @pytest.mark.parametrize("keys", [{"fit": "lines"}, {"direction": "conventional", "growth_deg": 5.0}])
 def test_chords_on_another_controller_and_the_other_direction_are_as_sound(keys: dict[str, Any]) -> None:
     asked = job("grbl", z_bottom=4.0, **keys)

@@ -60,7 +60,8 @@ fn every_key_of_every_kind_has_a_help_text() {
 fn every_kind_plans_and_says_what_it_planned() {
     let (part, watch) = (frustum(), Watch::default());
     let machine = machine();
-    for kind in kinds() {
+    // a pocket takes a minute with a tool this small: tests/python/test_pocket_operation.py plans a smaller one
+    for kind in kinds().filter(|kind| Operation::NAMES[*kind] != "pocket") {
         let job = job(kind).unwrap();
         let scene = Scene::new(&job, crate::MAIN_CHANNEL, &part).unwrap();
         let plan = crate::plan(&job, &[Setting { scene: &scene, machine: &machine }], &watch).unwrap();
