@@ -446,7 +446,7 @@ impl Course for Crossing<'_> {
     }
 
     fn keeps_to(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
-        self.surface.keeps_to_selected(a, b, most)
+        self.surface.keeps_to_selected(None, a, b, most)
     }
 
     fn bend(&self) -> f64 {
@@ -454,7 +454,7 @@ impl Course for Crossing<'_> {
     }
 
     fn may_rise(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
-        self.surface.may_rise(a, b, most)
+        self.surface.may_rise(None, a, b, most)
     }
 }
 

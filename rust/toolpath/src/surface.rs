@@ -3,9 +3,10 @@
 use std::borrow::Cow;
 
 use styluscam_geometry::Vector;
+use styluscam_motion::{Cancelled, Watch};
 
 use crate::fitting;
-use crate::offset::{Contact, Envelope, Keeping, Rolling};
+use crate::offset::{Contact, Envelope, Keeping, Rolling, Slice, Slices};
 use crate::region::{Between, Region};
 use crate::{Pass, PathPoint};
 
@@ -185,34 +186,68 @@ impl<'a> Surface<'a> {
         self.at(middle.x, middle.y, hint)
     }
 
-    /// Whether all exact positions between two stay within `most` mm of the straight line, as fitting measures:
-    /// proven, for whatever lies there. False where that cannot be seen.
+    /// Rows over it at ascending positions across, mm; `directions` are unit vectors in plan along and across them.
+    pub(crate) fn slices(
+        &self,
+        directions: [[f64; 2]; 2],
+        rows: Vec<f64>,
+        watch: &Watch,
+    ) -> Result<Slices<'_>, Cancelled> {
+        self.envelope.slices(directions, rows, self.selected, watch)
+    }
+
+    /// As [`at`](Self::at), on a row if it is given.
     #[must_use]
-    pub(crate) fn keeps_to(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
+    pub(crate) fn on_row(&self, row: Option<&Slice<'_>>, x: f64, y: f64, hint: &mut Option<u32>) -> Option<PathPoint> {
+        match row {
+            None => self.at(x, y, hint),
+            Some(slice) => {
+                let (contact, is_selected) = self.envelope.contact_on_row(slice, x, y)?;
+                Some(self.point_of([x, y], &contact, is_selected))
+            }
+        }
+    }
+
+    /// Whether all exact positions between two (on a row, if it is given) stay within `most` mm of the straight line, as fitting
+    /// measures: proven, for whatever lies there. False where that cannot be seen.
+    #[must_use]
+    pub(crate) fn keeps_to(&self, row: Option<&Slice<'_>>, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
         let height = fitting::in_height(a, b, most);
-        self.dip(a, b) <= height && self.envelope.keeps_under([a.tip, b.tip], height, |_| height) == Keeping::Under
+        self.dip(a, b) <= height && self.rise(row, a, b, height) == Keeping::Under
+    }
+
+    /// What is known of tips over the straight line between two, by more than a height, mm.
+    fn rise(&self, row: Option<&Slice<'_>>, a: &PathPoint, b: &PathPoint, height: f64) -> Keeping {
+        match row {
+            None => self.envelope.keeps_under([a.tip, b.tip], height, |_| height),
+            Some(slice) => self.envelope.keeps_under_on_row(slice, [a.tip, b.tip], |_| height),
+        }
     }
 
     /// Whether exact positions between two may lie over the straight line by more than `most` mm: false where it is proven
     /// that none does, and where more triangles are near than are tried.
     #[must_use]
-    pub(crate) fn may_rise(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
-        let height = fitting::in_height(a, b, most);
-        self.envelope.keeps_under([a.tip, b.tip], height, |_| height) == Keeping::Over
+    pub(crate) fn may_rise(&self, row: Option<&Slice<'_>>, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
+        self.rise(row, a, b, fitting::in_height(a, b, most)) == Keeping::Over
     }
 
     /// As [`keeps_to`](Self::keeps_to), and that nothing is touched between two selected positions but what is selected.
     #[must_use]
-    pub(crate) fn keeps_to_selected(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
-        let Some(selected) = self.selected else { return self.keeps_to(a, b, most) };
+    pub(crate) fn keeps_to_selected(&self, row: Option<&Slice<'_>>, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
+        let Some(selected) = self.selected else { return self.keeps_to(row, a, b, most) };
         let height = fitting::in_height(a, b, most);
         // nothing lies lower than that under the line, so what else does is not touched
-        let limit = |triangle: u32| if selected[triangle as usize] { height } else { -height };
+        let limit = |is_selected: bool| if is_selected { height } else { -height };
+        let line = [a.tip, b.tip];
+        let stays_under = || match row {
+            None => self.envelope.keeps_under(line, -height, |triangle| limit(selected[triangle as usize])),
+            Some(slice) => self.envelope.keeps_under_on_row(slice, line, limit),
+        };
         a.selected
             && b.selected
             && self.region.is_none_or(|region| !region.may_end_between(self.envelope, a, b))
             && self.dip(a, b) < height
-            && self.envelope.keeps_under([a.tip, b.tip], -height, limit) == Keeping::Under
+            && stays_under() == Keeping::Under
     }
 
     /// How far positions between two may lie under the straight line, mm: no more than the floor does.
@@ -227,6 +262,11 @@ impl<'a> Surface<'a> {
     /// A contact over (x, y) as a path point; on the floor where that is higher.
     #[must_use]
     pub fn path_point(&self, x: f64, y: f64, contact: &Contact) -> PathPoint {
+        self.point_of([x, y], contact, false)
+    }
+
+    /// The same, of a contact of which it may be known that all that meets there is selected.
+    fn point_of(&self, [x, y]: [f64; 2], contact: &Contact, is_selected: bool) -> PathPoint {
         let tip = Vector::new(x, y, contact.tip);
         let is_on_faces = |selected: &[bool]| self.envelope.belongs(contact, selected, SPREAD, self.rolling);
         let is_raised = tip.z < self.floor;
@@ -234,7 +274,7 @@ impl<'a> Surface<'a> {
             tip: Vector::new(x, y, tip.z.max(self.floor)),
             normal: if is_raised { Vector::z() } else { contact.normal },
             selected: (self.heights[0]..=self.heights[1]).contains(&contact.tip)
-                && self.selected.is_none_or(is_on_faces)
+                && (is_selected || self.selected.is_none_or(is_on_faces))
                 && self.region.is_none_or(|region| region.allows(self.envelope, tip, contact.normal)),
             triangle: contact.triangle,
         }

@@ -21,7 +21,7 @@ pub fn over_line(
     deviation: f64,
     watch: &Watch,
 ) -> Result<Vec<Vec<PathPoint>>, Cancelled> {
-    let mut course = SurfaceCourse { surface, hint: None, watch };
+    let mut course = SurfaceCourse { surface, row: None, hint: None, watch };
     let (mut met, mut run) = (Vec::new(), Vec::new());
     for [x, y] in corners {
         if watch.is_cancelled() {

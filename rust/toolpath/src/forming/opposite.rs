@@ -131,7 +131,7 @@ impl Opposite<'_> {
         let beside = (off - exact.normal * along_normal).norm_squared();
         // beside each other's contacts two round tools are farther apart: by as much as two balls of their diameters
         let apart = along_normal.abs() + beside / (self.main.tool.diameter() + self.below.tool.diameter());
-        let kept = || self.below.surface.keeps_to(&a.below, &b.below, self.deviation);
+        let kept = || self.below.surface.keeps_to(None, &a.below, &b.below, self.deviation);
         apart <= self.deviation && ((to - from).norm() <= SEEN || kept())
     }
 }

@@ -39,7 +39,11 @@ fn stances_by(
         // at the origin the tool touches a plane of this normal there
         let touching = |normal: Vector| envelope.touching_point(Vector::zeros(), normal);
         let stands = normals.iter().all(|normal| normal.z > WALL);
-        stands.then(|| (*triangle, std::array::from_fn(|i| corners[i] - touching(normals[i]))))
+        stands.then(|| {
+            let first = touching(normals[0]);
+            let touching = |normal: Vector| if normal == normals[0] { first } else { touching(normal) };
+            (*triangle, std::array::from_fn(|i| corners[i] - touching(normals[i])))
+        })
     });
     stances.collect()
 }

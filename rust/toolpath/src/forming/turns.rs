@@ -223,7 +223,7 @@ impl Turning<'_> {
         raised: &mut impl FnMut(&CurvePoint) -> PathPoint,
         path: &mut Vec<PathPoint>,
     ) -> Option<()> {
-        if !self.surface.may_rise(&a.1, &b.1, fitting::PROVEN * self.rule.deviation) {
+        if !self.surface.may_rise(None, &a.1, &b.1, fitting::PROVEN * self.rule.deviation) {
             path.push(b.1);
             return Some(());
         }

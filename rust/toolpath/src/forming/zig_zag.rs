@@ -6,6 +6,7 @@ use styluscam_motion::Watch;
 use super::extra_rows::extra_rows;
 use super::pattern::{share, spread, Pattern, Row};
 use super::{stances::stances, steps::StepBounds, untouched::Untouched};
+use crate::offset::Slice;
 use crate::{fitting, fitting::Course, Pass, PathPoint, PlanError, Surface};
 
 /// Distance between samples where a selected facet could be touched between two positions at which none is, mm.
@@ -58,6 +59,8 @@ pub fn zig_zag(surface: &Surface<'_>, rows: &Rows, deviation: f64, watch: &Watch
 /// The envelope over a line in plan.
 pub(super) struct SurfaceCourse<'a> {
     pub surface: &'a Surface<'a>,
+    /// The row on which the line lies, where it is known.
+    pub row: Option<&'a Slice<'a>>,
     /// The triangle that was touched last.
     pub hint: Option<u32>,
     pub watch: &'a Watch,
@@ -69,11 +72,12 @@ impl Course for SurfaceCourse<'_> {
         if self.watch.is_cancelled() {
             return None;
         }
-        self.surface.between(a, b, &mut self.hint)
+        let middle = (a.tip + b.tip) * 0.5;
+        self.surface.on_row(self.row, middle.x, middle.y, &mut self.hint)
     }
 
     fn keeps_to(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
-        self.surface.keeps_to(a, b, most)
+        self.surface.keeps_to(self.row, a, b, most)
     }
 
     fn bend(&self) -> f64 {
@@ -81,7 +85,7 @@ impl Course for SurfaceCourse<'_> {
     }
 
     fn may_rise(&self, a: &PathPoint, b: &PathPoint, most: f64) -> bool {
-        self.surface.may_rise(a, b, most)
+        self.surface.may_rise(self.row, a, b, most)
     }
 }
 
@@ -132,22 +136,37 @@ impl Lines {
     ) -> Result<Vec<(Row, Vec<Pass>)>, PlanError> {
         let facets = self.facets(surface);
         watch.begin("rows", self.rows.len());
-        let of_row = |(row, facets): (&Row, &Vec<[f64; 2]>)| {
-            let passes = self.slice(surface, row, facets, deviation, watch);
-            watch.advance(1)?;
-            Ok((*row, passes))
+        let across = self.rows.iter().map(|row| row.across).collect();
+        let slices = surface.slices([self.pattern.along, self.pattern.across], across, watch)?;
+        let of_block = |block: usize| {
+            let rows = slices.rows(block);
+            let of_row = |((row, facets), slice): ((&Row, &Vec<[f64; 2]>), &Option<Slice<'_>>)| {
+                let passes = self.slice((surface, slice.as_ref()), row, facets, deviation, watch);
+                watch.advance(1)?;
+                Ok((*row, passes))
+            };
+            let rows = self.rows[rows.clone()].par_iter().zip(&facets[rows]);
+            rows.zip(&slices.of_block(block)).map(of_row).collect::<Result<Vec<_>, PlanError>>()
         };
-        self.rows.par_iter().zip(&facets).map(of_row).collect()
+        let blocks = (0..slices.blocks()).into_par_iter().map(of_block).collect::<Result<Vec<_>, _>>()?;
+        Ok(blocks.into_iter().flatten().collect())
     }
 
     /// The passes of a row; when `watch` is cancelled, some of them.
-    fn slice(&self, surface: &Surface<'_>, row: &Row, facets: &[[f64; 2]], deviation: f64, watch: &Watch) -> Vec<Pass> {
-        let mut course = SurfaceCourse { surface, hint: None, watch };
+    fn slice(
+        &self,
+        (surface, slice): (&Surface<'_>, Option<&Slice<'_>>),
+        row: &Row,
+        facets: &[[f64; 2]],
+        deviation: f64,
+        watch: &Watch,
+    ) -> Vec<Pass> {
+        let mut course = SurfaceCourse { surface, row: slice, hint: None, watch };
         let plain = |a: &PathPoint, b: &PathPoint| {
             let most = fitting::PROVEN * deviation;
-            !watch.is_cancelled() && fitting::may_keep_to(a, b, most) && surface.keeps_to_selected(a, b, most)
+            !watch.is_cancelled() && fitting::may_keep_to(a, b, most) && surface.keeps_to_selected(slice, a, b, most)
         };
-        let met = self.met(surface, row, facets, plain, &mut course.hint);
+        let met = self.met((surface, slice), row, facets, plain, &mut course.hint);
         let mut passes = Vec::new();
         let stretches = met.into_iter().flat_map(|exact| surface.stretches(exact, false, |a, b| course.between(a, b)));
         for (exact, _) in stretches.collect::<Vec<_>>() {
@@ -164,7 +183,7 @@ impl Lines {
     /// the last.
     fn met(
         &self,
-        surface: &Surface<'_>,
+        (surface, slice): (&Surface<'_>, Option<&Slice<'_>>),
         row: &Row,
         facets: &[[f64; 2]],
         plain: impl Fn(&PathPoint, &PathPoint) -> bool,
@@ -173,7 +192,7 @@ impl Lines {
         let Pattern { along, across, .. } = self.pattern;
         let mut at = |s: f64| {
             let [x, y] = [0, 1].map(|axis| s * along[axis] + row.across * across[axis]);
-            surface.at(x, y, hint)
+            surface.on_row(slice, x, y, hint)
         };
         let mut runs = Vec::new();
         let mut run = Vec::new();

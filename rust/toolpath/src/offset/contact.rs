@@ -1,7 +1,8 @@
 //! Exact contacts of a cutter with a triangle: on the facet, on an edge, on a corner.
 //!
-//! The contacts of drop-cutter: Yau, Chuang, Lee (2004), see [`super::envelope`]; the cuts of a chord where its tangents meet:
-//! J. E. Kelley, "The cutting-plane method for solving convex programs", Journal of the SIAM 8, 1960.
+//! The contacts of drop-cutter: Yau, Chuang, Lee (2004), see [`super::envelope`].
+
+mod under;
 
 use rayon::prelude::*;
 use styluscam_geometry::{Cutter, Vector};
@@ -19,11 +20,6 @@ const ACROSS: f64 = 1e-6;
 /// A contact this share of the part's size outside its facet still counts: flat edges are not tried, and rounding
 /// must not let a contact fall between two facets. The height is wrong by less than this.
 const OVERHANG: f64 = 1e-13;
-
-/// Cuts of a chord, for one triangle, before its tips count as too high.
-const CUTS: usize = 6;
-/// Parts are cut off a chord of at least this share of it.
-const LEAST_CUT: f64 = 0.1;
 
 /// The part of a triangle that is touched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -144,31 +140,6 @@ fn gap_to_segment(position: [f64; 2], a: Vector, b: Vector) -> [f64; 2] {
     [from[0] + share * along[0], from[1] + share * along[1]]
 }
 
-/// Distance in plan between a triangle and a segment.
-fn apart_in_plan(corners: &[Vector; 3], [from, to]: [[f64; 2]; 2]) -> f64 {
-    let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
-    let plan = corners.map(|p| [p.x, p.y]);
-    let turns = [0, 1, 2].map(|i| side(plan[i], plan[(i + 1) % 3], from));
-    if turns.iter().all(|turn| *turn >= 0.0) || turns.iter().all(|turn| *turn <= 0.0) {
-        return 0.0;
-    }
-    let [a, b] = [from, to].map(|p| Vector::new(p[0], p[1], 0.0));
-    let mut least = f64::INFINITY;
-    for i in 0..3 {
-        let (p, q) = (plan[i], plan[(i + 1) % 3]);
-        if side(p, q, from) * side(p, q, to) < 0.0 && side(from, to, p) * side(from, to, q) < 0.0 {
-            return 0.0;
-        }
-        let gaps = [
-            gap_to_segment(p, a, b),
-            gap_to_segment(from, corners[i], corners[(i + 1) % 3]),
-            gap_to_segment(to, corners[i], corners[(i + 1) % 3]),
-        ];
-        least = gaps.iter().fold(least, |least, gap| least.min(libm::hypot(gap[0], gap[1])));
-    }
-    least
-}
-
 /// A triangle seen from a position and a height, mm.
 pub struct Seen {
     pub corners: [[f64; 3]; 3],
@@ -235,6 +206,39 @@ impl<'a> Contacts<'a> {
         Seen { corners, contact, plane: if plane.is_nan() { f64::INFINITY } else { plane }, gradient: [gx, gy], bend }
     }
 
+    /// Tries one part of a triangle; of its inside, the whole plane.
+    #[inline]
+    pub fn touch_feature(&self, triangle: u32, feature: Feature, [x, y]: [f64; 2], found: &mut Best) {
+        let Facet { gradient: [gx, gy], share, height, .. } = self.facets[triangle as usize];
+        let corners = self.index.triangles().at(triangle);
+        let contact = [x + share * gx, y + share * gy];
+        match feature {
+            Feature::Facet => {
+                let origin = corners[0];
+                let tip = origin.z + gx * (contact[0] - origin.x) + gy * (contact[1] - origin.y) - height;
+                found.improve(Best { tip, triangle, feature, at: contact });
+            }
+            Feature::Edge(i) => self.touch_edge((corners, contact), triangle, usize::from(i), [x, y], found),
+            Feature::Corner(i) => self.touch_corner(corners[usize::from(i)], triangle, i, x, y, found),
+        }
+    }
+
+    /// The plane of a triangle for the cutter: gradient, contact relative to the axis in plan, and the profile's height there, NaN
+    /// for walls.
+    #[inline]
+    pub fn plane(&self, triangle: u32) -> ([f64; 2], [f64; 2], f64) {
+        let Facet { gradient, share, height, .. } = self.facets[triangle as usize];
+        (gradient, gradient.map(|part| share * part), height)
+    }
+
+    pub fn cutter(&self) -> &'a Cutter {
+        self.cutter
+    }
+
+    pub fn index(&self) -> &'a Index {
+        self.index
+    }
+
     /// Tries all of a triangle, whether others try it too or not.
     pub fn touch_whole(&self, triangle: u32, position: [f64; 2], found: &mut Best) {
         self.touch_owned(triangle, ALL, position, found);
@@ -289,7 +293,7 @@ impl<'a> Contacts<'a> {
         }
         for i in 0..3 {
             if owned & (1 << i) != 0 && seen(i) {
-                self.touch_edge(view, triangle, i, [x, y], found);
+                self.touch_edge((view.corners, view.contact), triangle, i, [x, y], found);
             }
         }
     }
@@ -310,9 +314,16 @@ impl<'a> Contacts<'a> {
         found.improve(Best { tip, triangle, feature: Feature::Corner(number), at: [corner.x, corner.y] });
     }
 
-    fn touch_edge(&self, view: &View, triangle: u32, number: usize, position: [f64; 2], found: &mut Best) {
-        let (a, b) = (view.corners[number], view.corners[(number + 1) % 3]);
-        if let Some(touch) = edge::touch(self.cutter, [a, b], position, view.contact, found.tip) {
+    fn touch_edge(
+        &self,
+        (corners, contact): ([Vector; 3], [f64; 2]),
+        triangle: u32,
+        number: usize,
+        position: [f64; 2],
+        found: &mut Best,
+    ) {
+        let (a, b) = (corners[number], corners[(number + 1) % 3]);
+        if let Some(touch) = edge::touch(self.cutter, [a, b], position, contact, found.tip) {
             let at = [a.x + touch.share * (b.x - a.x), a.y + touch.share * (b.y - a.y)];
             found.improve(Best { tip: touch.tip, triangle, feature: Feature::Edge(number as u8), at });
         }
@@ -403,100 +414,37 @@ impl<'a> Contacts<'a> {
         tips.into_iter().fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether the tips that a triangle alone asks for stay within `most` mm over a chord of tips.
-    ///
-    /// Along the chord they are concave, so they stay below their tangents over its ends, and over any position between them:
-    /// over the one where those meet, the highest that they allow. What is too high there is, or looks so after a few cuts.
-    pub fn stays_under(&self, triangle: u32, chord: &Chord, most: f64) -> bool {
-        let over_plane = |share: f64| {
-            let (at, tip) = chord.at(share);
-            self.greatest_of_plane(triangle, at, [0.0; 2]) - tip
-        };
-        if [0.0, 1.0].map(over_plane).iter().all(|over| *over <= most) {
-            return true; // never for a wall
-        }
-        // most are far below: one tangent decides
-        if let Some([over, rise]) = self.over_chord(triangle, chord, 0.5) {
-            if over > most || over + 0.5 * rise.abs() <= most {
-                return over <= most;
-            }
-        }
-        let ends = [0.0, 1.0].map(|share| self.over_chord(triangle, chord, share));
-        self.stays_under_between(triangle, chord, most, [(0.0, ends[0]), (1.0, ends[1])], CUTS)
-    }
-
-    fn stays_under_between(
-        &self,
-        triangle: u32,
-        chord: &Chord,
-        most: f64,
-        ends: [(f64, Option<[f64; 2]>); 2],
-        cuts: usize,
-    ) -> bool {
-        let [(from, first), (to, last)] = ends;
-        if [first, last].into_iter().flatten().any(|[over, _]| over > most) {
-            return false;
-        }
-        let next = match (first, last) {
-            (Some([first, rise]), Some([last, fall])) => {
-                // where the tangents meet; where they do not fall towards each other, they are one line but for rounding
-                let bend = rise - fall;
-                let step = if bend > 0.0 { (last - first - fall * (to - from)) / bend } else { 0.0 };
-                let step = step.clamp(0.0, to - from);
-                if first + rise * step <= most {
-                    return true;
-                }
-                (from + step).clamp(from + LEAST_CUT * (to - from), to - LEAST_CUT * (to - from))
-            }
-            _ if self.is_out_of_reach(triangle, chord, [from, to], most) => return true,
-            _ => 0.5 * (from + to),
-        };
-        if cuts == 0 {
-            return false;
-        }
-        let middle = (next, self.over_chord(triangle, chord, next));
-        self.stays_under_between(triangle, chord, most, [ends[0], middle], cuts - 1)
-            && self.stays_under_between(triangle, chord, most, [middle, ends[1]], cuts - 1)
-    }
-
-    /// How far the tip that a triangle alone asks for lies over a chord, at a share of its length, and how that rises by the
-    /// share; none where the cutter does not reach it.
-    fn over_chord(&self, triangle: u32, chord: &Chord, share: f64) -> Option<[f64; 2]> {
-        let ([x, y], tip) = chord.at(share);
-        let (found, [gx, gy]) = self.tangent(triangle, [x, y])?;
-        let rise = gx * chord.along[0] + gy * chord.along[1] - chord.rise;
-        (!rise.is_nan()).then_some([found - tip, rise])
-    }
-
-    /// Whether a triangle is nowhere on a part of a chord near and high enough to reach over it, by its distance in plan.
-    fn is_out_of_reach(&self, triangle: u32, chord: &Chord, [from, to]: [f64; 2], most: f64) -> bool {
-        let corners = self.index.triangles().at(triangle);
-        let [(a, low), (b, high)] = [from, to].map(|share| chord.at(share));
-        let apart = apart_in_plan(&corners, [a, b]);
-        if apart > self.cutter.max_radius() + self.overhang {
-            return true;
-        }
-        let top = corners.iter().fold(f64::NEG_INFINITY, |most, p| most.max(p.z));
-        top - self.cutter.height_bound(apart.min(self.cutter.max_radius())) <= low.min(high) + most
-    }
-
     /// The tip that a triangle alone asks for over a position, and its gradient there: towards the contact.
     fn tangent(&self, triangle: u32, position: [f64; 2]) -> Option<(f64, [f64; 2])> {
         let mut alone = Best::NOTHING;
         self.touch_whole(triangle, position, &mut alone);
-        if !alone.is_something() {
-            return None;
+        alone.is_something().then(|| (alone.tip, self.gradient(&alone, position)))
+    }
+
+    /// The same of one part of a triangle, an edge with its ends.
+    fn tangent_of(&self, triangle: u32, feature: Feature, position: [f64; 2]) -> Option<(f64, [f64; 2])> {
+        let mut alone = Best::NOTHING;
+        self.touch_feature(triangle, feature, position, &mut alone);
+        if let (Feature::Edge(i), false) = (feature, alone.is_something()) {
+            for end in [i, (i + 1) % 3] {
+                self.touch_feature(triangle, Feature::Corner(end), position, &mut alone);
+            }
         }
-        let away = [0, 1].map(|i| alone.at[i] - position[i]);
+        alone.is_something().then(|| (alone.tip, self.gradient(&alone, position)))
+    }
+
+    /// The gradient of the tips that what is touched asks for, at a position: towards the contact.
+    pub fn gradient(&self, best: &Best, position: [f64; 2]) -> [f64; 2] {
+        let away = [0, 1].map(|i| best.at[i] - position[i]);
         let distance = libm::hypot(away[0], away[1]);
-        let by_table = match alone.feature {
-            Feature::Facet => return Some((alone.tip, self.facets[triangle as usize].gradient)),
-            Feature::Edge(i) => self.steepness_on_edge(triangle, i, away.map(|a| a / distance)),
+        let by_table = match best.feature {
+            Feature::Facet => return self.facets[best.triangle as usize].gradient,
+            Feature::Edge(i) => self.steepness_on_edge(best.triangle, i, away.map(|a| a / distance)),
             Feature::Corner(_) => self.cutter.height_with_derivatives(distance).map(|height| height.rise),
         };
-        let steep = by_table.unwrap_or_else(|| libm::tan(self.slope(&alone, position)));
+        let steep = by_table.unwrap_or_else(|| libm::tan(self.slope(best, position)));
         let rise = if distance > 0.0 { steep / distance } else { 0.0 };
-        Some((alone.tip, away.map(|a| rise * a)))
+        away.map(|a| rise * a)
     }
 
     /// Steepness of the contact with an edge that lies in some direction from the axis: along the edge it is the edge's.
@@ -507,6 +455,22 @@ impl<'a> Contacts<'a> {
         let run = (b.x - a.x) * towards[0] + (b.y - a.y) * towards[1];
         let steep = (b.z - a.z) / run;
         (run.abs() > ACROSS * (b - a).norm() && steep > 0.0).then_some(steep)
+    }
+
+    /// Height of a contact, mm.
+    pub fn height_at(&self, best: &Best) -> f64 {
+        let corners = self.index.triangles().at(best.triangle);
+        match best.feature {
+            Feature::Facet => best.tip + self.facets[best.triangle as usize].height,
+            Feature::Edge(i) => {
+                let (a, b) = (corners[usize::from(i)], corners[(usize::from(i) + 1) % 3]);
+                let along = [b.x - a.x, b.y - a.y];
+                let from = [best.at[0] - a.x, best.at[1] - a.y];
+                let share = (along[0] * from[0] + along[1] * from[1]) / (along[0] * along[0] + along[1] * along[1]);
+                a.z + share * (b.z - a.z)
+            }
+            Feature::Corner(i) => corners[usize::from(i)].z,
+        }
     }
 
     /// Slope of a contact, rad.

@@ -16,6 +16,7 @@ use super::features::{Neighbours, NO_NEIGHBOUR};
 use super::index::{Index, Lines, Matched};
 use super::push::{self, Line, Release};
 use super::search::{Ground, Keeping, Searcher, Verdict};
+use super::slices::{Slice, Slices};
 use super::tiles::Tiles;
 use crate::lattice::{Cells, Lattice, Node};
 
@@ -25,6 +26,8 @@ const BLOCK: usize = 1 << 20;
 const CHUNK: usize = 64;
 /// Tiles that share a survey of the index.
 const SURVEYED: usize = 16;
+/// Contacts that rise by more have their normal by their slope.
+const STEEPEST: f64 = 1e3;
 /// Cells in each direction of the pieces of a lattice that share a survey of the index.
 const PIECE: usize = 16;
 
@@ -280,6 +283,35 @@ impl<'a> Envelope<'a> {
         Searcher::with(|searcher| searcher.keeps_under(&self.ground(), &self.chord(line), least, &most))
     }
 
+    /// Rows over the mesh, at ascending positions across, mm; `directions` are unit vectors in plan along and across them. What counts as
+    /// selected is stated for each triangle; all does where it is not.
+    ///
+    /// # Errors
+    /// `Cancelled` when `watch` is cancelled.
+    pub fn slices<'s>(
+        &'s self,
+        directions: [[f64; 2]; 2],
+        rows: Vec<f64>,
+        selected: Option<&'s [bool]>,
+        watch: &Watch,
+    ) -> Result<Slices<'s>, Cancelled> {
+        Slices::of(self.ground().contacts, directions, rows, selected, self.reach, watch)
+    }
+
+    /// The contact at a position on a row, or none where the tool meets nothing; and whether all triangles that meet there are
+    /// selected.
+    #[must_use]
+    pub fn contact_on_row(&self, slice: &Slice<'_>, x: f64, y: f64) -> Option<(Contact, bool)> {
+        let (found, is_selected) = slice.found([x, y]);
+        found.is_something().then(|| (self.contact_of(&found, [x, y]), is_selected))
+    }
+
+    /// As [`keeps_under`](Self::keeps_under), of a line on a row; `most` is asked for what is selected and for what is not.
+    #[must_use]
+    pub fn keeps_under_on_row(&self, slice: &Slice<'_>, line: [Vector; 2], most: impl Fn(bool) -> f64) -> Keeping {
+        slice.keeps_under(&self.chord(line), most)
+    }
+
     /// How far the tip may fall below the straight line between two tips at most, mm, because of the triangles that are
     /// touched at its ends; infinite where that is not known.
     ///
@@ -302,6 +334,14 @@ impl<'a> Envelope<'a> {
         } else {
             first.min(last)
         }
+    }
+
+    /// The cutter's tip that a triangle of the index alone asks for.
+    #[cfg(test)]
+    pub(super) fn tip_alone(&self, triangle: u32, position: [f64; 2]) -> f64 {
+        let mut alone = Best::NOTHING;
+        self.ground().contacts.touch_whole(triangle, position, &mut alone);
+        alone.tip
     }
 
     fn chord(&self, [from, to]: [Vector; 2]) -> Chord {
@@ -398,19 +438,32 @@ impl<'a> Envelope<'a> {
     #[must_use]
     pub fn touching_point(&self, tip: Vector, normal: Vector) -> Vector {
         let across = libm::hypot(normal.x, normal.y);
-        let (r, z) = self.cutter.point_at(libm::atan2(across, normal.z).min(std::f64::consts::FRAC_PI_2));
+        let (r, z) = if normal.z > 0.0 {
+            self.cutter.at_rise(across / normal.z)
+        } else {
+            self.cutter.point_at(std::f64::consts::FRAC_PI_2)
+        };
         let outward = if across > 0.0 { [normal.x / across, normal.y / across] } else { [0.0; 2] };
         Vector::new(tip.x - r * outward[0], tip.y - r * outward[1], tip.z - self.above + z)
     }
 
     fn contact_of(&self, best: &Best, [x, y]: [f64; 2]) -> Contact {
-        let slope = self.ground().contacts.slope(best, [x, y]);
+        let contacts = self.ground().contacts;
         let [cx, cy] = best.at;
-        let height = best.tip + self.cutter.point_at(slope).1;
+        let gradient = contacts.gradient(best, [x, y]);
+        let normal = Vector::new(-gradient[0], -gradient[1], 1.0);
+        let length = normal.norm();
+        // beside the steepest of walls the gradient says less than the slope
+        let (normal, height) = if length < STEEPEST {
+            (normal / length, contacts.height_at(best))
+        } else {
+            let slope = contacts.slope(best, [x, y]);
+            (self::normal(slope, [x - cx, y - cy]), best.tip + self.cutter.point_at(slope).1)
+        };
         Contact {
             tip: best.tip + self.above,
             point: Vector::new(cx, cy, height),
-            normal: normal(slope, [x - cx, y - cy]),
+            normal,
             triangle: self.index.number(best.triangle),
             feature: best.feature,
         }
@@ -438,4 +491,4 @@ fn normal(slope: f64, [dx, dy]: [f64; 2]) -> Vector {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -14,6 +14,7 @@ mod push;
 mod regions;
 mod search;
 mod selection;
+mod slices;
 mod slope_matched;
 mod tiles;
 
@@ -25,4 +26,5 @@ pub use push::Line;
 pub use regions::Region;
 pub use search::{Keeping, Verdict};
 pub use selection::Rolling;
+pub use slices::{Slice, Slices};
 pub use slope_matched::{slope_matched_offset, OffsetFlag};

@@ -1,7 +1,7 @@
 //! The envelope against all triangles, one by one, and against closed forms.
 
 #[path = "../../../tests/common/mod.rs"]
-mod common;
+pub(in crate::offset) mod common;
 
 use common::dice::Dice;
 use common::surfaces::{Surface, MIDDLE, SURFACES};
