@@ -94,6 +94,7 @@ def test_a_cup_without_its_flange_is_formed_with_an_addendum_and_verified(
     assert normals is not None
     cup = sc.Part.from_mesh(vertices, triangles[own], normals[own], faces[own])
     found = document({"wall_angle_deg": 40.0, "height": 8.0})
+    found["operations"][0]["step"] = {"height": 4.0}
     found["output"] = {"file": "cup.ngc", "trim": "trim.csv"}
     job = sc.Job.from_dict(found, tmp_path, cup)
     result = sc.run(job)
@@ -110,6 +111,7 @@ def test_a_cup_without_its_flange_is_formed_with_an_addendum_and_verified(
     assert table[0, 3] == pytest.approx(result.summary.part_max[2] - 8.0, abs=1e-3)
     # the wall at another angle is found, whichever of the two is asked for
     steeper = document({"wall_angle_deg": 42.0, "height": 8.0})
+    steeper["operations"] = found["operations"]
     other = sc.Job.from_dict(steeper, tmp_path, cup)
     kinds = [
         {finding.kind for finding in sc.verify(text, against).findings if finding.severity == "error"}
@@ -129,7 +131,7 @@ def test_operations_name_the_addendum(tmp_path: Path) -> None:
 
 
 def test_over_a_male_die_the_wall_goes_down(part_of: Callable[[str], sc.Part], tmp_path: Path) -> None:
-    found = job_document("cap_r60", "z-level", BALL, step={"height": 1.5})
+    found = job_document("cap_r60", "z-level", BALL, step={"height": 3.0})
     found["part"] |= {"faces": "all", "addendum": {"wall_angle_deg": 50.0, "height": 15.0}}
     found["process"] = {"kind": "tpif", "die": "male"}
     found["accept"] = ["solid"]
@@ -138,7 +140,7 @@ def test_over_a_male_die_the_wall_goes_down(part_of: Callable[[str], sc.Part], t
     # none is left out while the tool rolls from the flange over its edge to the wall
     heights = np.unique(plan.programs["main"].moves["end"][:, 2].round(2))
     heights = heights[heights < 0.0]
-    assert np.diff(heights).max() < 1.51, heights
+    assert np.diff(heights).max() < 3.01, heights
     report = sc.verify(sc.post(plan).text, job)
     assert report.ok, report.findings
     edge = job.part().engine.trim[0][:, 2]

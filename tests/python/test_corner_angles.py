@@ -33,7 +33,11 @@ def job(part: str, machine: str = "linuxcnc", **keys: Any) -> sc.Job:
 
 
 def corners(asked: sc.Job, text: str) -> list[Any]:
-    return [finding for finding in sc.verify(text, asked).findings if finding.kind == "corner"]
+    return corners_of(sc.verify(text, asked))
+
+
+def corners_of(report: sc.Report) -> list[Any]:
+    return [finding for finding in report.findings if finding.kind == "corner"]
 
 
 def largest_in_rows(program: sc.Program) -> float:
@@ -47,20 +51,19 @@ def largest_in_rows(program: sc.Program) -> float:
     return float(angle.max())
 
 
-@pytest.mark.parametrize("machine", ["linuxcnc", "grbl"])
-def test_smooth_rows_turn_by_no_more_than_asked(machine: str) -> None:
+def test_smooth_rows_turn_by_no_more_than_asked() -> None:
     keys = {"faces": ["Face1"], "turns": "rounded", "tolerance": 0.03}
-    free = sc.plan(job("cap_r60", machine, **keys))
-    assert largest_in_rows(free.programs["main"]) > 2.5
-    asked = job("cap_r60", machine, max_corner_deg=1.0, **keys)
-    plan = sc.plan(asked)
-    assert largest_in_rows(plan.programs["main"]) <= 1.0 + ROUNDING
-    assert len(plan.programs["main"].moves) > len(free.programs["main"].moves)
+    free = sc.plan(job("cap_r60", **keys)).programs["main"]
+    assert largest_in_rows(free) > 2.5
+    for machine in ("linuxcnc", "grbl"):
+        asked = sc.plan(job("cap_r60", machine, max_corner_deg=1.0, **keys)).programs["main"]
+        assert largest_in_rows(asked) <= 1.0 + ROUNDING
+        assert len(asked.moves) > len(free.moves)
 
 
-def moves_with_corners(asked: sc.Job, text: str) -> int:
+def moves_with_corners(report: sc.Report) -> int:
     """How many moves lie between the first and the last corner of each place."""
-    return sum(finding.moves for finding in corners(asked, text))
+    return sum(finding.moves for finding in corners_of(report))
 
 
 @pytest.mark.parametrize(("kind", "fit"), [("z-level", "lines"), ("spiral", "lines"), ("spiral", "arcs")])
@@ -68,12 +71,12 @@ def test_levels_and_spirals_keep_it_but_where_the_tool_plunges(kind: str, fit: s
     """On the cone cup's wall, which is smooth round about."""
     keys = {"kind": kind, "fit": fit, "step": {"height": 6.0}, "tolerance": 0.03, "faces": ["Face4"]}
     asked = job("cone_cup", max_corner_deg=2.0, **keys)
-    text = sc.post(sc.plan(asked)).text
-    assert sc.verify(text, asked).ok
-    assert 0 < moves_with_corners(asked, text) < 10
+    report = sc.verify(sc.post(sc.plan(asked)).text, asked)
+    assert report.ok
+    assert 0 < moves_with_corners(report) < 10
     if fit == "lines":
         free = sc.post(sc.plan(job("cone_cup", **keys))).text
-        assert moves_with_corners(asked, free) > 100
+        assert moves_with_corners(sc.verify(free, asked)) > 100
 
 
 def test_a_corner_put_into_a_text_is_found_where_it_is() -> None:
@@ -94,9 +97,9 @@ def test_a_corner_put_into_a_text_is_found_where_it_is() -> None:
 def test_links_and_edges_of_the_part_are_named() -> None:
     """The rows of a cup with sharp edges, linked straight."""
     asked = job("cap_r60", max_corner_deg=10.0)
-    found = corners(asked, sc.post(sc.plan(asked)).text)
+    text = sc.post(sc.plan(asked)).text
+    found = corners(asked, text)
     assert found and max(finding.value for finding in found) > 45.0
     assert all(finding.severity == "warning" and finding.line for finding in found)
     assert "max_corner_deg is 10.00" in found[0].message
-    quiet = job("cap_r60")
-    assert not corners(quiet, sc.post(sc.plan(quiet)).text)
+    assert not corners(job("cap_r60"), text)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import styluscam as sc
+from styluscam import _engine
 from styluscam.flank.rails import RailLike
 from styluscam.programs.posting import cl_text
 
@@ -254,3 +255,9 @@ def test_a_hollow_and_a_taper_are_refused() -> None:
     assert caught.value.code in ("tapered-flank", "unknown-key")
     with pytest.raises(sc.GeometryError, match="count"):
         placed(CV, 5.0, count=1)
+
+
+def test_a_position_without_its_axis_is_refused() -> None:
+    tips, axes, points = np.zeros((3, 3)), np.tile([0.0, 0.0, 1.0], (2, 1)), np.zeros((1, 3))
+    with pytest.raises(sc.GeometryError, match="2 axes for 3 tips"):
+        _engine.clearance_of_tilted(sc.Tool.from_dict(cylinder(12.0))._engine, tips, axes, points)

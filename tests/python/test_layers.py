@@ -160,31 +160,33 @@ def is_at(height: float, at: list[float]) -> bool:
     return abs(at[2] - height) < 5e-4
 
 
-def checked(lines: list[str], asked: sc.Job) -> Any:
-    """The finding of an increment, which has to be what the moves alone show."""
+def checked(lines: list[str], asked: sc.Job) -> tuple[Any, dict[str, Any]]:
+    """The finding of an increment, which has to be what the moves alone show, and all findings."""
     text = "\n".join(lines)
-    finding = found(text, asked)["increment"]
+    findings = found(text, asked)
+    finding = findings["increment"]
     measured = pushes(sc.read_gcode(text, "linuxcnc"), 0.0, spacing=0.6).max()
     assert finding.line and finding.limit == 1.0 and "max_increment is 1.000 mm" in finding.message
     # by cells of the sheet here and there
     assert finding.value == pytest.approx(measured, abs=0.15)
-    return finding
+    return finding, findings
 
 
 def test_a_layer_left_out_is_found(pit: tuple[sc.Job, list[Line]]) -> None:
     asked, lines = pit
     kept = [line for line, at in lines if not -3.0005 < at[2] < -2.0005]
     assert len(kept) < len(lines) - 100
-    finding = checked(kept, asked)
+    finding, _ = checked(kept, asked)
     assert finding.value > 1.9 and finding.position[2] < -3.0
 
 
 def test_a_layer_too_deep_is_found(pit: tuple[sc.Job, list[Line]]) -> None:
     asked, lines = pit
     deeper = [spelled(line, [*at[:2], -3.25]) if is_at(-3.0, at) else line for line, at in lines]
-    assert checked(deeper, asked).value == pytest.approx(1.25, abs=0.01)
+    finding, findings = checked(deeper, asked)
+    assert finding.value == pytest.approx(1.25, abs=0.01)
     # off its plane a row owes the part its contact
-    assert "excess" in found("\n".join(deeper), asked)
+    assert "excess" in findings
 
 
 def test_a_row_left_out_of_a_layer_is_found(pit: tuple[sc.Job, list[Line]]) -> None:
@@ -194,7 +196,7 @@ def test_a_row_left_out_of_a_layer_is_found(pit: tuple[sc.Job, list[Line]]) -> N
     row = rows[len(rows) // 2]
     kept = [line for line, at in lines if abs(at[2] + 5.0) > 0.9995 or abs(at[1] - row) > 2e-3]
     assert 0 < len(lines) - len(kept) < 40
-    finding = checked(kept, asked)
+    finding, _ = checked(kept, asked)
     assert finding.value > 1.3 and finding.position[1] == pytest.approx(row, abs=2e-3)
 
 

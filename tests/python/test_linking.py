@@ -267,6 +267,47 @@ def test_where_no_lead_fits_the_tool_goes_straight() -> None:
     assert findings(text, asked) == []
 
 
+@pytest.mark.parametrize(
+    ("process", "lead", "out"), [("milling", "tangent", 2), ("milling", "vertical", 2), ("spif", "vertical", 9)]
+)
+def test_loops_begin_where_leads_fit(process: str, lead: str, out: int) -> None:
+    """Nearest to each other the loops of square pits begin in their corners, where the next wall is in the way."""
+    asked = job("two", process=MILLING if process == "milling" else None, lead=lead, lead_radius=2.0)
+    plan = sc.plan(asked)
+    (text,) = sc.post(plan).files.values()
+    fact = facts(plan)["leads"]
+    assert fact.words == f"{out} leads in and {out} out; 16 loops begin where they fit"
+    assert len(leads_of(plan.programs["main"])) == fact.value == 2 * out
+    assert findings(text, asked) == []
+
+
+def test_loops_begin_where_the_seam_is_asked_for() -> None:
+    corner = job("two", process=MILLING, lead="tangent", lead_radius=2.0, seam_direction_deg=45.0)
+    words = facts(sc.plan(corner))["leads"].words
+    assert words.startswith("0 leads in and 0 out; none fits 2 times") and "without seam_direction_deg" in words
+
+
+def test_leads_fit_beside_upright_walls() -> None:
+    """There a path as far off as its tolerance lets it be is under the top's edge, which the tool is beside."""
+    angles = np.linspace(0.0, 2.0 * np.pi, 65)[:-1]
+    rings = [np.column_stack([20.0 * np.cos(angles), 20.0 * np.sin(angles), np.full(64, z)]) for z in (-12.0, 0.0)]
+    vertices = np.concatenate([*rings, [[0.0, 0.0, -12.0], [0.0, 0.0, 0.0]]])
+    turn = [(i, (i + 1) % 64) for i in range(64)]
+    triangles = [
+        *((i, j, 64 + j) for i, j in turn),
+        *((i, 64 + j, 64 + i) for i, j in turn),
+        *((128, j, i) for i, j in turn),
+        *((129, 64 + i, 64 + j) for i, j in turn),
+    ]
+    PARTS["disc"] = (vertices, np.array(triangles))
+    for lead in ("tangent", "vertical"):
+        asked = job("disc", process=MILLING, lead=lead, lead_radius=2.0)
+        plan = sc.plan(asked)
+        assert "none fits" not in facts(plan)["leads"].words and facts(plan)["leads"].value >= 2
+        (text,) = sc.post(plan).files.values()
+        assert findings(text, asked) == []
+
+
 def test_a_lead_that_enters_the_part_is_found() -> None:
     asked, _, text = with_leads("tangent", "milling", lead_radius=1.5)
     lines = text.splitlines()

@@ -74,3 +74,14 @@ pub fn mapped<'py>(
 ) -> Bound<'py, PyArray1<f64>> {
     PyArray1::from_vec(py, array.as_array().iter().map(|x| f(*x)).collect())
 }
+
+/// Checks that there are as many of the one as of the other.
+///
+/// # Errors
+/// `GeometryError` at `what` where there are not.
+pub fn one_each(what: &str, count: usize, of: &str, expected: usize) -> PyResult<()> {
+    if count == expected {
+        return Ok(());
+    }
+    Err(raise("GeometryError", &format!("{count} {what} for {expected} {of}"), "length", what, ""))
+}

@@ -84,6 +84,7 @@ impl Strip {
         shares: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let (from, to) = (arrays::vectors(&from, "from")?, arrays::vectors(&to, "to")?);
+        arrays::one_each("to", to.len(), "from", from.len())?;
         let axes = pairs_of(from, to);
         let shares = arrays::rows::<f64, 2>(&shares, "shares")?;
         let found = py.detach(|| {
@@ -106,6 +107,7 @@ pub fn clearance_of_tilted<'py>(
     points: PyReadonlyArray2<'py, f64>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let (tips, axes) = (arrays::vectors(&tips, "tips")?, arrays::vectors(&axes, "axes")?);
+    arrays::one_each("axes", axes.len(), "tips", tips.len())?;
     let above = tips.iter().zip(axes).map(|(tip, axis)| tip + axis).collect();
     let (positions, points) = (pairs_of(tips, above), arrays::vectors(&points, "points")?);
     let found = py.detach(|| clearance_of_tool(&positions, &tool.cutter, &points));
@@ -118,10 +120,7 @@ fn pairs_of(from: Vec<Vector>, to: Vec<Vector>) -> Vec<[Vector; 2]> {
 
 fn rail((degree, knots, poles, weights): &RailArrays<'_>) -> PyResult<NurbsCurve> {
     let (poles, weights) = (arrays::rows::<f64, 3>(poles, "poles")?, weights.as_array());
-    if poles.len() != weights.len() {
-        let message = format!("{} poles for {} weights: as many expected", poles.len(), weights.len());
-        return Err(errors::raise("GeometryError", &message, "shape", "weights", ""));
-    }
+    arrays::one_each("weights", weights.len(), "poles", poles.len())?;
     let poles: Vec<[f64; 4]> = poles.iter().zip(weights).map(|([x, y, z], w)| [*x, *y, *z, *w]).collect();
     NurbsCurve::new(*degree, knots.clone(), &poles).map_err(|error| errors::of_geometry(&error))
 }

@@ -29,14 +29,6 @@ pub fn sheet_raise(sheet: &str) -> PyResult<f64> {
     Ok(self::sheet(Some(sheet))?.map_or(0.0, |sheet| sheet.raise()))
 }
 
-/// An error unless there are as many of the one as of the other.
-fn one_each(what: &str, count: usize, of: &str, expected: usize) -> PyResult<()> {
-    if count == expected {
-        return Ok(());
-    }
-    Err(errors::raise("GeometryError", &format!("{count} {what} for {expected} {of}"), "length", what, ""))
-}
-
 /// CL points and flags.
 type Offsets<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<u8>>);
 
@@ -54,7 +46,7 @@ pub fn slope_matched_offset<'py>(
     let sheet = self::sheet(sheet)?;
     let points = arrays::vectors(&points, "points")?;
     let normals = arrays::vectors(&normals, "normals")?;
-    one_each("normals", normals.len(), "points", points.len())?;
+    arrays::one_each("normals", normals.len(), "points", points.len())?;
     let results: Vec<_> = py.detach(|| {
         let pairs = points.iter().zip(&normals);
         pairs
@@ -115,7 +107,7 @@ pub fn push_cutter<'py>(
     let sheet = self::sheet(sheet)?;
     let (z, starts, directions) =
         (arrays::height(z, "z")?, arrays::places(&xy, "xy")?, arrays::rows::<f64, 2>(&directions, "directions")?);
-    one_each("directions", directions.len(), "points xy", starts.len())?;
+    arrays::one_each("directions", directions.len(), "points xy", starts.len())?;
     let mut lines = Vec::with_capacity(starts.len());
     for (i, (from, direction)) in starts.into_iter().zip(directions).enumerate() {
         lines.push(Line::new(from, direction).ok_or_else(|| {

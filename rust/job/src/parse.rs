@@ -142,13 +142,17 @@ fn explained(written: &Value, path: &str, message: &str) -> JobError {
     }
     let allowed = schema::allowed_at(written, path, units::stated(written));
     let allowed = allowed.map_or(String::new(), |words| format!("; allowed: {words}"));
-    // serde's own terms for a word among given ones
+    // serde's own terms for a word, or a table with one key, among given ones
     let message = match message {
         m if m.contains("unit variant")
             || m.contains("expected string or map")
             || m.contains("wanted exactly 1 element") =>
         {
-            "a word in quotes is expected"
+            if schema::is_table_at(written, path) {
+                "a table is expected"
+            } else {
+                "a word in quotes is expected"
+            }
         }
         m => m,
     };

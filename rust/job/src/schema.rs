@@ -142,6 +142,11 @@ pub fn allowed_at(document: &Value, path: &str, unit: LengthUnit) -> Option<Stri
     range.or_else(example).or_else(words)
 }
 
+/// Whether a key's value is a table.
+pub fn is_table_at(document: &Value, path: &str) -> bool {
+    at(document, path).0.is_table()
+}
+
 /// How a key's value may look, as the document's author would write it.
 pub fn example_at(document: &Value, path: &str) -> Option<&'static str> {
     example_of(&at(document, path).0)

@@ -42,7 +42,7 @@ pub struct LeadRule {
     pub angle: f64,
     /// Feeds into a pass and out of one, mm/min.
     pub feeds: [f64; 2],
-    /// How far chords may be from an arc that the machine does not have, mm.
+    /// How far passes are from the envelope at most, and chords from an arc that the machine does not have, mm.
     pub deviation: f64,
 }
 
@@ -62,7 +62,7 @@ pub struct Leading<'a, R> {
 
 /// Which end of a run a lead is at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Side {
+pub(crate) enum Side {
     In,
     Out,
 }
@@ -92,7 +92,17 @@ impl Bow {
 }
 
 impl<R: Sync> Leading<'_, R> {
-    fn lead(&self, side: Side, number: usize, (at, along): (&PathPoint, Vector)) -> Option<Lead> {
+    fn lead(&self, side: Side, number: usize, end: (&PathPoint, Vector)) -> Option<Lead> {
+        let bow = self.bow_that_fits(side, number, end)?;
+        Some(Lead { far: bow.at(1.0), segments: self.segments(&bow, side) })
+    }
+
+    /// Whether a lead fits at an end of a pass, by its number, with the direction of the pass there.
+    pub(crate) fn fits(&self, side: Side, number: usize, end: (&PathPoint, Vector)) -> bool {
+        self.bow_that_fits(side, number, end).is_some()
+    }
+
+    fn bow_that_fits(&self, side: Side, number: usize, (at, along): (&PathPoint, Vector)) -> Option<Bow> {
         let away = match side {
             Side::In => -along,
             Side::Out => along,
@@ -106,7 +116,7 @@ impl<R: Sync> Leading<'_, R> {
             LeadShape::Vertical => true, // nowhere deeper than the pass is where they meet
         };
         let is_free = !self.is_sheet || is_above_sheet;
-        (is_free && self.is_clear(&bow)).then(|| Lead { far, segments: self.segments(&bow, side) })
+        (is_free && self.is_clear(&bow, at.normal)).then_some(bow)
     }
 
     fn bow(&self, at: &PathPoint, away: Vector) -> Option<Bow> {
@@ -127,20 +137,26 @@ impl<R: Sync> Leading<'_, R> {
         Some(Bow { centre: at.tip + towards * radius, arm: -towards * radius, aside: away * radius, angle })
     }
 
-    /// Whether the tool enters nothing anywhere on it.
-    fn is_clear(&self, bow: &Bow) -> bool {
+    /// Whether the tool enters nothing anywhere on it. As its pass it may be within the path's deviation of the envelope: the
+    /// tool clears the envelope if it is moved so far along the normal of the contact. Upright walls count so, too: beside them
+    /// the envelope rises at once.
+    fn is_clear(&self, bow: &Bow, normal: Vector) -> bool {
         let surface = self.standing.surface();
         let envelope = surface.envelope();
         let count = bow.pieces(SAG);
+        let aside = normal * self.lead.deviation;
         let mut hint = None;
         let mut is_over = |tip: Vector| {
             envelope.contact_near(tip.x, tip.y, &mut hint).is_none_or(|contact| contact.tip <= tip.z + ALLOWED)
         };
         (0..count).all(|piece| {
             let [a, b] = [0, 1].map(|end| bow.at(f64::from(piece + end) / f64::from(count)));
-            let is_proven = envelope.keeps_under([a, b], ALLOWED, |_| ALLOWED) == Keeping::Under;
+            let moved = [a + aside, b + aside];
+            let is_proven = envelope.keeps_under(moved, ALLOWED, |_| ALLOWED) == Keeping::Under;
             let is_short = (b - a).norm() <= FINE.max(2.0 * bow.arm.norm() * bow.angle / f64::from(count));
-            surface.is_clear([a, b]) && (is_proven || (is_short && [a, 0.5 * (a + b), b].into_iter().all(&mut is_over)))
+            let [from, to] = moved;
+            surface.is_clear([a, b])
+                && (is_proven || (is_short && [from, 0.5 * (from + to), to].into_iter().all(&mut is_over)))
         })
     }
 

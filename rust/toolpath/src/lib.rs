@@ -10,6 +10,7 @@ mod fitting;
 pub mod flank;
 pub mod forming;
 mod lattice;
+mod lead_seams;
 mod leads;
 mod linking;
 pub mod offset;

@@ -30,6 +30,39 @@ impl Seam {
     }
 }
 
+/// A position on a side of a polyline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Start {
+    /// Number of the side.
+    pub side: usize,
+    /// Of the side, from its start.
+    pub share: f64,
+}
+
+impl Start {
+    /// The point there, and the side's direction. A side is a chord within the path's deviation, and so is the point.
+    pub fn on(self, points: &[PathPoint]) -> Option<(PathPoint, Vector)> {
+        let [a, b] = points.get(self.side..)?.first_chunk()?;
+        let normal = (a.normal + (b.normal - a.normal) * self.share).try_normalize(0.0).unwrap_or(a.normal);
+        let along = b.tip - a.tip;
+        Some((PathPoint { tip: a.tip + along * self.share, normal, ..*a }, along))
+    }
+
+    /// The direction in which a closed polyline that begins there leaves.
+    pub fn leaving(self, points: &[PathPoint]) -> Option<Vector> {
+        let next = if self.side + 2 < points.len() { self.side + 1 } else { 0 };
+        let side = if self.share < 1.0 { self.side } else { next };
+        Some(Self { side, share: 0.0 }.on(points)?.1)
+    }
+
+    /// The direction in which a closed polyline that ends there arrives.
+    pub fn arriving(self, points: &[PathPoint]) -> Option<Vector> {
+        let before = self.side.checked_sub(1).unwrap_or(points.len().saturating_sub(2));
+        let side = if self.share > 0.0 { self.side } else { before };
+        Some(Self { side, share: 0.0 }.on(points)?.1)
+    }
+}
+
 /// Has a closed polyline begin where a ray from the middle of its box leaves it: on a chord, if need be. Where the ray misses it,
 /// at its point farthest in that direction.
 pub(crate) fn begin_at(points: &mut Vec<PathPoint>, bearing: f64) {
@@ -52,31 +85,36 @@ pub(crate) fn begin_at(points: &mut Vec<PathPoint>, bearing: f64) {
     };
     let outermost = points.windows(2).enumerate().filter_map(crossing).max_by(|a, b| a.2.total_cmp(&b.2));
     if let Some((side, share, _)) = outermost {
-        begin_on(points, side, share);
+        begin_on(points, Start { side, share });
     } else {
         let along = points.iter().map(|point| turned(point)[0]).enumerate();
         let farthest = along.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(number, _)| number);
-        begin_on(points, farthest, 0.0);
+        begin_on(points, Start { side: farthest, share: 0.0 });
     }
 }
 
 /// Has a closed polyline begin at its position nearest to a point in plan: on a chord, if need be.
 pub(crate) fn begin_beside(points: &mut Vec<PathPoint>, from: Vector) {
-    let nearest = |(side, pair): (usize, &[PathPoint])| {
-        let (start, along) = (pair[0].tip.xy(), (pair[1].tip - pair[0].tip).xy());
-        let share = ((from.xy() - start).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-        (side, share, (start + along * share - from.xy()).norm_squared())
-    };
-    let nearest = points.windows(2).enumerate().map(nearest).min_by(|a, b| a.2.total_cmp(&b.2));
-    if let Some((side, share, _)) = nearest {
-        begin_on(points, side, share);
+    if let Some(start) = beside(points, from) {
+        begin_on(points, start);
     }
 }
 
+/// The position of a polyline nearest to a point in plan.
+pub(crate) fn beside(points: &[PathPoint], from: Vector) -> Option<Start> {
+    let nearest = |(side, pair): (usize, &[PathPoint])| {
+        let (start, along) = (pair[0].tip.xy(), (pair[1].tip - pair[0].tip).xy());
+        let share = ((from.xy() - start).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        (Start { side, share }, (start + along * share - from.xy()).norm_squared())
+    };
+    let nearest = points.windows(2).enumerate().map(nearest).min_by(|a, b| a.1.total_cmp(&b.1));
+    nearest.map(|(start, _)| start)
+}
+
 /// Has a closed polyline begin on one of its sides.
-fn begin_on(points: &mut Vec<PathPoint>, side: usize, share: f64) {
-    let Some([a, b]) = points.get(side..).and_then(|rest| rest.first_chunk()) else { return };
-    let begin = between(a, b, share);
+pub(crate) fn begin_on(points: &mut Vec<PathPoint>, start: Start) {
+    let Some((begin, _)) = start.on(points) else { return };
+    let Start { side, .. } = start;
     let first = side + 1;
     points.insert(first, begin);
     points.pop();
@@ -84,12 +122,6 @@ fn begin_on(points: &mut Vec<PathPoint>, side: usize, share: f64) {
     points.rotate_left(first.min(last));
     points.extend(points.first().copied());
     points.dedup_by(|next, point| next.tip == point.tip);
-}
-
-/// A point of the chord between two of a path: the chord is within the path's deviation, and so is the point.
-fn between(a: &PathPoint, b: &PathPoint, share: f64) -> PathPoint {
-    let normal = (a.normal + (b.normal - a.normal) * share).try_normalize(0.0).unwrap_or(a.normal);
-    PathPoint { tip: a.tip + (b.tip - a.tip) * share, normal, ..*a }
 }
 
 #[cfg(test)]
@@ -135,6 +167,19 @@ mod tests {
         assert_eq!((points[0].tip, points.len()), (Vector::new(4.0, 10.0, -1.0), 6));
         begin_beside(&mut points, Vector::new(-3.0, -3.0, 0.0));
         assert_eq!((points[0].tip, points.first() == points.last()), (Vector::new(0.0, 0.0, -1.0), true));
+    }
+
+    #[test]
+    fn at_a_corner_a_loop_leaves_along_the_next_side() {
+        let points = square();
+        let directions = |side, share| {
+            let start = Start { side, share };
+            [start.arriving(&points), start.leaving(&points)].map(|along| along.unwrap().normalize())
+        };
+        let (x, y) = (Vector::x(), Vector::y());
+        assert_eq!(directions(0, 0.5), [x, x]);
+        assert_eq!([directions(1, 0.0), directions(0, 1.0)], [[x, y]; 2]);
+        assert_eq!([directions(0, 0.0), directions(3, 1.0)], [[-y, x]; 2]);
     }
 
     #[test]

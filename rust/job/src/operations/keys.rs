@@ -73,7 +73,8 @@ pub struct OperationKeys {
     #[serde(default = "link_margin")]
     #[schemars(extend("x-advanced" = true, "x-unit" = "mm", "minimum" = 0.1, "maximum" = 1000.0))]
     pub link_margin: f64,
-    /// How the tool comes from the air into a pass and leaves it; straight where that does not fit.
+    /// How the tool comes from the air into a pass and leaves it; straight where that does not fit. Loops begin where it fits, unless
+    /// their seam is stated.
     #[serde(default)]
     pub lead: LeadForm,
     /// Radius of leads, mm.

@@ -3,7 +3,7 @@
 use styluscam_motion::{Arc, Cancelled, Move, MoveKind, Role};
 use styluscam_post::machine::{CommentForm, Rapids};
 use styluscam_toolpath::{
-    AlongSurface, Entered, LeadRule, LeadShape, Leading, LinkRules, Links, Low, PathPoint, Standing,
+    AlongSurface, Entered, LeadRule, LeadShape, Leading, LinkRules, Links, Low, PathPoint, Seam, Standing,
 };
 
 use super::facts::counted;
@@ -18,7 +18,7 @@ const SAME: f64 = 1e-9;
 /// `Cancelled`.
 pub fn linked(
     context: &Context<'_>,
-    (passes, deviation): (Vec<Entered>, f64),
+    (mut passes, seam, deviation): (Vec<Entered>, Seam, f64),
     along: AlongSurface<'_>,
     links: &Links,
 ) -> Result<(Vec<Move>, Vec<Fact>), Cancelled> {
@@ -26,12 +26,11 @@ pub fn linked(
     // inside a loop sheet hangs no higher than that; stock stays until it is cut
     let is_sheet = scene.sheet.is_some();
     let standing = Standing::new(along.surface, scene.top, (&passes, is_sheet), deviation);
-    let fitted = (passes, deviation);
     let Some(shape) = shape(common.lead) else {
-        return with_heights(context, fitted, along, (&standing, links));
+        return with_heights(context, (passes, deviation), along, (&standing, links));
     };
     if machine.comment.form == CommentForm::None {
-        let (moves, mut facts) = with_heights(context, fitted, along, (&standing, links))?;
+        let (moves, mut facts) = with_heights(context, (passes, deviation), along, (&standing, links))?;
         facts.push(no_leads(&machine.name));
         return Ok((moves, facts));
     }
@@ -46,8 +45,12 @@ pub fn linked(
         deviation,
     };
     let leading = Leading { rules: along, standing: &standing, is_sheet, lead, takes: &takes };
-    let (moves, mut facts) = with_heights(context, fitted, leading, (&standing, links))?;
-    facts.push(leads(&moves));
+    let moved = match seam {
+        Seam::Nearest => leading.begin_where_they_fit(&mut passes, context.watch)?,
+        Seam::Bearing { .. } => 0,
+    };
+    let (moves, mut facts) = with_heights(context, (passes, deviation), leading, (&standing, links))?;
+    facts.push(leads(&moves, moved, seam));
     Ok((moves, facts))
 }
 
@@ -100,8 +103,9 @@ fn with_heights(
     }
 }
 
-/// How many times the tool comes to a pass, or leaves it, along a lead; where none fits it goes straight.
-fn leads(moves: &[Move]) -> Fact {
+/// How many times the tool comes to a pass, or leaves it, along a lead; where none fits it goes straight. So many loops begin
+/// elsewhere for them.
+fn leads(moves: &[Move], moved: usize, seam: Seam) -> Fact {
     let is_lead = |step: &Move| step.role == Some(Role::Lead);
     let is_rapid = |step: &Move| step.kind == MoveKind::Rapid;
     // in: a rapid, the feed down, the lead; out: the lead, a rapid
@@ -110,8 +114,14 @@ fn leads(moves: &[Move]) -> Fact {
     let departures = moves.windows(2).filter(|pair| !is_rapid(&pair[0]) && is_rapid(&pair[1]));
     let [out, straight_out] = parted(departures.map(|pair| is_lead(&pair[0])));
     let mut words = format!("{into} leads in and {out} out");
+    if moved > 0 {
+        words += &format!("; {} where they fit", counted(moved, "loop begins", "loops begin"));
+    }
     if straight_in + straight_out > 0 {
         words += &format!("; none fits {straight_in} times in and {straight_out} out: straight there");
+        if seam != Seam::Nearest {
+            words += " (without seam_direction_deg and seam_spread_deg loops begin where leads fit)";
+        }
     }
     Fact { fact: "leads", value: (into + out) as f64, unit: "", words }
 }

@@ -314,7 +314,7 @@ fn linked(
         between = [0, 1].map(|i| between[i] + followed.between[i]);
     }
     let mut facts = turns.map_or_else(Vec::new, turn_facts);
-    let (moves, linked) = links::linked(context, (entered, deviation), along, &task.links())?;
+    let (moves, linked) = links::linked(context, (entered, kind.seam(), deviation), along, &task.links())?;
     facts.extend(order_fact(between).into_iter().chain(linked));
     if !context.common.slow_corners {
         return Ok((moves, facts));

@@ -45,6 +45,17 @@ fn keys_that_exclude_each_other_are_refused_at_the_key() {
 }
 
 #[test]
+fn a_number_where_a_table_is_expected_is_answered_with_a_table() {
+    for (key, expected) in [
+        ("step = 1.0", "a table is expected; allowed: a table like { height = 0.5 }"),
+        ("step = { height = 1.0 }\nlinks = 1.0", "a word in quotes is expected; allowed: \"low\", \"clearance\""),
+    ] {
+        let error = crate::from_toml(&with(&levels(), "step = { height = 1.0 }", key)).map(|_| ()).expect_err(key);
+        assert!(error.to_string().contains(expected), "{error}");
+    }
+}
+
+#[test]
 fn two_tools_with_one_number_and_two_operations_with_one_id_are_refused() {
     let tools = with(&levels(), "[tools.a]", "[tools.b]\nprofile = { kind = \"ball\", diameter = 2.0 }\n[tools.a]");
     assert_eq!(refused(&tools), ("conflict".to_owned(), "tools.b.number".to_owned()));

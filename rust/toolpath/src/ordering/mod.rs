@@ -54,11 +54,11 @@ pub fn shortly_ordered(
         return Ok(Ordered { passes: nearest, between: [before; 2] });
     }
     watch.begin("shortening links", nearest.len());
-    let is_free = matches!(seam, Seam::Nearest);
-    let mut best = shortened(Sequence::of(&nearest, is_free), &Precedence::by_groups(&nearest), air, watch)?;
+    let given = Sequence::of(&nearest, matches!(seam, Seam::Nearest));
+    let mut best = shortened(given.clone(), &Precedence::by_groups(&nearest), air, watch)?;
     if let Some(precedence) = Precedence::of_areas(&nearest, freedom, watch)? {
         let turns = matches!(freedom, Freedom::OfRows { is_reversible: true, .. });
-        let free = Sequence::of(&nearest, is_free).turning(turns);
+        let free = given.turning(turns);
         let greedy = free.reordered(greedy::nearest_next(&free, &precedence, watch)?, air);
         let by_areas = shortened(greedy, &precedence, air, watch)?;
         if by_areas.length < best.length - LEAST {

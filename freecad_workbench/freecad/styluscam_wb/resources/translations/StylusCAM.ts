@@ -138,7 +138,8 @@ sine: Pure shear: a vertical column keeps its height, so a wall of slope phi is 
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>How the tool comes from the air into a pass and leaves it; straight where that does not fit.
+        <source>How the tool comes from the air into a pass and leaves it; straight where that does not fit. Loops begin where it fits, unless
+their seam is stated.
 none: None: straight down and straight up.
 tangent: An arc tangent to the pass, in its plane, on the free side.
 vertical: An arc tangent to the pass in the vertical plane, from above.</source>
@@ -971,7 +972,8 @@ sine: Pure shear: a vertical column keeps its height, so a wall of slope phi is 
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>How the tool comes from the air into a pass and leaves it; straight where that does not fit.
+        <source>How the tool comes from the air into a pass and leaves it; straight where that does not fit. Loops begin where it fits, unless
+their seam is stated.
 none: None: straight down and straight up.
 tangent: An arc tangent to the pass, in its plane, on the free side.
 vertical: An arc tangent to the pass in the vertical plane, from above.</source>
@@ -2106,6 +2108,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>fitting arcs</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>fitting leads</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
