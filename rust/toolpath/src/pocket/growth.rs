@@ -45,6 +45,8 @@ struct Rung {
 #[derive(Debug)]
 pub struct Growth {
     rungs: Vec<Rung>,
+    /// Where the tool's centre may be.
+    free: Polygons,
     /// The tool's radius, mm.
     radius: f64,
     /// How much larger the material may be taken than it is, mm.
@@ -65,7 +67,7 @@ impl Growth {
         };
         let mut rungs: Vec<Rung> = ladder(largest, smallest).into_iter().map(rung).collect();
         rungs.retain(|rung| !rung.centres.is_empty());
-        Self { rungs, radius: bound.radius, sag: SAG * bound.radius }
+        Self { rungs, free: free.clone(), radius: bound.radius, sag: SAG * bound.radius }
     }
 
     /// The pieces that are next: deep ones of the largest discs that have any; else the deepest of all.
@@ -88,6 +90,8 @@ impl Growth {
                 let reaches: Vec<Polygons> = group.par_iter_mut().map(|rung| rung.reach(kernel, &filled)).collect();
                 // one after the other: their edges nearly coincide, and all at once that is slow
                 let reach = reaches.iter().fold(Polygons::default(), |sum, reach| kernel.union(&sum, reach));
+                // beside a fold of the walls' offset discs may come nearer to them than they should, by some hundredths of their radius
+                let reach = kernel.intersection(&reach, &self.free);
                 let mut found = pieces(&reach.thinned(0.3 * WALL), material, self.radius);
                 let deep = SHALLOW * group.first().map_or(0.0, |rung| rung.gain);
                 if found.iter().any(|piece| piece.depth >= deep) {

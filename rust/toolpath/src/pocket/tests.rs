@@ -135,6 +135,22 @@ fn clearance(path: &PocketPath, outlines: &[Vec<[f64; 3]>]) -> f64 {
     positions.map(nearest).fold(f64::INFINITY, f64::min)
 }
 
+#[test]
+fn discs_beside_a_fold_of_the_walls_keep_away_from_them() {
+    let corners = [(12.856066657098744, -9.618112969339235, -0.6245532496547137), (-13.52724089974169, 0.0, 0.0)];
+    let boundary = [&corners[..], &[(0.0, 2.599146025324414, -0.23546762401011428)]].concat();
+    let boundary: Vec<[f64; 3]> = boundary.into_iter().map(|(x, y, bulge)| [x, y, bulge]).collect();
+    let islands = [vec![
+        [2.381833969828182, 3.355909843776143, 0.0],
+        [0.0, -1.294386305051976, 0.2726450146323642],
+        [0.0, -1.1403286020844798, 0.3846526564443272],
+    ]];
+    let shape = Shape::Walls { boundary: &boundary, islands: &islands, open_edges: &[], stock: None };
+    let path = planned(&Pocket { shape, angle: 1.3, radius: 2.0, smoothing: 0.1, ..pocket(&boundary) });
+    let found = clearance(&path, &[vec![boundary.clone()], islands.to_vec()].concat());
+    assert!(found > 2.0 - 1e-6 && path.left < 1e-3 * path.goal, "{found}, {} left", path.left);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
 
