@@ -92,7 +92,10 @@ pub(crate) fn ends(passes: &OrderedPasses, segments: &[&Segment]) -> Vec<End> {
     }
     let mut first = 0;
     let mut ends = Vec::new();
-    for chain in segments.chunk_by(|a, b| b.start == Some(a.end)) {
+    // a move straight down between two of them is no end
+    let apart = |a: &Segment, start: [f64; 3]| (Vector::from(start) - Vector::from(a.end)).norm();
+    let goes_on = |a: &&Segment, b: &&Segment| b.start.is_some_and(|start| apart(a, start) < passes.pitch.smallest());
+    for chain in segments.chunk_by(goes_on) {
         let moves = first..first + chain.len();
         first = moves.end;
         let lowest = chain.iter().map(value).fold(f64::INFINITY, f64::min);
