@@ -35,7 +35,7 @@ impl<R: LinkRules<PathPoint>> Leading<'_, R> {
             watch.advance(chain.len())?;
             first = chain.end;
             let may_begin_anywhere = entered[chain.clone()].iter().all(|entered| entered.pass.closed)
-                && entered.get(chain.end).is_none_or(|after| after.ramp.is_empty());
+                && entered[chain.start + 1..].iter().take(chain.len()).all(|after| after.ramp.is_empty());
             if !may_begin_anywhere {
                 beside = None;
                 continue;

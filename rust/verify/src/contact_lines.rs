@@ -42,10 +42,14 @@ pub(crate) fn spread(
     probes
 }
 
-/// Values of the passes that are long enough and go on over the whole part: ascending. A pass that moves on has none.
+/// Values of the passes that are long enough and go on over the whole part: ascending. Passes that move on have none: their level
+/// loops are [`ends`].
 ///
 /// `segments` are those of one operation that should touch.
 pub(crate) fn values(passes: &OrderedPasses, segments: &[&Segment]) -> Vec<f64> {
+    if passes.continuous {
+        return Vec::new();
+    }
     let scalar = &*passes.scalar;
     let value = |tip: [f64; 3]| scalar.value(tip.into());
     let mut begun = None;
@@ -68,41 +72,58 @@ pub(crate) fn values(passes: &OrderedPasses, segments: &[&Segment]) -> Vec<f64> 
     values
 }
 
-/// Where passes end that are to end all around: with a level at the foot of what they are for.
+/// Where passes end that are to end all around: with a level at the foot of what they are for, and where they move on at its
+/// top.
 pub(crate) struct End {
-    /// The value of the last one.
+    /// The value there.
     pub value: f64,
-    /// The moves that go down to it, by their numbers; none where all of the operation do.
+    /// The moves that go to it, by their numbers; none where all of the operation do.
     pub moves: Option<Range<usize>>,
 }
 
-/// The ends of one operation's passes: where they move on, the lowest value of each chain of moves that goes down; else the
-/// lowest of all, and the one at which the program ends.
+/// The ends of one operation's passes: where they move on, those of each chain of moves; else the lowest of all, and the one at
+/// which the program ends.
 pub(crate) fn ends(passes: &OrderedPasses, segments: &[&Segment]) -> Vec<End> {
     let scalar = &*passes.scalar;
     if !scalar.ends_all_around() {
         return Vec::new();
     }
-    let value = |segment: &&Segment| scalar.value(segment.end.into());
     if !passes.continuous {
+        let value = |segment: &&Segment| scalar.value(segment.end.into());
         let levels = || segments.iter().filter(|segment| holds(scalar, segment)).map(value);
         let mut ends: Vec<f64> = levels().min_by(f64::total_cmp).into_iter().chain(levels().last()).collect();
         ends.dedup_by(|last, lowest| (*last - *lowest).abs() <= scalar.same());
         return ends.into_iter().map(|value| End { value, moves: None }).collect();
     }
-    let mut first = 0;
-    let mut ends = Vec::new();
     // a move straight down between two of them is no end
     let apart = |a: &Segment, start: [f64; 3]| (Vector::from(start) - Vector::from(a.end)).norm();
     let goes_on = |a: &&Segment, b: &&Segment| b.start.is_some_and(|start| apart(a, start) < passes.pitch.smallest());
+    let mut first = 0;
+    let mut ends = Vec::new();
     for chain in segments.chunk_by(goes_on) {
         let moves = first..first + chain.len();
         first = moves.end;
-        let lowest = chain.iter().map(value).fold(f64::INFINITY, f64::min);
-        let goes_down = chain.iter().any(|segment| value(segment) > lowest + passes.pitch.smallest());
-        ends.extend(goes_down.then_some(End { value: lowest, moves: Some(moves) }));
+        ends.extend(ends_of(passes, chain).into_iter().map(|value| End { value, moves: Some(moves.clone()) }));
     }
     ends
+}
+
+/// The values at which a chain of moves that move on ends: the lowest that it goes down to, however it does, and those of level loops
+/// at its top and bottom.
+fn ends_of(passes: &OrderedPasses, chain: &[&Segment]) -> Vec<f64> {
+    let scalar = &*passes.scalar;
+    let value = |segment: &Segment| scalar.value(segment.end.into());
+    let [low, high] = chain.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], segment| {
+        [low.min(value(segment)), high.max(value(segment))]
+    });
+    let is_level = |end: f64| {
+        let level =
+            chain.iter().filter(|segment| holds(scalar, segment) && (value(segment) - end).abs() <= scalar.same());
+        level.map(|segment| segment.length()).sum::<f64>() > LONG * passes.pitch.at(end)
+    };
+    let goes_down = high - low > passes.pitch.smallest();
+    let bottom = (goes_down || is_level(low)).then_some(low);
+    bottom.into_iter().chain((goes_down && is_level(high)).then_some(high)).collect()
 }
 
 /// A value of the scalar at which moves lie.

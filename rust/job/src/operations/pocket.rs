@@ -14,7 +14,10 @@ use super::facts::counted;
 use super::levels::{self, LevelKeys};
 use super::step::{Step, StepLimits};
 use super::surface::sense;
-use super::{About, Areas, Context, Effort, Fact, Fit, OperationKind, PassContext, PassSpacing, Planned, Serves};
+use super::{
+    About, Areas, Context, Effort, Fact, Fit, LeadForm, LinkHeight, OperationKind, PassContext, PassSpacing, Planned,
+    Serves,
+};
 use crate::{JobError, OperationKeys};
 
 /// The smallest radius of the centre's path where none is stated, in tool radii.
@@ -98,11 +101,17 @@ impl OperationKind for Pocket {
             ("boundary", common.boundary.is_some()),
             ("check_faces", common.check_faces.is_some()),
             ("max_corner_deg", common.max_corner_deg.is_some()),
+            ("edges", common.edges.is_some()),
+            ("lead", common.lead != LeadForm::None),
+            ("links", common.links != LinkHeight::Clearance),
+            ("slow_corners", common.slow_corners),
         ];
         match refused.into_iter().find(|(_, is_stated)| *is_stated) {
             Some((key, _)) => {
-                let message = format!("{key} is not kept to by a pocket: its path lies within walls and stock");
-                let hint = format!("remove {key}, and select the faces to be cleared with faces");
+                let message = format!(
+                    "a pocket does not follow {key}: its path is bounded by walls, stock and the engagement angle"
+                );
+                let hint = format!("remove {key}; which faces are cleared is stated by faces");
                 Err(JobError::document("conflict", format!("{path}.{key}"), message, hint))
             }
             None => Ok(()),

@@ -271,7 +271,7 @@ impl<'a> Slices<'a> {
         [at_origin, along, across]
     }
 
-    /// Whether all triangles that meet in a part of one are selected.
+    /// Whether all triangles that meet in a part of one are selected, and it lies on no border.
     fn is_selected(&self, triangle: u32, feature: Feature) -> bool {
         let Some(Selection { triangles, corners }) = &self.selection else { return true };
         let index = self.contacts.index();
@@ -279,16 +279,11 @@ impl<'a> Slices<'a> {
         let names = index.triangles().corners[triangle as usize];
         match feature {
             Feature::Facet => selected(triangle),
-            // what is beyond an edge meets in its ends too; an edge of which both ends are within is within
-            Feature::Edge(i) => {
-                let other = index.neighbours(triangle)[usize::from(i)];
-                match other {
-                    super::features::NO_NEIGHBOUR => {
-                        [i, (i + 1) % 3].iter().all(|end| corners[names[usize::from(*end)] as usize])
-                    }
-                    other => selected(triangle) && selected(other),
-                }
-            }
+            // how far the tool may roll over a border is another question
+            Feature::Edge(i) => match index.neighbours(triangle)[usize::from(i)] {
+                super::features::NO_NEIGHBOUR => false,
+                other => selected(triangle) && selected(other),
+            },
             Feature::Corner(i) => corners[names[usize::from(i)] as usize],
         }
     }
@@ -299,8 +294,11 @@ impl<'a> Selection<'a> {
         let index = contacts.index();
         let mut corners = vec![true; index.triangles().points.len()];
         for (triangle, names) in index.triangles().corners.iter().enumerate() {
-            if !triangles[index.number(triangle as u32) as usize] {
-                names.iter().for_each(|name| corners[*name as usize] = false);
+            let is_selected = triangles[index.number(triangle as u32) as usize];
+            for (i, other) in index.neighbours(triangle as u32).into_iter().enumerate() {
+                if !is_selected || other == super::features::NO_NEIGHBOUR {
+                    [i, (i + 1) % 3].into_iter().for_each(|end| corners[names[end] as usize] = false);
+                }
             }
         }
         Self { triangles, corners }

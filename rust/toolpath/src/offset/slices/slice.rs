@@ -19,7 +19,7 @@ pub struct Piece {
     pub plane: [f64; 2],
     pub triangle: u32,
     pub feature: Feature,
-    /// Whether all triangles that meet there are selected.
+    /// Whether all triangles that meet there are selected, on no border.
     pub is_selected: bool,
 }
 
@@ -103,7 +103,7 @@ impl<'a> Slice<'a> {
         &self.members[self.starts[cell] as usize..self.starts[cell + 1] as usize]
     }
 
-    /// The highest contact of the cutter over a position of the row, and whether all triangles that meet there are selected.
+    /// The highest contact of the cutter over a position of the row, and whether all triangles that meet there are selected, on no border.
     pub fn found(&self, position: [f64; 2]) -> (Best, bool) {
         let s = dot(self.frame.along, position);
         let members = self.members(self.cell(s)).iter().map(|member| &self.pieces[*member as usize]);
