@@ -22,7 +22,8 @@ pub enum Rolling {
     /// It ends at the edge.
     #[default]
     Stop,
-    /// It goes on over edges below which the selection lies, while it is less steep than that.
+    /// It goes on over edges below which the selection lies, while it is less steep than that, until the tool stands upright on
+    /// them: beyond, it would press down what lies on the other side.
     FromAbove,
     /// It goes on over all of them: until the tool touches something else, or leaves the edge.
     Over,
@@ -54,7 +55,7 @@ impl Envelope<'_> {
         let normals: Vec<Vector> = normals.collect();
         let rolls = |normal: &Vector| match rolling {
             Rolling::Stop => false,
-            Rolling::FromAbove => contact.normal.z >= normal.z,
+            Rolling::FromAbove => contact.normal.z >= normal.z && contact.normal.xy().dot(&normal.xy()) >= -SAME,
             Rolling::Over => true,
         };
         normals.iter().any(rolls) || is_spanned(contact.normal, &normals, spread)
