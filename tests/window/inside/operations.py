@@ -60,8 +60,9 @@ def every_kind() -> Any:
     job = stage.job_with_stylus(diameter=12.0)
     yield from stage.workbench("StylusCamWorkbench")
     result = {}
-    # a meridian is formed by spinning: not in the job of a block
-    for name in (name for name in commands.groups()["operations"] if "Meridian" not in name):
+    # a meridian is formed by spinning, a pocket is cut from stock: not in the job of a sheet
+    others = ("Meridian", "Pocket")
+    for name in (name for name in commands.groups()["operations"] if not name.endswith(others)):
         FreeCADGui.Selection.clearSelection()
         yield from stage.press(name)
         operation = job.Operations.Group[-1]
