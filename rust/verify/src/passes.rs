@@ -249,36 +249,39 @@ impl Look<'_> {
 
     /// Positions that the passes should touch, and do not.
     fn left_on_passes(&self, sweeps: &Sweeps, watch: &Watch) -> Result<Vec<Fault>, Cancelled> {
-        let mesh = self.subject.mesh;
         let values = contact_lines::values(self.passes, self.rows);
-        let probes = contact_lines::spread(mesh, self.selected, self.body, self.scalar(), &values, POINTS);
-        let faults = of_all(&probes, watch, |probe, last| {
-            let spot = self.spot(probe)?;
-            let allowed = ON_PASS + self.tolerated();
-            let left = sweeps.left_beyond(spot.point, allowed, spot.position, last)?;
-            let missing = self.can_touch(&spot) && !self.passes_beside(&spot, sweeps);
-            missing.then(|| self.missing_pass(&spot, last.as_ref(), left, allowed)).flatten()
-        })?;
-        Ok(self.of_long_gaps(faults))
+        self.left_along((&values, POINTS), sweeps, watch, |spot| !self.passes_beside(spot, sweeps))
     }
 
     /// Positions all around at the end of the passes that the last one should touch, and does not.
     fn left_at_ends(&self, sweeps: &Sweeps, watch: &Watch) -> Result<Vec<Fault>, Cancelled> {
-        let (mesh, allowed) = (self.subject.mesh, ON_PASS + self.tolerated());
         let mut found = Vec::new();
         for end in contact_lines::ends(self.passes, self.contacts) {
             // as far up as the tool can go down: on the floor itself none is expected
             let over = [end.value + self.strip()];
-            let probes = contact_lines::spread(mesh, self.selected, self.body, self.scalar(), &over, POINTS_AT_END);
-            let faults = of_all(&probes, watch, |probe, last| {
-                let spot = self.spot(probe)?;
-                let left = sweeps.left_beyond(spot.point, allowed, spot.position, last)?;
-                let missing = self.can_touch(&spot) && self.is_of(&end, &spot, sweeps);
-                missing.then(|| self.missing_pass(&spot, last.as_ref(), left, allowed)).flatten()
-            })?;
-            found.extend(self.of_long_gaps(faults));
+            found
+                .extend(self.left_along((&over, POINTS_AT_END), sweeps, watch, |spot| self.is_of(&end, spot, sweeps))?);
         }
         Ok(found)
+    }
+
+    /// Positions at values, of so many points, that a pass should touch and none does: where one `is_missing`.
+    fn left_along(
+        &self,
+        (values, count): (&[f64], usize),
+        sweeps: &Sweeps,
+        watch: &Watch,
+        is_missing: impl Fn(&Spot) -> bool + Sync,
+    ) -> Result<Vec<Fault>, Cancelled> {
+        let probes = contact_lines::spread(self.subject.mesh, self.selected, self.body, self.scalar(), values, count);
+        let allowed = ON_PASS + self.tolerated();
+        let faults = of_all(&probes, watch, |probe, last| {
+            let spot = self.spot(probe)?;
+            let left = sweeps.left_beyond(spot.point, allowed, spot.position, last)?;
+            let missing = self.can_touch(&spot) && is_missing(&spot);
+            missing.then(|| self.missing_pass(&spot, last.as_ref(), left, allowed)).flatten()
+        })?;
+        Ok(self.of_long_gaps(faults))
     }
 
     /// Whether the moves of an end run by above a spot, no farther than a step, and none of the end itself does.

@@ -30,7 +30,7 @@ def connected(widget: Any, signal: str, called: Any) -> None:
     """Has a widget of FreeCAD's call something.
 
     By the signal's text: PySide never frees a widget of FreeCAD's once an attribute of it was taken as a signal, and what is
-    left of it is then taken for the next widget at the same address, which is said to be deleted.
+    left of it is then taken for the next widget at the same address: using that one raises "already deleted".
     """
     QtCore.QObject.connect(widget, QtCore.SIGNAL(signal), called)
 

@@ -65,7 +65,7 @@ class ViewProviderStylus(PathOpGui.ViewProvider):
         from . import messages
 
         # panels that were closed are cycles of objects: what is left of their widgets in Python would be taken for new widgets
-        # at the same addresses, and these be said to be deleted
+        # at the same addresses, and using these raises "already deleted"
         gc.collect()
         with messages.shown("StylusCAM"):
             self.OpIcon = icon_of((vobj or self.vobj).Object)

@@ -80,10 +80,10 @@ impl Polygon {
             }
             let shared = index.triangles().corners[at as usize][end];
             let names = index.triangles().corners[next as usize];
-            let Some(place) = names.iter().position(|n| *n == name) else { return };
+            let Some(number) = names.iter().position(|n| *n == name) else { return };
             // edges of the next triangle at the corner: from it, and to it
-            leaving = if names[(place + 1) % 3] == shared { (place + 2) % 3 } else { place };
-            (at, corner) = (next, place);
+            leaving = if names[(number + 1) % 3] == shared { (number + 2) % 3 } else { number };
+            (at, corner) = (next, number);
         }
     }
 

@@ -1,13 +1,14 @@
 //! What a part asks of the tool over many rows, side by side: found for all of a mesh once, instead of position by position.
 //!
-//! Each facet, edge and corner can be touched from one place of the plan ([`places`]); the rows that cross it get a piece each. A row is
-//! then asked by its pieces alone ([`slice`]). See docs/concepts/envelope.md.
+//! Each facet, edge and corner has a footprint in plan, from where it can be touched ([`footprints`]); the rows that cross it get a
+//! piece each. A row is then asked by its pieces alone ([`slice`]). See docs/concepts/envelope.md.
 
+mod footprint;
+mod footprints;
 mod frame;
 mod gradients;
-mod place;
-mod places;
 mod slice;
+mod sorted;
 #[cfg(test)]
 mod tests;
 
@@ -15,11 +16,12 @@ use rayon::prelude::*;
 use styluscam_motion::{Cancelled, Watch};
 
 use super::contact::{Contacts, Feature};
+use footprint::Footprint;
+use footprints::{features, Footprints};
 use frame::{dot, Frame};
-use place::Place;
-use places::{features, Places};
 use slice::Piece;
 pub use slice::Slice;
+use sorted::Sorted;
 
 /// Rows of a block at least, and blocks at most.
 const BLOCK: usize = 8;
@@ -71,51 +73,6 @@ pub struct Slices<'a> {
     pieces: Sorted<Piece>,
     selection: Option<Selection<'a>>,
     reach: f64,
-}
-
-/// Things by number, in the order in which they came.
-struct Sorted<T> {
-    /// Where those of each number begin.
-    starts: Vec<u32>,
-    things: Vec<T>,
-}
-
-impl<T> Default for Sorted<T> {
-    fn default() -> Self {
-        Self { starts: vec![0], things: Vec::new() }
-    }
-}
-
-impl<T: Copy> Sorted<T> {
-    /// Sorts things that each have some numbers, from and to, below `count`.
-    fn of<'t>(found: impl Iterator<Item = &'t (T, [u32; 2])> + Clone, count: usize) -> Self
-    where
-        T: 't,
-    {
-        let mut starts = vec![0; count + 1];
-        for (_, [from, to]) in found.clone() {
-            (*from..=*to).for_each(|number| starts[number as usize + 1] += 1);
-        }
-        for number in 0..count {
-            starts[number + 1] += starts[number];
-        }
-        let mut next: Vec<u32> = starts.clone();
-        let total = starts[count] as usize;
-        let Some((any, _)) = found.clone().next() else { return Self { starts, things: Vec::new() } };
-        let mut things = vec![*any; total];
-        for (thing, [from, to]) in found {
-            for number in *from..=*to {
-                let at = &mut next[number as usize];
-                things[*at as usize] = *thing;
-                *at += 1;
-            }
-        }
-        Self { starts, things }
-    }
-
-    fn at(&self, number: usize) -> &[T] {
-        &self.things[self.starts[number] as usize..self.starts[number + 1] as usize]
-    }
 }
 
 /// What a share of the triangles has on the rows.
@@ -186,26 +143,26 @@ impl<'a> Slices<'a> {
 
     /// What some triangles have on the rows.
     fn crossing(&self, triangles: std::ops::Range<usize>) -> Crossing {
-        let mut places = Places::new(&self.contacts, self.frame);
+        let mut footprints = Footprints::new(&self.contacts, self.frame);
         let index = self.contacts.index();
         let reach = self.contacts.cutter().max_radius() + self.contacts.overhang();
         // of a large mesh they would take more memory than the index
         let few = if index.triangles().corners.len() > LARGE { 0 } else { FEW };
         let mut found = Crossing::default();
         for triangle in triangles.map(|t| t as u32) {
-            let across = place::range(index.triangles().at(triangle).map(|p| dot(self.frame.across, [p.x, p.y])));
+            let across = footprint::range(index.triangles().at(triangle).map(|p| dot(self.frame.across, [p.x, p.y])));
             let near = self.crossed(0..self.rows.len(), [across[0] - reach, across[1] + reach]);
             if near.is_empty() {
                 continue;
             }
             for feature in features(index.owned(triangle)) {
-                let Some(place) = places.of(triangle, feature) else { continue };
-                let rows = self.crossed(near.clone(), place.across);
+                let Some(footprint) = footprints.of(triangle, feature) else { continue };
+                let rows = self.crossed(near.clone(), footprint.across);
                 if rows.len() > few {
                     let blocks = [rows.start, rows.end - 1].map(|row| (row / self.block) as u32);
                     found.parts.push((Code::of(triangle, feature), blocks));
                 } else {
-                    self.cut(&place, (triangle, feature), rows, |row, piece| {
+                    self.cut(&footprint, (triangle, feature), rows, |row, piece| {
                         found.pieces.push((piece, [row as u32; 2]));
                     });
                 }
@@ -214,10 +171,10 @@ impl<'a> Slices<'a> {
         found
     }
 
-    /// The pieces of a place on some rows.
+    /// The pieces of a footprint on some rows.
     fn cut(
         &self,
-        place: &Place,
+        footprint: &Footprint,
         (triangle, feature): (u32, Feature),
         rows: std::ops::Range<usize>,
         mut keep: impl FnMut(usize, Piece),
@@ -229,7 +186,7 @@ impl<'a> Slices<'a> {
         let plane = self.plane(triangle);
         for row in rows {
             let across = self.rows[row];
-            if let Some(share) = place.share(across) {
+            if let Some(share) = footprint.share(across) {
                 let at = plane[0] + plane[1] * share[0] + plane[2] * across;
                 let plane = if at.is_finite() { [at, plane[1]] } else { [f64::INFINITY, 0.0] };
                 keep(row, Piece { share, plane, triangle, feature, is_selected });
@@ -247,17 +204,17 @@ impl<'a> Slices<'a> {
     pub fn of_block(&self, block: usize) -> Vec<Option<Slice<'_>>> {
         let rows = self.rows(block);
         let mut pieces: Vec<Vec<Piece>> = rows.clone().map(|row| self.pieces.at(row).to_vec()).collect();
-        let mut places = Places::new(&self.contacts, self.frame);
+        let mut footprints = Footprints::new(&self.contacts, self.frame);
         let mut count = 0;
         for code in self.parts.at(block) {
             let (triangle, feature) = code.feature();
-            let Some(place) = places.of(triangle, feature) else { continue };
-            let crossed = self.crossed(rows.clone(), place.across);
+            let Some(footprint) = footprints.of(triangle, feature) else { continue };
+            let crossed = self.crossed(rows.clone(), footprint.across);
             count += crossed.len();
             if count > MOST {
                 return rows.map(|_| None).collect();
             }
-            self.cut(&place, (triangle, feature), crossed, |row, piece| pieces[row - rows.start].push(piece));
+            self.cut(&footprint, (triangle, feature), crossed, |row, piece| pieces[row - rows.start].push(piece));
         }
         pieces.into_iter().map(|pieces| Slice::of(&self.contacts, self.frame, pieces, self.reach)).collect()
     }

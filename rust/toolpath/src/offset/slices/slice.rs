@@ -3,6 +3,7 @@
 use super::super::contact::{Best, Chord, Contacts, Feature};
 use super::super::search::Keeping;
 use super::frame::{dot, Frame};
+use super::sorted::Sorted;
 
 /// Pieces looked at for a position, on average, from which on a search for each position is quicker.
 const CROWDED: usize = 32;
@@ -39,9 +40,8 @@ pub struct Slice<'a> {
     /// Where the first cell begins, and cells for each mm.
     first: f64,
     rate: f64,
-    /// Where the pieces of each cell begin in `members`.
-    starts: Vec<u32>,
-    members: Vec<u32>,
+    /// Numbers of the pieces in each cell.
+    cells: Sorted<u32>,
     /// Heights that differ by less are the same, mm.
     same: f64,
 }
@@ -57,36 +57,14 @@ impl<'a> Slice<'a> {
         let last = pieces.iter().map(|piece| piece.share[1]).fold(f64::NEG_INFINITY, f64::max);
         let count = pieces.len();
         let rate = if last > first { count as f64 / (last - first) } else { 0.0 };
-        let mut slice = Self {
-            contacts,
-            frame,
-            pieces,
-            first,
-            rate,
-            starts: vec![0; count + 1],
-            members: Vec::new(),
-            same: SAME * reach,
-        };
-        let cells: Vec<[u32; 2]> = slice.pieces.iter().map(|piece| piece.share.map(|s| slice.cell(s) as u32)).collect();
-        let total: usize = cells.iter().map(|[from, to]| (to - from) as usize + 1).sum();
+        let mut slice = Self { contacts, frame, pieces, first, rate, cells: Sorted::default(), same: SAME * reach };
+        let cells = slice.pieces.iter().map(|piece| piece.share.map(|s| slice.cell(s) as u32));
+        let cells: Vec<(u32, [u32; 2])> = (0..).zip(cells).collect();
+        let total: usize = cells.iter().map(|(_, [from, to])| (to - from) as usize + 1).sum();
         if total > CROWDED * count {
             return None;
         }
-        for [from, to] in &cells {
-            (*from..=*to).for_each(|cell| slice.starts[cell as usize + 1] += 1);
-        }
-        for cell in 0..count {
-            slice.starts[cell + 1] += slice.starts[cell];
-        }
-        let mut next = slice.starts.clone();
-        slice.members = vec![0; total];
-        for (piece, [from, to]) in cells.iter().enumerate() {
-            for cell in *from..=*to {
-                let at = &mut next[cell as usize];
-                slice.members[*at as usize] = piece as u32;
-                *at += 1;
-            }
-        }
+        slice.cells = Sorted::of(cells.iter(), count);
         Some(slice)
     }
 
@@ -100,7 +78,7 @@ impl<'a> Slice<'a> {
         if self.pieces.is_empty() {
             return &[];
         }
-        &self.members[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+        self.cells.at(cell)
     }
 
     /// The highest contact of the cutter over a position of the row, and whether all triangles that meet there are selected, on no border.

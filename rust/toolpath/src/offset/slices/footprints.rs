@@ -8,9 +8,9 @@ use styluscam_geometry::Vector;
 
 use super::super::contact::{Contacts, Feature};
 use super::super::features::{Owned, NO_NEIGHBOUR};
+use super::footprint::{range, reach, Footprint};
 use super::frame::{dot, length, Frame};
 use super::gradients::{self, Polygon, STEEPEST};
-use super::place::{range, reach, Place};
 
 /// A segment of gradients nearer to the origin has no direction.
 const NO_DIRECTION: f64 = 1e-8;
@@ -39,20 +39,20 @@ pub fn features(owned: Owned) -> impl Iterator<Item = Feature> {
     std::iter::once(Feature::Facet).chain(edges).chain(corners)
 }
 
-/// The places from which the parts of a mesh can be touched, in the frame of rows.
-pub struct Places<'a> {
+/// The footprints from which the parts of a mesh can be touched, in the frame of rows.
+pub struct Footprints<'a> {
     pub contacts: &'a Contacts<'a>,
     pub frame: Frame,
     polygon: Polygon,
 }
 
-impl<'a> Places<'a> {
+impl<'a> Footprints<'a> {
     pub fn new(contacts: &'a Contacts<'a>, frame: Frame) -> Self {
         Self { contacts, frame, polygon: Polygon::default() }
     }
 
     /// From where a part of a triangle can be touched; none where it cannot.
-    pub fn of(&mut self, triangle: u32, feature: Feature) -> Option<Place> {
+    pub fn of(&mut self, triangle: u32, feature: Feature) -> Option<Footprint> {
         match feature {
             Feature::Facet => self.of_facet(triangle),
             Feature::Edge(i) => self.of_edge(triangle, usize::from(i)),
@@ -60,7 +60,7 @@ impl<'a> Places<'a> {
         }
     }
 
-    fn of_facet(&self, triangle: u32) -> Option<Place> {
+    fn of_facet(&self, triangle: u32) -> Option<Footprint> {
         let (_, contact, height) = self.contacts.plane(triangle);
         if height.is_nan() {
             return None;
@@ -69,25 +69,25 @@ impl<'a> Places<'a> {
         let corners = self.contacts.index().triangles().at(triangle);
         let plan = corners.map(|p| self.frame.of([p.x - contact[0], p.y - contact[1]]));
         let [low, high] = range(plan.map(|p| p[1]));
-        let mut place = Place::strip([low - overhang, high + overhang]);
+        let mut footprint = Footprint::strip([low - overhang, high + overhang]);
         let edges = [0, 1, 2].map(|i| [0, 1].map(|axis| plan[(i + 1) % 3][axis] - plan[i][axis]));
         let twice = edges[0][0] * edges[1][1] - edges[0][1] * edges[1][0];
         let turn = if twice < 0.0 { -1.0 } else { 1.0 };
         for (edge, from) in edges.iter().zip(&plan) {
             let rounding = overhang * (edge[0].abs() + edge[1].abs());
             let inward = [-turn * edge[1], turn * edge[0]];
-            place = place.cut(rounding - dot(inward, *from), inward);
+            footprint = footprint.cut(rounding - dot(inward, *from), inward);
         }
         let longest = edges.iter().map(|edge| dot(*edge, *edge)).fold(0.0, f64::max);
         if twice.abs() < THIN * longest {
             // a triangle that is a line has no sides, and those of a needle meet far beyond its point
             let [low, high] = range(plan.map(|p| p[0]));
-            place = place.between([low - overhang, high + overhang], [1.0, 0.0]);
+            footprint = footprint.between([low - overhang, high + overhang], [1.0, 0.0]);
         }
-        Some(place)
+        Some(footprint)
     }
 
-    fn of_edge(&self, triangle: u32, number: usize) -> Option<Place> {
+    fn of_edge(&self, triangle: u32, number: usize) -> Option<Footprint> {
         let index = self.contacts.index();
         let corners = index.triangles().at(triangle);
         let (a, b) = (corners[number], corners[(number + 1) % 3]);
@@ -116,7 +116,7 @@ impl<'a> Places<'a> {
         let strip = range([corner(0, 0), corner(0, 1), corner(1, 0), corner(1, 1)]);
         let shifted = |[low, high]: [f64; 2], by: f64| [low + by, high + by];
         Some(
-            Place::strip(strip)
+            Footprint::strip(strip)
                 .between(shifted(first, offset(along)), along)
                 .between(shifted(aside, offset(across)), across),
         )
@@ -194,16 +194,16 @@ impl<'a> Places<'a> {
         apart.map(|i| index.triangles().at(other)[i])
     }
 
-    fn of_corner(&mut self, triangle: u32, number: usize) -> Option<Place> {
+    fn of_corner(&mut self, triangle: u32, number: usize) -> Option<Footprint> {
         let mut polygon = std::mem::take(&mut self.polygon);
         polygon.on_corner(self.contacts.index(), triangle, number);
-        let place = self.of_planes(&polygon.corners, triangle, number);
+        let footprint = self.of_planes(&polygon.corners, triangle, number);
         self.polygon = polygon;
-        place
+        footprint
     }
 
-    /// The place around a corner from the gradients of the planes on it.
-    fn of_planes(&self, gradients: &[[f64; 2]], triangle: u32, number: usize) -> Option<Place> {
+    /// The footprint around a corner from the gradients of the planes on it.
+    fn of_planes(&self, gradients: &[[f64; 2]], triangle: u32, number: usize) -> Option<Footprint> {
         if gradients.is_empty() {
             return None;
         }
@@ -234,7 +234,7 @@ impl<'a> Places<'a> {
             let [low, high] = ranges[axis];
             [at[axis] + (low - pad).max(-rim), at[axis] + (high + pad).min(rim)]
         });
-        Some(Place::strip(across).between(along, [1.0, 0.0]).within(at, rim))
+        Some(Footprint::strip(across).between(along, [1.0, 0.0]).within(at, rim))
     }
 
     /// What rounding makes of a position, and more.

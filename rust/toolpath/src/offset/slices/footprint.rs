@@ -2,12 +2,12 @@
 
 use super::frame::dot;
 
-/// Sides of a place at most: those of a triangle and of the box around it.
+/// Sides of a footprint at most: those of a triangle and of the box around it.
 const SIDES: usize = 7;
 
 /// A convex piece of the plan, in coordinates along and across rows, mm.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub struct Footprint {
     /// a + b along + c across is not negative inside.
     sides: [[f64; 3]; SIDES],
     count: usize,
@@ -17,7 +17,7 @@ pub struct Place {
     pub across: [f64; 2],
 }
 
-impl Place {
+impl Footprint {
     /// The whole strip between two positions across.
     pub fn strip(across: [f64; 2]) -> Self {
         Self { sides: [[0.0; 3]; SIDES], count: 0, circle: None, across }
