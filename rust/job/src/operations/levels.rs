@@ -70,16 +70,18 @@ pub fn trace(keys: &LevelKeys<'_>, task: &Task<'_>, surface: &Surface<'_>) -> Re
 fn steps(keys: &LevelKeys<'_>, task: &Task<'_>, surface: &Surface<'_>) -> Result<Steps, PlanError> {
     let context = task.context;
     let top = context.heights.top.unwrap_or(context.scene.top);
-    steps_of(keys, (top, task.body), surface, context.watch)
+    steps_of(keys, (top, task.body), task.budget.deviation, surface, context.watch)
 }
 
-/// The distances between levels from a height, mm, down, of a tool with its sheet.
+/// The distances between levels from a height, mm, down, of a tool with its sheet. Passes are off the faces by up to `deviation`, mm,
+/// to either side.
 ///
 /// # Errors
 /// `Cancelled`.
 pub fn steps_of(
     keys: &LevelKeys<'_>,
     (top, body): (f64, &ToolBody),
+    deviation: f64,
     surface: &Surface<'_>,
     watch: &Watch,
 ) -> Result<Steps, PlanError> {
@@ -87,7 +89,7 @@ pub fn steps_of(
         Pitch::Even(step) => Steps::Even(step),
         Pitch::Listed { from, steps } => Steps::Listed { from, steps },
         Pitch::Scallop { height, steps: limits } => {
-            let rule = ScallopRule { height, limits };
+            let rule = ScallopRule { height, limits, deviation };
             let bounds = scallop_steps(surface, body, Spread::Levels, &rule, watch)?;
             Steps::Bounded(if keys.of_turns { bounds.for_turns() } else { bounds })
         }

@@ -203,7 +203,7 @@ impl Pocket {
         let (top, bottom) = (context.heights.top.unwrap_or(scene.top), context.heights.bottom);
         let body = context.tool.body(None);
         let keys = LevelKeys { step: &self.step, limits: StepLimits::default(), at_flats: true, of_turns: false };
-        let steps = levels::steps_of(&keys, (top, &body), surface, watch)?;
+        let steps = levels::steps_of(&keys, (top, &body), deviation, surface, watch)?;
         let range = LevelRange { top, bottom, reachable, steps, resolution };
         let floors = Floors::of(surface.envelope());
         let heights = levels(&range, &floors)?;

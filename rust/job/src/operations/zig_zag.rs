@@ -170,7 +170,7 @@ impl ZigZag {
         let closer = match self.pitch_of_rows() {
             Pitch::Even(_) | Pitch::Listed { .. } => None,
             Pitch::Scallop { height, steps: limits } => {
-                let rule = ScallopRule { height, limits };
+                let rule = ScallopRule { height, limits, deviation: task.budget.deviation };
                 Some(scallop_steps(surface, task.body, Spread::Rows(angle), &rule, task.context.watch)?)
             }
         };

@@ -5,9 +5,9 @@ use std::collections::HashMap;
 
 use nalgebra::Matrix3;
 use rayon::prelude::*;
-use styluscam_geometry::{Bend, ToolBody, Vector};
+use styluscam_geometry::{Bend, Vector};
 
-use super::spread::Spread;
+use super::spread::{Ridge, Spread};
 use super::steps::Allowed;
 use crate::Surface;
 
@@ -114,16 +114,16 @@ impl Crease {
         Some(Self { normals: [normal; 2], tips: Tips::rolling(surface, ends, [normal, outward]) })
     }
 
-    /// What it allows around the positions of the tool that touches both faces, for a scallop of `height` mm; none where passes do
+    /// What it allows around the positions of the tool that touches both faces, for a ridge; none where passes do
     /// not cross it.
-    pub fn allowed(&self, spread: Spread, body: &ToolBody, height: f64) -> Option<Allowed> {
+    pub fn allowed(&self, spread: Spread, ridge: &Ridge) -> Option<Allowed> {
         if !self.normals.iter().all(|normal| spread.crosses(*normal) && normal.z > 0.0) {
             return None;
         }
         if matches!(&self.tips, Tips::Hollow { tips, .. } if !spread.runs_along(tips[1] - tips[0])) {
             return None;
         }
-        let on_faces = self.normals.map(|normal| spread.step(normal, &Bend::default(), body, height));
+        let on_faces = self.normals.map(|normal| spread.step(normal, &Bend::default(), ridge));
         let values = |tips: &[Vector]| {
             let values = tips.iter().map(|tip| spread.value(*tip));
             [values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max)]
@@ -136,7 +136,7 @@ impl Crease {
             Tips::Hollow { tips, .. } => {
                 let [first, second] = self.normals.map(|normal| spread.section_slope(normal));
                 // half the chord rises as the kink does, and the section over it by its square
-                let steep = libm::tan(0.5 * (first - second).abs()) / (4.0 * height);
+                let steep = libm::tan(0.5 * (first - second).abs()) / (4.0 * ridge.height);
                 let travel = on_faces.map(|(step, rate)| step / rate).into_iter().fold(f64::INFINITY, f64::min);
                 let chord = (steep + libm::sqrt(steep * steep + travel.recip() * travel.recip())).recip();
                 let step = chord * on_faces[0].1.min(on_faces[1].1);

@@ -5,7 +5,7 @@ use styluscam_geometry::{bend, ToolBody, Vector};
 use styluscam_motion::{Cancelled, Watch};
 
 use super::creases::{creases, tips_at_vertices};
-use super::spread::Spread;
+use super::spread::{Ridge, Spread};
 use super::stances::smooth_stances_of;
 use super::steps::{Allowed, StepBounds};
 use super::untouched::{in_plan, Untouched};
@@ -23,6 +23,8 @@ pub struct ScallopRule {
     pub height: f64,
     /// The smallest and the largest step in the order of the passes, mm.
     pub limits: [f64; 2],
+    /// How far passes may be off the faces to either side, mm.
+    pub deviation: f64,
 }
 
 /// The steps that a scallop allows, by height or by position across rows.
@@ -49,6 +51,7 @@ pub fn scallop_steps(
     let tips = untouched.tips(&corners, watch)?;
     let large = SMALL * body.max_radius();
     let creases = creases(surface);
+    let ridge = Ridge { body: body.clone(), height: AIM * rule.height, deviation: rule.deviation };
     // beside a crease the tool does not get as far as either face alone would let it
     let at_creases = tips_at_vertices(&creases);
     let of_facet = |((triangle, stances), found): (&(usize, [Vector; 3]), &[Option<f64>])| {
@@ -66,7 +69,7 @@ pub fn scallop_steps(
         let [low, high] = [(0..3).min_by(by_value).unwrap_or(0), (0..3).max_by(by_value).unwrap_or(0)];
         let normals = mesh.corner_normals(*triangle);
         let bend = bend(&corners, &normals, mesh.model_normal(*triangle));
-        let step = normals.map(|normal| spread.step(normal, &bend, body, AIM * rule.height).0);
+        let step = normals.map(|normal| spread.step(normal, &bend, &ridge).0);
         Some(Allowed {
             values: [tips[low], tips[high]],
             step: step.into_iter().fold(f64::INFINITY, f64::min),
@@ -74,9 +77,9 @@ pub fn scallop_steps(
         })
     };
     let mut allowed: Vec<Allowed> = stances.par_iter().zip(tips.par_chunks(3)).filter_map(of_facet).collect();
-    allowed.extend(creases.iter().filter_map(|crease| crease.allowed(spread, body, AIM * rule.height)));
+    allowed.extend(creases.iter().filter_map(|crease| crease.allowed(spread, &ridge)));
     Ok(match spread {
-        Spread::Levels => StepBounds::of_levels(&allowed, rule.limits, body, AIM * rule.height),
+        Spread::Levels => StepBounds::of_levels(&allowed, rule.limits, ridge),
         Spread::Rows(_) => StepBounds::new(&allowed, rule.limits),
     })
 }

@@ -6,8 +6,12 @@ use rayon::prelude::*;
 use styluscam_motion::Watch;
 
 use super::descent::{Descent, Level};
-use super::nesting;
-use crate::{ordering, Pass, PlanError, Surface};
+use super::{level_curve::LevelCurve, nesting};
+use crate::{fitting, seam, Pass, PathPoint, PlanError, Surface};
+
+/// A side of a loop between which a turn goes is no longer than this share of the loop: of two points that belong together, one
+/// is that much farther round than the other at most, and the turn is off an even fall by half of it.
+const SIDE: f64 = 0.01;
 
 /// Loops of levels, in the order of their groups, joined to spirals: a loop at the first height, one descent, a loop at the last.
 /// Where a loop parts, ends, or cannot be followed down to the next level, its spiral ends; open passes stay as they are.
@@ -24,7 +28,8 @@ pub fn spirals(
     longest: f64,
     watch: &Watch,
 ) -> Result<Vec<Pass>, PlanError> {
-    let outlines = surface.outlines(passes, deviation);
+    let outlines: Vec<Pass> =
+        surface.outlines(passes, deviation).par_iter().map(|pass| divided(surface, pass, deviation)).collect();
     let followers = nesting::followers(&outlines);
     let mut is_followed = vec![false; passes.len()];
     followers.iter().flatten().for_each(|lower| is_followed[*lower] = true);
@@ -43,6 +48,18 @@ pub fn spirals(
     let mut found: Vec<Pass> = found?.into_iter().flatten().collect();
     found.sort_by_key(|pass| pass.group);
     Ok(found)
+}
+
+/// A loop with points on its long sides; open passes as they are.
+fn divided(surface: &Surface<'_>, pass: &Pass, deviation: f64) -> Pass {
+    let points = pass.points.first().filter(|_| pass.closed).and_then(|first| {
+        let length: f64 = pass.points.windows(2).map(|side| (side[1].tip - side[0].tip).xy().norm()).sum();
+        let mut curve = LevelCurve::new(surface, first.tip.z);
+        let mut between = |a: &PathPoint, b: &PathPoint| curve.between(a, b);
+        let mut runs = fitting::densified(&pass.points, deviation, SIDE * length, &mut between);
+        runs.pop().filter(|_| runs.is_empty())
+    });
+    points.map_or_else(|| pass.clone(), |points| Pass { points, ..*pass })
 }
 
 /// The spirals along loops, each with its chords, each of which leads to the next.
@@ -72,9 +89,12 @@ fn along(descent: &Descent<'_>, loops: &[[&Pass; 2]], watch: &Watch) -> Result<V
 fn close(found: &mut [Pass], last: Option<&(Level, &Pass)>) {
     if let (Some(spiral), Some((_, pass))) = (found.last_mut(), last) {
         if let (true, Some(end)) = (spiral.descends(), spiral.points.last()) {
-            let mut points = pass.points.clone();
-            ordering::begin_nearest(&mut points, end.tip);
-            spiral.points.extend_from_slice(&points[1..]);
+            let (end, mut points) = (*end, pass.points.clone());
+            seam::begin_beside(&mut points, end.tip);
+            spiral.points.extend(points.into_iter().skip(1));
+            if let Some(last) = spiral.points.last_mut() {
+                *last = end; // on one of the loop's sides it lies where the wall is
+            }
             spiral.closed = false;
         }
     }

@@ -2,6 +2,25 @@
 
 use styluscam_geometry::{wall_axes, Bend, ToolBody, Vector};
 
+/// The ridges that passes are to leave.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ridge {
+    /// What leaves them: the tool with its sheet.
+    pub body: ToolBody,
+    /// Their height over the faces, mm.
+    pub height: f64,
+    /// Passes are off their faces by up to this along the normal, to either side, mm.
+    pub deviation: f64,
+}
+
+impl Ridge {
+    /// How much farther apart along a wall two levels are when their passes are off it, mm: a pass that stays at its height moves
+    /// along the wall as well.
+    pub fn apart(&self, cotangent: f64) -> f64 {
+        2.0 * self.deviation * cotangent.abs()
+    }
+}
+
 /// Faces that slope by less, a sine, are floors: no level lies on them.
 const LEVEL: f64 = 1e-4;
 
@@ -53,25 +72,26 @@ impl Spread {
         }
     }
 
-    /// The step that a scallop of `height` allows on a face with a unit normal, mm, and what of the tool's travel across
-    /// the passes becomes a step, as a share.
-    pub(super) fn step(self, normal: Vector, bend: &Bend, body: &ToolBody, height: f64) -> (f64, f64) {
+    /// The step that leaves a ridge on a face with a unit normal, mm, and what of the tool's travel across the passes becomes
+    /// a step, as a share.
+    pub(super) fn step(self, normal: Vector, bend: &Bend, ridge: &Ridge) -> (f64, f64) {
         let slope = libm::atan2(normal.xy().norm(), normal.z);
         let [up, level] = wall_axes(normal);
         // the direction across the passes in the face, and by how much a step along it changes their value
-        let (direction, rate) = match self {
-            Self::Levels => (up, up.z.abs()),
+        let (direction, rate, off) = match self {
+            Self::Levels => (up, up.z.abs(), ridge.apart(libm::tan(slope).recip())),
             Self::Rows(angle) => {
                 let (sin, cos) = libm::sincos(angle);
                 let row = Vector::new(cos, sin, 0.0);
                 // in the upright plane of the row the tool follows the face up and down
                 let along = row * normal.z - Vector::z() * row.dot(&normal);
                 let Some(aside) = normal.cross(&along).try_normalize(LEVEL) else { return (f64::INFINITY, 1.0) };
-                (aside, across(angle).dot(&aside).abs())
+                (aside, across(angle).dot(&aside).abs(), 0.0)
             }
         };
         let shares = [direction.dot(&up), direction.dot(&level)];
-        (body.scallop_travel(slope, height, shares, bend.along(shares)) * rate, rate)
+        let travel = ridge.body.scallop_travel(slope, ridge.height, shares, bend.along(shares));
+        ((travel - off).max(0.0) * rate, rate)
     }
 }
 

@@ -1,7 +1,6 @@
 //! How far one level lies below the other: evenly, by a list, or as far as a bound at each height allows.
 
-use styluscam_geometry::ToolBody;
-
+use super::spread::Ridge;
 use super::wall_line::WallLine;
 
 /// Share of a step by which turns are planned: on the long straight sides of a loop they lie up to a tenth farther apart.
@@ -114,11 +113,11 @@ impl StepBounds {
         Self::with_cosines(allowed, limits).0
     }
 
-    /// The same for levels of a tool that are to leave ridges of `height` mm.
+    /// The same for levels that are to leave a ridge.
     #[must_use]
-    pub fn of_levels(allowed: &[Allowed], limits: [f64; 2], body: &ToolBody, height: f64) -> Self {
+    pub fn of_levels(allowed: &[Allowed], limits: [f64; 2], ridge: Ridge) -> Self {
         let (bounds, cosines) = Self::with_cosines(allowed, limits);
-        let walls = Some(WallLine::new(bounds.low, bounds.cell, &cosines, body, height));
+        let walls = Some(WallLine::new(bounds.low, bounds.cell, &cosines, ridge));
         Self { walls, ..bounds }
     }
 
@@ -153,7 +152,8 @@ impl StepBounds {
             let around = cell.saturating_sub(reach)..(cell + reach + 1).min(most.len());
             most[around].iter_mut().for_each(|other| *other = other.min(TURNS * *step));
         }
-        Self { most, walls: None, ..self.clone() }
+        let [least, largest] = self.limits;
+        Self { most, walls: None, limits: [TURNS * least, largest], ..self.clone() }
     }
 
     fn cell_of(&self, value: f64) -> usize {

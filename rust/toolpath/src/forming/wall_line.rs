@@ -5,7 +5,7 @@
 //! between them the tool would stand lower than that chord by what the line sags. So the ridge is as high as the section is at
 //! half its chord, and higher by the sag. Nothing is assumed of the part's curvatures: derived in docs/concepts/scallops.md.
 
-use styluscam_geometry::ToolBody;
+use super::spread::Ridge;
 
 /// Going down, walls that become steeper at once by more, rad, are not one wall: a tool rolls over convex edges.
 const BREAK: f64 = 0.005;
@@ -26,15 +26,13 @@ pub struct WallLine {
     travel: Vec<f64>,
     /// By border of cells from `low` up: how many breaks are below.
     breaks: Vec<u32>,
-    body: ToolBody,
-    /// The ridge asked for, mm.
-    height: f64,
+    ridge: Ridge,
 }
 
 impl WallLine {
-    /// Of the slopes in cells of a size from `low` up, as the cosine of each; NaN where the tool meets no wall. `height` is that of
-    /// the ridge between two levels, mm.
-    pub fn new(low: f64, cell: f64, cosines: &[f64], body: &ToolBody, height: f64) -> Self {
+    /// Of the slopes in cells of a size from `low` up, as the cosine of each; NaN where the tool meets no wall. `ridge` is the one
+    /// between two levels.
+    pub fn new(low: f64, cell: f64, cosines: &[f64], ridge: Ridge) -> Self {
         let (mut travel, mut breaks) = (vec![0.0], vec![0]);
         let (mut sum, mut count, mut before) = (0.0, 0, None);
         let known = |from: usize| cosines.get(from).is_some_and(|cosine| !cosine.is_nan());
@@ -50,7 +48,7 @@ impl WallLine {
             travel.push(sum);
             breaks.push(count);
         }
-        Self { low, cell, travel, breaks, body: body.clone(), height }
+        Self { low, cell, travel, breaks, ridge }
     }
 
     /// The step down from a height after which the ridge is as high as asked for, mm, up to `most`; none where the walls break
@@ -90,8 +88,9 @@ impl WallLine {
             return false;
         }
         let chord = libm::atan2(up, along);
-        let section = self.body.chord(chord, self.height);
-        let radius = section * section / (8.0 * self.height);
+        let Ridge { body, height, .. } = &self.ridge;
+        let section = body.chord(chord, *height);
+        let radius = section * section / (8.0 * height);
         // below the ridge the tool would stand where it gets nearest to it: mostly, but not where the line bends at once, in the
         // middle
         let rise = |sample: u32| {
@@ -102,8 +101,8 @@ impl WallLine {
             sag - 0.5 * aside * aside / radius
         };
         let sag = (0..=SAMPLES).map(rise).fold(f64::NEG_INFINITY, f64::max);
-        let left = self.height - sag;
-        left <= 0.0 || length >= self.body.chord(chord, left)
+        let left = height - sag;
+        left <= 0.0 || length + self.ridge.apart(along / up) >= body.chord(chord, left)
     }
 
     /// How far in plan from the lowest position the tip is at a height, mm.
@@ -125,7 +124,7 @@ impl WallLine {
 
 #[cfg(test)]
 mod tests {
-    use styluscam_geometry::{kinds, Tool, ToolDocument};
+    use styluscam_geometry::{kinds, Tool, ToolBody, ToolDocument};
 
     use super::*;
 
@@ -138,7 +137,7 @@ mod tests {
     /// The tip's height over the lowest of a circle of a radius about the part's, and the cosines of its slopes.
     fn line(cosine: impl Fn(f64) -> f64, height: f64) -> WallLine {
         let cosines: Vec<f64> = (0..5000).map(|i| cosine((f64::from(i) + 0.5) * CELL)).collect();
-        WallLine::new(0.0, CELL, &cosines, &ball(6.0), height)
+        WallLine::new(0.0, CELL, &cosines, Ridge { body: ball(6.0), height, deviation: 0.0 })
     }
 
     #[test]
@@ -147,6 +146,18 @@ mod tests {
         let line = line(|_| slope.cos(), 0.05);
         let step = line.step(4.0, 0.3, 3.0).unwrap();
         assert!((step - ball(6.0).chord(slope, 0.05) * slope.sin()).abs() < 1e-6, "{step}");
+    }
+
+    #[test]
+    fn levels_lie_nearer_by_what_their_passes_slide_along_the_wall() {
+        let (slope, deviation) = (0.3_f64, 0.005);
+        let of = |deviation| {
+            let cosines = vec![slope.cos(); 5000];
+            let ridge = Ridge { body: ball(6.0), height: 0.05, deviation };
+            WallLine::new(0.0, CELL, &cosines, ridge).step(4.0, 0.3, 3.0).unwrap()
+        };
+        let nearer = (of(0.0) - of(deviation)) / slope.sin();
+        assert!((nearer - 2.0 * deviation / slope.tan()).abs() < 1e-6, "{nearer}");
     }
 
     #[test]
