@@ -103,3 +103,9 @@ def test_a_border_below_what_is_formed_cannot_be_clamped(part: sc.Part) -> None:
     severity, words = reported["flange-height"]
     assert severity == "error" and "5.0" in words and "setup.up" in words
     assert found(part, accept=["flange"])["flange-height"][0] == "warning"
+
+
+def test_what_rises_and_falls_from_its_border_is_not_to_be_turned_over() -> None:
+    both = between(lambda x, y: -np.sign(x) * cup(2.0 * (np.abs(x) - 10.0), 2.0 * y))
+    words = found(both)["flange-height"][1]
+    assert "male" in words and "setup.up" not in words

@@ -31,7 +31,9 @@ fn found_wrong(job: &JobDocument, scene: &Scene) -> Vec<(FindingKind, String)> {
     let solid = thickness.filter(|_| of_sheet.is_none() && takes_all(job)).zip(formed.err());
     if let Some((thickness, why)) = solid {
         let over = match why {
-            Unformable::LowBorder(_) => ", form over it as over a die (process = { kind = \"tpif\", die = \"male\" })",
+            Unformable::LowBorder { .. } => {
+                ", form over it as over a die (process = { kind = \"tpif\", die = \"male\" })"
+            }
             Unformable::Unseen | Unformable::Flat | Unformable::Steep(_) | Unformable::Stepped => "",
         };
         let words = format!(
@@ -45,11 +47,12 @@ fn found_wrong(job: &JobDocument, scene: &Scene) -> Vec<(FindingKind, String)> {
     let mut found = Vec::new();
     found.extend(of_sheet.and_then(|measured| other_thickness(measured, sheet)));
     found.extend(of_sheet.and_then(|measured| other_face(measured, sheet)));
-    if let Err(Unformable::LowBorder(below)) = formed {
+    if let Err(Unformable::LowBorder { below, is_lowest }) = formed {
+        let turn = if is_lowest { "turn the model over with setup.up, " } else { "" };
         let words = format!(
             "the model's border, where the sheet is clamped, lies {below:.2} mm below its highest point: the sheet lies \
-             flat at the border's height, and the tool only pushes down; turn the model over with setup.up, form over a \
-             die (process = {{ kind = \"tpif\", die = \"male\" }}), or accept = [\"flange\"]"
+             flat at the border's height, and the tool only pushes down; {turn}form over a die (process = \
+             {{ kind = \"tpif\", die = \"male\" }}), or accept = [\"flange\"]"
         );
         found.push((FindingKind::FlangeHeight, words));
     }

@@ -154,6 +154,7 @@ fn explained(written: &Value, path: &str, message: &str) -> JobError {
                 "a word in quotes is expected"
             }
         }
+        m if m.contains("map with a single key") => "a table with one key is expected",
         m => m,
     };
     let message = in_words(message);
@@ -163,7 +164,7 @@ fn explained(written: &Value, path: &str, message: &str) -> JobError {
 /// Serde's names of types as people call them.
 fn in_words(message: &str) -> String {
     const NAMES: [(&str, &str); 3] =
-        [("f64", "a number"), ("struct ", "a table"), ("internally tagged enum ", "a table with a kind")];
+        [("f64", "a number"), ("struct ", "a table"), ("internally tagged enum ", "a table")];
     let Some((found, expected)) = message.split_once(", expected ") else { return message.to_owned() };
     let name = NAMES.iter().find(|(name, _)| expected.starts_with(name)).map_or(expected, |(_, words)| *words);
     format!("{found}, where {name} is expected")

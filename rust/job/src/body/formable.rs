@@ -27,7 +27,12 @@ pub enum Unformable {
     /// It is flat.
     Flat,
     /// Its border lies this far below its highest point, mm.
-    LowBorder(f64),
+    LowBorder {
+        /// mm.
+        below: f64,
+        /// Whether it would lie at the highest point if the shape were turned over.
+        is_lowest: bool,
+    },
     /// This share of its area is steeper than [`FORMED_DEG`].
     Steep(f64),
     /// Its floors lie at several heights, and no wall between them slopes.
@@ -39,7 +44,7 @@ impl std::fmt::Display for Unformable {
         match self {
             Self::Unseen => write!(f, "nothing of it is seen from above"),
             Self::Flat => write!(f, "it is flat, and there is nothing to form"),
-            Self::LowBorder(below) => write!(
+            Self::LowBorder { below, .. } => write!(
                 f,
                 "its border, where a sheet is clamped, lies {below:.1} mm below its highest point, and the tool only \
                  pushes down"
@@ -81,8 +86,9 @@ impl Body<'_> {
             return Err(Unformable::Flat);
         }
         let below = heights.top - border.middle;
-        if clamped && below > thickness.unwrap_or(0.0) + SAME * depth && border.above > EMBOSSED {
-            return Err(Unformable::LowBorder(below));
+        let same = thickness.unwrap_or(0.0) + SAME * depth;
+        if clamped && below > same && border.above > EMBOSSED {
+            return Err(Unformable::LowBorder { below, is_lowest: border.middle - heights.bottom <= same });
         }
         let steep = self.steeper(FORMED_DEG);
         if steep > RIM {

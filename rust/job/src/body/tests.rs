@@ -107,7 +107,9 @@ fn a_sheet_has_one_thickness_and_a_solid_has_not() {
 fn a_sheet_is_formed_where_its_border_is_on_top_and_no_wall_is_too_steep() {
     let depth = |upper: Heights<'_>| with(&sheet(upper, 1.0), |body| body.formed_depth(Some(1.0)));
     assert!((depth(&cup).unwrap() - 5.0).abs() < 0.1);
-    assert!(matches!(depth(&|x, y| -cup(x, y)), Err(Unformable::LowBorder(below)) if (below - 5.0).abs() < 0.1));
+    assert!(
+        matches!(depth(&|x, y| -cup(x, y)), Err(Unformable::LowBorder { below, is_lowest: true }) if (below - 5.0).abs() < 0.1)
+    );
     assert_eq!(depth(&|_, _| 0.0), Err(Unformable::Flat));
     assert!(matches!(with(&between(&pit, None), |body| body.formed_depth(None)), Err(Unformable::Steep(_))));
     // over a male die the border goes down with the frame; what is too steep stays so

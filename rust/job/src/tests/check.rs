@@ -48,6 +48,15 @@ fn keys_that_exclude_each_other_are_refused_at_the_key() {
 fn a_number_where_a_table_is_expected_is_answered_with_a_table() {
     for (key, expected) in [
         ("step = 1.0", "a table is expected; allowed: a table like { height = 0.5 }"),
+        (
+            "step = { height = 1.0, scallop = 0.1 }",
+            "a table with one key is expected; allowed: a table like { height = 0.5 }",
+        ),
+        ("step = {}", "a table with one key is expected"),
+        (
+            "step = { height = 1.0 }\nspindle = \"off\"",
+            "invalid type: string \"off\", where a table is expected; allowed: a table like { mode = \"off\" }",
+        ),
         ("step = { height = 1.0 }\nlinks = 1.0", "a word in quotes is expected; allowed: \"low\", \"clearance\""),
     ] {
         let error = crate::from_toml(&with(&levels(), "step = { height = 1.0 }", key)).map(|_| ()).expect_err(key);
