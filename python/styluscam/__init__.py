@@ -28,6 +28,7 @@ _MODULES = {
     "offset.surface": ("OffsetSurface", "offset_surface"),
     "parts.part": ("Part",),
     "pocketing.path": ("PocketPath", "pocket_path"),
+    "programs.five_axis": ("FiveAxes", "RotaryAxis"),
     "programs.job": ("Job", "job_schema", "starter_job"),
     "programs.machine": ("Machine",),
     "programs.planning": ("Plan", "Posted", "plan", "post", "read_gcode"),

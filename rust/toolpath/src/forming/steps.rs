@@ -92,7 +92,7 @@ pub struct StepBounds {
     /// The smallest and the largest step, mm, whatever is allowed.
     limits: [f64; 2],
     /// The walls that allow the least, where their ridges are known as they are.
-    walls: Option<WallLine>,
+    walls: Option<Box<WallLine>>,
 }
 
 /// What a face allows.
@@ -117,7 +117,7 @@ impl StepBounds {
     #[must_use]
     pub fn of_levels(allowed: &[Allowed], limits: [f64; 2], ridge: Ridge) -> Self {
         let (bounds, cosines) = Self::with_cosines(allowed, limits);
-        let walls = Some(WallLine::new(bounds.low, bounds.cell, &cosines, ridge));
+        let walls = Some(Box::new(WallLine::new(bounds.low, bounds.cell, &cosines, ridge)));
         Self { walls, ..bounds }
     }
 

@@ -1,0 +1,257 @@
+//! The angles of two axes along a path: of all that point the tool right, those that turn least on the way.
+
+use super::error::RotaryError;
+use super::kinematics::{cross, dot, Carrier, RotaryAxes, Vector, UP};
+use super::poses::Pose;
+
+/// A direction this near to an axis' own leaves its angle free, as a sine.
+const ALONG: f64 = 1e-9;
+/// By so much a direction may miss the reach of the axes: rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// Angles of both axes, deg; none where it is free.
+type Free = [Option<f64>; 2];
+
+/// A pair of angles at a pose, and how it was come to.
+struct State {
+    angles: [f64; 2],
+    cost: f64,
+    before: usize,
+}
+
+impl RotaryAxes {
+    /// The angles of both axes, deg, that point the tool along each direction (unit vectors of work coordinates): within the
+    /// limits, and with the least sum of squares of the turns on the way.
+    ///
+    /// # Errors
+    /// [`RotaryError::Unreachable`], [`RotaryError::Limit`].
+    pub fn angles(&self, directions: &[[f64; 3]]) -> Result<Vec<[f64; 2]>, RotaryError> {
+        let mut levels: Vec<Vec<State>> = Vec::with_capacity(directions.len());
+        for (index, direction) in directions.iter().enumerate() {
+            let pairs = self.pairs(*direction);
+            if pairs.is_empty() {
+                return Err(RotaryError::Unreachable { index });
+            }
+            let level = match levels.last() {
+                None => pairs.iter().flat_map(|pair| self.first(*pair)).collect(),
+                Some(before) => self.next(before, &pairs),
+            };
+            if level.is_empty() {
+                return Err(RotaryError::Limit { index });
+            }
+            levels.push(level);
+        }
+        Ok(cheapest(&levels))
+    }
+
+    /// Gives poses their angles.
+    pub(super) fn turn_to(&self, poses: &mut [Pose]) -> Result<(), RotaryError> {
+        let directions: Vec<_> = poses.iter().map(|pose| pose.direction).collect();
+        let of_move = |index: usize| poses.get(index).map_or(index, |pose| pose.index);
+        let angles = self.angles(&directions).map_err(|error| match error {
+            RotaryError::Unreachable { index } => RotaryError::Unreachable { index: of_move(index) },
+            RotaryError::Limit { index } => RotaryError::Limit { index: of_move(index) },
+            other => other,
+        })?;
+        poses.iter_mut().zip(angles).for_each(|(pose, angles)| pose.angles = angles);
+        Ok(())
+    }
+
+    /// Where a path may start: every whole turn within the limits, nearer to 0 cheaper.
+    fn first(&self, pair: Free) -> Vec<State> {
+        let [first, second] = [0, 1].map(|i| match pair[i] {
+            Some(angle) => self.wraps(i, angle),
+            None => vec![0.0_f64.clamp(self.axes()[i].limits_deg[0], self.axes()[i].limits_deg[1])],
+        });
+        let both = first.iter().flat_map(|a| second.iter().map(move |b| [*a, *b]));
+        both.map(|angles| State { angles, cost: 1e-9 * square(angles), before: 0 }).collect()
+    }
+
+    /// The cheapest ways on, one from every state before for every pair of angles.
+    fn next(&self, before: &[State], pairs: &[Free]) -> Vec<State> {
+        let mut found: Vec<State> = Vec::new();
+        for (number, state) in before.iter().enumerate() {
+            for pair in pairs {
+                let nearest = |i: usize| match pair[i] {
+                    None => Some(state.angles[i]),
+                    Some(angle) => {
+                        let apart = |angle: &f64| (angle - state.angles[i]).abs();
+                        self.wraps(i, angle).into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))
+                    }
+                };
+                let (Some(first), Some(second)) = (nearest(0), nearest(1)) else { continue };
+                let turned = [first - state.angles[0], second - state.angles[1]];
+                let new = State { angles: [first, second], cost: state.cost + square(turned), before: number };
+                match found.iter_mut().find(|known| near(known.angles, new.angles)) {
+                    Some(known) if known.cost <= new.cost => {}
+                    Some(known) => *known = new,
+                    None => found.push(new),
+                }
+            }
+        }
+        found
+    }
+
+    /// An angle and whole turns more or less, within the limits of an axis, deg.
+    fn wraps(&self, axis: usize, angle: f64) -> Vec<f64> {
+        let [low, high] = self.axes()[axis].limits_deg;
+        let mut turned = angle + 360.0 * ((low - angle) / 360.0).ceil();
+        let mut found = Vec::new();
+        while turned <= high {
+            found.push(turned);
+            turned += 360.0;
+        }
+        found
+    }
+
+    /// Both pairs of angles, deg, that point the tool along a direction, not yet by limits; none where it cannot.
+    ///
+    /// With all turns on one side, two rotations take one vector to another: what is between them has known shares of both
+    /// directions and length 1 (B. Paden, Kinematics and Control Robot Manipulators, Berkeley 1986, subproblem 2).
+    fn pairs(&self, direction: Vector) -> Vec<Free> {
+        let [first, second] = self.axes();
+        // (outer, its sign, inner, from, to)
+        let (outer, sign, inner, from, to) = match (first.carrier, second.carrier) {
+            (Carrier::Table, Carrier::Table) => (0, 1.0, 1, direction, UP),
+            (Carrier::Head, Carrier::Head) => (0, 1.0, 1, UP, direction),
+            (Carrier::Head, Carrier::Table) => (0, -1.0, 1, direction, UP),
+            (Carrier::Table, Carrier::Head) => (1, -1.0, 0, direction, UP),
+        };
+        let (about, within) = (self.axes()[outer].direction, self.axes()[inner].direction);
+        let across = cross(about, within);
+        let (shared, wide) = (dot(about, within), dot(across, across));
+        let (p, q) = (dot(to, about), dot(from, within));
+        let [x, y] = [(p - shared * q) / wide, (q - shared * p) / wide];
+        let rest = (1.0 - x * x - y * y - 2.0 * shared * x * y) / wide;
+        if rest < -ROUNDING / wide {
+            return Vec::new();
+        }
+        let aside = rest.max(0.0).sqrt();
+        let pair = |aside: f64| {
+            let middle = [0, 1, 2].map(|i| x * about[i] + y * within[i] + aside * across[i]);
+            let mut angles = [None; 2];
+            angles[inner] = angle_about(within, from, middle);
+            angles[outer] = angle_about(about, middle, to).map(|angle| sign * angle);
+            angles
+        };
+        if aside < ALONG {
+            vec![pair(0.0)]
+        } else {
+            vec![pair(aside), pair(-aside)]
+        }
+    }
+}
+
+/// The angle, deg, by which one vector is turned to another about a unit vector; none where it lies along that.
+fn angle_about(about: Vector, from: Vector, to: Vector) -> Option<f64> {
+    let beside = cross(about, from);
+    let (sin, cos) = (dot(beside, to), dot(cross(beside, about), to));
+    (dot(beside, beside).sqrt() > ALONG).then(|| libm::atan2(sin, cos).to_degrees())
+}
+
+fn square([a, b]: [f64; 2]) -> f64 {
+    a * a + b * b
+}
+
+fn near(a: [f64; 2], b: [f64; 2]) -> bool {
+    square([a[0] - b[0], a[1] - b[1]]) < 1e-12
+}
+
+/// The way to the cheapest of the last states.
+fn cheapest(levels: &[Vec<State>]) -> Vec<[f64; 2]> {
+    let last = levels.last().into_iter().flat_map(|level| level.iter().enumerate());
+    let mut at = last.min_by(|a, b| a.1.cost.total_cmp(&b.1.cost)).map_or(0, |(number, _)| number);
+    let mut found: Vec<[f64; 2]> = levels
+        .iter()
+        .rev()
+        .filter_map(|level| {
+            let state = level.get(at)?;
+            at = state.before;
+            Some(state.angles)
+        })
+        .collect();
+    found.reverse();
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::RotaryAxis;
+    use super::*;
+
+    fn axis(letter: char, carrier: Carrier, direction: [f64; 3], limits_deg: [f64; 2]) -> RotaryAxis {
+        RotaryAxis { letter, carrier, direction, pivot: [10.0, -20.0, 150.0], limits_deg }
+    }
+
+    fn machines() -> Vec<RotaryAxes> {
+        let (table, head) = (Carrier::Table, Carrier::Head);
+        let x = |carrier| axis('A', carrier, [1.0, 0.0, 0.0], [-120.0, 120.0]);
+        let b = |carrier| axis('B', carrier, [0.0, 1.0, 1.0], [-180.0, 180.0]);
+        let c = |carrier| axis('C', carrier, [0.0, 0.0, 1.0], [-720.0, 720.0]);
+        let pairs = [
+            [x(table), c(table)],
+            [c(head), x(head)],
+            [x(head), c(table)],
+            [c(table), x(head)],
+            [b(table), c(table)],
+            [c(head), b(head)],
+        ];
+        pairs.into_iter().map(|axes| RotaryAxes::new(axes).unwrap()).collect()
+    }
+
+    /// Twice around a cone, one that the nutating axis reaches too.
+    fn around() -> Vec<[f64; 3]> {
+        let at = |i: usize| 4.0 * std::f64::consts::PI * i as f64 / 200.0;
+        (0..=200).map(|i| [0.6 * at(i).cos(), 0.6 * at(i).sin(), 0.8]).collect()
+    }
+
+    #[test]
+    fn angles_point_the_tool_and_go_on_without_a_jump() {
+        for machine in machines() {
+            let angles = machine.angles(&around()).unwrap();
+            for (angles, wanted) in angles.iter().zip(around()) {
+                let found = machine.direction(*angles);
+                assert!((0..3).all(|i| (found[i] - wanted[i]).abs() < 1e-12), "{machine:?}");
+                let tip = [30.0, 40.0, -7.0];
+                let back = machine.tip(machine.linear(tip, *angles), *angles);
+                assert!((0..3).all(|i| (back[i] - tip[i]).abs() < 1e-12), "{machine:?}");
+            }
+            let largest = angles.windows(2).flat_map(|p| [p[1][0] - p[0][0], p[1][1] - p[0][1]]);
+            assert!(largest.map(f64::abs).fold(0.0, f64::max) < 4.0, "{machine:?}");
+        }
+    }
+
+    #[test]
+    fn what_axes_cannot_reach_is_refused() {
+        let limited = |limits| {
+            let axes = [
+                axis('A', Carrier::Table, [1.0, 0.0, 0.0], limits),
+                axis('C', Carrier::Table, [0.0, 0.0, 1.0], [-360.0, 360.0]),
+            ];
+            RotaryAxes::new(axes).unwrap()
+        };
+        assert_eq!(limited([-30.0, 20.0]).angles(&around()), Err(RotaryError::Limit { index: 0 }));
+        // one and a half turns from the middle of 720 degrees do not fit on one side: the start is chosen so that they do
+        assert!(limited([-120.0, 120.0]).angles(&around()[..=150]).is_ok());
+        assert!(matches!(limited([-120.0, 120.0]).angles(&around()), Err(RotaryError::Limit { .. })));
+        let nutating = machines().remove(4);
+        assert_eq!(
+            nutating.angles(&[[1.0, 0.0, 0.0], [0.0, 0.0, -1.0]]).map(|_| ()),
+            Err(RotaryError::Unreachable { index: 1 })
+        );
+        let same = [axis('A', Carrier::Table, UP, [0.0, 1.0]), axis('C', Carrier::Head, UP, [0.0, 1.0])];
+        assert_eq!(RotaryAxes::new(same), Err(RotaryError::Parallel));
+        let none = axis('B', Carrier::Table, [0.0; 3], [0.0, 1.0]);
+        assert_eq!(RotaryAxes::new([none, same[0]]), Err(RotaryError::Axis { letter: 'B' }));
+        let twice = [same[0], axis('A', Carrier::Head, [1.0, 0.0, 0.0], [0.0, 1.0])];
+        assert_eq!(RotaryAxes::new(twice), Err(RotaryError::Letter { letter: 'A' }));
+    }
+
+    #[test]
+    fn an_upright_tool_leaves_the_table_where_it_is() {
+        let machine = machines().remove(0);
+        let lean = |angle: f64| [angle.sin(), 0.0, angle.cos()];
+        let angles = machine.angles(&[lean(0.2), lean(0.1), UP, lean(0.1)]).unwrap();
+        assert!((angles[2][1] - angles[1][1]).abs() < 1e-12 && angles[2][0].abs() < 1e-12, "{angles:?}");
+    }
+}

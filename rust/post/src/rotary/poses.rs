@@ -1,0 +1,121 @@
+//! The poses along a program: those at the ends of its moves, and so many between that the tool keeps to its moves where all axes go
+//! evenly from pose to pose.
+
+use styluscam_motion::Program;
+
+use super::error::RotaryError;
+use super::kinematics::{difference, dot, RotaryAxes, Vector};
+
+/// The tool's axis may lean aside by so much as moves what is this far up from the tip by the tolerance, mm.
+const REACH: f64 = 50.0;
+/// Shares of a move at which it is looked how far the tool leaves it.
+const SHARES: [f64; 3] = [0.25, 0.5, 0.75];
+/// A move is halved so often at most.
+const HALVINGS: usize = 10;
+
+/// Where the tool is to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Pose {
+    /// The move that leads there.
+    pub index: usize,
+    /// mm, in the part.
+    pub tip: [f64; 3],
+    /// A unit vector in the part.
+    pub direction: [f64; 3],
+    /// Of both axes, deg.
+    pub angles: [f64; 2],
+}
+
+/// What the tool may leave its moves by.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limits {
+    /// Of the tip, mm; none where the control tracks it.
+    pub tip: Option<f64>,
+    /// Of the axis, rad.
+    pub lean: f64,
+}
+
+impl Limits {
+    pub fn new(tolerance: f64, is_tracked: bool) -> Self {
+        Self { tip: (!is_tracked).then_some(tolerance), lean: tolerance / REACH }
+    }
+}
+
+/// The poses of a program, in order.
+///
+/// # Errors
+/// As [`RotaryAxes::angles`]; [`RotaryError::Turn`] where no number of poses holds the tool: it passes the direction of an axis.
+pub(super) fn poses(program: &Program, axes: &RotaryAxes, limits: Limits) -> Result<Vec<Pose>, RotaryError> {
+    let at_end = |(index, step): (usize, &styluscam_motion::Move)| Pose {
+        index,
+        tip: step.end.tip,
+        direction: step.end.axis.vector(),
+        angles: [0.0; 2],
+    };
+    let mut poses: Vec<Pose> = program.moves.iter().enumerate().map(at_end).collect();
+    for _ in 0..=HALVINGS {
+        axes.turn_to(&mut poses)?;
+        let refined = refined(axes, &poses, limits);
+        if refined.len() == poses.len() {
+            return Ok(poses);
+        }
+        poses = refined;
+    }
+    axes.turn_to(&mut poses)?;
+    let is_off = |pair: &&[Pose]| is_off(axes, [&pair[0], &pair[1]], limits);
+    match poses.windows(2).find(is_off) {
+        None => Ok(poses),
+        Some(pair) => Err(RotaryError::Turn {
+            index: pair[1].index,
+            letter: axes.axes()[turned_most(pair)].letter,
+            degrees: (0..2).map(|i| (pair[1].angles[i] - pair[0].angles[i]).abs()).fold(0.0, f64::max),
+        }),
+    }
+}
+
+/// The poses with one between any two from one to the next of which the tool would leave its move.
+fn refined(axes: &RotaryAxes, poses: &[Pose], limits: Limits) -> Vec<Pose> {
+    let mut refined = Vec::with_capacity(poses.len());
+    refined.extend(poses.first());
+    for pair in poses.windows(2) {
+        if is_off(axes, [&pair[0], &pair[1]], limits) {
+            let direction = unit(between(pair[0].direction, pair[1].direction, 0.5));
+            refined.push(Pose { tip: between(pair[0].tip, pair[1].tip, 0.5), direction, ..pair[1] });
+        }
+        refined.push(pair[1]);
+    }
+    refined
+}
+
+/// Whether the tool leaves its straight move, or leans aside, where all axes go evenly from one pose to another.
+fn is_off(axes: &RotaryAxes, [from, to]: [&Pose; 2], limits: Limits) -> bool {
+    let [first, last] = [from, to].map(|pose| axes.linear(pose.tip, pose.angles));
+    SHARES.into_iter().any(|share| {
+        let angles = between(from.angles, to.angles, share);
+        let is_aside = limits.tip.is_some_and(|most| {
+            let reached = axes.tip(between(first, last, share), angles);
+            norm(difference(reached, between(from.tip, to.tip, share))) > most
+        });
+        // a turn in one plane goes on evenly, but for its angle's third power
+        let wanted = unit(between(from.direction, to.direction, share));
+        is_aside || norm(difference(axes.direction(angles), wanted)) > limits.lean
+    })
+}
+
+fn turned_most(pair: &[Pose]) -> usize {
+    let [first, second] = [0, 1].map(|i| (pair[1].angles[i] - pair[0].angles[i]).abs());
+    usize::from(second > first)
+}
+
+fn norm(a: Vector) -> f64 {
+    dot(a, a).sqrt()
+}
+
+fn unit(a: Vector) -> Vector {
+    let length = norm(a).max(f64::MIN_POSITIVE);
+    a.map(|x| x / length)
+}
+
+fn between<const N: usize>(from: [f64; N], to: [f64; N], share: f64) -> [f64; N] {
+    std::array::from_fn(|i| from[i] + share * (to[i] - from[i]))
+}
