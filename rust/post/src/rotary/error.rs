@@ -42,8 +42,8 @@ faults! {
         letter: char,
         /// How far in the last part of the move, deg.
         degrees: f64,
-    } = "rotary-turn", ("in move {index} the tool passes the direction of an axis, and axis {letter} would turn by {degrees:.1} deg at once"),
-        "turn the part in the setup, so that the tool does not pass the direction of an axis";
+    } = "rotary-turn", ("in move {index} axis {letter} would turn by {degrees:.1} deg at once: the tool passes the direction of an axis, or an axis comes to its limit"),
+        "turn the part in the setup, so that the tool leans more, or stays within the limits";
     /// A tolerance that is none, or more decimals than a control reads.
     Form = "rotary-form", ("a tolerance above 0 and angles of 1 to 8 decimals are needed"), "correct them";
     /// What only plain moves can follow.
