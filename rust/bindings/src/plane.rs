@@ -101,6 +101,8 @@ pub fn pocket_path<'py>(
         radius: tool_radius,
         angle,
         smoothing,
+        leave: 0.0,
+        finish: 0.0,
         climb: direction != "conventional",
         two_way: direction == "either",
     };

@@ -94,6 +94,10 @@ pub struct Clearing {
     pub top: f64,
     /// The distance between levels.
     pub pitch: Pitch,
+    /// What is to stay on walls, across them in plan, and on what lies under the tool, mm.
+    pub left: [f64; 2],
+    /// The most that the last layer over a floor is to take, mm; infinite where it is a layer like the others.
+    pub last_layer: f64,
 }
 
 /// Layers in which passes that are not themselves one below the other press a sheet down.

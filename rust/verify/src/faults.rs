@@ -207,6 +207,11 @@ pub(crate) static ENGAGEMENT: FaultKind = FaultKind::on_part(
     "post the job again, or raise engagement_deg",
 )
 .in_unit("deg");
+pub(crate) static STOCK_TO_LEAVE: FaultKind = FaultKind::on_part(
+    FindingKind::StockToLeave,
+    |fault| format!("the tool takes {:.4} mm of the stock that is to be left on the part", fault.value()),
+    "post the job again, or lower radial_stock_to_leave and axial_stock_to_leave",
+);
 pub(crate) static STEEP_ENTRY: FaultKind = FaultKind::on_part(
     FindingKind::SteepEntry,
     |fault| {

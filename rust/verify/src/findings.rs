@@ -59,6 +59,8 @@ pub enum FindingKind {
     Engagement,
     /// Stock is left that the tool reaches.
     Uncleared,
+    /// Stock is cut that is to be left on the part.
+    StockToLeave,
     /// The tool goes down into stock more steeply than asked.
     SteepEntry,
     /// A rapid enters stock that is not cleared.
@@ -197,6 +199,7 @@ const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
         (Kind::MissingRow, "missing row"),
         (Kind::Engagement, "engagement angle too large"),
         (Kind::Uncleared, "stock not cleared"),
+        (Kind::StockToLeave, "stock cut that is to be left"),
         (Kind::SteepEntry, "entry into stock too steep"),
         (Kind::RapidIntoStock, "rapid into stock"),
         (Kind::Scallop, "scallop above the limit"),

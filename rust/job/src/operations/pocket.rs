@@ -29,6 +29,9 @@ const LOOKED: f64 = 24.0;
 /// Chords are off the arcs that a machine does not take by no more than this, mm: thinner than the chips that count.
 const CHORDS: f64 = 5e-4;
 
+/// Layers thinner than this are none, mm.
+const THINNEST: f64 = 1e-3;
+
 /// By how much lower the bound is planned where arcs become chords, rad (2.5 degrees): at their corners the heading is off by half a
 /// chord's turn, and rounding to a micrometre turns the chords of small arcs by as much.
 const CORNERS: f64 = 2.5 * std::f64::consts::PI / 180.0;
@@ -56,6 +59,18 @@ pub struct Pocket {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-advanced" = true, "x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
     pub smoothing_radius: Option<f64>,
+    /// Stock that stays on walls, mm, measured across them in plan; with `finish` the last pass along them takes it.
+    #[serde(default)]
+    #[schemars(extend("x-unit" = "mm", "minimum" = 0.0, "maximum" = 100.0))]
+    pub radial_stock_to_leave: f64,
+    /// Stock that stays under the tool, on floors and slopes, mm in height; with `finish` a last layer over each level floor takes it.
+    #[serde(default)]
+    #[schemars(extend("x-unit" = "mm", "minimum" = 0.0, "maximum" = 100.0))]
+    pub axial_stock_to_leave: f64,
+    /// Whether the stock to leave is taken as well, after the rest of its level: by a pass along the walls and a layer over each level floor,
+    /// with the same bound of the engagement angle.
+    #[serde(default)]
+    pub finish: bool,
     /// Angle of the helices down into the material, degrees.
     #[serde(default = "entry_angle")]
     #[schemars(extend("x-unit" = "deg", "minimum" = 0.1, "maximum" = 30.0))]
@@ -80,6 +95,22 @@ impl Pocket {
         (self.engagement_deg + self.growth_deg).to_radians()
     }
 
+    /// What stays on walls and under the tool, mm.
+    fn left(&self) -> [f64; 2] {
+        match self.finish {
+            true => [0.0; 2],
+            false => [self.radial_stock_to_leave, self.axial_stock_to_leave],
+        }
+    }
+
+    /// What the last pass along walls takes, and the last layer over floors, mm.
+    fn finished(&self) -> [f64; 2] {
+        match self.finish {
+            true => [self.radial_stock_to_leave, self.axial_stock_to_leave],
+            false => [0.0; 2],
+        }
+    }
+
     fn smoothing(&self, radius: f64) -> f64 {
         self.smoothing_radius.unwrap_or(MSR * radius)
     }
@@ -96,6 +127,11 @@ impl OperationKind for Pocket {
         if sum > 90.0 {
             let message = format!("engagement_deg and growth_deg come to {sum} degrees, and at most 90 are held");
             return Err(JobError::document("conflict", format!("{path}.growth_deg"), message, "lower either"));
+        }
+        if self.finish && self.radial_stock_to_leave + self.axial_stock_to_leave <= 0.0 {
+            let message = "finish takes the stock to leave, and there is none";
+            let hint = "set radial_stock_to_leave, axial_stock_to_leave or both, mm, or remove finish";
+            return Err(JobError::document("conflict", format!("{path}.finish"), message, hint));
         }
         let refused = [
             ("boundary", common.boundary.is_some()),
@@ -169,6 +205,8 @@ impl OperationKind for Pocket {
             entry_slope: self.entry_slope(),
             top: given.top,
             pitch: self.step.pitch(StepLimits::default(), given.top, given.body),
+            left: self.left(),
+            last_layer: Some(self.finished()[1]).filter(|taken| *taken > 0.0).unwrap_or(f64::INFINITY),
         })
     }
 
@@ -200,7 +238,10 @@ impl Pocket {
         let grid = Grid::sample(&whole, context.node_spacing(), watch)?.ok_or_else(nothing)?;
         let resolution = context.machine.resolution_mm();
         let (reachable, _) = selected_range(surface, &grid, resolution, watch)?.ok_or_else(nothing)?;
-        let (top, bottom) = (context.heights.top.unwrap_or(scene.top), context.heights.bottom);
+        // the part with what stays under the tool is the part, raised
+        let raised = self.left()[1];
+        let top = context.heights.top.unwrap_or(scene.top) - raised;
+        let bottom = context.heights.bottom - raised;
         let body = context.tool.body(None);
         let keys = LevelKeys { step: &self.step, limits: StepLimits::default(), at_flats: true, of_turns: false };
         let steps = levels::steps_of(&keys, (top, &body), deviation, surface, watch)?;
@@ -208,11 +249,12 @@ impl Pocket {
         let floors = Floors::of(surface.envelope());
         let heights = levels(&range, &floors)?;
         let heights = with_levels_at(&heights, &floors.bands(), &range, &floors).unwrap_or(heights);
-        let lowest = heights.iter().copied().filter(|z| *z >= reachable).collect::<Vec<f64>>();
+        let heights = heights.into_iter().filter(|z| *z >= reachable).collect();
+        let lowest = with_last_layers(heights, top, self.finished()[1], &floors.bands());
         let passes = z_levels(&whole, &grid, &lowest, deviation, watch)?;
         let mut above = top;
         let layers = lowest.iter().enumerate().map(|(group, z)| {
-            let depth = [std::mem::replace(&mut above, *z), *z];
+            let depth = [std::mem::replace(&mut above, *z), *z].map(|z| z + raised);
             let loops = passes.iter().filter(|pass| pass.group == group && pass.closed);
             let flat = |pass: &Pass| pass.points.iter().skip(1).map(|point| [point.tip.x, point.tip.y, 0.0]).collect();
             (depth, loops.map(flat).collect())
@@ -241,6 +283,8 @@ impl Pocket {
                 radius,
                 angle: if arcs { self.angle() } else { (self.angle() - CORNERS).max(LEAST) },
                 smoothing: self.smoothing(0.5 * tool.diameter()),
+                leave: self.left()[0],
+                finish: self.finished()[0],
                 climb: direction != Sense::Reversed,
                 two_way: direction == Sense::Alternate,
             };
@@ -318,6 +362,22 @@ impl Cleared {
         .chain(narrow)
         .collect()
     }
+}
+
+/// The heights of levels from the top down, with one more over each on a floor from which the last layer is as thick as it may be.
+fn with_last_layers(mut heights: Vec<f64>, top: f64, thickness: f64, floors: &[(f64, f64)]) -> Vec<f64> {
+    if thickness > 0.0 {
+        let is_on_floor = |z: f64| floors.iter().any(|(low, high)| (*low..=*high).contains(&z));
+        let over = heights.iter().copied().filter(|z| is_on_floor(*z)).map(|z| z + thickness);
+        let is_free = |level: &f64| {
+            let near = |z: &f64| *z < level + THINNEST && *z > level - thickness + THINNEST;
+            *level < top - THINNEST && !heights.iter().any(near)
+        };
+        let more: Vec<f64> = over.filter(is_free).collect();
+        heights.extend(more);
+        heights.sort_by(|a, b| b.total_cmp(a));
+    }
+    heights
 }
 
 /// The outline of the part's box in plan, `by` mm larger on all sides.

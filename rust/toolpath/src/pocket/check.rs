@@ -65,6 +65,14 @@ pub fn worst(path: &[[f64; 3]], material: &Material, radius: f64) -> f64 {
     along(path, material, radius).iter().fold(0.0, |worst, looked| worst.max(looked.angle))
 }
 
+/// The positions of a path at which it engages more than `most`, rad.
+pub fn beyond(path: &[[f64; 3]], material: &Material, radius: f64, most: f64) -> Vec<Point> {
+    let pieces = PlanePiece::path(path);
+    let looked = along(path, material, radius);
+    let over = looked.iter().filter(|looked| looked.angle > most);
+    over.filter_map(|Looked { at: (number, share), .. }| pieces.get(*number).map(|piece| piece.at(*share))).collect()
+}
+
 /// The path up to where it first engages more than `most`, rad; empty where that is so soon that nothing is gained.
 pub fn bounded(path: Vec<[f64; 3]>, material: &Material, radius: f64, most: f64) -> Vec<[f64; 3]> {
     let looked = along(&path, material, radius);

@@ -39,11 +39,11 @@ impl Ground {
             Shape::Walls { boundary, islands, open_edges, .. } => {
                 let walls = area(&kernel, boundary, islands)?;
                 let open = kernel.union(&walls, &beyond(&kernel, boundary, open_edges, r));
-                (Some(walls), kernel.offset(&open, -(r + GAP), WALL))
+                (Some(walls), kernel.offset(&open, -(r + GAP + pocket.leave), WALL))
             }
             Shape::Centres { outlines, .. } => {
                 let chords: Vec<Vec<Point>> = outlines.iter().map(|outline| chords(outline)).collect();
-                (None, kernel.offset(&kernel.even_odd(&chords), -GAP, WALL))
+                (None, kernel.offset(&kernel.even_odd(&chords), -(GAP + pocket.leave), WALL))
             }
         };
         let core = kernel.offset(&free, -smoothing, WALL);
@@ -157,6 +157,8 @@ fn check(pocket: &Pocket<'_>) -> Result<(), PocketError> {
     number("engagement_deg", degrees, (10.0 - 1e-9..=90.0 + 1e-9).contains(&degrees), allowed)?;
     let share = pocket.smoothing / r;
     number("smoothing_radius", pocket.smoothing, (0.01..=10.0).contains(&share), "0.01 to 10 tool radii")?;
+    number("leave", pocket.leave, (0.0..=100.0).contains(&pocket.leave), "0 to 100 mm")?;
+    number("finish", pocket.finish, (0.0..=r).contains(&pocket.finish), "0 to the tool's radius")?;
     let stock = pocket.shape.stock().unwrap_or(&[]).iter().enumerate();
     let stock = stock.map(|(i, outline)| (format!("stock[{i}]"), outline.as_slice()));
     let outlines = pocket.shape.outlines().into_iter().chain(stock);

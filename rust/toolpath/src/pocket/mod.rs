@@ -11,6 +11,7 @@ mod check;
 mod cut;
 mod entry;
 mod error;
+mod finish;
 mod fit;
 mod ground;
 mod growth;
@@ -40,7 +41,7 @@ pub use request::{Pocket, PocketPath, PocketRun, PocketRunKind, Shape};
 /// What is not a pocket or a tool, a tool that fits nowhere; `Cancelled` when the watch is cancelled.
 pub fn pocket_path(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketError> {
     if pocket.climb {
-        return planner::plan(pocket, watch);
+        return with_finish(pocket, watch);
     }
     // the other way round is climb milling of the mirrored pocket
     let all = |outlines: &[Vec<[f64; 3]>]| outlines.iter().map(|outline| mirrored(outline)).collect::<Vec<_>>();
@@ -51,18 +52,26 @@ pub fn pocket_path(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, Poc
             let (boundary, islands) = (mirrored(boundary), all(islands));
             let stock = stock.as_deref();
             let shape = Shape::Walls { boundary: &boundary, islands: &islands, open_edges, stock };
-            planner::plan(&Pocket { shape, ..there }, watch)?
+            with_finish(&Pocket { shape, ..there }, watch)?
         }
         Shape::Centres { outlines, .. } => {
             let (outlines, stock) = (all(outlines), stock.unwrap_or_default());
             let shape = Shape::Centres { outlines: &outlines, stock: &stock };
-            planner::plan(&Pocket { shape, ..there }, watch)?
+            with_finish(&Pocket { shape, ..there }, watch)?
         }
     };
     for run in &mut path.runs {
         run.points = mirrored(&run.points);
     }
     Ok(path)
+}
+
+/// By climb milling, with a pass along the walls at the end where one is asked for.
+fn with_finish(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketError> {
+    if pocket.finish > 0.0 {
+        return finish::plan(pocket, watch);
+    }
+    planner::plan(pocket, watch)
 }
 
 fn mirrored(points: &[[f64; 3]]) -> Vec<[f64; 3]> {

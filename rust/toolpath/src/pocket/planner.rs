@@ -15,18 +15,18 @@ use super::pieces::Piece;
 use super::polygons::{Point, Polygons};
 use super::request::{Pocket, PocketPath};
 use super::sequence::sequenced;
-use super::steering::onto_ring;
+use super::steering::around_ring;
 
 /// The largest disc that is tried, in tool radii: larger ones engage as straight passes do.
 const LARGEST: f64 = 12.0;
 /// What a pass is taken to sweep beyond the tool's radius, mm: slivers between chords, thinner than the chips that count.
-const SLIVER: f64 = 4e-4;
+pub const SLIVER: f64 = 4e-4;
 /// Levels and entries, at most: more would mean that the path gains no ground.
 const LEVELS: u32 = 20_000;
 const ENTRIES: usize = 200;
 
 /// What a piece may exceed the bound by, rad (0.3 deg): half a degree is allowed, and the account here is good to a twentieth.
-const ALLOWED: f64 = 0.3 * std::f64::consts::PI / 180.0;
+pub const ALLOWED: f64 = 0.3 * std::f64::consts::PI / 180.0;
 /// How much lower the bound is taken, one after the other, where nothing within it was found, deg.
 const LOWER: [f64; 4] = [0.0, 2.0, 5.0, 9.0];
 
@@ -114,13 +114,7 @@ impl Planner {
     fn cut(&self, level: u32, piece: &Piece) -> Option<Cut> {
         let (r, material) = (self.bound.radius, &self.material);
         let path = if piece.is_ring {
-            let (mut path, side) = onto_ring(&piece.points, self.at, material, &self.free, &self.steering)?;
-            let count = piece.points.len() - 1;
-            let crossing = path.pop().map(|[x, y, _]| [x, y]);
-            let around = (1..=count).filter_map(|i| piece.points.get((side + i) % count)).copied();
-            let ring: Vec<Point> = crossing.into_iter().chain(around).chain(crossing).collect();
-            path.extend(arcs(&ring));
-            path
+            around_ring(&piece.points, self.at, material, &self.free, &self.steering)?
         } else {
             arcs(&piece.points)
         };

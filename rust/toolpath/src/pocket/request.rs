@@ -11,6 +11,10 @@ pub struct Pocket<'a> {
     pub angle: f64,
     /// The smallest radius of the centre's path (MSR), mm.
     pub smoothing: f64,
+    /// What stays on the walls, mm across them.
+    pub leave: f64,
+    /// What the passes leave of that for one along the walls at the end, mm; 0 where there is none.
+    pub finish: f64,
     /// Whether the material is right of the tool (climb milling, spindle clockwise), or left.
     pub climb: bool,
     /// Whether pieces may be cut in both directions, whichever has the shorter way.

@@ -57,7 +57,7 @@ pub fn sequenced(
 }
 
 /// To a position, through what is cleared or over it.
-fn link(from: Point, to: Point, ground: Option<links::Ground<'_>>) -> PocketRun {
+pub fn link(from: Point, to: Point, ground: Option<links::Ground<'_>>) -> PocketRun {
     let way = ground.and_then(|ground| ground.way(from, to));
     let kind = if way.is_some() { PocketRunKind::Link } else { PocketRunKind::Rapid };
     let points = way.unwrap_or_else(|| vec![from, to]).iter().map(|[x, y]| [*x, *y, 0.0]).collect();

@@ -4,6 +4,7 @@
 //! certificate: if no steeper turn to the right has one, the tool goes on around the disc that it has.
 
 use super::bound::Bound;
+use super::fit::arcs;
 use super::material::Material;
 use super::polygons::Point;
 
@@ -15,7 +16,7 @@ struct Stance {
 }
 
 /// The path onto a ring from near `at`, as points with bulges, and the number of the ring's side which it meets; None where it does not come there.
-pub fn onto_ring(
+fn onto_ring(
     ring: &[Point],
     at: Option<Point>,
     material: &Material,
@@ -30,6 +31,23 @@ pub fn onto_ring(
     let nearest = (0..count).min_by(|a, b| away(a).total_cmp(&away(b)))?;
     let tries = (0..TRIES).map(|i| (nearest + i * count / TRIES) % count);
     tries.filter_map(|i| steered(ring, i, material, free, bound)).next()
+}
+
+/// The path onto a ring from near `at` and once around it, as points with bulges; None where there is no way onto it.
+pub fn around_ring(
+    ring: &[Point],
+    at: Option<Point>,
+    material: &Material,
+    free: &Material,
+    bound: &Bound,
+) -> Option<Vec<[f64; 3]>> {
+    let (mut path, side) = onto_ring(ring, at, material, free, bound)?;
+    let count = ring.len() - 1;
+    let crossing = path.pop().map(|[x, y, _]| [x, y]);
+    let around = (1..=count).filter_map(|i| ring.get((side + i) % count)).copied();
+    let ring: Vec<Point> = crossing.into_iter().chain(around).chain(crossing).collect();
+    path.extend(arcs(&ring));
+    Some(path)
 }
 
 /// Places on the ring from which the tool is steered.

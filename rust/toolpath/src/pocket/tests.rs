@@ -17,6 +17,8 @@ fn rectangle(x: f64, y: f64) -> Vec<[f64; 3]> {
 
 fn pocket(boundary: &[[f64; 3]]) -> Pocket<'_> {
     Pocket {
+        leave: 0.0,
+        finish: 0.0,
         shape: Shape::Walls { boundary, islands: &[], open_edges: &[], stock: None },
         radius: 2.5,
         angle: PI / 3.0,

@@ -78,6 +78,12 @@ impl Layer<'_> {
         vec![[low.x, low.y, 0.0], [high.x, low.y, 0.0], [high.x, high.y, 0.0], [low.x, high.y, 0.0]]
     }
 
+    /// Whether a point lies in the stock.
+    pub fn is_stock(&self, [x, y]: [f64; 2], subject: &Subject) -> bool {
+        let (low, high) = subject.mesh.bounds();
+        (low.x..=high.x).contains(&x) && (low.y..=high.y).contains(&y)
+    }
+
     fn fault(&self, segment: &Segment, doing: Doing, angle: f64) -> Option<Fault> {
         let degrees = angle.to_degrees();
         match doing {

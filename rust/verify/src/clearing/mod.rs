@@ -6,8 +6,10 @@
 //! ([`crate::engagement`]); what is looked for is stock that a tool could have cleared (`rest`), by positions at which the tool is found
 //! free of the part. Both know nothing of how the path was planned.
 
+mod beside;
 mod layer;
 mod rest;
+mod to_leave;
 
 use styluscam_motion::{Cancelled, Watch};
 
@@ -21,6 +23,7 @@ use crate::subject::{Limits, Subject};
 use crate::tolerances::{ROUGH, SAME_LEVEL, SLACK, WIDE};
 
 use layer::Layer;
+use to_leave::Solids;
 
 /// Faults of the moves that clear stock, and findings of what they leave.
 ///
@@ -52,7 +55,20 @@ pub(crate) fn judged(
                 operation,
             };
             let swept = layer.judged(&own, subject, watch, &mut faults)?;
-            findings.extend(rest::left(&layer, &swept, &body, subject, watch)?);
+            let grid = rest::Grid::new(&layer, subject);
+            let free = grid.free(&layer, &body, subject, watch)?;
+            let reached = grid.reached(&layer, &free, &swept, subject);
+            findings.extend(rest::left(&layer, &swept, (&grid, &reached)));
+            findings.extend(beside::left(&layer, &swept, (&grid, &free, &reached), &body, subject));
+            if clearing.left.iter().any(|left| *left > 0.0) {
+                faults.extend(to_leave::faults(
+                    &layer,
+                    &own,
+                    (&grid, &free),
+                    &Solids { body: &body, subject, limits },
+                    watch,
+                )?);
+            }
             top = *floor;
         }
         findings.extend(missing_levels(operation, clearing, &heights, subject));
@@ -102,14 +118,25 @@ fn missing_levels(
         .collect();
     floors.sort_by(f64::total_cmp);
     floors.dedup_by(|a, b| (*a - *b).abs() <= SAME_LEVEL);
-    let bare =
-        floors.into_iter().filter(|floor| !heights.iter().any(|z| (-SAME_LEVEL..=2.0 * ROUGH).contains(&(z - floor))));
-    let bare: Vec<Finding> = bare
-        .map(|floor| {
+    let left = clearing.left[1];
+    let over = floors.into_iter().filter(|floor| floor + left < clearing.top - ROUGH).map(|floor| {
+        let level = all.iter().position(|z| (-SAME_LEVEL..=2.0 * ROUGH).contains(&(z - floor - left)));
+        let Some((level, above)) = level.and_then(|i| Some((all.get(i)?, all.get(i.checked_sub(1)?)?))) else {
+            let on = if left > 0.0 { format!("{left:.3} mm over") } else { "on".to_owned() };
+            let message = format!(
+                "operation {id:?}: no level lies {on} the floor at Z{floor:.3}; post the job again, or take its face out of faces"
+            );
+            return Some(missing(message));
+        };
+        (above - level > clearing.last_layer + 3.0 * ROUGH).then(|| {
             missing(format!(
-                "operation {id:?}: no level lies on the floor at Z{floor:.3}; post the job again, or take its face out of faces"
+                "operation {id:?}: the last layer over the floor at Z{floor:.3} takes {:.3} mm, and is to take {:.3} mm at most; post \
+                 the job again",
+                above - level,
+                clearing.last_layer
             ))
         })
-        .collect();
-    wide.chain(bare).collect()
+    });
+    let over: Vec<Finding> = over.flatten().collect();
+    wide.chain(over).collect()
 }

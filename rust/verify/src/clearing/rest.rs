@@ -29,20 +29,8 @@ const THICK: f64 = 0.05;
 const UPRIGHT: f64 = 1e-3;
 
 /// The finding of stock that is left.
-pub(super) fn left(
-    layer: &Layer<'_>,
-    swept: &[PlanePiece],
-    body: &Body,
-    subject: &Subject,
-    watch: &Watch,
-) -> Result<Option<Finding>, Cancelled> {
-    let grid = Grid::new(layer, subject);
-    let free = grid.free(layer, body, subject, watch)?;
-    let core = grid.core(&free, layer.clearing.smoothing);
-    let entered = grid.over_selected(layer, subject).into_iter().chain(grid.passed(swept));
-    let within = grid.connected(&core, entered);
-    let reached = grid.widened(&within, layer.clearing.smoothing);
-    let asked = grid.widened(&reached, layer.radius - ROUGH);
+pub(super) fn left(layer: &Layer<'_>, swept: &[PlanePiece], (grid, reached): (&Grid, &[bool])) -> Option<Finding> {
+    let asked = grid.widened(reached, layer.radius - ROUGH);
     let mut cells = Cells::new(0.5 * layer.radius, layer.radius + grid.spacing);
     (0_u32..).zip(swept).for_each(|(number, piece)| cells.insert(number, piece));
     let (mut count, mut left, mut worst) = (0.0, 0.0, (0.0, [0.0; 2]));
@@ -61,7 +49,7 @@ pub(super) fn left(
         }
     }
     if left <= SHARE * count && worst.0 <= THICK * layer.radius {
-        return Ok(None);
+        return None;
     }
     let (thick, [x, y]) = worst;
     let area = grid.spacing * grid.spacing;
@@ -75,27 +63,21 @@ pub(super) fn left(
     );
     let finding = Finding::of_all(FindingKind::Uncleared, Severity::Error, message);
     let limit = Some(THICK * layer.radius);
-    Ok(Some(Finding {
-        position: Some([x, y, layer.floor]),
-        value_mm: Some(thick),
-        value: Some(thick),
-        limit,
-        ..finding
-    }))
+    Some(Finding { position: Some([x, y, layer.floor]), value_mm: Some(thick), value: Some(thick), limit, ..finding })
 }
 
 /// Positions over the stock, and around it as far as the tool's centre may matter.
-struct Grid {
+pub(super) struct Grid {
     low: [f64; 2],
-    spacing: f64,
+    pub spacing: f64,
     columns: usize,
     rows: usize,
     /// Which of them lie in the stock.
-    in_stock: Vec<bool>,
+    pub in_stock: Vec<bool>,
 }
 
 impl Grid {
-    fn new(layer: &Layer<'_>, subject: &Subject) -> Self {
+    pub fn new(layer: &Layer<'_>, subject: &Subject) -> Self {
         let (low, high) = subject.mesh.bounds();
         let around = 1.5 * layer.radius;
         let size = [high.x - low.x + 2.0 * around, high.y - low.y + 2.0 * around];
@@ -110,28 +92,35 @@ impl Grid {
         Self { in_stock, ..grid }
     }
 
-    fn at(&self, node: usize) -> [f64; 2] {
+    pub fn at(&self, node: usize) -> [f64; 2] {
         let (column, row) = (node % self.columns, node / self.columns);
         [self.low[0] + column as f64 * self.spacing, self.low[1] + row as f64 * self.spacing]
     }
 
+    /// Whether a node is one of the third of all at which walls are looked at: every third of each row and of each column.
+    pub fn is_looked_at(&self, node: usize) -> bool {
+        (node % self.columns + node / self.columns).is_multiple_of(3)
+    }
+
     /// The node nearest to a point, if it lies on the grid.
-    fn nearest(&self, [x, y]: [f64; 2]) -> Option<usize> {
+    pub fn nearest(&self, [x, y]: [f64; 2]) -> Option<usize> {
         let [column, row] =
             [(x, self.low[0]), (y, self.low[1])].map(|(value, low)| libm::round((value - low) / self.spacing));
         let fits = column >= 0.0 && row >= 0.0 && (column as usize) < self.columns && (row as usize) < self.rows;
         fits.then(|| row as usize * self.columns + column as usize)
     }
 
-    /// Where the tool is free of the part.
-    fn free(&self, layer: &Layer<'_>, body: &Body, subject: &Subject, watch: &Watch) -> Result<Vec<bool>, Cancelled> {
+    /// Where the tool is free of the part, and of what is to stay under it.
+    pub fn free(
+        &self,
+        layer: &Layer<'_>,
+        body: &Body,
+        subject: &Subject,
+        watch: &Watch,
+    ) -> Result<Vec<bool>, Cancelled> {
         let prober = Prober { body, mesh: subject.mesh, bvh: subject.bvh };
-        let below = subject.deviation_inward + SLACK;
-        let is_free = |node: usize| {
-            let [x, y] = self.at(node);
-            let stroke = Stroke::still(body.position([x, y, layer.floor]));
-            prober.survey(Question { stroke, positions: [None; 2], below }, None).deepest.is_none()
-        };
+        let below = below(subject);
+        let is_free = |node: usize| is_free(&prober, layer, below, self.at(node));
         let mut free = Vec::with_capacity(self.columns * self.rows);
         for row in 0..self.rows {
             free.extend((row * self.columns..(row + 1) * self.columns).map(is_free));
@@ -140,11 +129,24 @@ impl Grid {
         Ok(free)
     }
 
+    /// Where the tool is to have been.
+    pub fn reached(&self, layer: &Layer<'_>, free: &[bool], swept: &[PlanePiece], subject: &Subject) -> Vec<bool> {
+        let core = self.core(free, layer.clearing.smoothing + layer.clearing.left[0]);
+        let entered = self.over_selected(layer, subject).into_iter().chain(self.passed(swept));
+        self.widened(&self.connected(&core, entered), layer.clearing.smoothing)
+    }
+
     /// The free positions around which all are free within a radius, mm, and the space between them.
     fn core(&self, free: &[bool], radius: f64) -> Vec<bool> {
         let blocked: Vec<bool> = free.iter().map(|free| !free).collect();
         let near = self.widened(&blocked, radius + self.spacing);
         near.iter().map(|near| !near).collect()
+    }
+
+    /// Positions from which a blocked one may be nearer than a distance, mm.
+    pub fn near_blocked(&self, free: &[bool], distance: f64) -> Vec<bool> {
+        let blocked: Vec<bool> = free.iter().map(|free| !free).collect();
+        self.widened(&blocked, distance + 1.5 * self.spacing)
     }
 
     /// All positions within a radius of some, mm.
@@ -171,7 +173,7 @@ impl Grid {
         all
     }
 
-    fn neighbours(&self, node: usize) -> impl Iterator<Item = usize> + '_ {
+    pub fn neighbours(&self, node: usize) -> impl Iterator<Item = usize> + '_ {
         let (column, row) = (node % self.columns, node / self.columns);
         [
             (column > 0).then(|| node - 1),
@@ -222,6 +224,17 @@ impl Grid {
         }
         found
     }
+}
+
+/// What a tool may be off the part and touch it, mm: the part's triangles are as far off its faces.
+pub(super) fn below(subject: &Subject) -> f64 {
+    subject.deviation_inward + SLACK
+}
+
+/// Whether the tool is free of the part at a position of the layer, lowered by what is to stay under it.
+pub(super) fn is_free(prober: &Prober<'_>, layer: &Layer<'_>, below: f64, [x, y]: [f64; 2]) -> bool {
+    let stroke = Stroke::still(prober.body.position([x, y, layer.floor - layer.clearing.left[1]]));
+    prober.survey(Question { stroke, positions: [None; 2], below }, None).deepest.is_none()
 }
 
 /// Whether a point lies in a triangle in plan.

@@ -292,6 +292,16 @@ Range: 1 to 90 deg
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Stock that stays on walls, mm, measured across them in plan; with `finish` the last pass along them takes it.
+Range: 0 to 100 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Stock that stays under the tool, on floors and slopes, mm in height; with `finish` a last layer over each level floor takes it.
+Range: 0 to 100 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Tensile strength of its material, MPa: for an estimate of the axial force; none is made when left out.
 Range: 1 to 3000 MPa
 0 or empty: not stated</source>
@@ -378,6 +388,11 @@ arcs: Arcs and lines, of which fewer are needed; lines where the machine has no 
         <source>Where passes may run: inside edges in plan, and on contacts of some slopes.
 As JSON
 0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Whether the stock to leave is taken as well, after the rest of its level: by a pass along the walls and a layer over each level floor,
+with the same bound of the engagement angle.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -572,6 +587,10 @@ Range: 0.1 to 30 deg</source>
     </message>
     <message>
         <source>Axial</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Axial stock to leave</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -865,6 +884,10 @@ Range: 0.001 to 20 mm/rev</source>
     </message>
     <message>
         <source>Finding</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Finish</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1347,6 +1370,10 @@ Stock is the part's box, as high as the part. Entries are helices.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Radial stock to leave</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Radius</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1617,6 +1644,16 @@ Range: 1 to 90 deg
     </message>
     <message>
         <source>Stepover min</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Stock that stays on walls, mm, measured across them in plan; with `finish` the last pass along them takes it.
+Range: 0 to 100 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Stock that stays under the tool, on floors and slopes, mm in height; with `finish` a last layer over each level floor takes it.
+Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1959,6 +1996,11 @@ As JSON
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Whether the stock to leave is taken as well, after the rest of its level: by a pass along the walls and a layer over each level floor,
+with the same bound of the engagement angle.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Whether this is stated</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2104,6 +2146,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>female</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>finishing the walls</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
