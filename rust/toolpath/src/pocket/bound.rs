@@ -38,6 +38,16 @@ impl Bound {
         (rho * rho + r * r + 2.0 * rho * r * self.cos).sqrt()
     }
 
+    /// Radius of the largest circle to the left, along whose tangent the tool goes, from whose centre a point keeps its distance, mm: the
+    /// point as seen from the tool, along the tangent and to the left of it. None where it does from no such centre, or
+    /// from those of larger circles only.
+    pub fn widest(&self, point: [f64; 2]) -> Option<f64> {
+        let r = self.radius;
+        let ahead = point[1] + r * self.cos;
+        let radius = 0.5 * (point[0] * point[0] + point[1] * point[1] - r * r) / ahead;
+        (ahead > 0.0 && radius > 0.0).then_some(radius)
+    }
+
     /// How far chords may be off the arcs of the distances kept about circles of radius rho: a tenth of what the reserve is there.
     pub fn tolerance(&self, rho: f64) -> f64 {
         let sin = (1.0 - self.cos * self.cos).sqrt();

@@ -4,6 +4,8 @@
 //! Large discs go first, a few radii at a time: as long as they gain ground smaller ones are not asked, and those that the material is nowhere near
 //! to any more, never again.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use super::bound::{ladder, Bound};
@@ -34,7 +36,7 @@ struct Rung {
     /// How far a pass beside an equal one may be from it, mm.
     gain: f64,
     /// Where their centres may be, by the walls.
-    centres: Polygons,
+    centres: Arc<Polygons>,
     /// Steps for which they are left out: now, and the last time.
     waits: [u32; 2],
     /// Whether no material is near to any of them.
@@ -54,20 +56,29 @@ pub struct Growth {
 }
 
 impl Growth {
-    /// For the positions that the walls leave to the tool's centre; discs from `largest` to `smallest`, mm.
-    pub fn new(kernel: &Kernel, free: &Polygons, bound: &Bound, [largest, smallest]: [f64; 2]) -> Self {
-        let rung = |radius: f64| Rung {
-            radius,
-            keep: bound.keep(radius),
-            tolerance: bound.tolerance(radius),
-            gain: radius + bound.radius - bound.keep(radius),
-            centres: kernel.offset(free, -radius, WALL),
-            waits: [0, 0],
-            is_done: false,
-        };
-        let mut rungs: Vec<Rung> = ladder(largest, smallest).into_iter().map(rung).collect();
-        rungs.retain(|rung| !rung.centres.is_empty());
-        Self { rungs, free: free.clone(), radius: bound.radius, sag: SAG * bound.radius }
+    /// For the positions that the walls leave to the tool's centre; discs from `largest` to `smallest`, mm. One for each bound.
+    pub fn all<const N: usize>(
+        kernel: &Kernel,
+        free: &Polygons,
+        bounds: [Bound; N],
+        [largest, smallest]: [f64; 2],
+    ) -> [Self; N] {
+        let centres = |radius: f64| (radius, Arc::new(kernel.offset(free, -radius, WALL)));
+        let mut discs: Vec<(f64, Arc<Polygons>)> = ladder(largest, smallest).into_par_iter().map(centres).collect();
+        discs.retain(|(_, centres)| !centres.is_empty());
+        bounds.map(|bound| {
+            let rung = |(radius, centres): &(f64, Arc<Polygons>)| Rung {
+                radius: *radius,
+                keep: bound.keep(*radius),
+                tolerance: bound.tolerance(*radius),
+                gain: radius + bound.radius - bound.keep(*radius),
+                centres: Arc::clone(centres),
+                waits: [0, 0],
+                is_done: false,
+            };
+            let rungs = discs.iter().map(rung).collect();
+            Self { rungs, free: free.clone(), radius: bound.radius, sag: SAG * bound.radius }
+        })
     }
 
     /// The pieces that are next: deep ones of the largest discs that have any; else the deepest of all.

@@ -1,5 +1,6 @@
 //! Material that is still there: how far a point is from it, and whether it lies in it.
 
+use super::boxes::{foot, square_distance, Boxes};
 use super::polygons::{sides, Point, Polygons};
 
 /// An area with its sides by the square cells that they pass.
@@ -7,6 +8,7 @@ use super::polygons::{sides, Point, Polygons};
 pub struct Material {
     pub area: Polygons,
     sides: Vec<(Point, Point)>,
+    boxes: Boxes,
     low: Point,
     size: f64,
     count: [usize; 2],
@@ -25,7 +27,8 @@ impl Material {
         let span = (high[0] - low[0]).max(high[1] - low[1]);
         let size = (span / (sides.len() as f64).sqrt().clamp(1.0, MOST)).max(1e-9);
         let count = [0, 1].map(|i| libm::floor((high[i] - low[i]) / size) as usize + 1);
-        let mut material = Self { area, sides, low, size, count, begins: Vec::new(), listed: Vec::new() };
+        let boxes = Boxes::new(&sides);
+        let mut material = Self { area, sides, boxes, low, size, count, begins: Vec::new(), listed: Vec::new() };
         let mut entries: Vec<(u32, u32)> = Vec::new();
         for (number, (a, b)) in (0u32..).zip(&material.sides) {
             material.passed(*a, *b, |cell| entries.push((cell as u32, number)));
@@ -72,29 +75,21 @@ impl Material {
 
     /// Distance from a point to the nearest side, mm: to the material, for points outside of it. Infinite where there is none.
     pub fn distance(&self, point: Point) -> f64 {
-        let [column, row] = self.cell(point).map(|cell| cell as isize);
-        let most = self.count[0].max(self.count[1]) as isize;
-        let mut nearest = f64::INFINITY;
-        for ring in 0..=most {
-            // what lies in the rings from here on is at least so far
-            let beyond = (ring - 1).max(0) as f64 * self.size;
-            if self.sides.is_empty() || beyond * beyond > nearest {
-                break;
-            }
-            for y in (row - ring).max(0)..=(row + ring).min(self.count[1] as isize - 1) {
-                let is_edge = (y - row).abs() == ring;
-                let step = if is_edge || ring == 0 { 1 } else { 2 * ring };
-                let mut x = column - ring;
-                while x <= column + ring {
-                    if (0..self.count[0] as isize).contains(&x) {
-                        let list = self.list([x as usize, y as usize]);
-                        nearest = list.fold(nearest, |nearest, (a, b)| nearest.min(square_distance(point, a, b)));
-                    }
-                    x += step;
-                }
-            }
-        }
-        nearest.sqrt()
+        self.nearest_side(point).0.sqrt()
+    }
+
+    /// The point of its sides that is nearest to a point; None where there is none.
+    pub fn nearest(&self, point: Point) -> Option<Point> {
+        let (_, number) = self.nearest_side(point);
+        self.sides.get(number).map(|(a, b)| foot(point, *a, *b))
+    }
+
+    fn nearest_side(&self, point: Point) -> (f64, usize) {
+        let near = self.numbers(self.cell(point)).iter().map(|number| *number as usize);
+        let near =
+            near.filter_map(|number| self.sides.get(number).map(|(a, b)| (square_distance(point, *a, *b), number)));
+        let best = near.fold((f64::INFINITY, usize::MAX), |best, found| if found.0 < best.0 { found } else { best });
+        self.boxes.nearest(&self.sides, point, best)
     }
 
     /// The sides of it nearer than `distance` to a point, mm.
@@ -154,14 +149,4 @@ impl Material {
             }
         }
     }
-}
-
-/// Square of the distance between a point and a side.
-fn square_distance(p: Point, a: Point, b: Point) -> f64 {
-    let (along, arm) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
-    let square = along[0] * along[0] + along[1] * along[1];
-    let dot = along[0] * arm[0] + along[1] * arm[1];
-    let share = if square > 0.0 { (dot / square).clamp(0.0, 1.0) } else { 0.0 };
-    let off = [arm[0] - share * along[0], arm[1] - share * along[1]];
-    off[0] * off[0] + off[1] * off[1]
 }

@@ -7,6 +7,7 @@
 
 mod areas;
 mod bound;
+mod boxes;
 mod check;
 mod cut;
 mod entry;

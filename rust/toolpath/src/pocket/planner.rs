@@ -36,10 +36,8 @@ pub fn plan(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketErro
     let bound = Bound::new(pocket.radius, pocket.angle);
     let widest = largest_disc(&ground.kernel, &ground.free, pocket.radius).map_or(0.0, |(_, radius)| radius);
     let largest = widest.min(LARGEST * pocket.radius).max(pocket.smoothing);
-    let growths = LOWER.map(|lower| {
-        let bound = Bound::new(pocket.radius, pocket.angle - lower.to_radians());
-        Growth::new(&ground.kernel, &ground.free, &bound, [largest, pocket.smoothing])
-    });
+    let bounds = LOWER.map(|lower| Bound::new(pocket.radius, pocket.angle - lower.to_radians()));
+    let growths = Growth::all(&ground.kernel, &ground.free, bounds, [largest, pocket.smoothing]);
     let most = pocket.angle + ALLOWED;
     let material = Material::new(ground.goal.clone());
     let free = Material::new(ground.free.clone());

@@ -119,19 +119,22 @@ fn beside(ring: &[Point], corner: usize, material: &Material, radius: f64) -> Op
     None
 }
 
-/// Radius of the largest permissible disc to the left.
+/// Radius of the largest permissible disc to the left, mm.
 ///
-/// With the radius both the distance to the material and what is kept change at most as fast as it: so much smaller radii need not
-/// be tried as half of what is lacking.
+/// A point of the material at v from the tool's centre keeps f(rho) from the centre of a disc of radius rho along the normal n where
+/// v^2 - r^2 >= 2 rho (v n + r cos b): so the nearest point to a disc's centre tells how large the disc may be, and the next
+/// one is looked for from there (as balls are shrunk onto a medial axis: J. Ma, S. Bae, S. Choi, 2012).
 fn widest(stance: Stance, material: &Material, bound: &Bound) -> Option<f64> {
     let (sin, cos) = libm::sincos(stance.heading);
     let r = bound.radius;
     let mut rho = LARGEST * r;
     while rho >= SMALLEST * r {
         let centre = [stance.at[0] - rho * sin, stance.at[1] + rho * cos];
-        let lacks = bound.keep(rho) - material.distance(centre);
+        let Some(near) = material.nearest(centre) else { return Some(rho) };
+        let lacks = bound.keep(rho) - libm::hypot(near[0] - centre[0], near[1] - centre[1]);
         if lacks > NEARLY * r {
-            rho -= 0.5 * lacks;
+            let arm = [near[0] - stance.at[0], near[1] - stance.at[1]];
+            rho = bound.widest([arm[0] * cos + arm[1] * sin, arm[1] * cos - arm[0] * sin])?.min(rho - 0.5 * NEARLY * r);
         } else if material.holds(centre) {
             rho *= 0.7;
         } else {

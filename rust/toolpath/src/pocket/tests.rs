@@ -6,6 +6,7 @@ use proptest::prelude::*;
 use styluscam_geometry::PlanePiece;
 use styluscam_motion::Watch;
 
+use super::bound::Bound;
 use super::check::{bounded, worst};
 use super::material::Material;
 use super::polygons::{sides, Kernel, Polygons};
@@ -79,6 +80,16 @@ fn the_cells_find_what_all_sides_tell() {
             assert_eq!(material.sides_within(point, 2.0).len(), near.count());
         }
     }
+}
+
+#[test]
+fn the_largest_circle_past_a_point_keeps_its_distance_from_it() {
+    let bound = Bound::new(2.5, PI / 3.0);
+    let point = [2.0, -1.0];
+    let rho = bound.widest([4.0, 1.0]).unwrap();
+    assert!((libm::hypot(4.0, 1.0 - rho) - bound.keep(rho)).abs() < 1e-9, "{rho}");
+    // under the tool, and behind the right of the bound: there is no largest
+    assert!(bound.widest(point).is_none() && bound.widest([4.0, -3.0]).is_none());
 }
 
 #[test]

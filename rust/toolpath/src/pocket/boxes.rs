@@ -1,0 +1,94 @@
+//! Boxes around neighbouring sides, and boxes around those: the nearest side to a point however far it is.
+
+use super::polygons::Point;
+
+/// Sides in a box, and boxes in a larger one.
+const GROUP: usize = 4;
+
+/// Upright boxes around groups of sides that follow each other, level by level up to a single one: low and high corner.
+#[derive(Debug)]
+pub struct Boxes {
+    levels: Vec<Vec<[Point; 2]>>,
+}
+
+impl Boxes {
+    pub fn new(sides: &[(Point, Point)]) -> Self {
+        let mut level: Vec<[Point; 2]> = sides
+            .chunks(GROUP)
+            .map(|group| around(group.iter().map(|(a, b)| [0, 1].map(|i| [a[i].min(b[i]), a[i].max(b[i])]))))
+            .collect();
+        let mut levels = Vec::new();
+        while level.len() > 1 {
+            let next = level
+                .chunks(GROUP)
+                .map(|group| around(group.iter().map(|[low, high]| [0, 1].map(|i| [low[i], high[i]]))))
+                .collect();
+            levels.push(std::mem::replace(&mut level, next));
+        }
+        levels.push(level);
+        Self { levels }
+    }
+
+    /// The number of the nearest of the sides and the square of its distance, mm^2; `best` where none is nearer than that.
+    pub fn nearest(&self, sides: &[(Point, Point)], point: Point, best: (f64, usize)) -> (f64, usize) {
+        self.nearest_below(sides, point, best, self.levels.len(), 0)
+    }
+
+    fn nearest_below(
+        &self,
+        sides: &[(Point, Point)],
+        point: Point,
+        best: (f64, usize),
+        level: usize,
+        group: usize,
+    ) -> (f64, usize) {
+        let members = group * GROUP..(group + 1) * GROUP;
+        let nearer = |best: (f64, usize), found: (f64, usize)| if found.0 < best.0 { found } else { best };
+        let Some(below) = level.checked_sub(1) else {
+            let sides = members.filter_map(|number| sides.get(number).map(|(a, b)| (*a, *b, number)));
+            return sides.fold(best, |best, (a, b, number)| nearer(best, (square_distance(point, a, b), number)));
+        };
+        let Some(boxes) = self.levels.get(below) else { return best };
+        let mut near = [(f64::INFINITY, 0); GROUP];
+        for (place, member) in near.iter_mut().zip(members) {
+            *place = (boxes.get(member).map_or(f64::INFINITY, |b| square_outside(point, b)), member);
+        }
+        near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        near.iter().fold(best, |best, (away, member)| {
+            if *away < best.0 {
+                self.nearest_below(sides, point, best, below, *member)
+            } else {
+                best
+            }
+        })
+    }
+}
+
+/// The box around others, each as low and high along X, and along Y.
+fn around(mut boxes: impl Iterator<Item = [[f64; 2]; 2]>) -> [Point; 2] {
+    let first = boxes.next().unwrap_or_default();
+    let all = boxes.fold(first, |sum, next| [0, 1].map(|i| [sum[i][0].min(next[i][0]), sum[i][1].max(next[i][1])]));
+    [0, 1].map(|end| [all[0][end], all[1][end]])
+}
+
+/// Square of the distance between a point and a box.
+fn square_outside(p: Point, [low, high]: &[Point; 2]) -> f64 {
+    let off = [0, 1].map(|i| (low[i] - p[i]).max(p[i] - high[i]).max(0.0));
+    off[0] * off[0] + off[1] * off[1]
+}
+
+/// Square of the distance between a point and a side.
+pub fn square_distance(p: Point, a: Point, b: Point) -> f64 {
+    let on = foot(p, a, b);
+    let off = [p[0] - on[0], p[1] - on[1]];
+    off[0] * off[0] + off[1] * off[1]
+}
+
+/// The point of a side that is nearest to a point.
+pub fn foot(p: Point, a: Point, b: Point) -> Point {
+    let (along, arm) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
+    let square = along[0] * along[0] + along[1] * along[1];
+    let dot = along[0] * arm[0] + along[1] * arm[1];
+    let share = if square > 0.0 { (dot / square).clamp(0.0, 1.0) } else { 0.0 };
+    [0, 1].map(|i| a[i] + share * along[i])
+}
