@@ -94,12 +94,19 @@ pub fn bounded(path: Vec<[f64; 3]>, material: &Material, radius: f64, most: f64)
 fn engaged(at: Point, heading: f64, own: &[(Point, f64)], material: &Material, radius: f64) -> f64 {
     let from = heading - FRAC_PI_2;
     let mut inside = within(at, from, material, radius);
+    let (sin, cos) = libm::sincos(heading);
     for (before, _) in own.iter().rev().take(OWN) {
         if inside.is_empty() {
             break;
         }
         let arm = [before[0] - at[0], before[1] - at[1]];
-        let half_distance = 0.5 * libm::hypot(arm[0], arm[1]);
+        // of the rim ahead a disc behind reaches what lies aside of the heading, if its centre does so far enough
+        let (ahead, aside) = (arm[0] * cos + arm[1] * sin, (arm[1] * cos - arm[0] * sin).abs());
+        let square = arm[0] * arm[0] + arm[1] * arm[1];
+        if ahead < 0.0 && 2.0 * radius * aside <= square {
+            continue;
+        }
+        let half_distance = 0.5 * square.sqrt();
         if half_distance < radius && half_distance > 0.0 {
             let middle = (libm::atan2(arm[1], arm[0]) - from).rem_euclid(TAU);
             let half = libm::acos(half_distance / radius);

@@ -19,6 +19,8 @@ pub const WALL: f64 = 4e-4;
 /// How much larger than it is the material may be taken, in tool radii: half a percent of a pass, for a third of the corners.
 const SAG: f64 = 0.002;
 
+/// Areas of centres smaller than this are left out, mm: no disc moves in them farther than chords are off.
+const SPECK: f64 = 1e-4;
 /// Radii that are asked together.
 const TOGETHER: usize = 3;
 /// Pieces shallower than this share of what the discs can gain wait until nothing else is left.
@@ -63,7 +65,7 @@ impl Growth {
         bounds: [Bound; N],
         [largest, smallest]: [f64; 2],
     ) -> [Self; N] {
-        let centres = |radius: f64| (radius, Arc::new(kernel.offset(free, -radius, WALL)));
+        let centres = |radius: f64| (radius, Arc::new(kernel.offset(free, -radius, WALL).without_specks(SPECK)));
         let mut discs: Vec<(f64, Arc<Polygons>)> = ladder(largest, smallest).into_par_iter().map(centres).collect();
         discs.retain(|(_, centres)| !centres.is_empty());
         bounds.map(|bound| {
@@ -127,7 +129,7 @@ impl Rung {
     /// All positions on permissible discs of the radius.
     fn reach(&mut self, kernel: &Kernel, material: &Polygons) -> Polygons {
         let kept = kernel.offset(material, self.keep, self.tolerance);
-        let centres = kernel.difference(&self.centres, &kept);
+        let centres = kernel.difference(&self.centres, &kept).without_specks(SPECK);
         self.is_done = self.centres.area() - centres.area() <= 0.0;
         kernel.offset(&centres, self.radius, self.tolerance)
     }

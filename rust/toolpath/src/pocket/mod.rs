@@ -19,6 +19,7 @@ mod growth;
 mod links;
 mod material;
 mod moves;
+mod offset;
 mod pieces;
 mod planner;
 mod polygons;

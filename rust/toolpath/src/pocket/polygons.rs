@@ -10,6 +10,8 @@ use i_overlay::core::overlay::Overlay;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::i_float::int::point::IntPoint;
 
+use super::offset::{arc_step, coarsened, folded, unfolded, vanishes};
+
 /// A position, mm.
 pub type Point = [f64; 2];
 
@@ -27,14 +29,6 @@ pub struct Kernel {
 
 /// Coordinates on the grid stay below this: a factor 2 is left to the library's limit of 2^30.
 const HIGHEST: f64 = 536_870_912.0;
-/// Cosine of the turns up to which a hollow corner is the chord of an arc: through each of those, curves would cross all others.
-const GENTLE: f64 = 0.99;
-/// How far coarse chords are off, as a share of the offset.
-const COARSE: f64 = 0.01;
-/// Turns up to this get one corner, rad; larger ones get their arc from tangent to tangent, for its ends are the path's headings.
-const SMOOTH: f64 = 0.01;
-/// Turns with a smaller sine are straight on.
-const STRAIGHT: f64 = 1e-9;
 
 impl Kernel {
     /// A grid for coordinates up to `farthest`, mm.
@@ -78,8 +72,7 @@ impl Kernel {
 
     /// All points within `distance` of the area; below 0, the points of it farther than that from its outside. mm.
     ///
-    /// Where the area's edge is curved more than `distance` its offset folds over. The coarse curve, led through every hollow
-    /// corner, fills (or empties) what lies behind such folds, where the edge of the result never is.
+    /// Where the area's edge is curved more than `distance` its offset folds over: what of it lies nearer to the area is left out first (offset.rs).
     pub fn offset(&self, area: &Polygons, distance: f64, tolerance: f64) -> Polygons {
         if distance.abs() * self.scale < 1.0 {
             return area.clone();
@@ -90,15 +83,28 @@ impl Kernel {
     }
 
     fn offset_of(&self, contours: &[&[Point]], distance: f64, tolerance: f64) -> Polygons {
-        let fine = contours.iter().map(|contour| offset_curve(contour, distance, tolerance, GENTLE));
-        let sag = COARSE * distance.abs();
-        let behind = distance - (2.0 * sag).copysign(distance);
-        let coarse = contours.iter().map(|contour| offset_curve(&coarsened(contour, sag, false), behind, sag, 2.0));
+        let offset = self.offset_unfolded(contours, distance, tolerance);
+        offset.unwrap_or_else(|| self.offset_folded(contours, distance, tolerance)).thinned(0.3 * tolerance)
+    }
+
+    /// With all folds cut short; None where one cannot be.
+    pub(super) fn offset_unfolded(&self, contours: &[&[Point]], distance: f64, tolerance: f64) -> Option<Polygons> {
+        let curves = unfolded(contours, distance, tolerance)?;
+        let mut offset = self.union_all(&curves.curves);
+        offset.contours.retain(|contour| curves.bounds(contour));
+        Some(offset)
+    }
+
+    /// With coarse curves that fill what lies behind folds.
+    pub(super) fn offset_folded(&self, contours: &[&[Point]], distance: f64, tolerance: f64) -> Polygons {
+        let (fine, coarse) = folded(contours, distance, tolerance);
         // each by itself: where the one turns around to the right, the other must not make up for it
-        let fine = self.union_all(&fine.collect::<Vec<_>>());
-        let coarse = self.union_all(&coarse.collect::<Vec<_>>());
-        let offset = if distance > 0.0 { self.union(&fine, &coarse) } else { self.intersection(&fine, &coarse) };
-        offset.thinned(0.3 * tolerance)
+        let (fine, coarse) = (self.union_all(&fine), self.union_all(&coarse));
+        if distance > 0.0 {
+            self.union(&fine, &coarse)
+        } else {
+            self.intersection(&fine, &coarse)
+        }
     }
 
     /// What a disc of `radius` sweeps along a path, mm.
@@ -158,14 +164,28 @@ impl Polygons {
         Self { contours: self.contours.into_iter().map(|contour| thinned(&contour, tolerance)).collect() }
     }
 
+    /// Without contours that are smaller than `size` across: what the grid leaves of coinciding edges. Each would become a disc when
+    /// it is offset, all of them nearly the same one.
+    pub fn without_specks(mut self, size: f64) -> Self {
+        self.contours.retain(|contour| {
+            let [low, high] = bounds(contour.iter()).unwrap_or_default();
+            (0..2).any(|i| high[i] - low[i] > size)
+        });
+        self
+    }
+
     /// Corners of the smallest upright box around it; None where it is empty.
     pub fn bounds(&self) -> Option<[Point; 2]> {
-        let mut corners = self.contours.iter().flatten();
-        let first = *corners.next()?;
-        Some(corners.fold([first, first], |[low, high], p| {
-            [[low[0].min(p[0]), low[1].min(p[1])], [high[0].max(p[0]), high[1].max(p[1])]]
-        }))
+        bounds(self.contours.iter().flatten())
     }
+}
+
+/// Corners of the smallest upright box around points; None where there is none.
+pub fn bounds<'a>(mut points: impl Iterator<Item = &'a Point>) -> Option<[Point; 2]> {
+    let first = *points.next()?;
+    Some(points.fold([first, first], |[low, high], p| {
+        [[low[0].min(p[0]), low[1].min(p[1])], [high[0].max(p[0]), high[1].max(p[1])]]
+    }))
 }
 
 /// The sides of a closed contour.
@@ -210,109 +230,4 @@ fn is_straight(contour: &[Point], from: usize, to: usize, tolerance: f64) -> boo
 /// mm^2, below 0 clockwise.
 pub fn signed_area(contour: &[Point]) -> f64 {
     0.5 * sides(contour).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>()
-}
-
-/// Angle of the chords that are `tolerance` off an arc of `radius`, rad.
-fn arc_step(radius: f64, tolerance: f64) -> f64 {
-    let cos = (1.0 - tolerance / radius.max(tolerance)).clamp(-1.0, 1.0);
-    (2.0 * libm::acos(cos)).clamp(1e-3, 0.5)
-}
-
-/// Whether nothing is left of a hole that is offset inwards, or of an outline: the disc does not fit between two sides of its box.
-fn vanishes(contour: &[Point], distance: f64) -> bool {
-    if signed_area(contour) * distance > 0.0 {
-        return false;
-    }
-    let span = |axis: usize| {
-        let values = contour.iter().filter_map(|p| p.get(axis));
-        values.clone().copied().fold(f64::NEG_INFINITY, f64::max) - values.copied().fold(f64::INFINITY, f64::min)
-    };
-    span(0).min(span(1)) < 2.0 * distance.abs()
-}
-
-/// A contour with the chords of its arcs joined to longer ones, at most `sag` off it; of hollow arcs only, if so wished.
-fn coarsened(contour: &[Point], sag: f64, only_hollow: bool) -> Vec<Point> {
-    let count = contour.len();
-    let mut kept: Vec<Point> = Vec::with_capacity(count / 4 + 4);
-    let (mut turned, mut travelled): (f64, f64) = (0.0, 0.0);
-    for (i, corner) in contour.iter().enumerate() {
-        let (Some(before), Some(after)) = (contour.get((i + count - 1) % count), contour.get((i + 1) % count)) else {
-            continue;
-        };
-        let (u, v) = ([corner[0] - before[0], corner[1] - before[1]], [after[0] - corner[0], after[1] - corner[1]]);
-        let turn = libm::atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]);
-        turned += turn.abs();
-        travelled += libm::hypot(u[0], u[1]);
-        // a chain of chords that turns by t over a length l is off its chord by less than l t / 4
-        if (only_hollow && turn > 0.0)
-            || turn.abs() > 0.1
-            || turned > 0.25
-            || turned * (travelled + libm::hypot(v[0], v[1])) > 4.0 * sag
-        {
-            kept.push(*corner);
-            (turned, travelled) = (0.0, 0.0);
-        }
-    }
-    if kept.len() < 3 {
-        return contour.to_vec();
-    }
-    kept
-}
-
-/// The curve at a distance to the right of a closed contour, with loops where it folds: the points around which it turns
-/// more often to the left than to the right are the offset area (A. Johnson, Clipper2's method).
-fn offset_curve(contour: &[Point], distance: f64, tolerance: f64, gentle: f64) -> Vec<Point> {
-    let mut corners: Vec<Point> = contour.to_vec();
-    corners.dedup();
-    while corners.len() > 1 && corners.first() == corners.last() {
-        corners.pop();
-    }
-    let step = arc_step(distance.abs(), tolerance);
-    if let ([centre], true) = (corners.as_slice(), distance > 0.0) {
-        return Polygons::disc(*centre, distance, tolerance).contours.concat();
-    }
-    let count = corners.len();
-    let normals: Vec<Point> = sides(&corners)
-        .map(|(a, b)| {
-            let along = [b[0] - a[0], b[1] - a[1]];
-            let length = libm::hypot(along[0], along[1]);
-            [along[1] / length, -along[0] / length]
-        })
-        .collect();
-    let mut curve = Vec::with_capacity(2 * count);
-    for (i, corner) in corners.iter().enumerate() {
-        let (Some(before), Some(after)) = (normals.get((i + count - 1) % count), normals.get(i)) else { continue };
-        join(&mut curve, *corner, [*before, *after], distance, step, gentle);
-    }
-    curve
-}
-
-/// The curve around one corner, between the normals of the sides that meet there.
-fn join(curve: &mut Vec<Point>, corner: Point, [before, after]: [Point; 2], distance: f64, step: f64, gentle: f64) {
-    let sin = before[0] * after[1] - before[1] * after[0];
-    let cos = before[0] * after[0] + before[1] * after[1];
-    let at = |normal: Point| [corner[0] + distance * normal[0], corner[1] + distance * normal[1]];
-    let is_reversal = cos < 0.0 && sin.abs() < STRAIGHT;
-    let is_hollow = sin * distance < 0.0 && !is_reversal;
-    if (cos > 0.0 && sin.abs() < STRAIGHT)
-        || (is_hollow && cos > gentle)
-        || (!is_hollow && cos > 0.0 && sin.abs() < step.min(SMOOTH))
-    {
-        // where the two sides' lines meet
-        let scale = distance / (1.0 + cos);
-        curve.push([0, 1].map(|i| corner[i] + scale * (before[i] + after[i])));
-    } else if is_hollow {
-        // through the corner itself: what folds over is turned around once to the right
-        curve.extend([at(before), corner, at(after)]);
-    } else {
-        let turn = if is_reversal { std::f64::consts::PI.copysign(distance) } else { libm::atan2(sin, cos) };
-        let from = libm::atan2(before[1], before[0]);
-        let chords = libm::ceil(turn.abs() / step).max(1.0) as usize;
-        curve.push(at(before));
-        for i in 1..chords {
-            let (sin, cos) = libm::sincos(from + turn * i as f64 / chords as f64);
-            curve.push(at([cos, sin]));
-        }
-        curve.push(at(after));
-    }
 }

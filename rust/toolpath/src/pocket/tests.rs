@@ -49,6 +49,44 @@ fn offsets_are_what_they_are_for_squares_and_discs() {
     assert!((swept - (20.0 + 10.0 + PI + PI / 4.0 - 1.0)).abs() < 1e-3, "{swept}");
 }
 
+/// A plate with rooms in it: round ones that run into each other, two with a channel between them, one with islands around a court.
+fn rooms(kernel: &Kernel) -> Polygons {
+    let disc = |x: f64, y: f64, radius: f64| Polygons::disc([x, y], radius, 1e-4);
+    let bar = |x: f64, y: f64, a: f64, b: f64| Polygons {
+        contours: vec![vec![[x - a, y - b], [x + a, y - b], [x + a, y + b], [x - a, y + b]]],
+    };
+    let cut = [
+        disc(-40.0, 0.0, 10.0),
+        disc(-32.0, 3.0, 3.5),
+        disc(-46.0, -8.0, 5.0),
+        bar(-10.0, 0.0, 5.0, 8.0),
+        bar(3.0, 1.0, 12.0, 1.5),
+        disc(15.0, 0.0, 7.0),
+        disc(45.0, 0.0, 14.0),
+    ];
+    let mut area = bar(0.0, 0.0, 70.0, 30.0);
+    for room in &cut {
+        area = kernel.difference(&area, room);
+    }
+    let islands = (0..6).map(|i| f64::from(i) * PI / 3.0).map(|a| disc(45.0 + 8.0 * a.cos(), 8.0 * a.sin(), 2.0));
+    islands.fold(area, |area, island| kernel.union(&area, &island))
+}
+
+#[test]
+fn folds_cut_short_leave_the_area_that_folds_filled_do() {
+    let kernel = Kernel::new(150.0);
+    let area = rooms(&kernel);
+    let contours: Vec<&[[f64; 2]]> = area.contours.iter().map(Vec::as_slice).collect();
+    let mut cut_short = 0;
+    for distance in [0.5, 1.4, 2.0, 3.0, 4.5, 6.0, 8.0, -0.7, -1.5, -3.0, -8.0] {
+        let folded = kernel.offset_folded(&contours, distance, 1e-4).area();
+        let Some(unfolded) = kernel.offset_unfolded(&contours, distance, 1e-4) else { continue };
+        assert!((unfolded.area() - folded).abs() < 5e-3, "{distance}: {} {folded}", unfolded.area());
+        cut_short += 1;
+    }
+    assert!(cut_short >= 9, "{cut_short}");
+}
+
 /// The distance to an area's sides and whether a point lies in it, side by side.
 fn by_all_sides(area: &Polygons, [x, y]: [f64; 2]) -> (f64, bool) {
     let (mut nearest, mut inside) = (f64::INFINITY, false);
