@@ -1,6 +1,6 @@
 //! Boxes around neighbouring sides, and boxes around those: the nearest side to a point however far it is.
 
-use super::polygons::Point;
+use super::contours::Point;
 
 /// Sides in a box, and boxes in a larger one.
 const GROUP: usize = 4;

@@ -9,6 +9,7 @@ mod areas;
 mod bound;
 mod boxes;
 mod check;
+mod contours;
 mod cut;
 mod entry;
 mod error;

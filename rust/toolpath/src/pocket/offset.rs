@@ -7,7 +7,7 @@
 //! fills (or empties) what lies behind the folds, where the boundary never is.
 
 use super::boxes::Boxes;
-use super::polygons::{bounds, sides, signed_area, Point, Polygons};
+use super::contours::{arc_step, bounds, circle, sides, signed_area, Point};
 
 /// Cosine of the turns up to which a hollow corner is the chord of an arc: through each of those, curves would cross all others.
 const GENTLE: f64 = 0.99;
@@ -22,7 +22,7 @@ const HALVINGS: u32 = 9;
 /// And edges of curves.
 const FEW_HALVINGS: u32 = 3;
 /// Corners of a contour that are looked at to see whether it bounds the area.
-const LOOKED: usize = 16;
+const LOOKED: usize = 64;
 
 /// Curves without folds.
 pub struct Unfolded {
@@ -60,13 +60,17 @@ pub fn folded(contours: &[&[Point]], distance: f64, tolerance: f64) -> (Vec<Vec<
 }
 
 impl Unfolded {
-    /// Whether a contour of the area made of the curves bounds it: what is enclosed between lines that cut folds short does not.
-    pub fn bounds(&self, contour: &[Point]) -> bool {
+    /// Whether a contour of the area made of the curves bounds it, and is no hole between lines that cut folds short; None where it is
+    /// both, as where such a hole has grown together with one of the area.
+    pub fn bounds(&self, contour: &[Point]) -> Option<bool> {
         if signed_area(contour) * self.distance > 0.0 {
-            return true;
+            return Some(true);
         }
         let step = contour.len().div_ceil(LOOKED).max(1);
-        !contour.iter().step_by(step).any(|point| self.is_nearer(*point, self.distance.abs() - 8.0 * self.tolerance))
+        let near = self.distance.abs() - 8.0 * self.tolerance;
+        let mut looked = contour.iter().step_by(step).map(|point| self.is_nearer(*point, near));
+        let first = looked.next().unwrap_or(false);
+        looked.all(|is_near| is_near == first).then_some(!first)
     }
 
     /// A folded curve with the stretches left out that are inside; none of it where all of it is and `may_vanish`.
@@ -188,12 +192,6 @@ impl Curve {
     }
 }
 
-/// Angle of the chords that are `tolerance` off an arc of `radius`, rad.
-pub fn arc_step(radius: f64, tolerance: f64) -> f64 {
-    let cos = (1.0 - tolerance / radius.max(tolerance)).clamp(-1.0, 1.0);
-    (2.0 * libm::acos(cos)).clamp(1e-3, 0.5)
-}
-
 /// Whether nothing is left of a hole that is offset inwards, or of an outline: the disc does not fit between two sides of its box.
 pub fn vanishes(contour: &[Point], distance: f64) -> bool {
     if signed_area(contour) * distance > 0.0 {
@@ -242,7 +240,7 @@ fn curve(contour: &[Point], distance: f64, tolerance: f64, gentle: f64) -> Curve
     }
     let step = arc_step(distance.abs(), tolerance);
     if let ([centre], true) = (corners.as_slice(), distance > 0.0) {
-        let points = Polygons::disc(*centre, distance, tolerance).contours.concat();
+        let points = circle(*centre, distance, tolerance);
         let count = points.len();
         return Curve { corners, points, kinds: vec![Kind::Away; count], of: vec![0; count], is_folded: false };
     }

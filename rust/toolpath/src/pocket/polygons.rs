@@ -3,17 +3,15 @@
 //! Corners lie on a grid of a power of two (some 1e-7 mm for a pocket of a few hundred mm), on which the booleans are exact
 //! (i_overlay). Round joins are chords of their arcs, at most `tolerance` off them, inside.
 
-use std::f64::consts::TAU;
-
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay::Overlay;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::i_float::int::point::IntPoint;
 
-use super::offset::{arc_step, coarsened, folded, unfolded, vanishes};
+pub use super::contours::{sides, signed_area, Point};
 
-/// A position, mm.
-pub type Point = [f64; 2];
+use super::contours::{bounds, circle};
+use super::offset::{coarsened, folded, unfolded, vanishes};
 
 /// An area: outlines counterclockwise, holes clockwise.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -87,11 +85,15 @@ impl Kernel {
         offset.unwrap_or_else(|| self.offset_folded(contours, distance, tolerance)).thinned(0.3 * tolerance)
     }
 
-    /// With all folds cut short; None where one cannot be.
+    /// With all folds cut short; None where that does not tell what the area is.
     pub(super) fn offset_unfolded(&self, contours: &[&[Point]], distance: f64, tolerance: f64) -> Option<Polygons> {
         let curves = unfolded(contours, distance, tolerance)?;
-        let mut offset = self.union_all(&curves.curves);
-        offset.contours.retain(|contour| curves.bounds(contour));
+        let mut offset = Polygons::default();
+        for contour in self.union_all(&curves.curves).contours {
+            if curves.bounds(&contour)? {
+                offset.contours.push(contour);
+            }
+        }
         Some(offset)
     }
 
@@ -146,12 +148,7 @@ impl Polygons {
 
     /// A circle as a polygon whose sides touch it from inside.
     pub fn disc(centre: Point, radius: f64, tolerance: f64) -> Self {
-        let count = libm::ceil(TAU / arc_step(radius, tolerance)).max(8.0) as usize;
-        let corner = |i: usize| {
-            let (sin, cos) = libm::sincos(i as f64 / count as f64 * TAU);
-            [centre[0] + radius * cos, centre[1] + radius * sin]
-        };
-        Self { contours: vec![(0..count).map(corner).collect()] }
+        Self { contours: vec![circle(centre, radius, tolerance)] }
     }
 
     /// With longer chords along its hollow arcs, so that it is larger by up to `sag` there, mm.
@@ -178,19 +175,6 @@ impl Polygons {
     pub fn bounds(&self) -> Option<[Point; 2]> {
         bounds(self.contours.iter().flatten())
     }
-}
-
-/// Corners of the smallest upright box around points; None where there is none.
-pub fn bounds<'a>(mut points: impl Iterator<Item = &'a Point>) -> Option<[Point; 2]> {
-    let first = *points.next()?;
-    Some(points.fold([first, first], |[low, high], p| {
-        [[low[0].min(p[0]), low[1].min(p[1])], [high[0].max(p[0]), high[1].max(p[1])]]
-    }))
-}
-
-/// The sides of a closed contour.
-pub fn sides(contour: &[Point]) -> impl Iterator<Item = (Point, Point)> + '_ {
-    contour.iter().copied().zip(contour.iter().copied().cycle().skip(1))
 }
 
 /// Corners looked ahead of the last that stays.
@@ -225,9 +209,4 @@ fn is_straight(contour: &[Point], from: usize, to: usize, tolerance: f64) -> boo
         (arm[0] * along[1] - arm[1] * along[0]).abs() < tolerance * length && on > 0.0 && on < length * length
     };
     length > 0.0 && contour.get(from + 1..to).is_some_and(|between| between.iter().all(off))
-}
-
-/// mm^2, below 0 clockwise.
-pub fn signed_area(contour: &[Point]) -> f64 {
-    0.5 * sides(contour).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>()
 }

@@ -122,7 +122,7 @@ fn beside(ring: &[Point], corner: usize, material: &Material, radius: f64) -> Op
 /// Radius of the largest permissible disc to the left, mm.
 ///
 /// A point of the material at v from the tool's centre keeps f(rho) from the centre of a disc of radius rho along the normal n where
-/// v^2 - r^2 >= 2 rho (v n + r cos b): so the nearest point to a disc's centre tells how large the disc may be, and the next
+/// v^2 - r^2 >= 2 rho (v n + r cos b): so the nearest point to a disc's centre gives how large the disc may be, and the next
 /// one is looked for from there (as balls are shrunk onto a medial axis: J. Ma, S. Bae, S. Choi, 2012).
 fn widest(stance: Stance, material: &Material, bound: &Bound) -> Option<f64> {
     let (sin, cos) = libm::sincos(stance.heading);

@@ -202,6 +202,19 @@ fn discs_beside_a_fold_of_the_walls_keep_away_from_them() {
     assert!(found > 2.0 - 1e-6 && path.left < 1e-3 * path.goal, "{found}, {} left", path.left);
 }
 
+#[test]
+fn a_hole_that_has_grown_together_with_one_between_cut_folds_stays() {
+    let corners = [
+        [-6.832841480849949, 11.30786594418163, -0.2869979686628666],
+        [0.0, 3.0551085142342704, 0.0],
+        [0.0, 0.0, -0.6406135186353994],
+        [9.07878690107123, 3.3646150475471988, -0.3963511895018633],
+        [-3.283516513529114, 0.08787314784348702, -0.05891050963462311],
+    ];
+    let path = planned(&Pocket { angle: 1.3, radius: 2.0, smoothing: 0.1, ..pocket(&corners) });
+    assert!(path.left < 1e-3 * path.goal, "{} of {} left", path.left, path.goal);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
 
