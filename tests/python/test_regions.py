@@ -297,6 +297,11 @@ def test_a_dxf_bounds_passes_as_its_polylines_do(two_cups: sc.Part, tmp_path: Pa
         (dxf(), "no line, arc"),
         (dxf(unit=20), "INSUNITS = 20"),
         ("AutoCAD Binary DXF\n\n", "ASCII"),
+        ("what is in it\n", "no section ENTITIES"),
+        (dxf([(0, "LINE"), (10, 0.0), (20, 0.0)]), "a LINE has no group code 11"),
+        (dxf([(0, "CIRCLE"), (10, "x"), (20, 0.0), (40, 1.0)]), "line 18: x is no number"),
+        (dxf([(0, "CIRCLE"), (10, "nan"), (20, 0.0), (40, 1.0)]), "nan is no number"),
+        (dxf([(0, "CIRCLE"), (10, 0.0), (20, 0.0), (40, -5.0)]), "the radius -5"),
     ],
 )
 def test_a_dxf_that_bounds_nothing_is_refused(tmp_path: Path, text: str, words: str) -> None:

@@ -165,3 +165,29 @@ def _mean_thickness(vertices: Any, triangles: Any) -> float:
     cross = 0.5 * np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     formed = corners[..., 2].min(axis=1) < -1e-3
     return float(cross[formed, 2].clip(0.0).sum() / np.linalg.norm(cross[formed], axis=1).sum())
+
+
+def square(half: float = 14.0, depth: float = 8.0) -> Mesh:
+    """A square cup in a flange, with walls of 85 degrees and sharp corners."""
+    corners = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    foot = half - depth / np.tan(np.radians(WALL))
+    rings = [
+        np.column_stack([reach * corners, np.full(4, z)]) for reach, z in ((20.0, 0.0), (half, 0.0), (foot, -depth))
+    ]
+    triangles = [(8, 9, 10), (8, 10, 11)]
+    for ring in (0, 4):
+        for i in range(4):
+            a, b = ring + i, ring + (i + 1) % 4
+            triangles += [(a, b, b + 4), (a, b + 4, a + 4)]
+    return np.concatenate(rings), np.array(triangles)
+
+
+def test_a_stage_is_as_steep_as_its_angle_in_corners_too() -> None:
+    """There its facets are narrow, and lean by more."""
+    wanted = document([45.0], max_wall_angle_deg=46.0)
+    job = sc.Job.from_dict(wanted | {"accept": ["solid"]}, part=sc.Part.from_mesh(*square()))
+    plan = sc.plan(job)
+    text = sc.post(plan).text
+    assert re.search(r"stage-1: .*largest wall angle 45\.0 deg", text)
+    found = [finding for finding in sc.verify(text, job).findings if finding.kind == "wall-angle"]
+    assert all("85.0 degrees" in finding.message for finding in found), found

@@ -14,8 +14,10 @@ from pathlib import Path
 from styluscam.errors import GeometryError
 from styluscam.parts.reading import check_readable
 from styluscam.types import Document
+from styluscam.words import shortened
 
 Position = tuple[float, float]
+Pair = tuple[int, str]
 Line = list[Position]
 
 DEVIATION = 0.001
@@ -26,6 +28,12 @@ JOINED = 1e-3
 
 UNITS = {0: 1.0, 1: 25.4, 2: 304.8, 4: 1.0, 5: 10.0, 6: 1000.0}
 """Millimetres by ``$INSUNITS``; a file without units is taken to be in mm."""
+
+NUMBERS = (10, 20, 11, 21, 40, 42, 50, 51, 70, 230)
+"""Group codes whose values are read as numbers."""
+
+NEEDED = {"LINE": (10, 20, 11, 21), "CIRCLE": (10, 20, 40), "ARC": (10, 20, 40, 50, 51), "LWPOLYLINE": (10, 20)}
+"""Group codes without which an entity has no shape."""
 
 IGNORED = {"POINT", "TEXT", "MTEXT", "DIMENSION", "HATCH", "VIEWPORT", "ENDSEC", "SECTION", "EOF"}
 """What bounds nothing."""
@@ -41,10 +49,7 @@ def read_wires(file: Path) -> list[Line]:
     if file.suffix.lower() != ".dxf":
         raise _error(file, "no DXF file", "export the outline as DXF, or write its corners as boundary.wire")
     check_readable(file)
-    try:
-        pairs = list(_pairs(file.read_text(encoding="utf-8", errors="replace")))
-    except ValueError as error:
-        raise _error(file, f"no text of group codes and values: {error}", "save it as ASCII DXF") from error
+    pairs = list(_pairs(file))
     scale = UNITS.get(_unit(pairs))
     if scale is None:
         raise _error(file, f"its unit, $INSUNITS = {_unit(pairs)}, is not known here", "save it in mm or inches")
@@ -66,20 +71,30 @@ def with_wires(document: Document, folder: Path) -> list[Path]:
     return files
 
 
-def _pairs(text: str) -> Iterator[tuple[int, str]]:
-    lines = text.splitlines()
-    for code, value in zip(lines[::2], lines[1::2], strict=False):
-        yield int(code), value.strip()
+def _pairs(file: Path) -> Iterator[Pair]:
+    """Group codes and their values; those that are used and numbers are checked."""
+    lines = file.read_text(encoding="utf-8", errors="replace").splitlines()
+    if not any(line.strip() == "ENTITIES" for line in lines):
+        raise _error(file, "it has no section ENTITIES", "save it as ASCII DXF")
+    for number, (code, value) in enumerate(zip(lines[::2], lines[1::2], strict=False), 1):
+        try:
+            pair = int(code), value.strip()
+            if pair[0] in NUMBERS and not math.isfinite(float(value)):
+                raise ValueError(value)
+        except ValueError as error:
+            what = f"line {2 * number}: {shortened(value)} is no number, or the line before it no group code"
+            raise _error(file, what, "save it as ASCII DXF") from error
+        yield pair
 
 
-def _unit(pairs: list[tuple[int, str]]) -> int:
+def _unit(pairs: list[Pair]) -> int:
     for (_, name), (code, value) in pairwise(pairs):
         if name == "$INSUNITS" and code == 70:
-            return int(value)
+            return int(float(value))
     return 0
 
 
-def _entities(pairs: list[tuple[int, str]]) -> Iterator[tuple[str, list[tuple[int, str]]]]:
+def _entities(pairs: list[Pair]) -> Iterator[tuple[str, list[Pair]]]:
     """The entities of the section of that name, each with its group codes."""
     starts = [i for i, pair in enumerate(pairs) if pair == (2, "ENTITIES")]
     begin = starts[0] + 1 if starts else len(pairs)
@@ -90,11 +105,16 @@ def _entities(pairs: list[tuple[int, str]]) -> Iterator[tuple[str, list[tuple[in
         yield pairs[head][1], pairs[head + 1 : after]
 
 
-def _lines(file: Path, pairs: list[tuple[int, str]], deviation: float) -> Iterator[Line]:
+def _lines(file: Path, pairs: list[Pair], deviation: float) -> Iterator[Line]:
     for kind, codes in _entities(pairs):
         number = {code: float(value) for code, value in codes if code in (10, 20, 11, 21, 40, 50, 51, 230)}
         if number.get(230, 1.0) < 0.0:
             raise _error(file, f"a {kind} is drawn from behind (extrusion -Z)", "export it drawn from above")
+        missing = [code for code in NEEDED.get(kind, ()) if code not in number]
+        if missing:
+            raise _error(file, f"a {kind} has no group code {missing[0]}: the file is cut off", "export it again")
+        if kind in ("ARC", "CIRCLE") and number[40] <= 0.0:
+            raise _error(file, f"a {kind} has the radius {number[40]:g}", "correct it: radii are above 0")
         if kind == "LINE":
             yield [(number[10], number[20]), (number[11], number[21])]
         elif kind in ("ARC", "CIRCLE"):
@@ -115,7 +135,7 @@ def _arc(middle: Position, radius: float, first: float, sweep: float, deviation:
     return [(middle[0] + radius * math.cos(a), middle[1] + radius * math.sin(a)) for a in angles]
 
 
-def _polyline(codes: list[tuple[int, str]], deviation: float) -> Line:
+def _polyline(codes: list[Pair], deviation: float) -> Line:
     corners: list[list[float]] = []
     is_closed = False
     for code, value in codes:
@@ -124,7 +144,7 @@ def _polyline(codes: list[tuple[int, str]], deviation: float) -> Line:
         elif code in (20, 42) and corners:
             corners[-1][1 if code == 20 else 2] = float(value)
         elif code == 70:
-            is_closed = bool(int(value) & 1)
+            is_closed = bool(int(float(value)) & 1)
     ends = [*corners[1:], corners[0]] if is_closed else corners[1:]
     line = [(corners[0][0], corners[0][1])]
     for (ax, ay, bulge), (bx, by, _) in zip(corners, ends, strict=False):

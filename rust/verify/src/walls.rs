@@ -55,7 +55,8 @@ struct Wall {
 impl Wall {
     fn new(mesh: &Mesh, triangle: usize) -> Self {
         let [a, b, c] = mesh.corners(triangle);
-        let angle = libm::acos(mesh.normal(triangle).z.clamp(0.0, 1.0));
+        // facets lean by their deviation: where the model's normals are known, those tell
+        let angle = libm::acos(mesh.model_normal(triangle).z.clamp(0.0, 1.0));
         Self { angle, area: mesh.area(triangle), at: (a + b + c) / 3.0 }
     }
 }

@@ -63,7 +63,17 @@ pub fn stage(mesh: &Mesh, keep: &[bool], angle: f64) -> Result<Stage, GeometryEr
     let above = pieces.vertices.par_iter().zip(&pieces.moved).map(|(before, after)| after.z - before.z);
     let above = above.reduce(|| 0.0, f64::max);
     let target = Mesh::new(pieces.vertices.clone(), &triangles, &faces)?;
-    Ok(Stage { mesh: Mesh::new(pieces.moved, &triangles, &faces)?, target, above })
+    let normals: Vec<[Vector; 3]> = seen().map(|piece| [normal(moved(piece.corners), slope); 3]).collect();
+    Ok(Stage { mesh: Mesh::with_normals(pieces.moved, &triangles, &faces, &normals)?, target, above })
+}
+
+/// The unit normal of a stage over a triangle of it: that of its facet, but no steeper than a stage is. A narrow facet whose corners lie
+/// on it leans by more.
+fn normal([a, b, c]: [Vector; 3], slope: f64) -> Vector {
+    let across = (b - a).cross(&(c - a));
+    let level = across.xy().norm();
+    let least = level / slope;
+    Vector::new(across.x, across.y, across.z.max(least)).normalize()
 }
 
 /// The triangles from which the highest cones hang, over positions that lie above the shape: those at its border, the gentle ones
@@ -175,6 +185,8 @@ mod tests {
                 let exact = (-slope * (30.0 - libm::hypot(corner.x, corner.y)).max(0.0)).max(-15.0);
                 assert!((corner.z - exact).abs() < 0.03, "{corner} {exact}");
             }
+            let steepest = found.mesh.corner_normals(triangle)[0];
+            assert!(steepest.xy().norm() <= slope * steepest.z * (1.0 + 1e-12));
             let middle = |mesh: &Mesh| mesh.corners(triangle).iter().sum::<Vector>().z;
             assert!(middle(&found.mesh) >= middle(&found.target) - 1e-9);
         }

@@ -38,8 +38,8 @@ fn tool(name: &str, section: &ToolSection, job: &JobDocument) -> Result<(Tool, T
         })?,
     };
     let (_, profile_height) = tool.point_at(tool.profile().max_slope());
-    let long = section.length.unwrap_or(f64::INFINITY);
-    if let Some(sheet) = job.setup.sheet.filter(|s| s.thickness >= long.min(profile_height.max(tool.diameter()))) {
+    let long = section.length.unwrap_or_else(|| profile_height.max(tool.diameter()));
+    if let Some(sheet) = job.setup.sheet.filter(|sheet| sheet.thickness >= long) {
         return Err(JobError::document(
             "conflict",
             "setup.sheet.thickness",
@@ -48,7 +48,7 @@ fn tool(name: &str, section: &ToolSection, job: &JobDocument) -> Result<(Tool, T
                 sheet.thickness,
                 tool.description()
             ),
-            "give the thickness in mm, or a longer tool",
+            "give the thickness in mm, or a longer tool with its length",
         ));
     }
     let record = ToolRecord {
