@@ -77,10 +77,7 @@ impl Descent<'_> {
         let mut course = Bending { between, bend: self.surface.bend() };
         let runs = fitting::densified(&exact, self.deviation, self.longest, &mut course);
         let [run] = &runs[..] else { return None };
-        // a run that ends before the last point has lost it
-        let arrives = |run: &[PathPoint]| run.last().map(|point| point.tip) == exact.last().map(|point| point.tip);
-        let is_whole = arrives(run)
-            && run.iter().all(|point| point.selected)
+        let is_whole = run.iter().all(|point| point.selected)
             && self.surface.goes_on_along(run)
             && run.windows(2).all(|pair| pair[1].tip.z < pair[0].tip.z);
         is_whole.then(|| self.surface.thinned(run, self.deviation))
@@ -125,21 +122,18 @@ fn exact(
 ) -> Option<Vec<PathPoint>> {
     let mut points: Vec<PathPoint> = Vec::with_capacity(pairs.len());
     for (number, [i, j]) in pairs.iter().enumerate() {
-        let is_end = number + 1 == pairs.len();
         let share = down([*above.round.get(*i)?, *below.round.get(*j)?], whole);
         let (above, below) = (above.points.get(*i)?, below.points.get(*j)?);
         // ends are the loops' own points
         let point = match share {
-            _ if is_end => *below,
+            _ if number + 1 == pairs.len() => *below,
             share if share <= 0.0 => *above,
             share if share >= 1.0 => continue,
             share => between(curve, above, below, share)?,
         };
         // pairs that lie over each other in plan are one position of the path
-        match points.last_mut().filter(|last| (last.tip - point.tip).xy().norm() <= DIRECTED) {
-            None => points.push(point),
-            Some(last) if is_end => *last = point,
-            Some(_) => {}
+        if points.last().is_none_or(|last| (last.tip - point.tip).xy().norm() > DIRECTED) {
+            points.push(point);
         }
     }
     (points.len() > 1).then_some(points)

@@ -12,6 +12,8 @@ use crate::{fitting, seam, Pass, PathPoint, PlanError, Surface};
 /// A side of a loop between which a turn goes is no longer than this share of the loop: of two points that belong together, one
 /// is that much farther round than the other at most, and the turn is off an even fall by half of it.
 const SIDE: f64 = 0.01;
+/// Points no farther apart are one, mm.
+const SAME: f64 = 1e-6;
 
 /// Loops of levels, in the order of their groups, joined to spirals: a loop at the first height, one descent, a loop at the last.
 /// Where a loop parts, ends, or cannot be followed down to the next level, its spiral ends; open passes stay as they are.
@@ -89,12 +91,11 @@ fn along(descent: &Descent<'_>, loops: &[[&Pass; 2]], watch: &Watch) -> Result<V
 fn close(found: &mut [Pass], last: Option<&(Level, &Pass)>) {
     if let (Some(spiral), Some((_, pass))) = (found.last_mut(), last) {
         if let (true, Some(end)) = (spiral.descends(), spiral.points.last()) {
-            let (end, mut points) = (*end, pass.points.clone());
-            seam::begin_beside(&mut points, end.tip);
-            spiral.points.extend(points.into_iter().skip(1));
-            if let Some(last) = spiral.points.last_mut() {
-                *last = end; // on one of the loop's sides it lies where the wall is
-            }
+            let (end, mut points) = (end.tip, pass.points.clone());
+            seam::begin_beside(&mut points, end);
+            // a turn that ends on an upright wall may end over the loop
+            let is_there = points.first().is_some_and(|point| (point.tip - end).norm() < SAME);
+            spiral.points.extend(points.into_iter().skip(usize::from(is_there)));
             spiral.closed = false;
         }
     }
