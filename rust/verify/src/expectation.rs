@@ -96,6 +96,8 @@ pub struct Clearing {
     pub pitch: Pitch,
     /// What is to stay on walls, across them in plan, and on what lies under the tool, mm.
     pub left: [f64; 2],
+    /// A hole through the stock: its axis in plan and its radius, mm.
+    pub hole: Option<([f64; 2], f64)>,
     /// The most that the last layer over a floor is to take, mm; infinite where it is a layer like the others.
     pub last_layer: f64,
 }

@@ -5,7 +5,9 @@ use serde::{Deserialize, Serialize};
 use styluscam_motion::{Arc, Move, MoveKind, Role};
 use styluscam_toolpath::forming::{levels, selected_range, with_levels_at, z_levels, Floors, Grid, LevelRange};
 use styluscam_toolpath::offset::Envelope;
-use styluscam_toolpath::pocket::{pocket_path, segments, CentreArea, Layer, Pocket as Asked, PocketError, Shape};
+use styluscam_toolpath::pocket::{
+    pocket_path, segments, CentreArea, Layer, Pocket as Asked, PocketError, PocketRunKind, Shape,
+};
 use styluscam_toolpath::{Heights, Pass, PlanError, Rates, Segment, Sense, Surface};
 use styluscam_verify::{Clearing, Contact, Passes};
 
@@ -18,6 +20,7 @@ use super::{
     About, Areas, Context, Effort, Fact, Fit, LeadForm, LinkHeight, OperationKind, PassContext, PassSpacing, Planned,
     Serves,
 };
+use crate::numbers::shown;
 use crate::{JobError, OperationKeys};
 
 /// The smallest radius of the centre's path where none is stated, in tool radii.
@@ -29,6 +32,8 @@ const LOOKED: f64 = 24.0;
 /// Chords are off the arcs that a machine does not take by no more than this, mm: thinner than the chips that count.
 const CHORDS: f64 = 5e-4;
 
+/// How much larger than the bound asks for a hole is, for the chords of its circle and of the passes.
+const SPARE: f64 = 1.01;
 /// Layers thinner than this are none, mm.
 const THINNEST: f64 = 1e-3;
 
@@ -37,6 +42,29 @@ const THINNEST: f64 = 1e-3;
 const CORNERS: f64 = 2.5 * std::f64::consts::PI / 180.0;
 /// The least bound that is planned, rad (10 degrees).
 const LEAST: f64 = 10.0 * std::f64::consts::PI / 180.0;
+
+/// A hole that is drilled before.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EntryHole {
+    /// Its axis along X, mm in work coordinates.
+    #[schemars(extend("x-unit" = "mm", "minimum" = -10000.0, "maximum" = 10000.0))]
+    pub x: f64,
+    /// Its axis along Y, mm in work coordinates.
+    #[schemars(extend("x-unit" = "mm", "minimum" = -10000.0, "maximum" = 10000.0))]
+    pub y: f64,
+    /// Its diameter, mm.
+    #[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
+    pub diameter: f64,
+}
+
+impl EntryHole {
+    /// Its outline: two points with bulges.
+    fn outline(self) -> Vec<[f64; 3]> {
+        let radius = 0.5 * self.diameter;
+        vec![[self.x + radius, self.y, 1.0], [self.x - radius, self.y, 1.0]]
+    }
+}
 
 /// Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
 /// Stock is the part's box, as high as the part. Entries are helices.
@@ -71,6 +99,10 @@ pub struct Pocket {
     /// with the same bound of the engagement angle.
     #[serde(default)]
     pub finish: bool,
+    /// A hole that is drilled before, at least as deep as the pocket: the tool goes down in it, without a helix. Helices where left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-example" = "{ x = 10.0, y = 8.0, diameter = 6.0 }"))]
+    pub entry_hole: Option<EntryHole>,
     /// Angle of the helices down into the material, degrees.
     #[serde(default = "entry_angle")]
     #[schemars(extend("x-unit" = "deg", "minimum" = 0.1, "maximum" = 30.0))]
@@ -173,6 +205,7 @@ impl OperationKind for Pocket {
         let selected = context.scene.facing_up(&context.faces);
         let surface = Surface::new(&envelope, &selected);
         let layers = self.layers(context, &surface, budget.deviation).map_err(|error| context.error(error))?;
+        self.check_hole(context)?;
         let mut cleared = Cleared::default();
         for (layer, outlines) in &layers {
             let before = cleared.areas;
@@ -182,6 +215,11 @@ impl OperationKind for Pocket {
         if cleared.moves.is_empty() {
             let words = " where stock is left: check the faces, z_top, z_bottom and the tool's size";
             return Err(context.error(PlanError::NothingReached(words.to_owned())));
+        }
+        if let (Some(hole), 0) = (self.entry_hole, cleared.holes) {
+            let message = format!("the hole at X{} Y{} lies in no area that is cleared", shown(hole.x), shown(hole.y));
+            let hint = "correct its position, in work coordinates, or remove entry_hole";
+            return Err(JobError::document("conflict", format!("{}.entry_hole", context.path), message, hint));
         }
         let levels = cleared.levels;
         Ok(Planned {
@@ -206,6 +244,7 @@ impl OperationKind for Pocket {
             top: given.top,
             pitch: self.step.pitch(StepLimits::default(), given.top, given.body),
             left: self.left(),
+            hole: self.entry_hole.map(|hole| ([hole.x, hole.y], 0.5 * hole.diameter)),
             last_layer: Some(self.finished()[1]).filter(|taken| *taken > 0.0).unwrap_or(f64::INFINITY),
         })
     }
@@ -262,6 +301,34 @@ impl Pocket {
         Ok(layers.collect())
     }
 
+    /// Whether the tool finds its first passes in the hole: a circle of the smallest radius keeps the material as far away as the bound
+    /// asks for (docs/concepts/pockets.md).
+    fn check_hole(&self, context: &Context<'_>) -> Result<(), JobError> {
+        let Some(hole) = self.entry_hole else { return Ok(()) };
+        let (r, rho) = (0.5 * context.tool.diameter(), self.smoothing(0.5 * context.tool.diameter()));
+        let angle = (self.angle() - CORNERS).max(LEAST);
+        let least = 2.0 * SPARE * (rho * rho + r * r + 2.0 * rho * r * libm::cos(angle)).sqrt();
+        if hole.diameter < least {
+            let message = format!("a hole of {} mm is too small for the tool to begin in", shown(hole.diameter));
+            let at = format!("{}.entry_hole.diameter", context.path);
+            let hint =
+                format!("drill {least:.2} mm or more, take a smaller tool, or remove entry_hole: then helices go down");
+            return Err(JobError::document("out-of-range", at, message, hint));
+        }
+        let (low, high) = context.scene.mesh.bounds();
+        let inside = |at: f64, [from, to]: [f64; 2]| at - 0.5 * hole.diameter > from && at + 0.5 * hole.diameter < to;
+        if inside(hole.x, [low.x, high.x]) && inside(hole.y, [low.y, high.y]) {
+            return Ok(());
+        }
+        Err(Self::hole_error(hole, context, "the hole is not within the stock"))
+    }
+
+    fn hole_error(hole: EntryHole, context: &Context<'_>, why: &str) -> JobError {
+        let message = format!("{why} (X{} Y{}, {} mm)", shown(hole.x), shown(hole.y), shown(hole.diameter));
+        let hint = "move it to where the pocket is widest, or remove entry_hole: then helices go down";
+        JobError::document("conflict", format!("{}.entry_hole", context.path), message, hint)
+    }
+
     /// Clears the areas of a level that are over selected faces.
     fn clear(
         &self,
@@ -272,7 +339,8 @@ impl Pocket {
     ) -> Result<(), JobError> {
         let Context { scene, common, machine, tool, reference_height, operation, watch, .. } = *context;
         let radius = tool.cutter().at_height(top - floor).0;
-        let stock = [box_around(scene, 0.0)];
+        let hole = self.entry_hole.map(EntryHole::outline);
+        let stock: Vec<Vec<[f64; 3]>> = std::iter::once(box_around(scene, 0.0)).chain(hole).collect();
         let air = box_around(scene, BEYOND * tool.diameter());
         let all: Vec<Vec<[f64; 3]>> = outlines.iter().cloned().chain([air]).collect();
         let direction = sense(common, true);
@@ -301,6 +369,16 @@ impl Pocket {
                     return Err(JobError::document(error.code(), at, error.to_string(), "correct it"));
                 }
             };
+            if let Some(hole) = self.entry_hole.filter(|hole| area.holds([hole.x, hole.y])) {
+                if path.runs.first().is_some_and(|run| run.kind == PocketRunKind::Entry) {
+                    return Err(Self::hole_error(
+                        hole,
+                        context,
+                        "the tool cannot begin in the hole: it is too near to a wall",
+                    ));
+                }
+                cleared.holes += 1;
+            }
             let takes = |ends: [[f64; 3]; 2], arc: &Arc| {
                 arcs && machine.arc.as_ref().is_some_and(|rules| rules.planes.contains(&arc.plane))
                     && machine.posts_arc(ends, arc, reference_height)
@@ -329,6 +407,8 @@ struct Cleared {
     /// Levels on which something was cleared.
     levels: usize,
     areas: usize,
+    /// Areas that begin in the hole.
+    holes: usize,
     /// Areas that the tool does not fit into.
     narrow: usize,
     /// mm^2, level by level.

@@ -56,7 +56,7 @@ impl Layer<'_> {
         let inside: Vec<(&Segment, Doing)> =
             own.iter().filter_map(|segment| Some((*segment, self.doing(segment)?))).collect();
         let runs: Vec<PlaneRun> = inside.iter().map(|(segment, doing)| run(segment, *doing)).collect();
-        let stock = [self.stock(subject)];
+        let stock = self.stock(subject);
         let ground = Ground { radius: self.radius, stock: &stock, pocket: &stock, chip: self.chip };
         let found = match engagement(&runs, &ground, watch) {
             Ok(found) => found,
@@ -72,16 +72,19 @@ impl Layer<'_> {
         Ok(runs.iter().flat_map(swept).collect())
     }
 
-    /// The outline of the stock.
-    pub fn stock(&self, subject: &Subject) -> Vec<[f64; 3]> {
+    /// The outlines of the stock: of the box, and of the hole in it.
+    fn stock(&self, subject: &Subject) -> Vec<Vec<[f64; 3]>> {
         let (low, high) = subject.mesh.bounds();
-        vec![[low.x, low.y, 0.0], [high.x, low.y, 0.0], [high.x, high.y, 0.0], [low.x, high.y, 0.0]]
+        let around = vec![[low.x, low.y, 0.0], [high.x, low.y, 0.0], [high.x, high.y, 0.0], [low.x, high.y, 0.0]];
+        let hole = self.clearing.hole.map(|([x, y], radius)| vec![[x + radius, y, 1.0], [x - radius, y, 1.0]]);
+        std::iter::once(around).chain(hole).collect()
     }
 
     /// Whether a point lies in the stock.
     pub fn is_stock(&self, [x, y]: [f64; 2], subject: &Subject) -> bool {
         let (low, high) = subject.mesh.bounds();
-        (low.x..=high.x).contains(&x) && (low.y..=high.y).contains(&y)
+        let is_drilled = |([u, v], radius): ([f64; 2], f64)| libm::hypot(x - u, y - v) < radius;
+        (low.x..=high.x).contains(&x) && (low.y..=high.y).contains(&y) && !self.clearing.hole.is_some_and(is_drilled)
     }
 
     fn fault(&self, segment: &Segment, doing: Doing, angle: f64) -> Option<Fault> {

@@ -84,11 +84,7 @@ impl Grid {
         let spacing = (SPACING * layer.radius).max((size[0] * size[1] / MOST).sqrt());
         let [columns, rows] = size.map(|length| libm::ceil(length / spacing) as usize + 1);
         let grid = Self { low: [low.x - around, low.y - around], spacing, columns, rows, in_stock: Vec::new() };
-        let in_stock = (0..columns * rows).map(|node| {
-            let [x, y] = grid.at(node);
-            (low.x..=high.x).contains(&x) && (low.y..=high.y).contains(&y)
-        });
-        let in_stock = in_stock.collect();
+        let in_stock = (0..columns * rows).map(|node| layer.is_stock(grid.at(node), subject)).collect();
         Self { in_stock, ..grid }
     }
 

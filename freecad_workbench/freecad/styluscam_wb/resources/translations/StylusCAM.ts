@@ -4,6 +4,12 @@
 <context>
     <name>App::Property</name>
     <message>
+        <source>A hole that is drilled before, at least as deep as the pocket: the tool goes down in it, without a helix. Helices where left out.
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>A second set of rows over the same faces, across the first.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -463,6 +469,12 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>A hole that is drilled before, at least as deep as the pocket: the tool goes down in it, without a helix. Helices where left out.
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>A line along the surface.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -846,6 +858,10 @@ other face of the sheet, block by block; its machine is in `[machines.support]`.
     </message>
     <message>
         <source>Entry angle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Entry hole</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
