@@ -313,7 +313,8 @@ pub(crate) static MISSING_PASS: FaultKind = FaultKind::on_part(
         let (value, limit) = (fault.value(), fault.limit());
         format!("{value:.3} mm are left beside this move where the tool could touch (passes at the job's distance leave {limit:.3})")
     },
-    REPOST,
+    "post the whole operation, with the job's heights and steps; where nothing is missing, the wall is too gentle for this step: \
+     take a smaller one, or step.scallop",
 );
 pub(crate) static NO_LEVEL_BELOW: FaultKind =
     FaultKind::on_part(FindingKind::MissingLevel, |fault| no_level("below", fault), REPOST);

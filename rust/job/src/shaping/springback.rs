@@ -101,7 +101,12 @@ fn folded(at: Vector) -> JobError {
          than a distance over that distance",
         at.x, at.y, at.z
     );
-    JobError::document("folded", SECTION, message, "smooth the deviation there, or lower factor")
+    JobError::document(
+        "folded",
+        SECTION,
+        message,
+        "smooth the deviation there, let it reach beyond the part or further (max_gap), or lower factor",
+    )
 }
 
 /// the target and the formed part as they lie under the tool.
