@@ -50,8 +50,8 @@ impl Boxes {
         };
         let Some(boxes) = self.levels.get(below) else { return best };
         let mut near = [(f64::INFINITY, 0); GROUP];
-        for (place, member) in near.iter_mut().zip(members) {
-            *place = (boxes.get(member).map_or(f64::INFINITY, |b| square_outside(point, b)), member);
+        for (slot, member) in near.iter_mut().zip(members) {
+            *slot = (boxes.get(member).map_or(f64::INFINITY, |b| square_outside(point, b)), member);
         }
         near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         near.iter().fold(best, |best, (away, member)| {
