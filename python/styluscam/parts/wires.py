@@ -107,7 +107,7 @@ def _entities(pairs: list[Pair]) -> Iterator[tuple[str, list[Pair]]]:
 
 def _lines(file: Path, pairs: list[Pair], deviation: float) -> Iterator[Line]:
     for kind, codes in _entities(pairs):
-        number = {code: float(value) for code, value in codes if code in (10, 20, 11, 21, 40, 50, 51, 230)}
+        number = {code: float(value) for code, value in codes if code in NUMBERS}
         if number.get(230, 1.0) < 0.0:
             raise _error(file, f"a {kind} is drawn from behind (extrusion -Z)", "export it drawn from above")
         missing = [code for code in NEEDED.get(kind, ()) if code not in number]

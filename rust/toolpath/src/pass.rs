@@ -15,6 +15,11 @@ pub struct PathPoint {
     pub triangle: u32,
 }
 
+/// The length in plan of a path through points, mm.
+pub(crate) fn plan_length(points: &[PathPoint]) -> f64 {
+    points.windows(2).map(|side| (side[1].tip - side[0].tip).xy().norm()).sum()
+}
+
 /// A run of the tool along the surface: what a strategy makes and linking joins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pass {

@@ -1,7 +1,7 @@
 //! The angles of two axes along a path: of all that point the tool right, those that turn least on the way.
 
 use super::error::RotaryError;
-use super::kinematics::{cross, dot, Carrier, RotaryAxes, Vector, UP};
+use super::kinematics::{cross, dot, norm, Carrier, RotaryAxes, Vector, UP};
 use super::poses::Pose;
 
 /// A direction this near to an axis' own leaves its angle free, as a sine.
@@ -146,7 +146,7 @@ impl RotaryAxes {
 fn angle_about(about: Vector, from: Vector, to: Vector) -> Option<f64> {
     let beside = cross(about, from);
     let (sin, cos) = (dot(beside, to), dot(cross(beside, about), to));
-    (dot(beside, beside).sqrt() > ALONG).then(|| libm::atan2(sin, cos).to_degrees())
+    (norm(beside) > ALONG).then(|| libm::atan2(sin, cos).to_degrees())
 }
 
 fn square([a, b]: [f64; 2]) -> f64 {

@@ -53,7 +53,7 @@ impl RotaryAxes {
     /// [`RotaryError::Axis`], [`RotaryError::Letter`], [`RotaryError::Parallel`].
     pub fn new(mut axes: [RotaryAxis; 2]) -> Result<Self, RotaryError> {
         for axis in &mut axes {
-            let length = dot(axis.direction, axis.direction).sqrt();
+            let length = norm(axis.direction);
             let [low, high] = axis.limits_deg;
             let is_sound = length.is_normal()
                 && axis.pivot.iter().all(|x| x.is_finite())
@@ -70,7 +70,7 @@ impl RotaryAxes {
             return Err(RotaryError::Letter { letter: first.letter });
         }
         let across = cross(first.direction, second.direction);
-        if dot(across, across).sqrt() < PARALLEL {
+        if norm(across) < PARALLEL {
             return Err(RotaryError::Parallel);
         }
         Ok(Self { axes })
@@ -139,6 +139,10 @@ pub(super) fn difference(a: Vector, b: Vector) -> Vector {
 
 pub(super) fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub(super) fn norm(a: Vector) -> f64 {
+    dot(a, a).sqrt()
 }
 
 pub(super) fn cross(a: Vector, b: Vector) -> Vector {

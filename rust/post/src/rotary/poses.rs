@@ -4,7 +4,7 @@
 use styluscam_motion::Program;
 
 use super::error::RotaryError;
-use super::kinematics::{difference, dot, RotaryAxes, Vector};
+use super::kinematics::{difference, norm, RotaryAxes, Vector};
 
 /// The tool's axis may lean aside by so much as moves what is this far up from the tip by the tolerance, mm.
 const REACH: f64 = 50.0;
@@ -105,10 +105,6 @@ fn is_off(axes: &RotaryAxes, [from, to]: [&Pose; 2], limits: Limits) -> bool {
 fn turned_most(pair: &[Pose]) -> usize {
     let [first, second] = [0, 1].map(|i| (pair[1].angles[i] - pair[0].angles[i]).abs());
     usize::from(second > first)
-}
-
-fn norm(a: Vector) -> f64 {
-    dot(a, a).sqrt()
 }
 
 fn unit(a: Vector) -> Vector {

@@ -3,7 +3,7 @@
 use styluscam_motion::{EventKind, FeedMode, Move, MoveKind, Program, SpindleDirection};
 
 use super::error::RotaryError;
-use super::kinematics::{difference, dot, RotaryAxes};
+use super::kinematics::{difference, norm, RotaryAxes};
 use super::poses::{poses, Limits, Pose};
 use crate::machine::{Family, LengthUnit, Machine};
 use crate::number::NumberFormat;
@@ -28,6 +28,13 @@ pub struct RotaryText {
     pub tolerance: f64,
 }
 
+impl RotaryText {
+    /// Whether the control tracks the tip.
+    fn tracks_tip(&self) -> bool {
+        self.tip_control.is_some()
+    }
+}
+
 /// A program for a machine with rotary axes, as plain moves.
 ///
 /// The first pose is gone to in rapid: the rotary axes first, then the others. It must lie clear of the part.
@@ -46,7 +53,7 @@ pub fn rotary_text(
     if let Some(index) = program.moves.iter().position(|step| !is_plain(step)) {
         return Err(RotaryError::Move { index });
     }
-    let poses = poses(program, axes, Limits::new(form.tolerance, form.tip_control.is_some()))?;
+    let poses = poses(program, axes, Limits::new(form.tolerance, form.tracks_tip()))?;
     let mut events = program.upcoming();
     for (index, (step, parts)) in program.moves.iter().zip(poses.chunk_by(|a, b| a.index == b.index)).enumerate() {
         events.before(index).try_for_each(|event| out.event(program, event))?;
@@ -85,7 +92,7 @@ impl<'a> Writer<'a> {
         if machine.family != Family::Gcode {
             return Err(unsupported("text with rotary axes in another form than G-code"));
         }
-        if form.tip_control.is_none() && machine.feed.inverse_time.is_none() {
+        if !form.tracks_tip() && machine.feed.inverse_time.is_none() {
             return Err(unsupported(
                 "inverse time feeds, which rotary axes need where the control does not track the tip",
             ));
@@ -170,7 +177,7 @@ impl<'a> Writer<'a> {
                 (Some(last), MoveKind::Feed) => {
                     let feed = self.feed_words(step.feed, [&last, pose])?;
                     let mode = match &self.machine.feed.inverse_time {
-                        Some(code) if self.form.tip_control.is_none() => format!("{code} "),
+                        Some(code) if !self.form.tracks_tip() => format!("{code} "),
                         Some(_) | None => String::new(),
                     };
                     self.line(&format!("{mode}G1{linear}{turned}{feed}"));
@@ -182,7 +189,7 @@ impl<'a> Writer<'a> {
 
     fn pose_words(&self, pose: &Pose) -> Result<(String, String), RotaryError> {
         let Pose { index, tip, angles, .. } = *pose;
-        let at = if self.form.tip_control.is_some() { tip } else { self.axes.linear(tip, angles) };
+        let at = if self.form.tracks_tip() { tip } else { self.axes.linear(tip, angles) };
         let linear = words(index, LINEAR, at.map(|x| x * self.per_mm), &self.linear)?;
         Ok((linear, words(index, self.axes.axes().map(|axis| axis.letter), angles, &self.angle)?))
     }
@@ -190,9 +197,8 @@ impl<'a> Writer<'a> {
     /// The feed, mm/min, of the way from one pose to another.
     fn feed_words(&mut self, feed: f64, [from, to]: [&Pose; 2]) -> Result<String, RotaryError> {
         let none = PostError::Feed { index: to.index, feed };
-        if self.form.tip_control.is_none() {
-            let step = difference(to.tip, from.tip);
-            let length = dot(step, step).sqrt();
+        if !self.form.tracks_tip() {
+            let length = norm(difference(to.tip, from.tip));
             // a turn on the spot takes as long as a mm for each degree
             let turned = (0..2).map(|i| (to.angles[i] - from.angles[i]).abs()).fold(0.0, f64::max);
             let format = NumberFormat::plain(RATE_DECIMALS);
@@ -265,7 +271,7 @@ pub fn read_rotary(
             }
         }
         if moved {
-            let tip = if form.tip_control.is_some() { at } else { axes.tip(at, angles) };
+            let tip = if form.tracks_tip() { at } else { axes.tip(at, angles) };
             poses.push((tip, axes.direction(angles)));
         }
     }

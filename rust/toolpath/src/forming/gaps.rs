@@ -4,6 +4,7 @@
 //! leave a mark at every millimetre and spend its time in the air.
 
 use super::contour::Chain;
+use crate::pass::plan_length;
 use crate::{
     fitting::{self, Course},
     PathPoint,
@@ -29,7 +30,7 @@ pub fn bridged(chain: Chain, longest: f64, deviation: f64, course: &mut impl Cou
             continue;
         }
         let stretch: Vec<PathPoint> = std::iter::once(first).chain(&behind[..=gap]).copied().collect();
-        if length(&stretch) > longest {
+        if plan_length(&stretch) > longest {
             continue;
         }
         if let [dense] = fitting::densified(&stretch, deviation, f64::INFINITY, course).as_slice() {
@@ -47,10 +48,6 @@ fn from_a_selected(mut points: Vec<PathPoint>) -> Vec<PathPoint> {
     points.rotate_left(first);
     points.extend(points.first().copied());
     points
-}
-
-fn length(points: &[PathPoint]) -> f64 {
-    points.windows(2).map(|pair| (pair[1].tip - pair[0].tip).xy().norm()).sum()
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@
 use styluscam_motion::{Cancelled, Role, Watch};
 
 use super::{descent::Descent, nesting};
+use crate::pass::plan_length;
 use crate::{ordering, seam, Entered, Pass, PathPoint, Sense, Surface};
 
 /// How ramps go down.
@@ -75,13 +76,9 @@ fn begun_beside(before: Option<&Entered>, mut pass: Pass) -> Pass {
 /// A loop, given with its chords, that begins where a ramp from the chords above, which run the same way, arrives; with that ramp.
 fn to_loop(descent: &Descent<'_>, above: Vec<PathPoint>, [pass, outline]: [&Pass; 2], slope: f64) -> Option<Entered> {
     let fall = above.first()?.tip.z - pass.points.first()?.tip.z;
-    let share = fall / slope / length(&above);
+    let share = fall / slope / plan_length(&above).max(f64::MIN_POSITIVE);
     let ramp = descent.ramp(above, outline, share)?;
     let mut points = pass.points.clone();
     ordering::begin_nearest(&mut points, ramp.last()?.tip);
     Some(Entered { pass: Pass { points, ..*pass }, ramp, role: Some(Role::Ramp) })
-}
-
-fn length(points: &[PathPoint]) -> f64 {
-    points.windows(2).map(|side| (side[1].tip - side[0].tip).xy().norm()).sum::<f64>().max(f64::MIN_POSITIVE)
 }

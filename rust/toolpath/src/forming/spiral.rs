@@ -7,6 +7,7 @@ use styluscam_motion::Watch;
 
 use super::descent::{Descent, Level};
 use super::{level_curve::LevelCurve, nesting};
+use crate::pass::plan_length;
 use crate::{fitting, seam, Pass, PathPoint, PlanError, Surface};
 
 /// A side of a loop between which a turn goes is no longer than this share of the loop: of two points that belong together, one
@@ -31,7 +32,7 @@ pub fn spirals(
     watch: &Watch,
 ) -> Result<Vec<Pass>, PlanError> {
     let outlines: Vec<Pass> =
-        surface.outlines(passes, deviation).par_iter().map(|pass| divided(surface, pass, deviation)).collect();
+        surface.outlines(passes, deviation).into_par_iter().map(|pass| divided(surface, pass, deviation)).collect();
     let followers = nesting::followers(&outlines);
     let mut is_followed = vec![false; passes.len()];
     followers.iter().flatten().for_each(|lower| is_followed[*lower] = true);
@@ -53,15 +54,17 @@ pub fn spirals(
 }
 
 /// A loop with points on its long sides; open passes as they are.
-fn divided(surface: &Surface<'_>, pass: &Pass, deviation: f64) -> Pass {
+fn divided(surface: &Surface<'_>, pass: Pass, deviation: f64) -> Pass {
     let points = pass.points.first().filter(|_| pass.closed).and_then(|first| {
-        let length: f64 = pass.points.windows(2).map(|side| (side[1].tip - side[0].tip).xy().norm()).sum();
         let mut curve = LevelCurve::new(surface, first.tip.z);
         let mut between = |a: &PathPoint, b: &PathPoint| curve.between(a, b);
-        let mut runs = fitting::densified(&pass.points, deviation, SIDE * length, &mut between);
+        let mut runs = fitting::densified(&pass.points, deviation, SIDE * plan_length(&pass.points), &mut between);
         runs.pop().filter(|_| runs.is_empty())
     });
-    points.map_or_else(|| pass.clone(), |points| Pass { points, ..*pass })
+    match points {
+        Some(points) => Pass { points, ..pass },
+        None => pass,
+    }
 }
 
 /// The spirals along loops, each with its chords, each of which leads to the next.

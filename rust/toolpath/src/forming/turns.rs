@@ -10,6 +10,7 @@ use styluscam_motion::{Cancelled, Role, Watch};
 
 use super::turn_curve::{looped, outer, rounded, CurvePoint, Ends, Fine, Flat};
 use crate::linking::along_selected;
+use crate::pass::plan_length;
 use crate::{fitting, Entered, Pass, PathPoint, Surface};
 
 /// The tool is lifted off by this share of a free turn's length in its middle, and by no more than [`MOST_LIFT`].
@@ -88,7 +89,7 @@ pub fn turned(
     let mut counts = Turned::default();
     let mut entered: Vec<Entered> = Vec::with_capacity(ordered.len());
     // what a turn takes off a row is measured by the whole row
-    let lengths: Vec<f64> = ordered.iter().map(plan_length).collect();
+    let lengths: Vec<f64> = ordered.iter().map(|pass| plan_length(&pass.points)).collect();
     for (number, mut pass) in ordered.into_iter().enumerate() {
         watch.advance(1)?;
         let before = entered.last_mut().map(|before| &mut before.pass);
@@ -240,10 +241,6 @@ impl Turning<'_> {
 
 fn differs(a: &PathPoint, b: &PathPoint) -> bool {
     (b.tip - a.tip).xy().norm() > 1e-6
-}
-
-fn plan_length(pass: &Pass) -> f64 {
-    pass.points.windows(2).map(|pair| (pair[1].tip - pair[0].tip).xy().norm()).sum()
 }
 
 impl Ends {

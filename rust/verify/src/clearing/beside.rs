@@ -1,6 +1,6 @@
 //! Stock that is left beside walls: more of it than is asked for.
 //!
-//! The grid of positions is too coarse for that. Where it has a free position beside one that is not, the place between
+//! The grid of positions is too coarse for that. Where it has a free position beside one that is not, the position between
 //! them at which the tool touches is found by halving, and a second one beside it gives the direction of the wall. So far from
 //! there as stock is to stay, the tool has to have been: if it fits there along a circle of the smallest radius, at once in the stock.
 
@@ -25,8 +25,8 @@ const FINE: f64 = 2e-3;
 const ASIDE: f64 = 0.2;
 /// Directions in which a circle is looked at.
 const SIDES: u32 = 16;
-/// Places that are left too thick before it counts: a single one may lie at an edge.
-const PLACES: usize = 3;
+/// Positions at which too much is left before it counts: a single one may lie at an edge.
+const TIMES: usize = 3;
 
 /// The finding of walls beside which too much is left.
 pub(super) fn left(
@@ -65,7 +65,7 @@ pub(super) fn left(
         }
     }
     let (thick, [x, y]) = worst;
-    (count >= PLACES).then(|| {
+    (count >= TIMES).then(|| {
         let message = format!(
             "operation {:?}: at Z{:.3} {thick:.3} mm more than is to stay are left beside walls, near X{x:.3} Y{y:.3}; post the job \
              again",
@@ -102,12 +102,12 @@ fn touching(
         Some(at(low))
     };
     let inwards = [free[0] - blocked[0], free[1] - blocked[1]];
-    let place = halved([0.0; 2])?;
+    let at = halved([0.0; 2])?;
     let beside = halved([-ASIDE * inwards[1], ASIDE * inwards[0]])?;
-    let along = [beside[0] - place[0], beside[1] - place[1]];
+    let along = [beside[0] - at[0], beside[1] - at[1]];
     let length = libm::hypot(along[0], along[1]);
     let normal = [along[1] / length, -along[0] / length];
-    (length > FINE).then_some((place, normal))
+    (length > FINE).then_some((at, normal))
 }
 
 /// Where the tool's centre has been.
