@@ -5,11 +5,14 @@
 //! rim ahead is nearer. Two discs of radii rho1, cleared, and rho2 may lie rho1 + r - f(rho2) apart; concentric ones
 //! give the profile smoothing radius, equal ones the trochoid (docs/concepts/pockets.md).
 
-/// What is kept below the bound for chords, the grid and the joints between pieces, rad (1 deg).
-const RESERVE: f64 = 0.017_453_292_519_943_295;
-
-/// Share of the reserve that is kept where the tool is steered: there the arcs are exact.
-const STEERED: f64 = 0.15;
+/// One degree, rad.
+const DEGREE: f64 = 0.017_453_292_519_943_295;
+/// What is kept below the bound for chords, the grid and the joints between pieces, rad.
+const RESERVE: f64 = 0.5 * DEGREE;
+/// What of that is kept where the tool is steered, rad: there the arcs are exact.
+const STEERED: f64 = 0.15 * DEGREE;
+/// What chords may change of the angle, rad.
+const CHORDS: f64 = 0.1 * DEGREE;
 /// Chords are never farther than this off their arcs, mm: arcs are put back through their corners (fit.rs), which has to tell them from lines.
 const COARSEST: f64 = 5e-4;
 
@@ -29,7 +32,7 @@ impl Bound {
 
     /// With less reserve: a path that holds this one comes up to the edge of what the other permits.
     pub fn steering(radius: f64, angle: f64) -> Self {
-        Self { radius, cos: libm::cos(angle - STEERED * RESERVE) }
+        Self { radius, cos: libm::cos(angle - STEERED) }
     }
 
     /// Distance that material keeps from the centre of a circle of radius rho on which the tool moves, mm.
@@ -48,10 +51,10 @@ impl Bound {
         (ahead > 0.0 && radius > 0.0).then_some(radius)
     }
 
-    /// How far chords may be off the arcs of the distances kept about circles of radius rho: a tenth of what the reserve is there.
+    /// How far chords may be off the arcs of the distances kept about circles of radius rho: the angle changes by a tenth of a degree.
     pub fn tolerance(&self, rho: f64) -> f64 {
         let sin = (1.0 - self.cos * self.cos).sqrt();
-        (0.1 * RESERVE * rho * self.radius * sin / self.keep(rho)).min(COARSEST)
+        (CHORDS * rho * self.radius * sin / self.keep(rho)).min(COARSEST)
     }
 }
 

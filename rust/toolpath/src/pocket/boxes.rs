@@ -34,6 +34,23 @@ impl Boxes {
         self.nearest_below(sides, point, best, self.levels.len(), 0)
     }
 
+    /// Whether one of the sides is nearer than a distance to a point; `square` is that of the distance, mm^2.
+    pub fn is_one_within(&self, sides: &[(Point, Point)], point: Point, square: f64) -> bool {
+        self.is_one_below(sides, point, square, self.levels.len(), 0)
+    }
+
+    fn is_one_below(&self, sides: &[(Point, Point)], point: Point, square: f64, level: usize, group: usize) -> bool {
+        let members = group * GROUP..(group + 1) * GROUP;
+        let Some(below) = level.checked_sub(1) else {
+            let mut sides = members.filter_map(|number| sides.get(number));
+            return sides.any(|(a, b)| square_distance(point, *a, *b) < square);
+        };
+        let Some(boxes) = self.levels.get(below) else { return false };
+        members
+            .filter(|member| boxes.get(*member).is_some_and(|b| square_outside(point, b) < square))
+            .any(|member| self.is_one_below(sides, point, square, below, member))
+    }
+
     fn nearest_below(
         &self,
         sides: &[(Point, Point)],
@@ -73,14 +90,15 @@ fn around(mut boxes: impl Iterator<Item = [[f64; 2]; 2]>) -> [Point; 2] {
 
 /// Square of the distance between a point and a box.
 fn square_outside(p: Point, [low, high]: &[Point; 2]) -> f64 {
-    let off = [0, 1].map(|i| (low[i] - p[i]).max(p[i] - high[i]).max(0.0));
-    off[0] * off[0] + off[1] * off[1]
+    let x = (low[0] - p[0]).max(p[0] - high[0]).max(0.0);
+    let y = (low[1] - p[1]).max(p[1] - high[1]).max(0.0);
+    x * x + y * y
 }
 
 /// Square of the distance between a point and a side.
 pub fn square_distance(p: Point, a: Point, b: Point) -> f64 {
     let on = foot(p, a, b);
-    let off = [p[0] - on[0], p[1] - on[1]];
+    let off: Point = [p[0] - on[0], p[1] - on[1]];
     off[0] * off[0] + off[1] * off[1]
 }
 
@@ -90,5 +108,5 @@ pub fn foot(p: Point, a: Point, b: Point) -> Point {
     let square = along[0] * along[0] + along[1] * along[1];
     let dot = along[0] * arm[0] + along[1] * arm[1];
     let share = if square > 0.0 { (dot / square).clamp(0.0, 1.0) } else { 0.0 };
-    [0, 1].map(|i| a[i] + share * along[i])
+    [a[0] + share * along[0], a[1] + share * along[1]]
 }

@@ -7,7 +7,7 @@ use super::polygons::{Kernel, Point, Polygons};
 /// Radius of the helix, in radii of the tool: no core is left in its middle.
 const HELIX: f64 = 0.7;
 /// The largest disc is found to this, in radii of the tool.
-const FINE: f64 = 0.01;
+const FINE: f64 = 0.002;
 
 /// A helix seen from above.
 #[derive(Clone, Copy, Debug)]

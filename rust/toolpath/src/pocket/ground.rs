@@ -2,11 +2,10 @@
 
 use styluscam_geometry::PlanePiece;
 
-use super::cut::without_slivers;
 use super::error::PocketError;
 use super::growth::WALL;
 use super::polygons::{signed_area, Kernel, Point, Polygons};
-use super::request::{Cleared, Pocket, Shape};
+use super::request::{Pocket, Shape};
 
 /// Coordinates lie within this, mm: on the grid of the booleans that leaves 4 nm.
 const FARTHEST: f64 = 2000.0;
@@ -15,12 +14,12 @@ const GAP: f64 = 3e-3;
 /// What of the goal's rim is not looked for, mm: no more than chords are off. A rim that comes to a wall is nearly along it, and of a strip of
 /// 1 um there would meet a degree and a half that nobody had counted.
 const RIM: f64 = 2e-4;
-/// Chips thinner than this do not count, mm (docs/concepts/engagement.md).
-const CHIP: f64 = 1e-3;
-/// Chords of an earlier tool's path whose sweep is found at once.
-const TOGETHER: usize = 48;
 /// How far the tool's centre may go beyond an open edge, in tool radii: so far that it is free of the material there.
 const BEYOND: f64 = 2.5;
+/// How far discs may reach there, which only say where the tool is permitted to cut: the largest fits, with what it keeps from the material.
+const FAR: f64 = 26.0;
+/// Chords of the air around a corner of two open edges.
+const CHORDS: usize = 8;
 
 /// The pocket's areas.
 #[derive(Debug)]
@@ -28,6 +27,8 @@ pub struct Ground {
     pub kernel: Kernel,
     /// Where the tool's centre may be.
     pub free: Polygons,
+    /// Where permissible discs may be: farther out beyond open edges.
+    pub discs: Polygons,
     /// What is to be cleared.
     pub goal: Polygons,
 }
@@ -39,12 +40,18 @@ impl Ground {
         let outlines = pocket.shape.outlines();
         let corners = outlines.iter().flat_map(|(_, outline)| outline.iter());
         let farthest = corners.fold(0.0, |most: f64, [x, y, _]| most.max(x.abs()).max(y.abs()));
-        let kernel = Kernel::new(2.0 * farthest + 20.0 * r);
+        let kernel = Kernel::new(2.0 * farthest + (20.0 + FAR) * r);
+        let mut wide = None;
         let (walls, free) = match pocket.shape {
             Shape::Walls { boundary, islands, open_edges, .. } => {
                 let walls = area(&kernel, boundary, islands)?;
-                let open = kernel.union(&walls, &beyond(&kernel, boundary, open_edges, r));
-                (Some(walls), kernel.offset(&open, -(r + GAP + pocket.leave), WALL))
+                let free = |far: f64| {
+                    let open = kernel.union(&walls, &beyond(&kernel, boundary, open_edges, far * r));
+                    kernel.offset(&open, -(r + GAP + pocket.leave), WALL)
+                };
+                wide = (!open_edges.is_empty()).then(|| free(FAR));
+                let free = free(BEYOND);
+                (Some(walls), free)
             }
             Shape::Centres { outlines, .. } => {
                 let chords: Vec<Vec<Point>> = outlines.iter().map(|outline| chords(outline)).collect();
@@ -56,6 +63,7 @@ impl Ground {
             return Err(PocketError::TooSmall { radius: r, smoothing });
         }
         let free = kernel.offset(&core, smoothing, WALL);
+        let discs = wide.unwrap_or_else(|| free.clone());
         let mut goal = kernel.offset(&core, smoothing + r - RIM, WALL);
         if let Some(walls) = walls {
             goal = kernel.intersection(&goal, &walls);
@@ -64,23 +72,11 @@ impl Ground {
             let chords: Vec<Vec<Point>> = stock.iter().map(|outline| chords(outline)).collect();
             goal = kernel.intersection(&goal, &kernel.even_odd(&chords));
         }
-        let swept: Vec<Vec<Point>> = pocket.cleared.iter().flat_map(|path| swept(&kernel, path)).collect();
-        if !swept.is_empty() {
-            goal = without_slivers(kernel.difference(&goal, &kernel.union_all(&swept)));
-        }
         if goal.is_empty() {
             return Err(PocketError::Empty);
         }
-        Ok(Self { kernel, free, goal })
+        Ok(Self { kernel, free, discs, goal })
     }
-}
-
-/// What an earlier tool swept, in outlines: wider by a chip that does not count.
-fn swept(kernel: &Kernel, path: &Cleared) -> Vec<Vec<Point>> {
-    let chords = path_chords(&path.points);
-    let starts = (0..chords.len().saturating_sub(1)).step_by(TOGETHER);
-    let parts = starts.filter_map(|from| chords.get(from..chords.len().min(from + TOGETHER + 1)));
-    parts.flat_map(|part| kernel.sweep(part, path.radius + CHIP, WALL).contours).collect()
 }
 
 /// The pocket without its islands.
@@ -96,26 +92,41 @@ fn area(kernel: &Kernel, boundary: &[[f64; 3]], islands: &[Vec<[f64; 3]>]) -> Re
     Ok(kernel.difference(&outer, &all))
 }
 
-/// The air beyond open edges, as far as the tool may go there.
-fn beyond(kernel: &Kernel, boundary: &[[f64; 3]], open_edges: &[usize], radius: f64) -> Polygons {
+/// The air beyond open edges up to a distance, mm.
+fn beyond(kernel: &Kernel, boundary: &[[f64; 3]], open_edges: &[usize], far: f64) -> Polygons {
     let pieces = PlanePiece::outline(boundary);
-    let far = BEYOND * radius;
-    let turns_left = signed_area(&chords(boundary)) > 0.0;
+    let far = if signed_area(&chords(boundary)) > 0.0 { far } else { -far };
     let mut air = Polygons::default();
-    for piece in open_edges.iter().filter_map(|edge| pieces.get(*edge)) {
-        let edge = flat(piece);
-        let outer = edge.windows(2).filter_map(|pair| match pair {
-            [a, b] => {
-                let along = [b[0] - a[0], b[1] - a[1]];
-                let length = libm::hypot(along[0], along[1]);
-                let share = if turns_left { far / length } else { -far / length };
-                let out = [along[1] * share, -along[0] * share];
-                Some(vec![*a, [a[0] + out[0], a[1] + out[1]], [b[0] + out[0], b[1] + out[1]], *b])
+    let outwards = |a: &Point, b: &Point| {
+        let along = [b[0] - a[0], b[1] - a[1]];
+        let length = libm::hypot(along[0], along[1]);
+        [along[1] * far / length, -along[0] * far / length]
+    };
+    let moved = |p: &Point, by: Point| [p[0] + by[0], p[1] + by[1]];
+    let mut add = |area: Vec<Point>| air = kernel.union(&air, &kernel.even_odd(&[area]));
+    for edge in open_edges {
+        let Some(piece) = pieces.get(*edge) else { continue };
+        let edge_chords = flat(piece);
+        for pair in edge_chords.windows(2) {
+            let [a, b] = pair else { continue };
+            let out = outwards(a, b);
+            add(vec![*a, moved(a, out), moved(b, out), *b]);
+        }
+        // around a corner that it has with the next one, if that is open too
+        let next = (edge + 1) % pieces.len();
+        let after = pieces.get(next).filter(|_| open_edges.contains(&next)).map(flat).unwrap_or_default();
+        if let ([.., a, corner], [_, b, ..]) = (edge_chords.as_slice(), after.as_slice()) {
+            let (before, after) = (outwards(a, corner), outwards(corner, b));
+            let (cross, dot) =
+                (before[0] * after[1] - before[1] * after[0], before[0] * after[0] + before[1] * after[1]);
+            let turn = libm::atan2(cross, dot);
+            if turn * far > 0.0 {
+                let around = (0..=CHORDS).map(|i| {
+                    let (sin, cos) = libm::sincos(turn * i as f64 / CHORDS as f64);
+                    moved(corner, [before[0] * cos - before[1] * sin, before[0] * sin + before[1] * cos])
+                });
+                add(std::iter::once(*corner).chain(around).collect());
             }
-            _ => None,
-        });
-        for strip in outer {
-            air = kernel.union(&air, &kernel.even_odd(&[strip]));
         }
     }
     air
@@ -176,13 +187,6 @@ fn check(pocket: &Pocket<'_>) -> Result<(), PocketError> {
     number("smoothing_radius", pocket.smoothing, (0.01..=10.0).contains(&share), "0.01 to 10 tool radii")?;
     number("leave", pocket.leave, (0.0..=100.0).contains(&pocket.leave), "0 to 100 mm")?;
     number("finish", pocket.finish, (0.0..=r).contains(&pocket.finish), "0 to the tool's radius")?;
-    for (i, path) in pocket.cleared.iter().enumerate() {
-        let key = format!("cleared[{i}]");
-        number(&key, path.radius, (0.0..=FARTHEST).contains(&path.radius), "a tool's radius up to 2000 mm")?;
-        for value in path.points.iter().flatten() {
-            number(&key, *value, value.abs() <= FARTHEST, "finite numbers within +/-2000")?;
-        }
-    }
     let stock = pocket.shape.stock().unwrap_or(&[]).iter().enumerate();
     let stock = stock.map(|(i, outline)| (format!("stock[{i}]"), outline.as_slice()));
     let outlines = pocket.shape.outlines().into_iter().chain(stock);

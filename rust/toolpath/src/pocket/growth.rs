@@ -16,8 +16,8 @@ use super::polygons::{Kernel, Polygons};
 /// Chords of walls are at most this far off their arcs, mm: what the offsets take off the part, they leave.
 pub const WALL: f64 = 4e-4;
 
-/// How much larger than it is the material may be taken, in tool radii: half a percent of a pass, for a third of the corners.
-const SAG: f64 = 0.002;
+/// How much larger than it is the material may be taken, as a share of what the largest discs gain: for a third of the corners.
+const SAG: f64 = 0.005;
 
 /// Areas of centres smaller than this are left out, mm: no disc moves in them farther than chords are off.
 const SPECK: f64 = 1e-4;
@@ -58,14 +58,14 @@ pub struct Growth {
 }
 
 impl Growth {
-    /// For the positions that the walls leave to the tool's centre; discs from `largest` to `smallest`, mm. One for each bound.
+    /// Discs from `largest` to `smallest` in an area, mm, for positions of the tool's centre in `free`; one growth for each bound.
     pub fn all<const N: usize>(
         kernel: &Kernel,
-        free: &Polygons,
+        [free, area]: [&Polygons; 2],
         bounds: [Bound; N],
         [largest, smallest]: [f64; 2],
     ) -> [Self; N] {
-        let centres = |radius: f64| (radius, Arc::new(kernel.offset(free, -radius, WALL).without_specks(SPECK)));
+        let centres = |radius: f64| (radius, Arc::new(kernel.offset(area, -radius, WALL).without_specks(SPECK)));
         let mut discs: Vec<(f64, Arc<Polygons>)> = ladder(largest, smallest).into_par_iter().map(centres).collect();
         discs.retain(|(_, centres)| !centres.is_empty());
         bounds.map(|bound| {
@@ -78,8 +78,9 @@ impl Growth {
                 waits: [0, 0],
                 is_done: false,
             };
-            let rungs = discs.iter().map(rung).collect();
-            Self { rungs, free: free.clone(), radius: bound.radius, sag: SAG * bound.radius }
+            let rungs: Vec<Rung> = discs.iter().map(rung).collect();
+            let sag = SAG * rungs.first().map_or(0.0, |rung| rung.gain);
+            Self { rungs, free: free.clone(), radius: bound.radius, sag }
         })
     }
 

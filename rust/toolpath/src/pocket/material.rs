@@ -78,6 +78,11 @@ impl Material {
         self.nearest_side(point).0.sqrt()
     }
 
+    /// The same, up to a distance: that, where none is nearer, mm.
+    pub fn distance_up_to(&self, most: f64, point: Point) -> f64 {
+        self.boxes.nearest(&self.sides, point, (most * most, usize::MAX)).0.sqrt()
+    }
+
     /// The point of its sides that is nearest to a point; None where there is none.
     pub fn nearest(&self, point: Point) -> Option<Point> {
         let (_, number) = self.nearest_side(point);
@@ -115,7 +120,8 @@ impl Material {
 
     /// Column and row of the cell of a point, or of the nearest one.
     fn cell(&self, point: Point) -> [usize; 2] {
-        [0, 1].map(|i| (((point[i] - self.low[i]) / self.size).max(0.0) as usize).min(self.count[i] - 1))
+        let cell = |i: usize| (((point[i] - self.low[i]) / self.size).max(0.0) as usize).min(self.count[i] - 1);
+        [cell(0), cell(1)]
     }
 
     fn numbers(&self, [x, y]: [usize; 2]) -> &[u32] {

@@ -132,7 +132,7 @@ impl Unfolded {
 
     /// Whether all of a line is nearer to the contours than the distance.
     fn is_inside(&self, a: Point, b: Point, halvings: u32) -> bool {
-        let middle = [0, 1].map(|i| 0.5 * (a[i] + b[i]));
+        let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
         let half = 0.5 * libm::hypot(b[0] - a[0], b[1] - a[1]);
         self.is_nearer(middle, self.distance.abs() - self.tolerance - half)
             || (halvings > 0 && self.is_inside(a, middle, halvings - 1) && self.is_inside(middle, b, halvings - 1))
@@ -140,7 +140,7 @@ impl Unfolded {
 
     /// Whether a point is nearer to the contours than a distance, mm.
     fn is_nearer(&self, point: Point, distance: f64) -> bool {
-        distance > 0.0 && self.boxes.nearest(&self.sides, point, (distance * distance, usize::MAX)).1 != usize::MAX
+        distance > 0.0 && self.boxes.is_one_within(&self.sides, point, distance * distance)
     }
 }
 
@@ -188,7 +188,7 @@ impl Curve {
 
     fn middle(&self, i: usize) -> Point {
         let (a, b) = (self.at(i), self.at(i + 1));
-        [0, 1].map(|k| 0.5 * (a[k] + b[k]))
+        [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
     }
 }
 

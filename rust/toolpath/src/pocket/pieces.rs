@@ -20,15 +20,42 @@ pub const SHALLOWEST: f64 = 1.5e-3;
 /// Sides shorter than this have no heading: they are what the grid makes of crossings, mm.
 const NOISE: f64 = 5e-5;
 
+/// Depth at which pieces begin and end, mm: the link that comes there meets no chip that counts, wherever it comes from.
+const BEGUN: f64 = 5e-4;
+/// Where a piece begins is halved so often between two corners.
+const HALVINGS: u32 = 6;
+
 /// The pieces of a boundary where a tool of `radius` stands deeper than `SHALLOWEST` in the material.
 pub fn pieces(reach: &Polygons, material: &Material, radius: f64) -> Vec<Piece> {
     let mut found = Vec::new();
     for contour in &reach.contours {
         let points = divided(contour, 0.1 * radius);
-        let depths: Vec<f64> = points.iter().map(|point| radius - material.distance(*point)).collect();
-        found.extend(stretches(&points, &depths));
+        let depth = |point: Point| radius - material.distance_up_to(radius, point);
+        let depths: Vec<f64> = points.iter().map(|point| depth(*point)).collect();
+        let mut stretches = stretches(&points, &depths);
+        for piece in stretches.iter_mut().filter(|piece| !piece.is_ring) {
+            shorten(&mut piece.points, depth);
+            piece.points.reverse();
+            shorten(&mut piece.points, depth);
+            piece.points.reverse();
+        }
+        found.append(&mut stretches);
     }
     found
+}
+
+/// Moves the first position to where the tool meets the material.
+fn shorten(points: &mut [Point], depth: impl Fn(Point) -> f64) {
+    let [first, second, ..] = points else { return };
+    let mut cuts = *second;
+    for _ in 0..HALVINGS {
+        let middle = [0, 1].map(|i| 0.5 * (first[i] + cuts[i]));
+        if depth(middle) > BEGUN {
+            cuts = middle;
+        } else {
+            *first = middle;
+        }
+    }
 }
 
 fn stretches(points: &[Point], depths: &[f64]) -> Vec<Piece> {

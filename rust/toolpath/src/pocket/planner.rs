@@ -25,6 +25,9 @@ pub const SLIVER: f64 = 4e-4;
 const LEVELS: u32 = 20_000;
 const ENTRIES: usize = 200;
 
+/// How deep into the material an entry beside it goes at least, mm.
+const BESIDE: f64 = 0.01;
+
 /// What a piece may exceed the bound by, rad (0.3 deg): half a degree is allowed, and the account here is good to a twentieth.
 pub const ALLOWED: f64 = 0.3 * std::f64::consts::PI / 180.0;
 /// How much lower the bound is taken, one after the other, where nothing within it was found, deg.
@@ -34,10 +37,10 @@ const LOWER: [f64; 4] = [0.0, 2.0, 5.0, 9.0];
 pub fn plan(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketError> {
     let ground = Ground::new(pocket)?;
     let bound = Bound::new(pocket.radius, pocket.angle);
-    let widest = largest_disc(&ground.kernel, &ground.free, pocket.radius).map_or(0.0, |(_, radius)| radius);
+    let widest = largest_disc(&ground.kernel, &ground.discs, pocket.radius).map_or(0.0, |(_, radius)| radius);
     let largest = widest.min(LARGEST * pocket.radius).max(pocket.smoothing);
     let bounds = LOWER.map(|lower| Bound::new(pocket.radius, pocket.angle - lower.to_radians()));
-    let growths = Growth::all(&ground.kernel, &ground.free, bounds, [largest, pocket.smoothing]);
+    let growths = Growth::all(&ground.kernel, [&ground.free, &ground.discs], bounds, [largest, pocket.smoothing]);
     let most = pocket.angle + ALLOWED;
     let material = Material::new(ground.goal.clone());
     let free = Material::new(ground.free.clone());
@@ -128,17 +131,24 @@ impl Planner {
         self.material = left_of(&self.ground.kernel, &self.material, cuts);
     }
 
-    /// Goes down into the material where there is most room; false where there is none.
+    /// Goes down where there is most room, into the material or beside it; false where that takes none of it.
     fn enter(&mut self, level: u32) -> bool {
-        let kernel = &self.ground.kernel;
-        let under = kernel.intersection(&self.ground.free, &self.material.area);
-        let Some(disc) = largest_disc(kernel, &under, self.bound.radius).filter(|(_, radius)| *radius > 0.0) else {
-            return false;
-        };
+        let (kernel, free) = (&self.ground.kernel, &self.ground.free);
+        let under = kernel.intersection(free, &self.material.area);
+        let disc = largest_disc(kernel, &under, self.bound.radius).or_else(|| {
+            // from another area of the tool's centre the middle of this one may be cleared, and no way leads here
+            let beside = kernel.offset(&self.material.area, self.bound.radius - BESIDE, WALL);
+            largest_disc(kernel, &kernel.intersection(free, &beside), self.bound.radius)
+        });
+        let Some(disc) = disc.filter(|(_, radius)| *radius > 0.0) else { return false };
         let helix = helix(disc, self.bound.radius);
         let swept = Polygons::disc(helix.centre, helix.radius + self.bound.radius, WALL);
         let cut = Cut { path: helix.points(), swept, level, is_entry: true, two_way: false };
+        let before = self.material.area.area();
         self.clear(std::slice::from_ref(&cut));
+        if self.material.area.area() >= before {
+            return false;
+        }
         self.at = cut.end();
         self.cuts.push(cut);
         true

@@ -3,7 +3,7 @@
 //! A piece is within the bound when all is cleared that was when it was planned and that its rim could meet: the pieces of lower levels nearer to
 //! it than two radii. Clearing more only lowers the angle, so any order that keeps to that is legal; taken is what begins nearest.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use styluscam_geometry::PlanePiece;
 use styluscam_motion::Watch;
@@ -15,6 +15,14 @@ use super::links;
 use super::material::Material;
 use super::polygons::Point;
 use super::request::{PocketRun, PocketRunKind};
+
+/// Distance of the positions of pieces that are compared, in tool radii.
+const STEP: f64 = 0.25;
+
+/// Positions nearer than this are the same, mm.
+const SAME: f64 = 2e-3;
+/// The first line or arc of a piece of which the start may be moved by as much, in tool radii.
+const FIRST: f64 = 0.03;
 
 /// The runs: all pieces, and the moves between them.
 pub fn sequenced(
@@ -33,13 +41,15 @@ pub fn sequenced(
     while let Some((place, turned)) = nearest(cuts, &open, at) {
         let number = open.swap_remove(place);
         let Some(cut) = cuts.get(number) else { continue };
-        let path = if turned { reversed(&cut.path) } else { cut.path.clone() };
-        let (Some([x, y, _]), Some([u, v, _])) = (path.first(), path.last()) else { continue };
-        if let Some(from) = at {
+        let mut path = if turned { reversed(&cut.path) } else { cut.path.clone() };
+        let (Some([x, y, _]), Some([u, v, _])) = (path.first().copied(), path.last().copied()) else { continue };
+        if at.is_some_and(|at| begins_at(&mut path, at, radius)) {
+            // it goes on from the last one
+        } else if let Some(from) = at {
             let links = links::Ground { material: &material, free, radius };
-            runs.push(link(from, [*x, *y], (!cut.is_entry).then_some(links)));
+            runs.push(link(from, [x, y], (!cut.is_entry).then_some(links)));
         }
-        at = Some([*u, *v]);
+        at = Some([u, v]);
         let kind = if cut.is_entry { PocketRunKind::Entry } else { PocketRunKind::Cut };
         runs.push(PocketRun { points: path, kind });
         material = left_of(&ground.kernel, &material, std::slice::from_ref(cut));
@@ -54,6 +64,17 @@ pub fn sequenced(
         watch.advance(1)?;
     }
     Ok(runs)
+}
+
+/// Lets a path begin at a position that its start is as good as at: a link would cut there with any heading. False where it is farther, or
+/// the path's first heading would change.
+fn begins_at(path: &mut [[f64; 3]], at: Point, radius: f64) -> bool {
+    let [[x, y, _], [u, v, _], ..] = path else { return false };
+    if libm::hypot(*x - at[0], *y - at[1]) > SAME || libm::hypot(*u - *x, *v - *y) < FIRST * radius {
+        return false;
+    }
+    [*x, *y] = at;
+    true
 }
 
 /// To a position, through what is cleared or over it.
@@ -82,30 +103,42 @@ fn nearest(cuts: &[Cut], open: &[usize], at: Option<Point>) -> Option<(usize, bo
 
 /// Of each piece the number of those before which it may not be cut, and the pieces that wait for it.
 fn dependencies(cuts: &[Cut], radius: f64) -> (Vec<usize>, Vec<Vec<usize>>) {
-    let near = 2.0 * radius;
+    let step = STEP * radius;
+    // the positions of two pieces may lie half a step farther apart on either side than the pieces
+    let near = 2.0 * radius + step;
     let cell = |p: Point| p.map(|x| libm::floor(x / near) as i64);
-    let mut cells: HashMap<[i64; 2], Vec<usize>> = HashMap::new();
+    let mut cells: BTreeMap<[i64; 2], Vec<(usize, Vec<Point>)>> = BTreeMap::new();
     let (mut waits, mut followers) = (vec![0; cuts.len()], vec![Vec::new(); cuts.len()]);
+    let mut waits_for = vec![usize::MAX; cuts.len()];
     for (number, cut) in cuts.iter().enumerate() {
-        let mut own: Vec<[i64; 2]> = positions(&cut.path, 0.25 * near).map(cell).collect();
-        own.sort_unstable();
-        own.dedup();
-        let around = own.iter().flat_map(|[x, y]| (-1..=1).flat_map(move |i| (-1..=1).map(move |j| [x + i, y + j])));
-        let mut before: Vec<usize> = around.filter_map(|cell| cells.get(&cell)).flatten().copied().collect();
-        before.sort_unstable();
-        before.dedup();
-        before.retain(|other| cuts.get(*other).is_some_and(|other| other.level < cut.level || other.is_entry));
-        for other in before {
-            if let (Some(followers), Some(waits)) = (followers.get_mut(other), waits.get_mut(number)) {
-                followers.push(number);
-                *waits += 1;
+        let mut own: BTreeMap<[i64; 2], Vec<Point>> = BTreeMap::new();
+        for position in positions(&cut.path, step) {
+            own.entry(cell(position)).or_default().push(position);
+        }
+        for ([x, y], positions) in &own {
+            let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [x + i, y + j]));
+            for (other, others) in around.filter_map(|cell| cells.get(&cell)).flatten() {
+                let is_before = cuts.get(*other).is_some_and(|other| other.level < cut.level || other.is_entry);
+                let (Some(found), true) = (waits_for.get_mut(*other), is_before) else { continue };
+                if *found != number && positions.iter().any(|p| others.iter().any(|q| is_within(*p, *q, near))) {
+                    *found = number;
+                    if let (Some(followers), Some(waits)) = (followers.get_mut(*other), waits.get_mut(number)) {
+                        followers.push(number);
+                        *waits += 1;
+                    }
+                }
             }
         }
-        for cell in own {
-            cells.entry(cell).or_default().push(number);
+        for (cell, positions) in own {
+            cells.entry(cell).or_default().push((number, positions));
         }
     }
     (waits, followers)
+}
+
+fn is_within(a: Point, b: Point, distance: f64) -> bool {
+    let off = [a[0] - b[0], a[1] - b[1]];
+    off[0] * off[0] + off[1] * off[1] < distance * distance
 }
 
 /// Positions along a path, no farther apart than `step`.

@@ -25,7 +25,6 @@ fn pocket(boundary: &[[f64; 3]]) -> Pocket<'_> {
         angle: PI / 3.0,
         smoothing: 0.125,
         climb: true,
-        cleared: &[],
         two_way: false,
     }
 }
@@ -214,6 +213,55 @@ fn a_hole_that_has_grown_together_with_one_between_cut_folds_stays() {
     ];
     let path = planned(&Pocket { angle: 1.3, radius: 2.0, smoothing: 0.1, ..pocket(&corners) });
     assert!(path.left < 1e-3 * path.goal, "{} of {} left", path.left, path.goal);
+}
+
+#[test]
+fn what_no_way_leads_to_beside_cleared_ground_is_entered() {
+    let bare = [
+        [-6.832841480849949, 11.30786594418163, -0.2869979686628666],
+        [0.0, 3.0551085142342704, 0.0],
+        [0.0, 5.693368464419466, 0.0],
+        [9.07878690107123, 3.3646150475471988, -0.3963511895018633],
+        [-3.283516513529114, 0.08787314784348702, -0.05891050963462311],
+    ];
+    let round =
+        [[0.0, 11.277646738904597, 0.0], [-9.039112217188464, 0.0, 0.7622617260899865], [12.461748112500118, 0.0, 0.0]];
+    let island = [
+        [-4.16700233403756, 2.3135354639173227, 0.20147522758971792],
+        [0.0, 2.0757390315193045, 0.0],
+        [-4.617794577912672, 0.0, 0.0],
+    ];
+    for (boundary, islands) in [(&bare[..], vec![]), (&round[..], vec![island.to_vec()])] {
+        let shape = Shape::Walls { boundary, islands: &islands, open_edges: &[], stock: None };
+        let path = planned(&Pocket { shape, angle: 1.3, radius: 2.0, smoothing: 0.1, ..pocket(boundary) });
+        assert!(path.left < 1e-3 * path.goal, "{} of {} left", path.left, path.goal);
+    }
+}
+
+/// The length of the runs of a kind, mm.
+fn length(path: &PocketPath, kind: PocketRunKind) -> f64 {
+    let runs = path.runs.iter().filter(|run| run.kind == kind);
+    runs.flat_map(|run| PlanePiece::path(&run.points)).map(|piece| piece.length()).sum()
+}
+
+#[test]
+fn passes_in_a_slot_begin_where_they_cut() {
+    let slot = rectangle(25.0, 2.75);
+    let path = planned(&pocket(&slot));
+    let ratio = length(&path, PocketRunKind::Cut) * 2.5 * (1.0 - (PI / 3.0).cos()) / path.goal;
+    assert!(ratio < 1.8, "{ratio}");
+    // the two ends are finished one after the other: no more than a chord for each half circle
+    assert!(length(&path, PocketRunKind::Link) < 0.8 * length(&path, PocketRunKind::Cut));
+}
+
+#[test]
+fn around_the_corner_of_two_open_edges_the_tool_goes_through_the_air() {
+    let boundary = rectangle(12.0, 12.0);
+    let shape = Shape::Walls { boundary: &boundary, islands: &[], open_edges: &[1, 2], stock: None };
+    let path = planned(&Pocket { shape, ..pocket(&boundary) });
+    assert!(path.runs.iter().all(|run| matches!(run.kind, PocketRunKind::Cut | PocketRunKind::Link)));
+    let ratio = length(&path, PocketRunKind::Cut) * 2.5 * (1.0 - (PI / 3.0).cos()) / path.goal;
+    assert!(path.left < 1e-3 * path.goal && ratio < 1.65, "{ratio}");
 }
 
 proptest! {
