@@ -289,6 +289,7 @@ def engagement(
     tool_radius: float,
     stock: Sequence[_F],
     boundary: Sequence[_F],
+    cleared: Sequence[tuple[_F, float]],
     progress: _Progress | None = None,
     cancel: CancelToken | None = None,
 ) -> list[_F]: ...
@@ -297,6 +298,7 @@ def pocket_path(
     islands: Sequence[_F],
     open_edges: Sequence[int],
     stock: Sequence[_F] | None,
+    cleared: Sequence[tuple[_F, float]],
     tool_radius: float,
     angle: float,
     smoothing: float,

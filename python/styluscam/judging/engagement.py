@@ -45,6 +45,7 @@ def engagement(
     stock: npt.ArrayLike | Sequence[npt.ArrayLike] | None,
     boundary: npt.ArrayLike | Sequence[npt.ArrayLike],
     *,
+    cleared: Iterable[tuple[npt.ArrayLike, float]] = (),
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
 ) -> list[RunEngagement]:
@@ -64,6 +65,7 @@ def engagement(
         stock: outline of the material, or several (islands are outlines within outlines); None: all within the
             boundary.
         boundary: outline of the pocket, or several: its walls and its islands'.
+        cleared: pairs of points and tool radius (mm): paths along which other tools have cleared before.
         progress: called with phase and fraction; ``False`` cancels.
         cancel: cancels from another thread.
 
@@ -75,7 +77,8 @@ def engagement(
     walls = outlines(boundary, "boundary")
     material = walls if stock is None else outlines(stock, "stock")
     radius = number_of(tool_radius, "tool_radius")
-    found = _engine.engagement(given, radius, material, walls, progress=progress, cancel=cancel)
+    before = cleared_paths(cleared)
+    found = _engine.engagement(given, radius, material, walls, before, progress=progress, cancel=cancel)
     return [
         RunEngagement(kind, rows[:, :2], rows[:, 2], np.degrees(rows[:, 3]), rows[:, 4])
         for (_, kind), rows in zip(given, found, strict=True)
@@ -89,6 +92,23 @@ def _run(number: int, run: Any) -> tuple[FloatArray, str]:  # noqa: ANN401  # wh
             return plane_points(points, name), kind
         case _:
             raise refused(name, run, 'points and a kind, like ([[0, 0], [10, 0]], "cut")', GeometryError)
+
+
+def cleared_paths(paths: Iterable[Any]) -> list[tuple[FloatArray, float]]:
+    """Paths of other tools, each with the tool's radius, mm.
+
+    Raises:
+        GeometryError: something else.
+    """
+    found = []
+    for number, path in enumerate(paths):
+        name = f"cleared[{number}]"
+        match path:
+            case (points, radius):
+                found.append((plane_points(points, name), number_of(radius, f"{name}.radius")))
+            case _:
+                raise refused(name, path, "points and a tool's radius, like ([[0, 0], [10, 0]], 5.0)", GeometryError)
+    return found
 
 
 def plane_points(values: Any, name: str) -> FloatArray:  # noqa: ANN401  # whatever was given

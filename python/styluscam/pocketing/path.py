@@ -47,6 +47,13 @@ class PocketPath:
     """What of the stock the tool can reach, corners rounded by its radius and the smoothing radius, mm^2."""
     uncleared_area: float
     """What of that the planner did not clear, mm^2."""
+    tool_radius: float
+    """mm."""
+
+    @property
+    def cleared(self) -> list[tuple[FloatArray, float]]:
+        """The points of all runs on which the tool is at depth, each with its radius: what a smaller tool finds cleared."""
+        return [(points, self.tool_radius) for points, kind in self.runs if kind != "rapid"]
 
     @property
     def engagement_max_deg(self) -> float:
@@ -75,6 +82,7 @@ def pocket_path(
     smoothing_radius: float | None = None,
     open_edges: Sequence[int] = (),
     stock: npt.ArrayLike | Sequence[npt.ArrayLike] | None = None,
+    rest_of: PocketPath | Sequence[PocketPath] = (),
     direction: str = "climb",
     progress: Progress | None = None,
     cancel: _engine.CancelToken | None = None,
@@ -94,6 +102,7 @@ def pocket_path(
             rounded by the tool's radius and as much more; necks narrower than twice that sum are not cleared.
         open_edges: numbers of the boundary's edges beyond which is air.
         stock: outline of the material, or several; None: all of the pocket.
+        rest_of: paths of larger tools that ran before: only what they leave is cleared.
         direction: ``"climb"`` or ``"conventional"``, for a spindle that turns clockwise; ``"either"``: both, whichever has
             the shorter way.
         progress: called with phase and fraction; ``False`` cancels.
@@ -111,19 +120,22 @@ def pocket_path(
     smoothing = MSR * radius if smoothing_radius is None else number_of(smoothing_radius, "smoothing_radius")
     walls = [plane_points(boundary, "boundary"), *(plane_points(one, f"islands[{i}]") for i, one in enumerate(islands))]
     material = None if stock is None else outlines(stock, "stock")
-    runs, areas = _engine.pocket_path(
-        walls[0],
-        walls[1:],
-        [_edge(edge) for edge in open_edges],
-        material,
-        radius,
-        math.radians(bound),
-        smoothing,
-        direction,
-        progress=progress,
-        cancel=cancel,
+    before = [path for one in _paths(rest_of) for path in one.cleared]
+    ground = (walls[0], walls[1:], [_edge(edge) for edge in open_edges], material, before)
+    runs, (reachable, uncleared) = _engine.pocket_path(
+        *ground, radius, math.radians(bound), smoothing, direction, progress=progress, cancel=cancel
     )
-    return PocketPath(runs, engagement(runs, radius, material, walls, progress=progress, cancel=cancel), *areas)
+    measured = engagement(runs, radius, material, walls, cleared=before, progress=progress, cancel=cancel)
+    return PocketPath(runs, measured, reachable, uncleared, radius)
+
+
+def _paths(value: object) -> list[PocketPath]:
+    found: list[PocketPath] = []
+    for path in value if isinstance(value, list | tuple) else [value]:
+        if not isinstance(path, PocketPath):
+            raise refused("rest_of", path, "paths that pocket_path returned", GeometryError)
+        found.append(path)
+    return found
 
 
 def _edge(value: object) -> int:

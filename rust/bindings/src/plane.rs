@@ -2,8 +2,8 @@
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
-use styluscam_toolpath::pocket::{self, Pocket, PocketError, PocketRunKind, Shape};
-use styluscam_verify::{EngagementError, Ground, PlaneRun, PlaneRunKind, CHIP};
+use styluscam_toolpath::pocket::{self, Cleared, Pocket, PocketError, PocketRunKind, Shape};
+use styluscam_verify::{EngagementError, Ground, PlaneRun, PlaneRunKind, Swept, CHIP};
 
 use crate::{
     arrays, errors,
@@ -12,6 +12,9 @@ use crate::{
 
 /// Points (N, 3) of a run, each with the bulge of what begins there, and its kind.
 type RunArrays<'py> = (PyReadonlyArray2<'py, f64>, String);
+
+/// Points (N, 3) of a path that an earlier tool has cleared, and its radius.
+type ClearedArrays<'py> = (PyReadonlyArray2<'py, f64>, f64);
 
 /// The names of the kinds of runs.
 const KINDS: [(&str, PlaneRunKind); 4] = [
@@ -23,21 +26,24 @@ const KINDS: [(&str, PlaneRunKind); 4] = [
 
 /// The engagement at every measured position of each run: rows of x, y, length travelled, angle (rad), clearance (N, 5).
 #[pyfunction]
-#[pyo3(signature = (runs, tool_radius, stock, boundary, progress=None, cancel=None))]
-#[allow(clippy::needless_pass_by_value)] // PyO3 hands arrays by value
+#[pyo3(signature = (runs, tool_radius, stock, boundary, cleared, progress=None, cancel=None))]
+#[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)] // PyO3 hands arrays by value; one for each argument of Python's
 pub fn engagement<'py>(
     py: Python<'py>,
     runs: Vec<RunArrays<'py>>,
     tool_radius: f64,
     stock: Vec<PyReadonlyArray2<'py, f64>>,
     boundary: Vec<PyReadonlyArray2<'py, f64>>,
+    cleared: Vec<ClearedArrays<'py>>,
     progress: Option<&Bound<'py, PyAny>>,
     cancel: Option<&CancelToken>,
 ) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
     let runs = runs.iter().enumerate().map(|(number, run)| plane_run(number, run)).collect::<PyResult<Vec<_>>>()?;
     let stock = outlines(&stock, "stock")?;
     let pocket = outlines(&boundary, "boundary")?;
-    let ground = Ground { radius: tool_radius, stock: &stock, pocket: &pocket, chip: CHIP };
+    let cleared = cleared_paths(&cleared)?;
+    let cleared: Vec<Swept> = cleared.into_iter().map(|(points, radius)| Swept { points, radius }).collect();
+    let ground = Ground { radius: tool_radius, stock: &stock, pocket: &pocket, cleared: &cleared, chip: CHIP };
     let found = watched(py, progress, cancel, |watch| styluscam_verify::engagement(&runs, &ground, watch))?;
     let found = found.map_err(|error| of_engagement(&error))?;
     let rows = found.into_iter().map(|run| {
@@ -58,6 +64,13 @@ fn plane_run(number: usize, (points, kind): &RunArrays<'_>) -> PyResult<PlaneRun
     Ok(PlaneRun { points: arrays::rows::<f64, 3>(points, &name)?, kind: *found })
 }
 
+fn cleared_paths(paths: &[ClearedArrays<'_>]) -> PyResult<Vec<(Vec<[f64; 3]>, f64)>> {
+    let rows = |(number, (points, radius)): (usize, &ClearedArrays<'_>)| {
+        Ok((arrays::rows::<f64, 3>(points, &format!("cleared[{number}]"))?, *radius))
+    };
+    paths.iter().enumerate().map(rows).collect()
+}
+
 /// Points (N, 3) of outlines.
 fn outlines(arrays: &[PyReadonlyArray2<'_, f64>], name: &str) -> PyResult<Vec<Vec<[f64; 3]>>> {
     let rows = |(number, array)| arrays::rows::<f64, 3>(array, &format!("{name}[{number}]"));
@@ -76,7 +89,7 @@ type PathArrays<'py> = (Vec<(Bound<'py, PyArray2<f64>>, &'static str)>, [f64; 2]
 
 /// A path that clears a pocket: points (N, 3) with bulges and kind of each run; the area that can be cleared and what of it is left, mm^2.
 #[pyfunction]
-#[pyo3(signature = (boundary, islands, open_edges, stock, tool_radius, angle, smoothing, direction, progress=None, cancel=None))]
+#[pyo3(signature = (boundary, islands, open_edges, stock, cleared, tool_radius, angle, smoothing, direction, progress=None, cancel=None))]
 #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)] // PyO3 hands arrays by value; one for each argument of Python's
 pub fn pocket_path<'py>(
     py: Python<'py>,
@@ -84,6 +97,7 @@ pub fn pocket_path<'py>(
     islands: Vec<PyReadonlyArray2<'py, f64>>,
     open_edges: Vec<usize>,
     stock: Option<Vec<PyReadonlyArray2<'py, f64>>>,
+    cleared: Vec<ClearedArrays<'py>>,
     tool_radius: f64,
     angle: f64,
     smoothing: f64,
@@ -96,6 +110,8 @@ pub fn pocket_path<'py>(
     let stock = stock.map(|stock| outlines(&stock, "stock")).transpose()?;
     let shape =
         Shape::Walls { boundary: &boundary, islands: &islands, open_edges: &open_edges, stock: stock.as_deref() };
+    let cleared = cleared_paths(&cleared)?;
+    let cleared: Vec<Cleared> = cleared.into_iter().map(|(points, radius)| Cleared { points, radius }).collect();
     let asked = Pocket {
         shape,
         radius: tool_radius,
@@ -103,6 +119,7 @@ pub fn pocket_path<'py>(
         smoothing,
         leave: 0.0,
         finish: 0.0,
+        cleared: &cleared,
         climb: direction != "conventional",
         two_way: direction == "either",
     };

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use styluscam_motion::Watch;
 
-use crate::operations::Context;
+use crate::operations::{Before, Context};
 use crate::resolve::{descent_of, faces_of, heights_of, region_of, tools};
 use crate::{check, clamp, die, forming, shaping, spindle, JobDocument, JobError, MAIN_CHANNEL};
 
@@ -48,6 +48,7 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
     let tools = tools(job)?;
     shaping::fits(job, scene)?;
     let mut channel = Channel::empty(job, scene);
+    let mut before = Vec::new();
     let of_stage = |stage| job.operations_of(scene.channel).map(move |operation| (stage, operation));
     for (scene, (index, section)) in scene.stages.iter().chain([scene]).flat_map(of_stage) {
         let path = format!("operations[{index}]");
@@ -65,6 +66,7 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
             region: region_of(job, scene, section, index, &faces)?,
             faces,
             heights: heights_of(job, scene, section),
+            before: Before { moves: &channel.program.moves, tools: &before },
             watch,
         };
         let selected = scene.facing_up(&context.faces);
@@ -85,6 +87,7 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
             record,
             Added { planned, turns, lines, frame, wait: None },
         );
+        before.push(tool);
     }
     channel.end(job);
     Ok(channel)

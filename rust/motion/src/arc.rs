@@ -139,6 +139,16 @@ impl ArcPath {
         self.sweep
     }
 
+    /// The tangent of a quarter of the angle, as seen from above, positive to the left: 0 where it turns about another axis than Z and
+    /// is straight from there.
+    #[must_use]
+    pub fn bulge(&self) -> f64 {
+        match self.axes {
+            [0, 1, 2] => libm::tan(0.25 * self.sweep),
+            _ => 0.0,
+        }
+    }
+
     /// The larger distance from the centre, mm.
     #[must_use]
     pub fn radius(&self) -> f64 {

@@ -98,6 +98,8 @@ pub struct Clearing {
     pub left: [f64; 2],
     /// A hole through the stock: its axis in plan and its radius, mm.
     pub hole: Option<([f64; 2], f64)>,
+    /// Whether what the operations before it sweep is no stock any more.
+    pub rest: bool,
     /// The most that the last layer over a floor is to take, mm; infinite where it is a layer like the others.
     pub last_layer: f64,
 }

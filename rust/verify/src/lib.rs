@@ -86,7 +86,9 @@ mod walls_beside;
 mod words;
 
 pub use coverage::{coverage, left, needs, FaceCoverage};
-pub use engagement::{engagement, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, CHIP};
+pub use engagement::{
+    engagement, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept, CHIP,
+};
 pub use expectation::{Clearing, Contact, Expectation, ExpectedOperation, Layers, OrderedPasses, Passes};
 pub use findings::{Finding, FindingKind, Severity};
 pub use flank::{clearance_of_tool, left_by_flank, FlankShape};

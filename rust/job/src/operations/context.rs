@@ -5,6 +5,7 @@ use styluscam_motion::Watch;
 use styluscam_post::Machine;
 use styluscam_toolpath::PlanError;
 
+use super::before::Before;
 use crate::heights::TipHeights;
 use crate::region::OperationRegion;
 use crate::{JobError, OperationKeys, Scene};
@@ -31,6 +32,8 @@ pub struct Context<'a> {
     pub(crate) region: OperationRegion,
     /// Between which heights its tip stays.
     pub(crate) heights: TipHeights,
+    /// What the operations before it do.
+    pub(crate) before: Before<'a>,
     /// Progress and cancelling.
     pub watch: &'a Watch,
 }

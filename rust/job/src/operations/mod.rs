@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::tagged::{self, kinds, Family};
 use crate::MAIN_CHANNEL;
 
+mod before;
 pub(crate) mod budget;
 mod context;
 mod corners;
@@ -27,6 +28,7 @@ mod surface;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use before::Before;
 pub use context::Context;
 pub use effort::{Areas, Effort};
 pub(crate) use facts::counted;

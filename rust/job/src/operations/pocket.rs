@@ -6,7 +6,7 @@ use styluscam_motion::{Arc, Move, MoveKind, Role};
 use styluscam_toolpath::forming::{levels, selected_range, with_levels_at, z_levels, Floors, Grid, LevelRange};
 use styluscam_toolpath::offset::Envelope;
 use styluscam_toolpath::pocket::{
-    pocket_path, segments, CentreArea, Layer, Pocket as Asked, PocketError, PocketRunKind, Shape,
+    pocket_path, segments, CentreArea, Layer, Pocket as Asked, PocketError, PocketPath, PocketRunKind, Shape,
 };
 use styluscam_toolpath::{Heights, Pass, PlanError, Rates, Segment, Sense, Surface};
 use styluscam_verify::{Clearing, Contact, Passes};
@@ -67,7 +67,7 @@ impl EntryHole {
 }
 
 /// Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
-/// Stock is the part's box, as high as the part. Entries are helices.
+/// Stock is the part's box, as high as the part, or what the operations before leave of it. Entries are helices.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Pocket {
@@ -103,6 +103,10 @@ pub struct Pocket {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-example" = "{ x = 10.0, y = 8.0, diameter = 6.0 }"))]
     pub entry_hole: Option<EntryHole>,
+    /// Whether only what the operations before leave is cleared, such as the corners that a larger tool does not reach; else the whole box
+    /// is stock.
+    #[serde(default)]
+    pub rest_machining: bool,
     /// Angle of the helices down into the material, degrees.
     #[serde(default = "entry_angle")]
     #[schemars(extend("x-unit" = "deg", "minimum" = 0.1, "maximum" = 30.0))]
@@ -206,6 +210,11 @@ impl OperationKind for Pocket {
         let surface = Surface::new(&envelope, &selected);
         let layers = self.layers(context, &surface, budget.deviation).map_err(|error| context.error(error))?;
         self.check_hole(context)?;
+        if self.rest_machining && context.before.is_empty() {
+            let message = "no operation comes before this one that leaves anything";
+            let hint = "put an operation with a larger tool before it, or remove rest_machining";
+            return Err(JobError::document("conflict", format!("{}.rest_machining", context.path), message, hint));
+        }
         let mut cleared = Cleared::default();
         for (layer, outlines) in &layers {
             let before = cleared.areas;
@@ -213,7 +222,10 @@ impl OperationKind for Pocket {
             cleared.levels += usize::from(cleared.areas > before);
         }
         if cleared.moves.is_empty() {
-            let words = " where stock is left: check the faces, z_top, z_bottom and the tool's size";
+            let words = match self.rest_machining {
+                true => " where the operations before leave stock: check their tools, the faces, z_top and z_bottom",
+                false => " where stock is left: check the faces, z_top, z_bottom and the tool's size",
+            };
             return Err(context.error(PlanError::NothingReached(words.to_owned())));
         }
         if let (Some(hole), 0) = (self.entry_hole, cleared.holes) {
@@ -245,6 +257,7 @@ impl OperationKind for Pocket {
             pitch: self.step.pitch(StepLimits::default(), given.top, given.body),
             left: self.left(),
             hole: self.entry_hole.map(|hole| ([hole.x, hole.y], 0.5 * hole.diameter)),
+            rest: self.rest_machining,
             last_layer: Some(self.finished()[1]).filter(|taken| *taken > 0.0).unwrap_or(f64::INFINITY),
         })
     }
@@ -323,6 +336,16 @@ impl Pocket {
         Err(Self::hole_error(hole, context, "the hole is not within the stock"))
     }
 
+    /// Whether an area that holds the hole begins in it; refused where it holds it and does not.
+    fn begins_in_hole(&self, context: &Context<'_>, area: &CentreArea, path: &PocketPath) -> Result<bool, JobError> {
+        let Some(hole) = self.entry_hole.filter(|hole| area.holds([hole.x, hole.y])) else { return Ok(false) };
+        if path.runs.first().is_some_and(|run| run.kind == PocketRunKind::Entry) {
+            let why = "the tool cannot begin in the hole: it is too near to a wall";
+            return Err(Self::hole_error(hole, context, why));
+        }
+        Ok(true)
+    }
+
     fn hole_error(hole: EntryHole, context: &Context<'_>, why: &str) -> JobError {
         let message = format!("{why} (X{} Y{}, {} mm)", shown(hole.x), shown(hole.y), shown(hole.diameter));
         let hint = "move it to where the pocket is widest, or remove entry_hole: then helices go down";
@@ -345,6 +368,7 @@ impl Pocket {
         let all: Vec<Vec<[f64; 3]>> = outlines.iter().cloned().chain([air]).collect();
         let direction = sense(common, true);
         let arcs = common.fit == Fit::Arcs && machine.arc.is_some();
+        let before = if self.rest_machining { context.before.cleared([top, floor]) } else { Vec::new() };
         for area in CentreArea::parted(&all).iter().filter(|area| is_over_selected(surface, area, floor, radius)) {
             let asked = Asked {
                 shape: Shape::Centres { outlines: &area.outlines, stock: &stock },
@@ -353,6 +377,7 @@ impl Pocket {
                 smoothing: self.smoothing(0.5 * tool.diameter()),
                 leave: self.left()[0],
                 finish: self.finished()[0],
+                cleared: &before,
                 climb: direction != Sense::Reversed,
                 two_way: direction == Sense::Alternate,
             };
@@ -369,16 +394,7 @@ impl Pocket {
                     return Err(JobError::document(error.code(), at, error.to_string(), "correct it"));
                 }
             };
-            if let Some(hole) = self.entry_hole.filter(|hole| area.holds([hole.x, hole.y])) {
-                if path.runs.first().is_some_and(|run| run.kind == PocketRunKind::Entry) {
-                    return Err(Self::hole_error(
-                        hole,
-                        context,
-                        "the tool cannot begin in the hole: it is too near to a wall",
-                    ));
-                }
-                cleared.holes += 1;
-            }
+            cleared.holes += usize::from(self.begins_in_hole(context, area, &path)?);
             let takes = |ends: [[f64; 3]; 2], arc: &Arc| {
                 arcs && machine.arc.as_ref().is_some_and(|rules| rules.planes.contains(&arc.plane))
                     && machine.posts_arc(ends, arc, reference_height)

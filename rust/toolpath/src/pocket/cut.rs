@@ -37,7 +37,7 @@ pub fn left_of(kernel: &Kernel, material: &Material, cuts: &[Cut]) -> Material {
 }
 
 /// The areas that are thicker than chips that do not count.
-fn without_slivers(area: Polygons) -> Polygons {
+pub fn without_slivers(area: Polygons) -> Polygons {
     let is_thick = |contour: &Vec<Point>| {
         let round: f64 = sides(contour).map(|(a, b)| libm::hypot(b[0] - a[0], b[1] - a[1])).sum();
         2.0 * signed_area(contour).abs() > SHALLOWEST * round

@@ -2,10 +2,11 @@
 
 use styluscam_geometry::PlanePiece;
 
+use super::cut::without_slivers;
 use super::error::PocketError;
 use super::growth::WALL;
 use super::polygons::{signed_area, Kernel, Point, Polygons};
-use super::request::{Pocket, Shape};
+use super::request::{Cleared, Pocket, Shape};
 
 /// Coordinates lie within this, mm: on the grid of the booleans that leaves 4 nm.
 const FARTHEST: f64 = 2000.0;
@@ -14,6 +15,10 @@ const GAP: f64 = 3e-3;
 /// What of the goal's rim is not looked for, mm: no more than chords are off. A rim that comes to a wall is nearly along it, and of a strip of
 /// 1 um there would meet a degree and a half that nobody had counted.
 const RIM: f64 = 2e-4;
+/// Chips thinner than this do not count, mm (docs/concepts/engagement.md).
+const CHIP: f64 = 1e-3;
+/// Chords of an earlier tool's path whose sweep is found at once.
+const TOGETHER: usize = 48;
 /// How far the tool's centre may go beyond an open edge, in tool radii: so far that it is free of the material there.
 const BEYOND: f64 = 2.5;
 /// How far discs may reach there, which only say where the tool is permitted to cut: the largest fits, with what it keeps from the material.
@@ -72,11 +77,23 @@ impl Ground {
             let chords: Vec<Vec<Point>> = stock.iter().map(|outline| chords(outline)).collect();
             goal = kernel.intersection(&goal, &kernel.even_odd(&chords));
         }
+        let swept: Vec<Vec<Point>> = pocket.cleared.iter().flat_map(|path| swept(&kernel, path)).collect();
+        if !swept.is_empty() {
+            goal = without_slivers(kernel.difference(&goal, &kernel.union_all(&swept)));
+        }
         if goal.is_empty() {
             return Err(PocketError::Empty);
         }
         Ok(Self { kernel, free, discs, goal })
     }
+}
+
+/// What an earlier tool swept, in outlines: wider by a chip that does not count.
+fn swept(kernel: &Kernel, path: &Cleared) -> Vec<Vec<Point>> {
+    let chords = path_chords(&path.points);
+    let starts = (0..chords.len().saturating_sub(1)).step_by(TOGETHER);
+    let parts = starts.filter_map(|from| chords.get(from..chords.len().min(from + TOGETHER + 1)));
+    parts.flat_map(|part| kernel.sweep(part, path.radius + CHIP, WALL).contours).collect()
 }
 
 /// The pocket without its islands.
@@ -187,6 +204,13 @@ fn check(pocket: &Pocket<'_>) -> Result<(), PocketError> {
     number("smoothing_radius", pocket.smoothing, (0.01..=10.0).contains(&share), "0.01 to 10 tool radii")?;
     number("leave", pocket.leave, (0.0..=100.0).contains(&pocket.leave), "0 to 100 mm")?;
     number("finish", pocket.finish, (0.0..=r).contains(&pocket.finish), "0 to the tool's radius")?;
+    for (i, path) in pocket.cleared.iter().enumerate() {
+        let key = format!("cleared[{i}]");
+        number(&key, path.radius, (0.0..=FARTHEST).contains(&path.radius), "a tool's radius up to 2000 mm")?;
+        for value in path.points.iter().flatten() {
+            number(&key, *value, value.abs() <= FARTHEST, "finite numbers within +/-2000")?;
+        }
+    }
     let stock = pocket.shape.stock().unwrap_or(&[]).iter().enumerate();
     let stock = stock.map(|(i, outline)| (format!("stock[{i}]"), outline.as_slice()));
     let outlines = pocket.shape.outlines().into_iter().chain(stock);

@@ -36,7 +36,7 @@ use styluscam_motion::Watch;
 pub use areas::CentreArea;
 pub use error::PocketError;
 pub use moves::{segments, Layer};
-pub use request::{Pocket, PocketPath, PocketRun, PocketRunKind, Shape};
+pub use request::{Cleared, Pocket, PocketPath, PocketRun, PocketRunKind, Shape};
 
 /// Plans the path.
 ///
@@ -49,7 +49,9 @@ pub fn pocket_path(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, Poc
     // the other way round is climb milling of the mirrored pocket
     let all = |outlines: &[Vec<[f64; 3]>]| outlines.iter().map(|outline| mirrored(outline)).collect::<Vec<_>>();
     let stock = pocket.shape.stock().map(all);
-    let there = Pocket { climb: true, ..*pocket };
+    let cleared = |path: &Cleared| Cleared { points: mirrored(&path.points), radius: path.radius };
+    let cleared: Vec<Cleared> = pocket.cleared.iter().map(cleared).collect();
+    let there = Pocket { climb: true, cleared: &cleared, ..*pocket };
     let mut path = match pocket.shape {
         Shape::Walls { boundary, islands, open_edges, .. } => {
             let (boundary, islands) = (mirrored(boundary), all(islands));

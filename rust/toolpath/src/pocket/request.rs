@@ -15,10 +15,21 @@ pub struct Pocket<'a> {
     pub leave: f64,
     /// What the passes leave of that for one along the walls at the end, mm; 0 where there is none.
     pub finish: f64,
+    /// What larger tools have cleared before.
+    pub cleared: &'a [Cleared],
     /// Whether the material is right of the tool (climb milling, spindle clockwise), or left.
     pub climb: bool,
     /// Whether pieces may be cut in both directions, whichever has the shorter way.
     pub two_way: bool,
+}
+
+/// A path along which a tool has cleared the material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cleared {
+    /// Points (x, y, bulge of what begins there), mm.
+    pub points: Vec<[f64; 3]>,
+    /// The tool's radius, mm.
+    pub radius: f64,
 }
 
 /// Where the tool may go: outlines are points (x, y, bulge of the edge that begins there), mm.

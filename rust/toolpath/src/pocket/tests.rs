@@ -25,6 +25,7 @@ fn pocket(boundary: &[[f64; 3]]) -> Pocket<'_> {
         angle: PI / 3.0,
         smoothing: 0.125,
         climb: true,
+        cleared: &[],
         two_way: false,
     }
 }

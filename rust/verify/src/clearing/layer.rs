@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use styluscam_geometry::PlanePiece;
 use styluscam_motion::{Cancelled, Watch};
 
-use crate::engagement::{engagement, EngagementError, Ground, PlaneRun, PlaneRunKind};
+use crate::engagement::{engagement, Cleared, EngagementError, Ground, PlaneRun, PlaneRunKind, Swept};
 use crate::expectation::{Clearing, ExpectedOperation};
 use crate::faults::{self, Fault};
 use crate::segments::{Segment, SegmentKind};
@@ -29,6 +29,9 @@ pub(super) struct Layer<'a> {
     pub radius: f64,
     /// Thickness of chips that count, mm.
     pub chip: f64,
+    /// What was swept in it before.
+    pub cleared: &'a [Swept],
+    pub gone: &'a Cleared,
     pub clearing: &'a Clearing,
     pub operation: &'a ExpectedOperation,
 }
@@ -57,7 +60,8 @@ impl Layer<'_> {
             own.iter().filter_map(|segment| Some((*segment, self.doing(segment)?))).collect();
         let runs: Vec<PlaneRun> = inside.iter().map(|(segment, doing)| run(segment, *doing)).collect();
         let stock = self.stock(subject);
-        let ground = Ground { radius: self.radius, stock: &stock, pocket: &stock, chip: self.chip };
+        let ground =
+            Ground { radius: self.radius, stock: &stock, pocket: &stock, cleared: self.cleared, chip: self.chip };
         let found = match engagement(&runs, &ground, watch) {
             Ok(found) => found,
             Err(EngagementError::Cancelled) => return Err(Cancelled),
@@ -84,7 +88,8 @@ impl Layer<'_> {
     pub fn is_stock(&self, [x, y]: [f64; 2], subject: &Subject) -> bool {
         let (low, high) = subject.mesh.bounds();
         let is_drilled = |([u, v], radius): ([f64; 2], f64)| libm::hypot(x - u, y - v) < radius;
-        (low.x..=high.x).contains(&x) && (low.y..=high.y).contains(&y) && !self.clearing.hole.is_some_and(is_drilled)
+        let is_in_box = (low.x..=high.x).contains(&x) && (low.y..=high.y).contains(&y);
+        is_in_box && !self.clearing.hole.is_some_and(is_drilled) && !self.gone.holds([x, y])
     }
 
     fn fault(&self, segment: &Segment, doing: Doing, angle: f64) -> Option<Fault> {
@@ -131,7 +136,7 @@ fn run(segment: &Segment, doing: Doing) -> PlaneRun {
     let mut points = vec![[start[0], start[1], 0.0]];
     for piece in segment.pieces() {
         if let Some(last) = points.last_mut() {
-            last[2] = piece.bend.map_or(0.0, |bend| libm::tan(0.25 * bend.sweep()));
+            last[2] = piece.bend.map_or(0.0, |bend| bend.bulge());
         }
         points.push([piece.end[0], piece.end[1], 0.0]);
     }

@@ -2,10 +2,11 @@
 //!
 //! An operation that clears works in layers: each lies between the heights of two of its level passes, the first between
 //! the stock's top and the first of them. A layer is looked at in the plane just below its top, with the tool's radius there. The
-//! stock is the part's box; what no move of the layer has swept stands. What is measured there is the engagement angle
+//! stock is the part's box, of rest machining without what the operations before have swept; what no move of the layer has swept stands. What is measured there is the engagement angle
 //! ([`crate::engagement`]); what is looked for is stock that a tool could have cleared (`rest`), by positions at which the tool is found
 //! free of the part. Both know nothing of how the path was planned.
 
+mod before;
 mod beside;
 mod layer;
 mod rest;
@@ -15,6 +16,7 @@ use styluscam_motion::{Cancelled, Watch};
 
 use crate::assignment::Assignment;
 use crate::body::Body;
+use crate::engagement::Cleared;
 use crate::expectation::{Clearing, ExpectedOperation};
 use crate::faults::Fault;
 use crate::findings::{Finding, FindingKind, Severity};
@@ -42,11 +44,15 @@ pub(crate) fn judged(
         let own: Vec<&Segment> =
             segments.iter().filter(|segment| assignment.is(segment.operation, operation)).collect();
         let Some(tool) = subject.tools.get(operation.tool).filter(|_| !own.is_empty()) else { continue };
+        let before = before::of(segments, &own, clearing);
         let heights = heights(&own, clearing.top);
         let body = Body::new(tool, subject.sheet.as_ref());
         let mut top = clearing.top;
         for floor in &heights {
+            let cleared = before::cleared(&before, [top, *floor], subject);
             let layer = Layer {
+                cleared: &cleared,
+                gone: &Cleared::new(&cleared, 0.0),
                 top,
                 floor: *floor,
                 radius: tool.cutter().at_height(top - floor).0,

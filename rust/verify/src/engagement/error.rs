@@ -83,6 +83,14 @@ pub fn check(runs: &[PlaneRun], ground: &Ground<'_>) -> Result<(), EngagementErr
     for (number, run) in runs.iter().enumerate() {
         points(&format!("runs[{number}]"), &run.points)?;
     }
+    for (number, swept) in ground.cleared.iter().enumerate() {
+        let key = format!("cleared[{number}]");
+        points(&key, &swept.points)?;
+        if !(0.0..=FARTHEST).contains(&swept.radius) {
+            let key = format!("{key}.radius");
+            return Err(EngagementError::Number { key, value: swept.radius, allowed: "a radius from 0 to 1e6 mm" });
+        }
+    }
     for (name, outlines) in [("stock", ground.stock), ("boundary", ground.pocket)] {
         for (number, outline) in outlines.iter().enumerate() {
             let key = format!("{name}[{number}]");

@@ -16,6 +16,7 @@
 
 mod area;
 mod cells;
+mod cleared;
 mod error;
 mod open;
 mod rim;
@@ -28,9 +29,10 @@ mod tests;
 use styluscam_motion::Watch;
 
 pub use error::EngagementError;
-pub use runs::{Engaged, Ground, PlaneRun, PlaneRunKind, RunEngagement, CHIP};
+pub use runs::{Engaged, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept, CHIP};
 
 pub(crate) use cells::Cells;
+pub(crate) use cleared::Cleared;
 
 /// The engagement along every run of a path, in the order in which they are cut.
 ///

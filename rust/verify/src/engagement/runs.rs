@@ -1,5 +1,7 @@
 //! What is measured, and what comes of it: plane paths, what they cut, the angle at every position.
 
+use styluscam_geometry::PlanePiece;
+
 /// Thickness of a chip from which it counts, mm.
 pub const CHIP: f64 = 1e-3;
 /// Length of a step, in radii of the tool.
@@ -58,6 +60,30 @@ pub struct Ground<'a> {
     pub stock: &'a [Vec<[f64; 3]>],
     /// Outlines of the pocket, mm.
     pub pocket: &'a [Vec<[f64; 3]>],
+    /// What was swept before the path, with other tools.
+    pub cleared: &'a [Swept],
     /// Thickness of a chip from which it counts, mm: [`CHIP`], and more where positions are rounded.
     pub chip: f64,
+}
+
+/// A path along which a tool has been.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Swept {
+    /// Points (x, y, bulge of the piece that begins there), mm; a single one is a tool let down there.
+    pub points: Vec<[f64; 3]>,
+    /// The tool's radius, mm.
+    pub radius: f64,
+}
+
+impl Swept {
+    /// What the tool's centre passes.
+    #[must_use]
+    pub fn pieces(&self) -> Vec<PlanePiece> {
+        let pieces = PlanePiece::path(&self.points);
+        if !pieces.is_empty() {
+            return pieces;
+        }
+        let still = self.points.first().map(|[x, y, _]| PlanePiece::new([*x, *y], [*x, *y], 0.0));
+        still.into_iter().collect()
+    }
 }

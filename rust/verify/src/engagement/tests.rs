@@ -19,7 +19,8 @@ fn run(points: Vec<[f64; 3]>, kind: PlaneRunKind) -> PlaneRun {
 }
 
 fn measured(runs: &[PlaneRun], radius: f64, outline: &[Vec<[f64; 3]>]) -> Vec<RunEngagement> {
-    engagement(runs, &Ground { radius, stock: outline, pocket: outline, chip: CHIP }, &Watch::default()).unwrap()
+    engagement(runs, &Ground { radius, stock: outline, pocket: outline, cleared: &[], chip: CHIP }, &Watch::default())
+        .unwrap()
 }
 
 /// Largest angle of a run, deg.
@@ -145,14 +146,18 @@ fn short_chords_engage_as_the_arc_that_they_follow() {
 #[test]
 fn what_is_no_path_is_refused_by_name() {
     let outline = vec![rectangle(10.0, 10.0)];
-    let ground = |radius| Ground { radius, stock: &outline, pocket: &outline, chip: CHIP };
+    let ground = |radius| Ground { radius, stock: &outline, pocket: &outline, cleared: &[], chip: CHIP };
     let watch = Watch::default();
     let cut = |x| [run(vec![[0.0, 0.0, 0.0], [x, 0.0, 0.0]], PlaneRunKind::Cut)];
     let code = |runs: &[PlaneRun], radius| engagement(runs, &ground(radius), &watch).unwrap_err().key().to_owned();
     assert_eq!(code(&cut(f64::NAN), 1.0), "runs[0][1]");
     assert_eq!(code(&cut(1.0), 0.0), "tool_radius");
     let line = vec![rectangle(1.0, 1.0), vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]];
-    let found = engagement(&cut(1.0), &Ground { radius: 1.0, stock: &outline, pocket: &line, chip: CHIP }, &watch);
+    let found = engagement(
+        &cut(1.0),
+        &Ground { radius: 1.0, stock: &outline, pocket: &line, cleared: &[], chip: CHIP },
+        &watch,
+    );
     assert_eq!(found, Err(EngagementError::Outline { key: "boundary[1]".to_owned(), count: 2 }));
     watch.cancel();
     assert_eq!(engagement(&cut(1.0), &ground(1.0), &watch), Err(EngagementError::Cancelled));

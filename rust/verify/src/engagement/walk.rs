@@ -8,6 +8,7 @@ use styluscam_motion::Watch;
 
 use super::area::Area;
 use super::cells::Cells;
+use super::cleared::Cleared;
 use super::error::EngagementError;
 use super::open::Open;
 use super::rim::Rim;
@@ -28,6 +29,7 @@ pub struct Walk {
     pocket: Area,
     swept: Vec<PlanePiece>,
     near: Cells,
+    cleared: Cleared,
     /// Pieces that are recent still, with the length of the path up to their end.
     pending: VecDeque<(PlanePiece, f64)>,
     /// Length of the path so far, mm.
@@ -48,6 +50,7 @@ impl Walk {
             pocket: Area::new(ground.pocket, 2.0 * radius),
             swept: Vec::new(),
             near: Cells::new(0.5 * radius, 2.0 * radius),
+            cleared: Cleared::new(ground.cleared, radius + ground.chip),
             pending: VecDeque::new(),
             travelled: 0.0,
             behind: 0.0,
@@ -169,6 +172,12 @@ impl Walk {
             if let Some(piece) = self.swept.get(*number as usize) {
                 self.open.keep(|interval, left| rim.outside_sweep(interval, piece, thicker, scratch, left));
             }
+        }
+        for (piece, radius) in self.cleared.near(at) {
+            if self.open.is_empty() {
+                break;
+            }
+            self.open.keep(|interval, left| rim.outside_sweep(interval, piece, radius + self.chip, scratch, left));
         }
         for area in [&self.pocket, &self.stock] {
             if !self.open.is_empty() {

@@ -242,7 +242,7 @@ meridian: The path along the part's meridian, from the axis outwards, in X and Z
 surfaces of revolution about X = Y = 0, which is measured, with a tool that stands parallel to that axis. `feeds.cut` follows from
 the feed per revolution and the spindle's speed.
 pocket: Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
-Stock is the part's box, as high as the part. Entries are helices.</source>
+Stock is the part's box, as high as the part, or what the operations before leave of it. Entries are helices.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -394,6 +394,11 @@ arcs: Arcs and lines, of which fewer are needed; lines where the machine has no 
         <source>Where passes may run: inside edges in plan, and on contacts of some slopes.
 As JSON
 0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Whether only what the operations before leave is cleared, such as the corners that a larger tool does not reach; else the whole box
+is stock.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -662,7 +667,7 @@ Range: 0 to 80 deg</source>
     </message>
     <message>
         <source>Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
-Stock is the part's box, as high as the part. Entries are helices.</source>
+Stock is the part's box, as high as the part, or what the operations before leave of it. Entries are helices.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1282,7 +1287,7 @@ meridian: The path along the part's meridian, from the axis outwards, in X and Z
 surfaces of revolution about X = Y = 0, which is measured, with a tool that stands parallel to that axis. `feeds.cut` follows from
 the feed per revolution and the spindle's speed.
 pocket: Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
-Stock is the part's box, as high as the part. Entries are helices.</source>
+Stock is the part's box, as high as the part, or what the operations before leave of it. Entries are helices.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1454,6 +1459,10 @@ Range: above 0 to 100 mm
     </message>
     <message>
         <source>Report</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Rest machining</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2009,6 +2018,11 @@ arcs: Arcs and lines, of which fewer are needed; lines where the machine has no 
         <source>Where passes may run: inside edges in plan, and on contacts of some slopes.
 As JSON
 0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Whether only what the operations before leave is cleared, such as the corners that a larger tool does not reach; else the whole box
+is stock.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>

@@ -1,0 +1,73 @@
+//! What the operations before one do, and what of a layer of stock they have cleared.
+
+use std::f64::consts::PI;
+
+use styluscam_geometry::Tool;
+use styluscam_motion::{Move, MoveKind};
+use styluscam_toolpath::pocket::Cleared;
+
+/// The largest angle of one piece of an arc, rad.
+const TURN: f64 = 0.5 * PI;
+/// Heights that differ by less are one, mm.
+const SAME_LEVEL: f64 = 1e-6;
+
+/// The operations before one, in the order in which they run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Before<'a> {
+    /// Their moves.
+    pub moves: &'a [Move],
+    /// The tool of each operation.
+    pub tools: &'a [&'a Tool],
+}
+
+impl Before<'_> {
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.tools.is_empty()
+    }
+
+    /// What they have cleared of a layer from `top` to `floor` (mm), as it looks under its top: the feed moves on which the tip is no
+    /// higher than the floor, joined, with the tool's radius under the layer's top.
+    pub fn cleared(&self, [top, floor]: [f64; 2]) -> Vec<Cleared> {
+        let mut cleared: Vec<Cleared> = Vec::new();
+        let mut end = None;
+        for pair in self.moves.windows(2) {
+            let [before, step] = pair else { continue };
+            let Some((points, highest)) = low(before.end.tip, step, floor) else { continue };
+            let Some(tool) = self.tools.get(step.operation as usize) else { continue };
+            let radius = tool.cutter().at_height(top - highest).0;
+            match cleared.last_mut().filter(|_| end == Some((before.end.tip, radius))) {
+                Some(path) => {
+                    path.points.pop();
+                    path.points.extend(points);
+                }
+                None => cleared.push(Cleared { points, radius }),
+            }
+            end = Some((step.end.tip, radius));
+        }
+        cleared
+    }
+}
+
+/// The points with bulges of a feed move no higher than a floor, as seen from above, and its greatest height, mm.
+fn low(start: [f64; 3], step: &Move, floor: f64) -> Option<(Vec<[f64; 3]>, f64)> {
+    let end = step.end.tip;
+    let is_low = |z: f64| z <= floor + SAME_LEVEL;
+    if step.kind != MoveKind::Feed || !is_low(start[2]) || !is_low(end[2]) {
+        return None;
+    }
+    let Some(path) = step.arc.map(|arc| arc.path(start, end)) else {
+        return Some((vec![[start[0], start[1], 0.0], [end[0], end[1], 0.0]], start[2].max(end[2])));
+    };
+    let highest = path.bounds().1[2];
+    let count = libm::ceil(path.sweep().abs() / TURN).max(1.0) as usize;
+    let share = |i: usize| i as f64 / count as f64;
+    let mut points: Vec<[f64; 3]> = (0..count)
+        .map(|i| {
+            let [x, y, _] = path.at(share(i));
+            [x, y, path.part(share(i), share(i + 1)).bulge()]
+        })
+        .collect();
+    points.push([end[0], end[1], 0.0]);
+    is_low(highest).then_some((points, highest))
+}
