@@ -22,7 +22,14 @@ RESULT = "RESULT "
 """What stands before the JSON document that a script prints."""
 
 
-def run(version: str, script: str, *args: str, python_path: Sequence[Path] = (), timeout: float = 1200.0) -> Any:
+def run(
+    version: str,
+    script: str,
+    *args: str,
+    python_path: Sequence[Path] = (),
+    writable: Sequence[Path] = (),
+    timeout: float = 1200.0,
+) -> Any:
     """The JSON document that the script prints in FreeCAD.
 
     Raises:
@@ -37,7 +44,7 @@ def run(version: str, script: str, *args: str, python_path: Sequence[Path] = (),
             *args,
             python_path=[engine, Path(__file__).parent, *python_path],
             mod_path=[CHECKOUT / "freecad_workbench"],
-            binds=[roots.Bind.same(Path(folder), writable=True)],
+            binds=[roots.Bind.same(one, writable=True) for one in (Path(folder), *writable)],
             timeout=timeout,
         )
     lines = [line.removeprefix(RESULT) for line in done.stdout.splitlines() if line.startswith(RESULT)]

@@ -102,6 +102,25 @@ def test_what_freecad_fills_is_no_property() -> None:
         assert (section, key) not in keys
 
 
+def test_keys_that_mean_nothing_to_a_kind_are_not_its() -> None:
+    found = by_name(sc.job_schema())
+    assert not found["Lead"].is_of("pocket") and found["Lead"].is_of("z-level") and found["Lead"].is_of("zig-zag")
+    assert found["Tolerance"].is_of("pocket") and found["Tolerance"].kinds is None
+    document = by_kind()
+    operation = document["$defs"]["Operation"]
+    for alternative in operation["oneOf"]:
+        alternative["properties"]["tolerance"] = {**alternative["properties"]["tolerance"], "x-not-of": ["rows"]}
+    assert by_name(document)["Tolerance"].kinds == ("levels", "wild")
+
+
+def test_a_kind_starts_with_its_own_example() -> None:
+    found = schema.JobSchema(sc.job_schema())
+    own = {field.name: field.default for field in fields.fields_of(found, "pocket")}
+    assert own["Step"] == {"height": 2.0}
+    assert by_name(sc.job_schema())["Step"].default == {"height": 0.5}
+    assert own.keys() == by_name(sc.job_schema()).keys()
+
+
 def test_defaults_and_choices_are_the_engines() -> None:
     found = by_name(sc.job_schema())
     assert found["Tolerance"].default == 0.005 and found["Process"].default == "spif"

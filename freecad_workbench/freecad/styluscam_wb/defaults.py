@@ -8,7 +8,7 @@ from typing import Any
 from PathScripts import PathUtils
 
 from . import ops, properties, setup_sheet
-from .fields import CHOICE, OPERATION, PATHS, PROCESS, Field, kind_field
+from .fields import CHOICE, OPERATION, PATHS, PROCESS, TAKES_SHEET, Field, kind_field
 from .stylus import PROFILE
 
 
@@ -19,9 +19,12 @@ def fill(obj: Any, kind: str) -> None:
     """
     job = PathUtils.findParentJob(obj)
     setattr(obj, kind_field(properties.fields(), OPERATION).name, kind)
+    stated = setup_sheet.stated(job)
+    for name, value in properties.of_kind(kind).items():
+        if name not in stated:
+            setattr(obj, name, value)
     others = [other for other in job.Operations.Group if ops.is_ours(other) and other != obj]
     known = next((other for other in others if properties.are_complete(other)), None)
-    stated = setup_sheet.stated(job)
     if known is not None:
         for name in properties.shared():
             setattr(obj, name, getattr(known, name))
@@ -59,5 +62,5 @@ def _process_for(controller: Any) -> str:
     """The first process on a sheet for a stylus, the first one without for a tool that turns."""
     is_stylus = controller is not None and hasattr(controller.Tool, PROFILE)
     kinds = properties.schema().table(*PATHS[PROCESS]).kinds
-    fitting = [kind.word for kind in kinds if bool(kind.stated.get(properties.TAKES_SHEET)) == is_stylus]
+    fitting = [kind.word for kind in kinds if bool(kind.stated.get(TAKES_SHEET)) == is_stylus]
     return fitting[0] if fitting else kinds[0].word

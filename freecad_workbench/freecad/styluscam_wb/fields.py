@@ -77,6 +77,9 @@ EXAMPLE = "x-example"
 ADVANCED = "x-advanced"
 """What the schema states of a key that is rarely changed."""
 
+TAKES_SHEET = "x-takes-sheet"
+"""What the schema states of a process that works on a sheet, and of a key that is for sheets alone."""
+
 SECONDS = 60.0
 """FreeCAD's speeds are mm/s, the document's mm/min."""
 
@@ -128,6 +131,8 @@ class Field:
     """A text that holds the value as JSON."""
     is_advanced: bool = False
     """Rarely changed."""
+    takes_sheet: bool = False
+    """For sheets alone."""
     range: Range | None = None
     """Of a number."""
     unit: str = ""
@@ -182,13 +187,15 @@ class Field:
             raise FieldError(f"{self.name} is not JSON ({error}): {text!r}") from error
 
 
-def fields_of(schema: JobSchema) -> tuple[Field, ...]:
-    """All properties, in the order of sections and keys."""
+def fields_of(schema: JobSchema, kind: str = "") -> tuple[Field, ...]:
+    """All properties, in the order of sections and keys; those of an operation's kind as that states them, where it is named."""
+    own = schema.tables(*PATHS[OPERATION])[kind].keys if kind else {}
     found = [
         field
         for section, path in PATHS.items()
         for table in [schema.table(*path)]
-        for key in table.keys.values()
+        for shared in table.keys.values()
+        for key in [own.get(shared.name, shared) if section == OPERATION and shared.name != KIND else shared]
         if key.name not in HOST[section]
         for field in _fields(section, table, key)
     ]
@@ -237,6 +244,7 @@ def _fields(section: str, table: Table, key: Key) -> list[Field]:
                 optional=optional,
                 is_json=is_list,
                 is_advanced=bool(entry.get(ADVANCED)),
+                takes_sheet=bool(entry.get(TAKES_SHEET)),
                 range=None if is_list else _range(merged),
                 unit=_unit(merged),
             )
@@ -262,6 +270,7 @@ def _field(section: str, key: Key, type_: str, *, is_json: bool) -> Field:
         optional=optional,
         is_json=is_json,
         is_advanced=bool(entry.get(ADVANCED)),
+        takes_sheet=bool(entry.get(TAKES_SHEET)),
         range=_range(entry),
         unit=_unit(entry),
         words=key.choices or key.item_choices,

@@ -8,7 +8,19 @@ from types import ModuleType
 from typing import Any
 
 from . import engine
-from .fields import CHOICE, JOB, OPERATION, PART, PATHS, PROCESS, SHEET, Field, FieldError, fields_of, kind_field
+from .fields import (
+    CHOICE,
+    JOB,
+    OPERATION,
+    PATHS,
+    PROCESS,
+    SHEET,
+    TAKES_SHEET,
+    Field,
+    FieldError,
+    fields_of,
+    kind_field,
+)
 from .schema import KIND, JobSchema
 
 GROUP = "Stylus"
@@ -16,9 +28,6 @@ GROUP = "Stylus"
 
 SHOWN, HIDDEN = (0, []), (2, ["Hidden"])
 """FreeCAD's modes of the property editor: as they are set, and as they are read."""
-
-TAKES_SHEET = "x-takes-sheet"
-"""What the schema states of a process that works on a sheet."""
 
 
 class PropertyError(ValueError):
@@ -107,7 +116,7 @@ def are_complete(obj: Any) -> bool:
 
 
 def _is_of_sheet(field: Field) -> bool:
-    return field.section == SHEET or (field.section, field.key) == (PART, "model_face")
+    return field.section == SHEET or field.takes_sheet
 
 
 def kind_properties() -> tuple[str, ...]:
@@ -167,6 +176,16 @@ def number_in_range(obj: Any, name: str) -> float:
         allowed = field.range.in_words(field.unit)
         raise PropertyError(f"{name} = {value:g} {field.unit}: allowed is {allowed}")
     return value
+
+
+def of_kind(kind: str) -> dict[str, Any]:
+    """What a new operation of a kind starts with where that differs from the other kinds' of the same key, by property."""
+    own = fields_of(schema(), kind)
+    return {
+        field.name: field.property_value(theirs.default)
+        for field, theirs in zip(fields(), own, strict=True)
+        if theirs.default is not None and theirs.default != field.default
+    }
 
 
 def shared() -> tuple[str, ...]:

@@ -16,6 +16,10 @@ KIND = "kind"
 """The key that names a table's kind."""
 
 
+NOT_OF = "x-not-of"
+"""What the schema states of a key of all kinds: those to which it means nothing."""
+
+
 class SchemaError(ValueError):
     """A schema in which something expected is missing: addon and engine do not belong together."""
 
@@ -125,6 +129,7 @@ class JobSchema:
             every = len(owners) == len(parts)
             names = None if every else tuple(owner.kinds[0] for owner in owners if owner.kinds)
             keys[name] = replace(owners[0], kinds=names)
+        keys = {name: _narrowed(key, kinds) for name, key in keys.items()}
         defaults = [one["properties"][KIND]["default"] for one in alternatives if "default" in one["properties"][KIND]]
         entry = {"description": entry.get("description", ""), "oneOf": [kind.stated for kind in kinds]}
         entry |= {"default": defaults[0]} if defaults else {}
@@ -170,6 +175,14 @@ def choices_of(entry: Schema) -> tuple[Choice, ...]:
     if not words or not all("const" in word for word in words):
         return ()
     return tuple(Choice(str(word["const"]), word.get("description", ""), word) for word in words)
+
+
+def _narrowed(key: Key, kinds: tuple[Choice, ...]) -> Key:
+    """A key of all kinds without those to which it means nothing."""
+    others = key.entry.get(NOT_OF, ())
+    if not others or key.kinds is not None:
+        return key
+    return replace(key, kinds=tuple(kind.word for kind in kinds if kind.word not in others))
 
 
 def _kind_of(alternative: Schema) -> Choice:

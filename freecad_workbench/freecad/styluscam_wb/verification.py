@@ -46,14 +46,19 @@ def refuse_unfinished(job: Any) -> None:
     """
     for obj in active_operations(job):
         if ops.is_ours(obj):
-            _refuse_unfinished(obj)
+            refuse_uncomputed(obj)
         base = getattr(obj, "Base", None)  # of a dressup
         if ops.is_ours(base):
-            _refuse_unfinished(base)
+            refuse_uncomputed(base)
             _refuse_motionless(base, ops.has_motion(base))
 
 
-def _refuse_unfinished(obj: Any) -> None:
+def refuse_uncomputed(obj: Any) -> None:
+    """Refuses an operation of ours that is not computed from what it shows.
+
+    Raises:
+        PostError: it names the operation.
+    """
     if "Invalid" in obj.State:
         raise PostError(f"{obj.Label} has failed ({ops.failure(obj) or NO_REASON}): correct it before posting")
     if "Touched" in obj.State:
@@ -208,7 +213,7 @@ def verify_job(job: Any, run: Run) -> Verified:
     if not ours:
         raise PostError(f"{job.Label} has no active operation of StylusCAM: there is nothing to verify")
     for obj in ours:
-        _refuse_unfinished(obj)
+        refuse_uncomputed(obj)
     draft = draft_of(job, ours, documents.machine_of(job))
     report = draft.report(draft.text_to_verify(), run)
     return Verified(draft, report, tuple(obj.Label for obj in active if obj not in ours))

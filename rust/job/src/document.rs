@@ -88,6 +88,7 @@ pub struct PartSection {
     pub check_clearance: Option<f64>,
     /// Which face of the sheet the model shows; required with a sheet.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-takes-sheet" = true))]
     pub model_face: Option<ModelFace>,
     /// Largest deviation of the triangles from the model's surfaces, mm; checked by sampling.
     #[serde(default = "part_tolerance")]
@@ -100,18 +101,18 @@ pub struct PartSection {
     /// What formed parts were measured, or simulated, to deviate by: the part is formed the other way. The verifier then compares
     /// with the part as it is formed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-advanced" = true, "x-example" = "{ deviations = [\"trial-1.csv\"], units = \"mm\" }"))]
+    #[schemars(extend("x-takes-sheet" = true, "x-advanced" = true, "x-example" = "{ deviations = [\"trial-1.csv\"], units = \"mm\" }"))]
     pub springback: Option<SpringbackSection>,
     /// What is formed around a part without a flange: a wall from its outer edge to the blank's plane. Its faces have the names
     /// "Addendum" and "Blank".
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-advanced" = true, "x-example" = "{ wall_angle_deg = 45.0 }"))]
+    #[schemars(extend("x-takes-sheet" = true, "x-advanced" = true, "x-example" = "{ wall_angle_deg = 45.0 }"))]
     pub addendum: Option<AddendumSection>,
     /// Intermediate stages: their wall angles, degrees, rising, [50.0, 65.0]; or how many, 2, which are then spread evenly between
     /// what the sheet withstands in one pass and the part's steepest wall. All operations are done for each stage first, whose walls
     /// are no steeper, and for the part at last; for walls that the sheet does not withstand in one pass.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-advanced" = true, "x-example" = "[50.0, 65.0]", "minimum" = 1.0, "maximum" = 89.0))]
+    #[schemars(extend("x-takes-sheet" = true, "x-advanced" = true, "x-example" = "[50.0, 65.0]", "minimum" = 1.0, "maximum" = 89.0))]
     pub stages: Option<Stages>,
 }
 
@@ -146,7 +147,7 @@ pub struct SetupSection {
     pub sheet: Option<SheetSection>,
     /// What holds it.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-advanced" = true, "x-example" = "{ clamp = { opening = [200.0, 150.0], height = 8.0 } }"))]
+    #[schemars(extend("x-takes-sheet" = true, "x-advanced" = true, "x-example" = "{ clamp = { opening = [200.0, 150.0], height = 8.0 } }"))]
     pub fixture: Option<FixtureSection>,
 }
 

@@ -5,10 +5,11 @@
 
 use std::f64::consts::{PI, TAU};
 
-use styluscam_motion::{Arc, FeedMode, Move, MoveKind, Plane, Program};
+use styluscam_motion::{Arc, FeedMode, Move, MoveKind, Plane, Program, Role};
 
 use crate::faults::faults;
 use crate::number::write_integer;
+use crate::role;
 
 /// Ends of an arc nearer than this (mm) in its plane may be one point with six decimals: FreeCAD would read a full circle.
 const WRITTEN: f64 = 1e-5;
@@ -39,7 +40,8 @@ faults! {
 }
 
 /// A program's moves as the text that FreeCAD's `Path.Path(text)` reads, one command a line. It leaves the XY plane as it
-/// found it. What happens between the moves is not in it: in FreeCAD that is the tool controller's and the post's.
+/// found it. What happens between the moves is not in it: in FreeCAD that is the tool controller's and the post's. What moves are for
+/// stands in remarks, as in a posted text.
 ///
 /// Numbers are rounded as FreeCAD's `toGCode` rounds them, so that what is read of it is written, saved and opened again
 /// without a change.
@@ -47,7 +49,7 @@ faults! {
 /// # Errors
 /// [`PathTextError`] for the first move that has no such command.
 pub fn path_text(program: &Program) -> Result<String, PathTextError> {
-    let mut out = Text { out: String::with_capacity(program.moves.len() * USUAL), plane: Plane::Xy };
+    let mut out = Text { out: String::with_capacity(program.moves.len() * USUAL), plane: Plane::Xy, role: None };
     for (index, (start, step)) in program.segments().enumerate() {
         let number = index + 1;
         if !step.end.axis.is_up() {
@@ -55,6 +57,9 @@ pub fn path_text(program: &Program) -> Result<String, PathTextError> {
         }
         if step.kind == MoveKind::Feed && step.feed_mode != FeedMode::PerMinute {
             return Err(PathTextError::FeedMode { number });
+        }
+        if step.kind == MoveKind::Feed {
+            out.state_role(step.role);
         }
         match (step.kind, step.arc, start) {
             (MoveKind::Rapid, ..) => out.line("G0", step.end.tip, None),
@@ -64,15 +69,27 @@ pub fn path_text(program: &Program) -> Result<String, PathTextError> {
         }
     }
     out.change_to(Plane::Xy);
+    out.state_role(None);
     Ok(out.out)
 }
 
 struct Text {
     out: String,
     plane: Plane,
+    role: Option<Role>,
 }
 
 impl Text {
+    /// A remark where the role changes.
+    fn state_role(&mut self, role: Option<Role>) {
+        if role != self.role {
+            self.out.push('(');
+            self.out.push_str(&role::remark(role));
+            self.out.push_str(")\n");
+            self.role = role;
+        }
+    }
+
     /// A straight command.
     fn line(&mut self, name: &str, end: [f64; 3], feed: Option<f64>) {
         self.begin(name, end);
@@ -182,6 +199,24 @@ mod tests {
     fn lines_have_six_decimals_and_mm_s() {
         let moves = vec![Move::rapid([1.0, -2.5, 30.0]), Move::feed([0.1234567, -0.0000004, -0.1], 1000.0)];
         assert_eq!(text(moves).unwrap(), "G0 X1 Y-2.5 Z30\nG1 X0.123457 Y0 Z-0.1 F16.666667\n");
+    }
+
+    #[test]
+    fn roles_stand_before_the_first_move_of_each_and_end() {
+        let at = |x: f64| Move::feed([x, 0.0, 0.0], 60.0);
+        let moves = vec![
+            Move::rapid([0.0; 3]),
+            at(1.0).role(Role::Ramp),
+            at(2.0).role(Role::Ramp),
+            Move::rapid([3.0, 0.0, 0.0]),
+            at(4.0).role(Role::Ramp),
+            at(5.0),
+            at(6.0).role(Role::Cut),
+        ];
+        let expected =
+            "G0 X0 Y0 Z0\n(role ramp)\nG1 X1 Y0 Z0 F1\nG1 X2 Y0 Z0 F1\nG0 X3 Y0 Z0\nG1 X4 Y0 Z0 F1\n(role none)\n\
+                        G1 X5 Y0 Z0 F1\n(role cut)\nG1 X6 Y0 Z0 F1\n(role none)\n";
+        assert_eq!(text(moves).unwrap(), expected);
     }
 
     #[test]

@@ -8,6 +8,7 @@ from typing import Any
 
 from . import (
     contact_track,
+    engagement_view,
     example_commands,
     heat_map,
     job_commands,
@@ -22,7 +23,7 @@ from . import (
 )
 from .command import PREFIX, Command
 
-CHECKS = (verify_command, heat_map, contact_track, sheet_picture, path_colours, tool_motion)
+CHECKS = (verify_command, heat_map, contact_track, engagement_view, sheet_picture, path_colours, tool_motion)
 """Modules whose commands look at a computed path, in their order in the bar."""
 
 SEPARATOR = "Separator"

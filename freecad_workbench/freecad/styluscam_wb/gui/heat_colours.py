@@ -31,15 +31,20 @@ def colours_of(shown: HeatMap) -> IntArray:
     from styluscam.report import heatmaps
 
     span = (shown.high - shown.low) or 1.0
-    place = np.clip((shown.values - shown.low) / span, 0.0, 1.0) * (len(SCALE) - 1)
-    steps: FloatArray = np.array(SCALE, dtype=np.float64)
-    even = np.arange(len(SCALE))
-    found = np.stack([np.interp(place, even, steps[:, k]) for k in range(3)], axis=1).round().astype(np.int64)
+    found = scaled((shown.values - shown.low) / span)
     if shown.limit is not None:
         found[shown.values > shown.limit] = OVER
     found[shown.values == heatmaps.NOTHING] = NOTHING
     found[shown.values == heatmaps.UNFORMED] = UNFORMED
     return np.asarray(found)
+
+
+def scaled(shares: FloatArray) -> IntArray:
+    """The colour (N, 3) of each share (N,) of the scale, 0 to 1; what is beyond has that of the end."""
+    steps: FloatArray = np.array(SCALE, dtype=np.float64)
+    even = np.arange(len(SCALE))
+    at = np.clip(shares, 0.0, 1.0) * (len(SCALE) - 1)
+    return np.stack([np.interp(at, even, steps[:, k]) for k in range(3)], axis=1).round().astype(np.int64)
 
 
 def marks_of(shown: HeatMap) -> list[str]:

@@ -10,6 +10,7 @@ from PySide import QtWidgets
 
 from .. import defaults, ops
 from . import faces
+from .engagement_preview import EngagementPreview
 from .form import Form
 from .messages import translated
 from .notes import Notes
@@ -42,6 +43,8 @@ class OperationPage(PathOpGui.TaskPanelPage):
             rows.addWidget(editor, row, 1)
         widget.wholeModel.setObjectName("WholeModel")
         rows.addWidget(widget.wholeModel, len(texts), 1)
+        self._preview = EngagementPreview(self.obj, self.job)
+        rows.addWidget(self._preview.widget, len(texts) + 1, 1)
         layout.addLayout(rows)
         self._fields = Form(self.obj, layout)
         self._notes = Notes()
@@ -56,6 +59,7 @@ class OperationPage(PathOpGui.TaskPanelPage):
         self.form.wholeModel.setChecked(bool(obj.WholeModel))
         self._fields.read()
         self._notes.show(obj)
+        self._preview.follow()
 
     def getFields(self, obj: Any) -> None:
         """From the form to the properties."""
@@ -83,6 +87,7 @@ class OperationPage(PathOpGui.TaskPanelPage):
         super().onDirtyChanged(callback)
         if callback is None:
             self._fields.release()
+            self._preview.release()
 
     def getSignalsForUpdate(self, obj: Any) -> list[Any]:
         """What is stored as soon as it is changed."""
@@ -94,10 +99,12 @@ class OperationPage(PathOpGui.TaskPanelPage):
         if prop in ("Path", "Notes"):
             self._notes.show(obj)
             self._fields.show_owned()
+            self._preview.follow()
             faces.show(obj)
         elif prop == "Base" and obj.Base and obj.WholeModel:
             obj.WholeModel = False  # who selects faces means these
         elif prop == "WholeModel":
             self.form.wholeModel.setChecked(bool(obj.WholeModel))
-        elif hasattr(self, "_fields"):
+        elif hasattr(self, "_preview"):
             self._fields.read([prop])
+            self._preview.follow()

@@ -165,7 +165,11 @@ def show_legend(document: str) -> None:
 
 def _is_coloured(obj: Any) -> bool:
     view = obj.ViewObject
-    return bool(getattr(view, PROPERTY, False) and view.Visibility and obj.Path.Size > 1)  # a comment at least
+    switch = scene.mode_switch(view)
+    is_drawn = switch is None or switch.whichChild.getValue() != pictures.NOTHING  # a picture may stand for it
+    return bool(
+        getattr(view, PROPERTY, False) and view.Visibility and is_drawn and obj.Path.Size > 1
+    )  # a comment at least
 
 
 class ColourPaths(Command):

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -29,6 +30,8 @@ class Picture:
     card: legend.Card | None = None
     hidden: list[Any] = field(default_factory=list)
     """Objects that it stands for: not drawn meanwhile; their property Visibility stays."""
+    after: Callable[[], None] | None = None
+    """Called when it was shown, and when it was taken away."""
     _places: list[Any] = field(default_factory=list)
     _switched_off: list[tuple[Any, int]] = field(default_factory=list)
 
@@ -45,6 +48,7 @@ class Picture:
             if switch is not None and obj.ViewObject.Visibility:
                 self._switched_off.append((switch, switch.whichChild.getValue()))
                 switch.whichChild = NOTHING
+        self._tell()
 
     def remove(self) -> None:
         """Takes it away; what it stood for is drawn again."""
@@ -58,6 +62,11 @@ class Picture:
             if switch.whichChild.getValue() == NOTHING:
                 switch.whichChild = before
         self._switched_off.clear()
+        self._tell()
+
+    def _tell(self) -> None:
+        if self.after is not None:
+            self.after()
 
 
 _shown: dict[tuple[str, str], Picture] = {}

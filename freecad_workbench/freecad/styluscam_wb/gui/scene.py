@@ -55,12 +55,23 @@ def between(pairs: IntArray) -> IntArray:
 
 def lines(points: FloatArray, index: IntArray, colour: Colour, width: float) -> list[Any]:
     """Polylines through points (N, 3); drawn before the surfaces that they lie on."""
+    return [_in_front(), _plain(), _one_colour(), _base_colour(colour), *_line_set(points, index, width)]
+
+
+def coloured_lines(points: FloatArray, index: IntArray, colours: IntArray, width: float) -> list[Any]:
+    """The same with a colour (N, 3) at each point, and the colours between them along the lines."""
+    binding = coin.SoMaterialBinding()
+    binding.value = coin.SoMaterialBinding.PER_VERTEX_INDEXED
+    return [_in_front(), _plain(), packed(colours), binding, *_line_set(points, index, width)]
+
+
+def _line_set(points: FloatArray, index: IntArray, width: float) -> list[Any]:
     style = coin.SoDrawStyle()
     style.lineWidth = width
     shape = coin.SoIndexedLineSet()
     shape.coordIndex.setValues(0, len(index), index.astype(np.int32))
     shape.coordIndex.setNum(len(index))
-    return [_in_front(), _plain(), _one_colour(), _base_colour(colour), style, coordinates(points), shape]
+    return [style, coordinates(points), shape]
 
 
 def faces(

@@ -679,11 +679,19 @@ Stock is the part's box, as high as the part, or what the operations before leav
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Colours a pocket's path by its engagement angle, from 0 to the bound; again to take it away</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Colours the job's paths by the kind of move, with a legend; again for FreeCAD's own two colours</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Colours the model by what the job leaves on it, gouges, wall angle or thickness; again to take it away</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Colours the path by its engagement angle, from 0 to the bound; Apply computes the path</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -855,6 +863,10 @@ other face of the sheet, block by block; its machine is in `[machines.support]`.
     </message>
     <message>
         <source>Engagement</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Engagement map</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2172,6 +2184,18 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>dsif</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>engagement angle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>engages nothing</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>entry: not bounded</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
