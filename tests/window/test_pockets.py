@@ -17,7 +17,7 @@ BOUND = 70.0
 
 @pytest.fixture(scope="module")
 def session(scenarios: Callable[..., WindowSession]) -> WindowSession:
-    return scenarios("pockets")
+    return scenarios("pockets", timeout=900.0)  # two levels are planned, measured three times and verified
 
 
 @pytest.fixture(scope="module")
