@@ -51,12 +51,10 @@ def text_of(job: sc.Job) -> str:
     return text
 
 
-@pytest.fixture(scope="module")
-def sound() -> tuple[sc.Job, list[str]]:
-    """A job, and its text with all words of every move on its line, so that lines can be taken out."""
-    asked = job()
+def whole_lines(text: str) -> list[str]:
+    """The lines of a text with all words of every move on its own, so that lines can be taken out."""
     lines, at, code = [], dict[str, str](), ""
-    for line in text_of(asked).splitlines():
+    for line in text.splitlines():
         found = re.match(r"^(G[0-3])? ?((?:[XYZIJF]-?[\d.]+ ?)+)$", line)
         if found is None:
             lines.append(line)
@@ -65,7 +63,14 @@ def sound() -> tuple[sc.Job, list[str]]:
         words = {word[0]: word for word in found.group(2).split()}
         at |= {axis: words[axis] for axis in "XYZ" if axis in words}
         lines.append(" ".join([code, *at.values(), *(words[axis] for axis in "IJF" if axis in words)]))
-    return asked, lines
+    return lines
+
+
+@pytest.fixture(scope="module")
+def sound() -> tuple[sc.Job, list[str]]:
+    """A job, and its text, whose lines can be taken out."""
+    asked = job()
+    return asked, whole_lines(text_of(asked))
 
 
 def kinds(job: sc.Job, lines: list[str]) -> set[str]:

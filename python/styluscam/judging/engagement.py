@@ -32,6 +32,8 @@ class RunEngagement:
     """The engagement angle, (N,)."""
     clearances: FloatArray
     """Distance from the tool's centre to the nearest wall, (N,); infinite beyond two tool radii."""
+    stepovers: FloatArray
+    """Area cleared per length of the path, (N,): the radial stepover; 0 where the tool comes down."""
 
     @property
     def max_deg(self) -> float:
@@ -80,7 +82,7 @@ def engagement(
     before = cleared_paths(cleared)
     found = _engine.engagement(given, radius, material, walls, before, progress=progress, cancel=cancel)
     return [
-        RunEngagement(kind, rows[:, :2], rows[:, 2], np.degrees(rows[:, 3]), rows[:, 4])
+        RunEngagement(kind, rows[:, :2], rows[:, 2], np.degrees(rows[:, 3]), rows[:, 4], rows[:, 5])
         for (_, kind), rows in zip(given, found, strict=True)
     ]
 

@@ -2,7 +2,7 @@
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
-use styluscam_toolpath::pocket::{self, Cleared, Pocket, PocketError, PocketRunKind, Shape};
+use styluscam_toolpath::pocket::{self, Cleared, EntryRule, Pocket, PocketError, PocketRunKind, Shape};
 use styluscam_verify::{EngagementError, Ground, PlaneRun, PlaneRunKind, Swept, CHIP};
 
 use crate::{
@@ -24,7 +24,7 @@ const KINDS: [(&str, PlaneRunKind); 4] = [
     ("rapid", PlaneRunKind::Rapid),
 ];
 
-/// The engagement at every measured position of each run: rows of x, y, length travelled, angle (rad), clearance (N, 5).
+/// The engagement at every measured position of each run: rows of x, y, length travelled, angle (rad), clearance, stepover (N, 6).
 #[pyfunction]
 #[pyo3(signature = (runs, tool_radius, stock, boundary, cleared, progress=None, cancel=None))]
 #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)] // PyO3 hands arrays by value; one for each argument of Python's
@@ -47,10 +47,10 @@ pub fn engagement<'py>(
     let found = watched(py, progress, cancel, |watch| styluscam_verify::engagement(&runs, &ground, watch))?;
     let found = found.map_err(|error| of_engagement(&error))?;
     let rows = found.into_iter().map(|run| {
-        let row = |m: styluscam_verify::Engaged| [m.at[0], m.at[1], m.travelled, m.angle, m.clearance];
+        let row = |m: styluscam_verify::Engaged| [m.at[0], m.at[1], m.travelled, m.angle, m.clearance, m.width];
         let rows: Vec<f64> = run.measures.into_iter().flat_map(row).collect();
-        let count = rows.len() / 5;
-        PyArray1::from_vec(py, rows).reshape([count, 5])
+        let count = rows.len() / 6;
+        PyArray1::from_vec(py, rows).reshape([count, 6])
     });
     rows.collect()
 }
@@ -122,6 +122,8 @@ pub fn pocket_path<'py>(
         cleared: &cleared,
         climb: direction != "conventional",
         two_way: direction == "either",
+        entry: EntryRule::default(),
+        stepovers: false,
     };
     let path = watched(py, progress, cancel, |watch| pocket::pocket_path(&asked, watch))?;
     let path = path.map_err(|error| of_pocket(&error))?;
@@ -141,7 +143,7 @@ fn of_pocket(error: &PocketError) -> PyErr {
     let class = match error {
         PocketError::Cancelled => return errors::cancelled(styluscam_motion::Cancelled),
         PocketError::Number { .. } | PocketError::Outline { .. } | PocketError::Edge { .. } => "GeometryError",
-        PocketError::TooSmall { .. } | PocketError::Empty => "PlanError",
+        PocketError::TooSmall { .. } | PocketError::NoEntry { .. } | PocketError::Empty => "PlanError",
     };
     errors::raise(class, &error.to_string(), error.code(), error.key(), "")
 }

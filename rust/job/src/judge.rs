@@ -383,6 +383,7 @@ fn expected(
             tool: number,
             cut: section.kind().cut_feed(common),
             plunge: common.feeds.plunge,
+            highest: section.kind().highest_feed(common),
             leads: (common.lead != LeadForm::None).then(|| [common.feeds.approaching(), common.feeds.leaving()]),
             low_links: (common.links == LinkHeight::Low).then_some(common.link_margin),
             slows_at_corners: common.slow_corners,

@@ -19,6 +19,8 @@ pub struct ExpectedOperation {
     pub cut: f64,
     /// Feed straight down, mm/min.
     pub plunge: f64,
+    /// The highest of its feeds but straight down, mm/min, where they depend on what is cut.
+    pub highest: Option<f64>,
     /// Feeds along leads into a pass and out of one, mm/min, where it has leads of its own.
     pub leads: Option<[f64; 2]>,
     /// Air that rapids below clearance keep above what stands, mm; none where all cross at clearance.

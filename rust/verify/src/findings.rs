@@ -61,6 +61,8 @@ pub enum FindingKind {
     Uncleared,
     /// Stock is cut that is to be left on the part.
     StockToLeave,
+    /// More stock is removed in a minute than on a full pass at its feed.
+    RemovalRate,
     /// The tool goes down into stock more steeply than asked.
     SteepEntry,
     /// A rapid enters stock that is not cleared.
@@ -200,6 +202,7 @@ const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
         (Kind::Engagement, "engagement angle too large"),
         (Kind::Uncleared, "stock not cleared"),
         (Kind::StockToLeave, "stock cut that is to be left"),
+        (Kind::RemovalRate, "removal rate above the reference"),
         (Kind::SteepEntry, "entry into stock too steep"),
         (Kind::RapidIntoStock, "rapid into stock"),
         (Kind::Scallop, "scallop above the limit"),

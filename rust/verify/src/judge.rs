@@ -38,7 +38,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         faults.extend(frame::faults(frame, program, &segments, &assignment, subject, limits));
     }
     faults.extend(passes::faults(&segments, &assignment, subject, limits, watch)?);
-    let (of_stock, left) = clearing::judged(&segments, &assignment, subject, limits, watch)?;
+    let (of_stock, left) = clearing::judged(program, &segments, &assignment, subject, limits, watch)?;
     faults.extend(of_stock);
     let pair = pair::judged(program, &segments, subject, limits, watch)?;
     faults.extend(pair.faults);

@@ -42,7 +42,8 @@ pub(crate) fn faults(program: &Program, segments: &[Segment], assignment: &Assig
 /// From a rapid the tool comes down at the plunge's feed; on its path along the part straight down is as good as any
 /// other direction. Leads have one of
 /// their feeds, where the job states them; else leads, ramps and links are no faster than the faster of both. Where the job has
-/// the tool slow down at corners, lower feeds are as good.
+/// the tool slow down at corners, lower feeds are as good; where feeds depend on what is cut, all up to the highest are, and what is cut is
+/// looked at with it (`clearing`).
 fn feed_fault(
     operation: &ExpectedOperation,
     (segment, role): (&Segment, Option<Role>),
@@ -51,14 +52,18 @@ fn feed_fault(
     slack: f64,
 ) -> Option<Fault> {
     let is_along_pass = role.is_none_or(|role| role == Role::Cut);
-    let no_faster = feed.min(operation.cut.max(operation.plunge));
+    let no_faster = feed.min(operation.highest.unwrap_or(operation.cut).max(operation.plunge));
     let nearer = |[a, b]: [f64; 2]| if (feed - a).abs() <= (feed - b).abs() { a } else { b };
     let lead = operation.leads.filter(|_| role == Some(Role::Lead)).map(nearer);
     let expected = lead.unwrap_or(match segment.kind {
         SegmentKind::Plunge if comes_down && is_along_pass => operation.plunge,
         // a feed that goes nowhere or up is no faster than any other
         SegmentKind::Still | SegmentKind::Retract => no_faster,
-        SegmentKind::Plunge | SegmentKind::Lateral | SegmentKind::Rapid if is_along_pass => operation.cut,
+        SegmentKind::Plunge | SegmentKind::Lateral | SegmentKind::Rapid
+            if is_along_pass && operation.highest.is_none() =>
+        {
+            operation.cut
+        }
         SegmentKind::Plunge | SegmentKind::Lateral | SegmentKind::Rapid => no_faster,
     });
     let is_slow = operation.slows_at_corners && !comes_down && feed < expected;

@@ -86,6 +86,7 @@ fn judged(program: &Program, stated: &[FrameLevel], obstacles: &[Obstacle]) -> R
         plunge: PLUNGE,
         leads: None,
         low_links: None,
+        highest: None,
         slows_at_corners: false,
         keeps_pace: false,
         spindle: None,

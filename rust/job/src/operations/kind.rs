@@ -31,6 +31,11 @@ pub trait OperationKind {
         common.feeds.cut
     }
 
+    /// The highest of its feeds, mm/min, where they depend on what is cut.
+    fn highest_feed(&self, _common: &OperationKeys) -> Option<f64> {
+        None
+    }
+
     /// Whether it goes on higher up after a part of the sheet is finished.
     fn comes_back_up(&self) -> bool {
         false

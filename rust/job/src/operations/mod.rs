@@ -16,6 +16,7 @@ pub(crate) mod budget;
 mod context;
 mod corners;
 mod effort;
+mod entry;
 mod facts;
 mod fit;
 mod keys;

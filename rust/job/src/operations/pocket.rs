@@ -6,12 +6,15 @@ use styluscam_motion::{Arc, Move, MoveKind, Role};
 use styluscam_toolpath::forming::{levels, selected_range, with_levels_at, z_levels, Floors, Grid, LevelRange};
 use styluscam_toolpath::offset::Envelope;
 use styluscam_toolpath::pocket::{
-    pocket_path, segments, CentreArea, Layer, Pocket as Asked, PocketError, PocketPath, PocketRunKind, Shape,
+    pocket_path, segments, CentreArea, EntryRule, FeedLaw, Layer, Pocket as Asked, PocketError, PocketPath,
+    PocketRunKind, Shape,
 };
-use styluscam_toolpath::{Heights, Pass, PlanError, Rates, Segment, Sense, Surface};
+use styluscam_toolpath::{Heights, Pass, PlanError, Segment, Sense, Surface};
 use styluscam_verify::{Clearing, Contact, Passes};
 
 use super::budget;
+use super::corners;
+use super::entry::{Entry, EntryHole};
 use super::facts::counted;
 use super::levels::{self, LevelKeys};
 use super::step::{Step, StepLimits};
@@ -32,8 +35,6 @@ const LOOKED: f64 = 24.0;
 /// Chords are off the arcs that a machine does not take by no more than this, mm: thinner than the chips that count.
 const CHORDS: f64 = 5e-4;
 
-/// How much larger than the bound asks for a hole is, for the chords of its circle and of the passes.
-const SPARE: f64 = 1.01;
 /// Layers thinner than this are none, mm.
 const THINNEST: f64 = 1e-3;
 
@@ -43,31 +44,8 @@ const CORNERS: f64 = 2.5 * std::f64::consts::PI / 180.0;
 /// The least bound that is planned, rad (10 degrees).
 const LEAST: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
-/// A hole that is drilled before.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct EntryHole {
-    /// Its axis along X, mm in work coordinates.
-    #[schemars(extend("x-unit" = "mm", "minimum" = -10000.0, "maximum" = 10000.0))]
-    pub x: f64,
-    /// Its axis along Y, mm in work coordinates.
-    #[schemars(extend("x-unit" = "mm", "minimum" = -10000.0, "maximum" = 10000.0))]
-    pub y: f64,
-    /// Its diameter, mm.
-    #[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
-    pub diameter: f64,
-}
-
-impl EntryHole {
-    /// Its outline: two points with bulges.
-    fn outline(self) -> Vec<[f64; 3]> {
-        let radius = 0.5 * self.diameter;
-        vec![[self.x + radius, self.y, 1.0], [self.x - radius, self.y, 1.0]]
-    }
-}
-
 /// Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
-/// Stock is the part's box, as high as the part, or what the operations before leave of it. Entries are helices.
+/// Stock is the part's box, as high as the part, or what the operations before leave of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Pocket {
@@ -99,7 +77,10 @@ pub struct Pocket {
     /// with the same bound of the engagement angle.
     #[serde(default)]
     pub finish: bool,
-    /// A hole that is drilled before, at least as deep as the pocket: the tool goes down in it, without a helix. Helices where left out.
+    /// How the tool goes down into stock, where it cannot come from an open side.
+    #[serde(default)]
+    pub entry: Entry,
+    /// A hole that is drilled before, at least as deep as the pocket: the tool goes down in it, without a helix or a ramp.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-example" = "{ x = 10.0, y = 8.0, diameter = 6.0 }"))]
     pub entry_hole: Option<EntryHole>,
@@ -107,10 +88,31 @@ pub struct Pocket {
     /// is stock.
     #[serde(default)]
     pub rest_machining: bool,
-    /// Angle of the helices down into the material, degrees.
+    /// Angle of helices and ramps down into the material, degrees.
     #[serde(default = "entry_angle")]
     #[schemars(extend("x-unit" = "deg", "minimum" = 0.1, "maximum" = 30.0))]
     pub entry_angle_deg: f64,
+    /// Diameter of helices and length of ramps, of the path of the tool's centre, mm at most; 0.7 tool diameters and 1 when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-advanced" = true, "x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
+    pub entry_size: Option<f64>,
+    /// Feed along helices and ramps, mm/min; that of plunges when left out. It is lower where they would take more stock in a minute than the
+    /// passes do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm/min", "minimum" = 0.1, "maximum" = 100000.0))]
+    pub entry_feed: Option<f64>,
+    /// How far the tool is lifted off the floor on links at depth, mm.
+    #[serde(default)]
+    #[schemars(extend("x-unit" = "mm", "minimum" = 0.0, "maximum" = 10.0))]
+    pub link_lift: f64,
+    /// Highest feed, mm/min: where less than a full stepover is cut, the feed rises up to it, so that as much stock is taken in a minute; links
+    /// have it. The feed of the passes everywhere when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm/min", "minimum" = 0.1, "maximum" = 100000.0))]
+    pub max_feed: Option<f64>,
+    /// Whether feeds rise no higher than the thickest chip allows: it is nowhere thicker than at a full stepover.
+    #[serde(default)]
+    pub chip_thinning: bool,
 }
 
 impl Pocket {
@@ -151,6 +153,39 @@ impl Pocket {
         self.smoothing_radius.unwrap_or(MSR * radius)
     }
 
+    /// Feeds that contradict each other.
+    fn check_feeds(&self, common: &OperationKeys, path: &str) -> Result<(), JobError> {
+        let conflict = |key: &str, message: String, hint: &str| {
+            Err(JobError::document("conflict", format!("{path}.{key}"), message, hint))
+        };
+        match self.max_feed {
+            Some(highest) if highest < common.feeds.cut => {
+                let message = format!("max_feed is {highest} mm/min, and feeds.cut is {} mm/min", common.feeds.cut);
+                conflict("max_feed", message, "raise max_feed, or lower feeds.cut")
+            }
+            None if self.chip_thinning => {
+                let message = "chip_thinning limits by how much feeds rise, and without max_feed none does".to_owned();
+                conflict("chip_thinning", message, "set max_feed, mm/min, or remove chip_thinning")
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// How feeds follow what a tool of a radius (mm) cuts.
+    fn feed_law(&self, context: &Context<'_>, radius: f64) -> FeedLaw {
+        let limits = &context.machine.limits;
+        let cut = context.common.feeds.cut;
+        FeedLaw {
+            cut,
+            highest: self.max_feed.map_or(cut, |highest| highest.min(limits.max_feed.unwrap_or(highest)).max(cut)),
+            angle: self.angle(),
+            radius,
+            spare: 0.0,
+            chip_thinning: self.chip_thinning,
+            acceleration: limits.acceleration,
+        }
+    }
+
     fn entry_slope(&self) -> f64 {
         libm::tan(self.entry_angle_deg.to_radians())
     }
@@ -169,6 +204,7 @@ impl OperationKind for Pocket {
             let hint = "set radial_stock_to_leave, axial_stock_to_leave or both, mm, or remove finish";
             return Err(JobError::document("conflict", format!("{path}.finish"), message, hint));
         }
+        self.check_feeds(common, path)?;
         let refused = [
             ("boundary", common.boundary.is_some()),
             ("check_faces", common.check_faces.is_some()),
@@ -176,7 +212,6 @@ impl OperationKind for Pocket {
             ("edges", common.edges.is_some()),
             ("lead", common.lead != LeadForm::None),
             ("links", common.links != LinkHeight::Clearance),
-            ("slow_corners", common.slow_corners),
         ];
         match refused.into_iter().find(|(_, is_stated)| *is_stated) {
             Some((key, _)) => {
@@ -209,7 +244,10 @@ impl OperationKind for Pocket {
         let selected = context.scene.facing_up(&context.faces);
         let surface = Surface::new(&envelope, &selected);
         let layers = self.layers(context, &surface, budget.deviation).map_err(|error| context.error(error))?;
-        self.check_hole(context)?;
+        if let Some(hole) = self.entry_hole {
+            let least = (self.angle() - CORNERS).max(LEAST);
+            hole.check(context, self.smoothing(0.5 * context.tool.diameter()), least)?;
+        }
         if self.rest_machining && context.before.is_empty() {
             let message = "no operation comes before this one that leaves anything";
             let hint = "put an operation with a larger tool before it, or remove rest_machining";
@@ -234,14 +272,24 @@ impl OperationKind for Pocket {
             return Err(JobError::document("conflict", format!("{}.entry_hole", context.path), message, hint));
         }
         let levels = cleared.levels;
+        let mut facts = cleared.facts();
+        if context.common.slow_corners {
+            let (moves, slow) = corners::slowed_down(context, &cleared.moves)?;
+            cleared.moves = moves;
+            facts.push(slow);
+        }
         Ok(Planned {
             waits: Vec::new(),
             words: format!("{} on {}", counted(cleared.areas, "area", "areas"), counted(levels, "level", "levels")),
             note: format!("{levels} levels, {} areas", cleared.areas),
-            facts: cleared.facts(),
+            facts,
             surface: None,
             moves: cleared.moves,
         })
+    }
+
+    fn highest_feed(&self, common: &OperationKeys) -> Option<f64> {
+        Some(self.max_feed.unwrap_or(0.0).max(common.feeds.cut).max(self.entry_feed.unwrap_or(0.0)))
     }
 
     fn contact(&self) -> Contact {
@@ -314,42 +362,14 @@ impl Pocket {
         Ok(layers.collect())
     }
 
-    /// Whether the tool finds its first passes in the hole: a circle of the smallest radius keeps the material as far away as the bound
-    /// asks for (docs/concepts/pockets.md).
-    fn check_hole(&self, context: &Context<'_>) -> Result<(), JobError> {
-        let Some(hole) = self.entry_hole else { return Ok(()) };
-        let (r, rho) = (0.5 * context.tool.diameter(), self.smoothing(0.5 * context.tool.diameter()));
-        let angle = (self.angle() - CORNERS).max(LEAST);
-        let least = 2.0 * SPARE * (rho * rho + r * r + 2.0 * rho * r * libm::cos(angle)).sqrt();
-        if hole.diameter < least {
-            let message = format!("a hole of {} mm is too small for the tool to begin in", shown(hole.diameter));
-            let at = format!("{}.entry_hole.diameter", context.path);
-            let hint =
-                format!("drill {least:.2} mm or more, take a smaller tool, or remove entry_hole: then helices go down");
-            return Err(JobError::document("out-of-range", at, message, hint));
-        }
-        let (low, high) = context.scene.mesh.bounds();
-        let inside = |at: f64, [from, to]: [f64; 2]| at - 0.5 * hole.diameter > from && at + 0.5 * hole.diameter < to;
-        if inside(hole.x, [low.x, high.x]) && inside(hole.y, [low.y, high.y]) {
-            return Ok(());
-        }
-        Err(Self::hole_error(hole, context, "the hole is not within the stock"))
-    }
-
     /// Whether an area that holds the hole begins in it; refused where it holds it and does not.
     fn begins_in_hole(&self, context: &Context<'_>, area: &CentreArea, path: &PocketPath) -> Result<bool, JobError> {
         let Some(hole) = self.entry_hole.filter(|hole| area.holds([hole.x, hole.y])) else { return Ok(false) };
         if path.runs.first().is_some_and(|run| run.kind == PocketRunKind::Entry) {
             let why = "the tool cannot begin in the hole: it is too near to a wall";
-            return Err(Self::hole_error(hole, context, why));
+            return Err(hole.error(context, why));
         }
         Ok(true)
-    }
-
-    fn hole_error(hole: EntryHole, context: &Context<'_>, why: &str) -> JobError {
-        let message = format!("{why} (X{} Y{}, {} mm)", shown(hole.x), shown(hole.y), shown(hole.diameter));
-        let hint = "move it to where the pocket is widest, or remove entry_hole: then helices go down";
-        JobError::document("conflict", format!("{}.entry_hole", context.path), message, hint)
     }
 
     /// Clears the areas of a level that are over selected faces.
@@ -380,6 +400,8 @@ impl Pocket {
                 cleared: &before,
                 climb: direction != Sense::Reversed,
                 two_way: direction == Sense::Alternate,
+                entry: EntryRule { form: self.entry.form(), size: self.entry_size },
+                stepovers: true,
             };
             let path = match pocket_path(&asked, watch) {
                 Ok(path) => path,
@@ -387,6 +409,13 @@ impl Pocket {
                 Err(PocketError::TooSmall { .. }) => {
                     cleared.narrow += 1;
                     continue;
+                }
+                Err(error @ PocketError::NoEntry { .. }) => {
+                    let at = format!("{}.entry", context.path);
+                    let message = format!("at Z{}: {error}", shown(floor));
+                    let hint =
+                        "set entry = \"auto\", lower entry_size, take a smaller tool, or drill an entry_hole there";
+                    return Err(JobError::document(error.code(), at, message, hint));
                 }
                 Err(PocketError::Empty) => continue, // an area beside the stock, or one that is open above
                 Err(error @ (PocketError::Number { .. } | PocketError::Outline { .. } | PocketError::Edge { .. })) => {
@@ -403,8 +432,11 @@ impl Pocket {
                 top,
                 floor,
                 heights: Heights { clearance: scene.clearance, retract: scene.retract },
-                rates: Rates { cut: common.feeds.cut, plunge: common.feeds.plunge },
+                plunge: common.feeds.plunge,
+                entry_feed: self.entry_feed.unwrap_or(common.feeds.plunge),
                 entry_slope: self.entry_slope(),
+                feeds: FeedLaw { spare: if arcs { 0.0 } else { CORNERS }, ..self.feed_law(context, radius) },
+                link_lift: self.link_lift,
                 deviation: CHORDS,
                 takes: &takes,
             };

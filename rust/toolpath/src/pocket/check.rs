@@ -7,6 +7,7 @@ use styluscam_geometry::PlanePiece;
 
 use super::material::Material;
 use super::polygons::Point;
+use super::request::Stepover;
 
 /// Distance of the positions that are looked at, in tool radii.
 const STEP: f64 = 0.04;
@@ -28,6 +29,8 @@ struct Looked {
     at: (usize, f64),
     /// Engagement angle, rad.
     angle: f64,
+    /// What is cut there.
+    stepover: Stepover,
 }
 
 /// The angle along a path of points with bulges, in the order in which it is cut.
@@ -48,8 +51,9 @@ fn along(path: &[[f64; 3]], material: &Material, radius: f64) -> Vec<Looked> {
             // a disc close behind would hide what a turn of the heading brings before the tool
             let now = travelled + share * length;
             let behind = own.partition_point(|(_, when)| *when <= now - CLOSE * radius);
-            let angle = engaged(position, heading(piece, share), own.get(..behind).unwrap_or(&[]), material, radius);
-            looked.push(Looked { at: (number, share), angle });
+            let cut = engaged(position, heading(piece, share), own.get(..behind).unwrap_or(&[]), material, radius);
+            let angle = cut.iter().map(|[a, b]| b - a).sum();
+            looked.push(Looked { at: (number, share), angle, stepover: stepover(&cut, now, radius) });
             if part < parts {
                 own.push((position, now));
             }
@@ -57,6 +61,19 @@ fn along(path: &[[f64; 3]], material: &Material, radius: f64) -> Vec<Looked> {
         travelled += length;
     }
     looked
+}
+
+/// What is cut along a path of points with bulges.
+pub fn stepovers(path: &[[f64; 3]], material: &Material, radius: f64) -> Vec<Stepover> {
+    along(path, material, radius).iter().map(|looked| looked.stepover).collect()
+}
+
+/// What is cut by engaged directions, as angles from a right angle right of the heading: the tool does not turn with its path, so a
+/// stretch of its rim clears per length of the path what it is wide across the heading.
+fn stepover(engaged: &[[f64; 2]], travelled: f64, radius: f64) -> Stepover {
+    let width = engaged.iter().map(|[a, b]| radius * (libm::cos(*a) - libm::cos(*b))).sum();
+    let thickest = |[a, b]: &[f64; 2]| libm::sin(FRAC_PI_2.clamp(*a, *b));
+    Stepover { travelled, width, chip: engaged.iter().map(thickest).fold(0.0, f64::max) }
 }
 
 /// The largest angle along a path, rad.
@@ -90,8 +107,9 @@ pub fn bounded(path: Vec<[f64; 3]>, material: &Material, radius: f64, most: f64)
     kept
 }
 
-/// Angle of the directions ahead in which the rim lies in the material, and in none of the discs about the positions before, rad.
-fn engaged(at: Point, heading: f64, own: &[(Point, f64)], material: &Material, radius: f64) -> f64 {
+/// The directions ahead in which the rim lies in the material, and in none of the discs about the positions before: as angles from a
+/// right angle right of the heading, rad.
+fn engaged(at: Point, heading: f64, own: &[(Point, f64)], material: &Material, radius: f64) -> Vec<[f64; 2]> {
     let from = heading - FRAC_PI_2;
     let mut inside = within(at, from, material, radius);
     let (sin, cos) = libm::sincos(heading);
@@ -116,7 +134,7 @@ fn engaged(at: Point, heading: f64, own: &[(Point, f64)], material: &Material, r
             }
         }
     }
-    inside.iter().map(|[a, b]| b - a).sum()
+    inside
 }
 
 /// Takes the directions between two out of intervals.

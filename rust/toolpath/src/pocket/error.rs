@@ -3,6 +3,8 @@
 use styluscam_motion::Cancelled;
 use thiserror::Error;
 
+use super::request::EntryForm;
+
 /// No path was planned.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum PocketError {
@@ -43,6 +45,20 @@ pub enum PocketError {
         /// The smallest radius of the centre's path, mm.
         smoothing: f64,
     },
+    /// No way down into the material fits.
+    #[error(
+        "no {} fits near X{:.3} Y{:.3}, where {left:.1} mm^2 are left to be cleared; allow the other form of entry or a smaller one, take a \
+         smaller tool, or drill a hole there",
+        form.words(), at[0], at[1]
+    )]
+    NoEntry {
+        /// Where there is most room, mm.
+        at: [f64; 2],
+        /// What is left to be cleared, mm^2.
+        left: f64,
+        /// What was asked for.
+        form: EntryForm,
+    },
     /// Nothing of the stock lies within the pocket.
     #[error("nothing of the stock lies where the tool reaches in the pocket: nothing is to be cut")]
     Empty,
@@ -66,8 +82,17 @@ impl PocketError {
             Self::Outline { .. } => "outline",
             Self::Edge { .. } => "edge",
             Self::TooSmall { .. } => "tool-too-large",
+            Self::NoEntry { .. } => "no-entry",
             Self::Empty => "empty-path",
             Self::Cancelled => "cancelled",
+        }
+    }
+
+    /// The same of the mirrored pocket.
+    pub(super) fn mirrored(self) -> Self {
+        match self {
+            Self::NoEntry { at: [x, y], left, form } => Self::NoEntry { at: [-x, y], left, form },
+            other => other,
         }
     }
 
@@ -78,6 +103,7 @@ impl PocketError {
             Self::Number { key, .. } | Self::Outline { key, .. } => key,
             Self::Edge { .. } => "open_edges",
             Self::TooSmall { .. } => "tool_radius",
+            Self::NoEntry { .. } => "entry",
             Self::Empty => "stock",
             Self::Cancelled => "",
         }

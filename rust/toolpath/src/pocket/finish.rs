@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use styluscam_motion::Watch;
 
 use super::bound::Bound;
-use super::check::{beyond, bounded};
+use super::check::{beyond, bounded, stepovers};
 use super::cut::{left_of, Cut};
 use super::error::PocketError;
 use super::fit::arcs;
@@ -126,7 +126,8 @@ fn append(path: &mut PocketPath, points: Vec<[f64; 3]>, rest: &Material, free: &
     if let (Some(from), Some([x, y, _])) = (from, points.first()) {
         path.runs.push(link(from, [*x, *y], Some(links::Ground { material: rest, free, radius })));
     }
-    path.runs.push(PocketRun { points, kind: PocketRunKind::Cut });
+    path.runs
+        .push(PocketRun { stepovers: stepovers(&points, rest, radius), ..PocketRun::new(points, PocketRunKind::Cut) });
 }
 
 /// Adds a quarter of a circle away from the wall, where there is room for one.
@@ -162,14 +163,14 @@ fn clear_rest(
             let ends = [path.runs.last(), more.runs.first()].map(|run| run.map(|run| run.points.clone()));
             if let [Some(before), Some(next)] = ends {
                 let points = before.last().into_iter().chain(next.first()).map(|[x, y, _]| [*x, *y, 0.0]).collect();
-                path.runs.push(PocketRun { points, kind: PocketRunKind::Rapid });
+                path.runs.push(PocketRun::new(points, PocketRunKind::Rapid));
             }
             path.runs.extend(more.runs);
             path.left = more.left;
             Ok(())
         }
-        // nothing of it is thick enough to be cut
-        Err(PocketError::Empty) => Ok(()),
+        // nothing of it is thick enough to be cut, or to be entered
+        Err(PocketError::Empty | PocketError::NoEntry { .. }) => Ok(()),
         Err(error) => Err(error),
     }
 }

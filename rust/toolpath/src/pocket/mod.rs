@@ -13,6 +13,7 @@ mod contours;
 mod cut;
 mod entry;
 mod error;
+mod feeds;
 mod finish;
 mod fit;
 mod ground;
@@ -35,8 +36,9 @@ use styluscam_motion::Watch;
 
 pub use areas::CentreArea;
 pub use error::PocketError;
+pub use feeds::FeedLaw;
 pub use moves::{segments, Layer};
-pub use request::{Cleared, Pocket, PocketPath, PocketRun, PocketRunKind, Shape};
+pub use request::{Cleared, EntryForm, EntryRule, Pocket, PocketPath, PocketRun, PocketRunKind, Shape, Stepover};
 
 /// Plans the path.
 ///
@@ -57,14 +59,15 @@ pub fn pocket_path(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, Poc
             let (boundary, islands) = (mirrored(boundary), all(islands));
             let stock = stock.as_deref();
             let shape = Shape::Walls { boundary: &boundary, islands: &islands, open_edges, stock };
-            with_finish(&Pocket { shape, ..there }, watch)?
+            with_finish(&Pocket { shape, ..there }, watch)
         }
         Shape::Centres { outlines, .. } => {
             let (outlines, stock) = (all(outlines), stock.unwrap_or_default());
             let shape = Shape::Centres { outlines: &outlines, stock: &stock };
-            with_finish(&Pocket { shape, ..there }, watch)?
+            with_finish(&Pocket { shape, ..there }, watch)
         }
-    };
+    }
+    .map_err(PocketError::mirrored)?;
     for run in &mut path.runs {
         run.points = mirrored(&run.points);
     }

@@ -1,12 +1,20 @@
-//! The moves along a pocket's path: down by a helix, along the cuts, over or through to the next.
+//! The moves along a pocket's path: down by a helix or a ramp, along the cuts, over or through to the next.
 
 use std::f64::consts::TAU;
 
-use styluscam_geometry::{PlanePiece, Vector};
+use styluscam_geometry::{PlaneCircle, PlanePiece, Vector};
 use styluscam_motion::{Arc, Role};
 
+use super::feeds::{FeedLaw, Stretch};
 use super::request::{PocketPath, PocketRun, PocketRunKind};
-use crate::{Curve, Heights, Rates, Segment};
+use crate::{Curve, Heights, Segment};
+
+/// A change of the feed is no nearer to the end of a line or an arc, in tool radii.
+const SHORTEST: f64 = 0.05;
+/// Links are lifted where they are so many times as long as high.
+const LONG: f64 = 4.0;
+/// Lengths that differ by less are the same, mm.
+const SAME: f64 = 1e-9;
 
 /// The layer that a path clears, and how the tool moves in it.
 pub struct Layer<'a> {
@@ -16,10 +24,16 @@ pub struct Layer<'a> {
     pub floor: f64,
     /// Heights of rapids, mm.
     pub heights: Heights,
-    /// Feeds: down helices at that of plunges.
-    pub rates: Rates,
-    /// Height over length of a helix into the material.
+    /// Straight down, mm/min.
+    pub plunge: f64,
+    /// Down into the material, mm/min.
+    pub entry_feed: f64,
+    /// Height over length of a way into the material.
     pub entry_slope: f64,
+    /// Along cuts; links are as fast as it allows.
+    pub feeds: FeedLaw,
+    /// How much higher than cuts links are, mm.
+    pub link_lift: f64,
     /// How far chords may be off arcs that are not taken, mm.
     pub deviation: f64,
     /// Whether the machine takes an arc between two tips.
@@ -56,11 +70,11 @@ impl Moves<'_> {
             }
             PocketRunKind::Cut => {
                 self.come_down(start);
-                self.along(&run.points, Role::Cut);
+                self.cut(run);
             }
             PocketRunKind::Link => {
                 self.come_down(start);
-                self.along(&run.points, Role::Link);
+                self.link(&run.points);
             }
         }
     }
@@ -82,31 +96,75 @@ impl Moves<'_> {
         if retract < clearance {
             self.segments.push(Segment::rapid(Vector::new(to.x, to.y, retract)));
         }
-        self.segments.push(Segment::line(to, self.layer.rates.plunge));
+        self.segments.push(Segment::line(to, self.layer.plunge));
         self.at = Some(to);
     }
 
-    /// Down a helix from the material's top, and once around at its end.
+    /// Down along a loop from the material's top, and once around at its end.
     fn enter(&mut self, run: &PocketRun) {
-        let Layer { top, floor, rates, entry_slope, .. } = *self.layer;
+        let Layer { top, floor, entry_slope, .. } = *self.layer;
         let Some([x, y, _]) = run.points.first() else { return };
         let start = Vector::new(*x, *y, top);
         self.come_down(start);
         let around: f64 = PlanePiece::path(&run.points).iter().map(PlanePiece::length).sum();
         let turns = libm::ceil((top - floor) / (around * entry_slope)).max(1.0);
         let fall = (top - floor) / turns;
+        let feed = self.entry_feed(fall);
         for turn in 0..turns as usize {
             let from = top - turn as f64 * fall;
             let to = if turn as f64 + 1.5 > turns { floor } else { from - fall };
-            self.turn(&run.points, [from, to], rates.plunge, Role::Ramp);
+            self.turn(&run.points, [from, to], feed, Role::Ramp);
         }
-        self.along(&run.points, Role::Ramp);
+        self.turn(&run.points, [floor, floor], feed, Role::Ramp);
     }
 
-    /// Along points with bulges at the floor.
-    fn along(&mut self, points: &[[f64; 3]], role: Role) {
-        let Layer { floor, rates, .. } = *self.layer;
-        self.turn(points, [floor, floor], rates.cut, role);
+    /// The feed along a loop that falls by so much in a turn, mm/min: the tool is as wide as it can be in what the turn before left, and takes no
+    /// more than at the reference.
+    fn entry_feed(&self, fall: f64) -> f64 {
+        let Layer { top, floor, feeds, entry_feed, .. } = *self.layer;
+        let section = 2.0 * feeds.radius * fall;
+        entry_feed.min(feeds.reference() * (top - floor) / section)
+    }
+
+    /// Along a cut, as fast as what is cut allows.
+    fn cut(&mut self, run: &PocketRun) {
+        let floor = self.layer.floor;
+        let stretches = self.layer.feeds.stretches(run);
+        let shortest = SHORTEST * self.layer.feeds.radius;
+        let mut travelled = 0.0;
+        for piece in PlanePiece::path(&run.points).iter().filter(|piece| piece.length() > 0.0) {
+            let [from, to] = [travelled, travelled + piece.length()];
+            travelled = to;
+            let ends = stretches.iter().map(|stretch| stretch.end);
+            let inside = ends.filter(|end| *end > from + shortest && *end < to - shortest);
+            let mut start = from;
+            for end in inside.chain([to]).collect::<Vec<_>>() {
+                let shares = [start, end].map(|length| (length - from) / (to - from));
+                self.piece(&part(piece, shares), [floor, floor], slowest(&stretches, [start, end]), Role::Cut);
+                start = end;
+            }
+        }
+    }
+
+    /// Along straight lines through what is cleared: up along its beginning and down again along its end.
+    fn link(&mut self, points: &[[f64; 3]]) {
+        let Layer { floor, link_lift, feeds, .. } = *self.layer;
+        let pieces = PlanePiece::path(points);
+        let whole: f64 = pieces.iter().map(PlanePiece::length).sum();
+        let lift = if whole >= LONG * link_lift { link_lift } else { 0.0 };
+        let mut travelled = 0.0;
+        for piece in pieces.iter().filter(|piece| piece.length() > 0.0) {
+            let [from, to] = [travelled, travelled + piece.length()];
+            travelled = to;
+            let inside = [lift, whole - lift].into_iter().filter(|at| lift > 0.0 && *at > from && *at < to);
+            let mut start = from;
+            for end in inside.chain([to]) {
+                let shares = [start, end].map(|length| (length - from) / (to - from));
+                let heights = [start, end].map(|length| floor + lift.min(length).min((whole - length).max(0.0)));
+                self.piece(&part(piece, shares), heights, feeds.highest.max(feeds.cut), Role::Link);
+                start = end;
+            }
+        }
     }
 
     /// Along points with bulges from a height evenly to another.
@@ -147,5 +205,32 @@ impl Moves<'_> {
             let [x, y] = if i == count { piece.end } else { piece.at(share) };
             add(Vector::new(x, y, before + (after - before) * share), Curve::Line);
         }
+    }
+}
+
+/// The part of a piece between two shares of its length.
+fn part(piece: &PlanePiece, [from, to]: [f64; 2]) -> PlanePiece {
+    let circle = piece.circle.map(|circle| PlaneCircle {
+        from: circle.from + from * circle.turn,
+        turn: (to - from) * circle.turn,
+        ..circle
+    });
+    let end = if to < 1.0 { piece.at(to) } else { piece.end };
+    PlanePiece { start: if from > 0.0 { piece.at(from) } else { piece.start }, end, circle }
+}
+
+/// The lowest feed on a length of a run, mm/min.
+fn slowest(stretches: &[Stretch], [from, to]: [f64; 2]) -> f64 {
+    let mut begin = f64::NEG_INFINITY;
+    let mut lowest = f64::INFINITY;
+    for stretch in stretches {
+        let start = std::mem::replace(&mut begin, stretch.end);
+        if start < to - SAME && stretch.end > from + SAME {
+            lowest = lowest.min(stretch.feed);
+        }
+    }
+    match stretches.last() {
+        Some(last) if !lowest.is_finite() => last.feed,
+        _ => lowest,
     }
 }

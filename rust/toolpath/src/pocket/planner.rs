@@ -5,15 +5,15 @@ use styluscam_motion::Watch;
 use super::bound::Bound;
 use super::check::bounded;
 use super::cut::{left_of, Cut};
-use super::entry::{helix, largest_disc};
+use super::entry::{largest_disc, Site};
 use super::error::PocketError;
 use super::fit::arcs;
 use super::ground::{path_chords, reversed, Ground};
 use super::growth::{Growth, WALL};
 use super::material::Material;
 use super::pieces::Piece;
-use super::polygons::{Point, Polygons};
-use super::request::{Pocket, PocketPath};
+use super::polygons::Point;
+use super::request::{EntryRule, Pocket, PocketPath};
 use super::sequence::sequenced;
 use super::steering::around_ring;
 
@@ -27,6 +27,10 @@ const ENTRIES: usize = 200;
 
 /// How deep into the material an entry beside it goes at least, mm.
 const BESIDE: f64 = 0.01;
+/// What may be left where no entry fits, as a share of what is to be cleared: slivers.
+const LEFT: f64 = 1e-3;
+/// How much more room than the bound asks for a ramp leaves the first passes, as a share.
+const SPARE: f64 = 1.02;
 
 /// What a piece may exceed the bound by, rad (0.3 deg): half a degree is allowed, and the account here is good to a twentieth.
 pub const ALLOWED: f64 = 0.3 * std::f64::consts::PI / 180.0;
@@ -53,20 +57,22 @@ pub fn plan(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketErro
         growths,
         most,
         two_way: pocket.two_way,
+        entry: (pocket.entry, pocket.smoothing),
         material,
         free,
         cuts: Vec::new(),
         at: None,
     };
     watch.begin("clearing the pocket", 1000);
-    let (mut told, mut entries) = (0, 0);
+    let (mut told, mut entries, mut has_room) = (0, 0, true);
     for level in 0..LEVELS {
         if planner.material.is_empty() {
             break;
         }
         if !(0..planner.growths.len()).any(|growth| planner.level(level, growth)) {
             entries += 1;
-            if entries > ENTRIES || !planner.enter(level) {
+            has_room = planner.enter(level);
+            if entries > ENTRIES || !has_room {
                 break;
             }
         }
@@ -75,7 +81,10 @@ pub fn plan(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketErro
         told = told.max(done);
     }
     let left = planner.material.area.area().max(0.0);
-    let runs = sequenced(&planner.cuts, &planner.ground, &planner.free, pocket.radius, watch)?;
+    if !has_room && left > LEFT * whole {
+        return Err(planner.no_entry(left));
+    }
+    let runs = sequenced(&planner.cuts, &planner.ground, &planner.free, (pocket.radius, pocket.stepovers), watch)?;
     Ok(PocketPath { runs, goal: whole, left })
 }
 
@@ -90,6 +99,8 @@ struct Planner {
     most: f64,
     /// Whether pieces may be cut from either end.
     two_way: bool,
+    /// How the tool goes down, and the smallest radius of its path, mm.
+    entry: (EntryRule, f64),
     material: Material,
     free: Material,
     cuts: Vec<Cut>,
@@ -133,17 +144,14 @@ impl Planner {
 
     /// Goes down where there is most room, into the material or beside it; false where that takes none of it.
     fn enter(&mut self, level: u32) -> bool {
-        let (kernel, free) = (&self.ground.kernel, &self.ground.free);
-        let under = kernel.intersection(free, &self.material.area);
-        let disc = largest_disc(kernel, &under, self.bound.radius).or_else(|| {
-            // from another area of the tool's centre the middle of this one may be cleared, and no way leads here
-            let beside = kernel.offset(&self.material.area, self.bound.radius - BESIDE, WALL);
-            largest_disc(kernel, &kernel.intersection(free, &beside), self.bound.radius)
-        });
-        let Some(disc) = disc.filter(|(_, radius)| *radius > 0.0) else { return false };
-        let helix = helix(disc, self.bound.radius);
-        let swept = Polygons::disc(helix.centre, helix.radius + self.bound.radius, WALL);
-        let cut = Cut { path: helix.points(), swept, level, is_entry: true, two_way: false };
+        let kernel = &self.ground.kernel;
+        let Some(disc) = self.place_of_entry() else { return false };
+        let radius = self.bound.radius;
+        let (rule, smoothing) = self.entry;
+        let aside = SPARE * self.bound.keep(smoothing) - radius;
+        let site = Site { kernel, free: &self.free, radius, aside };
+        let Some(way) = site.way(disc, rule) else { return false };
+        let cut = Cut { path: way.points, swept: way.swept, level, is_entry: true, two_way: false };
         let before = self.material.area.area();
         self.clear(std::slice::from_ref(&cut));
         if self.material.area.area() >= before {
@@ -152,5 +160,24 @@ impl Planner {
         self.at = cut.end();
         self.cuts.push(cut);
         true
+    }
+
+    /// The largest disc for the tool's centre in the material, or beside it.
+    fn place_of_entry(&self) -> Option<(Point, f64)> {
+        let (kernel, free) = (&self.ground.kernel, &self.ground.free);
+        let under = kernel.intersection(free, &self.material.area);
+        let disc = largest_disc(kernel, &under, self.bound.radius).or_else(|| {
+            // from another area of the tool's centre the middle of this one may be cleared, and no way leads here
+            let beside = kernel.offset(&self.material.area, self.bound.radius - BESIDE, WALL);
+            largest_disc(kernel, &kernel.intersection(free, &beside), self.bound.radius)
+        });
+        disc.filter(|(_, radius)| *radius > 0.0)
+    }
+
+    /// That no entry fits where there is most room.
+    fn no_entry(&self, left: f64) -> PocketError {
+        let place = self.place_of_entry();
+        let at = place.map(|(at, _)| at).or(self.material.area.bounds().map(|[low, _]| low)).unwrap_or_default();
+        PocketError::NoEntry { at, left, form: self.entry.0.form }
     }
 }

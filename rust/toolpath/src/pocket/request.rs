@@ -21,6 +21,42 @@ pub struct Pocket<'a> {
     pub climb: bool,
     /// Whether pieces may be cut in both directions, whichever has the shorter way.
     pub two_way: bool,
+    /// How the tool goes down into material.
+    pub entry: EntryRule,
+    /// Whether the stepover along the cuts is measured, for feeds that depend on it.
+    pub stepovers: bool,
+}
+
+/// How the tool goes down into material.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EntryRule {
+    /// On which way.
+    pub form: EntryForm,
+    /// Diameter of helices and length of ramps, of the tool's centre, mm at most; 1.4 tool radii and 2 where none is stated.
+    pub size: Option<f64>,
+}
+
+/// The form of a way down.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum EntryForm {
+    /// A helix; a ramp where the helix would be a small one.
+    Auto,
+    /// A helix.
+    #[default]
+    Helix,
+    /// To and fro along a line.
+    Ramp,
+}
+
+impl EntryForm {
+    /// What it is, in words.
+    pub(super) fn words(self) -> &'static str {
+        match self {
+            Self::Auto => "helix and no ramp",
+            Self::Helix => "helix",
+            Self::Ramp => "ramp",
+        }
+    }
 }
 
 /// A path along which a tool has cleared the material.
@@ -83,7 +119,7 @@ impl<'a> Shape<'a> {
 pub enum PocketRunKind {
     /// Cutting.
     Cut,
-    /// A helix into the material, seen from above: once around.
+    /// A helix or a ramp into the material, seen from above: once around.
     Entry,
     /// At depth, through what is cleared.
     Link,
@@ -98,6 +134,27 @@ pub struct PocketRun {
     pub points: Vec<[f64; 3]>,
     /// What it is for.
     pub kind: PocketRunKind,
+    /// The stepover along a cut, where it is measured.
+    pub stepovers: Vec<Stepover>,
+}
+
+impl PocketRun {
+    /// A run of which no stepover is measured.
+    #[must_use]
+    pub fn new(points: Vec<[f64; 3]>, kind: PocketRunKind) -> Self {
+        Self { points, kind, stepovers: Vec::new() }
+    }
+}
+
+/// What the tool cuts at a position of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stepover {
+    /// Length of the run up to there, mm.
+    pub travelled: f64,
+    /// Area cleared per length of the path, mm: the radial stepover.
+    pub width: f64,
+    /// Thickness of the thickest chip as a share of the feed per tooth.
+    pub chip: f64,
 }
 
 /// A path that clears a pocket.

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use styluscam_geometry::PlanePiece;
 use styluscam_motion::Watch;
 
+use super::check::stepovers;
 use super::cut::{left_of, Cut};
 use super::error::PocketError;
 use super::ground::{reversed, Ground};
@@ -29,7 +30,7 @@ pub fn sequenced(
     cuts: &[Cut],
     ground: &Ground,
     free: &Material,
-    radius: f64,
+    (radius, is_measured): (f64, bool),
     watch: &Watch,
 ) -> Result<Vec<PocketRun>, PocketError> {
     let (mut waits, followers) = dependencies(cuts, radius);
@@ -51,7 +52,9 @@ pub fn sequenced(
         }
         at = Some([u, v]);
         let kind = if cut.is_entry { PocketRunKind::Entry } else { PocketRunKind::Cut };
-        runs.push(PocketRun { points: path, kind });
+        let is_measured = is_measured && !cut.is_entry;
+        let stepovers = if is_measured { stepovers(&path, &material, radius) } else { Vec::new() };
+        runs.push(PocketRun { points: path, kind, stepovers });
         material = left_of(&ground.kernel, &material, std::slice::from_ref(cut));
         for follower in followers.get(number).into_iter().flatten() {
             if let Some(waits) = waits.get_mut(*follower) {
@@ -82,7 +85,7 @@ pub fn link(from: Point, to: Point, ground: Option<links::Ground<'_>>) -> Pocket
     let way = ground.and_then(|ground| ground.way(from, to));
     let kind = if way.is_some() { PocketRunKind::Link } else { PocketRunKind::Rapid };
     let points = way.unwrap_or_else(|| vec![from, to]).iter().map(|[x, y]| [*x, *y, 0.0]).collect();
-    PocketRun { points, kind }
+    PocketRun::new(points, kind)
 }
 
 /// The open piece that begins nearest, and whether at its end; entries last.

@@ -10,7 +10,7 @@ use super::bound::Bound;
 use super::check::{bounded, worst};
 use super::material::Material;
 use super::polygons::{sides, Kernel, Polygons};
-use super::{pocket_path, Pocket, PocketError, PocketPath, PocketRunKind, Shape};
+use super::{pocket_path, EntryForm, EntryRule, Pocket, PocketError, PocketPath, PocketRunKind, Shape};
 
 fn rectangle(x: f64, y: f64) -> Vec<[f64; 3]> {
     vec![[-x, -y, 0.0], [x, -y, 0.0], [x, y, 0.0], [-x, y, 0.0]]
@@ -27,6 +27,8 @@ fn pocket(boundary: &[[f64; 3]]) -> Pocket<'_> {
         climb: true,
         cleared: &[],
         two_way: false,
+        entry: EntryRule::default(),
+        stepovers: false,
     }
 }
 
@@ -289,4 +291,59 @@ proptest! {
             Err(error) => prop_assert_eq!(error.code(), "tool-too-large"),
         }
     }
+}
+
+/// How the tool goes down into a pocket: the length and the height of what the entry's path spans.
+fn entered(boundary: &[[f64; 3]], entry: EntryRule) -> Option<[f64; 2]> {
+    let path = pocket_path(&Pocket { entry, ..pocket(boundary) }, &Watch::default()).ok()?;
+    let run = path.runs.iter().find(|run| run.kind == PocketRunKind::Entry)?;
+    let corners = PlanePiece::path(&run.points).iter().map(PlanePiece::bounds).collect::<Vec<_>>();
+    Some([0, 1].map(|i| {
+        let low = corners.iter().map(|[low, _]| low[i]).fold(f64::INFINITY, f64::min);
+        corners.iter().map(|[_, high]| high[i]).fold(f64::NEG_INFINITY, f64::max) - low
+    }))
+}
+
+#[test]
+fn ramps_lie_along_slots_and_helices_where_there_is_room() {
+    let (slot, square) = (rectangle(12.0, 3.0), rectangle(12.0, 12.0));
+    let asked = |form, size| EntryRule { form, size };
+    // 0.5 mm of room on either side: two ways 0.375 mm off the line, and 5 mm long
+    let along = entered(&slot, asked(EntryForm::Auto, None)).unwrap();
+    assert!((along[0] - 5.0 - 0.75).abs() < 0.3 && (along[1] - 0.75).abs() < 0.02, "{along:?}");
+    let round = entered(&slot, asked(EntryForm::Helix, None)).unwrap();
+    assert!(round.iter().all(|size| (size - 1.0).abs() < 0.06), "{round:?}");
+    let wide = entered(&square, asked(EntryForm::Auto, None)).unwrap();
+    assert!(wide.iter().all(|size| (size - 3.5).abs() < 1e-6), "{wide:?}");
+    let small = entered(&square, asked(EntryForm::Helix, Some(2.0))).unwrap();
+    assert!(small.iter().all(|size| (size - 2.0).abs() < 1e-6), "{small:?}");
+    let ramp = entered(&square, asked(EntryForm::Ramp, Some(8.0))).unwrap();
+    assert!((libm::hypot(ramp[0], ramp[1]) - 8.0).abs() < 1.2, "{ramp:?}");
+}
+
+#[test]
+fn where_no_ramp_fits_it_is_refused_by_place_on_both_hands() {
+    // a hole in which only a short line fits
+    let hole = [[3.1, 10.0, 1.0], [-3.1 + 0.4, 10.0, 1.0]];
+    let entry = EntryRule { form: EntryForm::Ramp, size: None };
+    for climb in [true, false] {
+        let asked = Pocket { entry, climb, ..pocket(&hole) };
+        let refused = pocket_path(&asked, &Watch::default()).unwrap_err();
+        let PocketError::NoEntry { at: [x, y], .. } = refused else { panic!("{refused:?}") };
+        assert!((x - 0.2).abs() < 0.1 && (y - 10.0).abs() < 0.1 && refused.code() == "no-entry", "{refused}");
+    }
+    assert!(entered(&hole, EntryRule { form: EntryForm::Auto, size: None }).is_some());
+}
+
+#[test]
+fn stepovers_are_measured_as_straight_passes_take_them() {
+    let square = rectangle(12.0, 12.0);
+    let path = planned(&Pocket { stepovers: true, ..pocket(&square) });
+    let cuts = path.runs.iter().filter(|run| run.kind == PocketRunKind::Cut);
+    let widths: Vec<f64> = cuts.flat_map(|run| run.stepovers.iter().map(|stepover| stepover.width)).collect();
+    let widest = widths.iter().copied().fold(0.0, f64::max);
+    // r (1 - cos 60), a third of a degree more at most
+    assert!(widest <= 2.5 * (1.0 - libm::cos(PI / 3.0 + 0.006)) && widest > 1.2, "{widest}");
+    let all = planned(&pocket(&square));
+    assert!(all.runs.iter().all(|run| run.stepovers.is_empty()) && widths.iter().all(|width| *width >= 0.0));
 }

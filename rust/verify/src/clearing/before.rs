@@ -1,5 +1,6 @@
 //! What the operations before one have swept of a layer.
 
+use super::own::Own;
 use crate::engagement::Swept;
 use crate::expectation::Clearing;
 use crate::segments::{Segment, SegmentKind};
@@ -7,8 +8,8 @@ use crate::subject::Subject;
 use crate::tolerances::SAME_LEVEL;
 
 /// The moves before those of an operation that clears rest material; none of another.
-pub(super) fn of<'a>(segments: &'a [Segment], own: &[&Segment], clearing: &Clearing) -> Vec<&'a Segment> {
-    let first = own.iter().map(|segment| segment.index).min().filter(|_| clearing.rest).unwrap_or(0);
+pub(super) fn of<'a>(segments: &'a [Segment], own: &[Own], clearing: &Clearing) -> Vec<&'a Segment> {
+    let first = own.iter().map(|own| own.segment.index).min().filter(|_| clearing.rest).unwrap_or(0);
     segments.iter().filter(|segment| segment.index < first && segment.kind != SegmentKind::Rapid).collect()
 }
 

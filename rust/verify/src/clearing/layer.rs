@@ -5,7 +5,10 @@ use std::f64::consts::PI;
 use styluscam_geometry::PlanePiece;
 use styluscam_motion::{Cancelled, Watch};
 
-use crate::engagement::{engagement, Cleared, EngagementError, Ground, PlaneRun, PlaneRunKind, Swept};
+use super::own::Own;
+use crate::engagement::{
+    engagement, Cleared, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept,
+};
 use crate::expectation::{Clearing, ExpectedOperation};
 use crate::faults::{self, Fault};
 use crate::segments::{Segment, SegmentKind};
@@ -16,6 +19,10 @@ use crate::tolerances::{SAME_LEVEL, SLACK};
 const ALLOWED: f64 = 0.5 * PI / 180.0;
 /// An angle from which on a move cuts, rad: of a disc that grazes stock within a hundredth of its radius.
 const CUTS: f64 = 0.14;
+/// The same of a move under a layer, whose walls need not be that exactly below each other: of a disc that grazes stock within a fiftieth.
+const GRAZES: f64 = 0.4;
+/// By how much the rate at which stock is removed may be larger than it may, as a share: feeds and positions are rounded.
+const ROUNDED: f64 = 0.01;
 /// By how much an entry may be steeper than asked, as a share: its ends are rounded.
 const STEEP: f64 = 0.05;
 
@@ -41,39 +48,93 @@ pub(super) struct Layer<'a> {
 enum Doing {
     /// Level, or up.
     Runs,
+    /// As that, and cuts nothing.
+    Links,
     /// Down at a feed.
     Enters,
     /// A rapid.
     Rapid,
+    /// It goes on below the layer.
+    Below,
 }
 
 impl Layer<'_> {
-    /// Looks at the moves of its operation that lie in the layer; what they sweep.
+    /// Looks at the moves of its operation that lie in the layer, or below it; what they sweep.
     pub fn judged(
         &self,
-        own: &[&Segment],
+        own: &[Own],
         subject: &Subject,
         watch: &Watch,
         faults: &mut Vec<Fault>,
     ) -> Result<Vec<PlanePiece>, Cancelled> {
-        let inside: Vec<(&Segment, Doing)> =
-            own.iter().filter_map(|segment| Some((*segment, self.doing(segment)?))).collect();
-        let runs: Vec<PlaneRun> = inside.iter().map(|(segment, doing)| run(segment, *doing)).collect();
+        let inside: Vec<(&Own, Doing)> = own.iter().filter_map(|own| Some((own, self.doing(own)?))).collect();
+        let under_top = |(own, doing): &(&Own, Doing)| match doing {
+            Doing::Below | Doing::Rapid => run(own.segment, PlaneRunKind::Probed),
+            Doing::Enters => run(own.segment, PlaneRunKind::Entry),
+            Doing::Runs | Doing::Links => run(own.segment, PlaneRunKind::Cut),
+        };
+        let runs: Vec<PlaneRun> = inside.iter().map(under_top).collect();
+        let Some(found) = self.engagement(&runs, subject, watch)? else { return Ok(Vec::new()) };
+        for ((own, doing), along) in inside.iter().zip(&found) {
+            faults.extend(self.fault(own, *doing, &along.measures));
+        }
+        self.without_stock(&inside, subject, watch, faults)?;
+        let swept = inside.iter().zip(&runs).filter(|((_, doing), _)| matches!(doing, Doing::Runs | Doing::Enters));
+        Ok(swept.flat_map(|(_, run)| centres(run)).collect())
+    }
+
+    /// Looks at moves down that are steeper than asked, at links and at rapids: at what stands on the floor, of which ways into the
+    /// material leave some all along.
+    fn without_stock(
+        &self,
+        inside: &[(&Own, Doing)],
+        subject: &Subject,
+        watch: &Watch,
+        faults: &mut Vec<Fault>,
+    ) -> Result<(), Cancelled> {
+        let on_floor = inside.iter().filter_map(|(own, doing)| {
+            let kind = match doing {
+                Doing::Runs if own.segment.lowest() < self.floor + SAME_LEVEL => PlaneRunKind::Swept,
+                Doing::Rapid | Doing::Links => PlaneRunKind::Probed,
+                Doing::Enters if self.is_steep(own.segment) => PlaneRunKind::Probed,
+                Doing::Runs | Doing::Enters | Doing::Below => return None,
+            };
+            Some((*own, *doing, run(own.segment, kind)))
+        });
+        let on_floor: Vec<(&Own, Doing, PlaneRun)> = on_floor.collect();
+        let runs: Vec<PlaneRun> = on_floor.iter().map(|(_, _, run)| run.clone()).collect();
+        let Some(found) = self.engagement(&runs, subject, watch)? else { return Ok(()) };
+        for ((own, doing, _), along) in on_floor.iter().zip(&found) {
+            let Some(worst) = worst(&along.measures).filter(|worst| worst.angle > CUTS) else { continue };
+            let fault = match doing {
+                Doing::Rapid => own.segment.fault(&faults::RAPID_IN_STOCK).measured(worst.angle.to_degrees(), 0.0),
+                Doing::Links => own.segment.fault(&faults::LINK_IN_STOCK).measured(worst.angle.to_degrees(), 0.0),
+                Doing::Runs | Doing::Enters | Doing::Below => {
+                    let [found, most] =
+                        [slope(own.segment), libm::atan(self.clearing.entry_slope)].map(f64::to_degrees);
+                    own.segment.fault(&faults::STEEP_ENTRY).measured(found, most)
+                }
+            };
+            faults.push(Fault { position: [worst.at[0], worst.at[1], own.segment.end[2]], ..fault });
+        }
+        Ok(())
+    }
+
+    /// What runs engage; none of a tool without a radius at the layer's top, which cuts nothing there.
+    fn engagement(
+        &self,
+        runs: &[PlaneRun],
+        subject: &Subject,
+        watch: &Watch,
+    ) -> Result<Option<Vec<RunEngagement>>, Cancelled> {
         let stock = self.stock(subject);
         let ground =
             Ground { radius: self.radius, stock: &stock, pocket: &stock, cleared: self.cleared, chip: self.chip };
-        let found = match engagement(&runs, &ground, watch) {
-            Ok(found) => found,
-            Err(EngagementError::Cancelled) => return Err(Cancelled),
-            // a tool without a radius at the layer's top cuts nothing there
-            Err(EngagementError::Number { .. } | EngagementError::Outline { .. }) => return Ok(Vec::new()),
-        };
-        for ((segment, doing), along) in inside.iter().zip(&found) {
-            let Some(worst) = along.measures.iter().max_by(|a, b| a.angle.total_cmp(&b.angle)) else { continue };
-            let at = |fault: Fault| Fault { position: [worst.at[0], worst.at[1], segment.end[2]], ..fault };
-            faults.extend(self.fault(segment, *doing, worst.angle).map(at));
+        match engagement(runs, &ground, watch) {
+            Ok(found) => Ok(Some(found)),
+            Err(EngagementError::Cancelled) => Err(Cancelled),
+            Err(EngagementError::Number { .. } | EngagementError::Outline { .. }) => Ok(None),
         }
-        Ok(runs.iter().flat_map(swept).collect())
     }
 
     /// The outlines of the stock: of the box, and of the hole in it.
@@ -92,46 +153,77 @@ impl Layer<'_> {
         is_in_box && !self.clearing.hole.is_some_and(is_drilled) && !self.gone.holds([x, y])
     }
 
-    fn fault(&self, segment: &Segment, doing: Doing, angle: f64) -> Option<Fault> {
+    fn fault(&self, own: &Own, doing: Doing, measures: &[Engaged]) -> Option<Fault> {
+        let segment = own.segment;
+        let worst = worst(measures)?;
+        let (angle, bound) = (worst.angle, self.clearing.angle);
         let degrees = angle.to_degrees();
-        match doing {
-            Doing::Rapid => (angle > CUTS).then(|| segment.fault(&faults::RAPID_IN_STOCK).measured(degrees, 0.0)),
-            Doing::Runs => {
-                let bound = self.clearing.angle;
-                let over = angle > bound + ALLOWED;
-                over.then(|| segment.fault(&faults::ENGAGEMENT).measured(degrees, bound.to_degrees()))
+        let found = match doing {
+            Doing::Rapid | Doing::Enters => None,
+            Doing::Below => (angle > GRAZES).then(|| segment.fault(&faults::UNDER_STOCK).measured(degrees, 0.0)),
+            Doing::Runs | Doing::Links if angle > bound + ALLOWED => {
+                Some(segment.fault(&faults::ENGAGEMENT).measured(degrees, bound.to_degrees()))
             }
-            Doing::Enters => {
-                let start = segment.start?;
-                let fall = start[2] - segment.end[2];
-                let along = ((segment.length() - fall) * (segment.length() + fall)).max(0.0).sqrt();
-                let (found, most) = (libm::atan2(fall, along), libm::atan(self.clearing.entry_slope));
-                let is_steep = fall > (1.0 + STEEP) * self.clearing.entry_slope * along + SAME_LEVEL;
-                let fault = || segment.fault(&faults::STEEP_ENTRY).measured(found.to_degrees(), most.to_degrees());
-                (angle > CUTS && is_steep).then(fault)
-            }
-        }
+            Doing::Runs | Doing::Links => return self.removal(own, measures),
+        };
+        let at = |fault: Fault| Fault { position: [worst.at[0], worst.at[1], segment.end[2]], ..fault };
+        found.map(at)
+    }
+
+    /// More stock removed in a minute than by a straight pass at the largest angle: in the layer, of even depth, more area.
+    fn removal(&self, own: &Own, measures: &[Engaged]) -> Option<Fault> {
+        let full = |angle: f64| self.radius * (1.0 - libm::cos(angle));
+        let widest = measures.iter().max_by(|a, b| a.width.total_cmp(&b.width))?;
+        let (bound, cut, feed) = (self.clearing.angle, self.operation.cut, own.feed?);
+        let is_over = feed * widest.width > (1.0 + ROUNDED) * cut * full(bound + ALLOWED);
+        let most = cut * full(bound) / widest.width;
+        let fault = || own.segment.fault(&faults::REMOVAL_RATE).measured(feed, most);
+        is_over.then(|| Fault { position: [widest.at[0], widest.at[1], own.segment.end[2]], ..fault() })
     }
 
     /// What a move does in the layer; none where it is not in it, or goes straight up.
-    fn doing(&self, segment: &Segment) -> Option<Doing> {
+    fn doing(&self, own: &Own) -> Option<Doing> {
+        let segment = own.segment;
         let lowest = segment.lowest();
-        let is_inside = lowest < self.top - SLACK && lowest > self.floor - SAME_LEVEL;
-        let start = segment.start.filter(|_| is_inside)?;
+        let start = segment.start.filter(|_| lowest < self.top - SLACK)?;
         let goes_up = !segment.travels() && segment.end[2] >= start[2];
         let falls = segment.descends() && start[2] > self.floor + SAME_LEVEL;
         match segment.kind {
             _ if goes_up => None,
+            _ if lowest <= self.floor - SAME_LEVEL => Some(Doing::Below),
             SegmentKind::Rapid => Some(Doing::Rapid),
             SegmentKind::Plunge => Some(Doing::Enters),
             SegmentKind::Lateral if falls => Some(Doing::Enters),
+            SegmentKind::Lateral | SegmentKind::Retract | SegmentKind::Still if own.is_link => Some(Doing::Links),
             SegmentKind::Lateral | SegmentKind::Retract | SegmentKind::Still => Some(Doing::Runs),
         }
     }
+
+    /// Whether a move down is steeper than an entry is to be.
+    fn is_steep(&self, segment: &Segment) -> bool {
+        let (fall, along) = fall(segment);
+        fall > (1.0 + STEEP) * self.clearing.entry_slope * along + SAME_LEVEL
+    }
+}
+
+/// How far a move goes down, and along, mm.
+fn fall(segment: &Segment) -> (f64, f64) {
+    let fall = segment.start.map_or(0.0, |start| start[2] - segment.end[2]);
+    (fall, ((segment.length() - fall) * (segment.length() + fall)).max(0.0).sqrt())
+}
+
+/// The angle at which a move goes down, rad.
+fn slope(segment: &Segment) -> f64 {
+    let (fall, along) = fall(segment);
+    libm::atan2(fall, along)
+}
+
+fn worst(measures: &[Engaged]) -> Option<&Engaged> {
+    measures.iter().max_by(|a, b| a.angle.total_cmp(&b.angle))
 }
 
 /// A move seen from above.
-fn run(segment: &Segment, doing: Doing) -> PlaneRun {
+fn run(segment: &Segment, kind: PlaneRunKind) -> PlaneRun {
     let start = segment.start.unwrap_or(segment.end);
     let mut points = vec![[start[0], start[1], 0.0]];
     for piece in segment.pieces() {
@@ -143,15 +235,11 @@ fn run(segment: &Segment, doing: Doing) -> PlaneRun {
     if !segment.travels() {
         points.truncate(1);
     }
-    let kind = match doing {
-        Doing::Enters => PlaneRunKind::Entry,
-        Doing::Runs | Doing::Rapid => PlaneRunKind::Cut,
-    };
     PlaneRun { points, kind }
 }
 
 /// What the centre passes on a run.
-fn swept(run: &PlaneRun) -> Vec<PlanePiece> {
+fn centres(run: &PlaneRun) -> Vec<PlanePiece> {
     let pieces = PlanePiece::path(&run.points);
     if pieces.is_empty() {
         let point = run.points.first().map(|[x, y, _]| PlanePiece::new([*x, *y], [*x, *y], 0.0));

@@ -9,10 +9,11 @@
 mod before;
 mod beside;
 mod layer;
+mod own;
 mod rest;
 mod to_leave;
 
-use styluscam_motion::{Cancelled, Watch};
+use styluscam_motion::{Cancelled, Program, Watch};
 
 use crate::assignment::Assignment;
 use crate::body::Body;
@@ -25,6 +26,7 @@ use crate::subject::{Limits, Subject};
 use crate::tolerances::{ROUGH, SAME_LEVEL, SLACK, WIDE};
 
 use layer::Layer;
+use own::{moves_of, Own};
 use to_leave::Solids;
 
 /// Faults of the moves that clear stock, and findings of what they leave.
@@ -32,6 +34,7 @@ use to_leave::Solids;
 /// # Errors
 /// `Cancelled`.
 pub(crate) fn judged(
+    program: &Program,
     segments: &[Segment],
     assignment: &Assignment,
     subject: &Subject,
@@ -41,8 +44,7 @@ pub(crate) fn judged(
     let (mut faults, mut findings) = (Vec::new(), Vec::new());
     for operation in subject.expected {
         let Some(clearing) = operation.expectation.clearing() else { continue };
-        let own: Vec<&Segment> =
-            segments.iter().filter(|segment| assignment.is(segment.operation, operation)).collect();
+        let own = moves_of(program, segments.iter().filter(|segment| assignment.is(segment.operation, operation)));
         let Some(tool) = subject.tools.get(operation.tool).filter(|_| !own.is_empty()) else { continue };
         let before = before::of(segments, &own, clearing);
         let heights = heights(&own, clearing.top);
@@ -84,10 +86,10 @@ pub(crate) fn judged(
 }
 
 /// The heights of the tip on level feeds, from the top down.
-fn heights(own: &[&Segment], top: f64) -> Vec<f64> {
-    let is_level = |segment: &&&Segment| segment.kind == SegmentKind::Lateral && !segment.falls();
-    let mut heights: Vec<f64> =
-        own.iter().filter(is_level).map(|segment| segment.end[2]).filter(|z| *z < top - SLACK).collect();
+fn heights(own: &[Own], top: f64) -> Vec<f64> {
+    let level = own.iter().filter(|own| !own.is_link).map(|own| own.segment);
+    let level = level.filter(|segment| segment.kind == SegmentKind::Lateral && !segment.falls());
+    let mut heights: Vec<f64> = level.map(|segment| segment.end[2]).filter(|z| *z < top - SLACK).collect();
     heights.sort_by(|a, b| b.total_cmp(a));
     heights.dedup_by(|a, b| (*a - *b).abs() <= SAME_LEVEL);
     heights

@@ -11,6 +11,7 @@ use styluscam_geometry::Vector;
 use styluscam_motion::{Cancelled, Watch};
 
 use super::layer::Layer;
+use super::own::Own;
 use super::rest::Grid;
 use crate::body::Body;
 use crate::clearance::Prober;
@@ -36,7 +37,7 @@ pub(super) struct Solids<'a> {
 /// One fault for each move of the layer that takes what is to be left.
 pub(super) fn faults(
     layer: &Layer<'_>,
-    own: &[&Segment],
+    own: &[Own],
     (grid, free): (&Grid, &[bool]),
     solids: &Solids<'_>,
     watch: &Watch,
@@ -55,7 +56,7 @@ pub(super) fn faults(
     .collect();
     let allowed = limits.gouge + 2.0 * limits.unit + subject.deviation_inward + SLACK;
     let mut found = Vec::new();
-    for segment in own {
+    for segment in own.iter().map(|own| own.segment) {
         let is_in = |z: f64| z > layer.floor - SAME_LEVEL && z < layer.top - SLACK;
         if segment.kind == SegmentKind::Rapid || segment.start.is_none() || !is_in(segment.lowest()) {
             continue;

@@ -36,6 +36,12 @@ impl Open {
         self.intervals.iter().map(|[from, to]| to - from).sum()
     }
 
+    /// How wide all of them together are across a heading on a circle of a radius, mm.
+    pub fn width(&self, heading: f64, radius: f64) -> f64 {
+        let across = |direction: f64| radius * libm::sin(direction - heading);
+        self.intervals.iter().map(|[from, to]| across(*to) - across(*from)).sum()
+    }
+
     /// Keeps of each interval what `split` leaves of it.
     pub fn keep(&mut self, mut split: impl FnMut([f64; 2], &mut Vec<[f64; 2]>)) {
         self.spare.clear();

@@ -6,6 +6,8 @@ use styluscam_geometry::PlanePiece;
 pub const CHIP: f64 = 1e-3;
 /// Length of a step, in radii of the tool.
 pub const STEP: f64 = 0.02;
+/// Distance of positions at which the tool is probed, in radii of the tool.
+pub const PROBE: f64 = 0.1;
 /// Path of which the sweep is taken as it is, in radii of the tool: longer than a step, so that 1 um beside it is no angle.
 pub const RECENT: f64 = 1.0;
 
@@ -20,6 +22,10 @@ pub enum PlaneRunKind {
     Link,
     /// Over the stock: it neither cuts nor clears.
     Rapid,
+    /// It clears, and nothing is measured.
+    Swept,
+    /// What the tool meets all around, at positions farther apart, is measured, and nothing is cleared.
+    Probed,
 }
 
 /// A stretch of a plane path.
@@ -47,6 +53,8 @@ pub struct Engaged {
     pub travelled: f64,
     /// The engagement angle, rad.
     pub angle: f64,
+    /// Area cleared per length of the path, mm: the radial stepover. 0 where the tool comes down.
+    pub width: f64,
     /// Distance from the centre to the pocket's nearest wall, mm; infinite beyond two radii.
     pub clearance: f64,
 }

@@ -12,7 +12,7 @@ use super::cleared::Cleared;
 use super::error::EngagementError;
 use super::open::Open;
 use super::rim::Rim;
-use super::runs::{Engaged, Ground, PlaneRun, PlaneRunKind, RunEngagement, RECENT, STEP};
+use super::runs::{Engaged, Ground, PlaneRun, PlaneRunKind, RunEngagement, PROBE, RECENT, STEP};
 
 /// Ends of runs that lie nearer than this are one position, mm.
 const SAME: f64 = 1e-6;
@@ -70,20 +70,55 @@ impl Walk {
                 found.push(RunEngagement::default());
                 continue;
             };
-            if run.kind == PlaneRunKind::Rapid {
-                last = None;
-                found.push(RunEngagement::default());
-            } else {
-                let goes_on = last.is_some_and(|[x, y]| libm::hypot(start[0] - x, start[1] - y) < SAME);
-                if !goes_on {
-                    self.commit(f64::INFINITY);
+            let from = [start[0], start[1]];
+            let before = last.take();
+            match run.kind {
+                PlaneRunKind::Rapid => found.push(RunEngagement::default()),
+                PlaneRunKind::Swept => {
+                    self.sweep(&pieces, from);
+                    found.push(RunEngagement::default());
                 }
-                found.push(self.run(&pieces, [start[0], start[1]], goes_on, watch)?);
-                last = Some([end[0], end[1]]);
+                PlaneRunKind::Probed => found.push(self.probed(&pieces, from)),
+                PlaneRunKind::Cut | PlaneRunKind::Entry | PlaneRunKind::Link => {
+                    let goes_on = before.is_some_and(|[x, y]| libm::hypot(start[0] - x, start[1] - y) < SAME);
+                    if !goes_on {
+                        self.commit(f64::INFINITY);
+                    }
+                    found.push(self.run(&pieces, from, goes_on, watch)?);
+                    last = Some([end[0], end[1]]);
+                }
             }
             watch.advance(1)?;
         }
         Ok(found)
+    }
+
+    /// Clears along a run.
+    fn sweep(&mut self, pieces: &[PlanePiece], start: PlanePoint) {
+        let still = [PlanePiece::new(start, start, 0.0)];
+        for piece in if pieces.is_empty() { &still } else { pieces } {
+            self.pending.push_back((*piece, self.travelled));
+        }
+        self.commit(f64::INFINITY);
+    }
+
+    /// What the tool meets all around along a run that clears nothing.
+    fn probed(&mut self, pieces: &[PlanePiece], start: PlanePoint) -> RunEngagement {
+        self.commit(f64::INFINITY);
+        let mut travelled = 0.0;
+        let mut positions = vec![(start, 0.0)];
+        for piece in pieces {
+            let length = piece.length();
+            let parts = libm::ceil(length / (PROBE * self.radius)).max(1.0) as usize;
+            let shares = (1..=parts).map(|part| part as f64 / parts as f64);
+            positions.extend(shares.map(|share| (piece.at(share), travelled + share * length)));
+            travelled += length;
+        }
+        let measures = positions.into_iter().map(|(at, travelled)| {
+            self.open.all();
+            self.measure(at, travelled, None)
+        });
+        RunEngagement { measures: measures.collect() }
     }
 
     fn run(
@@ -98,7 +133,7 @@ impl Walk {
         if !goes_on {
             // the tool comes down here: what it meets is what it meets all around
             self.open.all();
-            measures.push(self.measure(start, 0.0));
+            measures.push(self.measure(start, 0.0, None));
             self.pending.push_back((PlanePiece::new(start, start, 0.0), begin));
         }
         let mut next = begin + step;
@@ -137,7 +172,7 @@ impl Walk {
         self.behind = length - STEP * self.radius;
         self.commit(length - RECENT * self.radius);
         self.open.ahead(heading);
-        self.measure(at, length - begin)
+        self.measure(at, length - begin, Some(heading))
     }
 
     /// Lists what ends before a length of the path: it is no longer recent.
@@ -153,7 +188,7 @@ impl Walk {
     }
 
     /// The engagement of the open directions with the tool's centre at a point.
-    fn measure(&mut self, at: PlanePoint, travelled: f64) -> Engaged {
+    fn measure(&mut self, at: PlanePoint, travelled: f64, heading: Option<f64>) -> Engaged {
         let rim = Rim { centre: at, radius: self.radius };
         let (exact, thicker) = (self.radius, self.radius + self.chip);
         let scratch = &mut self.scratch;
@@ -184,7 +219,8 @@ impl Walk {
                 self.open.keep(|interval, left| area.within(&rim, interval, scratch, left));
             }
         }
-        Engaged { at, travelled, angle: self.open.total(), clearance: self.pocket.clearance(at) }
+        let width = heading.map_or(0.0, |heading| self.open.width(heading, self.radius));
+        Engaged { at, travelled, angle: self.open.total(), width, clearance: self.pocket.clearance(at) }
     }
 }
 

@@ -100,6 +100,7 @@ pub fn expected(part: &Part, contact: Contact, heights: [f64; 2], passes: Passes
         plunge: 600.0,
         leads: None,
         low_links: None,
+        highest: None,
         slows_at_corners: false,
         keeps_pace: false,
         spindle: None,

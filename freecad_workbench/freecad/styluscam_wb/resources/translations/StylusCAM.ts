@@ -4,7 +4,7 @@
 <context>
     <name>App::Property</name>
     <message>
-        <source>A hole that is drilled before, at least as deep as the pocket: the tool goes down in it, without a helix. Helices where left out.
+        <source>A hole that is drilled before, at least as deep as the pocket: the tool goes down in it, without a helix or a ramp.
 As JSON
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
@@ -25,6 +25,11 @@ Range: 10 to 170 deg
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Angle of helices and ramps down into the material, degrees.
+Range: 0.1 to 30 deg</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Angle of ramps along the wall from level to level, degrees: they leave no line of steps; straight down when left out.
 Range: 0.1 to 45 deg
 0 or empty: not stated</source>
@@ -36,11 +41,6 @@ Range: 1 to 90 deg</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Angle of the helices down into the material, degrees.
-Range: 0.1 to 30 deg</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
         <source>By how much that direction turns from level to level, degrees: 137.5 spreads the beginnings evenly.
 Range: -360 to 360 deg
 0 or empty: not stated</source>
@@ -49,6 +49,12 @@ Range: -360 to 360 deg
     <message>
         <source>By how much the angle may become larger, degrees; with the engagement angle 90 at most.
 Range: 0 to 80 deg</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Diameter of helices and length of ramps, of the path of the tool's centre, mm at most; 0.7 tool diameters and 1 when left out.
+Range: above 0 to 1000 mm
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -103,8 +109,22 @@ As JSON
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Feed along helices and ramps, mm/min; that of plunges when left out. It is lower where they would take more stock in a minute than the
+passes do.
+Range: 0.1 to 100000 mm/min
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Feed per revolution along the path, mm: the distance between its turns on the part.
 Range: 0.001 to 20 mm/rev</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Highest feed, mm/min: where less than a full stepover is cut, the feed rises up to it, so that as much stock is taken in a minute; links
+have it. The feed of the passes everywhere when left out.
+Range: 0.1 to 100000 mm/min
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -117,6 +137,11 @@ Range: 0.05 to 100 mm
     <message>
         <source>How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
 Range: 0.0001 to 1 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far the tool is lifted off the floor on links at depth, mm.
+Range: 0 to 10 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -149,6 +174,13 @@ their seam is stated.
 none: None: straight down and straight up.
 tangent: An arc tangent to the pass, in its plane, on the free side.
 vertical: An arc tangent to the pass in the vertical plane, from above.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How the tool goes down into stock, where it cannot come from an open side.
+auto: A helix; a ramp where there is room for a small helix only, and more along a line.
+helix: Helices.
+ramp: Zig-zag ramps: to and fro along a line, both ways going down.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -242,7 +274,7 @@ meridian: The path along the part's meridian, from the axis outwards, in X and Z
 surfaces of revolution about X = Y = 0, which is measured, with a tool that stands parallel to that axis. `feeds.cut` follows from
 the feed per revolution and the spindle's speed.
 pocket: Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
-Stock is the part's box, as high as the part, or what the operations before leave of it. Entries are helices.</source>
+Stock is the part's box, as high as the part, or what the operations before leave of it.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -397,6 +429,10 @@ As JSON
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Whether feeds rise no higher than the thickest chip allows: it is nowhere thicker than at a full stepover.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Whether only what the operations before leave is cleared, such as the corners that a larger tool does not reach; else the whole box
 is stock.</source>
         <translation type="unfinished"></translation>
@@ -474,7 +510,11 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>A hole that is drilled before, at least as deep as the pocket: the tool goes down in it, without a helix. Helices where left out.
+        <source>A helix; a ramp where there is room for a small helix only, and more along a line.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A hole that is drilled before, at least as deep as the pocket: the tool goes down in it, without a helix or a ramp.
 As JSON
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
@@ -579,6 +619,11 @@ Range: 10 to 170 deg
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Angle of helices and ramps down into the material, degrees.
+Range: 0.1 to 30 deg</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Angle of ramps along the wall from level to level, degrees: they leave no line of steps; straight down when left out.
 Range: 0.1 to 45 deg
 0 or empty: not stated</source>
@@ -587,11 +632,6 @@ Range: 0.1 to 45 deg
     <message>
         <source>Angle of the arcs of leads, degrees.
 Range: 1 to 90 deg</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Angle of the helices down into the material, degrees.
-Range: 0.1 to 30 deg</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -662,12 +702,16 @@ Range: 0 to 80 deg</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Chip thinning</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Choose...</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
-Stock is the part's box, as high as the part, or what the operations before leave of it. Entries are helices.</source>
+Stock is the part's box, as high as the part, or what the operations before leave of it.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -740,6 +784,12 @@ Stock is the part's box, as high as the part, or what the operations before leav
     </message>
     <message>
         <source>Diameter</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Diameter of helices and length of ramps, of the path of the tool's centre, mm at most; 0.7 tool diameters and 1 when left out.
+Range: above 0 to 1000 mm
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -874,11 +924,23 @@ other face of the sheet, block by block; its machine is in `[machines.support]`.
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Entry</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Entry angle</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Entry feed</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Entry hole</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Entry size</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -903,6 +965,13 @@ As JSON
     <message>
         <source>Faces that the tool keeps away from: "rest" (all others), or names: ["Face7"].
 As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Feed along helices and ramps, mm/min; that of plunges when left out. It is lower where they would take more stock in a minute than the
+passes do.
+Range: 0.1 to 100000 mm/min
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
@@ -984,6 +1053,17 @@ Range: 0.001 to 20 mm/rev</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Helices.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Highest feed, mm/min: where less than a full stepover is cut, the feed rises up to it, so that as much stock is taken in a minute; links
+have it. The feed of the passes everywhere when left out.
+Range: 0.1 to 100000 mm/min
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Holder</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1001,6 +1081,11 @@ Range: 0.0001 to 1 mm</source>
     </message>
     <message>
         <source>How far the points may be from the profile, inside or outside, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far the tool is lifted off the floor on links at depth, mm.
+Range: 0 to 10 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1033,6 +1118,13 @@ their seam is stated.
 none: None: straight down and straight up.
 tangent: An arc tangent to the pass, in its plane, on the free side.
 vertical: An arc tangent to the pass in the vertical plane, from above.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How the tool goes down into stock, where it cannot come from an open side.
+auto: A helix; a ramp where there is room for a small helix only, and more along a line.
+helix: Helices.
+ramp: Zig-zag ramps: to and fro along a line, both ways going down.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1146,6 +1238,10 @@ Range: above 0 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Link lift</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Link margin</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1188,6 +1284,10 @@ Range: above 0 to 100 mm
     </message>
     <message>
         <source>Max corner</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Max feed</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1299,7 +1399,7 @@ meridian: The path along the part's meridian, from the axis outwards, in X and Z
 surfaces of revolution about X = Y = 0, which is measured, with a tool that stands parallel to that axis. `feeds.cut` follows from
 the feed per revolution and the spindle's speed.
 pocket: Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
-Stock is the part's box, as high as the part, or what the operations before leave of it. Entries are helices.</source>
+Stock is the part's box, as high as the part, or what the operations before leave of it.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2033,6 +2133,10 @@ As JSON
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Whether feeds rise no higher than the thickest chip allows: it is nowhere thicker than at a full stepover.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Whether only what the operations before leave is cleared, such as the corners that a larger tool does not reach; else the whole box
 is stock.</source>
         <translation type="unfinished"></translation>
@@ -2087,6 +2191,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Zig-zag ramps: to and fro along a line, both ways going down.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>`link_margin` above what stands under the line that they cross, clearance at most: for machines whose rapids go straight.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2100,6 +2208,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>at</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>auto</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2216,6 +2328,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>flange</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>helix</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2360,6 +2476,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>radius, height</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>ramp</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
