@@ -1,4 +1,4 @@
-"""Ways down into a pocket: ramps and helices as they are asked for, links at depth, and what the verifier finds where they are not so."""
+"""Entries into a pocket, and links at depth: as they are asked for, and what the verifier finds where they are not so."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def kinds(text: str, asked: sc.Job) -> set[str]:
     return {finding["kind"] for finding in findings(text, asked)}
 
 
-def ramps(text: str) -> Any:  # noqa: ANN401  # moves as numpy has them
+def ramps(text: str) -> Any:  # moves as numpy has them
     moves = sc.read_gcode(text, "linuxcnc").moves
     before = np.concatenate([moves["end"][:1], moves["end"][:-1]])
     falls = (before[:, 2] <= TOP + 1e-6) & (before[:, 2] > moves["end"][:, 2] + 1e-6)
@@ -127,8 +127,8 @@ def test_a_link_through_stock_is_found(lift: float) -> None:
     (x, y) = (next(word for word in lines[link - 1].split() if word[0] == axis) for axis in "XY")
     # to a corner of the pocket and back
     corner, high = "X5.5 Y5.5", f"Z{4 + lift:.3f}"
-    way = [f"G1 {x} {y} {high}", f"G1 {corner} {high}", f"G1 {x} {y} {high}", f"G1 {x} {y} Z4"]
-    found = findings("\n".join([*lines[: link + 1], *way, *lines[link + 1 :], ""]), asked)
+    there = [f"G1 {x} {y} {high}", f"G1 {corner} {high}", f"G1 {x} {y} {high}", f"G1 {x} {y} Z4"]
+    found = findings("\n".join([*lines[: link + 1], *there, *lines[link + 1 :], ""]), asked)
     through = [finding for finding in found if "link is to cut nothing" in finding["message"]]
     assert through and link + 2 < through[0]["line"] <= link + 5
 

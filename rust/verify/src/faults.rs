@@ -2,9 +2,13 @@
 //!
 //! A new kind is one constant here and one variant of [`FindingKind`].
 
+mod stock;
+
 use styluscam_motion::Move;
 
 use crate::findings::{FindingKind, Severity};
+
+pub(crate) use stock::*;
 
 /// A kind of fault, and how it is reported.
 #[derive(Debug)]
@@ -196,55 +200,6 @@ pub(crate) static OTHER_WAIT: FaultKind = FaultKind::in_text(
     "plan both programs again",
 );
 
-// stock that is cleared
-
-pub(crate) static ENGAGEMENT: FaultKind = FaultKind::on_part(
-    FindingKind::Engagement,
-    |fault| {
-        let (value, limit) = (fault.value(), fault.limit());
-        format!("the tool engages {value:.1} degrees of the stock at once ({limit:.1} degrees are allowed)")
-    },
-    "post the job again, or raise engagement_deg",
-)
-.in_unit("deg");
-pub(crate) static STOCK_TO_LEAVE: FaultKind = FaultKind::on_part(
-    FindingKind::StockToLeave,
-    |fault| format!("the tool takes {:.4} mm of the stock that is to be left on the part", fault.value()),
-    "post the job again, or lower radial_stock_to_leave and axial_stock_to_leave",
-);
-pub(crate) static LINK_IN_STOCK: FaultKind = FaultKind::on_part(
-    FindingKind::Engagement,
-    |fault| format!("a link is to cut nothing, and {:.1} degrees of the tool's rim are in stock", fault.value()),
-    "post the job again, or raise the link over the stock",
-)
-.in_unit("deg");
-pub(crate) static UNDER_STOCK: FaultKind = FaultKind::on_part(
-    FindingKind::Engagement,
-    |fault| {
-        format!("the tool goes on below stock that is not cleared: {:.1} degrees of its rim are in it", fault.value())
-    },
-    "post the job again: what lies above is cleared first",
-)
-.in_unit("deg");
-pub(crate) static REMOVAL_RATE: FaultKind = FaultKind::on_part(
-    FindingKind::RemovalRate,
-    |fault| {
-        let (value, limit) = (fault.value(), fault.limit());
-        format!("with its stepover this move may have F{limit:.0}, and has F{value:.0}: more stock is removed in a minute than on a full pass")
-    },
-    "lower this feed, post the job again, or raise feeds.cut",
-)
-.in_unit("mm/min");
-pub(crate) static STEEP_ENTRY: FaultKind = FaultKind::on_part(
-    FindingKind::SteepEntry,
-    |fault| {
-        let (value, limit) = (fault.value(), fault.limit());
-        format!("the tool goes down into stock at {value:.1} degrees ({limit:.1} degrees are allowed)")
-    },
-    "come down by a helix, or where the stock is cleared",
-)
-.in_unit("deg");
-
 // rapids
 
 pub(crate) static RAPID_INTO_MATERIAL: FaultKind = FaultKind::on_part(
@@ -264,14 +219,6 @@ pub(crate) static RAPID_PLUNGE: FaultKind = FaultKind::on_part(
     },
     "retract first, and come down at a feed",
 );
-pub(crate) static RAPID_IN_STOCK: FaultKind = FaultKind::on_part(
-    FindingKind::RapidIntoStock,
-    |fault| {
-        format!("a rapid enters stock that is not cleared: {:.1} degrees of the tool's rim are in it", fault.value())
-    },
-    "retract first, and come down where the stock is cleared",
-)
-.in_unit("deg");
 pub(crate) static DOG_LEG_RAPID: FaultKind = FaultKind::in_text(
     FindingKind::DogLegRapid,
     |fault| {

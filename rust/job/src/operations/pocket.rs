@@ -405,23 +405,12 @@ impl Pocket {
             };
             let path = match pocket_path(&asked, watch) {
                 Ok(path) => path,
-                Err(PocketError::Cancelled) => return Err(JobError::Cancelled),
                 Err(PocketError::TooSmall { .. }) => {
                     cleared.narrow += 1;
                     continue;
                 }
-                Err(error @ PocketError::NoEntry { .. }) => {
-                    let at = format!("{}.entry", context.path);
-                    let message = format!("at Z{}: {error}", shown(floor));
-                    let hint =
-                        "set entry = \"auto\", lower entry_size, take a smaller tool, or drill an entry_hole there";
-                    return Err(JobError::document(error.code(), at, message, hint));
-                }
                 Err(PocketError::Empty) => continue, // an area beside the stock, or one that is open above
-                Err(error @ (PocketError::Number { .. } | PocketError::Outline { .. } | PocketError::Edge { .. })) => {
-                    let at = format!("{}.{}", context.path, error.key());
-                    return Err(JobError::document(error.code(), at, error.to_string(), "correct it"));
-                }
+                Err(error) => return Err(refused(context, floor, &error)),
             };
             cleared.holes += usize::from(self.begins_in_hole(context, area, &path)?);
             let takes = |ends: [[f64; 3]; 2], arc: &Arc| {
@@ -445,6 +434,20 @@ impl Pocket {
             cleared.moves.extend(segments(&path, &layer).iter().map(|segment: &Segment| segment.to_move(operation)));
         }
         Ok(())
+    }
+}
+
+/// That an area of the level `floor` is not planned.
+fn refused(context: &Context<'_>, floor: f64, error: &PocketError) -> JobError {
+    let at = format!("{}.{}", context.path, error.key());
+    match error {
+        PocketError::Cancelled => JobError::Cancelled,
+        PocketError::NoEntry { .. } => {
+            let message = format!("at Z{}: {error}", shown(floor));
+            let hint = "set entry = \"auto\", lower entry_size, take a smaller tool, or drill an entry_hole there";
+            JobError::document(error.code(), at, message, hint)
+        }
+        _ => JobError::document(error.code(), at, error.to_string(), "correct it"),
     }
 }
 

@@ -27,22 +27,20 @@ const STRIDE: f64 = 0.05;
 /// The largest disc is found to this, in radii of the tool.
 const FINE: f64 = 0.002;
 
-/// A way down, seen from above: once around, and what the tool clears on it.
+/// An entry, seen from above: once around, and what the tool clears on it.
 #[derive(Clone, Debug)]
-pub struct WayDown {
+pub struct EntryLoop {
     /// Points with bulges; the last is the first.
     pub points: Vec<[f64; 3]>,
     pub swept: Polygons,
 }
 
-/// Where a way down may lie.
+/// Where an entry may lie.
 #[derive(Clone, Copy, Debug)]
 pub struct Site<'a> {
     pub kernel: &'a Kernel,
     /// Where the tool's centre may be.
     pub free: &'a Material,
-    /// What of that lies over material.
-    pub under: &'a Polygons,
     /// The tool's radius, mm.
     pub radius: f64,
     /// How far from the line of a ramp its two ways lie, at least: so that the passes find room to begin, mm.
@@ -50,10 +48,9 @@ pub struct Site<'a> {
 }
 
 impl Site<'_> {
-    /// The way down in the middle of the largest disc; None where none of the form asked for fits.
-    pub fn way(&self, rule: EntryRule) -> Option<WayDown> {
+    /// The entry in the middle of a disc that is free; None where none of the form asked for fits.
+    pub fn way(&self, (centre, room): (Point, f64), rule: EntryRule) -> Option<EntryLoop> {
         let r = self.radius;
-        let (centre, room) = largest_disc(self.kernel, self.under, r)?;
         let size = rule.size.unwrap_or(2.0 * HELIX * r);
         let radius = room.max(if self.free.holds(centre) { self.free.distance(centre) } else { 0.0 });
         let radius = radius.min(0.5 * size).min(CORE * r);
@@ -73,9 +70,9 @@ impl Site<'_> {
         }
     }
 
-    fn helix(&self, [x, y]: Point, radius: f64) -> WayDown {
+    fn helix(&self, [x, y]: Point, radius: f64) -> EntryLoop {
         let points = vec![[x + radius, y, 1.0], [x - radius, y, 1.0], [x + radius, y, 0.0]];
-        WayDown { points, swept: Polygons::disc([x, y], radius + self.radius, WALL) }
+        EntryLoop { points, swept: Polygons::disc([x, y], radius + self.radius, WALL) }
     }
 
     /// The longest line through a point, up to a length, from which the ways to and fro may lie aside; in a disc of so much room.
@@ -108,7 +105,7 @@ impl Site<'_> {
         (ASIDE * self.radius).min(room).max(self.aside)
     }
 
-    fn ramp(&self, from: Point, to: Point, room: f64) -> WayDown {
+    fn ramp(&self, from: Point, to: Point, room: f64) -> EntryLoop {
         let along = [to[0] - from[0], to[1] - from[1]];
         let share = self.width(room) / libm::hypot(along[0], along[1]);
         let right = [share * along[1], -share * along[0]];
@@ -121,7 +118,7 @@ impl Site<'_> {
             beside(from, 1.0, 0.0),
         ];
         let swept = self.kernel.sweep(&path_chords(&points), self.radius, WALL);
-        WayDown { points, swept }
+        EntryLoop { points, swept }
     }
 }
 

@@ -45,7 +45,7 @@ pub enum PocketError {
         /// The smallest radius of the centre's path, mm.
         smoothing: f64,
     },
-    /// No way down into the material fits.
+    /// No entry into the material fits.
     #[error(
         "no {} fits near X{:.3} Y{:.3}, where {left:.1} mm^2 are left to be cleared; allow the other form of entry or a smaller one, take a \
          smaller tool, or drill a hole there",

@@ -210,7 +210,7 @@ mod tests {
 
     #[test]
     fn the_feed_of_a_full_stepover_is_the_reference_and_that_of_a_slot_a_quarter_of_it() {
-        assert_eq!(only(&LAW, FRAC_PI_3), 600.0);
+        assert!((only(&LAW, FRAC_PI_3) - LAW.cut).abs() < 1e-9);
         // 1 - cos 60 = 0.5 of 2: a quarter, and at most a step below
         let slot = only(&LAW, PI);
         assert!(slot <= 150.0 && slot > 150.0 / STEP, "{slot}");
@@ -231,20 +231,15 @@ mod tests {
             let share = feed * sin / (600.0 * libm::sin(FRAC_PI_3));
             assert!(share <= 1.0 && share > 0.94 && feed * (1.0 - cos) < 300.0, "{degrees} {feed} {share}");
         }
-        assert_eq!(only(&law, FRAC_PI_3), 600.0);
+        assert!((only(&law, FRAC_PI_3) - law.cut).abs() < 1e-9);
     }
 
     #[test]
     fn feeds_change_no_faster_than_the_machine_and_not_for_a_moment() {
         let mut angles = vec![FRAC_PI_3; 300];
         angles[140..146].fill(0.3); // 0.6 mm that would allow three times the feed
-        assert_eq!(
-            LAW.stretches(&run(&angles)),
-            vec![Stretch { end: 29.9, feed: 600.0 }]
-                .into_iter()
-                .map(|s| Stretch { end: 299.0 * 0.1, ..s })
-                .collect::<Vec<_>>()
-        );
+        let alike = LAW.stretches(&run(&angles));
+        assert!(alike.len() == 1 && (alike[0].feed - 600.0).abs() + (alike[0].end - 29.9).abs() < 1e-9, "{alike:?}");
         angles[140..300].fill(0.3);
         let stretches = LAW.stretches(&run(&angles));
         let mut begin = 0.0;
@@ -266,7 +261,7 @@ mod tests {
         angles[200..260].fill(2.0);
         let stretches = law.stretches(&run(&angles));
         let feeds: Vec<f64> = stretches.iter().map(|stretch| stretch.feed).collect();
-        assert!(feeds.len() == 3 && feeds[0] == 600.0 && feeds[2] == 600.0, "{stretches:?}");
+        assert!(feeds.len() == 3 && (feeds[0] - 600.0).abs() + (feeds[2] - 600.0).abs() < 1e-9, "{stretches:?}");
         assert!(feeds[1] <= 600.0 * 0.5 / (1.0 - libm::cos(2.0)) && feeds[1] > 190.0, "{stretches:?}");
     }
 }

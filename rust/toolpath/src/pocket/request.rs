@@ -36,7 +36,7 @@ pub struct EntryRule {
     pub size: Option<f64>,
 }
 
-/// The form of a way down.
+/// The form of an entry.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum EntryForm {
     /// A helix; a ramp where the helix would be a small one.

@@ -11,7 +11,7 @@ pub(super) struct Own<'a> {
     pub segment: &'a Segment,
     /// Its feed, mm/min; none of a rapid.
     pub feed: Option<f64>,
-    /// Whether it is said to cut nothing: by the text, or because the tool has been lifted at a feed and not come down since.
+    /// Whether it is to cut nothing: because the text calls it a link, or because the tool has been lifted at a feed and not come down since.
     pub is_link: bool,
 }
 
