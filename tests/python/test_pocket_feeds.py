@@ -116,7 +116,8 @@ def test_a_feed_that_is_too_high_for_its_stepover_is_found_on_its_line() -> None
     found = findings("\n".join([*lines, ""]), asked)
     assert {finding["kind"] for finding in found} == {"removal-rate"}
     assert all(number + 1 <= finding["first_line"] <= finding["last_line"] <= ends for finding in found)
-    assert found[0]["limit"] < 1.01 * CUT < 1.2 * CUT == pytest.approx(found[0]["value"])
+    # as fast as its stepover allows, by a step of 5 %
+    assert CUT <= found[0]["limit"] < 1.05 * CUT and found[0]["value"] == pytest.approx(1.2 * CUT)
 
 
 def test_feeds_beyond_the_highest_are_found() -> None:
