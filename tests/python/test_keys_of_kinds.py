@@ -20,7 +20,6 @@ VALUES: dict[str, Any] = {
     "lead": "arc",
     "lead_radius": 2.5,
     "lead_angle_deg": 40.0,
-    "slow_corners": True,
 }
 """One that is not the default of each key that the schema states not to be of pockets."""
 

@@ -9,7 +9,7 @@ import pytest
 from window_host import WindowSession
 
 DEAD = {"CheckFaces", "CheckClearance", "Boundary", "Edges", "MaxCorner", "Links", "LinkMargin", "Lead", "LeadRadius"}
-DEAD |= {"LeadAngle", "SlowCorners"}
+DEAD |= {"LeadAngle"}
 """Fields that mean nothing to a pocket."""
 
 BOUND = 70.0

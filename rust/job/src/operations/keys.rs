@@ -96,7 +96,6 @@ pub struct OperationKeys {
     /// Lower feeds before and behind sharp turns and on small arcs, as far as the machine's acceleration asks for them
     /// (`limits.acceleration` and `limits.corner_tolerance` of its file).
     #[serde(default)]
-    #[schemars(extend("x-not-of" = ["pocket"]))]
     pub slow_corners: bool,
     /// The spindle.
     #[serde(default)]
