@@ -22,7 +22,7 @@ const STEP: f64 = 0.25;
 
 /// Positions nearer than this are the same, mm.
 const SAME: f64 = 2e-3;
-/// The first line or arc of a piece of which the start may be moved by as much, in tool radii.
+/// A line or arc of which the start may be moved by as much, in tool radii.
 const FIRST: f64 = 0.03;
 
 /// The runs: all pieces, and the moves between them.
@@ -69,14 +69,20 @@ pub fn sequenced(
     Ok(runs)
 }
 
-/// Lets a path begin at a position that its start is as good as at: a link would cut there with any heading. False where it is farther, or
-/// the path's first heading would change.
+/// Lets a path begin at a position that its start is as good as at, for a link would cut there with any heading: all before its first longer line
+/// or arc is moved. False where it is farther, or there is none.
 fn begins_at(path: &mut [[f64; 3]], at: Point, radius: f64) -> bool {
-    let [[x, y, _], [u, v, _], ..] = path else { return false };
-    if libm::hypot(*x - at[0], *y - at[1]) > SAME || libm::hypot(*u - *x, *v - *y) < FIRST * radius {
+    let Some(off) = path.first().map(|[x, y, _]| [at[0] - x, at[1] - y]) else { return false };
+    let is_long = |pair: &[[f64; 3]]| match pair {
+        [a, b] => libm::hypot(b[0] - a[0], b[1] - a[1]) >= FIRST * radius,
+        _ => false,
+    };
+    let Some(first) = path.windows(2).position(is_long).filter(|_| libm::hypot(off[0], off[1]) < SAME) else {
         return false;
+    };
+    for [x, y, _] in path.iter_mut().take(first + 1) {
+        (*x, *y) = (*x + off[0], *y + off[1]);
     }
-    [*x, *y] = at;
     true
 }
 
