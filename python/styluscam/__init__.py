@@ -27,6 +27,7 @@ _MODULES = {
     "offset.positions": ("drop_cutter", "push_cutter", "slope_matched_offset", "waterline", "waterlines"),
     "offset.surface": ("OffsetSurface", "offset_surface"),
     "parts.part": ("Part",),
+    "pocketing.contour": ("contour_path",),
     "pocketing.path": ("PocketPath", "pocket_path"),
     "programs.five_axis": ("FiveAxes", "RotaryAxis"),
     "programs.job": ("Job", "job_schema", "starter_job"),

@@ -32,6 +32,7 @@ __all__ = [
     "__version__",
     "cl_text",
     "clearance_of_tilted",
+    "contour_strip",
     "drop_cutter",
     "engagement",
     "finding_kinds",
@@ -293,6 +294,14 @@ def engagement(
     progress: _Progress | None = None,
     cancel: CancelToken | None = None,
 ) -> list[_F]: ...
+def contour_strip(
+    profile: _F,
+    closed: bool,
+    left: bool,
+    width: float,
+    tool_radius: float,
+    stock: Sequence[_F] | None,
+) -> tuple[_F, list[_F], list[_F]]: ...
 def pocket_path(
     boundary: _F,
     islands: Sequence[_F],

@@ -153,3 +153,18 @@ def test_what_cannot_be_planned_is_refused_by_name(boundary, more, failure, wher
 def test_odd_outlines_have_a_path_within_the_bound(boundary):
     path = sc.pocket_path(boundary, tool_radius=RADIUS, engagement_deg=60.0)
     assert path.engagement_max_deg < 60.5 and any(kind == "cut" for _, kind in path.runs)
+
+
+@pytest.mark.parametrize(("radius", "bound"), [(0.3, 40.0), (0.15, 60.0), (0.05, 90.0)])
+def test_the_bound_holds_for_small_tools_far_from_the_origin(radius, bound):
+    # 10, 4.5 and 4.6 deg above it, before pockets were planned as large as the arithmetic needs them
+    tooth = radius * np.array([[0, 0], [16, 0], [16, 6], [6, 6], [6, 16], [3, 8], [0, 16]]) + np.array([300.0, -700.0])
+    path = sc.pocket_path(tooth, tool_radius=radius, engagement_deg=bound)
+    assert path.engagement_max_deg < bound + 0.5 and path.uncleared_area < 1e-3 * path.reachable_area
+    clearance = min(float(run.clearances.min()) for run in path.engagement if run.clearances.size)
+    assert radius - 1e-6 < clearance < radius + 5e-3
+
+
+def test_a_tool_that_is_too_large_is_named_with_its_own_radius():
+    with pytest.raises(sc.PlanError, match=r"radius 0\.3 mm, with corners of 0\.015 mm"):
+        sc.pocket_path(rectangle(0.2, 0.2), tool_radius=0.3, engagement_deg=60.0)

@@ -56,7 +56,7 @@ mod _engine {
     #[pymodule_export]
     use crate::plan::{plan, Plan};
     #[pymodule_export]
-    use crate::plane::{engagement, pocket_path};
+    use crate::plane::{contour_strip, engagement, pocket_path};
     #[pymodule_export]
     use crate::posting::{cl_text, lines_of_moves, post, post_to};
     #[pymodule_export]

@@ -2,7 +2,7 @@
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
-use styluscam_toolpath::pocket::{self, Cleared, EntryRule, Pocket, PocketError, PocketRunKind, Shape};
+use styluscam_toolpath::pocket::{self, Cleared, Contour, EntryRule, Pocket, PocketError, PocketRunKind, Shape};
 use styluscam_verify::{EngagementError, Ground, PlaneRun, PlaneRunKind, Swept, CHIP};
 
 use crate::{
@@ -139,10 +139,45 @@ pub fn pocket_path<'py>(
     Ok((runs.collect::<PyResult<_>>()?, [path.goal, path.left]))
 }
 
+/// Outline of where the tool may be beside a profile, outlines in it where it may not be, outlines of what is cleared: points (N, 3) each.
+type StripArrays<'py> = (Bound<'py, PyArray2<f64>>, Vec<Bound<'py, PyArray2<f64>>>, Vec<Bound<'py, PyArray2<f64>>>);
+
+/// The strip beside a profile as a pocket.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)] // PyO3 hands arrays by value
+pub fn contour_strip<'py>(
+    py: Python<'py>,
+    profile: PyReadonlyArray2<'py, f64>,
+    closed: bool,
+    left: bool,
+    width: f64,
+    tool_radius: f64,
+    stock: Option<Vec<PyReadonlyArray2<'py, f64>>>,
+) -> PyResult<StripArrays<'py>> {
+    let profile = arrays::rows::<f64, 3>(&profile, "profile")?;
+    let stock = stock.map(|stock| outlines(&stock, "stock")).transpose()?;
+    let contour = Contour {
+        profile: &profile,
+        is_closed: closed,
+        is_left: left,
+        width,
+        radius: tool_radius,
+        stock: stock.as_deref(),
+    };
+    let strip = contour.strip().map_err(|error| of_pocket(&error))?;
+    let all = |outlines: Vec<Vec<[f64; 3]>>| -> PyResult<Vec<_>> {
+        outlines.into_iter().map(|outline| arrays::matrix(py, outline.into_iter())).collect()
+    };
+    Ok((arrays::matrix(py, strip.boundary.into_iter())?, all(strip.islands)?, all(strip.stock)?))
+}
+
 fn of_pocket(error: &PocketError) -> PyErr {
     let class = match error {
         PocketError::Cancelled => return errors::cancelled(styluscam_motion::Cancelled),
-        PocketError::Number { .. } | PocketError::Outline { .. } | PocketError::Edge { .. } => "GeometryError",
+        PocketError::Number { .. }
+        | PocketError::Outline { .. }
+        | PocketError::Edge { .. }
+        | PocketError::Profile { .. } => "GeometryError",
         PocketError::TooSmall { .. } | PocketError::NoEntry { .. } | PocketError::Empty => "PlanError",
     };
     errors::raise(class, &error.to_string(), error.code(), error.key(), "")

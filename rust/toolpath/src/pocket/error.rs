@@ -34,6 +34,12 @@ pub enum PocketError {
         /// How many there are.
         count: usize,
     },
+    /// A profile of which no strip lies on one side.
+    #[error("beside the profile lies no single strip of {width} mm: it crosses itself; mend it, or state closed where its ends meet")]
+    Profile {
+        /// The strip's width as given, mm.
+        width: f64,
+    },
     /// The tool fits nowhere: it is too large, or the islands leave no room.
     #[error(
         "the tool of radius {radius} mm, with corners of {smoothing} mm more, fits nowhere between the walls and islands; take a \
@@ -81,18 +87,11 @@ impl PocketError {
             Self::Number { .. } => "out-of-range",
             Self::Outline { .. } => "outline",
             Self::Edge { .. } => "edge",
+            Self::Profile { .. } => "profile",
             Self::TooSmall { .. } => "tool-too-large",
             Self::NoEntry { .. } => "no-entry",
             Self::Empty => "empty-path",
             Self::Cancelled => "cancelled",
-        }
-    }
-
-    /// The same of the mirrored pocket.
-    pub(super) fn mirrored(self) -> Self {
-        match self {
-            Self::NoEntry { at: [x, y], left, form } => Self::NoEntry { at: [-x, y], left, form },
-            other => other,
         }
     }
 
@@ -102,6 +101,7 @@ impl PocketError {
         match self {
             Self::Number { key, .. } | Self::Outline { key, .. } => key,
             Self::Edge { .. } => "open_edges",
+            Self::Profile { .. } => "profile",
             Self::TooSmall { .. } => "tool_radius",
             Self::NoEntry { .. } => "entry",
             Self::Empty => "stock",

@@ -9,14 +9,12 @@ use super::polygons::{signed_area, Kernel, Point, Polygons};
 use super::request::{Cleared, Pocket, Shape};
 
 /// Coordinates lie within this, mm: on the grid of the booleans that leaves 4 nm.
-const FARTHEST: f64 = 2000.0;
+pub const FARTHEST: f64 = 2000.0;
 /// What is left on walls for the chords of their arcs and for the arcs that are put back, mm.
 const GAP: f64 = 3e-3;
 /// What of the goal's rim is not looked for, mm: no more than chords are off. A rim that comes to a wall is nearly along it, and of a strip of
 /// 1 um there would meet a degree and a half that nobody had counted.
 const RIM: f64 = 2e-4;
-/// Chips thinner than this do not count, mm (docs/concepts/engagement.md).
-const CHIP: f64 = 1e-3;
 /// Chords of an earlier tool's path whose sweep is found at once.
 const TOGETHER: usize = 48;
 /// How far the tool's centre may go beyond an open edge, in tool radii: so far that it is free of the material there.
@@ -40,7 +38,6 @@ pub struct Ground {
 
 impl Ground {
     pub fn new(pocket: &Pocket<'_>) -> Result<Self, PocketError> {
-        check(pocket)?;
         let (r, smoothing) = (pocket.radius, pocket.smoothing);
         let outlines = pocket.shape.outlines();
         let corners = outlines.iter().flat_map(|(_, outline)| outline.iter());
@@ -88,12 +85,12 @@ impl Ground {
     }
 }
 
-/// What an earlier tool swept, in outlines: wider by a chip that does not count.
+/// What an earlier tool swept, in outlines.
 fn swept(kernel: &Kernel, path: &Cleared) -> Vec<Vec<Point>> {
     let chords = path_chords(&path.points);
     let starts = (0..chords.len().saturating_sub(1)).step_by(TOGETHER);
     let parts = starts.filter_map(|from| chords.get(from..chords.len().min(from + TOGETHER + 1)));
-    parts.flat_map(|part| kernel.sweep(part, path.radius + CHIP, WALL).contours).collect()
+    parts.flat_map(|part| kernel.sweep(part, path.radius, WALL).contours).collect()
 }
 
 /// The pocket without its islands.
@@ -187,7 +184,8 @@ fn flat(piece: &PlanePiece) -> Vec<Point> {
     points
 }
 
-fn check(pocket: &Pocket<'_>) -> Result<(), PocketError> {
+/// Refuses what is no pocket and no tool.
+pub fn check(pocket: &Pocket<'_>) -> Result<(), PocketError> {
     let number = |key: &str, value: f64, ok: bool, allowed| {
         if ok {
             Ok(())

@@ -9,6 +9,7 @@ mod areas;
 mod bound;
 mod boxes;
 mod check;
+mod contour;
 mod contours;
 mod cut;
 mod entry;
@@ -16,6 +17,7 @@ mod error;
 mod feeds;
 mod finish;
 mod fit;
+mod frame;
 mod ground;
 mod growth;
 mod links;
@@ -34,7 +36,11 @@ mod tests;
 
 use styluscam_motion::Watch;
 
+use frame::{Frame, Framed};
+use ground::check;
+
 pub use areas::CentreArea;
+pub use contour::{Contour, Strip};
 pub use error::PocketError;
 pub use feeds::FeedLaw;
 pub use moves::{segments, Layer};
@@ -45,33 +51,11 @@ pub use request::{Cleared, EntryForm, EntryRule, Pocket, PocketPath, PocketRun, 
 /// # Errors
 /// What is not a pocket or a tool, a tool that fits nowhere; `Cancelled` when the watch is cancelled.
 pub fn pocket_path(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketError> {
-    if pocket.climb {
-        return with_finish(pocket, watch);
-    }
-    // the other way round is climb milling of the mirrored pocket
-    let all = |outlines: &[Vec<[f64; 3]>]| outlines.iter().map(|outline| mirrored(outline)).collect::<Vec<_>>();
-    let stock = pocket.shape.stock().map(all);
-    let cleared = |path: &Cleared| Cleared { points: mirrored(&path.points), radius: path.radius };
-    let cleared: Vec<Cleared> = pocket.cleared.iter().map(cleared).collect();
-    let there = Pocket { climb: true, cleared: &cleared, ..*pocket };
-    let mut path = match pocket.shape {
-        Shape::Walls { boundary, islands, open_edges, .. } => {
-            let (boundary, islands) = (mirrored(boundary), all(islands));
-            let stock = stock.as_deref();
-            let shape = Shape::Walls { boundary: &boundary, islands: &islands, open_edges, stock };
-            with_finish(&Pocket { shape, ..there }, watch)
-        }
-        Shape::Centres { outlines, .. } => {
-            let (outlines, stock) = (all(outlines), stock.unwrap_or_default());
-            let shape = Shape::Centres { outlines: &outlines, stock: &stock };
-            with_finish(&Pocket { shape, ..there }, watch)
-        }
-    }
-    .map_err(PocketError::mirrored)?;
-    for run in &mut path.runs {
-        run.points = mirrored(&run.points);
-    }
-    Ok(path)
+    check(pocket)?;
+    let frame = Frame::new(pocket);
+    let framed = Framed::new(pocket, frame);
+    let path = with_finish(&framed.pocket(), watch).map_err(|error| frame.error(error))?;
+    Ok(frame.back(path))
 }
 
 /// By climb milling, with a pass along the walls at the end where one is asked for.
@@ -80,8 +64,4 @@ fn with_finish(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketE
         return finish::plan(pocket, watch);
     }
     planner::plan(pocket, watch)
-}
-
-fn mirrored(points: &[[f64; 3]]) -> Vec<[f64; 3]> {
-    points.iter().map(|[x, y, bulge]| [-x, *y, -bulge]).collect()
 }

@@ -1,0 +1,143 @@
+//! The plane in which a pocket is planned: about its middle, as large as the arithmetic needs it, mirrored for conventional milling.
+//!
+//! Chords, the grid and what is kept from walls are fixed lengths there. They have to be small beside the tool's radius and beside
+//! the stepover, so small tools and small angles are planned larger than they are: of a tool of 0.3 mm the angle was up to 10 deg above the bound
+//! without that.
+
+use super::error::PocketError;
+use super::request::{Cleared, EntryRule, Pocket, PocketPath, Shape};
+
+/// The tool's radius in the plane, at least, mm.
+const RADIUS: f64 = 2.5;
+/// The stepover in the plane, at least, mm.
+const STEPOVER: f64 = 0.3;
+/// Coordinates in the plane stay below this, mm: larger pockets are planned less large.
+const FARTHEST: f64 = 2000.0;
+/// Chips thinner than this do not count, mm (docs/concepts/engagement.md): what earlier tools swept counts as that much wider.
+const CHIP: f64 = 1e-3;
+
+/// From the pocket to the plane and back.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame {
+    /// Middle of the pocket, mm.
+    middle: [f64; 2],
+    /// Lengths there over lengths here: a power of two, so that nothing is rounded.
+    scale: f64,
+    /// 1, or -1 where X is mirrored.
+    side: f64,
+}
+
+impl Frame {
+    pub fn new(pocket: &Pocket<'_>) -> Self {
+        let outlines = pocket.shape.outlines();
+        let points = || outlines.iter().flat_map(|(_, outline)| outline.iter());
+        let range = |i: usize| {
+            let low = points().fold(f64::INFINITY, |low, point| low.min(point[i]));
+            let high = points().fold(f64::NEG_INFINITY, |high, point| high.max(point[i]));
+            [low, high]
+        };
+        let ranges = [range(0), range(1)];
+        let middle = ranges.map(|[low, high]| libm::round(0.5 * (low + high)));
+        let half = ranges.iter().fold(pocket.radius, |half: f64, [low, high]| half.max(0.5 * (high - low)));
+        let stepover = pocket.radius * (1.0 - libm::cos(pocket.angle));
+        let wanted = (RADIUS / pocket.radius).max(STEPOVER / stepover).min(FARTHEST / half);
+        let scale = libm::exp2(libm::ceil(libm::log2(wanted.max(1.0))));
+        Self { middle, scale, side: if pocket.climb { 1.0 } else { -1.0 } }
+    }
+
+    /// A path of the plane, here.
+    pub fn back(&self, mut path: PocketPath) -> PocketPath {
+        for run in &mut path.runs {
+            for point in &mut run.points {
+                let [x, y] = self.at([point[0], point[1]]);
+                *point = [x, y, self.side * point[2]];
+            }
+            for stepover in &mut run.stepovers {
+                stepover.travelled /= self.scale;
+                stepover.width /= self.scale;
+            }
+        }
+        let square = self.scale * self.scale;
+        PocketPath { goal: path.goal / square, left: path.left / square, ..path }
+    }
+
+    /// An error of the plane, in positions and lengths of here.
+    pub fn error(&self, error: PocketError) -> PocketError {
+        match error {
+            PocketError::TooSmall { radius, smoothing } => {
+                PocketError::TooSmall { radius: radius / self.scale, smoothing: smoothing / self.scale }
+            }
+            PocketError::NoEntry { at, left, form } => {
+                PocketError::NoEntry { at: self.at(at), left: left / (self.scale * self.scale), form }
+            }
+            error @ (PocketError::Number { .. }
+            | PocketError::Outline { .. }
+            | PocketError::Edge { .. }
+            | PocketError::Profile { .. }
+            | PocketError::Empty
+            | PocketError::Cancelled) => error,
+        }
+    }
+
+    /// A position of the plane, here.
+    fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.side * x / self.scale + self.middle[0], y / self.scale + self.middle[1]]
+    }
+
+    fn points(&self, points: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let there = |[x, y, bulge]: &[f64; 3]| {
+            [self.side * (x - self.middle[0]) * self.scale, (y - self.middle[1]) * self.scale, self.side * bulge]
+        };
+        points.iter().map(there).collect()
+    }
+
+    fn all(&self, outlines: &[Vec<[f64; 3]>]) -> Vec<Vec<[f64; 3]>> {
+        outlines.iter().map(|outline| self.points(outline)).collect()
+    }
+}
+
+/// A pocket's outlines in the plane.
+pub struct Framed<'a> {
+    pocket: Pocket<'a>,
+    frame: Frame,
+    walls: Vec<Vec<[f64; 3]>>,
+    stock: Option<Vec<Vec<[f64; 3]>>>,
+    cleared: Vec<Cleared>,
+}
+
+impl<'a> Framed<'a> {
+    pub fn new(pocket: &Pocket<'a>, frame: Frame) -> Self {
+        let outlines = pocket.shape.outlines();
+        let walls = outlines.iter().map(|(_, outline)| frame.points(outline)).collect();
+        let stock = pocket.shape.stock().map(|stock| frame.all(stock));
+        let cleared =
+            |path: &Cleared| Cleared { points: frame.points(&path.points), radius: (path.radius + CHIP) * frame.scale };
+        let cleared = pocket.cleared.iter().map(cleared).collect();
+        Self { pocket: *pocket, frame, walls, stock, cleared }
+    }
+
+    /// The pocket in the plane, to be cut by climb milling.
+    pub fn pocket(&self) -> Pocket<'_> {
+        let scale = self.frame.scale;
+        let stock = self.stock.as_deref();
+        let shape = match (self.pocket.shape, self.walls.split_first()) {
+            (Shape::Walls { open_edges, .. }, Some((boundary, islands))) => {
+                Shape::Walls { boundary, islands, open_edges, stock }
+            }
+            (Shape::Walls { .. } | Shape::Centres { .. }, _) => {
+                Shape::Centres { outlines: &self.walls, stock: stock.unwrap_or(&[]) }
+            }
+        };
+        Pocket {
+            shape,
+            radius: self.pocket.radius * scale,
+            smoothing: self.pocket.smoothing * scale,
+            leave: self.pocket.leave * scale,
+            finish: self.pocket.finish * scale,
+            entry: EntryRule { size: self.pocket.entry.size.map(|size| size * scale), ..self.pocket.entry },
+            cleared: &self.cleared,
+            climb: true,
+            ..self.pocket
+        }
+    }
+}
