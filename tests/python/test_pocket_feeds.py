@@ -67,6 +67,8 @@ def bulge_of(start: Any, end: Any, move: Any) -> float:  # rows as numpy has the
 def test_the_rate_is_held_near_the_reference_and_not_above_it() -> None:
     widths, feeds, lengths = rates(text_of(job(**LEVEL, **FEEDS)))
     reference = CUT * RADIUS * (1 - np.cos(BOUND))
+    # ends are rounded to 1 um: on a move of 9 um the heading may be off by 0.16 rad, and the stepover by as much of the radius
+    widths = np.maximum(widths - RADIUS * np.sqrt(2.0) * 1e-3 / lengths, 0.0)
     # half a degree more is what the bound itself allows
     assert (widths * feeds).max() < 1.012 * reference
     cuts = widths > 0.02

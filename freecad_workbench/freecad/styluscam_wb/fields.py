@@ -27,7 +27,7 @@ PATHS = {
 """Where each section stands in the document."""
 
 HOST = {
-    OPERATION: {"id", "tool", "faces", "channel", "z_top", "z_bottom", "feeds", "spindle", "coolant"},
+    OPERATION: {"id", "tool", "faces", "channel", "z_top", "z_bottom", "feeds", "spindle", "coolant", "rest_machining"},
     PROCESS: set[str](),
     SHEET: set[str](),
     PART: {"file", "faces", "units"},
@@ -47,7 +47,7 @@ HOST = {
     },
 }
 """Keys that follow from FreeCAD's own: label, tool controller, base geometry, depths, heights, feeds, coolant, model. Channels
-are none of them: an operation there is one program."""
+and what operations before left are none of them: an operation there is one program."""
 
 NAMES = {
     (OPERATION, KIND): "Strategy",

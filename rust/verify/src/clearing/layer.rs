@@ -1,6 +1,6 @@
 //! One layer of stock: the moves in it, and what they engage.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, SQRT_2};
 
 use styluscam_geometry::PlanePiece;
 use styluscam_motion::{Cancelled, Watch};
@@ -34,6 +34,8 @@ pub(super) struct Layer<'a> {
     pub floor: f64,
     /// The tool's radius at the layer's top, mm.
     pub radius: f64,
+    /// What the text's last decimal counts, mm.
+    pub unit: f64,
     /// Thickness of chips that count, mm.
     pub chip: f64,
     /// What was swept in it before.
@@ -175,10 +177,18 @@ impl Layer<'_> {
         let full = |angle: f64| self.radius * (1.0 - libm::cos(angle));
         let widest = measures.iter().max_by(|a, b| a.width.total_cmp(&b.width))?;
         let (bound, cut, feed) = (self.clearing.angle, self.operation.cut, own.feed?);
-        let is_over = feed * widest.width > (1.0 + ROUNDED) * cut * full(bound + ALLOWED);
+        let width = widest.width - self.radius * self.heading_error(own.segment);
+        let is_over = feed * width > (1.0 + ROUNDED) * cut * full(bound + ALLOWED);
         let most = cut * full(bound) / widest.width;
         let fault = || own.segment.fault(&faults::REMOVAL_RATE).measured(feed, most);
         is_over.then(|| Fault { position: [widest.at[0], widest.at[1], own.segment.end[2]], ..fault() })
+    }
+
+    /// By how much the heading of a move may be off, rad, as its ends, and of an arc the centre, are rounded to half a unit along both axes. The
+    /// stepover changes by no more than the radius times that.
+    fn heading_error(&self, segment: &Segment) -> f64 {
+        let length = segment.bend.map_or(segment.length(), |bend| bend.radius().min(segment.length()));
+        (SQRT_2 * self.unit / length).min(1.0)
     }
 
     /// What a move does in the layer; none where it is not in it, or goes straight up.

@@ -58,6 +58,7 @@ pub(crate) fn judged(
                 top,
                 floor: *floor,
                 radius: tool.cutter().at_height(top - floor).0,
+                unit: limits.unit,
                 chip: crate::engagement::CHIP + 2.0 * limits.unit,
                 clearing,
                 operation,

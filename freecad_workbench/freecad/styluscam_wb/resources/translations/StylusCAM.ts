@@ -433,11 +433,6 @@ As JSON
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Whether only what the operations before leave is cleared, such as the corners that a larger tool does not reach; else the whole box
-is stock.</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
         <source>Whether the stock to leave is taken as well, after the rest of its level: by a pass along the walls and a layer over each level floor,
 with the same bound of the engagement angle.</source>
         <translation type="unfinished"></translation>
@@ -1574,10 +1569,6 @@ Range: above 0 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Rest machining</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
         <source>Result</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2134,11 +2125,6 @@ As JSON
     </message>
     <message>
         <source>Whether feeds rise no higher than the thickest chip allows: it is nowhere thicker than at a full stepover.</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Whether only what the operations before leave is cleared, such as the corners that a larger tool does not reach; else the whole box
-is stock.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
