@@ -6,9 +6,10 @@ from __future__ import annotations
 from typing import Any
 
 from Path.Base import SetupSheet
+from Path.Base.SetupSheetOpPrototype import OpPrototype
 
 from . import engine, properties
-from .fields import CHOICE, OPERATION, kind_field
+from .fields import CHOICE, OPERATION, Field, kind_field
 
 NAME = "Stylus"
 """The name of all operations of ours in a setup sheet, whatever their kind; documents hold it."""
@@ -22,7 +23,7 @@ def property_names() -> list[str]:
     if not engine.is_there():
         return []
     kind = kind_field(properties.fields(), OPERATION)
-    return [field.name for field in properties.fields() if field != kind]
+    return [field.name for field in _fields() if field != kind]
 
 
 def stated(job: Any) -> set[str]:
@@ -35,9 +36,14 @@ def register() -> None:
     SetupSheet.RegisterOperation(NAME, _prototype, property_names)
 
 
+def _fields() -> list[Field]:
+    """Properties of the types that CAM's setup sheets know; speeds are none of them in FreeCAD 1.0 and 1.1."""
+    return [field for field in properties.fields() if field.type in OpPrototype.PropertyType]
+
+
 def _prototype(name: str, obj: Any, parentJob: Any = None) -> Any:
     """Fills CAM's stand-in for an operation, which knows `addProperty` and little else."""
-    for field in properties.fields():
+    for field in _fields():
         obj.addProperty(field.type, field.name, properties.GROUP, field.text)
         if field.type == CHOICE:
             setattr(obj, field.name, list(field.choices))
