@@ -165,11 +165,8 @@ def show_legend(document: str) -> None:
 
 def _is_coloured(obj: Any) -> bool:
     view = obj.ViewObject
-    switch = scene.mode_switch(view)
-    is_drawn = switch is None or switch.whichChild.getValue() != pictures.NOTHING  # a picture may stand for it
-    return bool(
-        getattr(view, PROPERTY, False) and view.Visibility and is_drawn and obj.Path.Size > 1
-    )  # a comment at least
+    is_drawn = view.Visibility and not pictures.is_hidden(obj)  # a picture may stand for it
+    return bool(getattr(view, PROPERTY, False) and is_drawn and obj.Path.Size > 1)  # a comment at least
 
 
 class ColourPaths(Command):

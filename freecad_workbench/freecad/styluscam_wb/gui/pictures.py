@@ -77,7 +77,7 @@ class _Observer:
 
     def slotChangedObject(self, obj: Any, prop: str) -> None:
         """A path or a model has changed."""
-        if (prop == "Path" and ops.is_ours(obj)) or (prop == "Shape" and _is_hidden(obj)):
+        if (prop == "Path" and ops.is_ours(obj)) or (prop == "Shape" and is_hidden(obj)):
             remove_all(obj.Document.Name)
 
     def slotDeletedDocument(self, document: Any) -> None:
@@ -140,5 +140,6 @@ def stands_for(job: Any) -> list[Any]:
     return [*models, *(source for model in models for source in getattr(model, "Objects", ()))]
 
 
-def _is_hidden(obj: Any) -> bool:
+def is_hidden(obj: Any) -> bool:
+    """Whether a picture stands for an object."""
     return any(obj in picture.hidden for picture in _shown.values())
