@@ -2,7 +2,7 @@
 
 use super::ground::chords;
 use super::material::Material;
-use super::polygons::{signed_area, Kernel, Point, Polygons};
+use super::polygons::{Kernel, Point, Polygons};
 
 /// One area in which the tool's centre may be, with the holes in it.
 pub struct CentreArea {
@@ -18,20 +18,10 @@ impl CentreArea {
         let farthest = outlines.iter().flatten().fold(1.0, |most: f64, [x, y, _]| most.max(x.abs()).max(y.abs()));
         let kernel = Kernel::new(2.0 * farthest);
         let chords: Vec<Vec<Point>> = outlines.iter().map(|outline| chords(outline)).collect();
-        let mut parts: Vec<Vec<Vec<Point>>> = Vec::new();
-        // an outline comes before its holes
-        for contour in kernel.even_odd(&chords).contours {
-            match parts.last_mut().filter(|_| signed_area(&contour) < 0.0) {
-                Some(part) => part.push(contour),
-                None => parts.push(vec![contour]),
-            }
-        }
         let flat = |contour: &Vec<Point>| contour.iter().map(|[x, y]| [*x, *y, 0.0]).collect();
-        let part = |contours: Vec<Vec<Point>>| Self {
-            outlines: contours.iter().map(flat).collect(),
-            sides: Material::new(Polygons { contours }),
-        };
-        parts.into_iter().map(part).collect()
+        let part =
+            |area: Polygons| Self { outlines: area.contours.iter().map(flat).collect(), sides: Material::new(area) };
+        kernel.even_odd(&chords).parted().into_iter().map(part).collect()
     }
 
     /// Whether a point lies in it.

@@ -107,7 +107,7 @@ impl Contour<'_> {
         let along = [b[0] - a[0], b[1] - a[1]];
         let length = libm::hypot(along[0], along[1]);
         let beside = |side: f64| [a[0] - side * along[1] / length, a[1] + side * along[0] / length];
-        let parts = parted(&both);
+        let parts = both.parted();
         let at = |point: Point| parts.iter().position(|part| Material::new(part.clone()).holds(point));
         match (at(beside(side)), at(beside(-side))) {
             (Some(wanted), Some(other)) if wanted != other => Ok(parts.into_iter().nth(wanted).unwrap_or_default()),
@@ -148,19 +148,6 @@ fn led_on(path: &[Point], by: f64) -> Vec<Point> {
     let first = beyond(points.first(), points.get(1));
     let last = beyond(points.last(), points.len().checked_sub(2).and_then(|i| points.get(i)));
     first.into_iter().chain(points).chain(last).collect()
-}
-
-/// The areas of which one consists, each with its holes.
-fn parted(area: &Polygons) -> Vec<Polygons> {
-    let mut parts: Vec<Polygons> = Vec::new();
-    // an outline comes before its holes
-    for contour in &area.contours {
-        match parts.last_mut().filter(|_| signed_area(contour) < 0.0) {
-            Some(part) => part.contours.push(contour.clone()),
-            None => parts.push(Polygons { contours: vec![contour.clone()] }),
-        }
-    }
-    parts
 }
 
 fn flat(area: &Polygons) -> Outlines {

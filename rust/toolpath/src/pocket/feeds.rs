@@ -7,6 +7,7 @@
 
 use std::f64::consts::PI;
 
+use super::frame::CHIP;
 use super::request::{PocketRun, Stepover};
 
 /// Seconds in a minute.
@@ -15,8 +16,6 @@ const MINUTE: f64 = 60.0;
 const STEP: f64 = 1.05;
 /// A feed lasts for this long at least, in tool radii: what allows a higher one on a shorter way is left out.
 const SHORTEST: f64 = 0.5;
-/// The stepover is taken to be larger by this, mm: thinner chips do not count.
-const CHIP: f64 = 1e-3;
 /// Angles above the bound by less are within it, rad: pieces are planned so (planner.rs).
 const WITHIN: f64 = 0.35 * PI / 180.0;
 /// Acceleration along the path of a machine that states none, mm/s^2.

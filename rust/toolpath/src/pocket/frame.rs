@@ -14,7 +14,7 @@ const STEPOVER: f64 = 0.3;
 /// Coordinates in the plane stay below this, mm: larger pockets are planned less large.
 const FARTHEST: f64 = 2000.0;
 /// Chips thinner than this do not count, mm (docs/concepts/engagement.md): what earlier tools swept counts as that much wider.
-const CHIP: f64 = 1e-3;
+pub const CHIP: f64 = 1e-3;
 
 /// From the pocket to the plane and back.
 #[derive(Clone, Copy, Debug)]

@@ -171,6 +171,19 @@ impl Polygons {
         self
     }
 
+    /// The areas of which it consists, each with its holes.
+    pub fn parted(self) -> Vec<Self> {
+        let mut parts: Vec<Self> = Vec::new();
+        // an outline comes before its holes
+        for contour in self.contours {
+            match parts.last_mut().filter(|_| signed_area(&contour) < 0.0) {
+                Some(part) => part.contours.push(contour),
+                None => parts.push(Self { contours: vec![contour] }),
+            }
+        }
+        parts
+    }
+
     /// Corners of the smallest upright box around it; None where it is empty.
     pub fn bounds(&self) -> Option<[Point; 2]> {
         bounds(self.contours.iter().flatten())
