@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 
 import pytest
@@ -34,7 +35,7 @@ def test_sound_program_passes(sound, cli):
     assert "nothing was found" in ran.out.splitlines()[0]
     assert "worst gouge" in ran.out and "worst excess" in ran.out
     code, document = verified(cli, sound, sound.gcode.read_text())
-    assert code == 0 and document["coverage"]
+    assert code == 0 and document["coverage"] and document["engagement"] == []
     for face in document["coverage"]:
         assert f"Face{face['face']}: {100 * face['covered']:.1f} % of" in ran.out
         assert 0.0 <= face["mean"] <= face["scallop"] <= face["left"]
@@ -51,6 +52,68 @@ def test_the_material_is_written(sound, cli):
     assert surface.bounds[1, 2] - surface.bounds[0, 2] > 10.0
     ran = cli("verify", sound.gcode, "--job", sound.job, "--simulation", sound.folder / "after.obj")
     assert ran.code == 2 and ".stl or .ply" in ran.err
+
+
+POCKET = """
+schema = 1
+[part]
+file = "block.stl"
+units = "mm"
+[process]
+kind = "milling"
+[setup]
+zero = "model"
+[tools.mill]
+profile = { kind = "flat", diameter = 4.0 }
+[[operations]]
+id = "clear"
+kind = "pocket"
+tool = "mill"
+step = { height = 2.0 }
+engagement_deg = 80.0
+fit = "arcs"
+spindle = { mode = "fixed", rpm = 8000.0 }
+[machine]
+name = "linuxcnc"
+[output]
+file = "block.ngc"
+"""
+
+
+def write_block(path):
+    """A block of 20 x 16 x 4 mm with a pocket of 14 x 10 x 2 mm, as STL."""
+    rings = [
+        [(a, b, z), (20 - a, b, z), (20 - a, 16 - b, z), (a, 16 - b, z)]
+        for a, b, z in ((0, 0, 0), (0, 0, 4), (3, 3, 4), (3, 3, 2))
+    ]
+    quads = []
+    for low, high in itertools.pairwise(rings):
+        quads += [(low[i], low[(i + 1) % 4], high[(i + 1) % 4], high[i]) for i in range(4)]
+    quads += [tuple(rings[-1]), tuple(reversed(rings[0]))]
+    facets = [corners for a, b, c, d in quads for corners in ((a, b, c), (a, c, d))]
+    vertex = "vertex {} {} {}\n".format
+    loops = ("outer loop\n" + "".join(vertex(*corner) for corner in corners) + "endloop\n" for corners in facets)
+    text = "".join(f"facet normal 0 0 0\n{loop}endfacet\n" for loop in loops)
+    path.write_text(f"solid block\n{text}endsolid block\n")
+
+
+def test_what_a_pocket_engages_is_printed_and_in_the_document(cli, tmp_path):
+    write_block(tmp_path / "block.stl")
+    job = tmp_path / "block.toml"
+    job.write_text(POCKET)
+    assert cli("run", job).code == 0
+    ran = cli("verify", tmp_path / "block.ngc", "--job", job)
+    (engaged,) = cli("verify", tmp_path / "block.ngc", "--job", job, "--json").json["engagement"]
+    angle, rate = engaged["angle"], engaged["rate"]
+    assert engaged["operation"] == "clear" and engaged["bound_deg"] == pytest.approx(80.0)
+    assert 70.0 < angle["value"] < 80.5 and angle["share"] == pytest.approx(angle["value"] / 80.0)
+    lines = (tmp_path / "block.ngc").read_text().splitlines()
+    for largest in (angle, rate):
+        assert re.search(r"[XY]-?\d", lines[largest["line"] - 1]) and 0.0 < largest["distance"] < engaged["length"]
+    assert [layer["floor"] for layer in engaged["layers"]] == pytest.approx([2.0], abs=0.005)
+    assert engaged["exempt"][0]["length"] > 30.0
+    words = f"clear: {angle['value']:.2f} of 80 degrees (line {angle['line']}), {100 * rate['share']:.1f} % of the reference"
+    assert words in ran.out
 
 
 def feed_lines(text, axis):

@@ -14,8 +14,11 @@ SIZE, WALL, TOP, FLOOR = (20.0, 16.0), 3.0, 6.0, 2.0
 """A block with a rectangular pocket: its sides and the walls around the pocket, the heights of its top and of the floor, mm."""
 
 
-def block() -> sc.Part:
-    """Faces: 1 the rim on top, 2 the sides, 3 the pocket's walls, 4 its floor, 5 the block's foot."""
+def mesh() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices (N, 3), triangles (M, 3) and their faces (M,).
+
+    Faces: 1 the rim on top, 2 the sides, 3 the pocket's walls, 4 its floor, 5 the block's foot.
+    """
     x, y = SIZE
     rings = [
         np.array([[a, b, z], [x - a, b, z], [x - a, y - b, z], [a, y - b, z]])
@@ -28,7 +31,13 @@ def block() -> sc.Part:
     ]
     quads += [(4, [12, 13, 14, 15]), (5, [3, 2, 1, 0])]
     triangles = np.array([half for _, (a, b, c, d) in quads for half in ([a, b, c], [a, c, d])])
-    return sc.Part.from_mesh(np.concatenate(rings), triangles, face_ids=np.repeat([face for face, _ in quads], 2))
+    return np.concatenate(rings), triangles, np.repeat([face for face, _ in quads], 2)
+
+
+def block() -> sc.Part:
+    """A part of :func:`mesh`."""
+    vertices, triangles, faces = mesh()
+    return sc.Part.from_mesh(vertices, triangles, face_ids=faces)
 
 
 def job(machine: str = "linuxcnc", **keys: Any) -> sc.Job:

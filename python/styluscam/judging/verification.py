@@ -14,6 +14,7 @@ from styluscam.arguments import A_FILE, FileName, channel_of, file_of, refused
 from styluscam.errors import GeometryError, JobError, PlanError, VerifyError
 from styluscam.files import read_gcode_text
 from styluscam.judging.brep import recheck
+from styluscam.judging.clearing import OperationEngagement, of_arrays
 from styluscam.judging.results import FaceCoverage, Finding, Group, Scallops
 from styluscam.programs.job import MAIN_CHANNEL, Job, JobLike
 from styluscam.programs.machine import Machine, MachineLike
@@ -49,6 +50,7 @@ class Report:
         self.beside = beside
         """The text of the channel that works together with this one, where it was given."""
         self._coverage: list[FaceCoverage] | None = None
+        self._engagement: list[OperationEngagement] | None = None
 
     def __repr__(self) -> str:
         """The verdict and the worst figures."""
@@ -189,6 +191,22 @@ class Report:
             )
         found = self.judgement.scallops(self.job.engine, self.scene, count, progress=progress, cancel=cancel)
         return [Scallops(*arrays) for arrays in found]
+
+    def engagement(
+        self, *, progress: Progress | None = None, cancel: _engine.CancelToken | None = None
+    ) -> list[OperationEngagement]:
+        """What each operation that clears stock (``pocket``) engages and removes along its feed moves, in the order of the job.
+
+        It is what the findings ``engagement`` and ``removal-rate`` are looked for in: measured layer by layer on the moves of the
+        text, as :func:`styluscam.engagement` does, with the job's stock. Other operations have none.
+
+        Raises:
+            Cancelled: by ``progress`` or ``cancel``.
+        """
+        if self._engagement is None:
+            found = self.judgement.engagement(self.job.engine, self.scene, progress=progress, cancel=cancel)
+            self._engagement = [of_arrays(arrays) for arrays in found]
+        return self._engagement
 
     @property
     def scallop(self) -> float:

@@ -13,7 +13,7 @@ from styluscam.drawing.toolplot import tool_svg
 from styluscam.errors import VerifyError
 from styluscam.programs.contents import ToolRecord
 from styluscam.programs.program import SAG
-from styluscam.report import plots, tables
+from styluscam.report import clearing, plots, tables
 from styluscam.report.columns import packed
 from styluscam.report.findings import grouped, measured, spoken, verdict_of
 from styluscam.report.heatmaps import HeatMap, Shown, shown_judged, shown_plain
@@ -75,7 +75,7 @@ def report_page(subject: Subject, progress: Progress | None = None) -> str:
             faces=tables.faces(subject),
             maps=shown.maps if shown is not None else (),
             layers=_layers(subject),
-            plots=_plots(subject, shown),
+            plots=_plots(subject, shown, progress),
             tools=_tool_pictures(subject),
             still=_still(subject),
             job=tables.job_rows(subject.job.document) if subject.job is not None else {},
@@ -114,11 +114,13 @@ def _shown(subject: Subject, progress: Progress | None) -> Shown | None:
     return shown_judged(subject.surface, subject.report, progress)
 
 
-def _plots(subject: Subject, shown: Shown | None) -> list[plots.Plot]:
+def _plots(subject: Subject, shown: Shown | None, progress: Progress | None) -> list[plots.Plot]:
     series = [plots.Series(subject.times, subject.positions[:, 2], subject.moves["feed"], subject.moves["kind"])]
     drawn = [plots.height_over_time(series), plots.feed_over_time(series)] if len(subject.positions) else []
     if shown is not None and len(shown.scallops):
         drawn.append(plots.scallop_histogram(shown.scallops, shown.weights))
+    if subject.report is not None:
+        drawn += [plot for one in subject.report.engagement(progress=progress) for plot in clearing.over_length(one)]
     return drawn
 
 

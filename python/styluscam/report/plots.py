@@ -51,11 +51,12 @@ VARIABLES = {INK: "--ink", SOFT: "--soft", GRID: "--grid", COLOURS[0]: "--first"
 
 @dataclass(frozen=True)
 class Plot:
-    """An SVG with a caption; ``seconds`` are the ends of its time axis, if that is what it has."""
+    """An SVG with a caption, and notes below; ``seconds`` are the ends of its time axis, if that is what it has."""
 
     title: str
     svg: str
     seconds: tuple[float, float] | None = None
+    notes: tuple[str, ...] = ()
 
     @property
     def left(self) -> float:
@@ -116,14 +117,14 @@ def scallop_histogram(scallops: FloatArray, weights: FloatArray) -> Plot:
         axes.set_xlabel("scallop, µm")
         axes.set_ylabel("area, mm²")
 
-    return Plot("Scallop where it is covered", _svg(draw))
+    return Plot("Scallop where it is covered", drawn(draw))
 
 
 def _over_time(title: str, series: Sequence[Series], draw: Draw) -> Plot:
     end = max((float(one.times[-1]) for one in series if len(one.times)), default=0.0) or 1.0
     unit, name = next(((u, n) for u, n in ((3600.0, "h"), (60.0, "min")) if end >= 3.0 * u), (1.0, "s"))
 
-    def drawn(axes: Axes) -> None:
+    def with_axis(axes: Axes) -> None:
         draw(axes)
         axes.set_xlim(0.0, end)
         ticks = _ticks(end / unit)
@@ -132,7 +133,7 @@ def _over_time(title: str, series: Sequence[Series], draw: Draw) -> Plot:
         if len(series) > 1:
             axes.legend(fontsize=8.5, frameon=False, labelcolor=INK, loc="best")
 
-    return Plot(title, _svg(drawn), (0.0, end))
+    return Plot(title, drawn(with_axis), (0.0, end))
 
 
 def _ticks(end: float) -> FloatArray:
@@ -165,7 +166,7 @@ def _outlined(times: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatA
     return times[chosen], values[chosen]
 
 
-def _svg(draw: Draw) -> str:
+def drawn(draw: Draw, frame: tuple[float, float, float, float] = FRAME) -> str:
     """What ``draw`` puts on axes, as an element for a page: the same numbers give the same text."""
     from matplotlib import rc_context
     from matplotlib.backends.backend_svg import FigureCanvasSVG
@@ -175,7 +176,7 @@ def _svg(draw: Draw) -> str:
         figure: Figure = Figure(figsize=SIZE)
         FigureCanvasSVG(figure)
         figure.patch.set_visible(False)
-        axes = figure.add_axes(FRAME)
+        axes = figure.add_axes(frame)
         axes.patch.set_visible(False)
         draw(axes)
         axes.grid(True, color=GRID, linewidth=0.8)

@@ -57,13 +57,13 @@ fn is_in_range(coordinate: f64) -> bool {
     coordinate.abs() <= FARTHEST
 }
 
-/// An (N, 3) array of points, or of corner numbers.
-pub fn matrix<'py, T: numpy::Element>(
+/// An (N, K) array: of points, of corner numbers.
+pub fn matrix<'py, T: numpy::Element, const K: usize>(
     py: Python<'py>,
-    rows: impl ExactSizeIterator<Item = [T; 3]>,
+    rows: impl ExactSizeIterator<Item = [T; K]>,
 ) -> PyResult<Bound<'py, PyArray2<T>>> {
     let count = rows.len();
-    PyArray1::from_vec(py, rows.flatten().collect::<Vec<T>>()).reshape([count, 3])
+    PyArray1::from_vec(py, rows.flatten().collect::<Vec<T>>()).reshape([count, K])
 }
 
 /// A function applied to each entry.

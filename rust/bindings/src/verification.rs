@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 use styluscam_job::Text;
-use styluscam_verify::{FindingKind, Need, Scallop};
+use styluscam_verify::{ClearingKind, FindingKind, Need, OperationEngagement, Scallop};
 
 use crate::{
     arrays,
@@ -27,6 +27,17 @@ type OperationScallops<'py> = (
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<f64>>,
+);
+
+/// An operation's id, its largest engagement angle and its length; arrays of its layers, of its moves (numbers and codes) and of positions.
+type EngagementArrays<'py> = (
+    String,
+    f64,
+    f64,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<u32>>,
+    Bound<'py, PyArray2<f64>>,
 );
 
 /// A text that was checked.
@@ -121,6 +132,25 @@ impl Judgement {
         found.into_iter().map(of_operation).collect()
     }
 
+    /// What each operation that clears stock engages and removes: its id, the largest engagement angle (rad), the length of its feed
+    /// moves; its layers (L, 4): top, floor, radius, reference of the removal rate (mm^3/min); its moves (M, 4): length up to start
+    /// and end, feed (mm/min, nan where none is known), what rounding may have added to the stepover; and (M, 4): line, layer,
+    /// 0 where it cuts, 1 on a link, 2 on an entry, number of positions; positions (N, 6): length up to there, tip, engagement
+    /// angle (rad), stepover. Lengths mm.
+    #[pyo3(signature = (job, scene, progress=None, cancel=None))]
+    fn engagement<'py>(
+        &self,
+        py: Python<'py>,
+        job: &Job,
+        scene: &Scene,
+        progress: Option<&Bound<'py, PyAny>>,
+        cancel: Option<&CancelToken>,
+    ) -> PyResult<Vec<EngagementArrays<'py>>> {
+        let work = |watch: &_| styluscam_job::engagement(&job.document, &scene.scene, &self.judgement, watch);
+        let found = watched(py, progress, cancel, work)?.map_err(of_job)?;
+        found.into_iter().map(|(id, engagement)| engagement_arrays(py, id, &engagement)).collect()
+    }
+
     /// The material after the program; `face` of the sheet is "tool", "mid" or "back".
     #[pyo3(signature = (job, scene, spacing, face=None, progress=None, cancel=None))]
     #[allow(clippy::too_many_arguments)] // Python's keywords
@@ -151,6 +181,40 @@ impl Judgement {
     fn seen(&self) -> Program {
         Program { program: self.judgement.seen().clone() }
     }
+}
+
+fn engagement_arrays<'py>(py: Python<'py>, id: String, found: &OperationEngagement) -> PyResult<EngagementArrays<'py>> {
+    let layers = found.layers.iter().map(|layer| [layer.top, layer.floor, layer.radius, layer.reference]);
+    let numbers = found.moves.iter().map(|step| {
+        let [start, end] = step.travelled;
+        [start, end, step.feed.unwrap_or(f64::NAN), step.rounding]
+    });
+    let codes = found.moves.iter().map(|step| {
+        let kind = match step.kind {
+            ClearingKind::Cut => 0,
+            ClearingKind::Link => 1,
+            ClearingKind::Entry => 2,
+        };
+        [step.line, step.layer as u32, kind, step.positions.len() as u32]
+    });
+    let positions: Vec<[f64; 6]> = found
+        .moves
+        .iter()
+        .flat_map(|step| &step.positions)
+        .map(|at| {
+            let [x, y, z] = at.tip;
+            [at.travelled, x, y, z, at.angle, at.stepover]
+        })
+        .collect();
+    Ok((
+        id,
+        found.angle,
+        found.length,
+        arrays::matrix(py, layers)?,
+        arrays::matrix(py, numbers)?,
+        arrays::matrix(py, codes)?,
+        arrays::matrix(py, positions.into_iter())?,
+    ))
 }
 
 /// The kinds of findings, as JSON: their words for people by their codes, in the order in which a report lists them.

@@ -47,7 +47,7 @@ pub(super) struct Layer<'a> {
 
 /// What a move does in a layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Doing {
+pub(super) enum Doing {
     /// Level, or up.
     Runs,
     /// As that, and cuts nothing.
@@ -60,6 +60,21 @@ enum Doing {
     Below,
 }
 
+/// A move in a layer, or below it, as it is seen just under the layer's top.
+pub(super) struct Inside<'a> {
+    pub own: &'a Own<'a>,
+    pub doing: Doing,
+    run: PlaneRun,
+    pub measures: Vec<Engaged>,
+}
+
+impl Inside<'_> {
+    /// What the tool's centre passes.
+    pub fn centres(&self) -> Vec<PlanePiece> {
+        centres(&self.run)
+    }
+}
+
 impl Layer<'_> {
     /// Looks at the moves of its operation that lie in the layer, or below it; what they sweep.
     pub fn judged(
@@ -69,6 +84,22 @@ impl Layer<'_> {
         watch: &Watch,
         faults: &mut Vec<Fault>,
     ) -> Result<Vec<PlanePiece>, Cancelled> {
+        let inside = self.measured(own, subject, watch)?;
+        for found in &inside {
+            faults.extend(self.fault(found.own, found.doing, &found.measures));
+        }
+        self.without_stock(&inside, subject, watch, faults)?;
+        let swept = inside.iter().filter(|found| matches!(found.doing, Doing::Runs | Doing::Enters));
+        Ok(swept.flat_map(Inside::centres).collect())
+    }
+
+    /// What the moves of its operation that lie in the layer, or below it, engage just under its top.
+    pub fn measured<'a>(
+        &self,
+        own: &'a [Own<'a>],
+        subject: &Subject,
+        watch: &Watch,
+    ) -> Result<Vec<Inside<'a>>, Cancelled> {
         let inside: Vec<(&Own, Doing)> = own.iter().filter_map(|own| Some((own, self.doing(own)?))).collect();
         let under_top = |(own, doing): &(&Own, Doing)| match doing {
             Doing::Below | Doing::Rapid => run(own.segment, PlaneRunKind::Probed),
@@ -76,25 +107,21 @@ impl Layer<'_> {
             Doing::Runs | Doing::Links => run(own.segment, PlaneRunKind::Cut),
         };
         let runs: Vec<PlaneRun> = inside.iter().map(under_top).collect();
-        let Some(found) = self.engagement(&runs, subject, watch)? else { return Ok(Vec::new()) };
-        for ((own, doing), along) in inside.iter().zip(&found) {
-            faults.extend(self.fault(own, *doing, &along.measures));
-        }
-        self.without_stock(&inside, subject, watch, faults)?;
-        let swept = inside.iter().zip(&runs).filter(|((_, doing), _)| matches!(doing, Doing::Runs | Doing::Enters));
-        Ok(swept.flat_map(|(_, run)| centres(run)).collect())
+        let found = self.engagement(&runs, subject, watch)?.unwrap_or_default();
+        let moves = inside.into_iter().zip(runs).zip(found);
+        Ok(moves.map(|(((own, doing), run), along)| Inside { own, doing, run, measures: along.measures }).collect())
     }
 
     /// Looks at moves down that are steeper than asked, at links and at rapids: at what stands on the floor, of which ways into the
     /// material leave some all along.
     fn without_stock(
         &self,
-        inside: &[(&Own, Doing)],
+        inside: &[Inside],
         subject: &Subject,
         watch: &Watch,
         faults: &mut Vec<Fault>,
     ) -> Result<(), Cancelled> {
-        let on_floor = inside.iter().filter_map(|(own, doing)| {
+        let on_floor = inside.iter().filter_map(|Inside { own, doing, .. }| {
             let kind = match doing {
                 Doing::Runs if own.segment.lowest() < self.floor + SAME_LEVEL => PlaneRunKind::Swept,
                 Doing::Rapid | Doing::Links => PlaneRunKind::Probed,
@@ -174,19 +201,23 @@ impl Layer<'_> {
 
     /// More stock removed in a minute than by a straight pass at the largest angle: in the layer, of even depth, more area.
     fn removal(&self, own: &Own, measures: &[Engaged]) -> Option<Fault> {
-        let full = |angle: f64| self.radius * (1.0 - libm::cos(angle));
         let widest = measures.iter().max_by(|a, b| a.width.total_cmp(&b.width))?;
         let (bound, cut, feed) = (self.clearing.angle, self.operation.cut, own.feed?);
         let width = widest.width - self.radius * self.heading_error(own.segment);
-        let is_over = feed * width > (1.0 + ROUNDED) * cut * full(bound + ALLOWED);
-        let most = cut * full(bound) / widest.width;
+        let is_over = feed * width > (1.0 + ROUNDED) * cut * self.full(bound + ALLOWED);
+        let most = cut * self.full(bound) / widest.width;
         let fault = || own.segment.fault(&faults::REMOVAL_RATE).measured(feed, most);
         is_over.then(|| Fault { position: [widest.at[0], widest.at[1], own.segment.end[2]], ..fault() })
     }
 
+    /// The stepover of a straight pass at an engagement angle, mm.
+    pub fn full(&self, angle: f64) -> f64 {
+        self.radius * (1.0 - libm::cos(angle))
+    }
+
     /// By how much the heading of a move may be off, rad, as its ends, and of an arc the centre, are rounded to half a unit along both axes. The
     /// stepover changes by no more than the radius times that.
-    fn heading_error(&self, segment: &Segment) -> f64 {
+    pub fn heading_error(&self, segment: &Segment) -> f64 {
         let length = segment.bend.map_or(segment.length(), |bend| bend.radius().min(segment.length()));
         (SQRT_2 * self.unit / length).min(1.0)
     }

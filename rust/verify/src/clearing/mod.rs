@@ -6,6 +6,7 @@
 //! ([`crate::engagement`]); what is looked for is stock that a tool could have cleared (`rest`), by positions at which the tool is found
 //! free of the part. Both know nothing of how the path was planned.
 
+mod along;
 mod before;
 mod beside;
 mod layer;
@@ -13,6 +14,7 @@ mod own;
 mod rest;
 mod to_leave;
 
+use styluscam_geometry::Tool;
 use styluscam_motion::{Cancelled, Program, Watch};
 
 use crate::assignment::Assignment;
@@ -24,6 +26,8 @@ use crate::findings::{Finding, FindingKind, Severity};
 use crate::segments::{Segment, SegmentKind};
 use crate::subject::{Limits, Subject};
 use crate::tolerances::{ROUGH, SAME_LEVEL, SLACK, WIDE};
+
+pub use along::{operation_engagement, ClearedLayer, ClearingKind, ClearingMove, EngagedAt, OperationEngagement};
 
 use layer::Layer;
 use own::{moves_of, Own};
@@ -43,47 +47,81 @@ pub(crate) fn judged(
 ) -> Result<(Vec<Fault>, Vec<Finding>), Cancelled> {
     let (mut faults, mut findings) = (Vec::new(), Vec::new());
     for operation in subject.expected {
-        let Some(clearing) = operation.expectation.clearing() else { continue };
+        let Some(work) = Work::of(operation, program, segments, assignment, subject) else { continue };
+        let body = Body::new(work.tool, subject.sheet.as_ref());
+        work.by_layer(subject, limits, |layer| {
+            let swept = layer.judged(&work.own, subject, watch, &mut faults)?;
+            let grid = rest::Grid::new(layer, subject);
+            let free = grid.free(layer, &body, subject, watch)?;
+            let reached = grid.reached(layer, &free, &swept, subject);
+            findings.extend(rest::left(layer, &swept, (&grid, &reached)));
+            findings.extend(beside::left(layer, &swept, (&grid, &free, &reached), &body, subject));
+            if layer.clearing.left.iter().any(|left| *left > 0.0) {
+                let solids = Solids { body: &body, subject, limits };
+                faults.extend(to_leave::faults(layer, &work.own, (&grid, &free), &solids, watch)?);
+            }
+            Ok(())
+        })?;
+        findings.extend(missing_levels(operation, work.clearing, &work.heights, subject));
+    }
+    faults.sort_by_key(|fault| fault.index);
+    Ok((faults, findings))
+}
+
+/// An operation that clears stock, with the moves that do it.
+struct Work<'a> {
+    operation: &'a ExpectedOperation,
+    clearing: &'a Clearing,
+    tool: &'a Tool,
+    own: Vec<Own<'a>>,
+    /// The moves before them that took of its stock.
+    before: Vec<&'a Segment>,
+    /// Of its levels, from the top down, mm.
+    heights: Vec<f64>,
+}
+
+impl<'a> Work<'a> {
+    /// None of an operation that clears nothing, or has no moves.
+    fn of(
+        operation: &'a ExpectedOperation,
+        program: &Program,
+        segments: &'a [Segment],
+        assignment: &Assignment,
+        subject: &'a Subject,
+    ) -> Option<Self> {
+        let clearing = operation.expectation.clearing()?;
         let own = moves_of(program, segments.iter().filter(|segment| assignment.is(segment.operation, operation)));
-        let Some(tool) = subject.tools.get(operation.tool).filter(|_| !own.is_empty()) else { continue };
+        let tool = subject.tools.get(operation.tool).filter(|_| !own.is_empty())?;
         let before = before::of(segments, &own, clearing);
         let heights = heights(&own, clearing.top);
-        let body = Body::new(tool, subject.sheet.as_ref());
-        let mut top = clearing.top;
-        for floor in &heights {
-            let cleared = before::cleared(&before, [top, *floor], subject);
-            let layer = Layer {
+        Some(Self { operation, clearing, tool, own, before, heights })
+    }
+
+    /// Looks at one layer after the other, from the top down.
+    fn by_layer(
+        &self,
+        subject: &Subject,
+        limits: &Limits,
+        mut look: impl FnMut(&Layer<'_>) -> Result<(), Cancelled>,
+    ) -> Result<(), Cancelled> {
+        let mut top = self.clearing.top;
+        for floor in &self.heights {
+            let cleared = before::cleared(&self.before, [top, *floor], subject);
+            look(&Layer {
                 cleared: &cleared,
                 gone: &Cleared::new(&cleared, 0.0),
                 top,
                 floor: *floor,
-                radius: tool.cutter().at_height(top - floor).0,
+                radius: self.tool.cutter().at_height(top - floor).0,
                 unit: limits.unit,
                 chip: crate::engagement::CHIP + 2.0 * limits.unit,
-                clearing,
-                operation,
-            };
-            let swept = layer.judged(&own, subject, watch, &mut faults)?;
-            let grid = rest::Grid::new(&layer, subject);
-            let free = grid.free(&layer, &body, subject, watch)?;
-            let reached = grid.reached(&layer, &free, &swept, subject);
-            findings.extend(rest::left(&layer, &swept, (&grid, &reached)));
-            findings.extend(beside::left(&layer, &swept, (&grid, &free, &reached), &body, subject));
-            if clearing.left.iter().any(|left| *left > 0.0) {
-                faults.extend(to_leave::faults(
-                    &layer,
-                    &own,
-                    (&grid, &free),
-                    &Solids { body: &body, subject, limits },
-                    watch,
-                )?);
-            }
+                clearing: self.clearing,
+                operation: self.operation,
+            })?;
             top = *floor;
         }
-        findings.extend(missing_levels(operation, clearing, &heights, subject));
+        Ok(())
     }
-    faults.sort_by_key(|fault| fault.index);
-    Ok((faults, findings))
 }
 
 /// The heights of the tip on level feeds, from the top down.

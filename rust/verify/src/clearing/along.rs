@@ -1,0 +1,162 @@
+//! What an operation that clears engages and removes along its feed moves: the measurement of [`super::judged`], handed out.
+
+use styluscam_motion::{Cancelled, Program, Watch};
+
+use super::layer::{Doing, Inside, Layer};
+use super::Work;
+use crate::assignment::Assignment;
+use crate::engagement::Engaged;
+use crate::expectation::ExpectedOperation;
+use crate::segments::{placed, SegmentKind};
+use crate::subject::{Limits, Subject};
+
+/// What an operation that clears stock engages and removes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OperationEngagement {
+    /// The largest engagement angle, but on entries, rad.
+    pub angle: f64,
+    /// Length of all its feed moves, mm.
+    pub length: f64,
+    /// From the top down.
+    pub layers: Vec<ClearedLayer>,
+    /// Its feed moves that are measured, in the order of the program: not those over the stock, straight up, or below the last layer.
+    pub moves: Vec<ClearingMove>,
+}
+
+/// A layer of stock that is cleared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClearedLayer {
+    /// mm.
+    pub top: f64,
+    /// Height of the tip, mm.
+    pub floor: f64,
+    /// The tool's radius at the layer's top, mm.
+    pub radius: f64,
+    /// Volume that a straight pass at the largest angle removes in a minute, at the feed that is stated for it, mm^3.
+    pub reference: f64,
+}
+
+/// What a move that clears is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ClearingKind {
+    /// It cuts.
+    Cut,
+    /// Through what is cleared.
+    Link,
+    /// Down into the material: the largest angle does not hold there.
+    Entry,
+}
+
+/// A feed move of an operation that clears.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClearingMove {
+    /// Line of the text, from 1; 0 when it was not read from text.
+    pub line: u32,
+    /// The layer, index.
+    pub layer: usize,
+    /// What it is for.
+    pub kind: ClearingKind,
+    /// Length of the operation's feed moves up to its start and its end, mm.
+    pub travelled: [f64; 2],
+    /// mm/min; none where the text states none per minute.
+    pub feed: Option<f64>,
+    /// What rounding the text's coordinates may have added to the stepover, mm.
+    pub rounding: f64,
+    /// Where it was measured.
+    pub positions: Vec<EngagedAt>,
+}
+
+/// A position at which the engagement was measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EngagedAt {
+    /// Length of the operation's feed moves up to there, mm.
+    pub travelled: f64,
+    /// The tool's tip, work coordinates, mm.
+    pub tip: [f64; 3],
+    /// The engagement angle, rad.
+    pub angle: f64,
+    /// Area cleared per length of the path just under the layer's top, mm: the radial stepover.
+    pub stepover: f64,
+}
+
+/// What an operation of a program engages and removes along its feed moves; none of an operation that does not clear stock.
+///
+/// # Errors
+/// `Cancelled` when the watch is cancelled.
+pub fn operation_engagement(
+    program: &Program,
+    subject: &Subject,
+    limits: &Limits,
+    operation: &ExpectedOperation,
+    watch: &Watch,
+) -> Result<Option<OperationEngagement>, Cancelled> {
+    let segments = placed(program, subject, limits);
+    let assignment = Assignment::new(program, subject);
+    let Some(work) = Work::of(operation, program, &segments, &assignment, subject) else { return Ok(None) };
+    let mut length = 0.0;
+    let ends = work.own.iter().map(|own| {
+        let start = length;
+        if own.segment.kind != SegmentKind::Rapid {
+            length += own.segment.length();
+        }
+        [start, length]
+    });
+    let ends: Vec<[f64; 2]> = ends.collect();
+    let mut layers = Vec::new();
+    let mut moves: Vec<Option<ClearingMove>> = vec![None; work.own.len()];
+    work.by_layer(subject, limits, |layer| {
+        for inside in layer.measured(&work.own, subject, watch)? {
+            let index = work.own.partition_point(|own| own.segment.index < inside.own.segment.index);
+            if let (Some(found @ None), Some(travelled)) = (moves.get_mut(index), ends.get(index)) {
+                *found = layer.along(&inside, layers.len(), *travelled);
+            }
+        }
+        layers.push(layer.described());
+        Ok(())
+    })?;
+    Ok(Some(OperationEngagement {
+        angle: work.clearing.angle,
+        length,
+        layers,
+        moves: moves.into_iter().flatten().collect(),
+    }))
+}
+
+impl Layer<'_> {
+    fn described(&self) -> ClearedLayer {
+        let Self { top, floor, radius, .. } = *self;
+        let reference = (top - floor) * self.operation.cut * self.full(self.clearing.angle);
+        ClearedLayer { top, floor, radius, reference }
+    }
+
+    /// A move with its positions; none of one that goes on below the layer, or is a rapid.
+    fn along(&self, inside: &Inside, layer: usize, travelled: [f64; 2]) -> Option<ClearingMove> {
+        let kind = match inside.doing {
+            Doing::Runs => ClearingKind::Cut,
+            Doing::Links => ClearingKind::Link,
+            Doing::Enters => ClearingKind::Entry,
+            Doing::Rapid | Doing::Below => return None,
+        };
+        let segment = inside.own.segment;
+        let in_plan: f64 = inside.centres().iter().map(|piece| piece.length()).sum();
+        let position = |measure: &Engaged| {
+            let share = if in_plan > 0.0 { (measure.travelled / in_plan).min(1.0) } else { 1.0 };
+            let ([x, y], [_, _, z]) = (measure.at, segment.at(share));
+            EngagedAt {
+                travelled: travelled[0] + share * segment.length(),
+                tip: [x, y, z],
+                angle: measure.angle,
+                stepover: measure.width,
+            }
+        };
+        Some(ClearingMove {
+            line: segment.line,
+            layer,
+            kind,
+            travelled,
+            feed: inside.own.feed,
+            rounding: self.radius * self.heading_error(segment),
+            positions: inside.measures.iter().map(position).collect(),
+        })
+    }
+}
