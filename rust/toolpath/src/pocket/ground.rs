@@ -21,8 +21,10 @@ const TOGETHER: usize = 48;
 const BEYOND: f64 = 2.5;
 /// How far discs may reach there, which only say where the tool is permitted to cut: the largest fits, with what it keeps from the material.
 const FAR: f64 = 26.0;
-/// Chords of the air around a corner of two open edges.
-const CHORDS: usize = 8;
+/// Angle of the chords of the air around a corner of two open edges, rad.
+const CHORD: f64 = 0.2;
+/// How much less walls beyond an open edge are kept from than all others, mm, so that only those are told by it.
+const NEARER: f64 = 1e-3;
 
 /// The pocket's areas.
 #[derive(Debug)]
@@ -49,7 +51,12 @@ impl Ground {
                 let walls = area(&kernel, boundary, islands)?;
                 let free = |far: f64| {
                     let open = kernel.union(&walls, &beyond(&kernel, boundary, open_edges, far * r));
-                    kernel.offset(&open, -(r + GAP + pocket.leave), WALL)
+                    let kept = r + GAP + pocket.leave;
+                    let free = kernel.offset(&open, -kept, WALL);
+                    match open_edges {
+                        [] => free,
+                        _ => off_walls(&kernel, free, boundary, open_edges, kept - NEARER),
+                    }
                 };
                 wide = (!open_edges.is_empty()).then(|| free(FAR));
                 let free = free(BEYOND);
@@ -110,40 +117,64 @@ fn area(kernel: &Kernel, boundary: &[[f64; 3]], islands: &[Vec<[f64; 3]>]) -> Re
 fn beyond(kernel: &Kernel, boundary: &[[f64; 3]], open_edges: &[usize], far: f64) -> Polygons {
     let pieces = PlanePiece::outline(boundary);
     let far = if signed_area(&chords(boundary)) > 0.0 { far } else { -far };
-    let mut air = Polygons::default();
     let outwards = |a: &Point, b: &Point| {
         let along = [b[0] - a[0], b[1] - a[1]];
         let length = libm::hypot(along[0], along[1]);
         [along[1] * far / length, -along[0] * far / length]
     };
     let moved = |p: &Point, by: Point| [p[0] + by[0], p[1] + by[1]];
-    let mut add = |area: Vec<Point>| air = kernel.union(&air, &kernel.even_odd(&[area]));
+    let mut areas = Vec::new();
+    let mut add = |mut area: Vec<Point>| {
+        if far < 0.0 {
+            area.reverse();
+        }
+        areas.push(area);
+    };
     for edge in open_edges {
-        let Some(piece) = pieces.get(*edge) else { continue };
-        let edge_chords = flat(piece);
-        for pair in edge_chords.windows(2) {
+        let mut corners = pieces.get(*edge).map(flat).unwrap_or_default();
+        for pair in corners.windows(2) {
             let [a, b] = pair else { continue };
             let out = outwards(a, b);
             add(vec![*a, moved(a, out), moved(b, out), *b]);
         }
-        // around a corner that it has with the next one, if that is open too
-        let next = (edge + 1) % pieces.len();
+        // on to the next one, if that is open too
+        let next = (edge + 1) % pieces.len().max(1);
         let after = pieces.get(next).filter(|_| open_edges.contains(&next)).map(flat).unwrap_or_default();
-        if let ([.., a, corner], [_, b, ..]) = (edge_chords.as_slice(), after.as_slice()) {
+        corners.extend(after.get(1));
+        // around the corner with it, and between the chords of an arc
+        for corner in corners.windows(3) {
+            let [a, corner, b] = corner else { continue };
             let (before, after) = (outwards(a, corner), outwards(corner, b));
             let (cross, dot) =
                 (before[0] * after[1] - before[1] * after[0], before[0] * after[0] + before[1] * after[1]);
             let turn = libm::atan2(cross, dot);
             if turn * far > 0.0 {
-                let around = (0..=CHORDS).map(|i| {
-                    let (sin, cos) = libm::sincos(turn * i as f64 / CHORDS as f64);
+                let count = libm::ceil(turn.abs() / CHORD).max(1.0);
+                let around = (0..=count as usize).map(|i| {
+                    let (sin, cos) = libm::sincos(turn * i as f64 / count);
                     moved(corner, [before[0] * cos - before[1] * sin, before[0] * sin + before[1] * cos])
                 });
                 add(std::iter::once(*corner).chain(around).collect());
             }
         }
     }
-    air
+    kernel.union_all(&areas)
+}
+
+/// Without what is nearer than `distance` to an edge that is not open: beyond an open edge others may lie.
+fn off_walls(
+    kernel: &Kernel,
+    mut free: Polygons,
+    boundary: &[[f64; 3]],
+    open_edges: &[usize],
+    distance: f64,
+) -> Polygons {
+    let pieces = PlanePiece::outline(boundary);
+    let walls = pieces.iter().enumerate().filter(|(edge, _)| !open_edges.contains(edge));
+    for (_, wall) in walls {
+        free = kernel.difference(&free, &kernel.sweep(&flat(wall), distance, WALL));
+    }
+    free
 }
 
 /// A closed outline as chords.

@@ -257,6 +257,12 @@ fn passes_in_a_slot_begin_where_they_cut() {
     assert!(length(&path, PocketRunKind::Link) < 0.8 * length(&path, PocketRunKind::Cut));
 }
 
+fn reversed_outline(outline: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let from = |i: usize| outline[(outline.len() + i) % outline.len()];
+    let points = (0..outline.len()).rev().map(|i| [from(i + 1)[0], from(i + 1)[1], -from(i)[2]]);
+    points.collect()
+}
+
 #[test]
 fn around_the_corner_of_two_open_edges_the_tool_goes_through_the_air() {
     let boundary = rectangle(12.0, 12.0);
@@ -265,6 +271,31 @@ fn around_the_corner_of_two_open_edges_the_tool_goes_through_the_air() {
     assert!(path.runs.iter().all(|run| matches!(run.kind, PocketRunKind::Cut | PocketRunKind::Link)));
     let ratio = length(&path, PocketRunKind::Cut) * 2.5 * (1.0 - (PI / 3.0).cos()) / path.goal;
     assert!(path.left < 1e-3 * path.goal && ratio < 1.65, "{ratio}");
+}
+
+#[test]
+fn through_an_open_arc_the_tool_comes_from_outside_whichever_way_the_outline_goes() {
+    let arc = [[0.0, 0.0, 0.0], [20.0, 0.0, 0.0], [20.0, 12.0, 0.5], [0.0, 12.0, 0.0]];
+    for boundary in [arc.to_vec(), reversed_outline(&arc)] {
+        let open = boundary.iter().position(|[_, _, bulge]| *bulge != 0.0).unwrap();
+        let shape = Shape::Walls { boundary: &boundary, islands: &[], open_edges: &[open], stock: None };
+        let path = planned(&Pocket { shape, ..pocket(&boundary) });
+        assert!(path.runs.iter().all(|run| run.kind != PocketRunKind::Entry));
+        assert!(path.left < 1e-3 * path.goal);
+    }
+}
+
+#[test]
+fn beyond_an_open_edge_walls_are_kept_from_too() {
+    // the bottom of a notch is open, its sides are not
+    let corners =
+        [[0.0, 0.0], [15.0, 0.0], [15.0, 5.0], [25.0, 5.0], [25.0, 0.0], [40.0, 0.0], [40.0, 24.0], [0.0, 24.0]];
+    let boundary = corners.map(|[x, y]| [x, y, 0.0]);
+    let shape = Shape::Walls { boundary: &boundary, islands: &[], open_edges: &[2], stock: None };
+    let path = planned(&Pocket { shape, ..pocket(&boundary) });
+    let side = |x: f64| vec![[x, 0.0, 0.0], [x, 5.0, 0.0], [x, 5.0, 0.0]];
+    let found = clearance(&path, &[side(15.0), side(25.0)]);
+    assert!(found > 2.5 - 1e-6, "{found}");
 }
 
 proptest! {
