@@ -21,7 +21,7 @@ TRANSLATIONS = PACKAGE / "resources" / "translations"
 TEMPLATE = TRANSLATIONS / "StylusCAM.ts"
 
 OURS = "StylusCAM"
-"""The context of `gui.messages.translated`."""
+"""The context of `texts.translated`."""
 
 BARS = "Workbench"
 """The context in which FreeCAD looks for titles of bars and menus."""

@@ -16,7 +16,7 @@ REASONS = {
     "other model": "no Face2, Face3, Face4 any more",
     "no controller": "has no tool",
     "deleted controller": "has no tool",
-    "no model face": "model_face must state",
+    "no model face": "Model face must state",
     "other diameter": "its profile's 0.001 mm",
     "engine raises": "the engine [broke] in two lines",
     "engine is gone": "pip install --target",

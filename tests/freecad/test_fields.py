@@ -113,6 +113,18 @@ def test_keys_that_mean_nothing_to_a_kind_are_not_its() -> None:
     assert by_name(document)["Tolerance"].kinds == ("levels", "wild")
 
 
+def test_a_form_of_a_value_that_means_nothing_to_a_kind_is_not_its() -> None:
+    found = by_name(sc.job_schema())
+    assert found["Step"].is_of("pocket") and found["StepList"].is_of("pocket")
+    assert not found["StepScallop"].is_of("pocket")
+    assert found["StepScallop"].is_of("z-level") and not found["StepScallop"].is_of("zig-zag")
+
+
+def test_a_risk_states_whether_it_is_for_sheets_alone() -> None:
+    words = by_name(sc.job_schema())["AcceptedRisks"].words
+    assert {choice.word for choice in words if not choice.stated.get(fields.TAKES_SHEET)} == {"bridged", "unreached"}
+
+
 def test_a_kind_starts_with_its_own_example() -> None:
     found = schema.JobSchema(sc.job_schema())
     own = {field.name: field.default for field in fields.fields_of(found, "pocket")}

@@ -70,6 +70,8 @@ def test_only_the_stock_that_is_there_is_cut() -> None:
         ([(0.0, 0.0), (0.0, 0.0)], {}, "profile"),
         ([(0.0, math.inf), (1.0, 0.0)], {}, "profile"),
         ([(0.0, 0.0)], {}, "profile"),
+        ([(0.0, 0.0), (40.0, 0.0), (40.0, 20.0), (20.0, -10.0)], {}, "profile"),  # crosses itself
+        (BEND, {"width": 1e-3}, "width"),
         ([(0.0, 0.0), (10.0, 10.0), (10.0, 0.0), (0.0, 10.0)], {"closed": True}, "profile"),
     ],
 )
@@ -79,3 +81,13 @@ def test_what_is_no_profile_is_refused_by_name(
     asked = {"width": WIDTH, "tool_radius": RADIUS, "engagement_deg": 60.0} | keys
     with pytest.raises(sc.GeometryError, match=where):
         sc.contour_path(profile, **asked)  # type: ignore[arg-type]
+
+
+def test_a_profile_without_a_length_is_called_that() -> None:
+    with pytest.raises(sc.GeometryError, match="no length: 1 points"):
+        sc.contour_path([(0.0, 0.0)], width=WIDTH, tool_radius=RADIUS, engagement_deg=60.0)
+
+
+def test_the_narrowest_strip_is_planned() -> None:
+    path = sc.contour_path([(0.0, 0.0), (20.0, 0.0)], width=0.01, tool_radius=RADIUS, engagement_deg=60.0)
+    assert 0.1 < path.reachable_area < 0.2 and path.engagement_max_deg < 60.5

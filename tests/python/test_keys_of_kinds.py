@@ -44,6 +44,12 @@ def test_what_it_does_not_follow_is_refused(key: str) -> None:
     assert str(error.value.where).endswith(f".{key}") and error.value.hint
 
 
+def test_a_step_by_scallop_is_refused() -> None:
+    with pytest.raises(sc.JobError) as error:
+        sc.plan(job(step={"scallop": 0.01}))
+    assert error.value.where == "operations[0].step.scallop" and "height" in error.value.hint
+
+
 def test_numbers_for_that_change_nothing() -> None:
     silent = {key: VALUES[key] for key in SILENT}
     assert text_of(job(**silent)) == text_of(job())

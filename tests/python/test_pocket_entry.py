@@ -97,14 +97,27 @@ def test_a_plunge_in_the_middle_of_a_way_down_is_found(entry: str) -> None:
 def test_where_no_way_down_fits_the_place_and_the_remedy_are_named() -> None:
     asked = job(**LEVEL, entry="ramp")
     document = asked.to_dict()
-    # 14 by 10 mm of pocket leave its centre 4.6 by 0.6 mm: too narrow for a ramp's two ways; a helix of 0.6 mm is one
-    document["tools"]["mill"]["profile"]["diameter"] = 9.4
-    document["operations"][0]["smoothing_radius"] = 0.29
-    document["operations"][0]["entry_size"] = 1.0
+    # 14 by 10 mm of pocket leave its centre 4.2 by 0.2 mm: too narrow for a ramp's two ways
+    document["tools"]["mill"]["profile"]["diameter"] = 9.8
+    document["operations"][0]["smoothing_radius"] = 0.09
+    document["operations"][0]["entry_size"] = 3.0
     with pytest.raises(sc.JobError) as refused:
         sc.plan(sc.Job.from_dict(document, part=block()))
     assert (refused.value.code, refused.value.where) == ("no-entry", "operations[0].entry")
     assert "Z4" in str(refused.value) and "X" in str(refused.value) and "entry" in str(refused.value.hint)
+    assert 'entry = "auto"' in refused.value.hint and "lower entry_size" in refused.value.hint
+    del document["operations"][0]["entry_size"]
+    with pytest.raises(sc.JobError) as refused:
+        sc.plan(sc.Job.from_dict(document, part=block()))
+    assert "entry_size" not in refused.value.hint  # none was stated
+
+
+@pytest.mark.parametrize("form", ["ramp", "helix", "auto"])
+def test_an_entry_that_is_a_plunge_is_refused(form: str) -> None:
+    with pytest.raises(sc.JobError) as refused:
+        sc.plan(job(**LEVEL, entry=form, entry_size=0.05 * RADIUS))
+    assert (refused.value.code, refused.value.where) == ("out-of-range", "operations[0].entry_size")
+    assert "tool radii or more" in str(refused.value)
 
 
 def heights(asked: sc.Job) -> dict[float, int]:

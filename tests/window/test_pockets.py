@@ -9,7 +9,7 @@ import pytest
 from window_host import WindowSession
 
 DEAD = {"CheckFaces", "CheckClearance", "Boundary", "Edges", "MaxCorner", "Links", "LinkMargin", "Lead", "LeadRadius"}
-DEAD |= {"LeadAngle"}
+DEAD |= {"LeadAngle", "StepScallop"}
 """Fields that mean nothing to a pocket."""
 
 BOUND = 70.0
@@ -32,6 +32,7 @@ def test_the_panel_has_the_fields_of_a_pocket_and_no_dead_ones(designed: dict[st
     assert not DEAD & rows.keys()
     assert not [name for name in rows if name.startswith("Sheet")]
     assert all(title and tip for title, tip in rows.values())
+    assert designed["risks"] == ["bridged", "unreached"]
     assert designed["step"] == 2.0
     assert [len(names) for names in designed["base"]] == [2]
 
@@ -69,8 +70,8 @@ def test_the_text_is_what_was_verified(designed: dict[str, Any]) -> None:
     ("name", "words"),
     [
         ("no_face", ["no face is selected", "select"]),
-        ("large_tool", ["tool"]),
-        ("no_room_for_the_hole", ["hole", "remove entry_hole"]),
+        ("large_tool", ["tool", "Start Depth", "Final Depth"]),
+        ("no_room_for_the_hole", ["hole", "remove Entry hole"]),
     ],
 )
 def test_a_refusal_states_why_and_what_to_do(session: WindowSession, name: str, words: list[str]) -> None:

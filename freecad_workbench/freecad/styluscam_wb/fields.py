@@ -12,7 +12,7 @@ import re
 from dataclasses import dataclass, replace
 from typing import Any
 
-from .schema import KIND, Choice, JobSchema, Key, Schema, Table
+from .schema import KIND, NOT_OF, Choice, JobSchema, Key, Schema, Table, without
 
 OPERATION, PROCESS, PART, SHEET, SETUP, JOB = "operation", "process", "part", "sheet", "setup", "job"
 
@@ -155,6 +155,10 @@ class Field:
         own = [*PATHS[self.section], self.key]
         return names[: len(own)] == own
 
+    def is_in(self, table: str) -> bool:
+        """Whether its key stands in a table of the document: `operations`."""
+        return PATHS[self.section][:1] == (table,)
+
     def document_value(self, value: Any) -> Any:
         """The key's value for a property's, None where the key is left out.
 
@@ -239,7 +243,7 @@ def _fields(section: str, table: Table, key: Key) -> list[Field]:
                 key.name,
                 _text("\n".join(about), merged, optional=optional, is_json=is_list),
                 _first_of(_default(key), variant),
-                kinds=key.kinds,
+                kinds=without(value.get(NOT_OF, ()), key.kinds, table),
                 variant=variant,
                 optional=optional,
                 is_json=is_list,
@@ -308,7 +312,7 @@ def _variants(entry: Schema) -> dict[str, Schema]:
         ((name, value),) = properties.items()
         if "number" not in (value.get("type"), value.get("items", {}).get("type")):
             return {}
-        found[name] = {**{key: one[key] for key in ("x-unit", "description") if key in one}, **value}
+        found[name] = {**{key: one[key] for key in ("x-unit", "description", NOT_OF) if key in one}, **value}
     return found
 
 

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from . import documents, engine, machines, motion, properties, tool_keys, tools, wires
+from . import documents, engine, key_labels, machines, motion, properties, tool_keys, tools, wires
+from .texts import translated
 
 
 class OperationError(ValueError):
@@ -30,7 +31,15 @@ def is_fault(error: BaseException) -> bool:
 
 
 def reason(error: BaseException) -> str:
-    """An error's message, and its hint what to do."""
+    """An error's message, and its hint what to do, in the words of the panel."""
+    where = str(getattr(error, "where", ""))
     hint = getattr(error, "hint", "")
     message = str(error) or type(error).__name__
+    if hasattr(error, "hint"):
+        hint, message = in_labels(hint, where), in_labels(message, where)
     return f"{message}: {hint}" if hint and hint not in message else message
+
+
+def in_labels(text: str, where: str = "operations") -> str:
+    """A text of the engine's in the words of the panel; `where` is the path in the job document that it is about."""
+    return key_labels.in_labels(text, where, properties.fields(), translated) if engine.is_there() else text

@@ -17,7 +17,7 @@ from PathScripts import PathUtils
 
 from . import documents, engine, motion, post_list, properties, quiet, setup_sheet, tools, views, wires
 from .long_work import Run, long_work
-from .mistakes import OperationError, is_fault, reason
+from .mistakes import OperationError, in_labels, is_fault, reason
 from .part import part_of
 
 if TYPE_CHECKING:
@@ -157,7 +157,7 @@ class ObjectStylus(PathOp.ObjectOp):
             plan = run(lambda report: sc.plan(job, progress=report))
         self._program = plan.programs["main"]
         self._seconds = float(self._program.times(plan.machines["main"])[-1])
-        notes = plan.summary()[1][:-1]  # the last line is for a verified text
+        notes = map(in_labels, plan.summary()[1][:-1])  # the last line is for a verified text
         obj.Notes = [*notes, *documents.notes_on_feeds(obj.ToolController)]
 
     def _insert_moves(self, obj: Any) -> None:

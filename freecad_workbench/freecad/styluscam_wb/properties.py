@@ -21,7 +21,7 @@ from .fields import (
     fields_of,
     kind_field,
 )
-from .schema import KIND, JobSchema
+from .schema import KIND, Choice, JobSchema
 
 GROUP = "Stylus"
 """The group of the property editor."""
@@ -108,6 +108,11 @@ def is_shown(obj: Any, field: Field) -> bool:
     """Whether a field applies to the operation as it stands: to its kind, its process and whether that takes a sheet."""
     kinds = _kinds_of(obj, fields())
     return field.is_of(kinds.get(field.section, "")) and (takes_sheet(obj) or not _is_of_sheet(field))
+
+
+def is_word_shown(obj: Any, choice: Choice) -> bool:
+    """Whether a word of a list applies to the operation as it stands: whether its process takes a sheet, if it is for sheets."""
+    return takes_sheet(obj) or not choice.stated.get(TAKES_SHEET)
 
 
 def are_complete(obj: Any) -> bool:

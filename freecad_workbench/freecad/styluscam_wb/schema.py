@@ -7,6 +7,7 @@ a kind, each with its own keys. Both read the same here.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -17,7 +18,7 @@ KIND = "kind"
 
 
 NOT_OF = "x-not-of"
-"""What the schema states of a key of all kinds: those to which it means nothing."""
+"""What the schema states of a key, or of one form of its value: the kinds to which it means nothing."""
 
 
 class SchemaError(ValueError):
@@ -175,6 +176,14 @@ def choices_of(entry: Schema) -> tuple[Choice, ...]:
     if not words or not all("const" in word for word in words):
         return ()
     return tuple(Choice(str(word["const"]), word.get("description", ""), word) for word in words)
+
+
+def without(others: Iterable[str], owners: tuple[str, ...] | None, table: Table) -> tuple[str, ...] | None:
+    """The owners of a key without some kinds of its table; None for all of them stays None where none is taken out."""
+    if not others:
+        return owners
+    names = tuple(kind.word for kind in table.kinds) if owners is None else owners
+    return tuple(name for name in names if name not in others)
 
 
 def _narrowed(key: Key, kinds: tuple[Choice, ...]) -> Key:

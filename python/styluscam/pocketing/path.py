@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy.typing as npt
 
@@ -16,6 +17,8 @@ from styluscam.types import FloatArray, Progress
 
 MSR = 0.05
 """The smallest radius of the centre's path unless another is given, in tool radii."""
+
+EDGES = "numbers of edges, from 0"
 
 DIRECTIONS = ("climb", "conventional", "either")
 
@@ -116,17 +119,38 @@ def pocket_path(
     if direction not in DIRECTIONS:
         raise refused("direction", direction, '"climb", "conventional" or "either"', GeometryError)
     radius = number_of(tool_radius, "tool_radius")
-    bound = number_of(engagement_deg, "engagement_deg") + number_of(growth_deg, "growth_deg")
+    bound = bound_of(engagement_deg, growth_deg)
     smoothing = MSR * radius if smoothing_radius is None else number_of(smoothing_radius, "smoothing_radius")
-    walls = [plane_points(boundary, "boundary"), *(plane_points(one, f"islands[{i}]") for i, one in enumerate(islands))]
+    within = enumerate(_several(islands, "islands", "outlines"))
+    walls = [plane_points(boundary, "boundary"), *(plane_points(one, f"islands[{i}]") for i, one in within)]
     material = None if stock is None else outlines(stock, "stock")
     before = [path for one in _paths(rest_of) for path in one.cleared]
-    ground = (walls[0], walls[1:], [_edge(edge) for edge in open_edges], material, before)
+    ground = (
+        walls[0],
+        walls[1:],
+        [_edge(edge) for edge in _several(open_edges, "open_edges", EDGES)],
+        material,
+        before,
+    )
     runs, (reachable, uncleared) = _engine.pocket_path(
         *ground, radius, math.radians(bound), smoothing, direction, progress=progress, cancel=cancel
     )
     measured = engagement(runs, radius, material, walls, cleared=before, progress=progress, cancel=cancel)
     return PocketPath(runs, measured, reachable, uncleared, radius)
+
+
+def bound_of(engagement_deg: object, growth_deg: object) -> float:
+    """The largest engagement angle, degrees."""
+    growth = number_of(growth_deg, "growth_deg")
+    if growth < 0.0:
+        raise refused("growth_deg", growth, "0 or more", GeometryError)
+    return number_of(engagement_deg, "engagement_deg") + growth
+
+
+def _several(value: Iterable[object], key: str, expected: str) -> list[Any]:
+    if not isinstance(value, Iterable):
+        raise refused(key, value, expected, GeometryError)
+    return list(value)
 
 
 def _paths(value: object) -> list[PocketPath]:
@@ -140,5 +164,5 @@ def _paths(value: object) -> list[PocketPath]:
 
 def _edge(value: object) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or value < 0:
-        raise refused("open_edges", value, "numbers of edges, from 0", GeometryError)
+        raise refused("open_edges", value, EDGES, GeometryError)
     return value

@@ -177,7 +177,8 @@ fn of_pocket(error: &PocketError) -> PyErr {
         PocketError::Number { .. }
         | PocketError::Outline { .. }
         | PocketError::Edge { .. }
-        | PocketError::Profile { .. } => "GeometryError",
+        | PocketError::Profile { .. }
+        | PocketError::Line { .. } => "GeometryError",
         PocketError::TooSmall { .. } | PocketError::NoEntry { .. } | PocketError::Empty => "PlanError",
     };
     errors::raise(class, &error.to_string(), error.code(), error.key(), "")

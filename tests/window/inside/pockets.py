@@ -92,6 +92,12 @@ def rows() -> dict[str, list[str]]:
     }
 
 
+def risks() -> list[str]:
+    """The risks whose boxes are seen."""
+    boxes = [box.objectName() for box in driver.visible(QtWidgets.QCheckBox)]
+    return [name.removeprefix("AcceptedRisks_") for name in boxes if name.startswith("AcceptedRisks_")]
+
+
 def map_seen() -> dict[str, Any] | None:
     """Points and colours of the map that is drawn, and its legend; None where there is none."""
     root = drawn.overlay("StylusCAM_Engagement")
@@ -132,7 +138,7 @@ def designed() -> Any:
     yield from stage.typed(operation, "Step", "4 mm", 4.0)  # one level in each pocket: quick
     driver.click(driver.one(QtWidgets.QToolButton, name="Advanced"))
     yield driver.settled()
-    result |= {"rows": rows(), "panel": driver.shot("panel")}
+    result |= {"rows": rows(), "risks": risks(), "panel": driver.shot("panel")}
     box = driver.one(QtWidgets.QCheckBox, name="EngagementMap")
     scroll_to(box)
     driver.click(box, QtCore.QPoint(8, box.height() // 2))

@@ -10,6 +10,7 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtWidgets
 
+from .. import properties
 from ..fields import ANGLE, BOOL, CHOICE, DISTANCE, FLOAT, INTEGER, LENGTH, SECONDS, SPEED, TEXTS, Field
 from .messages import translated
 
@@ -54,6 +55,9 @@ class Editor(QtCore.QObject):
     def store(self) -> None:
         """Sets the property where it differs from what is shown."""
         self._store()
+
+    def show_owned(self) -> None:
+        """Shows those of its parts that apply to the operation as it stands."""
 
     def error(self) -> str:
         """What is wrong with the value that is shown; empty where nothing is."""
@@ -188,6 +192,7 @@ class WordList(Editor):
         layout = QtWidgets.QVBoxLayout(self.widget)
         layout.setContentsMargins(0, 0, 0, 0)
         self._boxes = {}
+        self._words = {choice.word: choice for choice in field.words}
         for choice in field.words:
             box = QtWidgets.QCheckBox(translated(choice.word))
             box.setToolTip(translated(choice.text))
@@ -199,6 +204,11 @@ class WordList(Editor):
     def _show(self) -> None:
         for word, box in self._boxes.items():
             box.setChecked(word in getattr(self._obj, self._field.name))
+
+    def show_owned(self) -> None:
+        """Words that are for sheets alone only where there is one; what is ticked can always be unticked."""
+        for word, box in self._boxes.items():
+            box.setVisible(box.isChecked() or properties.is_word_shown(self._obj, self._words[word]))
 
     def _store(self) -> None:
         self._set([word for word, box in self._boxes.items() if box.isChecked()])

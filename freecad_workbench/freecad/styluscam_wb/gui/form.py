@@ -72,6 +72,7 @@ class Form:
         for field, editor, group in self._rows:
             shown = properties.is_shown(self._obj, field)
             group.set_shown(field, shown)
+            editor.show_owned()
             group.show_error(field, (editor.error() or self._failure(field)) if shown else "")
         for group in [*self._groups.values(), self._advanced.group]:
             group.widget.setVisible(group.has_rows and (group is not self._advanced.group or self._advanced.is_open))

@@ -10,8 +10,9 @@ from typing import Any
 
 import FreeCAD
 
-CONTEXT = "StylusCAM"
-"""The context of our texts in files of translations."""
+from ..texts import translated
+
+__all__ = ["ERROR", "load_translations", "show_error", "shown", "translated"]
 
 ERROR = "color: #ffffff; background: #a3121f; padding: 4px; border-radius: 3px;"
 """The style of errors in panels, white on dark red: readable on light and dark ones alike."""
@@ -26,11 +27,6 @@ def load_translations() -> None:
 
     FreeCADGui.addLanguagePath(str(TRANSLATIONS))
     FreeCADGui.updateLocale()
-
-
-def translated(text: str) -> str:
-    """A text in the user's language; itself where there is no translation."""
-    return str(FreeCAD.Qt.translate(CONTEXT, text))
 
 
 @contextmanager

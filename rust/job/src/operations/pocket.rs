@@ -194,6 +194,11 @@ impl Pocket {
 impl OperationKind for Pocket {
     fn check(&self, common: &OperationKeys, path: &str) -> Result<(), JobError> {
         StepLimits::default().check(&self.step, path)?;
+        if matches!(self.step, Step::Scallop(_)) {
+            let message = "levels of a pocket are no scallops: other operations finish its walls".to_owned();
+            let hint = "set step = { height = 2.0 }, mm";
+            return Err(JobError::document("conflict", format!("{path}.step.scallop"), message, hint));
+        }
         let sum = self.engagement_deg + self.growth_deg;
         if sum > 90.0 {
             let message = format!("engagement_deg and growth_deg come to {sum} degrees, and at most 90 are held");
@@ -410,7 +415,7 @@ impl Pocket {
                     continue;
                 }
                 Err(PocketError::Empty) => continue, // an area beside the stock, or one that is open above
-                Err(error) => return Err(refused(context, floor, &error)),
+                Err(error) => return Err(self.refused(context, floor, &error)),
             };
             cleared.holes += usize::from(self.begins_in_hole(context, area, &path)?);
             let takes = |ends: [[f64; 3]; 2], arc: &Arc| {
@@ -435,19 +440,20 @@ impl Pocket {
         }
         Ok(())
     }
-}
 
-/// That an area of the level `floor` is not planned.
-fn refused(context: &Context<'_>, floor: f64, error: &PocketError) -> JobError {
-    let at = format!("{}.{}", context.path, error.key());
-    match error {
-        PocketError::Cancelled => JobError::Cancelled,
-        PocketError::NoEntry { .. } => {
-            let message = format!("at Z{}: {error}", shown(floor));
-            let hint = "set entry = \"auto\", lower entry_size, take a smaller tool, or drill an entry_hole there";
-            JobError::document(error.code(), at, message, hint)
+    /// That an area of the level `floor` is not planned.
+    fn refused(&self, context: &Context<'_>, floor: f64, error: &PocketError) -> JobError {
+        let at = format!("{}.{}", context.path, error.key());
+        match error {
+            PocketError::Cancelled => JobError::Cancelled,
+            PocketError::NoEntry { .. } => {
+                let message = format!("at Z{}: {error}", shown(floor));
+                let other = if self.entry == Entry::Auto { "" } else { "set entry = \"auto\", " };
+                let size = self.entry_size.map_or("", |_| "lower entry_size, ");
+                JobError::document(error.code(), at, message, format!("{other}{size}or drill an entry_hole there"))
+            }
+            _ => JobError::document(error.code(), at, error.to_string(), "correct it"),
         }
-        _ => JobError::document(error.code(), at, error.to_string(), "correct it"),
     }
 }
 

@@ -21,6 +21,7 @@ pub enum Step {
     /// This distance, mm.
     Height(#[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 100.0))] f64),
     /// No more than this scallop between them, mm: steps follow from the wall's slope and curvature and from the tool.
+    #[schemars(extend("x-not-of" = ["pocket"]))]
     Scallop(#[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 10.0))] f64),
     /// These distances one after the other, mm, from `z_top` or the sheet's (the part's) highest point down; the last one again
     /// and again.

@@ -12,6 +12,8 @@ use super::polygons::{signed_area, Kernel, Point, Polygons};
 const BEYOND: f64 = 3.0;
 /// Width of the slit along an open profile that parts its two sides, mm: less than what is kept from walls.
 const SLIT: f64 = 2e-4;
+/// Strips are no narrower, mm.
+const NARROWEST: f64 = 0.01;
 /// How far from the profile the point lies by which its side is found, as a share of the strip's width.
 const BESIDE: f64 = 1e-3;
 
@@ -94,15 +96,19 @@ impl Contour<'_> {
     fn beside_open(&self, kernel: &Kernel, beyond: f64) -> Result<Polygons, PocketError> {
         let width = self.width + beyond;
         let path = path_chords(self.profile);
+        if kernel.sweep(&path, 0.5 * SLIT, 0.1 * SLIT).contours.len() != 1 {
+            return Err(PocketError::Profile { width: self.width }); // it encloses something
+        }
         let profile = led_on(&path, beyond);
         // the slit parts the caps at the ends too
         let slit = kernel.sweep(&led_on(&path, beyond + 2.0 * width), 0.5 * SLIT, 0.1 * SLIT);
         let both = kernel.difference(&kernel.sweep(&profile, width, WALL), &slit);
         let whole = PlanePiece::path(self.profile);
         let Some(piece) = whole.iter().max_by(|a, b| a.length().total_cmp(&b.length())) else {
-            return Err(PocketError::Outline { key: "profile".to_owned(), count: self.profile.len() });
+            return Err(PocketError::Line { count: self.profile.len() });
         };
-        let side = if self.is_left { BESIDE * width } else { -BESIDE * width };
+        let aside = (BESIDE * width).max(SLIT);
+        let side = if self.is_left { aside } else { -aside };
         let [a, b] = [piece.at(0.5), piece.at(0.5 + 1e-6)];
         let along = [b[0] - a[0], b[1] - a[1]];
         let length = libm::hypot(along[0], along[1]);
@@ -120,7 +126,7 @@ impl Contour<'_> {
             true => Ok(()),
             false => Err(PocketError::Number { key: key.to_owned(), value, allowed }),
         };
-        number("width", self.width, self.width > 0.0 && self.width <= FARTHEST, "more than 0, up to 2000 mm")?;
+        number("width", self.width, (NARROWEST..=FARTHEST).contains(&self.width), "0.01 to 2000 mm")?;
         number("tool_radius", self.radius, (0.01..=500.0).contains(&self.radius), "0.01 to 500 mm")?;
         for (i, value) in
             self.profile.iter().enumerate().flat_map(|(i, point)| point.iter().map(move |value| (i, *value)))
@@ -131,7 +137,7 @@ impl Contour<'_> {
         if length > 0.0 {
             return Ok(());
         }
-        Err(PocketError::Outline { key: "profile".to_owned(), count: self.profile.len() })
+        Err(PocketError::Line { count: self.profile.len() })
     }
 }
 

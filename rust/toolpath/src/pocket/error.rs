@@ -26,6 +26,12 @@ pub enum PocketError {
         /// Points that it has.
         count: usize,
     },
+    /// A profile without a length.
+    #[error("profile has no length: {count} points; give two or more that differ")]
+    Line {
+        /// Points that it has.
+        count: usize,
+    },
     /// An edge that the boundary does not have.
     #[error("open_edges: {edge} is not an edge of the boundary, which has {count}")]
     Edge {
@@ -42,8 +48,8 @@ pub enum PocketError {
     },
     /// The tool fits nowhere: it is too large, or the islands leave no room.
     #[error(
-        "the tool of radius {radius} mm, with corners of {smoothing} mm more, fits nowhere between the walls and islands; take a \
-         smaller tool"
+        "the tool of radius {} mm, with corners of {} mm more, fits nowhere between the walls and islands; take a smaller tool",
+        written(*radius), written(*smoothing)
     )]
     TooSmall {
         /// The tool's radius, mm.
@@ -53,8 +59,7 @@ pub enum PocketError {
     },
     /// No entry into the material fits.
     #[error(
-        "no {} fits near X{:.3} Y{:.3}, where {left:.1} mm^2 are left to be cleared; allow the other form of entry or a smaller one, take a \
-         smaller tool, or drill a hole there",
+        "no {} fits near X{:.3} Y{:.3}, where {left:.1} mm^2 are left to be cleared; take a smaller tool",
         form.words(), at[0], at[1]
     )]
     NoEntry {
@@ -86,6 +91,7 @@ impl PocketError {
         match self {
             Self::Number { .. } => "out-of-range",
             Self::Outline { .. } => "outline",
+            Self::Line { .. } => "profile",
             Self::Edge { .. } => "edge",
             Self::Profile { .. } => "profile",
             Self::TooSmall { .. } => "tool-too-large",
@@ -101,11 +107,16 @@ impl PocketError {
         match self {
             Self::Number { key, .. } | Self::Outline { key, .. } => key,
             Self::Edge { .. } => "open_edges",
-            Self::Profile { .. } => "profile",
+            Self::Profile { .. } | Self::Line { .. } => "profile",
             Self::TooSmall { .. } => "tool_radius",
             Self::NoEntry { .. } => "entry",
             Self::Empty => "stock",
             Self::Cancelled => "",
         }
     }
+}
+
+/// A length to a nanometre: what its digits say and arithmetic does not.
+fn written(length: f64) -> f64 {
+    (length * 1e6).round() / 1e6
 }

@@ -74,6 +74,7 @@ impl Frame {
             | PocketError::Outline { .. }
             | PocketError::Edge { .. }
             | PocketError::Profile { .. }
+            | PocketError::Line { .. }
             | PocketError::Empty
             | PocketError::Cancelled) => error,
         }

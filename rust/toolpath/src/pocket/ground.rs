@@ -233,6 +233,9 @@ pub fn check(pocket: &Pocket<'_>) -> Result<(), PocketError> {
     number("smoothing_radius", pocket.smoothing, (0.01..=10.0).contains(&share), "0.01 to 10 tool radii")?;
     number("leave", pocket.leave, (0.0..=100.0).contains(&pocket.leave), "0 to 100 mm")?;
     number("finish", pocket.finish, (0.0..=r).contains(&pocket.finish), "0 to the tool's radius")?;
+    let least = pocket.entry.form.least() * r;
+    let size = pocket.entry.size.unwrap_or(least);
+    number("entry_size", size, size >= least, "0.08 tool radii or more, 0.5 for a ramp: what is smaller is a plunge")?;
     for (i, path) in pocket.cleared.iter().enumerate() {
         let key = format!("cleared[{i}]");
         number(&key, path.radius, (0.0..=FARTHEST).contains(&path.radius), "a tool's radius up to 2000 mm")?;

@@ -1,5 +1,7 @@
 //! What is asked for, and the path that answers it.
 
+use super::entry::{SHORTEST, SMALLEST};
+
 /// What is cleared, with what.
 #[derive(Clone, Copy, Debug)]
 pub struct Pocket<'a> {
@@ -49,6 +51,14 @@ pub enum EntryForm {
 }
 
 impl EntryForm {
+    /// The smallest size that leads down, in tool radii.
+    pub(super) fn least(self) -> f64 {
+        match self {
+            Self::Auto | Self::Helix => 2.0 * SMALLEST,
+            Self::Ramp => SHORTEST,
+        }
+    }
+
     /// What it is, in words.
     pub(super) fn words(self) -> &'static str {
         match self {

@@ -883,6 +883,10 @@ other face of the sheet, block by block; its machine is in `[machines.support]`.
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>ERROR</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Each area from the top down before the next one, where that is less air.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -977,6 +981,10 @@ Range: 0.1 to 100000 mm/min
     <message>
         <source>Feed per revolution along the path, mm: the distance between its turns on the part.
 Range: 0.001 to 20 mm/rev</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Final Depth</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1737,6 +1745,10 @@ Range: above 0 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Start Depth</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>States how the StylusCAM engine is installed</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2297,6 +2309,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>feeds.plunge</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>female</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2566,6 +2582,14 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>tangent</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>the horizontal feed of the tool controller</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>the vertical feed of the tool controller</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
