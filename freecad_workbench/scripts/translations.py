@@ -43,7 +43,7 @@ NAMES_OF_CODE = (
     r"[A-Z][a-z]+[A-Z]\w*",
     r"Pixmap|Separator",  # what FreeCAD calls them
     r"#.*|.*;\s*",  # colours, style sheets
-    r"[\w.]*_[\w.]*|[a-z]\w*|[a-z]+(-[a-z]+)+",  # names in code and in jobs
+    r"[\w.]*_[\w.]*|[a-z]\w*|[a-z]+([-.][a-z]+)+",  # names in code and in jobs
     r"\*?[\w-]*\.\w{2,5}",  # files
 )
 CODE = re.compile("|".join(NAMES_OF_CODE), re.DOTALL)

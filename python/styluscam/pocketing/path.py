@@ -121,14 +121,12 @@ def pocket_path(
     radius = number_of(tool_radius, "tool_radius")
     bound = bound_of(engagement_deg, growth_deg)
     smoothing = MSR * radius if smoothing_radius is None else number_of(smoothing_radius, "smoothing_radius")
-    within = enumerate(_several(islands, "islands", "outlines"))
-    walls = [plane_points(boundary, "boundary"), *(plane_points(one, f"islands[{i}]") for i, one in within)]
-    material = None if stock is None else outlines(stock, "stock")
+    walls, material = _walls(boundary, islands), None if stock is None else outlines(stock, "stock")
     before = [path for one in _paths(rest_of) for path in one.cleared]
     ground = (
         walls[0],
         walls[1:],
-        [_edge(edge) for edge in _several(open_edges, "open_edges", EDGES)],
+        _edges(open_edges),
         material,
         before,
     )
@@ -162,7 +160,14 @@ def _paths(value: object) -> list[PocketPath]:
     return found
 
 
-def _edge(value: object) -> int:
-    if isinstance(value, bool) or not isinstance(value, int) or value < 0:
-        raise refused("open_edges", value, EDGES, GeometryError)
-    return value
+def _walls(boundary: npt.ArrayLike, islands: Iterable[object]) -> list[FloatArray]:
+    within = enumerate(_several(islands, "islands", "outlines"))
+    return [plane_points(boundary, "boundary"), *(plane_points(one, f"islands[{i}]") for i, one in within)]
+
+
+def _edges(value: Iterable[object]) -> list[int]:
+    edges = _several(value, "open_edges", EDGES)
+    for edge in edges:
+        if isinstance(edge, bool) or not isinstance(edge, int) or edge < 0:
+            raise refused("open_edges", edge, EDGES, GeometryError)
+    return edges

@@ -12,8 +12,6 @@ import FreeCAD
 
 from ..texts import translated
 
-__all__ = ["ERROR", "load_translations", "show_error", "shown", "translated"]
-
 ERROR = "color: #ffffff; background: #a3121f; padding: 4px; border-radius: 3px;"
 """The style of errors in panels, white on dark red: readable on light and dark ones alike."""
 

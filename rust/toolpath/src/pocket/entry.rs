@@ -6,19 +6,16 @@ use super::ground::path_chords;
 use super::growth::WALL;
 use super::material::Material;
 use super::polygons::{Kernel, Point, Polygons};
-use super::request::{EntryForm, EntryRule};
+use super::request::{EntryForm, EntryRule, SHORTEST, SMALLEST};
 
 /// Radius of the helix, in radii of the tool.
 const HELIX: f64 = 0.7;
 /// Larger ones would leave a core in their middle.
 const CORE: f64 = 0.95;
-/// Helices that are smaller, in radii of the tool, are as good as plunges; those that are smaller than the other are small.
-pub const SMALLEST: f64 = 0.04;
+/// Helices that are smaller, in radii of the tool, are small.
 const SMALL: f64 = 0.35;
 /// A ramp is taken instead of a small helix if it is so many of its radii long.
 const LONGER: f64 = 4.0;
-/// Ramps are no shorter, in radii of the tool.
-pub const SHORTEST: f64 = 0.5;
 /// How far from its line the two ways of a ramp lie where there is room, in radii of the tool.
 const ASIDE: f64 = 0.15;
 /// Directions of lines that are tried, and the distance of positions that are looked at on them, in radii of the tool.

@@ -23,7 +23,7 @@ const BEYOND: f64 = 2.5;
 const FAR: f64 = 26.0;
 /// Angle of the chords of the air around a corner of two open edges, rad.
 const CHORD: f64 = 0.2;
-/// How much less walls beyond an open edge are kept from than all others, mm, so that only those are told by it.
+/// How much less walls beyond an open edge are kept from than all others, mm, so that nothing else is cut off.
 const NEARER: f64 = 1e-3;
 
 /// The pocket's areas.

@@ -1,6 +1,9 @@
 //! What is asked for, and the path that answers it.
 
-use super::entry::{SHORTEST, SMALLEST};
+/// Helices of a smaller radius, in radii of the tool, are as good as plunges.
+pub const SMALLEST: f64 = 0.04;
+/// Ramps are no shorter, in radii of the tool.
+pub const SHORTEST: f64 = 0.5;
 
 /// What is cleared, with what.
 #[derive(Clone, Copy, Debug)]

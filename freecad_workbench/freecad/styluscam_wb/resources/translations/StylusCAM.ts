@@ -883,10 +883,6 @@ other face of the sheet, block by block; its machine is in `[machines.support]`.
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>ERROR</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
         <source>Each area from the top down before the next one, where that is less air.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2306,10 +2302,6 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>entry: not bounded</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>feeds.plunge</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
