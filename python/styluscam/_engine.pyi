@@ -232,9 +232,7 @@ class Judgement:
     def scallops(
         self, job: Job, scene: Scene, count: int, progress: _Progress | None = None, cancel: CancelToken | None = None
     ) -> list[tuple[str, _F, _F, _F, _F]]: ...
-    def engagement(
-        self, job: Job, scene: Scene, progress: _Progress | None = None, cancel: CancelToken | None = None
-    ) -> list[tuple[str, float, float, _F, _F, npt.NDArray[np.uint32], _F]]: ...
+    def engagement(self) -> list[tuple[str, float, float, _F, _F, npt.NDArray[np.uint32], _F]]: ...
     def needs(
         self,
         job: Job,

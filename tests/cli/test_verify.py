@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import itertools
 import re
 
 import pytest
+
+from blocks import write_stl
 
 from .conftest import COARSE_CUP, changed
 
@@ -80,25 +81,8 @@ file = "block.ngc"
 """
 
 
-def write_block(path):
-    """A block of 20 x 16 x 4 mm with a pocket of 14 x 10 x 2 mm, as STL."""
-    rings = [
-        [(a, b, z), (20 - a, b, z), (20 - a, 16 - b, z), (a, 16 - b, z)]
-        for a, b, z in ((0, 0, 0), (0, 0, 4), (3, 3, 4), (3, 3, 2))
-    ]
-    quads = []
-    for low, high in itertools.pairwise(rings):
-        quads += [(low[i], low[(i + 1) % 4], high[(i + 1) % 4], high[i]) for i in range(4)]
-    quads += [tuple(rings[-1]), tuple(reversed(rings[0]))]
-    facets = [corners for a, b, c, d in quads for corners in ((a, b, c), (a, c, d))]
-    vertex = "vertex {} {} {}\n".format
-    loops = ("outer loop\n" + "".join(vertex(*corner) for corner in corners) + "endloop\n" for corners in facets)
-    text = "".join(f"facet normal 0 0 0\n{loop}endfacet\n" for loop in loops)
-    path.write_text(f"solid block\n{text}endsolid block\n")
-
-
 def test_what_a_pocket_engages_is_printed_and_in_the_document(cli, tmp_path):
-    write_block(tmp_path / "block.stl")
+    write_stl(tmp_path / "block.stl")
     job = tmp_path / "block.toml"
     job.write_text(POCKET)
     assert cli("run", job).code == 0
@@ -110,7 +94,7 @@ def test_what_a_pocket_engages_is_printed_and_in_the_document(cli, tmp_path):
     lines = (tmp_path / "block.ngc").read_text().splitlines()
     for largest in (angle, rate):
         assert re.search(r"[XY]-?\d", lines[largest["line"] - 1]) and 0.0 < largest["distance"] < engaged["length"]
-    assert [layer["floor"] for layer in engaged["layers"]] == pytest.approx([2.0], abs=0.005)
+    assert [layer["floor"] for layer in engaged["layers"]] == pytest.approx([4.0, 2.0], abs=0.005)
     assert engaged["exempt"][0]["length"] > 30.0
     words = f"clear: {angle['value']:.2f} of 80 degrees (line {angle['line']}), {100 * rate['share']:.1f} % of the reference"
     assert words in ran.out

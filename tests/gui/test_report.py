@@ -12,6 +12,7 @@ import pytest
 
 import roots
 import styluscam as sc
+from blocks import write_stl
 from styluscam.report import Subject, comparison_page, heatmaps, report_page
 
 from .browser import Tab, browser
@@ -311,6 +312,62 @@ def test_any_program_without_a_part(tab: Tab, folder: Path, subject: Subject) ->
     ends = tab.run("window.styluscam.player.path.places.map(column => [...column])")
     assert np.array_equal(np.transpose(ends), program.positions)
     assert tab.run("document.querySelector('#map')") is None
+
+
+POCKET = {
+    "schema": 1,
+    "title": "Block",
+    "part": {"file": "block.stl", "units": "mm"},
+    "process": {"kind": "milling"},
+    "setup": {"zero": "model"},
+    "tools": {"mill": {"profile": {"kind": "flat", "diameter": 4.0}}},
+    "operations": [
+        {
+            "id": "an-id-that-is-much-longer-than-any-column-of-a-narrow-page-is-wide",
+            "kind": "pocket",
+            "tool": "mill",
+            "step": {"height": 2.0},
+            "engagement_deg": 80.0,
+            "fit": "arcs",
+            "spindle": {"mode": "fixed", "rpm": 8000.0},
+        }
+    ],
+    "machine": {"name": "linuxcnc"},
+}
+
+CLIPPED = """[...document.querySelectorAll(".pairs svg text")].filter(text => {
+  const [inner, outer] = [text.getBoundingClientRect(), text.closest("svg").getBoundingClientRect()];
+  return inner.left < outer.left || inner.right > outer.right || inner.top < outer.top || inner.bottom > outer.bottom;
+}).map(text => text.textContent)"""
+"""Words that stick out of their plot."""
+
+
+def test_what_a_pocket_engages_is_drawn_wide_and_narrow(tab: Tab, folder: Path) -> None:
+    write_stl(folder / "block.stl")
+    job = sc.Job.from_dict(POCKET, folder)
+    pocket = folder / "pocket.html"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(heatmaps, "LIMIT", 20_000)
+        report = sc.verify(sc.post(sc.plan(job)).text, job)
+        pocket.write_text(report_page(Subject.judged(report, job.machine(), "block.ngc")), encoding="utf-8")
+    tab.complaints.clear()
+    tab.requests.clear()
+    ink = {}
+    for size in (WIDE, NARROW):
+        for scheme in ("light", "dark"):
+            tab.size(*size, scheme=scheme)
+            tab.open(pocket)
+            tab.drawn()
+            assert tab.run("document.documentElement.scrollWidth") <= size[0]
+            assert tab.run(OVERFLOWING) == [] and tab.run(CLIPPED) == []
+            assert tab.run("document.querySelectorAll('.pairs figure').length") == 2
+            tops = tab.run(
+                "[...document.querySelectorAll('.pairs figure')].map(one => one.getBoundingClientRect().top)"
+            )
+            assert (tops[0] == tops[1]) is (size == WIDE)
+            ink[scheme] = tab.run("getComputedStyle(document.querySelector('.pairs svg text')).fill")
+    assert ink["light"] != ink["dark"]
+    assert tab.complaints == []
 
 
 def test_two_programs_fit_side_by_side(tab: Tab, folder: Path, subject: Subject) -> None:

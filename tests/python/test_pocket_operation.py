@@ -9,29 +9,7 @@ import numpy as np
 import pytest
 
 import styluscam as sc
-
-SIZE, WALL, TOP, FLOOR = (20.0, 16.0), 3.0, 6.0, 2.0
-"""A block with a rectangular pocket: its sides and the walls around the pocket, the heights of its top and of the floor, mm."""
-
-
-def mesh() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Vertices (N, 3), triangles (M, 3) and their faces (M,).
-
-    Faces: 1 the rim on top, 2 the sides, 3 the pocket's walls, 4 its floor, 5 the block's foot.
-    """
-    x, y = SIZE
-    rings = [
-        np.array([[a, b, z], [x - a, b, z], [x - a, y - b, z], [a, y - b, z]])
-        for a, b, z in ((0.0, 0.0, 0.0), (0.0, 0.0, TOP), (WALL, WALL, TOP), (WALL, WALL, FLOOR))
-    ]
-    quads = [
-        (face, [4 * ring + i, 4 * ring + j, 4 * ring + 4 + j, 4 * ring + 4 + i])
-        for face, ring in ((2, 0), (1, 1), (3, 2))
-        for i, j in ((0, 1), (1, 2), (2, 3), (3, 0))
-    ]
-    quads += [(4, [12, 13, 14, 15]), (5, [3, 2, 1, 0])]
-    triangles = np.array([half for _, (a, b, c, d) in quads for half in ([a, b, c], [a, c, d])])
-    return np.concatenate(rings), triangles, np.repeat([face for face, _ in quads], 2)
+from blocks import FLOOR, SIZE, TOP, WALL, mesh
 
 
 def block() -> sc.Part:

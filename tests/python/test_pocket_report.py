@@ -8,10 +8,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from test_pocket_operation import TOP, block, job, mesh, roles, straight, text_of, whole_lines
-from test_report import Page, job_of, write_stl
+from test_pocket_operation import block, job, roles, straight, text_of, whole_lines
+from test_report import Page, job_of
 
 import styluscam as sc
+from blocks import TOP, write_stl
 from styluscam.judging.clearing import ClearedLayer, ClearingMoves, OperationEngagement
 from styluscam.report import Subject, clearing, heatmaps, report_page
 from styluscam.report.plots import BINS
@@ -26,7 +27,7 @@ def full(bound_deg: float = BOUND, radius: float = RADIUS) -> float:
 
 
 def engagement(text: str, asked: sc.Job) -> OperationEngagement:
-    (found,) = sc.verify(text, asked).engagement()
+    (found,) = sc.verify(text, asked).engagement
     return found
 
 
@@ -115,7 +116,7 @@ def test_a_pass_that_is_left_out_shows_in_the_plot_where_the_verifier_finds_it()
     longest = max(ends, key=lambda number: ends[number] - number)
     spoilt = "\n".join([*lines[:longest], *lines[ends[longest] :], ""])
     report = sc.verify(spoilt, asked)
-    (found,) = report.engagement()
+    (found,) = report.engagement
     largest = found.figures.angle
     findings = [finding for finding in report.findings if finding.kind == "engagement"]
     assert largest is not None and largest.value > BOUND + 5.0
@@ -133,7 +134,7 @@ def test_a_pass_that_is_left_out_shows_in_the_plot_where_the_verifier_finds_it()
 def test_the_largest_angle_is_the_one_that_the_verifier_reports() -> None:
     text = by_hand("G0 Z16", "X-5 Y0.5", "G1 Z4 F200", "X25 F300", "G0 Z16")
     report = sc.verify(text, job(**FEEDS))
-    (found,) = report.engagement()
+    (found,) = report.engagement
     largest = found.figures.angle
     (finding,) = [finding for finding in report.findings if finding.kind == "engagement"]
     assert largest is not None and largest.value == finding.value == pytest.approx(np.degrees(np.arccos(-0.25)))
@@ -146,7 +147,7 @@ def test_a_feed_that_is_too_high_shows_in_the_rate() -> None:
     cut = max(number for number, line in enumerate(lines) if line.endswith(f"F{CUT:g}"))
     lines[cut] = lines[cut].replace(f"F{CUT:g}", f"F{1.3 * CUT:g}")
     report = sc.verify("\n".join([*lines, ""]), asked)
-    (found,) = report.engagement()
+    (found,) = report.engagement
     rate = found.figures.rate
     assert rate is not None and rate.share == pytest.approx(1.3, abs=0.02)
     findings = [finding for finding in report.findings if finding.kind == "removal-rate"]
@@ -213,7 +214,7 @@ def test_the_rest_that_a_larger_tool_leaves_is_shown_without_what_that_tool_took
         ],
     }
     asked = sc.Job.from_dict(document, part=block())
-    rough, rest = sc.verify(text_of(asked), asked).engagement()
+    rough, rest = sc.verify(text_of(asked), asked).engagement
     assert (rough.operation, rest.operation) == ("rough", "rest")
     assert rough.exempt and not rest.exempt
     assert rest.figures.angle is not None and 30.0 < rest.figures.angle.value < 60.5
@@ -223,8 +224,8 @@ def test_the_rest_that_a_larger_tool_leaves_is_shown_without_what_that_tool_took
 def test_an_engagement_travels_and_is_json() -> None:
     asked = job(**FEEDS, z_bottom=4.0)
     report = sc.verify(text_of(asked), asked)
-    (found,) = report.engagement()
-    (copy,) = pickle.loads(pickle.dumps(report)).engagement()
+    (found,) = report.engagement
+    (copy,) = pickle.loads(pickle.dumps(report)).engagement
     assert np.array_equal(copy.angles_deg, found.angles_deg) and copy.figures == found.figures
     document = found.figures.to_dict()
     assert set(document) == {"operation", "bound_deg", "length", "layers", "angle", "rate", "exempt"}
@@ -238,7 +239,7 @@ def test_an_engagement_travels_and_is_json() -> None:
 def subject(tmp_path_factory: pytest.TempPathFactory) -> Subject:
     """A pocket whose part can be drawn."""
     folder = tmp_path_factory.mktemp("pocket")
-    write_stl(mesh()[:2], folder / "block.stl")
+    write_stl(folder / "block.stl")
     asked = sc.Job.from_dict({**job(**FEEDS).document, "title": "Block"}, folder)
     return Subject.judged(sc.verify(text_of(asked), asked), asked.machine(), "block.ngc")
 
@@ -251,13 +252,14 @@ def few_points(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_the_page_shows_both_over_length_with_the_line_of_the_largest(subject: Subject) -> None:
     assert subject.report is not None
-    (found,) = subject.report.engagement()
+    (found,) = subject.report.engagement
     page = Page(report_page(subject))
     figures = found.figures
     assert figures.angle is not None and figures.rate is not None
     labels = [attributes["aria-label"] for tag, attributes in page.tags if attributes.get("role") == "img"]
-    assert "Engagement over length: pocket-1" in labels and "Removal rate over length: pocket-1" in labels
+    assert labels[-3:-1] == ["Engagement angle over length", "Removal rate over length"]  # before the tool
     for words in (
+        "pocket-1: what it engages and removes",
         f"Largest angle {figures.angle.value:.2f}° in line {figures.angle.line}",
         f"largest: line {figures.angle.line}",
         f"largest: line {figures.rate.line}",
@@ -273,7 +275,7 @@ def test_the_page_shows_both_over_length_with_the_line_of_the_largest(subject: S
 def test_a_page_of_a_job_without_pockets_shows_none(tmp_path: Path) -> None:
     asked = job_of(tmp_path)
     report = sc.verify(sc.post(sc.plan(asked)).text, asked)
-    assert report.engagement() == []
+    assert report.engagement == []
     page = report_page(Subject.judged(report, asked.machine(), "rows.ngc"))
     assert "over length" not in page and "Height over time" in page
 
@@ -285,6 +287,6 @@ def test_a_helix_that_is_straightened_is_still_an_entry(subject: Subject) -> Non
     around = next(number for number, line in enumerate(lines) if number > ramp and "Z4" in line.split())
     spoilt = [*lines[: ramp + 1], straight(lines[around]) + " F300", *lines[around + 1 :]]
     report = sc.verify("\n".join([*spoilt, ""]), subject.job)
-    (found,) = report.engagement()
+    (found,) = report.engagement
     assert "steep-entry" in {finding.kind for finding in report.findings}
     assert found.exempt[0].length < 6.0 and found.exempt[0].max_deg > 100.0

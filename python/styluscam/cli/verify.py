@@ -50,14 +50,13 @@ def verify(
             simulation.require(simulated, inputs=[file, *work.inputs()])
         checked = verification.verify_file(file, work, channel=channel, beside=beside, progress=shown)
         covered = checked.coverage(progress=shown) if json or not quiet else []
-        engaged = checked.engagement(progress=shown) if json or not quiet else []
         written = pages.write(lambda: Subject.judged(checked, work.machine(channel), file.name), report, picture, shown)
         if simulated is not None:
             simulation.simulate(checked, progress=shown).save(simulated)
             written.append(simulated)
     if json:
         document = {"file": str(file), "job": str(job), **findings.document(checked), "coverage": covered}
-        document["engagement"] = [one.figures for one in engaged]
+        document["engagement"] = [one.figures for one in checked.engagement]
         console.say_json({**document, "written": [str(path) for path in written]})
     elif quiet and checked.ok:
         for line in findings.lines(checked):
@@ -79,7 +78,7 @@ def _print(report: verification.Report, file: Path) -> None:
             ("worst excess", f"{report.excess_max:.4f} mm{_at(document['excess_at'])}"),
             ("probed", f"{document['samples']} points, {document['brep_checked']} compared with the exact model"),
             *(("coverage", line) for line in coverage.lines(report.coverage())),
-            *(("engagement", line) for line in clearing.lines(report.engagement())),
+            *(("engagement", line) for line in clearing.lines(report.engagement)),
         ]
     )
 

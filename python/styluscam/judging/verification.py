@@ -50,7 +50,6 @@ class Report:
         self.beside = beside
         """The text of the channel that works together with this one, where it was given."""
         self._coverage: list[FaceCoverage] | None = None
-        self._engagement: list[OperationEngagement] | None = None
 
     def __repr__(self) -> str:
         """The verdict and the worst figures."""
@@ -192,21 +191,14 @@ class Report:
         found = self.judgement.scallops(self.job.engine, self.scene, count, progress=progress, cancel=cancel)
         return [Scallops(*arrays) for arrays in found]
 
-    def engagement(
-        self, *, progress: Progress | None = None, cancel: _engine.CancelToken | None = None
-    ) -> list[OperationEngagement]:
+    @cached_property
+    def engagement(self) -> list[OperationEngagement]:
         """What each operation that clears stock (``pocket``) engages and removes along its feed moves, in the order of the job.
 
-        It is what the findings ``engagement`` and ``removal-rate`` are looked for in: measured layer by layer on the moves of the
-        text, as :func:`styluscam.engagement` does, with the job's stock. Other operations have none.
-
-        Raises:
-            Cancelled: by ``progress`` or ``cancel``.
+        It is what the findings ``engagement`` and ``removal-rate`` were looked for in: measured layer by layer on the moves of
+        the text, as :func:`styluscam.engagement` does, with the job's stock. Other operations have none.
         """
-        if self._engagement is None:
-            found = self.judgement.engagement(self.job.engine, self.scene, progress=progress, cancel=cancel)
-            self._engagement = [of_arrays(arrays) for arrays in found]
-        return self._engagement
+        return [of_arrays(arrays) for arrays in self.judgement.engagement()]
 
     @property
     def scallop(self) -> float:

@@ -36,9 +36,7 @@ LISTED = 4
 
 
 def over_length(found: OperationEngagement) -> list[Plot]:
-    """The engagement angle and the removal rate; none where nothing was measured."""
-    if not len(found.distances):
-        return []
+    """The engagement angle and the removal rate of an operation on which something was measured."""
     return [_angles(found), _rates(found)]
 
 
@@ -53,7 +51,7 @@ def _angles(found: OperationEngagement) -> Plot:
             f" feed; bound {found.bound_deg:g}°. {_drawn(found)}"
         ]
     svg = _plot(found, Curve(angles, limits, f"bound {found.bound_deg:g}°", "engagement angle, °", largest))
-    return Plot(f"Engagement over length: {found.operation}", svg, notes=(*notes, _exempt(found.exempt)))
+    return Plot("Engagement angle over length", svg, notes=(*notes, _exempt(found.exempt)))
 
 
 def _rates(found: OperationEngagement) -> Plot:
@@ -67,7 +65,7 @@ def _rates(found: OperationEngagement) -> Plot:
         )
         largest = replace(largest, value=largest.value / CUBIC)
     svg = _plot(found, Curve(rates, references, "reference", "removal rate, cm³/min", largest))
-    return Plot(f"Removal rate over length: {found.operation}", svg, notes=(note,))
+    return Plot("Removal rate over length", svg, notes=(note,))
 
 
 def _drawn(found: OperationEngagement) -> str:
@@ -79,7 +77,7 @@ def _drawn(found: OperationEngagement) -> str:
 def _exempt(entries: list[EntryFigures]) -> str:
     """In words: where the bound does not hold."""
     if not entries:
-        return "It holds everywhere: there is no entry through stock."
+        return "No entry goes through stock: the bound is for all of the length."
     listed = [
         f"lines {one.first_line} to {one.last_line} ({one.length:.1f} mm, up to {one.max_deg:.0f}°)"
         for one in entries[:LISTED]

@@ -75,7 +75,8 @@ def report_page(subject: Subject, progress: Progress | None = None) -> str:
             faces=tables.faces(subject),
             maps=shown.maps if shown is not None else (),
             layers=_layers(subject),
-            plots=_plots(subject, shown, progress),
+            plots=_plots(subject, shown),
+            pockets=_pockets(subject),
             tools=_tool_pictures(subject),
             still=_still(subject),
             job=tables.job_rows(subject.job.document) if subject.job is not None else {},
@@ -114,14 +115,18 @@ def _shown(subject: Subject, progress: Progress | None) -> Shown | None:
     return shown_judged(subject.surface, subject.report, progress)
 
 
-def _plots(subject: Subject, shown: Shown | None, progress: Progress | None) -> list[plots.Plot]:
+def _plots(subject: Subject, shown: Shown | None) -> list[plots.Plot]:
     series = [plots.Series(subject.times, subject.positions[:, 2], subject.moves["feed"], subject.moves["kind"])]
     drawn = [plots.height_over_time(series), plots.feed_over_time(series)] if len(subject.positions) else []
     if shown is not None and len(shown.scallops):
         drawn.append(plots.scallop_histogram(shown.scallops, shown.weights))
-    if subject.report is not None:
-        drawn += [plot for one in subject.report.engagement(progress=progress) for plot in clearing.over_length(one)]
     return drawn
+
+
+def _pockets(subject: Subject) -> list[tuple[str, list[plots.Plot]]]:
+    """Each operation that clears stock, by its id, with its plots."""
+    found = subject.report.engagement if subject.report is not None else []
+    return [(one.operation, clearing.over_length(one)) for one in found if len(one.distances)]
 
 
 def _tool_pictures(subject: Subject) -> list[tuple[str, str]]:

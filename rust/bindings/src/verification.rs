@@ -137,18 +137,8 @@ impl Judgement {
     /// and end, feed (mm/min, nan where none is known), what rounding may have added to the stepover; and (M, 4): line, layer,
     /// 0 where it cuts, 1 on a link, 2 on an entry, number of positions; positions (N, 6): length up to there, tip, engagement
     /// angle (rad), stepover. Lengths mm.
-    #[pyo3(signature = (job, scene, progress=None, cancel=None))]
-    fn engagement<'py>(
-        &self,
-        py: Python<'py>,
-        job: &Job,
-        scene: &Scene,
-        progress: Option<&Bound<'py, PyAny>>,
-        cancel: Option<&CancelToken>,
-    ) -> PyResult<Vec<EngagementArrays<'py>>> {
-        let work = |watch: &_| styluscam_job::engagement(&job.document, &scene.scene, &self.judgement, watch);
-        let found = watched(py, progress, cancel, work)?.map_err(of_job)?;
-        found.into_iter().map(|(id, engagement)| engagement_arrays(py, id, &engagement)).collect()
+    fn engagement<'py>(&self, py: Python<'py>) -> PyResult<Vec<EngagementArrays<'py>>> {
+        self.judgement.report.engagement.iter().map(|found| engagement_arrays(py, found)).collect()
     }
 
     /// The material after the program; `face` of the sheet is "tool", "mid" or "back".
@@ -183,7 +173,7 @@ impl Judgement {
     }
 }
 
-fn engagement_arrays<'py>(py: Python<'py>, id: String, found: &OperationEngagement) -> PyResult<EngagementArrays<'py>> {
+fn engagement_arrays<'py>(py: Python<'py>, found: &OperationEngagement) -> PyResult<EngagementArrays<'py>> {
     let layers = found.layers.iter().map(|layer| [layer.top, layer.floor, layer.radius, layer.reference]);
     let numbers = found.moves.iter().map(|step| {
         let [start, end] = step.travelled;
@@ -207,7 +197,7 @@ fn engagement_arrays<'py>(py: Python<'py>, id: String, found: &OperationEngageme
         })
         .collect();
     Ok((
-        id,
+        found.operation.clone(),
         found.angle,
         found.length,
         arrays::matrix(py, layers)?,

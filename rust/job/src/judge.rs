@@ -11,8 +11,7 @@ use styluscam_post::machine::{Rapids, ToolChange};
 use styluscam_post::{read, Machine};
 use styluscam_verify::{
     turned, Axes, Contact, Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Left, Limits, Need, Obstacle,
-    OperationEngagement, Pairing, Partner, Passes, Reach, Report, Scallop, Simulation, Subject, TextFacts, TooLong,
-    ToolCalls,
+    Pairing, Partner, Passes, Reach, Report, Scallop, Simulation, Subject, TextFacts, TooLong, ToolCalls,
 };
 
 use crate::limits::{GOUGE, NO_ROOM};
@@ -324,26 +323,6 @@ pub fn scallops(
     // those of stages are for no face of the part
     let own = against.expected.iter().filter(|operation| operation.expectation.selected.contains(&true));
     own.map(of_operation).collect()
-}
-
-/// What a checked program engages and removes along the feed moves of each operation that clears stock.
-///
-/// # Errors
-/// Tools that do not build, `Cancelled`.
-pub fn engagement(
-    job: &JobDocument,
-    scene: &Scene,
-    judgement: &Judgement,
-    watch: &Watch,
-) -> Result<Vec<(String, OperationEngagement)>, JobError> {
-    let against = Against::new(job, scene)?;
-    let subject = against.subject(&judgement.unknown_positions);
-    let of_operation = |operation: &ExpectedOperation| {
-        let found =
-            styluscam_verify::operation_engagement(judgement.seen(), &subject, &judgement.limits, operation, watch);
-        Ok(found?.map(|engagement| (operation.id.clone(), engagement)))
-    };
-    against.expected.iter().filter_map(|operation| of_operation(operation).transpose()).collect()
 }
 
 /// What each of some points of the part, with its unit normal, asks for: forming, or nothing for it stays flat.

@@ -61,7 +61,7 @@ pub use error::JobError;
 pub use estimate::{estimates, Estimate};
 pub use file_units::Units;
 pub use fixture::{BackingSection, ClampSection, FixtureSection, Opening};
-pub use judge::{coverage, engagement, judge, left, needs, read_back, scallops, simulate, Judgement, Text};
+pub use judge::{coverage, judge, left, needs, read_back, scallops, simulate, Judgement, Text};
 pub use materials::{materials, Angle, Material};
 pub use operations::{
     BridgedFace, Context, Coolant, Direction, Edges, Effort, End, Fact, Feeds, Operation, OperationKeys, OperationKind,

@@ -38,8 +38,8 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         faults.extend(frame::faults(frame, program, &segments, &assignment, subject, limits));
     }
     faults.extend(passes::faults(&segments, &assignment, subject, limits, watch)?);
-    let (of_stock, left) = clearing::judged(program, &segments, &assignment, subject, limits, watch)?;
-    faults.extend(of_stock);
+    let cleared = clearing::judged(program, &segments, &assignment, subject, limits, watch)?;
+    faults.extend(cleared.faults);
     let pair = pair::judged(program, &segments, subject, limits, watch)?;
     faults.extend(pair.faults);
     let beyond_reach = unreached::findings(&segments, subject, limits, watch)?;
@@ -53,8 +53,12 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         merge([(&faults, program), (&beyond, axes.program)], (high - low).norm());
     let nothing = tally.nothing_touches().then(|| diagnosis::no_contact(program, &segments, &tally, subject));
     let found = limits.found.iter().map(|(kind, severity, words)| Finding::of_all(*kind, *severity, words.clone()));
-    let of_shape =
-        found.chain(pair.finding).chain(steep).chain(left).chain(beyond_reach).chain(travel::no_feed_moves(program));
+    let of_shape = found
+        .chain(pair.finding)
+        .chain(steep)
+        .chain(cleared.findings)
+        .chain(beyond_reach)
+        .chain(travel::no_feed_moves(program));
     let of_text =
         if limits.shape_only { Vec::new() } else { of_whole_text(&axes, &assignment, subject, program, limits) };
     let wholes: Vec<Finding> = of_text.into_iter().chain(of_shape).chain(nothing).collect();
@@ -77,6 +81,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         contact_share: tally.share(),
         samples: tally.samples,
         contacts: tally.records(subject),
+        engagement: cleared.engagement,
     })
 }
 

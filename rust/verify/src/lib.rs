@@ -85,7 +85,7 @@ mod walls;
 mod walls_beside;
 mod words;
 
-pub use clearing::{operation_engagement, ClearedLayer, ClearingKind, ClearingMove, EngagedAt, OperationEngagement};
+pub use clearing::{ClearedLayer, ClearingKind, ClearingMove, EngagedAt, OperationEngagement};
 pub use coverage::{coverage, left, needs, FaceCoverage};
 pub use engagement::{
     engagement, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept, CHIP,

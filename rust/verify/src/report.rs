@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::clearing::OperationEngagement;
 use crate::findings::{Finding, FindingKind};
 use crate::groups::Group;
 
@@ -61,12 +62,15 @@ pub struct Report {
     pub samples: usize,
     /// Contacts spread evenly over the program, at most 4000.
     pub contacts: Vec<ContactRecord>,
+    /// What the operations that clear stock engage along their feed moves: too much for a document.
+    #[serde(skip)]
+    pub engagement: Vec<OperationEngagement>,
 }
 
 impl Report {
     /// This report of a whole text, with what was found of a part of it with another shape, which `name` is.
     ///
-    /// Contacts, and the share of them that touch, stay those of the whole.
+    /// Contacts, the share of them that touch, and what is engaged stay those of the whole.
     #[must_use]
     pub fn with_stage(mut self, stage: Self, name: &str) -> Self {
         let first = self.findings.len();

@@ -1,18 +1,15 @@
 //! What an operation that clears engages and removes along its feed moves: the measurement of [`super::judged`], handed out.
 
-use styluscam_motion::{Cancelled, Program, Watch};
-
 use super::layer::{Doing, Inside, Layer};
 use super::Work;
-use crate::assignment::Assignment;
 use crate::engagement::Engaged;
-use crate::expectation::ExpectedOperation;
-use crate::segments::{placed, SegmentKind};
-use crate::subject::{Limits, Subject};
+use crate::segments::SegmentKind;
 
 /// What an operation that clears stock engages and removes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OperationEngagement {
+    /// The operation's id.
+    pub operation: String,
     /// The largest engagement angle, but on entries, rad.
     pub angle: f64,
     /// Length of all its feed moves, mm.
@@ -79,47 +76,49 @@ pub struct EngagedAt {
     pub stepover: f64,
 }
 
-/// What an operation of a program engages and removes along its feed moves; none of an operation that does not clear stock.
-///
-/// # Errors
-/// `Cancelled` when the watch is cancelled.
-pub fn operation_engagement(
-    program: &Program,
-    subject: &Subject,
-    limits: &Limits,
-    operation: &ExpectedOperation,
-    watch: &Watch,
-) -> Result<Option<OperationEngagement>, Cancelled> {
-    let segments = placed(program, subject, limits);
-    let assignment = Assignment::new(program, subject);
-    let Some(work) = Work::of(operation, program, &segments, &assignment, subject) else { return Ok(None) };
-    let mut length = 0.0;
-    let ends = work.own.iter().map(|own| {
-        let start = length;
-        if own.segment.kind != SegmentKind::Rapid {
-            length += own.segment.length();
-        }
-        [start, length]
-    });
-    let ends: Vec<[f64; 2]> = ends.collect();
-    let mut layers = Vec::new();
-    let mut moves: Vec<Option<ClearingMove>> = vec![None; work.own.len()];
-    work.by_layer(subject, limits, |layer| {
-        for inside in layer.measured(&work.own, subject, watch)? {
+/// What is known of an operation so far.
+pub(super) struct Along {
+    engagement: OperationEngagement,
+    /// Length of the operation's feed moves up to start and end of each move, mm.
+    ends: Vec<[f64; 2]>,
+    moves: Vec<Option<ClearingMove>>,
+}
+
+impl Along {
+    pub fn new(work: &Work<'_>) -> Self {
+        let mut length = 0.0;
+        let ends = work.own.iter().map(|own| {
+            let start = length;
+            if own.segment.kind != SegmentKind::Rapid {
+                length += own.segment.length();
+            }
+            [start, length]
+        });
+        let ends: Vec<[f64; 2]> = ends.collect();
+        let engagement = OperationEngagement {
+            operation: work.operation.id.clone(),
+            angle: work.clearing.angle,
+            length,
+            layers: Vec::new(),
+            moves: Vec::new(),
+        };
+        Self { engagement, moves: vec![None; ends.len()], ends }
+    }
+
+    /// Adds what was measured in a layer: of each move in the layer in which it ends.
+    pub fn add(&mut self, layer: &Layer<'_>, inside: &[Inside<'_>], work: &Work<'_>) {
+        for inside in inside {
             let index = work.own.partition_point(|own| own.segment.index < inside.own.segment.index);
-            if let (Some(found @ None), Some(travelled)) = (moves.get_mut(index), ends.get(index)) {
-                *found = layer.along(&inside, layers.len(), *travelled);
+            if let (Some(found @ None), Some(travelled)) = (self.moves.get_mut(index), self.ends.get(index)) {
+                *found = layer.along(inside, self.engagement.layers.len(), *travelled);
             }
         }
-        layers.push(layer.described());
-        Ok(())
-    })?;
-    Ok(Some(OperationEngagement {
-        angle: work.clearing.angle,
-        length,
-        layers,
-        moves: moves.into_iter().flatten().collect(),
-    }))
+        self.engagement.layers.push(layer.described());
+    }
+
+    pub fn finished(self) -> OperationEngagement {
+        OperationEngagement { moves: self.moves.into_iter().flatten().collect(), ..self.engagement }
+    }
 }
 
 impl Layer<'_> {

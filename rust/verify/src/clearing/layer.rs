@@ -76,19 +76,18 @@ impl Inside<'_> {
 }
 
 impl Layer<'_> {
-    /// Looks at the moves of its operation that lie in the layer, or below it; what they sweep.
+    /// Looks at what was measured on the moves of its operation; what they sweep.
     pub fn judged(
         &self,
-        own: &[Own],
+        inside: &[Inside],
         subject: &Subject,
         watch: &Watch,
         faults: &mut Vec<Fault>,
     ) -> Result<Vec<PlanePiece>, Cancelled> {
-        let inside = self.measured(own, subject, watch)?;
-        for found in &inside {
+        for found in inside {
             faults.extend(self.fault(found.own, found.doing, &found.measures));
         }
-        self.without_stock(&inside, subject, watch, faults)?;
+        self.without_stock(inside, subject, watch, faults)?;
         let swept = inside.iter().filter(|found| matches!(found.doing, Doing::Runs | Doing::Enters));
         Ok(swept.flat_map(Inside::centres).collect())
     }

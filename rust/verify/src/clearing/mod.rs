@@ -27,13 +27,25 @@ use crate::segments::{Segment, SegmentKind};
 use crate::subject::{Limits, Subject};
 use crate::tolerances::{ROUGH, SAME_LEVEL, SLACK, WIDE};
 
-pub use along::{operation_engagement, ClearedLayer, ClearingKind, ClearingMove, EngagedAt, OperationEngagement};
+pub use along::{ClearedLayer, ClearingKind, ClearingMove, EngagedAt, OperationEngagement};
 
+use along::Along;
 use layer::Layer;
 use own::{moves_of, Own};
 use to_leave::Solids;
 
-/// Faults of the moves that clear stock, and findings of what they leave.
+/// What comes of looking at the operations that clear.
+#[derive(Default)]
+pub(crate) struct Judged {
+    /// Of the moves that clear stock.
+    pub faults: Vec<Fault>,
+    /// Of what they leave.
+    pub findings: Vec<Finding>,
+    /// What they engage.
+    pub engagement: Vec<OperationEngagement>,
+}
+
+/// Faults of the moves that clear stock, findings of what they leave, and what they engage.
 ///
 /// # Errors
 /// `Cancelled`.
@@ -44,13 +56,16 @@ pub(crate) fn judged(
     subject: &Subject,
     limits: &Limits,
     watch: &Watch,
-) -> Result<(Vec<Fault>, Vec<Finding>), Cancelled> {
-    let (mut faults, mut findings) = (Vec::new(), Vec::new());
+) -> Result<Judged, Cancelled> {
+    let Judged { mut faults, mut findings, mut engagement } = Judged::default();
     for operation in subject.expected {
         let Some(work) = Work::of(operation, program, segments, assignment, subject) else { continue };
         let body = Body::new(work.tool, subject.sheet.as_ref());
+        let mut along = Along::new(&work);
         work.by_layer(subject, limits, |layer| {
-            let swept = layer.judged(&work.own, subject, watch, &mut faults)?;
+            let inside = layer.measured(&work.own, subject, watch)?;
+            along.add(layer, &inside, &work);
+            let swept = layer.judged(&inside, subject, watch, &mut faults)?;
             let grid = rest::Grid::new(layer, subject);
             let free = grid.free(layer, &body, subject, watch)?;
             let reached = grid.reached(layer, &free, &swept, subject);
@@ -62,10 +77,11 @@ pub(crate) fn judged(
             }
             Ok(())
         })?;
+        engagement.push(along.finished());
         findings.extend(missing_levels(operation, work.clearing, &work.heights, subject));
     }
     faults.sort_by_key(|fault| fault.index);
-    Ok((faults, findings))
+    Ok(Judged { faults, findings, engagement })
 }
 
 /// An operation that clears stock, with the moves that do it.
