@@ -41,6 +41,7 @@ mod corner_angles;
 mod corners;
 mod coverage;
 mod diagnosis;
+mod engaged;
 mod engagement;
 mod expectation;
 mod faults;
@@ -85,8 +86,8 @@ mod walls;
 mod walls_beside;
 mod words;
 
-pub use clearing::{ClearedLayer, ClearingKind, ClearingMove, EngagedAt, OperationEngagement};
 pub use coverage::{coverage, left, needs, FaceCoverage};
+pub use engaged::{ClearedLayer, ClearingKind, ClearingMove, EngagedAt, OperationEngagement};
 pub use engagement::{
     engagement, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept, CHIP,
 };

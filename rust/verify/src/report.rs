@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::clearing::OperationEngagement;
+use crate::engaged::OperationEngagement;
 use crate::findings::{Finding, FindingKind};
 use crate::groups::Group;
 

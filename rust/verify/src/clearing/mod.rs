@@ -13,26 +13,23 @@ mod layer;
 mod own;
 mod rest;
 mod to_leave;
+mod work;
 
-use styluscam_geometry::Tool;
 use styluscam_motion::{Cancelled, Program, Watch};
 
 use crate::assignment::Assignment;
 use crate::body::Body;
-use crate::engagement::Cleared;
+use crate::engaged::OperationEngagement;
 use crate::expectation::{Clearing, ExpectedOperation};
 use crate::faults::Fault;
 use crate::findings::{Finding, FindingKind, Severity};
-use crate::segments::{Segment, SegmentKind};
+use crate::segments::Segment;
 use crate::subject::{Limits, Subject};
 use crate::tolerances::{ROUGH, SAME_LEVEL, SLACK, WIDE};
 
-pub use along::{ClearedLayer, ClearingKind, ClearingMove, EngagedAt, OperationEngagement};
-
 use along::Along;
-use layer::Layer;
-use own::{moves_of, Own};
 use to_leave::Solids;
+use work::Work;
 
 /// What comes of looking at the operations that clear.
 #[derive(Default)]
@@ -82,72 +79,6 @@ pub(crate) fn judged(
     }
     faults.sort_by_key(|fault| fault.index);
     Ok(Judged { faults, findings, engagement })
-}
-
-/// An operation that clears stock, with the moves that do it.
-struct Work<'a> {
-    operation: &'a ExpectedOperation,
-    clearing: &'a Clearing,
-    tool: &'a Tool,
-    own: Vec<Own<'a>>,
-    /// The moves before them that took of its stock.
-    before: Vec<&'a Segment>,
-    /// Of its levels, from the top down, mm.
-    heights: Vec<f64>,
-}
-
-impl<'a> Work<'a> {
-    /// None of an operation that clears nothing, or has no moves.
-    fn of(
-        operation: &'a ExpectedOperation,
-        program: &Program,
-        segments: &'a [Segment],
-        assignment: &Assignment,
-        subject: &'a Subject,
-    ) -> Option<Self> {
-        let clearing = operation.expectation.clearing()?;
-        let own = moves_of(program, segments.iter().filter(|segment| assignment.is(segment.operation, operation)));
-        let tool = subject.tools.get(operation.tool).filter(|_| !own.is_empty())?;
-        let before = before::of(segments, &own, clearing);
-        let heights = heights(&own, clearing.top);
-        Some(Self { operation, clearing, tool, own, before, heights })
-    }
-
-    /// Looks at one layer after the other, from the top down.
-    fn by_layer(
-        &self,
-        subject: &Subject,
-        limits: &Limits,
-        mut look: impl FnMut(&Layer<'_>) -> Result<(), Cancelled>,
-    ) -> Result<(), Cancelled> {
-        let mut top = self.clearing.top;
-        for floor in &self.heights {
-            let cleared = before::cleared(&self.before, [top, *floor], subject);
-            look(&Layer {
-                cleared: &cleared,
-                gone: &Cleared::new(&cleared, 0.0),
-                top,
-                floor: *floor,
-                radius: self.tool.cutter().at_height(top - floor).0,
-                unit: limits.unit,
-                chip: crate::engagement::CHIP + 2.0 * limits.unit,
-                clearing: self.clearing,
-                operation: self.operation,
-            })?;
-            top = *floor;
-        }
-        Ok(())
-    }
-}
-
-/// The heights of the tip on level feeds, from the top down.
-fn heights(own: &[Own], top: f64) -> Vec<f64> {
-    let level = own.iter().filter(|own| !own.is_link).map(|own| own.segment);
-    let level = level.filter(|segment| segment.kind == SegmentKind::Lateral && !segment.falls());
-    let mut heights: Vec<f64> = level.map(|segment| segment.end[2]).filter(|z| *z < top - SLACK).collect();
-    heights.sort_by(|a, b| b.total_cmp(a));
-    heights.dedup_by(|a, b| (*a - *b).abs() <= SAME_LEVEL);
-    heights
 }
 
 /// Levels that lie farther apart than a step, and level floors of the selected faces on which there is none.
