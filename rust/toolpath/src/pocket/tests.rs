@@ -10,7 +10,7 @@ use super::bound::Bound;
 use super::check::{bounded, worst};
 use super::material::Material;
 use super::polygons::{sides, Kernel, Polygons};
-use super::{pocket_path, EntryForm, EntryRule, Pocket, PocketError, PocketPath, PocketRunKind, Shape};
+use super::{pocket_path, EntryForm, EntryRule, Pocket, PocketError, PocketPath, PocketRun, PocketRunKind, Shape};
 
 fn rectangle(x: f64, y: f64) -> Vec<[f64; 3]> {
     vec![[-x, -y, 0.0], [x, -y, 0.0], [x, y, 0.0], [-x, y, 0.0]]
@@ -255,6 +255,25 @@ fn passes_in_a_slot_begin_where_they_cut() {
     assert!(ratio < 1.8, "{ratio}");
     // the two ends are finished one after the other: no more than a chord for each half circle
     assert!(length(&path, PocketRunKind::Link) < 0.8 * length(&path, PocketRunKind::Cut));
+}
+
+#[test]
+fn a_cut_that_begins_where_the_last_one_ended_needs_no_link() {
+    let square = rectangle(15.0, 15.0);
+    let runs = planned(&pocket(&square)).runs;
+    let ends = |run: &PocketRun| [run.points[0], run.points[run.points.len() - 1]].map(|[x, y, _]| [x, y]);
+    let mut joined = 0;
+    for pair in runs.windows(2) {
+        let [[_, end], [start, _]] = [ends(&pair[0]), ends(&pair[1])];
+        let gap = libm::hypot(start[0] - end[0], start[1] - end[1]);
+        assert!(gap == 0.0 || pair[1].kind == PocketRunKind::Rapid || pair[0].kind == PocketRunKind::Rapid, "{gap}");
+        joined += usize::from(pair[0].kind == PocketRunKind::Cut && pair[1].kind == PocketRunKind::Cut);
+    }
+    assert!(joined > 0);
+    for run in runs.iter().filter(|run| run.kind == PocketRunKind::Link) {
+        let [start, end] = ends(run);
+        assert!(libm::hypot(start[0] - end[0], start[1] - end[1]) > 2e-3);
+    }
 }
 
 fn reversed_outline(outline: &[[f64; 3]]) -> Vec<[f64; 3]> {
