@@ -13,7 +13,7 @@ from test_report import Page, job_of
 
 import styluscam as sc
 from blocks import TOP, write_stl
-from styluscam.judging.clearing import ClearedLayer, ClearingMoves, OperationEngagement
+from styluscam.judging.clearing import ClearedLayer, ClearingMoves, OperationEngagement, lines
 from styluscam.report import Subject, clearing, heatmaps, report_page
 from styluscam.report.plots import BINS
 
@@ -33,10 +33,10 @@ def engagement(text: str, asked: sc.Job) -> OperationEngagement:
 
 def by_hand(*moves: str) -> str:
     """A text of one operation whose moves are given, and the line of the first."""
-    lines = text_of(job(**FEEDS)).splitlines()
-    head = next(number for number, line in enumerate(lines) if line.startswith("(operation"))
-    tail = next(number for number, line in enumerate(lines) if number > head and line.startswith("M5"))
-    return "\n".join([*lines[: head + 1], *moves, *lines[tail:], ""])
+    text = text_of(job(**FEEDS)).splitlines()
+    head = next(number for number, line in enumerate(text) if line.startswith("(operation"))
+    tail = next(number for number, line in enumerate(text) if number > head and line.startswith("M5"))
+    return "\n".join([*text[: head + 1], *moves, *text[tail:], ""])
 
 
 def line_of(text: str, word: str) -> int:
@@ -108,13 +108,13 @@ def test_layers_of_other_depth_have_another_reference() -> None:
 
 def test_a_pass_that_is_left_out_shows_in_the_plot_where_the_verifier_finds_it() -> None:
     asked = job(**FEEDS)
-    lines = whole_lines(text_of(asked))
-    links = roles(lines, "link")
+    posted = whole_lines(text_of(asked))
+    links = roles(posted, "link")
     ends = {
-        number: min(link for link in links if link > number) for number in roles(lines, "cut") if number < links[-1]
+        number: min(link for link in links if link > number) for number in roles(posted, "cut") if number < links[-1]
     }
     longest = max(ends, key=lambda number: ends[number] - number)
-    spoilt = "\n".join([*lines[:longest], *lines[ends[longest] :], ""])
+    spoilt = "\n".join([*posted[:longest], *posted[ends[longest] :], ""])
     report = sc.verify(spoilt, asked)
     (found,) = report.engagement
     largest = found.figures.angle
@@ -143,10 +143,10 @@ def test_the_largest_angle_is_the_one_that_the_verifier_reports() -> None:
 
 def test_a_feed_that_is_too_high_shows_in_the_rate() -> None:
     asked = job(**FEEDS)
-    lines = text_of(asked).splitlines()
-    cut = max(number for number, line in enumerate(lines) if line.endswith(f"F{CUT:g}"))
-    lines[cut] = lines[cut].replace(f"F{CUT:g}", f"F{1.3 * CUT:g}")
-    report = sc.verify("\n".join([*lines, ""]), asked)
+    posted = text_of(asked).splitlines()
+    cut = max(number for number, line in enumerate(posted) if line.endswith(f"F{CUT:g}"))
+    posted[cut] = posted[cut].replace(f"F{CUT:g}", f"F{1.3 * CUT:g}")
+    report = sc.verify("\n".join([*posted, ""]), asked)
     (found,) = report.engagement
     rate = found.figures.rate
     assert rate is not None and rate.share == pytest.approx(1.3, abs=0.02)
@@ -198,6 +198,22 @@ def test_what_is_not_measured_is_a_gap() -> None:
     # 4 mm up and 30 back over the block
     (gap,) = np.flatnonzero(np.isnan(values))
     assert distances[gap] == pytest.approx(42.0) and distances[gap + 1] > 76.0 - 1e-6
+
+
+def test_a_program_through_the_air_engages_nothing() -> None:
+    found = engagement(by_hand("G0 Z16", "X-5 Y-9", "G1 Z4 F200", "X25 F500", "G0 Z16"), job(**FEEDS))
+    figures = found.figures
+    assert figures.angle is not None and figures.rate is not None and figures.exempt == []
+    assert (figures.angle.value, figures.rate.value) == (0.0, 0.0)
+    notes = clearing.over_length(found)[0].notes
+    assert notes[0].startswith("Largest angle 0.00° in line") and "No entry goes through stock" in notes[1]
+
+
+def test_rapids_alone_are_not_measured() -> None:
+    found = engagement(by_hand("G0 Z16", "X-5 Y1"), job(**FEEDS))
+    assert (len(found.distances), found.length, found.layers) == (0, 0.0, [])
+    assert found.figures.angle is None and found.figures.rate is None
+    assert lines([found]) == ["pocket-1: no cutting move to measure"]
 
 
 def test_the_rest_that_a_larger_tool_leaves_is_shown_without_what_that_tool_took() -> None:
@@ -282,10 +298,10 @@ def test_a_page_of_a_job_without_pockets_shows_none(tmp_path: Path) -> None:
 
 def test_a_helix_that_is_straightened_is_still_an_entry(subject: Subject) -> None:
     assert subject.job is not None
-    lines = whole_lines(text_of(subject.job))
-    ramp = roles(lines, "ramp")[0]
-    around = next(number for number, line in enumerate(lines) if number > ramp and "Z4" in line.split())
-    spoilt = [*lines[: ramp + 1], straight(lines[around]) + " F300", *lines[around + 1 :]]
+    posted = whole_lines(text_of(subject.job))
+    ramp = roles(posted, "ramp")[0]
+    around = next(number for number, line in enumerate(posted) if number > ramp and "Z4" in line.split())
+    spoilt = [*posted[: ramp + 1], straight(posted[around]) + " F300", *posted[around + 1 :]]
     report = sc.verify("\n".join([*spoilt, ""]), subject.job)
     (found,) = report.engagement
     assert "steep-entry" in {finding.kind for finding in report.findings}

@@ -226,7 +226,7 @@ def of_arrays(arrays: Arrays) -> OperationEngagement:
         of_move=np.repeat(np.arange(len(counts)), counts),
         distances=positions[:, 0],
         points=positions[:, 1:4],
-        angles_deg=np.degrees(positions[:, 4]),
+        angles_deg=np.degrees(positions[:, 4]) + 0.0,  # never -0
         stepovers=positions[:, 5],
     )
 
