@@ -367,6 +367,9 @@ def test_what_a_pocket_engages_is_drawn_wide_and_narrow(tab: Tab, folder: Path) 
             assert (tops[0] == tops[1]) is (size == WIDE)
             ink[scheme] = tab.run("getComputedStyle(document.querySelector('.pairs svg text')).fill")
     assert ink["light"] != ink["dark"]
+    tab.size(*WIDE, media="print")
+    shown = "(s => getComputedStyle(document.querySelector(s)).display)"
+    assert (tab.run(f"{shown}('.pairs .note')"), tab.run(f"{shown}('main > section > .note')")) == ("block", "none")
     assert tab.complaints == []
 
 
