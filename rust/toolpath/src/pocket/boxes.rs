@@ -39,6 +39,53 @@ impl Boxes {
         self.is_one_below(sides, point, square, self.levels.len(), 0)
     }
 
+    /// Whether an odd number of the sides crosses the ray from a point to +X: whether the point lies in the area that they bound.
+    pub fn is_inside(&self, sides: &[(Point, Point)], point: Point) -> bool {
+        self.is_odd_below(sides, point, self.levels.len(), 0)
+    }
+
+    fn is_odd_below(&self, sides: &[(Point, Point)], point: Point, level: usize, group: usize) -> bool {
+        let [x, y] = point;
+        let members = group * GROUP..(group + 1) * GROUP;
+        let Some(below) = level.checked_sub(1) else {
+            let crosses = |(a, b): &(Point, Point)| {
+                (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+            };
+            return members.filter_map(|number| sides.get(number)).fold(false, |odd, side| odd ^ crosses(side));
+        };
+        let Some(boxes) = self.levels.get(below) else { return false };
+        let is_met = |[low, high]: &[Point; 2]| low[1] <= y && y <= high[1] && x <= high[0];
+        let met = members.filter(|member| boxes.get(*member).is_some_and(is_met));
+        met.fold(false, |odd, member| odd ^ self.is_odd_below(sides, point, below, member))
+    }
+
+    /// Calls with the sides that may come through a circle: those that lie neither farther from its centre than its radius all along, nor nearer.
+    pub fn crossed(&self, sides: &[(Point, Point)], centre: Point, radius: f64, found: &mut impl FnMut(Point, Point)) {
+        self.crossed_below(sides, (centre, radius * radius), self.levels.len(), 0, found);
+    }
+
+    fn crossed_below(
+        &self,
+        sides: &[(Point, Point)],
+        (centre, square): (Point, f64),
+        level: usize,
+        group: usize,
+        found: &mut impl FnMut(Point, Point),
+    ) {
+        let members = group * GROUP..(group + 1) * GROUP;
+        let Some(below) = level.checked_sub(1) else {
+            members.filter_map(|number| sides.get(number)).for_each(|(a, b)| found(*a, *b));
+            return;
+        };
+        let Some(boxes) = self.levels.get(below) else { return };
+        for member in members {
+            let is_met = |b: &[Point; 2]| square_outside(centre, b) < square && square_farthest(centre, b) >= square;
+            if boxes.get(member).is_some_and(is_met) {
+                self.crossed_below(sides, (centre, square), below, member, found);
+            }
+        }
+    }
+
     fn is_one_below(&self, sides: &[(Point, Point)], point: Point, square: f64, level: usize, group: usize) -> bool {
         let members = group * GROUP..(group + 1) * GROUP;
         let Some(below) = level.checked_sub(1) else {
@@ -92,6 +139,13 @@ fn around(mut boxes: impl Iterator<Item = [[f64; 2]; 2]>) -> [Point; 2] {
 fn square_outside(p: Point, [low, high]: &[Point; 2]) -> f64 {
     let x = (low[0] - p[0]).max(p[0] - high[0]).max(0.0);
     let y = (low[1] - p[1]).max(p[1] - high[1]).max(0.0);
+    x * x + y * y
+}
+
+/// Square of the distance from a point to the farthest point of a box.
+fn square_farthest(p: Point, [low, high]: &[Point; 2]) -> f64 {
+    let x = (p[0] - low[0]).max(high[0] - p[0]);
+    let y = (p[1] - low[1]).max(high[1] - p[1]);
     x * x + y * y
 }
 

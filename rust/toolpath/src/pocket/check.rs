@@ -150,13 +150,13 @@ fn take(intervals: &mut Vec<[f64; 2]>, from: f64, to: f64) {
 fn within(at: Point, from: f64, material: &Material, radius: f64) -> Vec<[f64; 2]> {
     // (direction, whether the rim comes into the material there): the material lies left of its sides
     let mut crossings: Vec<(f64, bool)> = Vec::new();
-    for (a, b) in material.sides_within(at, radius) {
+    material.crossed(at, radius, &mut |a, b| {
         let (along, arm) = ([b[0] - a[0], b[1] - a[1]], [a[0] - at[0], a[1] - at[1]]);
         let square = along[0] * along[0] + along[1] * along[1];
         let half = arm[0] * along[0] + arm[1] * along[1];
         let root = half * half - square * (arm[0] * arm[0] + arm[1] * arm[1] - radius * radius);
         if root <= 0.0 || square <= 0.0 {
-            continue;
+            return;
         }
         for sign in [-1.0, 1.0] {
             let share = (sign * root.sqrt() - half) / square;
@@ -166,7 +166,7 @@ fn within(at: Point, from: f64, material: &Material, radius: f64) -> Vec<[f64; 2
                 crossings.push(((libm::atan2(on[1], on[0]) - from).rem_euclid(TAU), sign > 0.0));
             }
         }
-    }
+    });
     crossings.sort_by(|a, b| a.0.total_cmp(&b.0));
     let is_in = match crossings.last() {
         Some((_, comes_in)) => *comes_in,

@@ -31,8 +31,8 @@ impl Cut {
 }
 
 /// What pieces leave of material.
-pub fn left_of(kernel: &Kernel, material: &Material, cuts: &[Cut]) -> Material {
-    let swept = Polygons { contours: cuts.iter().flat_map(|cut| cut.swept.contours.clone()).collect() };
+pub fn left_of<'a>(kernel: &Kernel, material: &Material, cuts: impl IntoIterator<Item = &'a Cut>) -> Material {
+    let swept = Polygons { contours: cuts.into_iter().flat_map(|cut| cut.swept.contours.clone()).collect() };
     Material::new(without_slivers(kernel.difference(&material.area, &swept)).thinned(0.3 * WALL))
 }
 

@@ -62,7 +62,7 @@ pub fn plan(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketErro
             let swept = ground.kernel.sweep(&path_chords(&points), r + SLIVER, WALL);
             let cut = Cut { path: points, swept, level: 0, is_entry: false, two_way: false };
             append(&mut path, cut.path.clone(), &rest, &free, r);
-            rest = left_of(&ground.kernel, &rest, &[cut]);
+            rest = left_of(&ground.kernel, &rest, [&cut]);
         }
         watch.advance(1)?;
     }

@@ -2,7 +2,8 @@
 //! less, by the material as it is.
 //!
 //! Large discs go first, a few radii at a time: as long as they gain ground smaller ones are not asked, and those that the material is nowhere near
-//! to any more, never again.
+//! to any more, never again. What discs cover stays permitted as material goes, so that new ones are looked for only around what has been cleared
+//! since.
 
 use std::sync::Arc;
 
@@ -12,6 +13,7 @@ use super::bound::{ladder, Bound};
 use super::material::Material;
 use super::pieces::{pieces, Piece, SHALLOWEST};
 use super::polygons::{Kernel, Polygons};
+use super::window::{area, common, joined, wider, Window};
 
 /// Chords of walls are at most this far off their arcs, mm: what the offsets take off the part, they leave.
 pub const WALL: f64 = 4e-4;
@@ -27,6 +29,8 @@ const TOGETHER: usize = 3;
 const SHALLOW: f64 = 0.35;
 /// Radii that gain nothing are left out for so many steps, at most.
 const LONGEST_WAIT: u32 = 4;
+/// Windows that are more than this share of all are not worth their clipping.
+const WIDEST: f64 = 0.25;
 
 /// Discs of one radius.
 #[derive(Debug)]
@@ -41,6 +45,8 @@ struct Rung {
     centres: Arc<Polygons>,
     /// Steps for which they are left out: now, and the last time.
     waits: [u32; 2],
+    /// How many boxes of what has been cleared were looked around; None before the first time.
+    seen: Option<usize>,
     /// Whether no material is near to any of them.
     is_done: bool,
 }
@@ -51,10 +57,24 @@ pub struct Growth {
     rungs: Vec<Rung>,
     /// Where the tool's centre may be.
     free: Polygons,
+    /// What of that permissible discs cover, as far as they were looked for.
+    covered: Polygons,
     /// The tool's radius, mm.
     radius: f64,
     /// How much larger the material may be taken than it is, mm.
     sag: f64,
+}
+
+/// The material at a step.
+#[derive(Clone, Copy, Debug)]
+struct Step<'a> {
+    kernel: &'a Kernel,
+    /// More of it than there is: the safe side.
+    material: &'a Polygons,
+    /// Boxes around all that has been taken of it.
+    cleared: &'a [Window],
+    /// The box around all positions.
+    all: Window,
 }
 
 impl Growth {
@@ -76,19 +96,22 @@ impl Growth {
                 gain: radius + bound.radius - bound.keep(*radius),
                 centres: Arc::clone(centres),
                 waits: [0, 0],
+                seen: None,
                 is_done: false,
             };
             let rungs: Vec<Rung> = discs.iter().map(rung).collect();
             let sag = SAG * rungs.first().map_or(0.0, |rung| rung.gain);
-            Self { rungs, free: free.clone(), radius: bound.radius, sag }
+            Self { rungs, free: free.clone(), covered: Polygons::default(), radius: bound.radius, sag }
         })
     }
 
-    /// The pieces that are next: deep ones of the largest discs that have any; else the deepest of all.
-    pub fn next(&mut self, kernel: &Kernel, material: &Material) -> Vec<Piece> {
-        // more material than there is: the safe side
+    /// The pieces that are next: deep ones of the largest discs that have any; else the deepest of all. `cleared` has boxes around all that was
+    /// taken of the material so far, in the order in which it was.
+    pub fn next(&mut self, kernel: &Kernel, material: &Material, cleared: &[Window]) -> Vec<Piece> {
         let filled = material.area.filled(self.sag);
-        let mut shallow: Vec<Piece> = Vec::new();
+        let all = self.free.bounds().unwrap_or_default();
+        let step = Step { kernel, material: &filled, cleared, all };
+        let mut found: Vec<Piece> = Vec::new();
         // those that wait are asked where the others have nothing
         for is_last in [false, true] {
             let mut asked: Vec<&mut Rung> = Vec::new();
@@ -101,12 +124,17 @@ impl Growth {
                 }
             }
             for group in asked.chunks_mut(TOGETHER) {
-                let reaches: Vec<Polygons> = group.par_iter_mut().map(|rung| rung.reach(kernel, &filled)).collect();
+                let reaches: Vec<Polygons> = group.par_iter_mut().map(|rung| rung.reach(&step)).collect();
                 // one after the other: their edges nearly coincide, and all at once that is slow
                 let reach = reaches.iter().fold(Polygons::default(), |sum, reach| kernel.union(&sum, reach));
-                // beside a fold of the walls' offset discs may come nearer to them than they should, by some hundredths of their radius
-                let reach = kernel.intersection(&reach, &self.free);
-                let mut found = pieces(&reach.thinned(0.3 * WALL), material, self.radius);
+                if let Some(window) = reach.bounds() {
+                    // beside a fold of the walls' offset discs may come nearer to them than they should, by some hundredths of their radius
+                    let reach = kernel.intersection(&reach, &self.free.clipped(window));
+                    self.covered = kernel.union(&self.covered, &reach).thinned(kernel.noise());
+                }
+                if !reach.is_empty() || found.is_empty() {
+                    found = pieces(&self.covered.clone().thinned(0.3 * WALL), material, self.radius);
+                }
                 let deep = SHALLOW * group.first().map_or(0.0, |rung| rung.gain);
                 if found.iter().any(|piece| piece.depth >= deep) {
                     group.iter_mut().for_each(|rung| rung.waits = [0, 0]);
@@ -117,21 +145,90 @@ impl Growth {
                     let wait = (2 * rung.waits[1]).clamp(1, LONGEST_WAIT);
                     rung.waits = [wait, wait];
                 }
-                shallow.append(&mut found);
             }
         }
-        let deepest = shallow.iter().fold(0.0, |deepest: f64, piece| deepest.max(piece.depth));
-        shallow.retain(|piece| piece.depth >= 0.5 * deepest && piece.depth > SHALLOWEST);
-        shallow
+        let deepest = found.iter().fold(0.0, |deepest: f64, piece| deepest.max(piece.depth));
+        found.retain(|piece| piece.depth >= 0.5 * deepest && piece.depth > SHALLOWEST);
+        found
     }
 }
 
 impl Rung {
-    /// All positions on permissible discs of the radius.
-    fn reach(&mut self, kernel: &Kernel, material: &Polygons) -> Polygons {
+    /// What permissible discs of the radius cover: at least those that were none the last time.
+    fn reach(&mut self, step: &Step<'_>) -> Polygons {
+        let windows = self.windows(step);
+        self.seen = Some(step.cleared.len());
+        windows
+            .into_iter()
+            .fold(Polygons::default(), |covered, window| step.kernel.union(&covered, &self.reach_in(step, window)))
+    }
+
+    /// Where the centres of new ones are.
+    fn windows(&self, step: &Step<'_>) -> Vec<Option<Window>> {
+        let Some(seen) = self.seen else { return vec![None] };
+        let news = step.cleared.get(seen..).unwrap_or(&[]);
+        let windows = joined(news.iter().filter_map(|news| common(wider(*news, self.keep), step.all)));
+        match windows.iter().map(area).sum::<f64>() < WIDEST * area(&step.all) {
+            true => windows.into_iter().map(Some).collect(),
+            false => vec![None],
+        }
+    }
+
+    /// What those cover whose centres lie in a window, or anywhere.
+    fn reach_in(&mut self, step: &Step<'_>, window: Option<Window>) -> Polygons {
+        let kernel = step.kernel;
+        let clipped = window.map(|window| {
+            let material = kernel.clipped(step.material, wider(window, self.keep));
+            (kernel.clipped(&self.centres, window), material)
+        });
+        let (all, material) = match &clipped {
+            Some((all, material)) => (all, material),
+            None => (&*self.centres, step.material),
+        };
         let kept = kernel.offset(material, self.keep, self.tolerance);
-        let centres = kernel.difference(&self.centres, &kept).without_specks(SPECK);
-        self.is_done = self.centres.area() - centres.area() <= 0.0;
+        let centres = kernel.difference(all, &kept).without_specks(SPECK);
+        self.is_done = window.is_none() && all.area() - centres.area() <= 0.0;
         kernel.offset(&centres, self.radius, self.tolerance)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rectangle([x, y]: [f64; 2]) -> Polygons {
+        Polygons { contours: vec![vec![[-x, -y], [x, -y], [x, y], [-x, y]]] }
+    }
+
+    #[test]
+    fn in_windows_all_is_found_that_is_permitted_anywhere() {
+        let kernel = Kernel::new(200.0);
+        let (r, free) = (2.5, rectangle([77.5, 8.0]));
+        let bound = Bound::new(r, 1.0);
+        let [mut growth] = Growth::all(&kernel, [&free, &free], [bound], [8.0, 0.2]);
+        let entry = Polygons::disc([-20.0, 0.0], 5.0, WALL);
+        let mut material = Material::new(kernel.difference(&rectangle([80.0, 10.5]), &entry));
+        let mut cleared: Vec<Window> = entry.bounds().into_iter().collect();
+        let mut windows = 0;
+        for _ in 0..20 {
+            let pieces = growth.next(&kernel, &material, &cleared);
+            let filled = material.area.filled(growth.sag);
+            let all = free.bounds().unwrap();
+            let step = Step { kernel: &kernel, material: &filled, cleared: &cleared, all };
+            for rung in growth.rungs.iter_mut().filter(|rung| rung.seen == Some(cleared.len())) {
+                let missed = kernel.difference(&rung.reach_in(&step, None), &growth.covered);
+                // by the chords of circles that were found in another step
+                assert!(missed.area() < 0.02, "{} mm: {} mm^2", rung.radius, missed.area());
+                rung.seen = Some(cleared.len() - 1);
+                windows += usize::from(rung.windows(&step).iter().any(Option::is_some));
+                rung.seen = Some(cleared.len());
+            }
+            let swept = pieces.iter().map(|piece| kernel.sweep(&piece.points, r, WALL));
+            for swept in swept.collect::<Vec<_>>() {
+                cleared.extend(material.taken_by(&swept));
+                material = Material::new(kernel.difference(&material.area, &swept));
+            }
+        }
+        assert!(cleared.len() > 8 && windows > 8, "{} pieces, {windows} windows", cleared.len());
     }
 }

@@ -30,6 +30,7 @@ mod polygons;
 mod request;
 mod sequence;
 mod steering;
+mod window;
 
 #[cfg(test)]
 mod tests;

@@ -1,5 +1,6 @@
 //! Level by level: what is reached next, and the pieces of its boundary.
 
+use rayon::prelude::*;
 use styluscam_motion::Watch;
 
 use super::bound::Bound;
@@ -16,6 +17,7 @@ use super::polygons::Point;
 use super::request::{EntryRule, Pocket, PocketPath};
 use super::sequence::sequenced;
 use super::steering::around_ring;
+use super::window::Window;
 
 /// The largest disc that is tried, in tool radii: larger ones engage as straight passes do.
 const LARGEST: f64 = 12.0;
@@ -59,17 +61,20 @@ pub fn plan(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketErro
         two_way: pocket.two_way,
         entry: (pocket.entry, pocket.smoothing),
         material,
+        cleared: Vec::new(),
         free,
         cuts: Vec::new(),
         at: None,
     };
     watch.begin("clearing the pocket", 1000);
     let (mut told, mut entries, mut has_room) = (0, 0, true);
+    let mut has_begun = planner.has_air();
     for level in 0..LEVELS {
         if planner.material.is_empty() {
             break;
         }
-        if !(0..planner.growths.len()).any(|growth| planner.level(level, growth)) {
+        if !has_begun || !(0..planner.growths.len()).any(|growth| planner.level(level, growth)) {
+            has_begun = true;
             entries += 1;
             has_room = planner.enter(level);
             if entries > ENTRIES || !has_room {
@@ -102,6 +107,8 @@ struct Planner {
     /// How the tool goes down, and the smallest radius of its path, mm.
     entry: (EntryRule, f64),
     material: Material,
+    /// Boxes around all that has been taken of it.
+    cleared: Vec<Window>,
     free: Material,
     cuts: Vec<Cut>,
     /// Where the last piece ends.
@@ -109,12 +116,17 @@ struct Planner {
 }
 
 impl Planner {
+    /// Whether there is a position of the tool's centre outside of the material, from which growth can begin.
+    fn has_air(&self) -> bool {
+        !self.ground.kernel.difference(&self.ground.discs, &self.material.area).is_empty()
+    }
+
     /// Takes all pieces of what is reached next; false where there are none.
     fn level(&mut self, level: u32, growth: usize) -> bool {
         let Some(growth) = self.growths.get_mut(growth) else { return false };
-        let chosen = growth.next(&self.ground.kernel, &self.material);
+        let chosen = growth.next(&self.ground.kernel, &self.material, &self.cleared);
         // each is within the bound with the material as it is, whatever of the others is cut before it
-        let mut cuts: Vec<Cut> = chosen.iter().filter_map(|piece| self.cut(level, piece)).collect();
+        let mut cuts: Vec<Cut> = chosen.par_iter().filter_map(|piece| self.cut(level, piece)).collect();
         self.clear(&cuts);
         self.at = cuts.last().and_then(Cut::end).or(self.at);
         let has_cut = !cuts.is_empty();
@@ -131,15 +143,23 @@ impl Planner {
             arcs(&piece.points)
         };
         let points = path.len();
-        let path = bounded(path, material, r, self.most);
-        let is_whole = path.len() == points && !piece.is_ring;
-        let two_way = self.two_way && is_whole && bounded(reversed(&path), material, r, self.most).len() == points;
-        let swept = self.ground.kernel.sweep(&path_chords(&path), r + SLIVER, WALL);
+        let sweep = |path: &[[f64; 3]]| self.ground.kernel.sweep(&path_chords(path), r + SLIVER, WALL);
+        // most pieces are cut as they are
+        let (kept, mut swept) = rayon::join(|| bounded(path.clone(), material, r, self.most), || sweep(&path));
+        let is_whole = kept.len() == points;
+        if !is_whole {
+            swept = sweep(&kept);
+        }
+        let path = kept;
+        let may_turn = self.two_way && is_whole && !piece.is_ring;
+        let two_way = may_turn && bounded(reversed(&path), material, r, self.most).len() == points;
         (path.len() > 1).then_some(Cut { path, swept, level, is_entry: false, two_way })
     }
 
     fn clear(&mut self, cuts: &[Cut]) {
-        self.material = left_of(&self.ground.kernel, &self.material, cuts);
+        let kernel = &self.ground.kernel;
+        self.cleared.extend(cuts.iter().filter_map(|cut| self.material.taken_by(&cut.swept)));
+        self.material = left_of(kernel, &self.material, cuts);
     }
 
     /// Goes down where there is most room, into the material or beside it; false where that takes none of it.

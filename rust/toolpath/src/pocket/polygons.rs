@@ -12,6 +12,7 @@ pub use super::contours::{sides, signed_area, Point};
 
 use super::contours::{bounds, circle};
 use super::offset::{coarsened, folded, unfolded, vanishes};
+use super::window::{clipped, Window};
 
 /// An area: outlines counterclockwise, holes clockwise.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -41,6 +42,11 @@ impl Kernel {
         Self { scale }
     }
 
+    /// What the grid moves crossings of edges by, mm.
+    pub fn noise(&self) -> f64 {
+        2.0 / self.scale
+    }
+
     /// What lies in either.
     pub fn union(&self, a: &Polygons, b: &Polygons) -> Polygons {
         self.boolean(a, b, OverlayRule::Union)
@@ -66,6 +72,12 @@ impl Kernel {
     pub fn union_all(&self, contours: &[Vec<Point>]) -> Polygons {
         let contours = self.to_grid(contours);
         self.back(Overlay::from_subj(&contours).overlay(OverlayRule::Subject, FillRule::Positive))
+    }
+
+    /// What of an area lies in a box.
+    pub fn clipped(&self, area: &Polygons, window: Window) -> Polygons {
+        // contours of the clipped run to and fro along the box
+        self.union_all(&area.clipped(window).contours)
     }
 
     /// All points within `distance` of the area; below 0, the points of it farther than that from its outside. mm.
@@ -154,6 +166,11 @@ impl Polygons {
     /// With longer chords along its hollow arcs, so that it is larger by up to `sag` there, mm.
     pub fn filled(&self, sag: f64) -> Self {
         Self { contours: self.contours.iter().map(|contour| coarsened(contour, sag, true)).collect() }
+    }
+
+    /// What of it lies in a box: contours may run to and fro along the box's sides.
+    pub fn clipped(&self, window: Window) -> Self {
+        Self { contours: self.contours.iter().filter_map(|contour| clipped(contour, window)).collect() }
     }
 
     /// Without the corners that are less than `tolerance` off the line between those that stay.

@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use rayon::prelude::*;
 use styluscam_geometry::PlanePiece;
 use styluscam_motion::Watch;
 
@@ -20,10 +21,22 @@ use super::request::{PocketRun, PocketRunKind};
 /// Distance of the positions of pieces that are compared, in tool radii.
 const STEP: f64 = 0.25;
 
+/// Pieces that are linked one after the other: blocks of them are at the same time.
+const BLOCK: usize = 48;
 /// Positions nearer than this are the same, mm.
 const SAME: f64 = 2e-3;
 /// A line or arc of which the start may be moved by as much, in tool radii.
 const FIRST: f64 = 0.03;
+
+/// A piece in its order.
+#[derive(Clone, Copy, Debug)]
+struct Next<'a> {
+    cut: &'a Cut,
+    /// Whether it is cut from its end.
+    turned: bool,
+    /// Where the one before it ends; None for the first.
+    from: Option<Point>,
+}
 
 /// The runs: all pieces, and the moves between them.
 pub fn sequenced(
@@ -33,29 +46,33 @@ pub fn sequenced(
     (radius, is_measured): (f64, bool),
     watch: &Watch,
 ) -> Result<Vec<PocketRun>, PocketError> {
+    let order = ordered(cuts, radius);
+    watch.begin("linking the pieces", order.len());
+    // the material before each block
+    let mut materials = vec![Material::new(ground.goal.clone())];
+    let blocks: Vec<&[Next<'_>]> = order.chunks(BLOCK).collect();
+    for block in blocks.iter().rev().skip(1).rev() {
+        if let Some(before) = materials.last() {
+            materials.push(left_of(&ground.kernel, before, block.iter().map(|next| next.cut)));
+        }
+    }
+    let work = Work { ground, free, radius, is_measured, watch };
+    let found: Result<Vec<Vec<PocketRun>>, PocketError> =
+        blocks.into_par_iter().zip(materials).map(|(block, material)| work.linked(block, material)).collect();
+    Ok(found?.concat())
+}
+
+/// The pieces in the order in which they are cut.
+fn ordered(cuts: &[Cut], radius: f64) -> Vec<Next<'_>> {
     let (mut waits, followers) = dependencies(cuts, radius);
     let mut open: Vec<usize> = (0..cuts.len()).filter(|i| waits.get(*i) == Some(&0)).collect();
-    let mut material = Material::new(ground.goal.clone());
-    let mut runs: Vec<PocketRun> = Vec::new();
+    let mut order = Vec::with_capacity(cuts.len());
     let mut at: Option<Point> = None;
-    watch.begin("linking the pieces", cuts.len());
     while let Some((place, turned)) = nearest(cuts, &open, at) {
         let number = open.swap_remove(place);
         let Some(cut) = cuts.get(number) else { continue };
-        let mut path = if turned { reversed(&cut.path) } else { cut.path.clone() };
-        let (Some([x, y, _]), Some([u, v, _])) = (path.first().copied(), path.last().copied()) else { continue };
-        if at.is_some_and(|at| begins_at(&mut path, at, radius)) {
-            // it goes on from the last one
-        } else if let Some(from) = at {
-            let links = links::Ground { material: &material, free, radius };
-            runs.push(link(from, [x, y], (!cut.is_entry).then_some(links)));
-        }
-        at = Some([u, v]);
-        let kind = if cut.is_entry { PocketRunKind::Entry } else { PocketRunKind::Cut };
-        let is_measured = is_measured && !cut.is_entry;
-        let stepovers = if is_measured { stepovers(&path, &material, radius) } else { Vec::new() };
-        runs.push(PocketRun { points: path, kind, stepovers });
-        material = left_of(&ground.kernel, &material, std::slice::from_ref(cut));
+        order.push(Next { cut, turned, from: at });
+        at = if turned { cut.start() } else { cut.end() };
         for follower in followers.get(number).into_iter().flatten() {
             if let Some(waits) = waits.get_mut(*follower) {
                 *waits -= 1;
@@ -64,9 +81,43 @@ pub fn sequenced(
                 }
             }
         }
-        watch.advance(1)?;
     }
-    Ok(runs)
+    order
+}
+
+/// What pieces are linked in.
+#[derive(Clone, Copy)]
+struct Work<'a> {
+    ground: &'a Ground,
+    free: &'a Material,
+    radius: f64,
+    /// Whether the stepover along the cuts is measured.
+    is_measured: bool,
+    watch: &'a Watch,
+}
+
+impl Work<'_> {
+    /// The runs of pieces that follow each other, in the material as it is before them.
+    fn linked(&self, block: &[Next<'_>], mut material: Material) -> Result<Vec<PocketRun>, PocketError> {
+        let radius = self.radius;
+        let mut runs = Vec::new();
+        for Next { cut, turned, from } in block {
+            let mut path = if *turned { reversed(&cut.path) } else { cut.path.clone() };
+            let Some([x, y, _]) = path.first().copied() else { continue };
+            let goes_on = from.is_some_and(|from| begins_at(&mut path, from, radius));
+            if let Some(from) = from.filter(|_| !goes_on) {
+                let links = links::Ground { material: &material, free: self.free, radius };
+                runs.push(link(from, [x, y], (!cut.is_entry).then_some(links)));
+            }
+            let kind = if cut.is_entry { PocketRunKind::Entry } else { PocketRunKind::Cut };
+            let is_measured = self.is_measured && !cut.is_entry;
+            let stepovers = if is_measured { stepovers(&path, &material, radius) } else { Vec::new() };
+            runs.push(PocketRun { points: path, kind, stepovers });
+            material = left_of(&self.ground.kernel, &material, [*cut]);
+            self.watch.advance(1)?;
+        }
+        Ok(runs)
+    }
 }
 
 /// Lets a path begin at a position that its start is as good as at, for a link would cut there with any heading: all before its first longer line

@@ -9,7 +9,8 @@ use styluscam_motion::Watch;
 use super::bound::Bound;
 use super::check::{bounded, worst};
 use super::material::Material;
-use super::polygons::{sides, Kernel, Polygons};
+use super::polygons::{sides, Kernel, Point, Polygons};
+use super::window::joined;
 use super::{pocket_path, EntryForm, EntryRule, Pocket, PocketError, PocketPath, PocketRun, PocketRunKind, Shape};
 
 fn rectangle(x: f64, y: f64) -> Vec<[f64; 3]> {
@@ -116,9 +117,15 @@ fn the_cells_find_what_all_sides_tell() {
             let point = [f64::from(i) * 0.83 - 8.0, f64::from(j) * 0.71 - 9.0];
             let (distance, inside) = by_all_sides(&area, point);
             assert!((material.distance(point) - distance).abs() < 1e-9 && material.holds(point) == inside, "{point:?}");
-            let near = area.contours.iter().flat_map(|contour| sides(contour));
-            let near = near.filter(|(a, b)| by_all_sides(&Polygons { contours: vec![vec![*a, *b]] }, point).0 < 2.0);
-            assert_eq!(material.sides_within(point, 2.0).len(), near.count());
+            // no side comes through the circle that is not found
+            let mut found: Vec<(Point, Point)> = Vec::new();
+            material.crossed(point, 2.0, &mut |a, b| found.push((a, b)));
+            let reach = |p: Point| libm::hypot(p[0] - point[0], p[1] - point[1]);
+            for (a, b) in area.contours.iter().flat_map(|contour| sides(contour)) {
+                let nearest = by_all_sides(&Polygons { contours: vec![vec![a, b]] }, point).0;
+                let comes_through = nearest < 2.0 && reach(a).max(reach(b)) >= 2.0;
+                assert!(!comes_through || found.contains(&(a, b)), "{point:?}: {a:?} {b:?}");
+            }
         }
     }
 }
@@ -396,4 +403,25 @@ fn stepovers_are_measured_as_straight_passes_take_them() {
     assert!(widest <= 2.5 * (1.0 - libm::cos(PI / 3.0 + 0.006)) && widest > 1.2, "{widest}");
     let all = planned(&pocket(&square));
     assert!(all.runs.iter().all(|run| run.stepovers.is_empty()) && widths.iter().all(|width| *width >= 0.0));
+}
+
+#[test]
+fn what_lies_in_a_window_is_what_an_intersection_with_it_leaves() {
+    let kernel = Kernel::new(100.0);
+    let comb: Vec<Point> =
+        vec![[0.0, 0.0], [30.0, 0.0], [30.0, 20.0], [25.0, 20.0], [25.0, 4.0], [15.0, 4.0], [15.0, 20.0], [0.0, 18.0]];
+    let area = kernel.difference(&Polygons { contours: vec![comb] }, &Polygons::disc([7.0, 9.0], 4.0, 1e-3));
+    for [low, high] in [[[5.0, 3.0], [27.0, 12.0]], [[-5.0, -3.0], [40.0, 30.0]], [[17.0, 6.0], [24.0, 12.0]]] {
+        let window = Polygons { contours: vec![vec![low, [high[0], low[1]], high, [low[0], high[1]]]] };
+        let (clipped, expected) = (kernel.clipped(&area, [low, high]), kernel.intersection(&area, &window));
+        let off = kernel.difference(&clipped, &expected).area() + kernel.difference(&expected, &clipped).area();
+        assert!(off < 1e-5, "{off}");
+    }
+}
+
+#[test]
+fn boxes_that_meet_are_joined_until_none_do() {
+    let boxes =
+        [[[0.0, 0.0], [1.0, 1.0]], [[5.0, 0.0], [6.0, 1.0]], [[2.0, 0.0], [3.0, 1.0]], [[0.5, 0.5], [2.5, 0.7]]];
+    assert_eq!(joined(boxes), vec![[[0.0, 0.0], [3.0, 1.0]], [[5.0, 0.0], [6.0, 1.0]]]);
 }
