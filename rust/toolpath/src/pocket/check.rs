@@ -170,7 +170,10 @@ fn within(at: Point, from: f64, material: &Material, radius: f64) -> Vec<[f64; 2
     crossings.sort_by(|a, b| a.0.total_cmp(&b.0));
     let is_in = match crossings.last() {
         Some((_, comes_in)) => *comes_in,
-        None => material.holds([at[0] + radius * libm::cos(from), at[1] + radius * libm::sin(from)]),
+        // all of the rim lies in it, or none: of a point where it only touches a side neither can be told
+        None => {
+            [radius, -radius].iter().all(|r| material.holds([at[0] + r * libm::cos(from), at[1] + r * libm::sin(from)]))
+        }
     };
     let (mut intervals, mut begin) = (Vec::new(), is_in.then_some(0.0));
     for (direction, comes_in) in crossings.into_iter().take_while(|(direction, _)| *direction < PI) {

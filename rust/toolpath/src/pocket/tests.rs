@@ -425,3 +425,13 @@ fn boxes_that_meet_are_joined_until_none_do() {
         [[[0.0, 0.0], [1.0, 1.0]], [[5.0, 0.0], [6.0, 1.0]], [[2.0, 0.0], [3.0, 1.0]], [[0.5, 0.5], [2.5, 0.7]]];
     assert_eq!(joined(boxes), vec![[[0.0, 0.0], [3.0, 1.0]], [[5.0, 0.0], [6.0, 1.0]]]);
 }
+
+#[test]
+fn around_a_block_the_front_comes_in_from_the_air() {
+    let block = rectangle(20.0, 12.0);
+    let shape = Shape::Walls { boundary: &block, islands: &[], open_edges: &[0, 1, 2, 3], stock: None };
+    let path = planned(&Pocket { shape, radius: 3.0, ..pocket(&block) });
+    let entries = path.runs.iter().filter(|run| run.kind == PocketRunKind::Entry);
+    assert_eq!(entries.count(), 0);
+    assert!(path.left < 1e-3 * path.goal, "{} of {} mm^2", path.left, path.goal);
+}
