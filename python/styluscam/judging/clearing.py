@@ -163,9 +163,20 @@ class OperationEngagement(Record):
         return np.where(self.is_exempt, np.nan, (depths * self.moves.feeds)[self.of_move] * widths)
 
     @property
+    def bounded_deg(self) -> FloatArray:
+        """The angles that the bound holds for, (N,), degrees: nan on entries.
+
+        What rounding may have turned the heading by is taken off, as in the finding: it matters on moves that are shorter
+        than some tenths of a millimetre.
+        """
+        radii = np.array([layer.radius for layer in self.layers])[self.moves.layers]
+        turned = np.degrees(self.moves.roundings / radii)[self.of_move]
+        return np.where(self.is_exempt, np.nan, np.maximum(self.angles_deg - turned, 0.0))
+
+    @property
     def figures(self) -> EngagementFigures:
         """The largest angle, the largest rate, and the entries on which the bound does not hold."""
-        bounded = np.where(self.is_exempt, np.nan, self.angles_deg)
+        bounded = self.bounded_deg
         return EngagementFigures(
             operation=self.operation,
             bound_deg=self.bound_deg,

@@ -41,7 +41,7 @@ def over_length(found: OperationEngagement) -> list[Plot]:
 
 
 def _angles(found: OperationEngagement) -> Plot:
-    angles = np.where(found.is_exempt, np.nan, found.angles_deg)
+    angles = found.bounded_deg
     limits = np.full(len(angles), found.bound_deg)
     largest = found.figures.angle
     notes = ["No move that cuts was measured."]

@@ -186,11 +186,12 @@ impl Layer<'_> {
         let worst = worst(measures)?;
         let (angle, bound) = (worst.angle, self.clearing.angle);
         let degrees = angle.to_degrees();
+        let least = angle - self.heading_error(segment);
         let found = match doing {
             Doing::Rapid | Doing::Enters => None,
             Doing::Below => (angle > GRAZES).then(|| segment.fault(&faults::UNDER_STOCK).measured(degrees, 0.0)),
-            Doing::Runs | Doing::Links if angle > bound + ALLOWED => {
-                Some(segment.fault(&faults::ENGAGEMENT).measured(degrees, bound.to_degrees()))
+            Doing::Runs | Doing::Links if least > bound + ALLOWED => {
+                Some(segment.fault(&faults::ENGAGEMENT).measured(least.to_degrees(), bound.to_degrees()))
             }
             Doing::Runs | Doing::Links => return self.removal(own, measures),
         };
@@ -215,7 +216,7 @@ impl Layer<'_> {
     }
 
     /// By how much the heading of a move may be off, rad, as its ends, and of an arc the centre, are rounded to half a unit along both axes. The
-    /// stepover changes by no more than the radius times that.
+    /// engagement angle changes by no more than that, the stepover by no more than the radius times that.
     pub fn heading_error(&self, segment: &Segment) -> f64 {
         let length = segment.bend.map_or(segment.length(), |bend| bend.radius().min(segment.length()));
         (SQRT_2 * self.unit / length).min(1.0)
