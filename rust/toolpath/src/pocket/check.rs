@@ -18,6 +18,9 @@ const TURN: f64 = 0.1;
 /// Positions of the piece itself that have swept what is near, at most: the way once around a small circle.
 const OWN: usize = 160;
 
+/// Chips at the side of the tool that are thinner than this may be counted or not, mm.
+const EDGE: f64 = 2e-3;
+
 /// A piece that is cut short ends so many positions before what is beyond the bound, and is not cut if it has fewer.
 const BACK: usize = 3;
 const LEAST: usize = 8;
@@ -52,7 +55,7 @@ fn along(path: &[[f64; 3]], material: &Material, radius: f64) -> Vec<Looked> {
             let now = travelled + share * length;
             let behind = own.partition_point(|(_, when)| *when <= now - CLOSE * radius);
             let cut = engaged(position, heading(piece, share), own.get(..behind).unwrap_or(&[]), material, radius);
-            let angle = cut.iter().map(|[a, b]| b - a).sum();
+            let angle = cut.iter().map(|[a, b]| b - a).sum::<f64>() + beside(&cut, radius);
             looked.push(Looked { at: (number, share), angle, stepover: stepover(&cut, now, radius) });
             if part < parts {
                 own.push((position, now));
@@ -61,6 +64,17 @@ fn along(path: &[[f64; 3]], material: &Material, radius: f64) -> Vec<Looked> {
         travelled += length;
     }
     looked
+}
+
+/// What is as good as engaged at the side of the tool, rad: between there and where the rim is first in the material, chips would be thinner than
+/// arithmetic tells from none, whoever measures.
+fn beside(engaged: &[[f64; 2]], radius: f64) -> f64 {
+    let first = engaged.iter().map(|[a, _]| *a).fold(FRAC_PI_2, f64::min);
+    if radius * (1.0 - libm::cos(first)) < EDGE {
+        first
+    } else {
+        0.0
+    }
 }
 
 /// What is cut along a path of points with bulges.

@@ -158,6 +158,19 @@ fn the_engagement_beside_a_straight_edge_and_in_a_corner_is_what_it_is() {
 }
 
 #[test]
+fn chips_of_a_micrometre_at_the_tool_s_side_count_whether_they_are_there_or_not() {
+    let kernel = Kernel::new(100.0);
+    // a pass to +X along Y 0 before which material lies from 1.25 right of it to all but `gap` of the tool's radius
+    let angle = |gap: f64| {
+        let strip = [[10.0, gap - 2.5], [50.0, gap - 2.5], [50.0, -1.25], [10.0, -1.25]];
+        worst(&[[0.0, 0.0, 0.0], [20.0, 0.0, 0.0]], &Material::new(kernel.even_odd(&[strip.to_vec()])), 2.5)
+    };
+    let from = |gap: f64| libm::acos(1.0 - gap / 2.5);
+    assert!((angle(1e-3) - PI / 3.0).abs() < 1e-3, "{} deg", angle(1e-3).to_degrees());
+    assert!((angle(0.01) - (PI / 3.0 - from(0.01))).abs() < 1e-3, "{} deg", angle(0.01).to_degrees());
+}
+
+#[test]
 fn a_square_is_cleared() {
     let boundary = rectangle(15.0, 15.0);
     let path = planned(&pocket(&boundary));
