@@ -67,7 +67,7 @@ fn along(path: &[[f64; 3]], material: &Material, radius: f64) -> Vec<Looked> {
 }
 
 /// What is as good as engaged at the side of the tool, rad: between there and where the rim is first in the material, chips would be thinner than
-/// arithmetic tells from none, whoever measures.
+/// arithmetic can part from none, whoever measures.
 fn beside(engaged: &[[f64; 2]], radius: f64) -> f64 {
     let first = engaged.iter().map(|[a, _]| *a).fold(FRAC_PI_2, f64::min);
     if radius * (1.0 - libm::cos(first)) < EDGE {
