@@ -85,13 +85,17 @@ fn steered(
             }
         };
         let [x, y] = stance.at;
-        if let Some((at, side, share)) = crossing(ring, stance.at, next.at) {
+        let crossed = crossing(ring, stance.at, next.at);
+        let share = crossed.map_or(1.0, |(_, _, share)| share);
+        // an arc stands out over its ends
+        let is_free = free.holds(stance.along(0.5 * share * step, curvature).at);
+        if !is_free || (crossed.is_none() && !free.holds(next.at)) {
+            return None;
+        }
+        if let Some((at, side, share)) = crossed {
             path.push([x, y, libm::tan(0.25 * share * step * curvature)]);
             path.push([at[0], at[1], 0.0]);
             return Some((path, side));
-        }
-        if !free.holds(next.at) {
-            return None;
         }
         path.push([x, y, libm::tan(0.25 * step * curvature)]);
         stance = next;

@@ -337,6 +337,21 @@ fn beyond_an_open_edge_walls_are_kept_from_too() {
     assert!(found > 2.5 - 1e-6, "{found}");
 }
 
+#[test]
+fn arcs_onto_a_ring_beside_a_wall_do_not_stand_out_over_it() {
+    let boundary = [
+        [-7.515394385574786, 11.316161132740515, 0.0],
+        [5.338499863976063, 0.0, 0.06359988221175333],
+        [-8.772199350875304, -12.25393146873933, -0.6736987563272961],
+        [2.013471370307892, -13.56864526373168, 0.4780400580856911],
+        [10.305533834729074, 7.983195083764914, 0.2718847381485851],
+        [9.710846811154095, -13.681769961294753, 0.3173685106641846],
+    ];
+    let path = planned(&Pocket { angle: 1.3, radius: 2.0, smoothing: 0.1, ..pocket(&boundary) });
+    let found = clearance(&path, &[boundary.to_vec()]);
+    assert!(found > 2.0 - 1e-6, "{found}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
 
