@@ -19,7 +19,7 @@ const TURN: f64 = 0.1;
 const OWN: usize = 160;
 
 /// Chips at the side of the tool that are thinner than this may be counted or not, mm.
-const EDGE: f64 = 2e-3;
+const EDGE: f64 = 4e-3;
 
 /// A piece that is cut short ends so many positions before what is beyond the bound, and is not cut if it has fewer.
 const BACK: usize = 3;
@@ -55,7 +55,7 @@ fn along(path: &[[f64; 3]], material: &Material, radius: f64) -> Vec<Looked> {
             let now = travelled + share * length;
             let behind = own.partition_point(|(_, when)| *when <= now - CLOSE * radius);
             let cut = engaged(position, heading(piece, share), own.get(..behind).unwrap_or(&[]), material, radius);
-            let angle = cut.iter().map(|[a, b]| b - a).sum::<f64>() + beside(&cut, radius);
+            let angle = angle(&cut, radius);
             looked.push(Looked { at: (number, share), angle, stepover: stepover(&cut, now, radius) });
             if part < parts {
                 own.push((position, now));
@@ -66,15 +66,12 @@ fn along(path: &[[f64; 3]], material: &Material, radius: f64) -> Vec<Looked> {
     looked
 }
 
-/// What is as good as engaged at the side of the tool, rad: between there and where the rim is first in the material, chips would be thinner than
-/// arithmetic can part from none, whoever measures.
-fn beside(engaged: &[[f64; 2]], radius: f64) -> f64 {
-    let first = engaged.iter().map(|[a, _]| *a).fold(FRAC_PI_2, f64::min);
-    if radius * (1.0 - libm::cos(first)) < EDGE {
-        first
-    } else {
-        0.0
-    }
+/// The angle over engaged directions, rad. Between the tool's side and the last of them that begins there chips would be thinner than arithmetic
+/// can part from none, whoever measures: that counts as engaged.
+fn angle(engaged: &[[f64; 2]], radius: f64) -> f64 {
+    let edge = libm::acos(1.0 - EDGE / radius);
+    let (aside, ahead): (Vec<[f64; 2]>, Vec<[f64; 2]>) = engaged.iter().partition(|[from, _]| *from < edge);
+    aside.last().map_or(0.0, |[_, to]| *to) + ahead.iter().map(|[from, to]| to - from).sum::<f64>()
 }
 
 /// What is cut along a path of points with bulges.
