@@ -243,7 +243,7 @@ def _fields(section: str, table: Table, key: Key) -> list[Field]:
                 key.name,
                 _text("\n".join(about), merged, optional=optional, is_json=is_list),
                 _first_of(_default(key), variant),
-                kinds=without(value.get(NOT_OF, ()), key.kinds, table),
+                kinds=without(value.get(NOT_OF, ()), key.kinds, table.kinds),
                 variant=variant,
                 optional=optional,
                 is_json=is_list,

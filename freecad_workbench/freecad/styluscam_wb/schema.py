@@ -178,20 +178,17 @@ def choices_of(entry: Schema) -> tuple[Choice, ...]:
     return tuple(Choice(str(word["const"]), word.get("description", ""), word) for word in words)
 
 
-def without(others: Iterable[str], owners: tuple[str, ...] | None, table: Table) -> tuple[str, ...] | None:
-    """The owners of a key without some kinds of its table; None for all of them stays None where none is taken out."""
+def without(others: Iterable[str], owners: tuple[str, ...] | None, kinds: tuple[Choice, ...]) -> tuple[str, ...] | None:
+    """The owners of a key without some of the kinds of its table; None for all of them stays None where none is taken out."""
     if not others:
         return owners
-    names = tuple(kind.word for kind in table.kinds) if owners is None else owners
+    names = tuple(kind.word for kind in kinds) if owners is None else owners
     return tuple(name for name in names if name not in others)
 
 
 def _narrowed(key: Key, kinds: tuple[Choice, ...]) -> Key:
-    """A key of all kinds without those to which it means nothing."""
-    others = key.entry.get(NOT_OF, ())
-    if not others or key.kinds is not None:
-        return key
-    return replace(key, kinds=tuple(kind.word for kind in kinds if kind.word not in others))
+    """A key without the kinds to which it means nothing."""
+    return replace(key, kinds=without(key.entry.get(NOT_OF, ()), key.kinds, kinds))
 
 
 def _kind_of(alternative: Schema) -> Choice:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from styluscam.drawing.toolplot import COLOURS, INK, SOFT
-from styluscam.judging.clearing import EntryFigures, Largest, OperationEngagement
+from styluscam.judging.clearing import EngagementFigures, EntryFigures, Largest, OperationEngagement
 from styluscam.report.plots import BINS, Plot, drawn
 from styluscam.types import FloatArray
 from styluscam.words import counted
@@ -37,26 +37,29 @@ LISTED = 4
 
 def over_length(found: OperationEngagement) -> list[Plot]:
     """The engagement angle and the removal rate of an operation on which something was measured."""
-    return [_angles(found), _rates(found)]
+    figures = found.figures
+    return [_angles(found, figures), _rates(found, figures)]
 
 
-def _angles(found: OperationEngagement) -> Plot:
+def _angles(found: OperationEngagement, figures: EngagementFigures) -> Plot:
     angles = found.bounded_deg
     limits = np.full(len(angles), found.bound_deg)
-    largest = found.figures.angle
+    largest = figures.angle
     notes = ["No move that cuts was measured."]
     if largest is not None:
         notes = [
             f"Largest angle {largest.value:.2f}° in line {largest.line}, after {largest.distance:.1f} of {found.length:.1f} mm at"
             f" feed; bound {found.bound_deg:g}°. {_drawn(found)}"
         ]
-    svg = _plot(found, Curve(angles, limits, f"bound {found.bound_deg:g}°", "engagement angle, °", largest))
-    return Plot("Engagement angle over length", svg, notes=(*notes, _exempt(found.exempt)))
+    svg = _plot(
+        found, Curve(angles, limits, f"bound {found.bound_deg:g}°", "engagement angle, °", largest), figures.exempt
+    )
+    return Plot("Engagement angle over length", svg, notes=(*notes, _exempt(figures.exempt)))
 
 
-def _rates(found: OperationEngagement) -> Plot:
+def _rates(found: OperationEngagement, figures: EngagementFigures) -> Plot:
     rates, references = found.rates / CUBIC, found.reference_rates / CUBIC
-    largest = found.figures.rate
+    largest = figures.rate
     note = "No move states a feed per minute."
     if largest is not None:
         note = (
@@ -64,7 +67,7 @@ def _rates(found: OperationEngagement) -> Plot:
             "reference: that of a straight pass at the bound, at the feed of the passes. Not measured on entries."
         )
         largest = replace(largest, value=largest.value / CUBIC)
-    svg = _plot(found, Curve(rates, references, "reference", "removal rate, cm³/min", largest))
+    svg = _plot(found, Curve(rates, references, "reference", "removal rate, cm³/min", largest), figures.exempt)
     return Plot("Removal rate over length", svg, notes=(note,))
 
 
@@ -98,11 +101,11 @@ class Curve:
     largest: Largest | None
 
 
-def _plot(found: OperationEngagement, curve: Curve) -> str:
+def _plot(found: OperationEngagement, curve: Curve, entries: list[EntryFigures]) -> str:
     top = HEADROOM * max(float(np.nanmax(curve.values, initial=0.0)), float(curve.limits.max()))
 
     def draw(axes: Axes) -> None:
-        for number, entry in enumerate(found.exempt):
+        for number, entry in enumerate(entries):
             low, high, name = entry.start, entry.start + entry.length, "entry" if number == 0 else None
             axes.axvspan(low, high, facecolor=SOFT, edgecolor=SOFT, alpha=0.35, linewidth=0.8, label=name)
         axes.plot(*highest_of(found, curve.values), color=COLOURS[0], linewidth=1.0, solid_joinstyle="round")
