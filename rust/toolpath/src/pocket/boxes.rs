@@ -1,6 +1,7 @@
 //! Boxes around neighbouring sides, and boxes around those: the nearest side to a point however far it is.
 
 use super::contours::Point;
+use super::window::{around, Window};
 
 /// Sides in a box, and boxes in a larger one.
 const GROUP: usize = 4;
@@ -8,21 +9,17 @@ const GROUP: usize = 4;
 /// Upright boxes around groups of sides that follow each other, level by level up to a single one: low and high corner.
 #[derive(Debug)]
 pub struct Boxes {
-    levels: Vec<Vec<[Point; 2]>>,
+    levels: Vec<Vec<Window>>,
 }
 
 impl Boxes {
     pub fn new(sides: &[(Point, Point)]) -> Self {
-        let mut level: Vec<[Point; 2]> = sides
-            .chunks(GROUP)
-            .map(|group| around(group.iter().map(|(a, b)| [0, 1].map(|i| [a[i].min(b[i]), a[i].max(b[i])]))))
-            .collect();
+        let of_side = |(a, b): &(Point, Point)| around([*a, *a], [*b, *b]);
+        let mut level: Vec<Window> =
+            sides.chunks(GROUP).filter_map(|group| group.iter().map(of_side).reduce(around)).collect();
         let mut levels = Vec::new();
         while level.len() > 1 {
-            let next = level
-                .chunks(GROUP)
-                .map(|group| around(group.iter().map(|[low, high]| [0, 1].map(|i| [low[i], high[i]]))))
-                .collect();
+            let next = level.chunks(GROUP).filter_map(|group| group.iter().copied().reduce(around)).collect();
             levels.push(std::mem::replace(&mut level, next));
         }
         levels.push(level);
@@ -54,7 +51,7 @@ impl Boxes {
             return members.filter_map(|number| sides.get(number)).fold(false, |odd, side| odd ^ crosses(side));
         };
         let Some(boxes) = self.levels.get(below) else { return false };
-        let is_met = |[low, high]: &[Point; 2]| low[1] <= y && y <= high[1] && x <= high[0];
+        let is_met = |[low, high]: &Window| low[1] <= y && y <= high[1] && x <= high[0];
         let met = members.filter(|member| boxes.get(*member).is_some_and(is_met));
         met.fold(false, |odd, member| odd ^ self.is_odd_below(sides, point, below, member))
     }
@@ -79,7 +76,7 @@ impl Boxes {
         };
         let Some(boxes) = self.levels.get(below) else { return };
         for member in members {
-            let is_met = |b: &[Point; 2]| square_outside(centre, b) < square && square_farthest(centre, b) >= square;
+            let is_met = |b: &Window| square_outside(centre, b) < square && square_farthest(centre, b) >= square;
             if boxes.get(member).is_some_and(is_met) {
                 self.crossed_below(sides, (centre, square), below, member, found);
             }
@@ -128,22 +125,15 @@ impl Boxes {
     }
 }
 
-/// The box around others, each as low and high along X, and along Y.
-fn around(mut boxes: impl Iterator<Item = [[f64; 2]; 2]>) -> [Point; 2] {
-    let first = boxes.next().unwrap_or_default();
-    let all = boxes.fold(first, |sum, next| [0, 1].map(|i| [sum[i][0].min(next[i][0]), sum[i][1].max(next[i][1])]));
-    [0, 1].map(|end| [all[0][end], all[1][end]])
-}
-
 /// Square of the distance between a point and a box.
-fn square_outside(p: Point, [low, high]: &[Point; 2]) -> f64 {
+fn square_outside(p: Point, [low, high]: &Window) -> f64 {
     let x = (low[0] - p[0]).max(p[0] - high[0]).max(0.0);
     let y = (low[1] - p[1]).max(p[1] - high[1]).max(0.0);
     x * x + y * y
 }
 
 /// Square of the distance from a point to the farthest point of a box.
-fn square_farthest(p: Point, [low, high]: &[Point; 2]) -> f64 {
+fn square_farthest(p: Point, [low, high]: &Window) -> f64 {
     let x = (p[0] - low[0]).max(high[0] - p[0]);
     let y = (p[1] - low[1]).max(high[1] - p[1]);
     x * x + y * y

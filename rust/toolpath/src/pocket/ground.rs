@@ -55,7 +55,7 @@ impl Ground {
                     let free = kernel.offset(&open, -kept, WALL);
                     match open_edges {
                         [] => free,
-                        _ => off_walls(&kernel, free, boundary, open_edges, kept - NEARER),
+                        _ => off_walls(&kernel, &free, boundary, open_edges, kept - NEARER),
                     }
                 };
                 wide = (!open_edges.is_empty()).then(|| free(FAR));
@@ -162,19 +162,11 @@ fn beyond(kernel: &Kernel, boundary: &[[f64; 3]], open_edges: &[usize], far: f64
 }
 
 /// Without what is nearer than `distance` to an edge that is not open: beyond an open edge others may lie.
-fn off_walls(
-    kernel: &Kernel,
-    mut free: Polygons,
-    boundary: &[[f64; 3]],
-    open_edges: &[usize],
-    distance: f64,
-) -> Polygons {
+fn off_walls(kernel: &Kernel, free: &Polygons, boundary: &[[f64; 3]], open_edges: &[usize], distance: f64) -> Polygons {
     let pieces = PlanePiece::outline(boundary);
     let walls = pieces.iter().enumerate().filter(|(edge, _)| !open_edges.contains(edge));
-    for (_, wall) in walls {
-        free = kernel.difference(&free, &kernel.sweep(&flat(wall), distance, WALL));
-    }
-    free
+    let beside = walls.flat_map(|(_, wall)| kernel.sweep(&flat(wall), distance, WALL).contours);
+    kernel.difference(free, &Polygons { contours: beside.collect() })
 }
 
 /// A closed outline as chords.

@@ -22,7 +22,7 @@ pub fn common([low, high]: Window, [from, to]: Window) -> Option<Window> {
 }
 
 /// The smallest box around two.
-fn around([low, high]: Window, [from, to]: Window) -> Window {
+pub fn around([low, high]: Window, [from, to]: Window) -> Window {
     [[0, 1].map(|i| low[i].min(from[i])), [0, 1].map(|i| high[i].max(to[i]))]
 }
 
