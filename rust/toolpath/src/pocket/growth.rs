@@ -41,8 +41,9 @@ struct Rung {
     tolerance: f64,
     /// How far a pass beside an equal one may be from it, mm.
     gain: f64,
-    /// Where their centres may be, by the walls.
+    /// Where their centres may be, by the walls; and the box around it.
     centres: Arc<Polygons>,
+    all: Window,
     /// Steps for which they are left out: now, and the last time.
     waits: [u32; 2],
     /// How many boxes of what has been cleared were looked around; None before the first time.
@@ -73,8 +74,6 @@ struct Step<'a> {
     material: &'a Polygons,
     /// Boxes around all that has been taken of it.
     cleared: &'a [Window],
-    /// The box around all positions.
-    all: Window,
 }
 
 impl Growth {
@@ -95,6 +94,7 @@ impl Growth {
                 tolerance: bound.tolerance(*radius),
                 gain: radius + bound.radius - bound.keep(*radius),
                 centres: Arc::clone(centres),
+                all: centres.bounds().unwrap_or_default(),
                 waits: [0, 0],
                 seen: None,
                 is_done: false,
@@ -109,8 +109,7 @@ impl Growth {
     /// taken of the material so far, in the order in which it was.
     pub fn next(&mut self, kernel: &Kernel, material: &Material, cleared: &[Window]) -> Vec<Piece> {
         let filled = material.area.filled(self.sag);
-        let all = self.free.bounds().unwrap_or_default();
-        let step = Step { kernel, material: &filled, cleared, all };
+        let step = Step { kernel, material: &filled, cleared };
         let mut found: Vec<Piece> = Vec::new();
         // those that wait are asked where the others have nothing
         for is_last in [false, true] {
@@ -167,8 +166,8 @@ impl Rung {
     fn windows(&self, step: &Step<'_>) -> Vec<Option<Window>> {
         let Some(seen) = self.seen else { return vec![None] };
         let news = step.cleared.get(seen..).unwrap_or(&[]);
-        let windows = joined(news.iter().filter_map(|news| common(wider(*news, self.keep), step.all)));
-        match windows.iter().map(area).sum::<f64>() < WIDEST * area(&step.all) {
+        let windows = joined(news.iter().filter_map(|news| common(wider(*news, self.keep), self.all)));
+        match windows.iter().map(area).sum::<f64>() < WIDEST * area(&self.all) {
             true => windows.into_iter().map(Some).collect(),
             false => vec![None],
         }
@@ -213,8 +212,7 @@ mod tests {
         for _ in 0..20 {
             let pieces = growth.next(&kernel, &material, &cleared);
             let filled = material.area.filled(growth.sag);
-            let all = free.bounds().unwrap();
-            let step = Step { kernel: &kernel, material: &filled, cleared: &cleared, all };
+            let step = Step { kernel: &kernel, material: &filled, cleared: &cleared };
             for rung in growth.rungs.iter_mut().filter(|rung| rung.seen == Some(cleared.len())) {
                 let missed = kernel.difference(&rung.reach_in(&step, None), &growth.covered);
                 // by the chords of circles that were found in another step
