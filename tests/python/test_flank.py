@@ -79,6 +79,75 @@ def test_few_positions_cut_in_between() -> None:
     assert over[0] > 5.0 and over[0] == pytest.approx(4.0 * over[1], rel=0.2) == pytest.approx(16.0 * over[2], rel=0.5)
 
 
+def moved_off(found: sc.FlankPositions, continuous: sc.FlankPositions) -> float:
+    """How much more or less straight moves leave than the continuous movement, mm, at most."""
+    off = np.abs(found.error.left - continuous.error.left)
+    return float(np.nanmax(off))
+
+
+# both rails bend in one place, so that evenly spaced positions do not do
+BENT: Rails = (
+    {"poles": [(0, 0, 0), (28, 0, 0), (32, 0, 0), (60, 12, 0)]},
+    {"poles": [(0, 2, 30), (28, -3, 30), (32, -3, 30), (60, 14, 30)]},
+)
+
+
+@pytest.mark.parametrize(
+    ("method", "strip"),
+    # of the bent one a cone does not touch the ruling everywhere
+    [(method, strip) for method in ("swept", *OTHERS) for strip in ("HP20", "CV")]
+    + [(method, "bent") for method in ("swept", "rails", "two-points", "one-point")],
+)
+@pytest.mark.parametrize("tolerance", [0.02, 0.002])
+def test_straight_moves_lie_off_by_the_tolerance_at_most(method: Any, strip: str, tolerance: float) -> None:
+    rails, tool = {"HP20": (HP20, cylinder(10.0)), "CV": (CV, cylinder(5.0)), "bent": (BENT, {"profile": CONES[0]})}[
+        strip
+    ]
+    how: Any = {"method": method, "side": "right"}
+    continuous = sc.flank_positions(*rails, tool, 2001, **how)
+    found = sc.flank_positions(*rails, tool, tolerance=tolerance, **how)
+    assert 0.25 * tolerance < moved_off(found, continuous) < 1.03 * tolerance, len(found.tips)
+    # hardly fewer would do
+    fewer = sc.flank_positions(*rails, tool, int(0.85 * len(found.tips)), **how)
+    assert moved_off(fewer, continuous) > tolerance
+
+
+def test_positions_lie_denser_where_the_movement_bends() -> None:
+    bent = [{"poles": [(0, 0, z), (28, 0, z), (32, 0, z), (60, 12, z)]} for z in (0, 30)]
+    found = sc.flank_positions(*bent, cylinder(5.0), tolerance=0.002)
+    lengths = np.linalg.norm(np.diff(found.tips, axis=0), axis=1)
+    assert lengths.max() > 2.5 * lengths.min()
+    # a wall needs no positions between
+    wall: Rails = ([(0, 0, 0), (40, 0, 0)], [(0, 0, 20), (40, 0, 20)])
+    assert len(sc.flank_positions(*wall, cylinder(5.0), tolerance=1e-6).tips) == 2
+
+
+@pytest.mark.parametrize(("count", "tolerance"), [(6, 0.023), (16, 0.003)])
+def test_tolerances_that_known_counts_meet(count: int, tolerance: float) -> None:
+    found = sc.flank_positions(*HP20, cylinder(5.0), tolerance=tolerance)
+    assert len(found.tips) == pytest.approx(count, abs=1)
+
+
+@pytest.mark.parametrize(
+    ("how", "code"),
+    [
+        ({}, "argument"),
+        ({"count": 5, "tolerance": 0.01}, "argument"),
+        ({"tolerance": "fine"}, "argument"),
+        ({"tolerance": 0.0}, "tolerance"),
+        ({"tolerance": float("nan")}, "tolerance"),
+        ({"tolerance": float("inf")}, "tolerance"),
+        ({"tolerance": -1.0}, "tolerance"),
+        ({"tolerance": 1e-7}, "tolerance"),
+        ({"count": 5.0}, "argument"),
+    ],
+)
+def test_either_count_or_tolerance(how: dict[str, Any], code: str) -> None:
+    with pytest.raises(sc.GeometryError) as caught:
+        sc.flank_positions(*HP20, cylinder(5.0), **how)
+    assert caught.value.code == code
+
+
 def test_the_cylinder_touches_both_rails() -> None:
     found = placed(CV, 5.0)
     aside = np.cross(found.contacts - found.tips[:, None], found.axes[:, None])

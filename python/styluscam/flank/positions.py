@@ -68,10 +68,13 @@ class FlankPositions:
 
     @cached_property
     def error(self) -> FlankError:
-        """What the tool leaves when it moves from position to position, its axis straight between them."""
+        """What the tool leaves when it moves from position to position, its tip along a line and its axis turning with it."""
         u, v = np.linspace(0.0, 1.0, ALONG), np.linspace(0.0, 1.0, ACROSS)
         shares = np.ascontiguousarray(np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1).reshape(-1, 2))
-        first, second = (np.ascontiguousarray(self._beside_rails[:, end]) for end in (0, 1))
+        # points of equal height over the tip go along lines
+        first = self._beside_rails[:, 0]
+        second = first + np.linalg.norm(self._beside_rails[:, 1] - first, axis=1).max() * self.axes
+        first, second = np.ascontiguousarray(first), np.ascontiguousarray(second)
         # the first of the points lies higher than the lower end, where the flank is wider
         shape = self._flank.radius / math.cos(self._flank.half_angle) ** 2, self._flank.growth
         return FlankError(self._strip.left(first, second, shape, shares).reshape(ALONG, ACROSS), u, v)
@@ -116,12 +119,17 @@ def flank_positions(
     rail0: RailLike,
     rail1: RailLike,
     tool: ToolLike,
-    count: int,
+    count: int | None = None,
     *,
+    tolerance: float | None = None,
     side: Literal["left", "right"] = "left",
     method: Method = "swept",
 ) -> FlankPositions:
-    """``count`` positions of a tool's flank along the ruled surface between two rails, evenly spread over their parameters.
+    """Positions of a tool's flank along the ruled surface between two rails.
+
+    Either ``count`` of them, evenly spread over the rails' parameters, or as few as are needed that straight moves between them
+    (the tip along a line, the axis turning with it) leave the continuous movement by no more than ``tolerance``, mm, anywhere
+    along the flank's height: denser where it bends.
 
     The flank begins at the first rail, the tip lies beyond it. ``side`` is the one on which it moves, seen along the rails with
     the second above the first. Of the methods ``"swept"`` leaves least by far: both rails are touched, and the contacts are
@@ -131,15 +139,24 @@ def flank_positions(
     docs/concepts/flank.md.
 
     Raises:
-        GeometryError: rails that meet, a cusp, a surface without a normal, a hollow that is too tight for the tool, no position.
+        GeometryError: both or none of count and tolerance; rails that meet, a cusp, a surface without a normal, a hollow that is
+            too tight for the tool, no position.
         ToolError: the tool's flank is neither cylinder nor cone, or too short for the rulings.
     """
-    if isinstance(count, bool) or not isinstance(count, int):
+    if (count is None) == (tolerance is None):
+        given = {"count": count, "tolerance": tolerance}
+        raise refused("count", given, "either count or tolerance", GeometryError)
+    if count is not None and (isinstance(count, bool) or not isinstance(count, int)):
         raise refused("count", count, "a whole number", GeometryError)
+    if tolerance is not None and (isinstance(tolerance, bool) or not isinstance(tolerance, (int, float))):
+        raise refused("tolerance", tolerance, "a length, mm", GeometryError)
     cutter = Tool.of(tool)
     flank = Flank.of(cutter)
     strip = _engine.RuledStrip(Rail.of(rail0, "rail0").columns, Rail.of(rail1, "rail1").columns, side)
-    beside, contacts = strip.positions(flank.radius, flank.half_angle, max(count, 0), method)
+    if tolerance is None:
+        beside, contacts = strip.positions(flank.radius, flank.half_angle, max(count or 0, 0), method)
+    else:
+        beside, contacts = strip.positions_within(flank.radius, flank.half_angle, float(tolerance), method)
     along = beside[:, 1] - beside[:, 0]
     lengths = np.linalg.norm(along, axis=1)
     needed = flank.needed(float(lengths.max()))

@@ -3,7 +3,7 @@
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use styluscam_geometry::{NurbsCurve, Vector};
-use styluscam_toolpath::flank::{positions, Flank, FlankError, Method, RuledStrip, Side};
+use styluscam_toolpath::flank::{positions, positions_within, Flank, FlankError, Method, RuledStrip, Side, Stand};
 use styluscam_verify::{clearance_of_tool, left_by_flank, FlankShape};
 
 use crate::tool::Tool;
@@ -49,17 +49,21 @@ impl Strip {
         count: usize,
         method: &str,
     ) -> PyResult<Pairs<'py>> {
-        let method = match method {
-            "swept" => Method::Swept,
-            "rails" => Method::Rails,
-            "three-points" => Method::ThreePoints,
-            "two-points" => Method::TwoPoints,
-            "one-point" => Method::OnePoint,
-            other => return Err(word("method", other, "swept, rails, three-points, two-points or one-point")),
-        };
-        let flank = Flank::new(radius, half_angle).map_err(|error| of_flank(&error))?;
-        let found = py.detach(|| positions(&self.strip, &flank, count, method)).map_err(|error| of_flank(&error))?;
-        Ok((pairs(py, found.iter().map(|stand| stand.axis))?, pairs(py, found.iter().map(|stand| stand.contacts))?))
+        let (method, flank) = (method_of(method)?, flank_of(radius, half_angle)?);
+        stands(py, &py.detach(|| positions(&self.strip, &flank, count, method)))
+    }
+
+    /// The same in as few positions as leave the continuous movement by no more than a tolerance, mm, in straight moves.
+    fn positions_within<'py>(
+        &self,
+        py: Python<'py>,
+        radius: f64,
+        half_angle: f64,
+        tolerance: f64,
+        method: &str,
+    ) -> PyResult<Pairs<'py>> {
+        let (method, flank) = (method_of(method)?, flank_of(radius, half_angle)?);
+        stands(py, &py.detach(|| positions_within(&self.strip, &flank, tolerance, method)))
     }
 
     /// Points (N, 3), mm, and unit normals (N, 3) towards the tool at shares (N, 2) of the way along the rails and the rulings.
@@ -129,6 +133,26 @@ fn pairs<'py>(py: Python<'py>, of: impl Iterator<Item = [Vector; 2]>) -> PyResul
     let numbers: Vec<f64> = of.flatten().flat_map(<[f64; 3]>::from).collect();
     let count = numbers.len() / 6;
     PyArray1::from_vec(py, numbers).reshape([count, 2, 3])
+}
+
+fn method_of(name: &str) -> PyResult<Method> {
+    Ok(match name {
+        "swept" => Method::Swept,
+        "rails" => Method::Rails,
+        "three-points" => Method::ThreePoints,
+        "two-points" => Method::TwoPoints,
+        "one-point" => Method::OnePoint,
+        other => return Err(word("method", other, "swept, rails, three-points, two-points or one-point")),
+    })
+}
+
+fn flank_of(radius: f64, half_angle: f64) -> PyResult<Flank> {
+    Flank::new(radius, half_angle).map_err(|error| of_flank(&error))
+}
+
+fn stands<'py>(py: Python<'py>, found: &Result<Vec<Stand>, FlankError>) -> PyResult<Pairs<'py>> {
+    let stands = found.as_ref().map_err(of_flank)?;
+    Ok((pairs(py, stands.iter().map(|stand| stand.axis))?, pairs(py, stands.iter().map(|stand| stand.contacts))?))
 }
 
 fn of_flank(error: &FlankError) -> PyErr {

@@ -54,6 +54,17 @@ pub enum FlankError {
     /// Fewer positions than make a movement.
     #[error("count = {0}: two positions at least")]
     Count(usize),
+    /// No distance by which straight moves may lie off.
+    #[error("tolerance = {0} mm: a length from 1e-6 mm on is needed")]
+    Tolerance(f64),
+    /// A tolerance that asks for more positions than any program has.
+    #[error("tolerance = {tolerance} mm: more than {most} positions would be needed; allow more")]
+    TooFine {
+        /// The tolerance, mm.
+        tolerance: f64,
+        /// Positions at most.
+        most: usize,
+    },
     /// A radius that no tool has.
     #[error("radius = {0} mm: a length above 0 is needed")]
     Radius(f64),
@@ -74,6 +85,7 @@ impl FlankError {
             Self::NoPosition { .. } => "no-position",
             Self::NoThreePoints { .. } => "no-three-points",
             Self::Count(_) => "count",
+            Self::Tolerance(_) | Self::TooFine { .. } => "tolerance",
             Self::Radius(_) => "radius",
             Self::Taper(_) => "taper",
         }

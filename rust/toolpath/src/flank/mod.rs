@@ -8,6 +8,8 @@ mod course;
 mod cutter;
 mod error;
 mod method;
+mod movement;
+mod spacing;
 mod stand;
 mod strip;
 mod swept;
@@ -15,7 +17,8 @@ mod touch;
 
 pub use cutter::Flank;
 pub use error::FlankError;
-pub use method::{positions, Method};
+pub use method::Method;
+pub use spacing::{positions, positions_within};
 pub use stand::Stand;
 pub use strip::{RuledStrip, Side};
 

@@ -15,12 +15,18 @@ pub struct Station {
 }
 
 impl Station {
-    /// Part of the way to another, straight.
+    /// Part of the way to another: the first point along a line, as the tip, and the direction with it.
     pub fn towards(&self, next: &Self, share: f64) -> Self {
-        let between = |from: Vector, to: Vector| from + (to - from) * share;
+        let between = |from: Vector, to: Vector, share: f64| from + (to - from) * share;
+        let over = |station: &Self| station.axis[1] - station.axis[0];
+        // of directions of unit length as much as of the lengths here
+        let [here, there] = [(1.0 - share) * over(next).norm(), share * over(self).norm()];
+        let turned = there / (here + there);
+        let first = [between(self.axis[0], next.axis[0], share), between(self.rates[0], next.rates[0], share)];
+        let faster = |station: &Self| station.rates[1] - station.rates[0];
         Self {
-            axis: [0, 1].map(|end| between(self.axis[end], next.axis[end])),
-            rates: [0, 1].map(|end| between(self.rates[end], next.rates[end])),
+            axis: [first[0], first[0] + between(over(self), over(next), turned)],
+            rates: [first[1], first[1] + between(faster(self), faster(next), turned)],
             swell: self.swell + (next.swell - self.swell) * share,
         }
     }
