@@ -122,6 +122,16 @@ EXAMPLES = (
         more={"tools": {"stylus": {"profile": {"kind": "flat", "diameter": 20.0}}}},
     ),
     Example(
+        "flank",
+        "Flank milling",
+        "`flank`: the side of a leaning tool along the ruled sides of a twisted blade; two rotary axes. Milling.",
+        "blade",
+        {"kind": "flank", "tolerance": 0.005},
+        process={"kind": "milling"},
+        machine={"name": "linuxcnc-trunnion"},
+        more={"tools": {"stylus": {"profile": {"kind": "flat", "diameter": 8.0}, "length": 60.0}}},
+    ),
+    Example(
         "layers",
         "Rows in flat sheet",
         "`max_increment`: rows in layers, none of which presses the sheet farther down at once.",

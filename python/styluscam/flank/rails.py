@@ -26,6 +26,8 @@ FIT = 1e-9
 """How far it may lie off, as a share of the rail's size: 1e-7 mm on a rail of 100 mm."""
 THROUGH_POINTS = 3
 """Degree of what passes through points."""
+SAME_KNOT = 1e-9
+"""Parameters no farther apart than this share of a rail are one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,14 +118,48 @@ class Rail:
         count = len(shares)
         inner = [shares[i + 1 : i + degree + 1].mean() for i in range(count - degree - 1)]
         knots = np.concatenate([np.zeros(degree + 1), inner, np.ones(degree + 1)])
-        basis = _basis(shares, knots, degree, count)
-        return cls(degree, knots, np.ascontiguousarray(np.linalg.solve(basis, through)), np.ones(count))
+        counts = basis(shares, knots, degree, count)
+        return cls(degree, knots, np.ascontiguousarray(np.linalg.solve(counts, through)), np.ones(count))
+
+    def between(self, first: float, last: float) -> Rail:
+        """The part of it between two of its parameters, exactly: by knots that are put in.
+
+        W. Boehm: Inserting new knots into B-spline curves. Computer-Aided Design 12, 1980.
+        """
+        knots, poles = self.knots, np.column_stack([self.poles * self.weights[:, None], self.weights])
+        low, high = float(knots[self.degree]), float(knots[-1 - self.degree])
+        nothing = SAME_KNOT * (high - low)
+        for value in (first, last):
+            if abs(value - low) <= nothing or abs(value - high) <= nothing:
+                continue
+            while np.count_nonzero(np.abs(knots - value) <= nothing) < self.degree:
+                knots, poles = _with_knot(knots, poles, self.degree, value)
+        ends = max(low, first) + nothing, min(high, last) - nothing
+        start = int(np.searchsorted(knots, ends[0])) - 1
+        stop = int(np.searchsorted(knots, ends[1]))
+        inner = knots[start + 1 : stop]
+        kept = poles[start - self.degree : stop]
+        flat = np.concatenate([np.full(self.degree + 1, knots[start]), inner, np.full(self.degree + 1, knots[stop])])
+        return Rail(
+            self.degree, flat, np.ascontiguousarray(kept[:, :3] / kept[:, 3:]), np.ascontiguousarray(kept[:, 3])
+        )
 
     def at(self, shares: FloatArray) -> FloatArray:
         """Points (M, 3) at shares (M,) of the way."""
         first, last = self.knots[self.degree], self.knots[-1 - self.degree]
-        basis = _basis(first + shares * (last - first), self.knots, self.degree, len(self.poles)) * self.weights
-        return np.asarray(basis @ self.poles / basis.sum(axis=1, keepdims=True))
+        counts = basis(first + shares * (last - first), self.knots, self.degree, len(self.poles)) * self.weights
+        return np.asarray(counts @ self.poles / counts.sum(axis=1, keepdims=True))
+
+
+def _with_knot(knots: FloatArray, poles: FloatArray, degree: int, value: float) -> tuple[FloatArray, FloatArray]:
+    span = int(np.searchsorted(knots, value, side="right")) - 1
+    moved = np.arange(span - degree + 1, span + 1)
+    moved = moved[knots[moved] < value]
+    shares = ((value - knots[moved]) / (knots[moved + degree] - knots[moved]))[:, None]
+    between = shares * poles[moved] + (1.0 - shares) * poles[moved - 1]
+    # one pole of each pair goes, one more comes
+    found = np.concatenate([poles[: moved[0]], between, poles[moved[-1] :]])
+    return np.insert(knots, span + 1, value), found
 
 
 def _clamped(count: int, degree: int) -> FloatArray:
@@ -131,7 +167,7 @@ def _clamped(count: int, degree: int) -> FloatArray:
     return np.concatenate([np.zeros(degree + 1), inner, np.ones(degree + 1)])
 
 
-def _basis(at: FloatArray, knots: FloatArray, degree: int, count: int) -> FloatArray:
+def basis(at: FloatArray, knots: FloatArray, degree: int, count: int) -> FloatArray:
     """Basis functions (M, N) by Cox and de Boor."""
     inside = np.clip(at, knots[degree], np.nextafter(knots[count], knots[0]))[:, None]
     basis = ((knots[:-1] <= inside) & (inside < knots[1:])).astype(np.float64)

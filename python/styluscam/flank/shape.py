@@ -5,13 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from styluscam.errors import ToolError
 from styluscam.tools.tool import Tool
-
-UPRIGHT = 1e-9
-"""A profile that ends this near to upright goes on as a cylinder, rad."""
-STRAIGHT = 1e-6
-"""A line that is shorter than this is none, mm across the axis."""
 
 
 @dataclass(frozen=True)
@@ -33,21 +27,7 @@ class Flank:
         Raises:
             ToolError: the profile ends round and slanting.
         """
-        length = tool.to_dict().get("length")
-        top = math.inf if length is None else float(length)
-        if tool.max_slope == 0.0 or tool.max_slope >= 0.5 * math.pi - UPRIGHT:
-            radius = 0.5 * tool.diameter
-            return cls(radius, 0.0, float(tool.height_at_radius(radius)), top)
-        inner, outer = (float(radius) for radius in tool.radius_range_at(tool.max_slope))
-        if outer - inner < STRAIGHT:
-            raise ToolError(
-                f"tool: {tool.description} has no straight flank: it ends in a curve",
-                code="tapered-flank",
-                where="tool",
-                hint="take a tool whose profile ends upright or in a straight line: flat, ball, cone, v, ...",
-            )
-        ends = (float(tool.height_at_radius(radius)) for radius in (inner, outer))
-        return cls(inner, 0.5 * math.pi - tool.max_slope, *ends)
+        return cls(*tool._engine.flank())
 
     @property
     def growth(self) -> float:

@@ -8,6 +8,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from styluscam.flank.rails import Rail
 from styluscam.parts.surfaces import ExactSurface, Floats
 
 Ints: TypeAlias = NDArray[np.int64]
@@ -58,6 +59,9 @@ class PartArrays:
     edge_gap_mm: float = 0.0  # how far the file's own edges lie off its surfaces at most; the deviations include it
     is_mesh: bool = False  # the triangles are the part: there are no exact surfaces behind them
     surfaces: tuple[ExactSurface, ...] = field(default=(), repr=False)  # surfaces[i] belongs to faces[i]
+    edges: tuple[Rail | None, ...] = field(
+        default=(), repr=False
+    )  # edges[0] is Edge1 in FreeCAD; None: it has no curve
 
     def __post_init__(self) -> None:
         for array in (self.vertices, self.triangles, self.normals, self.face_ids):

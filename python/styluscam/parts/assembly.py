@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from styluscam.errors import GeometryError
+from styluscam.flank.rails import Rail
 from styluscam.parts.arrays import FaceInfo, PartArrays, area_vectors, describe_face, signed_volume, surface_area
 from styluscam.parts.surfaces import Cone, ExactSurface, Floats, Nurbs, Parametric
 from styluscam.parts.tessellation import GAP_SHARE, FaceMesh, Tessellation, is_closed, weld
@@ -109,6 +110,7 @@ def assemble(
     kinds: list[str],
     areas: list[tuple[float, tuple[float, float, float]]],
     tessellation: Tessellation,
+    edges: tuple[Rail | None, ...] = (),
     exact_area: Callable[[int], float] | None = None,
 ) -> PartArrays:
     """Make one welded mesh out of the faces' meshes; see :func:`check_areas` for `exact_area`."""
@@ -149,6 +151,7 @@ def assemble(
         notes=notes + remarks,
         edge_gap_mm=max(0.0, *tessellation.edge_gaps),
         surfaces=tuple(surfaces),
+        edges=edges,
     )
 
 

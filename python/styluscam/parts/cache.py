@@ -24,6 +24,7 @@ import numpy as np
 from styluscam import _engine
 from styluscam.errors import StylusError
 from styluscam.files import write_whole
+from styluscam.flank.rails import Rail
 from styluscam.parts.arrays import FaceInfo, PartArrays
 from styluscam.parts.surfaces import Cone, Cylinder, ExactSurface, Nurbs, Parametric, Plane, Sphere, Torus
 
@@ -142,8 +143,13 @@ def _entries(part: PartArrays) -> dict[str, Any] | None:
             entries |= {f"surface {i} {j}": array for j, array in enumerate(arrays)}
         else:
             return None
+    for i, edge in enumerate(part.edges):
+        curve = () if edge is None else (edge.knots, edge.poles, edge.weights)
+        entries |= {f"edge {i} {j}": array for j, array in enumerate(curve)}
+    edges = [None if edge is None else edge.degree for edge in part.edges]
     plain = {name: getattr(part, name) for name in PLAIN}
-    text = json.dumps({"plain": plain, "faces": [asdict(face) for face in part.faces], "surfaces": surfaces})
+    faces = [asdict(face) for face in part.faces]
+    text = json.dumps({"plain": plain, "faces": faces, "surfaces": surfaces, "edges": edges})
     return entries | {"text": np.frombuffer(text.encode(), np.uint8)}
 
 
@@ -159,6 +165,10 @@ def _part(entries: dict[str, Any], source: str) -> PartArrays:
             surfaces.append(Parametric(nurbs, tuple(known["bounds"]), points, uv, known["sign"]))
         else:
             surfaces.append(CLOSED_FORMS[known["kind"]](**known["values"]))
+    edges = [
+        None if degree is None else Rail(degree, *(entries[f"edge {i} {j}"] for j in range(3)))
+        for i, degree in enumerate(document["edges"])
+    ]
     vectors = ("centre", "anchor", "normal")
     faces = [FaceInfo(**(face | {name: tuple(face[name]) for name in vectors})) for face in document["faces"]]
     part = PartArrays(
@@ -167,5 +177,6 @@ def _part(entries: dict[str, Any], source: str) -> PartArrays:
         faces=tuple(faces),
         source=source,
         surfaces=tuple(surfaces),
+        edges=tuple(edges),
     )
     return replace(part, notes=tuple(part.notes))

@@ -34,6 +34,7 @@ def changed(before: PartArrays, engine: _engine.Part) -> PartArrays:
         deviation_inward=inward,
         deviation_outward=outward,
         surfaces=(),
+        edges=(),
     )
 
 

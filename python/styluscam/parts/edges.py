@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from styluscam.flank.rails import Rail
 from styluscam.parts.exact import area_and_centre
 from styluscam.parts.kernel import Kernel, map_shapes, thrown_by_kernel, xyz
 from styluscam.parts.surfaces import Elementary, ExactSurface
@@ -23,6 +24,44 @@ def model_of(shape: Kernel, faces: list[Kernel], surfaces: list[ExactSurface]) -
         return None
     except thrown_by_kernel():
         return None
+
+
+def edge_curves(shape: Kernel) -> tuple[Rail | None, ...]:
+    """Return the edges' curves from end to end in TopExp order, the first is Edge1 in FreeCAD; None for one without a curve."""
+    edges = map_shapes(shape, "EDGE")
+    return tuple(_curve(edges.FindKey(i)) for i in range(1, edges.Size() + 1))
+
+
+def _curve(shape: Kernel) -> Rail | None:
+    from OCP.BRep import BRep_Tool
+    from OCP.BRepAdaptor import BRepAdaptor_Curve
+    from OCP.Geom import Geom_TrimmedCurve
+    from OCP.GeomConvert import GeomConvert
+    from OCP.TopoDS import TopoDS
+
+    edge = TopoDS.Edge_s(shape)
+    if BRep_Tool.Degenerated_s(edge):
+        return None
+    try:
+        adaptor = BRepAdaptor_Curve(edge)
+        first, last = adaptor.FirstParameter(), adaptor.LastParameter()
+        whole = BRep_Tool.Curve_s(edge, first, last)
+        if whole is None:
+            return None
+        curve = GeomConvert.CurveToBSplineCurve_s(Geom_TrimmedCurve(whole, first, last))
+        if curve.IsPeriodic():
+            curve.SetNotPeriodic()
+    except thrown_by_kernel():
+        return None
+    poles = range(1, curve.NbPoles() + 1)
+    knots = [curve.Knot(i) for i in range(1, curve.NbKnots() + 1) for _ in range(curve.Multiplicity(i))]
+    rational = curve.IsRational()
+    return Rail(
+        curve.Degree(),
+        np.array(knots),
+        np.array([xyz(curve.Pole(i)) for i in poles]),
+        np.array([curve.Weight(i) if rational else 1.0 for i in poles]),
+    )
 
 
 def _edge(shape: Kernel) -> Edge:

@@ -17,6 +17,7 @@ from styluscam.errors import GeometryError
 from styluscam.parts.arrays import PartArrays
 from styluscam.parts.changed import changed
 from styluscam.parts.reading import read_part
+from styluscam.parts.ruled import ruled_faces
 from styluscam.types import Document, FloatArray, Progress, numbers, points, shaped, whole_numbers
 from styluscam.words import counted, shortened, size
 
@@ -81,8 +82,9 @@ class Part:
         """From :meth:`__getstate__`."""
         vertices, triangles, faces, normals = state["mesh"]
         inward, outward = state["deviation"]
-        self.engine = _engine.Part(vertices, triangles, faces, inward, outward, normals)
         self.arrays = state["arrays"]
+        curves = ((), {}) if self.arrays is None else _curves(self.arrays)
+        self.engine = _engine.Part(vertices, triangles, faces, inward, outward, normals, *curves)
 
     @classmethod
     def of(cls, source: PartLike, argument: str = "part") -> Part:
@@ -130,6 +132,7 @@ class Part:
             arrays.deviation_inward,
             arrays.deviation_outward,
             None if arrays.is_mesh else arrays.normals,
+            *_curves(arrays),
         )
         return cls._built(engine, arrays)
 
@@ -168,3 +171,12 @@ class Part:
     def triangle_count(self) -> int:
         """Triangles of positive area."""
         return self.engine.triangle_count
+
+
+RailColumns: TypeAlias = "tuple[int, list[float], FloatArray, FloatArray]"
+
+
+def _curves(arrays: PartArrays) -> tuple[list[RailColumns | None], dict[int, tuple[RailColumns, RailColumns]]]:
+    """The edges' curves and the rails of the ruled faces, as the engine takes them."""
+    edges = [None if edge is None else edge.columns for edge in arrays.edges]
+    return edges, {face: (first.columns, second.columns) for face, (first, second) in ruled_faces(arrays).items()}

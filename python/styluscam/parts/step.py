@@ -6,6 +6,7 @@ from pathlib import Path
 
 from styluscam.parts.arrays import PartArrays
 from styluscam.parts.assembly import assemble, kind_of
+from styluscam.parts.edges import edge_curves
 from styluscam.parts.exact import area_and_centre, careful_area, surface_of
 from styluscam.parts.kernel import faces_of, kernel_failures, ocp, quiet_kernel
 from styluscam.parts.loading import bodies, check_extent, load
@@ -26,6 +27,7 @@ def read_brep(file: Path, tolerance: float, progress: Progress | None = None) ->
         surfaces = [surface_of(face) for face in faces]
         tessellation = tessellate(file, shape, faces, surfaces=surfaces, tolerance=tolerance, progress=progress)
         areas = [area_and_centre(face) for face in faces]
+        edges = edge_curves(shape)
     report(progress, "arrays", 0.9)
     kinds = [kind_of(surface) for surface in surfaces]
     part = assemble(
@@ -37,6 +39,7 @@ def read_brep(file: Path, tolerance: float, progress: Progress | None = None) ->
         kinds=kinds,
         areas=areas,
         tessellation=tessellation,
+        edges=edges,
         exact_area=lambda i: careful_area(faces[i]),
     )
     report(progress, "arrays", 1.0)

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _engine
+from ..flank.rails import basis
 
 Floats: TypeAlias = NDArray[np.float64]
 Vector: TypeAlias = tuple[float, float, float]
@@ -379,3 +380,13 @@ class Nurbs:
         return _engine.Nurbs(
             degrees, self.knots_u.tolist(), self.knots_v.tolist(), np.ascontiguousarray(self.poles), weights
         )
+
+    def iso_curve(self, across: int, value: float) -> tuple[int, Floats, Floats, Floats]:
+        """Return the B-spline (degree, knots, poles (N,3), weights (N,)) along which parameter `across` (0: u) has a value."""
+        degree, knots = (self.degree_u, self.knots_u) if across == 0 else (self.degree_v, self.knots_v)
+        poles, weights = (self.poles, self.weights) if across == 0 else (self.poles.swapaxes(0, 1), self.weights.T)
+        counts = basis(np.array([value]), knots, degree, len(poles))[0]
+        along = np.einsum("i,ij->j", counts, weights)
+        moved = np.einsum("i,ij,ijk->jk", counts, weights, poles) / along[:, None]
+        other = (self.degree_v, self.knots_v) if across == 0 else (self.degree_u, self.knots_u)
+        return *other, np.ascontiguousarray(moved), np.ascontiguousarray(along)

@@ -3,14 +3,17 @@
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use styluscam_geometry::{NurbsCurve, Vector};
-use styluscam_toolpath::flank::{positions, positions_within, Flank, FlankError, Method, RuledStrip, Side, Stand};
+use styluscam_toolpath::flank::{
+    flank_pass as flank_pass_of, positions, positions_within, Flank, FlankError, FlankPose, FlankWays, Method,
+    RuledStrip, Side, Stand,
+};
 use styluscam_verify::{clearance_of_tool, left_by_flank, FlankShape};
 
 use crate::tool::Tool;
 use crate::{arrays, errors};
 
 /// A rail: degree, flat knots, poles (N, 3) in mm, weights (N,).
-type RailArrays<'py> = (usize, Vec<f64>, PyReadonlyArray2<'py, f64>, PyReadonlyArray1<'py, f64>);
+pub(crate) type RailArrays<'py> = (usize, Vec<f64>, PyReadonlyArray2<'py, f64>, PyReadonlyArray1<'py, f64>);
 
 /// Pairs of points (N, 2, 3), twice.
 type Pairs<'py> = (Bound<'py, PyArray3<f64>>, Bound<'py, PyArray3<f64>>);
@@ -118,11 +121,34 @@ pub fn clearance_of_tilted<'py>(
     Ok(PyArray1::from_vec(py, found))
 }
 
+/// The moves, as JSON, of a pass along tips (N, 3), axes (N, 3) and points (N, 3) that are touched, mm; `ways` are the extension and the
+/// lead beyond both ends, and how far up the axis it begins and ends, mm.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)] // PyO3 hands arrays by value
+pub fn flank_pass(
+    tips: PyReadonlyArray2<'_, f64>,
+    axes: PyReadonlyArray2<'_, f64>,
+    touched: PyReadonlyArray2<'_, f64>,
+    ways: (f64, f64, f64),
+    feed: f64,
+) -> PyResult<String> {
+    let (tips, axes) = (arrays::vectors(&tips, "tips")?, arrays::vectors(&axes, "axes")?);
+    let touched = arrays::vectors(&touched, "touched")?;
+    let (extension, lead, up) = ways;
+    arrays::one_each("axes", axes.len(), "tips", tips.len())?;
+    arrays::one_each("touched", touched.len(), "tips", tips.len())?;
+    let poses = tips.into_iter().zip(axes).zip(touched);
+    let poses: Vec<_> = poses.map(|((tip, axis), contact)| FlankPose { tip, axis, contact }).collect();
+    let ways = FlankWays { extension, lead, cut: feed, plunge: feed, leads: [feed; 2] };
+    let moves = flank_pass_of(&poses, &ways, &|_| up).map_err(|error| of_flank(&error))?;
+    serde_json::to_string(&moves).map_err(|error| word("moves", &error.to_string(), "numbers"))
+}
+
 fn pairs_of(from: Vec<Vector>, to: Vec<Vector>) -> Vec<[Vector; 2]> {
     from.into_iter().zip(to).map(|(from, to)| [from, to]).collect()
 }
 
-fn rail((degree, knots, poles, weights): &RailArrays<'_>) -> PyResult<NurbsCurve> {
+pub(crate) fn rail((degree, knots, poles, weights): &RailArrays<'_>) -> PyResult<NurbsCurve> {
     let (poles, weights) = (arrays::rows::<f64, 3>(poles, "poles")?, weights.as_array());
     arrays::one_each("weights", weights.len(), "poles", poles.len())?;
     let poles: Vec<[f64; 4]> = poles.iter().zip(weights).map(|([x, y, z], w)| [*x, *y, *z, *w]).collect();

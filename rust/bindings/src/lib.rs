@@ -40,7 +40,7 @@ mod _engine {
     #[pymodule_export]
     use crate::elementary::Elementary;
     #[pymodule_export]
-    use crate::flank::{clearance_of_tilted, Strip};
+    use crate::flank::{clearance_of_tilted, flank_pass, Strip};
     #[pymodule_export]
     use crate::freecad::{path_text, program_of_path};
     #[pymodule_export]

@@ -1,13 +1,16 @@
 //! Parts: triangles in the frame of their file.
 
-use std::sync::{Mutex, OnceLock};
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, OnceLock};
 
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 use styluscam_geometry::{Mesh, Soup, Vector};
+use styluscam_job::Curves;
 use styluscam_motion::{Cancelled, Watch};
 use styluscam_toolpath::offset::Index;
 
+use crate::flank::{rail, RailArrays};
 use crate::{arrays, errors};
 
 /// Vertices, triangles, faces and normals.
@@ -49,9 +52,10 @@ impl Part {
 #[pymethods]
 impl Part {
     /// `vertices` (V, 3) mm, `triangles` (T, 3), `face_ids` (T,) or None; checked deviations in mm; `normals` of the
-    /// model at the triangles' corners (T, 3, 3) or None.
+    /// model at the triangles' corners (T, 3, 3) or None; curves of the edges from Edge1 on, and rails of ruled faces by their numbers.
     #[new]
-    #[pyo3(signature = (vertices, triangles, face_ids=None, inward=0.0, outward=0.0, normals=None))]
+    #[pyo3(signature = (vertices, triangles, face_ids=None, inward=0.0, outward=0.0, normals=None, edges=Vec::new(), ruled=None))]
+    #[allow(clippy::too_many_arguments)] // Python names them
     fn new(
         py: Python<'_>,
         vertices: PyReadonlyArray2<'_, f64>,
@@ -60,6 +64,8 @@ impl Part {
         inward: f64,
         outward: f64,
         normals: Option<PyReadonlyArray3<'_, f64>>,
+        edges: Vec<Option<RailArrays<'_>>>,
+        ruled: Option<BTreeMap<u32, [RailArrays<'_>; 2]>>,
     ) -> PyResult<Self> {
         let vertices = arrays::vectors(&vertices, "vertices")?;
         let triangles = arrays::rows::<i64, 3>(&triangles, "triangles")?;
@@ -73,7 +79,11 @@ impl Part {
                 return Err(errors::raise("GeometryError", &message, "out-of-range", "deviation", ""));
             }
         }
-        Ok(Self::of(styluscam_job::Part { mesh, inward, outward, shaped: None }))
+        let edges = edges.iter().map(|edge| edge.as_ref().map(rail).transpose()).collect::<PyResult<_>>()?;
+        let rails = |(face, [first, second]): (u32, [RailArrays<'_>; 2])| Ok((face, [rail(&first)?, rail(&second)?]));
+        let ruled = ruled.unwrap_or_default().into_iter().map(rails).collect::<PyResult<_>>()?;
+        let curves = Arc::new(Curves { edges, ruled });
+        Ok(Self::of(styluscam_job::Part { mesh, inward, outward, shaped: None, curves }))
     }
 
     /// Where points (N, 3) of the shaped part lie on the part before; NaN where that is not unique.

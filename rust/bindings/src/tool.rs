@@ -2,6 +2,7 @@
 
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
+use styluscam_geometry::ToolFlank;
 
 use crate::{arrays::mapped, errors, json::json};
 
@@ -49,6 +50,15 @@ impl Tool {
     #[getter]
     fn max_slope(&self) -> f64 {
         self.tool.profile().max_slope()
+    }
+
+    /// Radius (mm), half angle (rad), height of the lower end and of the upper one over the tip (mm) of the side with which it mills.
+    fn flank(&self) -> PyResult<(f64, f64, f64, f64)> {
+        let ToolFlank { radius, half_angle, height, top } = self
+            .tool
+            .flank()
+            .map_err(|error| errors::raise("ToolError", &error.to_string(), "tapered-flank", "tool", ""))?;
+        Ok((radius, half_angle, height, top))
     }
 
     #[getter]

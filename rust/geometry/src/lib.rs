@@ -20,6 +20,7 @@ mod shaping;
 mod sheet;
 mod tool;
 mod tool_body;
+mod tool_flank;
 mod tool_parts;
 mod trimmed;
 
@@ -37,6 +38,7 @@ pub use shaping::{stage, walled, warped, DisplacementField, Stage, WallEnd, Wall
 pub use sheet::{ModelFace, Sheet, SheetLaw};
 pub use tool::{Base, Holder, Tool, ToolDocument};
 pub use tool_body::ToolBody;
+pub use tool_flank::ToolFlank;
 pub use tool_parts::ToolPart;
 pub use trimmed::{mesh_trimmed, EdgeUse, FaceTriangles, TrimmedFault, GUIDES};
 

@@ -426,13 +426,14 @@ fn expectation(
     let faces = faces_of(job, scene, section, index)?;
     Ok(Expectation {
         contact: section.kind().contact(),
-        selected: scene.facing_up(&faces),
+        // what leaning tools owe their faces is measured along them
+        selected: scene.facing_up(if section.kind().leans() { &[] } else { &faces }),
         region: region_of(job, scene, section, index, &faces)?.expected(),
         heights: [heights.bottom, heights.top.unwrap_or(f64::INFINITY)],
         passes: if scene.opposite.is_some() {
             Passes::Unordered { reason: "they are opposite to the main tool's, whose program is checked for them" }
         } else {
-            passes_of(job, scene, tool, section)
+            passes_of(job, (scene, &faces), tool, section)
         },
         forms: job.process.process.as_kind().forms() && scene.opposite.is_none(),
         layers: layers_of(job, scene, tool, section),

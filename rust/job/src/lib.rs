@@ -68,7 +68,7 @@ pub use operations::{
     OperationSection, PassSpacing, Planned, ReachedFace, Spindle, SurfaceFacts, ZLevel, ZigZag,
 };
 pub use parse::{from_json, from_toml, tool_from_json};
-pub use part::{Part, Shaped};
+pub use part::{Curves, Part, Shaped};
 pub use plan::{plan, Channel, OperationSummary, Plan, Setting};
 pub use plates::Holder;
 pub use process::{Die, Process, ProcessKeys, ProcessKind, ProcessSection, MAIN_CHANNEL};

@@ -1,9 +1,10 @@
 //! The part as triangles, as it is formed, and what is known of the target.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use styluscam_geometry::{Bvh, Mesh, Vector};
+use styluscam_geometry::{Bvh, Mesh, NurbsCurve, Vector};
 
 use crate::operations::Fact;
 use crate::shaping::Compensation;
@@ -19,6 +20,17 @@ pub struct Part {
     pub outward: f64,
     /// What was done to the part in the file, if it is not that one that is formed.
     pub shaped: Option<Shaped>,
+    /// What is known of its curves.
+    pub curves: Arc<Curves>,
+}
+
+/// Curves of a part in the file's frame, mm.
+#[derive(Clone, Debug, Default)]
+pub struct Curves {
+    /// Its edges from end to end, the first is Edge1; none for one without a curve.
+    pub edges: Vec<Option<NurbsCurve>>,
+    /// The rails of the faces that are ruled between two curves, by the faces' numbers.
+    pub ruled: BTreeMap<u32, [NurbsCurve; 2]>,
 }
 
 /// What was done to a part.

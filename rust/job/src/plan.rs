@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use styluscam_motion::Watch;
 
 use crate::operations::{Before, Context};
-use crate::resolve::{descent_of, faces_of, heights_of, region_of, tools};
-use crate::{check, clamp, die, forming, shaping, spindle, JobDocument, JobError, MAIN_CHANNEL};
+use crate::resolve::{descent_of, faces_of, heights_of, region_of, selection_of, tools};
+use crate::{check, clamp, die, forming, shaping, spindle, JobDocument, JobError, Selection, MAIN_CHANNEL};
 
 mod channel;
 mod pair;
@@ -65,6 +65,7 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
             reference_height: record.reference_height,
             region: region_of(job, scene, section, index, &faces)?,
             faces,
+            are_faces_named: matches!(selection_of(job, section, index).0, Selection::Named(_)),
             heights: heights_of(job, scene, section),
             before: Before { moves: &channel.program.moves, tools: &before },
             watch,

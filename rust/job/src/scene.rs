@@ -1,13 +1,14 @@
 //! The part as it lies on the machine: turned, moved to the program's zero, indexed.
 
 use std::collections::{BTreeMap, HashSet};
+use std::sync::Arc;
 
 use styluscam_geometry::{Bvh, Frame, Mesh, Sheet};
 use styluscam_toolpath::offset::Index;
 
 use crate::faces::FaceView;
 use crate::operations::Fact;
-use crate::FixtureSection;
+use crate::{Curves, FixtureSection};
 
 /// The part, the sheet and the zero point of one channel, ready for planning and for verification.
 pub struct Scene {
@@ -50,6 +51,8 @@ pub struct Scene {
     pub changes: Vec<Fact>,
     /// Which triangles lie where the part was cut off.
     pub(crate) rims: Vec<bool>,
+    /// The curves of the part, in the file's frame.
+    pub(crate) curves: Arc<Curves>,
     /// The faces of the part by their numbers.
     pub(crate) views: BTreeMap<u32, FaceView>,
     /// The zero point in words.

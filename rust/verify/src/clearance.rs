@@ -59,6 +59,14 @@ impl Prober<'_> {
     }
 }
 
+/// The least distance from a body, its tip at the origin, to a triangle with these corners, mm, where it is below `best`, and the point
+/// there.
+pub(crate) fn nearest(body: &Body, corners: [Vector; 3], best: f64) -> Option<(f64, Vector)> {
+    let mut search = Search { body, best, found: None };
+    search.facet(&Facet::new(corners));
+    search.found.map(|found| (found.value, found.point))
+}
+
 /// A triangle seen from the body's tip.
 pub(crate) struct Facet {
     corners: [Vector; 3],

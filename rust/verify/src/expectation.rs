@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use styluscam_geometry::NurbsCurve;
 use styluscam_motion::SpindleDirection;
 
 use crate::pitch::Pitch;
@@ -76,6 +77,8 @@ pub enum Passes {
     Crossed([OrderedPasses; 2]),
     /// In no order that is checked: what they engage, and what they leave of the stock, is.
     Clearing(Clearing),
+    /// Along ruled surfaces, touched with the side of a tool that leans: what the moving tool leaves of them is checked.
+    Flank(FlankPasses),
     /// Nothing is known of their order; the report gives the reason.
     Unordered {
         /// Why they are not checked, as half a sentence.
@@ -104,6 +107,30 @@ pub struct Clearing {
     pub rest: bool,
     /// The most that the last layer over a floor is to take, mm; infinite where it is a layer like the others.
     pub last_layer: f64,
+}
+
+/// How passes mill ruled surfaces.
+#[derive(Clone, Debug)]
+pub struct FlankPasses {
+    /// The surfaces.
+    pub faces: Vec<FlankFace>,
+    /// Stock that is to stay on them, mm along their normals.
+    pub left: f64,
+    /// Most that may be entered, or left beyond that, mm.
+    pub max_error: f64,
+}
+
+/// A ruled surface: straight lines between points of equal parameter of two curves, work coordinates, mm.
+#[derive(Clone, Debug)]
+pub struct FlankFace {
+    /// As a person names it.
+    pub name: String,
+    /// The part's face that it is, if it is one.
+    pub face: Option<u32>,
+    /// The curves; the tool's tip is at the first.
+    pub rails: [NurbsCurve; 2],
+    /// Whether the outside is to the left, seen along the rails with the second above the first.
+    pub is_left: bool,
 }
 
 /// Layers in which passes that are not themselves one below the other press a sheet down.
@@ -161,7 +188,7 @@ impl Expectation {
         match &self.passes {
             Passes::Ordered(passes) => std::slice::from_ref(passes),
             Passes::Crossed(sets) => sets,
-            Passes::Clearing(_) | Passes::Unordered { .. } => &[],
+            Passes::Clearing(_) | Passes::Flank(_) | Passes::Unordered { .. } => &[],
         }
     }
 
@@ -179,7 +206,15 @@ impl Expectation {
     pub(crate) fn clearing(&self) -> Option<&Clearing> {
         match &self.passes {
             Passes::Clearing(clearing) => Some(clearing),
-            Passes::Ordered(_) | Passes::Crossed(_) | Passes::Unordered { .. } => None,
+            Passes::Ordered(_) | Passes::Crossed(_) | Passes::Flank(_) | Passes::Unordered { .. } => None,
+        }
+    }
+
+    /// The ruled surfaces that it mills, where it does.
+    pub(crate) fn flank(&self) -> Option<&FlankPasses> {
+        match &self.passes {
+            Passes::Flank(passes) => Some(passes),
+            Passes::Ordered(_) | Passes::Crossed(_) | Passes::Clearing(_) | Passes::Unordered { .. } => None,
         }
     }
 

@@ -97,6 +97,37 @@ pub(crate) static GOUGE: FaultKind = FaultKind::on_part(
     |fault| format!("the tool enters the part by {:.4} mm (limit {:.4} mm)", fault.value(), fault.limit()),
     "correct the coordinate where it begins, or plan again with this tool, sheet and zero point",
 );
+pub(crate) static FLANK_ENTERS: FaultKind = FaultKind::on_part(
+    FindingKind::Gouge,
+    |fault| {
+        let (value, limit) = (fault.value(), fault.limit());
+        format!("the moving tool enters the ruled surface by {value:.4} mm (max_error allows {limit:.4} mm)")
+    },
+    "take a smaller tool, part the surface where it is twisted most, or raise max_error",
+);
+pub(crate) static FLANK_LEAVES: FaultKind = FaultKind::on_part(
+    FindingKind::Excess,
+    |fault| {
+        let (value, limit) = (fault.value(), fault.limit());
+        format!("the moving tool leaves {value:.4} mm on the ruled surface (max_error allows {limit:.4} mm)")
+    },
+    "take a smaller tool, part the surface where it is twisted most, or raise max_error",
+);
+pub(crate) static FLANK_MISSES: FaultKind = FaultKind::on_part(
+    FindingKind::MissingPass,
+    |fault| format!("the tool does not come over {:.2} % of the ruled surface", fault.value()),
+    "raise extension and overreach, or take a longer tool",
+)
+.in_unit("%");
+pub(crate) static AXIS_JUMP: FaultKind = FaultKind::on_part(
+    FindingKind::AxisJump,
+    |fault| {
+        let (value, limit) = (fault.value(), fault.limit());
+        format!("the tool's axis turns by {value:.2} degrees for each mm, more than five times the mean ({limit:.2})")
+    },
+    "plan again, or part the surface there",
+)
+.in_unit("deg/mm");
 pub(crate) static SHANK: FaultKind = FaultKind::on_part(
     FindingKind::ShankCollision,
     |fault| format!("the shank enters the part by {:.4} mm", fault.value()),
@@ -467,8 +498,8 @@ pub(crate) static NOT_FINITE: FaultKind = FaultKind::in_text(
 );
 pub(crate) static TOOL_AXIS: FaultKind = FaultKind::in_text(
     FindingKind::ToolAxis,
-    |_| "the tool axis is not +Z, and only upright tools are checked".to_owned(),
-    "write the move for an upright tool",
+    |_| "the tool axis is not +Z, and the job has no operation here whose tool leans".to_owned(),
+    "write the move for an upright tool, or name the operation that it belongs to",
 );
 pub(crate) static FEED_MODE: FaultKind = FaultKind::in_text(
     FindingKind::FeedMode,

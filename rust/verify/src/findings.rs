@@ -71,6 +71,8 @@ pub enum FindingKind {
     Scallop,
     /// The path turns by more at once than is asked for.
     Corner,
+    /// The axis of a tool that leans turns far where it mostly turns little.
+    AxisJump,
     /// A wall is steeper than the sheet allows.
     WallAngle,
     /// The sheet becomes thinner than it may.
@@ -207,6 +209,7 @@ const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
         (Kind::RapidIntoStock, "rapid into stock"),
         (Kind::Scallop, "scallop above the limit"),
         (Kind::Corner, "corner of the path"),
+        (Kind::AxisJump, "jump of the tool axis"),
         (Kind::WallAngle, "wall angle above the limit"),
         (Kind::Thinning, "thinning below the limit"),
         (Kind::ToolRadius, "tool radius below twice the sheet thickness"),

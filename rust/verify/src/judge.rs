@@ -12,8 +12,8 @@ use crate::report::Report;
 use crate::segments::{placed, Segment};
 use crate::subject::{Axes, Limits, Subject};
 use crate::{
-    clearing, corner_angles, corners, diagnosis, frame, low_links, pair, passes, reach, sequence, settings, travel,
-    unreached, walls,
+    clearing, corner_angles, corners, diagnosis, frame, leaning, low_links, pair, passes, reach, sequence, settings,
+    travel, unreached, walls,
 };
 
 /// Checks a program read back from posted text against the part.
@@ -40,14 +40,14 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     faults.extend(passes::faults(&segments, &assignment, subject, limits, watch)?);
     let cleared = clearing::judged(program, &segments, &assignment, subject, limits, watch)?;
     faults.extend(cleared.faults);
+    let leaning = leaning::judged(program, &assignment, subject, limits, watch)?;
+    faults.extend(leaning.faults);
+    leaning.gouge.into_iter().for_each(|(depth, at)| tally.gouge.take(depth, at));
+    leaning.excess.into_iter().for_each(|(left, at)| tally.excess.take(left, at));
     let pair = pair::judged(program, &segments, subject, limits, watch)?;
     faults.extend(pair.faults);
     let beyond_reach = unreached::findings(&segments, subject, limits, watch)?;
-    let steep = walls::finding(subject, limits);
-    if steep.is_some() {
-        // reported once for the part: every contact on those walls would repeat it
-        faults.retain(|fault| fault.kind.finding != FindingKind::WallAngle);
-    }
+    let steep = steep_walls(subject, limits, &mut faults);
     let (low, high) = subject.mesh.bounds();
     let Merged { mut reported, mut counts, lengths } =
         merge([(&faults, program), (&beyond, axes.program)], (high - low).norm());
@@ -62,9 +62,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let of_text =
         if limits.shape_only { Vec::new() } else { of_whole_text(&axes, &assignment, subject, program, limits) };
     let wholes: Vec<Finding> = of_text.into_iter().chain(of_shape).chain(nothing).collect();
-    for whole in &wholes {
-        *counts.entry(whole.kind).or_default() += 1;
-    }
+    wholes.iter().for_each(|whole| *counts.entry(whole.kind).or_default() += 1);
     reported.add(wholes);
     reported.accept(&limits.accepted);
     let (findings, groups) = reported.in_order();
@@ -82,7 +80,15 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         samples: tally.samples,
         contacts: tally.records(subject),
         engagement: cleared.engagement,
+        flanks: leaning.flanks,
     })
+}
+
+/// Walls that are too steep, once for the part: every contact on them would repeat it.
+fn steep_walls(subject: &Subject, limits: &Limits, faults: &mut Vec<Fault>) -> Option<Finding> {
+    let steep = walls::finding(subject, limits)?;
+    faults.retain(|fault| fault.kind.finding != FindingKind::WallAngle);
+    Some(steep)
 }
 
 /// What is checked of the moves of a whole text only, not of a part of it with a shape of its own.
@@ -97,7 +103,8 @@ fn of_text(
 ) -> Result<Vec<Fault>, Cancelled> {
     let mut faults = travel::faults(program, segments, assignment, subject, limits);
     faults.extend(low_links::faults(segments, assignment, subject, limits, watch)?);
-    faults.extend(settings::faults(program, segments, assignment, limits));
+    let all = leaning::with_leaning(segments, &leaning::leaning_moves(program, assignment, subject));
+    faults.extend(settings::faults(program, &all, assignment, limits));
     faults.extend(corners::faults(program, assignment, limits));
     faults.extend(corner_angles::faults(program, segments, assignment, limits));
     faults.extend(sequence::faults(program, segments, assignment, subject, limits));

@@ -53,6 +53,7 @@ mod groups;
 mod holding;
 mod in_layers;
 mod judge;
+mod leaning;
 mod level_moves;
 mod low_links;
 mod measure;
@@ -60,6 +61,7 @@ mod merge;
 mod pair;
 mod passes;
 mod pitch;
+mod place;
 mod probes;
 mod reach;
 mod region;
@@ -91,15 +93,19 @@ pub use engaged::{ClearedLayer, ClearingKind, ClearingMove, EngagedAt, Operation
 pub use engagement::{
     engagement, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept, CHIP,
 };
-pub use expectation::{Clearing, Contact, Expectation, ExpectedOperation, Layers, OrderedPasses, Passes};
+pub use expectation::{
+    Clearing, Contact, Expectation, ExpectedOperation, FlankFace, FlankPasses, Layers, OrderedPasses, Passes,
+};
 pub use findings::{Finding, FindingKind, Severity};
 pub use flank::{clearance_of_tool, left_by_flank, FlankShape};
 pub use flats::Need;
 pub use groups::Group;
 pub use judge::judge;
+pub use leaning::{AxisTurning, FlankFaceError, OperationFlank};
 pub use pitch::Pitch;
+pub use place::Place;
 pub use region::{CheckFaces, Inside, Region};
-pub use report::{ContactRecord, Place, Report};
+pub use report::{ContactRecord, Report};
 pub use scalar::{Across, Height, Outwards, PassKind, Scalar};
 pub use scallop::{scallops, Scallop};
 pub use simulation::{simulate, Grid, Simulation, Skin};

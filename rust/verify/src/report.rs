@@ -8,15 +8,8 @@ use serde::{Deserialize, Serialize};
 use crate::engaged::OperationEngagement;
 use crate::findings::{Finding, FindingKind};
 use crate::groups::Group;
-
-/// A position of the program.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Place {
-    /// Line of the text, from 1; 0 when it was not read from text.
-    pub line: u32,
-    /// The tool's tip, work coordinates, mm.
-    pub position: [f64; 3],
-}
+use crate::leaning::OperationFlank;
+use crate::place::Place;
 
 /// A contact, for a check against the exact model.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -62,6 +55,9 @@ pub struct Report {
     pub samples: usize,
     /// Contacts spread evenly over the program, at most 4000.
     pub contacts: Vec<ContactRecord>,
+    /// What the operations that mill with the side of a leaning tool leave of their surfaces.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub flanks: Vec<OperationFlank>,
     /// What the operations that clear stock engage along their feed moves: too much for a document.
     #[serde(skip)]
     pub engagement: Vec<OperationEngagement>,

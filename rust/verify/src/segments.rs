@@ -62,7 +62,7 @@ pub(crate) struct Segment {
     /// Distance at which it still touches, when it is meant to, mm.
     pub excess: Option<f64>,
     /// Pieces in which it is looked at.
-    pieces: u32,
+    pub(crate) pieces: u32,
 }
 
 impl Segment {

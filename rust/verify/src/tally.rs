@@ -1,8 +1,9 @@
 //! What the measured moves come to: their faults, the worst positions, and some of the contacts.
 
 use crate::faults::{self, Fault, FaultKind};
+use crate::place::Place;
 use crate::region_faults::Regions;
-use crate::report::{ContactRecord, Place};
+use crate::report::ContactRecord;
 use crate::samples::{highest, normal_of, Measured, Sample, Strike};
 use crate::segments::{Segment, SegmentKind};
 use crate::subject::{Forming, Limits, Subject};
@@ -19,7 +20,7 @@ pub(crate) struct Worst {
 }
 
 impl Worst {
-    fn take(&mut self, value: f64, place: Place) {
+    pub fn take(&mut self, value: f64, place: Place) {
         if value > 0.0 && (self.at.is_none() || value > self.value + SLACK) {
             *self = Self { value, at: Some(place) };
         }

@@ -21,7 +21,8 @@ pub(crate) fn faults(
 ) -> Vec<Fault> {
     let mut faults = Vec::new();
     for (index, step) in program.moves.iter().enumerate() {
-        faults.extend(text_faults(index, step, subject));
+        let leans = assignment.of(step.operation).is_some_and(|of| of.expectation.flank().is_some());
+        faults.extend(text_faults(index, step, subject, leans));
     }
     // those that the job allows are checked with what stands under them
     let high = |segment: &&Segment| low_links::margin(segment, assignment, limits).is_none();
@@ -132,7 +133,7 @@ pub(crate) fn work_offset(program: &Program, wcs: &str) -> Option<Finding> {
     })
 }
 
-fn text_faults(index: usize, step: &Move, subject: &Subject) -> impl Iterator<Item = Fault> {
+fn text_faults(index: usize, step: &Move, subject: &Subject, leans: bool) -> impl Iterator<Item = Fault> {
     let feeds = step.kind != MoveKind::Rapid;
     let absurd = !is_in_range(step.end.tip);
     let placed = subject.is_known(index);
@@ -142,7 +143,7 @@ fn text_faults(index: usize, step: &Move, subject: &Subject) -> impl Iterator<It
         (feeds && !(step.feed > 0.0 && step.feed.is_finite())).then(|| fault(&faults::MISSING_FEED)),
         (feeds && !(placed && from_a_place)).then(|| fault(&faults::UNPLACED_FEED)),
         (absurd && placed).then(|| fault(&faults::NOT_FINITE)),
-        (!step.end.axis.is_up()).then(|| fault(&faults::TOOL_AXIS)),
+        (!step.end.axis.is_up() && !leans).then(|| fault(&faults::TOOL_AXIS)),
         (feeds && step.feed_mode != FeedMode::PerMinute).then(|| fault(&faults::FEED_MODE)),
     ]
     .into_iter()

@@ -3,7 +3,7 @@
 use nalgebra::Vector4;
 
 use super::nurbs::Direction;
-use crate::{GeometryError, Vector};
+use crate::{Frame, GeometryError, Vector};
 
 /// A point of a curve and its derivatives, mm, mm per unit of the parameter and mm per its square.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,6 +52,21 @@ impl NurbsCurve {
         Ok(Self { curve, rate })
     }
 
+    /// The same curve where a frame puts it.
+    #[must_use]
+    pub fn placed(&self, frame: &Frame) -> Self {
+        let shift = frame.point(Vector::zeros());
+        let moved = |pole: &Vector4<f64>| (frame.direction(pole.xyz()) + shift * pole.w).push(pole.w);
+        Self { curve: self.curve.with(moved), rate: self.rate.as_ref().map(|rate| rate.with(moved)) }
+    }
+
+    /// The same curve the other way round.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let backwards = |rate: &Spline| rate.reversed().with(|pole| -pole);
+        Self { curve: self.curve.reversed(), rate: self.rate.as_ref().map(backwards) }
+    }
+
     /// First and last parameter.
     #[must_use]
     pub fn domain(&self) -> [f64; 2] {
@@ -81,6 +96,14 @@ impl Spline {
         })
     }
 
+    fn with(&self, pole: impl Fn(&Vector4<f64>) -> Vector4<f64>) -> Self {
+        Self { direction: self.direction.clone(), poles: self.poles.iter().map(pole).collect() }
+    }
+
+    fn reversed(&self) -> Self {
+        Self { direction: self.direction.reversed(), poles: self.poles.iter().rev().copied().collect() }
+    }
+
     fn derivative(&self) -> Result<Self, GeometryError> {
         let (degree, knots) = (self.direction.degree(), self.direction.knots());
         let pole = |i: usize| {
@@ -101,6 +124,25 @@ impl Spline {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_curve_is_placed_and_reversed_with_its_derivatives() {
+        let poles = [[0.0, 0.0, 0.0, 1.0], [10.0, 5.0, 2.0, 0.5], [20.0, 0.0, 4.0, 2.0], [30.0, 1.0, 0.0, 1.0]];
+        let curve = NurbsCurve::new(2, vec![0.0, 0.0, 0.0, 0.3, 1.0, 1.0, 1.0], &poles).unwrap();
+        let frame = Frame::turning_up(Vector::new(0.6, 0.0, 0.8), 1.0).shifted(Vector::new(1.0, 2.0, 3.0));
+        let (placed, reversed) = (curve.placed(&frame), curve.reversed());
+        for u in [0.0, 0.2, 0.3, 0.77, 1.0] {
+            let (from, to, back) = (curve.at(u), placed.at(u), reversed.at(1.0 - u));
+            assert!((frame.point(from.point) - to.point).norm() < 1e-12 && (from.point - back.point).norm() < 1e-12);
+            assert!(
+                (frame.direction(from.first) - to.first).norm() < 1e-11 && (from.first + back.first).norm() < 1e-11
+            );
+            // at the inner knot the second derivative jumps
+            let is_smooth = (u - 0.3).abs() > 0.01;
+            let bent = (frame.direction(from.second) - to.second).norm() + (from.second - back.second).norm();
+            assert!(!is_smooth || bent < 1e-9, "{u} {bent}");
+        }
+    }
 
     #[test]
     fn a_rational_quarter_of_a_circle_has_its_derivatives() {

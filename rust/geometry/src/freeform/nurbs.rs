@@ -117,6 +117,14 @@ impl Direction {
         Ok(Self { degree, knots, spans })
     }
 
+    /// The same knots the other way round.
+    pub fn reversed(&self) -> Self {
+        let [first, last] = self.domain();
+        let knots: Vec<f64> = self.knots.iter().rev().map(|knot| first + last - knot).collect();
+        let spans = (self.degree..knots.len() - self.degree - 1).filter(|i| knots[*i] < knots[i + 1]).collect();
+        Self { degree: self.degree, knots, spans }
+    }
+
     pub fn degree(&self) -> usize {
         self.degree
     }

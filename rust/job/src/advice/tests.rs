@@ -1,5 +1,7 @@
 //! Parts whose walls and corners are known.
 
+use std::sync::Arc;
+
 use std::f64::consts::FRAC_PI_3;
 
 use styluscam_geometry::{Mesh, Vector};
@@ -33,7 +35,11 @@ fn job(faces: &str) -> JobDocument {
 
 fn found(mesh: Mesh, faces: &str) -> Result<super::Walls, JobError> {
     let job = job(faces);
-    let scene = Scene::new(&job, crate::MAIN_CHANNEL, &Part { mesh, inward: 0.0, outward: 0.0, shaped: None })?;
+    let scene = Scene::new(
+        &job,
+        crate::MAIN_CHANNEL,
+        &Part { mesh, inward: 0.0, outward: 0.0, shaped: None, curves: Arc::default() },
+    )?;
     walls(&job, &scene, 0)
 }
 

@@ -28,6 +28,8 @@ pub struct Context<'a> {
     pub reference_height: f64,
     /// The faces that it is for, in the order of their numbers.
     pub faces: Vec<u32>,
+    /// Whether they are named, and not selected by a rule.
+    pub are_faces_named: bool,
     /// Where its passes may run beyond that.
     pub(crate) region: OperationRegion,
     /// Between which heights its tip stays.

@@ -7,7 +7,7 @@ use styluscam_verify::{Contact, Layers, Passes};
 
 use super::{Areas, Context, Effort, Fact, SurfaceFacts};
 use crate::numbers::shown;
-use crate::{JobError, OperationKeys};
+use crate::{JobError, OperationKeys, Scene};
 
 /// A kind of operation, with its own keys.
 pub trait OperationKind {
@@ -19,6 +19,11 @@ pub trait OperationKind {
 
     /// Whether faces = "all" means upright walls too, where material is cut.
     fn cuts_upright_walls(&self) -> bool;
+
+    /// Whether its tool leans: what it owes its faces is measured along them and not from above, and they may face down.
+    fn leans(&self) -> bool {
+        false
+    }
 
     /// Plans its moves.
     ///
@@ -70,8 +75,12 @@ pub trait OperationKind {
 }
 
 /// What the verifier's expectation of an operation's passes depends on besides its own keys.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct PassContext<'a> {
+    /// The part as it lies on the machine.
+    pub scene: &'a Scene,
+    /// The faces of the operation.
+    pub faces: &'a [u32],
     /// No pass is missed that holds a disc of this diameter, mm.
     pub smallest_feature: f64,
     /// Height from which levels count: the operation's, or the sheet's (the part's) highest point, work coordinates, mm.

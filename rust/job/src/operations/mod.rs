@@ -23,6 +23,7 @@ mod keys;
 mod kind;
 mod levels;
 mod links;
+mod rails;
 mod reached;
 mod step;
 mod surface;
@@ -45,6 +46,7 @@ kinds! {
         spiral::Spiral = "spiral",
         meridian::Meridian = "meridian",
         pocket::Pocket = "pocket",
+        flank::Flank = "flank",
     }
 }
 

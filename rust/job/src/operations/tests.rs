@@ -74,10 +74,13 @@ fn every_kind_plans_and_says_what_it_planned() {
         assert!(!summary.facts.is_empty(), "{name} has no figures");
         let tools = crate::resolve::tools(&job).unwrap();
         let body = tools.values().next().unwrap().0.body(None);
-        match job.operations[0].kind().passes(&PassContext { smallest_feature: 1.0, top: 0.0, body: &body }) {
+        let faces = [3, 4, 5, 6];
+        let given = PassContext { scene: &scene, faces: &faces, smallest_feature: 1.0, top: 0.0, body: &body };
+        match job.operations[0].kind().passes(&given) {
             Passes::Ordered(passes) => assert!(passes.pitch.largest() > 0.0, "{name}"),
             Passes::Crossed(sets) => assert!(sets.iter().all(|set| set.pitch.largest() > 0.0), "{name}"),
             Passes::Clearing(clearing) => assert!(clearing.angle > 0.0 && clearing.pitch.largest() > 0.0, "{name}"),
+            Passes::Flank(flank) => assert!(flank.max_error > 0.0 && flank.faces.len() == 4, "{name}"),
             Passes::Unordered { reason } => {
                 assert!(!reason.is_empty(), "{name} does not say why its passes are not checked");
             }

@@ -46,27 +46,35 @@ pub fn faces_in(
         (false, true) => Look::UpOrAside,
         (false, false) => Look::Up,
     };
-    chosen(selection, views, all, job.part.allow_undercuts, &path)
+    let allows_undercuts = job.part.allow_undercuts || section.kind().leans();
+    chosen(selection, views, all, allows_undercuts, &path)
 }
 
 /// How the passes of an operation lie that a tool makes.
-pub fn passes_of(job: &JobDocument, scene: &Scene, tool: &Tool, section: &OperationSection) -> Passes {
-    with_passes(job, scene, tool, section, |given| section.kind().passes(given))
+pub fn passes_of(
+    job: &JobDocument,
+    (scene, faces): (&Scene, &[u32]),
+    tool: &Tool,
+    section: &OperationSection,
+) -> Passes {
+    with_passes(job, (scene, faces), tool, section, |given| section.kind().passes(given))
 }
 
 /// The layers in which they form a sheet, if any.
 pub fn layers_of(job: &JobDocument, scene: &Scene, tool: &Tool, section: &OperationSection) -> Option<Layers> {
-    with_passes(job, scene, tool, section, |given| section.kind().layers(given))
+    with_passes(job, (scene, &[]), tool, section, |given| section.kind().layers(given))
 }
 
 fn with_passes<T>(
     job: &JobDocument,
-    scene: &Scene,
+    (scene, faces): (&Scene, &[u32]),
     tool: &Tool,
     section: &OperationSection,
     asked: impl FnOnce(&PassContext<'_>) -> T,
 ) -> T {
     asked(&PassContext {
+        scene,
+        faces,
         smallest_feature: section.common.smallest_feature,
         top: heights_of(job, scene, section).top.unwrap_or(scene.top),
         body: &tool.body(scene.sheet.as_ref()),
@@ -75,9 +83,9 @@ fn with_passes<T>(
 
 /// The passes of an operation of which each lies below the one before it; none of other operations.
 pub fn descent_of(job: &JobDocument, scene: &Scene, tool: &Tool, section: &OperationSection) -> Option<OrderedPasses> {
-    match passes_of(job, scene, tool, section) {
+    match passes_of(job, (scene, &[]), tool, section) {
         Passes::Ordered(passes) => Some(passes).filter(|passes| passes.scalar.descends()),
-        Passes::Crossed(_) | Passes::Clearing(_) | Passes::Unordered { .. } => None,
+        Passes::Crossed(_) | Passes::Clearing(_) | Passes::Flank(_) | Passes::Unordered { .. } => None,
     }
 }
 

@@ -59,6 +59,7 @@ impl Scene {
             stage_angle_deg: 0.0,
             stages: Vec::new(),
             changes: part.changes().to_vec(),
+            curves: part.curves.clone(),
             mesh,
             frame,
             sheet,

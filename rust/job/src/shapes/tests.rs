@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use styluscam_geometry::{kinds, Cutter, Facets, Frame, Mesh, ProfileDocument, Vector};
 
 use super::*;
@@ -132,7 +134,13 @@ fn pit() -> Part {
         let [a, b] = [first + i, first + (i + 1) % 4];
         triangles.extend([[a, b, b + 4], [a, b + 4, a + 4]]);
     }
-    Part { mesh: Mesh::new(vertices, &triangles, &[]).unwrap(), inward: 0.0, outward: 0.0, shaped: None }
+    Part {
+        mesh: Mesh::new(vertices, &triangles, &[]).unwrap(),
+        inward: 0.0,
+        outward: 0.0,
+        shaped: None,
+        curves: Arc::default(),
+    }
 }
 
 #[test]

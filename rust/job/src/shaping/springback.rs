@@ -3,6 +3,7 @@
 //! P' = P - c (sum of d_i(P)): d_i is how far the i-th formed part deviates from the target, at points of the target.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 use styluscam_geometry::{warped, DisplacementField, Frame, Mesh, Vector};
@@ -83,7 +84,7 @@ pub fn compensated(
         names: Vec::new(),
         trim: Vec::new(),
     });
-    Ok(Part { mesh: warped.mesh, inward, outward, shaped })
+    Ok(Part { mesh: warped.mesh, inward, outward, shaped, curves: Arc::default() })
 }
 
 fn not_absurd(index: usize, field: &DisplacementField, diagonal: f64) -> Result<(), JobError> {

@@ -2,6 +2,8 @@
 //!
 //! Derivation: docs/concepts/stages.md.
 
+use std::sync::Arc;
+
 use styluscam_geometry::{stage, Mesh};
 use styluscam_verify::Support;
 
@@ -149,5 +151,11 @@ pub fn staged(job: &JobDocument, part: &Part, angle_deg: f64) -> Result<Part, Jo
         names: part.names().to_vec(),
         trim: Vec::new(),
     };
-    Ok(Part { mesh: stage.mesh.placed(&back), inward: part.inward, outward: part.outward, shaped: Some(shaped) })
+    Ok(Part {
+        mesh: stage.mesh.placed(&back),
+        inward: part.inward,
+        outward: part.outward,
+        shaped: Some(shaped),
+        curves: Arc::default(),
+    })
 }

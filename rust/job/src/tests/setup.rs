@@ -1,10 +1,12 @@
 //! A part, jobs for it, and what they are planned and posted with.
 
-use styluscam_geometry::{Mesh, Vector};
+use std::sync::Arc;
+
+use styluscam_geometry::{Mesh, NurbsCurve, Vector};
 use styluscam_motion::Watch;
 use styluscam_post::Machine;
 
-use crate::{JobDocument, JobError, Part, Plan, Scene, Setting, MAIN_CHANNEL};
+use crate::{Curves, JobDocument, JobError, Part, Plan, Scene, Setting, MAIN_CHANNEL};
 
 /// A pyramid frustum of 20 x 20 mm, 4 mm high, with walls of 45 degrees: Face1 on top, Face2 below, Face3 to Face6 around.
 pub fn frustum() -> Part {
@@ -18,8 +20,18 @@ pub fn frustum() -> Part {
         triangles.extend([[i, j, j + 4], [i, j + 4, i + 4]]);
     }
     let faces: Vec<u32> = vec![1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6];
-    let mesh = Mesh::new(vertices, &triangles, &faces).unwrap();
-    Part { mesh, inward: 0.0, outward: 0.0, shaped: None }
+    let mesh = Mesh::new(vertices.clone(), &triangles, &faces).unwrap();
+    Part { mesh, inward: 0.0, outward: 0.0, shaped: None, curves: Arc::new(walls(&vertices)) }
+}
+
+/// The walls of a frustum, ruled between its lower and upper edges.
+fn walls(vertices: &[Vector]) -> Curves {
+    let line = |from: usize, to: usize| {
+        let poles = [from, to].map(|i| [vertices[i].x, vertices[i].y, vertices[i].z, 1.0]);
+        NurbsCurve::new(1, vec![0.0, 0.0, 1.0, 1.0], &poles).unwrap()
+    };
+    let wall = |i: usize| [line(i, (i + 1) % 4), line(i + 4, (i + 1) % 4 + 4)];
+    Curves { edges: Vec::new(), ruled: (3..).zip((0..4).map(wall)).collect() }
 }
 
 /// A milling job with one ball of 3 mm, whose operation has these lines besides its tool and tolerance.

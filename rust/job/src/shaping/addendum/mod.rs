@@ -5,6 +5,8 @@
 mod opening;
 mod section;
 
+use std::sync::Arc;
+
 use styluscam_geometry::{walled, Bvh, Frame, Vector, WallEnd, WallFault, WallShape, Walled};
 use styluscam_verify::Support;
 
@@ -95,7 +97,7 @@ pub fn extended(job: &JobDocument, section: &AddendumSection, part: &Part) -> Re
         trim,
     };
     // the addendum is what its triangles are: it is cut off, and no model states it
-    Ok(Part { mesh, inward: part.inward, outward: part.outward, shaped: Some(shaped) })
+    Ok(Part { mesh, inward: part.inward, outward: part.outward, shaped: Some(shaped), curves: Arc::default() })
 }
 
 /// Whether the blank lies below the part, as a sheet over a male die ends.

@@ -1,0 +1,216 @@
+//! What leaning tools enter: the profile, the shank and the holder against the whole part.
+//!
+//! Of the ruled surfaces that an operation mills, what its feeds do to them is measured along their normals (`swept`); there, and at
+//! the edges around them, feeds may enter by the error that is allowed.
+
+use rayon::prelude::*;
+use styluscam_geometry::{Tool, ToolPart, Vector};
+use styluscam_motion::{Cancelled, MoveKind, Watch};
+
+use super::found::Judged;
+use super::moves::{LeaningMove, Pose};
+use crate::body::Body;
+use crate::clearance::nearest;
+use crate::faults::{self, Fault, FaultKind};
+use crate::measure::gouge_level;
+use crate::place::Place;
+use crate::subject::{Limits, Subject};
+use crate::tolerances::SLACK;
+
+/// Distance between positions that are looked at, as a share of the tool's radius.
+const STEP: f64 = 0.125;
+/// Positions of a move at most.
+const MOST: usize = 512;
+/// A tool that is nearer to the part than this, mm, may touch it between two positions.
+const NEAR: f64 = 0.1;
+/// Parts of the golden section between positions: to 1e-4 of their distance.
+const SECTIONS: usize = 18;
+const RATIO: f64 = 0.618_033_988_749_894_9;
+
+/// A body of the tool, and what it is when it enters the part.
+struct Solid {
+    body: Body,
+    kind: Option<&'static FaultKind>,
+}
+
+/// The triangles of the surfaces that an operation mills.
+struct Own {
+    is_own: Vec<bool>,
+    corners: Vec<[Vector; 3]>,
+    max_error: f64,
+}
+
+/// Checks every move.
+///
+/// # Errors
+/// `Cancelled`.
+pub(super) fn judge(
+    moves: &[LeaningMove],
+    subject: &Subject,
+    limits: &Limits,
+    watch: &Watch,
+    judged: &mut Judged,
+) -> Result<(), Cancelled> {
+    watch.begin("verifying leaning tools", moves.len());
+    let solids: Vec<Vec<Solid>> = subject.tools.iter().map(solids).collect();
+    let owns: Vec<Option<Own>> = (0..subject.expected.len()).map(|number| Own::of(subject, number)).collect();
+    let limit = gouge_level(subject, limits);
+    let found = moves.par_iter().map(|step| {
+        watch.advance(1)?;
+        let Some(solids) = step.tool.and_then(|tool| solids.get(tool)) else { return Ok(Vec::new()) };
+        let own = step.expected.and_then(|number| owns.get(number)?.as_ref()).filter(|_| step.kind == MoveKind::Feed);
+        let of_solid = |solid: &Solid| {
+            let search = Search { step, body: &solid.body, subject, own, limit };
+            search.deepest().map(|(clearance, tip)| (step, solid.kind, clearance, tip))
+        };
+        Ok(solids.iter().filter_map(of_solid).collect())
+    });
+    for (step, kind, clearance, tip) in found.collect::<Result<Vec<Vec<_>>, Cancelled>>()?.into_iter().flatten() {
+        let depth = subject.deviation_inward - clearance;
+        let kind = kind.unwrap_or(match step.kind {
+            MoveKind::Rapid => &faults::RAPID_INTO_MATERIAL,
+            MoveKind::Feed => &faults::GOUGE,
+        });
+        let at = Place { line: step.line, position: tip.into() };
+        judged.faults.push(Fault::new(kind, step.index, step.line, at.position).measured(depth, limits.gouge));
+        if judged.gouge.is_none_or(|(known, _)| depth > known) {
+            judged.gouge = Some((depth, at));
+        }
+    }
+    Ok(())
+}
+
+fn solids(tool: &Tool) -> Vec<Solid> {
+    let above = tool.bodies_above(None).into_iter().map(|(part, solid)| {
+        let kind = match part {
+            ToolPart::Shank => &faults::SHANK,
+            ToolPart::Holder => &faults::HOLDER,
+        };
+        Solid { body: Body::of(solid), kind: Some(kind) }
+    });
+    std::iter::once(Solid { body: Body::new(tool, None), kind: None }).chain(above).collect()
+}
+
+impl Own {
+    fn of(subject: &Subject, number: usize) -> Option<Self> {
+        let passes = subject.expected.get(number)?.expectation.flank()?;
+        let faces: Vec<u32> = passes.faces.iter().filter_map(|face| face.face).collect();
+        let is_own: Vec<bool> = subject.mesh.faces().iter().map(|face| faces.contains(face)).collect();
+        let corners =
+            (0..is_own.len()).filter(|triangle| is_own[*triangle]).map(|triangle| subject.mesh.corners(triangle));
+        Some(Self { corners: corners.collect(), is_own, max_error: passes.max_error })
+    }
+
+    /// Whether a point lies on the surfaces or at their edges: within the error that is allowed there.
+    fn is_beside(&self, point: Vector) -> bool {
+        let reach = 2.0 * self.max_error + SLACK;
+        self.corners.iter().any(|corners| distance_squared(point, corners) <= reach * reach)
+    }
+}
+
+/// Looks for the deepest entry of a body on a move.
+struct Search<'a> {
+    step: &'a LeaningMove,
+    body: &'a Body,
+    subject: &'a Subject<'a>,
+    own: Option<&'a Own>,
+    /// The clearance at and below which a position counts as a gouge, mm.
+    limit: f64,
+}
+
+impl Search<'_> {
+    /// The least clearance, mm, if it is a gouge, and the tip there.
+    fn deepest(&self) -> Option<(f64, Vector)> {
+        let to = self.step.to;
+        let Some(from) = self.step.from else {
+            return self.clearance(&to).filter(|found| *found < self.limit - SLACK).map(|found| (found, to.tip));
+        };
+        let high = self.height();
+        let count = (from.apart(&to, high) / (STEP * self.body.radius())).ceil().clamp(1.0, MOST as f64) as usize;
+        let at = |i: f64| from.towards(&to, i / count as f64);
+        // what a rapid leaves behind is the fault of the move that brought the tool there
+        let first = usize::from(self.step.kind == MoveKind::Rapid);
+        let value = |i: f64| self.clearance(&at(i)).unwrap_or(f64::INFINITY);
+        let values: Vec<f64> = (0..=count).map(|i| value(i as f64)).collect();
+        let mut best = (f64::INFINITY, to.tip);
+        for i in first..=count {
+            let beside = [i.checked_sub(1), Some(i + 1)].map(|j| j.and_then(|j| values.get(j)).copied());
+            let is_lowest = beside.into_iter().flatten().all(|other| values[i] <= other);
+            if !(is_lowest && values[i] < self.limit + NEAR) {
+                continue;
+            }
+            let (mut low, mut upper) = ((i as f64 - 1.0).max(0.0), (i as f64 + 1.0).min(count as f64));
+            let mut found = (values[i], i as f64);
+            for _ in 0..SECTIONS {
+                let [p, q] = [upper - RATIO * (upper - low), low + RATIO * (upper - low)];
+                let [at_p, at_q] = [value(p), value(q)];
+                found = [(at_p, p), (at_q, q)].into_iter().fold(found, |a, b| if b.0 < a.0 { b } else { a });
+                if at_p < at_q {
+                    upper = q;
+                } else {
+                    low = p;
+                }
+            }
+            if found.0 < best.0 {
+                best = (found.0, at(found.1).tip);
+            }
+        }
+        (best.0 < self.limit - SLACK).then_some(best)
+    }
+
+    /// How high up the tool the part may reach, mm.
+    fn height(&self) -> f64 {
+        let (low, high) = self.subject.mesh.bounds();
+        (high - low).norm()
+    }
+
+    /// Of the body from the part, where it is nearly a gouge; deep or beside the tool's own surfaces, as far as that is none.
+    fn clearance(&self, pose: &Pose) -> Option<f64> {
+        let Self { body, subject, own, .. } = *self;
+        let frame = pose.frame();
+        let radius = body.radius();
+        let origin = body.position([0.0; 3]);
+        let bound = |node: &styluscam_geometry::Node| {
+            let middle = frame.turned((node.low + node.high) * 0.5 - pose.tip) - origin;
+            let half = 0.5 * (node.high - node.low).norm();
+            half - (libm::hypot(middle.x, middle.y) - radius).max(-middle.z)
+        };
+        let visit = |triangle: u32, best: f64| {
+            let is_own = own.is_some_and(|own| own.is_own.get(triangle as usize) == Some(&true));
+            if is_own {
+                return best;
+            }
+            let corners = subject.mesh.corners(triangle as usize);
+            let in_tool = corners.map(|corner| frame.turned(corner - pose.tip) - origin);
+            let Some((value, point)) = nearest(body, in_tool, -best) else { return best };
+            let at = || frame.back(point + origin) + pose.tip;
+            let is_allowed =
+                value < self.limit && own.is_some_and(|own| value >= self.limit - own.max_error && own.is_beside(at()));
+            if is_allowed {
+                best
+            } else {
+                -value
+            }
+        };
+        let nothing = -(self.limit + NEAR);
+        let found = subject.bvh.maximise(nothing, bound, visit);
+        (found > nothing).then_some(-found)
+    }
+}
+
+/// Of a point from a triangle (C. Ericson: Real-Time Collision Detection, 5.1.5).
+fn distance_squared(p: Vector, [a, b, c]: &[Vector; 3]) -> f64 {
+    let normal = (b - a).cross(&(c - a));
+    let inside =
+        [(a, b), (b, c), (c, a)].into_iter().all(|(from, to)| normal.cross(&(to - from)).dot(&(p - from)) >= 0.0);
+    if inside {
+        let over = normal.dot(&(p - a));
+        return over * over / normal.norm_squared();
+    }
+    let to_edge = |from: &Vector, to: &Vector| {
+        let along = to - from;
+        let share = ((p - from).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+        (from + along * share - p).norm_squared()
+    };
+    to_edge(a, b).min(to_edge(b, c)).min(to_edge(c, a))
+}

@@ -1,0 +1,16 @@
+//! What is found of leaning tools, as it is put together.
+
+use super::report::OperationFlank;
+use crate::faults::Fault;
+use crate::place::Place;
+
+/// What is found of a program's leaning tools.
+#[derive(Default)]
+pub(crate) struct Judged {
+    pub faults: Vec<Fault>,
+    pub flanks: Vec<OperationFlank>,
+    /// Deepest entry into the part, mm, and where.
+    pub gouge: Option<(f64, Place)>,
+    /// Most that is left of a surface that is milled, mm, and where.
+    pub excess: Option<(f64, Place)>,
+}

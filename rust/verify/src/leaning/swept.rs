@@ -1,0 +1,196 @@
+//! What a moving tool leaves of a ruled surface: over each of its points, along the normal, the lowest that any position cuts.
+
+use rayon::prelude::*;
+use styluscam_geometry::{Tool, Vector};
+use styluscam_motion::{Cancelled, MoveKind, Watch};
+
+use super::found::Judged;
+use super::moves::{LeaningMove, Pose};
+use super::report::FlankFaceError;
+use super::surface::{samples, POINTS};
+use crate::body::Body;
+use crate::expectation::{FlankFace, FlankPasses};
+use crate::faults::{self, Fault};
+use crate::place::Place;
+use crate::tolerances::SLACK;
+
+/// Positions of the whole movement, at least, among which the lowest is looked for; every end of a move is one of them.
+const LOOKED_AT: usize = 256;
+/// Parts of the golden section around it: to 1e-5 of the interval.
+const SECTIONS: usize = 24;
+const RATIO: f64 = 0.618_033_988_749_894_9;
+/// Steps to the tool along a normal; five are usual.
+const STEPS: usize = 40;
+/// A tool that comes so near to the end of a normal, mm, cuts there: rims end on rails, and coordinates are rounded.
+const TOUCH: f64 = 3e-3;
+
+/// Checks all surfaces of an operation.
+///
+/// # Errors
+/// `Cancelled`.
+pub(super) fn judge(
+    moves: &[&LeaningMove],
+    passes: &FlankPasses,
+    tool: &Tool,
+    watch: &Watch,
+    judged: &mut Judged,
+) -> Result<Vec<FlankFaceError>, Cancelled> {
+    let body = Body::new(tool, None);
+    let feeds: Vec<Feed> = moves.iter().filter_map(|step| Feed::of(step)).collect();
+    let parts = LOOKED_AT.div_ceil(feeds.len().max(1));
+    watch.begin("measuring ruled surfaces", passes.faces.len());
+    let mut errors = Vec::new();
+    for face in &passes.faces {
+        errors.push(of_face(face, &feeds, parts, &body, passes, judged));
+        watch.advance(1)?;
+    }
+    Ok(errors)
+}
+
+/// A feed move with its start.
+struct Feed<'a> {
+    step: &'a LeaningMove,
+    from: Pose,
+}
+
+impl<'a> Feed<'a> {
+    fn of(step: &'a LeaningMove) -> Option<Self> {
+        step.from.filter(|_| step.kind == MoveKind::Feed).map(|from| Self { step, from })
+    }
+
+    fn at(&self, share: f64) -> Pose {
+        self.from.towards(&self.step.to, share)
+    }
+}
+
+fn of_face(
+    face: &FlankFace,
+    feeds: &[Feed<'_>],
+    parts: usize,
+    body: &Body,
+    passes: &FlankPasses,
+    judged: &mut Judged,
+) -> FlankFaceError {
+    let points = samples(face);
+    let left: Vec<(f64, Option<(usize, f64)>)> =
+        points.par_iter().with_min_len(8).map(|(point, normal)| lowest(*point, *normal, feeds, parts, body)).collect();
+    let place = |at: Option<(usize, f64)>| {
+        at.and_then(|(number, share)| feeds.get(number).map(|feed| (feed, feed.at(share).tip)))
+            .map(|(feed, tip)| (feed.step, Place { line: feed.step.line, position: tip.into() }))
+    };
+    let beyond = |value: f64| value - passes.left;
+    let met = || left.iter().filter(|(value, _)| value.is_finite());
+    let deepest = met().min_by(|a, b| a.0.total_cmp(&b.0));
+    let highest = met().max_by(|a, b| a.0.total_cmp(&b.0));
+    let missed = left.iter().filter(|(value, _)| !value.is_finite()).count();
+    let over = deepest.map_or(0.0, |(value, _)| (-beyond(*value)).max(0.0));
+    let under = highest.map_or(0.0, |(value, _)| beyond(*value).max(0.0));
+    let over_at = deepest.filter(|_| over > 0.0).and_then(|(_, at)| place(*at));
+    let under_at = highest.filter(|_| under > 0.0).and_then(|(_, at)| place(*at));
+    for (kind, value, at) in [(&faults::FLANK_ENTERS, over, over_at), (&faults::FLANK_LEAVES, under, under_at)] {
+        let Some((step, at)) = at.filter(|_| value > passes.max_error + SLACK) else { continue };
+        let fault = Fault::new(kind, step.index, step.line, at.position);
+        judged.faults.push(fault.measured(value, passes.max_error));
+    }
+    if missed > 0 {
+        let number = left.iter().position(|(value, _)| !value.is_finite()).unwrap_or(0);
+        let (index, line) = feeds.first().map_or((0, 0), |feed| (feed.step.index, feed.step.line));
+        let at = points.get(number).map_or([0.0; 3], |(point, _)| <[f64; 3]>::from(*point));
+        let share = 100.0 * missed as f64 / left.len() as f64;
+        judged.faults.push(Fault::new(&faults::FLANK_MISSES, index, line, at).measured(share, 0.0));
+    }
+    for (worst, value, at) in [(&mut judged.gouge, over, over_at), (&mut judged.excess, under, under_at)] {
+        if let Some((_, at)) = at.filter(|_| worst.is_none_or(|(known, _)| value > known)) {
+            *worst = Some((value, at));
+        }
+    }
+    FlankFaceError {
+        name: face.name.clone(),
+        over,
+        over_at: over_at.map(|(_, at)| at),
+        under,
+        under_at: under_at.map(|(_, at)| at),
+        missed: missed as f64 / left.len().max(1) as f64,
+        left: left.chunks(POINTS).map(|row| row.iter().map(|(value, _)| beyond(*value)).collect()).collect(),
+        points: points.chunks(POINTS).map(|row| row.iter().map(|(point, _)| (*point).into()).collect()).collect(),
+    }
+}
+
+/// The lowest that any position cuts over a point, and in which move and where on it; infinite where none comes there.
+fn lowest(point: Vector, normal: Vector, feeds: &[Feed<'_>], parts: usize, body: &Body) -> (f64, Option<(usize, f64)>) {
+    let height = |number: usize, share: f64| over(point, normal, &feeds[number].at(share), body);
+    let mut best = (f64::INFINITY, None);
+    for number in 0..feeds.len() {
+        for part in 0..=parts {
+            let share = part as f64 / parts as f64;
+            let found = height(number, share);
+            if found < best.0 {
+                best = (found, Some((number, share)));
+            }
+        }
+    }
+    let (_, Some((number, share))) = best else { return best };
+    // on both sides of it, in its own move and beyond its ends in the neighbours
+    let wide = 1.0 / parts as f64;
+    let mut intervals = vec![(number, (share - wide).max(0.0), (share + wide).min(1.0))];
+    if share <= 0.0 && number > 0 {
+        intervals.push((number - 1, 1.0 - wide, 1.0));
+    }
+    if share >= 1.0 && number + 1 < feeds.len() {
+        intervals.push((number + 1, 0.0, wide));
+    }
+    for (number, mut low, mut high) in intervals {
+        for _ in 0..SECTIONS {
+            let [p, q] = [high - RATIO * (high - low), low + RATIO * (high - low)];
+            let [at_p, at_q] = [height(number, p), height(number, q)];
+            let (share, found) = if at_p < at_q { (p, at_p) } else { (q, at_q) };
+            if found < best.0 {
+                best = (found, Some((number, share)));
+            }
+            if at_p < at_q {
+                high = q;
+            } else {
+                low = p;
+            }
+        }
+    }
+    best
+}
+
+/// How far over a point, along its normal, a tool begins, mm: below 0 where it is entered; infinite where the normal passes beside it.
+///
+/// Along a line the distance from a convex body is convex: Newton's steps from outside never pass the first place where it is 0.
+fn over(point: Vector, normal: Vector, pose: &Pose, body: &Body) -> f64 {
+    let frame = pose.frame();
+    let (from, way) = (frame.turned(point - pose.tip), frame.turned(normal));
+    let distance = |along: f64| {
+        let found = body.distance(from + way * along);
+        (found.value - TOUCH, found.away.dot(&way))
+    };
+    let mut along = 0.0;
+    let mut back = TOUCH;
+    while distance(along).0 < 0.0 {
+        if back > 4.0 * body.radius() {
+            return f64::INFINITY;
+        }
+        along -= back;
+        back *= 4.0;
+    }
+    for _ in 0..STEPS {
+        let (gap, slope) = distance(along);
+        if gap <= 1e-9 {
+            return along + TOUCH;
+        }
+        if slope >= 0.0 {
+            return f64::INFINITY;
+        }
+        along -= gap / slope;
+        if along.abs() > FAR {
+            return f64::INFINITY;
+        }
+    }
+    along + TOUCH
+}
+
+/// Farther off nothing is left of a surface, mm.
+const FAR: f64 = 1e4;
