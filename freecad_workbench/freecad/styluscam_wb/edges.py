@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The edges around FreeCAD's faces, for the engine's mesher."""
+"""The edges around FreeCAD's faces: for the engine's mesher, and as curves."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from styluscam.flank.rails import Rail
     from styluscam.parts.surfaces import ExactSurface, Vector
     from styluscam.parts.trimmed import Edge, EdgeUse, Face, Model
 
@@ -33,6 +34,28 @@ def model_of(faces: Sequence[Any], surfaces: Sequence[ExactSurface]) -> Model | 
         return Model([_edge(shape) for shape in edges.shapes], described)
     except (Part.OCCError, RuntimeError, TypeError, ValueError):
         return None
+
+
+def curves_of(shape: Any) -> tuple[Rail | None, ...]:
+    """The curves of a shape's edges from end to end, Edge1's first; None for an edge without one."""
+    return tuple(_curve(edge) for edge in shape.Edges)
+
+
+def _curve(edge: Any) -> Rail | None:
+    import Part
+
+    from styluscam.flank.rails import Rail
+
+    if edge.Degenerated:
+        return None
+    try:
+        curve = edge.Curve.toBSpline(*edge.ParameterRange)
+        if curve.isPeriodic():
+            curve.setNotPeriodic()
+    except (Part.OCCError, AttributeError, RuntimeError, TypeError):
+        return None
+    poles = np.array([_xyz(pole) for pole in curve.getPoles()])
+    return Rail(int(curve.Degree), np.array(curve.KnotSequence), poles, np.array(curve.getWeights()))
 
 
 class _Edges:

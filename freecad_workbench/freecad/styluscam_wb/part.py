@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import engine
-from .edges import model_of
+from .edges import curves_of, model_of
 from .surfaces import surface_of, with_uv
 
 if TYPE_CHECKING:
@@ -92,7 +92,15 @@ def arrays_of(shape: Any, tolerance: float, name: str, progress: Progress | None
     kinds = [assembly.kind_of(surface) for surface in surfaces]
     notes = () if bare.isClosed() else ("the model is not a closed solid: its material side is a guess",)
     return assembly.assemble(
-        source, tolerance, "mm", notes=notes, surfaces=surfaces, kinds=kinds, areas=areas, tessellation=tessellation
+        source,
+        tolerance,
+        "mm",
+        notes=notes,
+        surfaces=surfaces,
+        kinds=kinds,
+        areas=areas,
+        tessellation=tessellation,
+        edges=curves_of(bare),
     )
 
 

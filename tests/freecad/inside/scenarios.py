@@ -538,6 +538,7 @@ SCENARIOS: dict[str, Scenario] = {
     "tool bit": tool_bit,
     "shapes": shapes,
     "faces": faces_as_in_the_file,
+    "rails": own("rails_as_in_the_file", lambda: Path(STEP).with_name("blade.step"), file="rails.py"),
     "once": once_a_session,
     "two tools": two_tools,
     "first of two tools": first_of_two_tools,
