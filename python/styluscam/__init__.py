@@ -29,7 +29,6 @@ _MODULES = {
     "parts.part": ("Part",),
     "pocketing.contour": ("contour_path",),
     "pocketing.path": ("PocketPath", "pocket_path"),
-    "programs.five_axis": ("FiveAxes", "RotaryAxis"),
     "programs.job": ("Job", "job_schema", "starter_job"),
     "programs.machine": ("Machine",),
     "programs.planning": ("Plan", "Posted", "plan", "post", "read_gcode"),

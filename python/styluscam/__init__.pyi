@@ -21,7 +21,6 @@ from styluscam.offset.positions import drop_cutter, push_cutter, slope_matched_o
 from styluscam.offset.surface import OffsetSurface, offset_surface
 from styluscam.parts.part import Part
 from styluscam.pocketing.path import PocketPath, pocket_path
-from styluscam.programs.five_axis import FiveAxes, RotaryAxis
 from styluscam.programs.job import Job, job_schema, starter_job
 from styluscam.programs.machine import Machine
 from styluscam.programs.planning import Plan, Posted, plan, post, read_gcode
@@ -32,7 +31,6 @@ from styluscam.tools.tool import Tool
 __all__ = [
     "CancelToken",
     "Cancelled",
-    "FiveAxes",
     "FlankError",
     "FlankPositions",
     "GeometryError",
@@ -49,7 +47,6 @@ __all__ = [
     "Program",
     "Rail",
     "Report",
-    "RotaryAxis",
     "RunEngagement",
     "RunResult",
     "Simulation",

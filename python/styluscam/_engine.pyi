@@ -9,8 +9,6 @@ import numpy.typing as npt
 _F = npt.NDArray[np.float64]
 _I = npt.NDArray[np.int64]
 _Guides = list[tuple[float, float]]
-_Point = tuple[float, float, float]
-_RotaryAxis = tuple[str, bool, _Point, _Point, tuple[float, float]]
 _Progress = Callable[[str, float], bool | None]
 
 __all__ = [
@@ -24,7 +22,6 @@ __all__ = [
     "Part",
     "Plan",
     "Program",
-    "Rotary",
     "RuledStrip",
     "Scene",
     "Simulation",
@@ -432,18 +429,6 @@ class RuledStrip:
     def positions_within(self, radius: float, half_angle: float, tolerance: float, method: str) -> tuple[_F, _F]: ...
     def points(self, shares: _F) -> tuple[_F, _F]: ...
     def left(self, from_: _F, to: _F, shape: tuple[float, float], shares: _F) -> _F: ...
-
-@final
-class Rotary:
-    def __new__(
-        cls,
-        axes: tuple[_RotaryAxis, _RotaryAxis],
-        tip_control: list[str] | None,
-        angle_decimals: int,
-        tolerance: float,
-    ) -> Rotary: ...
-    def post(self, program: Program, machine: Machine) -> str: ...
-    def read(self, text: str, machine: Machine) -> tuple[_F, _F]: ...
 
 @final
 class FootSearch:

@@ -52,7 +52,7 @@ def test_native_commands_are_posted_as_they_are(session: Any, name: str, lines: 
 
 def test_a_fourth_axis_is_refused_and_its_operation_named(session: Any) -> None:
     refused = session["native axis"]["post"]["refused"]
-    assert refused.startswith("Own lines: line") and "three axes" in refused
+    assert refused.startswith("Own lines: line") and "no such word" in refused
 
 
 def test_work_offsets_go_to_files_of_their_own(session: Any, linuxcnc: Any) -> None:

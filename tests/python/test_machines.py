@@ -109,7 +109,9 @@ def test_linuxcnc_moves_as_the_trials_say(machine: str) -> None:
     compared = 0
     for name, text in trials(machine):
         # other zero points and positions that nobody knows; a spindle that does not turn there
-        if name.startswith(("another", "work offset", "probing", "feeds per revolution", "waiting")):
+        if name.startswith(
+            ("another", "work offset", "probing", "feeds per revolution", "waiting", "leaning", "a leaning")
+        ):
             continue
         code = common(text, machine)
         try:

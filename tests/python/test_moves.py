@@ -81,7 +81,7 @@ def test_axes_beside_the_moves_are_read_into_them() -> None:
 
 def test_a_machine_of_three_axes_refuses_a_tilted_tool() -> None:
     program = sc.Program.from_json(document({"axis": TILTED}))
-    with pytest.raises(sc.StylusError, match="tool axis of move 2") as caught:
+    with pytest.raises(sc.StylusError, match="leans in move 2") as caught:
         sc.post(program, "linuxcnc")
     assert (caught.value.code, caught.value.where) == ("post-tool-axis", "moves[2]")
 

@@ -19,7 +19,6 @@ mod plane;
 mod posting;
 mod program;
 mod reading;
-mod rotary;
 mod scene;
 mod shapes;
 mod shaping;
@@ -63,8 +62,6 @@ mod _engine {
     use crate::program::Program;
     #[pymodule_export]
     use crate::reading::{read_back, read_gcode, read_to_post, trace_gcode};
-    #[pymodule_export]
-    use crate::rotary::Rotary;
     #[pymodule_export]
     use crate::scene::Scene;
     #[pymodule_export]

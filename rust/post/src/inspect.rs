@@ -107,20 +107,32 @@ impl<'a> Inspector<'a> {
 
     /// Inspects a move from `start`: its operation, its feed, its path in the machine.
     pub fn step(&mut self, index: usize, start: Option<[f64; 3]>, step: &Move) -> Result<(), PostError> {
-        self.moves += 1;
-        if step.operation as usize >= self.head.operations.len() {
-            let place = format!("moves[{index}]");
-            return Err(PostError::NoSuchRecord { place, what: "operation", index: step.operation });
-        }
-        // no machine file describes axes that turn the tool
-        if !step.end.axis.is_up() {
+        self.inspect_operation(index, step)?;
+        if !step.end.axis.is_up() && self.machine.rotary.is_none() {
             return Err(PostError::ToolAxis { index });
         }
         if self.machine.motion.lathe.is_some() && step.end.tip[1].abs() > FLAT {
             return Err(PostError::NoSuchAxis { index, axis: 'Y', value: step.end.tip[1] });
         }
         self.inspect_feed(index, step)?;
-        self.inspect_range(index, start, step)
+        let (least, most) = step.bounds(start);
+        self.inspect_range(index, [least, most])
+    }
+
+    /// Inspects a move during which the linear axes stand at these positions, mm.
+    pub fn lean(&mut self, index: usize, step: &Move, stands: &[[f64; 3]]) -> Result<(), PostError> {
+        self.inspect_operation(index, step)?;
+        self.inspect_feed(index, step)?;
+        stands.iter().try_for_each(|stand| self.inspect_range(index, [*stand; 2]))
+    }
+
+    fn inspect_operation(&mut self, index: usize, step: &Move) -> Result<(), PostError> {
+        self.moves += 1;
+        if step.operation as usize >= self.head.operations.len() {
+            let place = format!("moves[{index}]");
+            return Err(PostError::NoSuchRecord { place, what: "operation", index: step.operation });
+        }
+        Ok(())
     }
 
     /// Compares the whole with the machine's travel.
@@ -155,14 +167,13 @@ impl<'a> Inspector<'a> {
         Ok(())
     }
 
-    /// Compares the posted point, the tool's reference, with the machine's range.
-    fn inspect_range(&mut self, index: usize, start: Option<[f64; 3]>, step: &Move) -> Result<(), PostError> {
+    /// Compares the posted point, the tool's reference, between two corners with the machine's range.
+    fn inspect_range(&mut self, index: usize, [least, most]: [[f64; 3]; 2]) -> Result<(), PostError> {
         let limits = &self.machine.limits;
         let ranges = [limits.x, limits.y, limits.z];
         if ranges.iter().all(Option::is_none) && limits.travel.is_none() {
             return Ok(());
         }
-        let (least, most) = step.bounds(start);
         for axis in 0..3 {
             let above = if axis == 2 { self.height } else { 0.0 };
             for value in [least[axis] + above, most[axis] + above] {

@@ -38,7 +38,7 @@ pub use post_error::PostError;
 pub use read_error::{ReadError, ReadFault};
 pub use reader::{read, Reading};
 pub use repost::{read_to_post, RepostError};
-pub use rotary::{read_rotary, rotary_text, Carrier, RotaryAxes, RotaryAxis, RotaryError, RotaryText};
+pub use rotary::{RotaryAxes, RotaryError};
 pub use template::Facts;
 pub use trial::{check, difference, try_out, Outcome, Trial, TrialError};
 pub use writer::{post, post_to, Posted, Poster};

@@ -38,7 +38,7 @@ pub const NAMES: [(&str, &str); 29] = [
 ];
 
 /// Names of one template only: the template's key, the name, what it is.
-pub const OWN_NAMES: [(&str, &str, &str); 17] = [
+pub const OWN_NAMES: [(&str, &str, &str); 19] = [
     (
         "templates.tool_change",
         "retract",
@@ -59,6 +59,8 @@ pub const OWN_NAMES: [(&str, &str, &str); 17] = [
     ("templates.operation_", "operation.kind", "its kind: z-level"),
     ("templates.stop", "optional", "whether it is an optional stop"),
     ("templates.sync", "mark", "the number that both programs have there"),
+    ("rotary.tip_control.on", "tool.number", "the tool's number"),
+    ("rotary.tip_control.on", "tool.length_offset", "its length offset's number"),
     ("smoothing.on", "tolerance", "how far the path may be left, in output units, rounded down"),
 ];
 

@@ -4,6 +4,7 @@ use styluscam_motion::SpindleDirection;
 
 use crate::faults::faults;
 use crate::machine::MachineError;
+use crate::rotary::RotaryError;
 
 faults! {
     /// A program that this machine cannot be given. Nothing is written then.
@@ -13,6 +14,9 @@ faults! {
     @transparent
     /// The machine's own values or templates are at fault. Correct the machine file.
     Machine(MachineError);
+    @transparent
+    /// The machine's rotary axes cannot follow the program.
+    Rotary(RotaryError);
     /// The program has no moves.
     Empty = "post-empty", ("the program has no moves"), "find out why planning found nothing to do";
     /// The machine has no such work offset.
@@ -189,12 +193,12 @@ faults! {
         cycle: usize,
     } = "post-cycle-moves", ("cycle {cycle} does not match its moves"),
         "the program was built wrongly: report it";
-    /// The program turns the tool's axis; the machine has three axes.
+    /// The tool leans, and the machine has no rotary axes.
     ToolAxis {
         /// The move.
         index: usize,
-    } = "post-tool-axis", ("the tool axis of move {index} is not +Z; this machine has three axes and cannot turn it"),
-        "post it for a machine that turns the tool";
+    } = "post-tool-axis", ("the tool leans in move {index}: its axis is not +Z there, and the machine has no rotary axes"),
+        "post it for a machine with rotary axes: a machine file states them in [rotary], as linuxcnc-trunnion does";
     /// A move's feed is per revolution or in inverse time; what the writer takes is mm/min, and the machine file decides how
     /// it is written.
     FeedMode {
@@ -231,6 +235,7 @@ impl PostError {
     pub fn location(&self) -> String {
         match self {
             Self::Machine(error) => error.location(),
+            Self::Rotary(error) => format!("moves[{}]", error.index()),
             Self::Empty => "moves".into(),
             Self::Wcs { .. } => "setup.wcs".into(),
             Self::Number { place, .. } | Self::NoSuchRecord { place, .. } => place.clone(),

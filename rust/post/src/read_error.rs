@@ -69,9 +69,9 @@ faults! {
         "remove the %, or take the machine file of the controller that the program is for";
     /// A `/` where the machine takes none.
     BlockDelete = "read-block-delete", ("the machine takes no / before a block"), "remove the / or the block";
-    /// A letter that means nothing on three axes: A, B, C, U, V, W are further axes.
-    UnknownWord = "read-unknown-word", ("no such word on a machine with three axes"),
-        "remove the word: repeats, and axes other than X, Y and Z, are not read";
+    /// A letter that means nothing on the machine: A, B, C, U, V, W are further axes.
+    UnknownWord = "read-unknown-word", ("no such word on this machine"),
+        "remove the word: repeats are not read, nor are axes beside X, Y, Z and those of the machine file's [rotary]";
     /// A G or M code that this reader does not know.
     UnknownCode = "read-unknown-code", ("this code is not known"),
         "remove the code, or post the program again for this machine";
@@ -212,6 +212,12 @@ faults! {
     /// Words that this reader does not know.
     UnknownWords = "read-unknown-words", ("these words are not known"),
         "remove the words, or post the program again for this machine";
+    /// Rotary axes turn so far that the tool's path in the part takes too many straight moves.
+    PathTooLong {
+        /// How many are made.
+        most: usize,
+    } = "read-path-too-long", ("the tool's path in the part takes more than {most} straight moves"),
+        "split the program, or turn the rotary axes less far from line to line";
     /// Text after M2 or M30, which the machine would run.
     AfterEnd = "read-after-end", ("text after M2 or M30, which the machine would run"),
         "delete it, or delete the earlier M2 or M30";

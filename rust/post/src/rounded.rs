@@ -39,6 +39,15 @@ impl RoundedArc {
         [0, 1, 2].map(|axis| self.from[axis] + self.offset[axis])
     }
 
+    /// The path that is posted; `unit` is the last decimal, mm.
+    pub fn path(&self, unit: f64) -> ArcPath {
+        let scale = [self.x_scale, 1.0, 1.0];
+        let position = |count: [i64; 3]| [0, 1, 2].map(|axis| count[axis] as f64 * unit / scale[axis]);
+        let start = position(self.from);
+        let centre = [0, 1, 2].map(|axis| start[axis] + self.offset[axis] as f64 * unit);
+        Arc { centre, ..self.arc }.path(start, position(self.to))
+    }
+
     /// Whether a controller takes it for the path that is meant; `unit` is the last decimal, mm.
     ///
     /// A path too short for its ends to differ once rounded would be taken for a full circle.
@@ -47,11 +56,7 @@ impl RoundedArc {
         if !rules.planes.contains(&self.arc.plane) || !(rules.helix || self.from[third] == self.to[third]) {
             return false;
         }
-        let scale = [self.x_scale, 1.0, 1.0];
-        let position = |count: [i64; 3]| [0, 1, 2].map(|axis| count[axis] as f64 * unit / scale[axis]);
-        let start = position(self.from);
-        let centre = [0, 1, 2].map(|axis| start[axis] + self.offset[axis] as f64 * unit);
-        let posted = Arc { centre, ..self.arc }.path(start, position(self.to));
+        let posted = self.path(unit);
         let as_meant = (posted.sweep() - path.sweep()).abs() < 1.0 && posted.sweep().abs() > LEAST;
         let radius = posted.radius();
         let in_range =

@@ -93,6 +93,7 @@ impl<'m> Templater<'m> {
             ("retract.lines", &self.machine.retract.lines),
             ("templates.program_end", &templates.program_end),
             ("smoothing.on", self.machine.smoothing.on.as_deref().unwrap_or_default()),
+            ("rotary.tip_control.on", self.tip_control_source()),
         ]
     }
 
@@ -117,6 +118,11 @@ impl<'m> Templater<'m> {
             ToolChange::LoadBeforeStart => CHANGE_LOADED,
             ToolChange::Unsaid => CHANGE_NOT_STATED,
         })
+    }
+
+    fn tip_control_source(&self) -> &'m str {
+        let control = self.machine.rotary.as_ref().and_then(|rules| rules.tip_control.as_ref());
+        control.map(|control| control.on.as_str()).unwrap_or_default()
     }
 
     /// What every template may use.
@@ -190,6 +196,13 @@ impl<'m> Templater<'m> {
         names.insert("length_words".into(), length_words.into());
         names.insert("first".into(), first.into());
         self.fill("templates.tool_change", self.tool_change_source(), &names)
+    }
+
+    /// The block from which on the control tracks the tip of a tool.
+    pub(crate) fn tip_control(&self, names: &Names, tool: &ToolRecord) -> Result<String, MachineError> {
+        let mut names = names.clone();
+        names.insert("tool".into(), tool_value(tool));
+        self.fill("rotary.tip_control.on", self.tip_control_source(), &names)
     }
 
     /// The text where an operation begins.

@@ -30,6 +30,8 @@ pub(crate) enum Code {
     /// Whether it is switched on: G41, not G40.
     Compensation(bool),
     Length(Length),
+    /// Whether the control tracks the tip, by a machine's own code.
+    TipControl(bool),
     MachineCoordinates,
     WorkOffset,
     /// How closely the path is kept: G61, G64.
@@ -76,6 +78,8 @@ pub(crate) enum Length {
     Words,
     /// G43.2: added to the one in force.
     Added,
+    /// G43.4, where a machine's file has it: the table's, and the control tracks the tip.
+    Tip,
     /// G49.
     Off,
 }

@@ -2,10 +2,11 @@
 
 use super::error::MachineError;
 use super::rules::ranges;
-use super::rules::{CommentForm, SpeedUnit, ToolChange};
+use super::rules::{CommentForm, Family, FeedMode, RotaryRules, SpeedUnit, ToolChange};
 use super::values::{Machine, MACHINE_SCHEMA};
 use crate::comment::CommentFormat;
 use crate::number::MAX_DECIMALS;
+use crate::rotary::RotaryAxes;
 use crate::template::Templater;
 
 impl Machine {
@@ -29,6 +30,7 @@ fn check(machine: &Machine) -> Result<(), MachineError> {
     check_smoothing(machine)?;
     check_arc(machine)?;
     check_limits(machine)?;
+    check_rotary(machine)?;
     check_options(machine)?;
     check_reader(machine)?;
     Templater::new(machine).check()
@@ -224,6 +226,35 @@ fn check_limits(machine: &Machine) -> Result<(), MachineError> {
 
 fn positive(value: f64) -> bool {
     value.is_finite() && value > 0.0
+}
+
+fn check_rotary(machine: &Machine) -> Result<(), MachineError> {
+    let Some(rules) = &machine.rotary else { return Ok(()) };
+    require(machine.family == Family::Gcode, "rotary", "rotary axes are written as G-code only, family = \"gcode\"")?;
+    require(machine.motion.lathe.is_none(), "rotary", "a machine of X and Z has no rotary axes here")?;
+    RotaryAxes::new(rules.axes)?;
+    let places = rules.angle_decimals;
+    require((1..=MAX_DECIMALS).contains(&places), "rotary.angle_decimals", "1 to 8 decimal places")?;
+    let tolerance = rules.tip_tolerance;
+    require((1e-6..=10.0).contains(&tolerance), "rotary.tip_tolerance", "0.000001 to 10 mm")?;
+    check_tip_control(rules)?;
+    let timed = machine.feed.mode == FeedMode::InverseTime && machine.feed.inverse_time.is_some();
+    require(
+        rules.tip_control.is_some() || timed,
+        "feed.mode",
+        "rotary axes without rotary.tip_control need feeds in inverse time: write mode = \"inverse-time\" and inverse_time, its code",
+    )
+}
+
+fn check_tip_control(rules: &RotaryRules) -> Result<(), MachineError> {
+    let Some(control) = &rules.tip_control else { return Ok(()) };
+    for (key, block) in [("on", &control.on), ("off", &control.off)] {
+        let one = block.lines().count() == 1;
+        require(one, &format!("rotary.tip_control.{key}"), "one block")?;
+    }
+    let [on, off] = control.codes();
+    require(on.is_some(), "rotary.tip_control.on", "begin with a code, as in G43.4 H{{ tool.length_offset }}")?;
+    require(off.is_some() && off != on, "rotary.tip_control.off", "begin with a code other than that of on, as in G49")
 }
 
 fn check_options(machine: &Machine) -> Result<(), MachineError> {

@@ -4,6 +4,7 @@ mod charset;
 mod functions;
 mod motion;
 mod reading;
+mod rotary;
 mod source;
 mod text;
 
@@ -17,6 +18,7 @@ pub use motion::{
     SmoothingRules, Turns,
 };
 pub use reading::{AfterEnd, BlockDelete, ReaderRules, Templates};
+pub use rotary::{Carrier, RotaryAxis, RotaryRules, TipControl};
 pub use source::{Evidence, Family, ProgramName, ProgramNumber, ProgramRules, Source};
 pub use text::{
     BlockNumber, CommentForm, CommentRules, Counted, Decimals, LengthUnit, LineEnd, LineRules, NumberRules, Numbered,

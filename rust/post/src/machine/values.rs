@@ -89,6 +89,8 @@ pub struct Machine {
     pub cycle: Option<CycleRules>,
     /// Probing; a machine without it refuses it.
     pub probe: Option<ProbeRules>,
+    /// Axes that turn the part or the tool; a machine without them refuses tools that lean.
+    pub rotary: Option<RotaryRules>,
     /// What the machine can do.
     pub limits: Limits,
     /// Options of the templates.
@@ -189,6 +191,11 @@ impl Machine {
         NumberFormat::new(&self.number, self.decimals().linear)
     }
 
+    /// How angles of rotary axes are written.
+    pub(crate) fn angle_format(&self) -> NumberFormat {
+        NumberFormat::new(&self.number, self.rotary.as_ref().map_or(0, |rules| rules.angle_decimals))
+    }
+
     /// How feeds are written in the mode in force; they are never negative.
     pub(crate) fn feed_format(&self) -> NumberFormat {
         let decimals = self.decimals();
@@ -198,6 +205,16 @@ impl Machine {
             FeedMode::InverseTime => decimals.inverse_time,
         };
         NumberFormat::new(&self.number, places).unsigned()
+    }
+
+    /// The length, mm, whose feed a block takes whose tip goes so far while an axis turns so much, deg: a turn on the spot takes as
+    /// long as a mm for each degree.
+    pub(crate) fn way(&self, length: f64, turned_deg: f64) -> f64 {
+        if length < self.resolution_mm() {
+            turned_deg.max(length)
+        } else {
+            length
+        }
     }
 
     /// How many F there are to one output unit in a minute.

@@ -52,7 +52,7 @@ impl Tracer<'_> {
         let number = block.count(b'h', "H")?.unwrap_or(self.loaded);
         let length = block.codes().filter_map(|code| if let Code::Length(length) = code { Some(length) } else { None });
         let offset = match length.last() {
-            Some(Length::Table) => self.length_of(number),
+            Some(Length::Table | Length::Tip) => self.length_of(number),
             Some(Length::Words) => {
                 let words = self.lengths(block);
                 [0, 1, 2].map(|axis| words[axis].unwrap_or(self.offsets.tool[axis]))

@@ -54,7 +54,9 @@ modal_groups! {
     plane: Code::Plane(plane) => plane, Plane;
     unit: Code::Unit(unit) => unit, LengthUnit;
     incremental: Code::Incremental(on) => on, bool;
-    length: Code::Length(length) => length == Length::Table, bool;
+    length: Code::Length(length) => matches!(length, Length::Table | Length::Tip), bool;
+    length_kind: Code::Length(length) => length, Length;
+    tracking: Code::TipControl(on) => on, bool;
     stop: Code::Stop(stop) => stop, Stop;
     spindle: Code::Spindle(direction) => direction, Option<SpindleDirection>;
     ; dwell: Code::Dwell;
@@ -92,6 +94,7 @@ impl Block {
             b'X' | b'Y' | b'Z' | b'F' | b'S' | b'T' | b'H' | b'D' | b'P' | b'Q' | b'N' | b'I' | b'J' | b'K' => {
                 self.take_word(word.letter, word)
             }
+            b'A' | b'B' | b'C' if codes.turns(word.letter) => self.take_word(word.letter, word),
             TURN => once(&mut self.turns, word).map_err(|Twice| ReadFault::WordTwice),
             b'G' => self.take_code(shared_g(word.number)?, word, ReadFault::SameGroup),
             b'M' => self.take_m(word),
@@ -158,7 +161,12 @@ impl Block {
 
     /// The first axis word, if any.
     pub(crate) fn any_axis(&self) -> Option<Word> {
-        self.axes().into_iter().flatten().next()
+        self.axes().into_iter().flatten().next().or(self.turn_word())
+    }
+
+    /// The first word of a rotary axis, if any.
+    pub(crate) fn turn_word(&self) -> Option<Word> {
+        [b'A', b'B', b'C'].into_iter().find_map(|letter| self.words.get(letter))
     }
 
     /// The words that shape an arc, as far as they are there.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::lexer::Word;
 use crate::block::{code, Code, Length, Stop};
-use crate::machine::{FeedMode, LengthUnit, Machine, MachineError};
+use crate::machine::{FeedMode, LengthUnit, Machine, MachineError, TipControl};
 use crate::template::Templater;
 
 /// What a code means on one machine.
@@ -25,6 +25,8 @@ pub(super) struct Codes {
     wcs: Vec<WcsWords>,
     /// The smoothing's blocks without spaces, and the tolerance that each sets, mm.
     smoothing: Vec<(String, f64)>,
+    /// Letters of rotary axes.
+    turns: Vec<u8>,
 }
 
 impl Codes {
@@ -55,10 +57,27 @@ impl Codes {
         reader.passed.iter().for_each(|word| mean(Some(word), Meaning::Passed));
         mean(stop.always.as_deref(), Meaning::Code(Code::Stop(Stop::Pause)));
         mean(stop.optional.as_deref(), Meaning::Code(Code::Stop(Stop::OptionalPause)));
+        if let Some(control) = machine.rotary.as_ref().and_then(|rules| rules.tip_control.as_ref()) {
+            tip_codes(machine, control).into_iter().for_each(|(code, meaning)| _ = meanings.insert(code, meaning));
+        }
         words.iter().for_each(|(code, _)| _ = meanings.insert(*code, Meaning::Code(Code::WorkOffset)));
         let refused = reader.refused.iter().filter_map(|word| code(word));
         refused.for_each(|code| _ = meanings.insert(code, Meaning::Refused));
-        Ok(Self { meanings, wcs: words, smoothing: smoothing(machine)? })
+        let letters = machine.rotary.iter().flat_map(|rules| rules.axes);
+        let turns = letters.filter_map(|axis| u8::try_from(axis.letter).ok()).collect();
+        Ok(Self { meanings, wcs: words, smoothing: smoothing(machine)?, turns })
+    }
+
+    /// Whether the control tracks the tip by a code that names the tool's length too: then all length offsets decide it.
+    pub fn tracks_by_length(machine: &Machine) -> bool {
+        let control = machine.rotary.as_ref().and_then(|rules| rules.tip_control.as_ref());
+        let length = machine.tool.length.as_ref();
+        control.zip(length).is_some_and(|(control, length)| control.names_length(length.word))
+    }
+
+    /// Whether this is the letter of a rotary axis.
+    pub fn turns(&self, letter: u8) -> bool {
+        self.turns.contains(&letter)
     }
 
     pub fn meaning(&self, word: Word) -> Option<Meaning> {
@@ -95,6 +114,17 @@ impl Codes {
         let squeezed = squeeze(text);
         self.smoothing.iter().find(|(block, _)| *block == squeezed).map(|(_, tolerance)| *tolerance)
     }
+}
+
+/// The codes that switch the tip's control on and off, but for one that takes the length offset back.
+fn tip_codes(machine: &Machine, control: &TipControl) -> Vec<((u8, i64), Meaning)> {
+    let by_length = Codes::tracks_by_length(machine);
+    let cancel = machine.tool.length.as_ref().and_then(|length| length.cancel.as_deref()).and_then(code);
+    let [on, off] = control.codes();
+    let on_meaning = if by_length { Code::Length(Length::Tip) } else { Code::TipControl(true) };
+    let on = on.map(|on| (on, Meaning::Code(on_meaning)));
+    let off = off.filter(|off| !(by_length && cancel == Some(*off)));
+    on.into_iter().chain(off.map(|off| (off, Meaning::Code(Code::TipControl(false))))).collect()
 }
 
 /// `G54`, or `G54.1 P1`.

@@ -6,6 +6,7 @@ mod numbers;
 mod positions;
 mod switches;
 mod tools;
+mod turns;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -20,6 +21,8 @@ use super::drilling::Series;
 use super::in_force::InForce;
 use super::lexer::{Flaw, Word};
 use super::reading::Reading;
+use super::rotary::Rotary;
+use super::turned::turned;
 use crate::block::arc::Ends;
 use crate::block::{Code, Modes, Motion, Recorder};
 use crate::machine::Machine;
@@ -81,6 +84,7 @@ pub(crate) struct Interpreter<'m> {
     /// Whether D0 is in force.
     without_edge: bool,
     axes: [Axis; 3],
+    rotary: Option<Rotary>,
     unknown_since: Option<usize>,
     unknown_positions: Vec<Range<usize>>,
     wcs: Option<String>,
@@ -115,6 +119,7 @@ impl<'m> Interpreter<'m> {
             in_force: InForce::new(),
             without_edge: false,
             axes: [Axis::default(); 3],
+            rotary: Rotary::of(machine),
             unknown_since: Some(0),
             unknown_positions: Vec::new(),
             wcs: None,
@@ -169,6 +174,7 @@ impl<'m> Interpreter<'m> {
         let letter = self.length_word();
         self.in_force.take_length(block, self.job_tool().map(|tool| tool.length_offset), letter)?;
         self.learn_length(block)?;
+        self.set_tracking(block);
         self.set_path(block)?;
         self.set_edge(block)?;
         self.set_wcs(block, codes)?;
@@ -225,6 +231,8 @@ impl<'m> Interpreter<'m> {
             if self.tools_given && !self.loose {
                 return Err(ReadFault::WcsChanged);
             }
+            let what = "work offsets that change while rotary axes are turned";
+            self.require_upright(what, None).map_err(|(fault, _)| fault)?;
             self.event(EventKind::WorkOffset { wcs: name.clone() });
             self.wcs_now = Some(name);
             (0..3).for_each(|axis| self.forget(axis));
@@ -250,6 +258,7 @@ impl<'m> Interpreter<'m> {
         if let Some((motion, _)) = block.motion() {
             self.motion = Some(motion);
         }
+        self.note_start();
         if let Some((called, word)) = self.calls(block) {
             return self.drill_here(block, called, word, line);
         }
@@ -279,21 +288,26 @@ impl<'m> Interpreter<'m> {
             _ => return Err((ReadFault::NoMotionMode, Some(first))),
         };
         if self.loose && self.record.tool.is_none() && kind == MoveKind::Rapid {
-            return Ok(());
+            return self.turn_to(block);
         }
         self.load_only_tool(first)?;
+        if kind == MoveKind::Rapid && self.only_turns(block)? {
+            return self.turn_to(block);
+        }
         self.allow_motion(first)?;
         if self.without_edge {
             return Err((ReadFault::NoLengthOffset { expected: 1 }, Some(first)));
         }
-        let start = self.tip();
+        let (start, from) = (self.tip(), self.angles());
         if let Some(Motion::Arc(_)) = self.motion {
             self.require_positions(first)?;
         }
         self.position_axes(block)?;
+        self.turn_to(block)?;
         self.turn_axes(block)?;
         if kind == MoveKind::Feed {
             self.require_positions(first)?;
+            self.require_angles(first)?;
             if self.halted {
                 return Err((ReadFault::Halted, Some(first)));
             }
@@ -307,14 +321,15 @@ impl<'m> Interpreter<'m> {
             }
             _ => None,
         };
-        let feed = match kind {
-            MoveKind::Rapid => 0.0,
+        let (feed, minutes) = match kind {
+            MoveKind::Rapid => (0.0, None),
             MoveKind::Feed => {
-                let step = Move::new(kind, self.tip(), 0.0).arc(arc);
-                self.feed_of(block, step.length(start), first)?
+                let length = Move::new(kind, self.tip(), 0.0).arc(arc).length(start);
+                let feed = self.feed_of(block, length, first)?;
+                (feed, self.minutes(from, length, feed))
             }
         };
-        self.push_move(kind, arc, feed, line);
+        self.push_move_to(Move::new(kind, self.tip(), feed).arc(arc).on_line(line), minutes);
         Ok(())
     }
 
@@ -351,17 +366,19 @@ impl<'m> Interpreter<'m> {
     }
 
     fn push_move(&mut self, kind: MoveKind, arc: Option<Arc>, feed: f64, line: u32) {
-        self.push_move_to(self.tip(), kind, arc, feed, line);
+        self.push_move_to(Move::new(kind, self.tip(), feed).arc(arc).on_line(line), None);
     }
 
-    fn push_move_to(&mut self, end: [f64; 3], kind: MoveKind, arc: Option<Arc>, feed: f64, line: u32) {
+    /// A move; `minutes` is how long it takes, where its feed follows from that.
+    fn push_move_to(&mut self, step: Move, minutes: Option<f64>) {
         self.close_unknown();
         if self.record.program.moves.is_empty() {
             self.not_stated.extend((!self.distance_stated).then_some("G90"));
             let choice = self.machine.wcs.len() > 1;
             self.not_stated.extend((choice && self.wcs.is_none()).then_some("G54"));
         }
-        self.record.push(Move::new(kind, end, feed).arc(arc).on_line(line));
+        self.record.push(step);
+        self.note_stretch(minutes);
     }
 
     /// What was read; whether the program ended is the reader's to decide.
@@ -375,11 +392,14 @@ impl<'m> Interpreter<'m> {
             if let Some((_, axis)) = self.axes.iter().zip(AXES).find(|(axis, _)| !axis.ever) {
                 return Err(ReadFault::NeverPlaced { axis });
             }
+            if let Some(axis) = self.rotary.as_ref().and_then(Rotary::never_placed) {
+                return Err(ReadFault::NeverPlaced { axis });
+            }
         }
         let first = self.machine.wcs.first().cloned().unwrap_or_default();
         self.record.program.setup.wcs = self.wcs.unwrap_or(first);
         let first_known_move = self.unknown_positions.first().filter(|run| run.start == 0).map_or(0, |run| run.end);
-        Ok(Reading {
+        let reading = Reading {
             first_known_move,
             unknown_heights: self.unknown_heights,
             machine_moves: self.machine_moves,
@@ -392,6 +412,10 @@ impl<'m> Interpreter<'m> {
             lines,
             ended,
             program: self.record.program,
-        })
+        };
+        match &self.rotary {
+            Some(rotary) => turned(reading, &rotary.axes, &rotary.stretches, self.machine),
+            None => Ok(reading),
+        }
     }
 }

@@ -11,7 +11,9 @@ mod interpreter;
 mod klartext;
 mod lexer;
 mod reading;
+mod rotary;
 mod siemens;
+mod turned;
 
 use styluscam_motion::{EventKind, ToolRecord};
 

@@ -1,8 +1,9 @@
 //! The angles of two axes along a path: of all that point the tool right, those that turn least on the way.
 
 use super::error::RotaryError;
-use super::kinematics::{cross, dot, norm, Carrier, RotaryAxes, Vector, UP};
+use super::kinematics::{cross, dot, norm, RotaryAxes, Vector, UP};
 use super::poses::Pose;
+use crate::machine::Carrier;
 
 /// A direction this near to an axis' own leaves its angle free, as a sine.
 const ALONG: f64 = 1e-9;
@@ -45,13 +46,13 @@ impl RotaryAxes {
     }
 
     /// Gives poses their angles.
-    pub(super) fn turn_to(&self, poses: &mut [Pose]) -> Result<(), RotaryError> {
+    pub(crate) fn turn_to(&self, poses: &mut [Pose]) -> Result<(), RotaryError> {
         let directions: Vec<_> = poses.iter().map(|pose| pose.direction).collect();
         let of_move = |index: usize| poses.get(index).map_or(index, |pose| pose.index);
         let angles = self.angles(&directions).map_err(|error| match error {
             RotaryError::Unreachable { index } => RotaryError::Unreachable { index: of_move(index) },
             RotaryError::Limit { index } => RotaryError::Limit { index: of_move(index) },
-            other => other,
+            turn @ RotaryError::Turn { .. } => turn,
         })?;
         poses.iter_mut().zip(angles).for_each(|(pose, angles)| pose.angles = angles);
         Ok(())
@@ -111,7 +112,7 @@ impl RotaryAxes {
     fn pairs(&self, direction: Vector) -> Vec<Free> {
         let [first, second] = self.axes();
         // (outer, its sign, inner, from, to)
-        let (outer, sign, inner, from, to) = match (first.carrier, second.carrier) {
+        let (outer, sign, inner, from, to) = match (first.carries, second.carries) {
             (Carrier::Table, Carrier::Table) => (0, 1.0, 1, direction, UP),
             (Carrier::Head, Carrier::Head) => (0, 1.0, 1, UP, direction),
             (Carrier::Head, Carrier::Table) => (0, -1.0, 1, direction, UP),
@@ -176,11 +177,11 @@ fn cheapest(levels: &[Vec<State>]) -> Vec<[f64; 2]> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::RotaryAxis;
     use super::*;
+    use crate::machine::{MachineError, RotaryAxis};
 
-    fn axis(letter: char, carrier: Carrier, direction: [f64; 3], limits_deg: [f64; 2]) -> RotaryAxis {
-        RotaryAxis { letter, carrier, direction, pivot: [10.0, -20.0, 150.0], limits_deg }
+    fn axis(letter: char, carries: Carrier, direction: [f64; 3], limits_deg: [f64; 2]) -> RotaryAxis {
+        RotaryAxis { letter, carries, direction, pivot: [10.0, -20.0, 150.0], limits_deg }
     }
 
     fn machines() -> Vec<RotaryAxes> {
@@ -241,12 +242,18 @@ mod tests {
             nutating.angles(&[[1.0, 0.0, 0.0], [0.0, 0.0, -1.0]]).map(|_| ()),
             Err(RotaryError::Unreachable { index: 1 })
         );
+        let key = |axes| match RotaryAxes::new(axes) {
+            Err(MachineError::Value { key, .. }) => key,
+            other => panic!("{other:?}"),
+        };
         let same = [axis('A', Carrier::Table, UP, [0.0, 1.0]), axis('C', Carrier::Head, UP, [0.0, 1.0])];
-        assert_eq!(RotaryAxes::new(same), Err(RotaryError::Parallel));
+        assert_eq!(key(same), "rotary.axes[1].direction");
         let none = axis('B', Carrier::Table, [0.0; 3], [0.0, 1.0]);
-        assert_eq!(RotaryAxes::new([none, same[0]]), Err(RotaryError::Axis { letter: 'B' }));
+        assert_eq!(key([none, same[0]]), "rotary.axes[0].direction");
         let twice = [same[0], axis('A', Carrier::Head, [1.0, 0.0, 0.0], [0.0, 1.0])];
-        assert_eq!(RotaryAxes::new(twice), Err(RotaryError::Letter { letter: 'A' }));
+        assert_eq!(key(twice), "rotary.axes[1].letter");
+        let turned = axis('A', Carrier::Head, [1.0, 0.0, 0.0], [1.0, 0.0]);
+        assert_eq!(key([turned, same[1]]), "rotary.axes[0].limits_deg");
     }
 
     #[test]

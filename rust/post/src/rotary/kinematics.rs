@@ -1,44 +1,18 @@
 //! Where the part and the tool are when two axes turn them.
 //!
-//! At angles 0 work and machine have one frame and the tool stands along +Z. A positive angle turns what the axis carries by the
-//! right-hand rule about its direction: where a control counts a table's angle by the tool's turn as seen from the part, the
-//! direction is the opposite one.
+//! At angles 0 work and machine have one frame and the tool stands along +Z.
 
-use super::error::RotaryError;
+use crate::machine::{Carrier, MachineError, RotaryAxis};
 
-pub(super) type Vector = [f64; 3];
+pub(crate) type Vector = [f64; 3];
 
-pub(super) const UP: Vector = [0.0, 0.0, 1.0];
+pub(crate) const UP: Vector = [0.0, 0.0, 1.0];
 /// Limits beyond this are none, deg.
 const WIDEST_DEG: f64 = 1440.0;
 /// What axes that turn are called (ISO 6983-1).
 const LETTERS: &str = "ABC";
 /// Axes with a smaller sine between them are parallel.
 const PARALLEL: f64 = 1e-6;
-
-/// What an axis turns.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Carrier {
-    /// The part.
-    Table,
-    /// The tool.
-    Head,
-}
-
-/// An axis that turns.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RotaryAxis {
-    /// `A`, `B` or `C`.
-    pub letter: char,
-    /// What it turns.
-    pub carrier: Carrier,
-    /// About which direction, at angles 0.
-    pub direction: [f64; 3],
-    /// A point that it does not move, mm: of tables in work coordinates, of heads from the tool's tip, both at angles 0.
-    pub pivot: [f64; 3],
-    /// Lowest and highest angle, deg.
-    pub limits_deg: [f64; 2],
-}
 
 /// Both axes. Where they carry the same, the first carries the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,28 +24,36 @@ impl RotaryAxes {
     /// Axes with directions of any length.
     ///
     /// # Errors
-    /// [`RotaryError::Axis`], [`RotaryError::Letter`], [`RotaryError::Parallel`].
-    pub fn new(mut axes: [RotaryAxis; 2]) -> Result<Self, RotaryError> {
-        for axis in &mut axes {
+    /// [`MachineError::Value`]: the key, and what is wrong.
+    pub fn new(mut axes: [RotaryAxis; 2]) -> Result<Self, MachineError> {
+        for (index, axis) in axes.iter_mut().enumerate() {
+            let wrong = |key: &str, problem: &str| MachineError::Value {
+                key: format!("rotary.axes[{index}].{key}"),
+                problem: problem.into(),
+            };
             let length = norm(axis.direction);
             let [low, high] = axis.limits_deg;
-            let is_sound = length.is_normal()
-                && axis.pivot.iter().all(|x| x.is_finite())
-                && low <= high
-                && low.abs().max(high.abs()) <= WIDEST_DEG
-                && LETTERS.contains(axis.letter);
-            if !is_sound {
-                return Err(RotaryError::Axis { letter: axis.letter });
+            if !LETTERS.contains(axis.letter) {
+                return Err(wrong("letter", "A, B or C"));
+            }
+            if !length.is_normal() {
+                return Err(wrong("direction", "three numbers, not all of them 0"));
+            }
+            if !axis.pivot.iter().all(|x| x.is_finite()) {
+                return Err(wrong("pivot", "three lengths, in mm"));
+            }
+            if !(low <= high && low.abs().max(high.abs()) <= WIDEST_DEG) {
+                return Err(wrong("limits_deg", "the lowest angle, then the highest, within 1440 deg"));
             }
             axis.direction = axis.direction.map(|x| x / length);
         }
         let [first, second] = &axes;
+        let wrong = |key: &str, problem: &str| Err(MachineError::Value { key: key.into(), problem: problem.into() });
         if first.letter == second.letter {
-            return Err(RotaryError::Letter { letter: first.letter });
+            return wrong("rotary.axes[1].letter", "both axes have one letter: name them as the control does");
         }
-        let across = cross(first.direction, second.direction);
-        if norm(across) < PARALLEL {
-            return Err(RotaryError::Parallel);
+        if norm(cross(first.direction, second.direction)) < PARALLEL {
+            return wrong("rotary.axes[1].direction", "both axes turn about one direction: they cannot point a tool");
         }
         Ok(Self { axes })
     }
@@ -95,7 +77,7 @@ impl RotaryAxes {
     pub fn tip(&self, linear: [f64; 3], angles_deg: [f64; 2]) -> [f64; 3] {
         let aside = self.carried(Carrier::Head, [0.0; 3], angles_deg);
         let carried = [0, 1, 2].map(|i| linear[i] + aside[i]);
-        let tables = self.axes.iter().zip(angles_deg).filter(|(axis, _)| axis.carrier == Carrier::Table);
+        let tables = self.axes.iter().zip(angles_deg).filter(|(axis, _)| axis.carries == Carrier::Table);
         tables.fold(carried, |point, (axis, angle)| about(axis, point, -angle))
     }
 
@@ -106,7 +88,7 @@ impl RotaryAxes {
             let order = if backwards { [1, 0] } else { [0, 1] };
             order
                 .into_iter()
-                .filter(|i| self.axes[*i].carrier == carrier)
+                .filter(|i| self.axes[*i].carries == carrier)
                 .fold(from, |tool, i| turn(self.axes[i].direction, tool, sign * angles_deg[i].to_radians()))
         };
         let tool = turned(Carrier::Head, 1.0, UP, true);
@@ -115,7 +97,7 @@ impl RotaryAxes {
 
     /// A point that is carried, in the machine.
     fn carried(&self, carrier: Carrier, point: Vector, angles_deg: [f64; 2]) -> Vector {
-        let axes = self.axes.iter().zip(angles_deg).rev().filter(|(axis, _)| axis.carrier == carrier);
+        let axes = self.axes.iter().zip(angles_deg).rev().filter(|(axis, _)| axis.carries == carrier);
         axes.fold(point, |point, (axis, angle)| about(axis, point, angle))
     }
 }
@@ -133,18 +115,33 @@ fn turn(about: Vector, from: Vector, angle: f64) -> Vector {
     [0, 1, 2].map(|i| from[i] * cos + across[i] * sin + about[i] * along * (1.0 - cos))
 }
 
-pub(super) fn difference(a: Vector, b: Vector) -> Vector {
+/// A vector of length 1 in the same direction.
+pub(crate) fn unit(a: Vector) -> Vector {
+    let length = norm(a).max(f64::MIN_POSITIVE);
+    a.map(|x| x / length)
+}
+
+pub(crate) fn between<const N: usize>(from: [f64; N], to: [f64; N], share: f64) -> [f64; N] {
+    std::array::from_fn(|i| from[i] + share * (to[i] - from[i]))
+}
+
+/// The larger of two turns, deg.
+pub(crate) fn larger_turn(from: [f64; 2], to: [f64; 2]) -> f64 {
+    (to[0] - from[0]).abs().max((to[1] - from[1]).abs())
+}
+
+pub(crate) fn difference(a: Vector, b: Vector) -> Vector {
     [0, 1, 2].map(|i| a[i] - b[i])
 }
 
-pub(super) fn dot(a: Vector, b: Vector) -> f64 {
+pub(crate) fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-pub(super) fn norm(a: Vector) -> f64 {
+pub(crate) fn norm(a: Vector) -> f64 {
     dot(a, a).sqrt()
 }
 
-pub(super) fn cross(a: Vector, b: Vector) -> Vector {
+pub(crate) fn cross(a: Vector, b: Vector) -> Vector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

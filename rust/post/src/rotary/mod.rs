@@ -1,12 +1,12 @@
 //! Machines with two axes that turn the part or the tool: their angles for a tool's direction, where their linear axes stand, and
-//! text with both.
+//! the poses that keep a tool to its moves.
 
 mod angles;
 mod error;
 mod kinematics;
 mod poses;
-mod text;
 
 pub use error::RotaryError;
-pub use kinematics::{Carrier, RotaryAxes, RotaryAxis};
-pub use text::{read_rotary, rotary_text, RotaryText};
+pub use kinematics::RotaryAxes;
+pub(crate) use kinematics::{between, difference, dot, larger_turn, norm, unit};
+pub(crate) use poses::{poses, Limits, Pose};

@@ -92,25 +92,25 @@ fn name_of(plane: Plane) -> &'static str {
 }
 
 /// Where a machine can move, and what it can do.
-struct Bench {
+pub(super) struct Bench {
     centre: [f64; 3],
     /// Half of the range along each axis, mm.
     size: [f64; 3],
-    feed: f64,
-    rpm: f64,
+    pub feed: f64,
+    pub rpm: f64,
     wcs: String,
     lathe: bool,
     /// Whether the spindle turns clockwise.
     turns: bool,
     /// Whether it must turn wherever there is a feed.
-    always_turns: bool,
+    pub always_turns: bool,
 }
 
 /// Height of the tried tool's reference above its tip, mm.
 const HEIGHT: f64 = 1.0;
 
 impl Bench {
-    fn of(machine: &Machine) -> Self {
+    pub fn of(machine: &Machine) -> Self {
         let limits = &machine.limits;
         let ranges = [limits.x, limits.y, limits.z];
         let range = |axis: usize| {
@@ -135,7 +135,7 @@ impl Bench {
     }
 
     /// A position; -1 to 1 is the range along each axis.
-    fn at(&self, share: [f64; 3]) -> [f64; 3] {
+    pub fn at(&self, share: [f64; 3]) -> [f64; 3] {
         [0, 1, 2].map(|axis| self.centre[axis] + share[axis] * self.size[axis])
     }
 
@@ -151,7 +151,7 @@ impl Bench {
         mm.min(least / 2.5)
     }
 
-    fn case(&self, name: &str, machine: Machine, draft: Draft) -> Case {
+    pub fn case(&self, name: &str, machine: Machine, draft: Draft) -> Case {
         let setup = SetupRecord {
             title: "trial".into(),
             wcs: self.wcs.clone(),
@@ -169,7 +169,7 @@ impl Bench {
     }
 }
 
-fn tool(number: u32) -> ToolRecord {
+pub(super) fn tool(number: u32) -> ToolRecord {
     ToolRecord {
         name: format!("stylus {number}"),
         number,
@@ -190,8 +190,8 @@ fn foreign(case: Case) -> Case {
 }
 
 /// Moves and events in the making.
-struct Draft {
-    moves: Vec<Move>,
+pub(super) struct Draft {
+    pub moves: Vec<Move>,
     events: Vec<Event>,
     cycles: Vec<Cycle>,
     operation: u32,
@@ -199,7 +199,7 @@ struct Draft {
 
 impl Draft {
     /// The tool is called and goes to the middle.
-    fn start(bench: &Bench) -> Self {
+    pub fn start(bench: &Bench) -> Self {
         let change = Event { before: 0, kind: EventKind::ToolChange { tool: 0 } };
         let mut draft = Self { moves: Vec::new(), events: vec![change], cycles: Vec::new(), operation: 0 };
         if bench.always_turns {
@@ -221,7 +221,7 @@ impl Draft {
         self.moves.push(Move::new(kind, end, feed).arc(arc).of_operation(self.operation));
     }
 
-    fn event(&mut self, kind: EventKind) {
+    pub fn event(&mut self, kind: EventKind) {
         self.events.push(Event { before: self.moves.len(), kind });
     }
 }
@@ -558,7 +558,7 @@ fn feed_modes(bench: &Bench, machine: &Machine) -> Vec<Case> {
     for (mode, name) in modes {
         let mut other = machine.clone();
         other.feed.mode = mode;
-        if other.feed.word().is_none() || other.spindle.clockwise.is_none() {
+        if other.feed.word().is_none() || other.spindle.clockwise.is_none() || other.check().is_err() {
             continue;
         }
         let draft = spindle(bench, SpindleDirection::Clockwise);

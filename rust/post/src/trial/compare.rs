@@ -4,11 +4,10 @@ use styluscam_motion::{Cycle, CycleKind, Event, EventKind, Move, MoveKind, Progr
 
 use crate::machine::{Machine, ToolChange};
 use crate::reader::Reading;
-use crate::trial::words;
+use crate::trial::slack::feed_slack;
+use crate::trial::{lean, words};
 use crate::writer::Posted;
 
-/// Feeds are compared with this slack over and above their rounding, as a share.
-const FEED_SLACK: f64 = 1e-9;
 /// Positions are compared with this slack over and above their rounding, mm.
 const SLACK: f64 = 1e-9;
 /// An arc's centre is rounded too: its path may leave the planned one by so many units of the last decimal.
@@ -28,7 +27,10 @@ pub fn difference(program: &Program, posted: &Posted, reading: &Reading, machine
     }
     event_difference(program, posted, reading, machine)
         .or_else(|| cycle_difference(program, posted, reading, machine))
-        .or_else(|| move_difference(program, posted, reading, machine))
+        .or_else(|| match lean::leans(program) {
+            true => lean::move_difference(program, posted, reading, machine),
+            false => move_difference(program, posted, reading, machine),
+        })
 }
 
 /// Holes that the machine has cycles for must come back as cycles.
@@ -289,12 +291,6 @@ fn end_difference(step: &Move, found: &Move, machine: &Machine) -> Option<String
         return Some(format!("a {} was posted and a {} was read", move_to(step), move_to(found)));
     }
     None
-}
-
-/// How far the feed of a path so long, mm, may come back from the planned one, mm/min: numbers are rounded.
-fn feed_slack(machine: &Machine, feed: f64, length: f64, rpm: f64) -> f64 {
-    let rounded = machine.feed_rounding(rpm).of(feed, length);
-    rounded + FEED_SLACK * feed
 }
 
 /// The spindle's speed when a move begins, rev/min; 0 while it stands.

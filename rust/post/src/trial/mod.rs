@@ -2,6 +2,9 @@
 
 mod cases;
 mod compare;
+mod lean;
+mod leaning;
+mod slack;
 mod words;
 
 pub use compare::difference;
@@ -13,7 +16,7 @@ use crate::post_error::PostError;
 use crate::read_error::ReadError;
 use crate::reader::read;
 use crate::writer::post;
-use cases::{cases, Case};
+use cases::Case;
 
 /// A machine file whose own text does not read back.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -136,9 +139,14 @@ pub fn check(machine: &Machine) -> Result<Vec<Trial>, PostError> {
         let (outcome, text) = tried(&case);
         Trial { name: case.name, outcome, text }
     };
-    let mut trials: Vec<Trial> = cases(machine).into_iter().map(trial).collect();
+    let mut trials: Vec<Trial> = all(machine).map(trial).collect();
     trials.extend(variants(machine).into_iter().map(|(name, machine)| in_all(name, &machine)));
     Ok(trials)
+}
+
+/// All that is tried on a machine.
+fn all(machine: &Machine) -> impl Iterator<Item = Case> {
+    cases::cases(machine).into_iter().chain(leaning::cases(machine))
 }
 
 /// The machine with each of its options set to each other thing that it can be.
@@ -165,7 +173,7 @@ fn variants(machine: &Machine) -> Vec<(String, Machine)> {
 
 /// All that is tried, as one trial: the first failure, or the first text.
 fn in_all(name: String, machine: &Machine) -> Trial {
-    let mut tried = cases(machine).into_iter().map(|case| tried(&case));
+    let mut tried = all(machine).map(|case| tried(&case));
     let first = tried.next();
     let failed = first.iter().cloned().chain(tried).find(|(outcome, _)| matches!(outcome, Outcome::Failed(_)));
     let (outcome, text) = failed.or(first).unwrap_or((Outcome::Passed, String::new()));

@@ -19,7 +19,7 @@ impl Poster<'_> {
             let part = path.part(share(piece), share(piece + 1));
             let rounded = self.rounded(index, arc, &part)?;
             match rules.filter(|rules| rounded.stands_for(&part, rules, self.machine.resolution_mm())) {
-                Some(_) => self.circle(index, step.feed, &rounded, part.length())?,
+                Some(_) => self.circle(index, step.feed, &rounded)?,
                 None => self.chords(index, step.feed, &part)?,
             }
         }
@@ -38,8 +38,9 @@ impl Poster<'_> {
         Ok(RoundedArc::new(arc, from, to, arc_centre, self.x_scale))
     }
 
-    fn circle(&mut self, index: usize, feed: f64, rounded: &RoundedArc, length: f64) -> Result<(), PostError> {
-        let feed = self.feed_count(index, feed, length)?;
+    fn circle(&mut self, index: usize, feed: f64, rounded: &RoundedArc) -> Result<(), PostError> {
+        // a small circle is longer or shorter once rounded, and so is its time
+        let feed = self.feed_count(index, feed, rounded.path(self.machine.resolution_mm()).length())?;
         let before = self.lines.line;
         self.dialect.arc(&mut self.lines, rounded, feed)?;
         self.motion_line = (self.lines.line - 1).max(before);

@@ -61,6 +61,9 @@ pub(super) trait Dialect {
     /// What was begun and must end before anything else is written: a canned cycle.
     fn close(&mut self, lines: &mut Lines) -> Result<(), PostError>;
 
+    /// The angles of rotary axes that the next block goes to, in units of the last decimal.
+    fn turn(&mut self, _angles: [Option<i64>; 2]) {}
+
     /// A rapid; axes at `from` already are left out unless every axis is repeated.
     fn rapid(&mut self, lines: &mut Lines, from: Position, to: Position) -> Result<(), PostError>;
 

@@ -47,6 +47,7 @@ impl Poster<'_> {
         if self.spindle.is_some() {
             self.stop_spindle()?;
         }
+        self.stop_tracking()?;
         let record = self.head.tools.get(tool as usize);
         let record =
             record.ok_or(PostError::NoSuchRecord { place: format!("events[{event}]"), what: "tool", index: tool })?;
@@ -55,7 +56,9 @@ impl Poster<'_> {
         self.lines.mark();
         self.speak(&text)?;
         self.tool = Some(record);
-        self.dialect.tool_changed(record.length_offset);
+        if !self.rotary.as_ref().is_some_and(|rotary| rotary.names_length(self.machine)) {
+            self.dialect.tool_changed(record.length_offset);
+        }
         self.position = [None; 3];
         self.dialect.forget();
         Ok(())
@@ -169,6 +172,7 @@ impl Poster<'_> {
 
     /// Where the tool stands in the new work offset is not known.
     fn change_wcs(&mut self, wcs: &str) -> Result<(), PostError> {
+        self.only_upright("another work offset in a program whose tool leans")?;
         if !self.machine.wcs.iter().any(|known| known == wcs) {
             return Err(PostError::Wcs { wcs: wcs.into(), allowed: self.machine.wcs.join(", ") });
         }
@@ -178,6 +182,7 @@ impl Poster<'_> {
     }
 
     fn probe(&mut self, event: usize, end: [Option<f64>; 3], feed: f64, must_touch: bool) -> Result<(), PostError> {
+        self.only_upright("probing in a program whose tool leans")?;
         let rules = self.machine.probe.as_ref().ok_or(PostError::Unsupported { what: "probing" })?;
         let word = if must_touch { Some(&rules.must_touch) } else { rules.may_touch.as_ref() };
         let word = word.ok_or(PostError::Unsupported { what: "probing that may miss" })?;

@@ -6,8 +6,10 @@ mod dialect;
 mod events;
 mod holes;
 mod klartext;
+mod leaning;
 mod lines;
 mod mcall;
+mod rotary;
 mod words;
 
 use std::collections::BTreeMap;
@@ -26,6 +28,7 @@ use crate::template::{Facts, Templater};
 use dialect::{Dialect, Position};
 pub(crate) use lines::counted_length;
 use lines::{Lines, Outlet};
+use rotary::Rotary;
 
 /// A posted program.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -76,6 +79,7 @@ pub struct Poster<'a> {
     templater: Templater<'a>,
     names: BTreeMap<String, minijinja::Value>,
     inspector: Inspector<'a>,
+    rotary: Option<Rotary<'a>>,
     lines: Lines<'a>,
     dialect: Box<dyn Dialect + 'a>,
     linear: NumberFormat,
@@ -139,6 +143,7 @@ impl<'a> Poster<'a> {
             templater,
             names,
             inspector,
+            rotary: Rotary::of(machine)?,
             lines: Lines::new(machine, outlet, capacity),
             dialect,
             linear: machine.linear_format(),
@@ -171,6 +176,7 @@ impl<'a> Poster<'a> {
         self.inspector.finish()?;
         self.end_operation()?;
         self.dialect.close(&mut self.lines)?;
+        self.stop_tracking()?;
         self.switch_off()?;
         let end = self.templater.program_end(&self.names)?;
         self.lines.text(&end)?;
@@ -180,8 +186,10 @@ impl<'a> Poster<'a> {
     /// All of a program; `arrived` takes the line of every move.
     fn walk(&mut self, program: &Program, mut arrived: impl FnMut(u32)) -> Result<(), PostError> {
         self.inspector.inspect_order(program)?;
+        let course = self.course(program)?;
+        let mut poses = course.iter().flat_map(|course| course.chunk_by(|a, b| a.index == b.index));
         let mut events = program.events.iter().peekable();
-        let mut cycles = program.cycles.iter().peekable();
+        let mut cycles = program.cycles.iter().filter(|_| course.is_none()).peekable();
         let mut index = 0;
         while let Some(step) = program.moves.get(index) {
             if self.operation.is_some_and(|operation| operation != step.operation) {
@@ -202,7 +210,10 @@ impl<'a> Poster<'a> {
                 (0..count).for_each(|_| arrived(self.motion_line));
                 index += count;
             } else {
-                self.step(step)?;
+                match poses.next() {
+                    Some(poses) => self.lean(step, poses)?,
+                    None => self.step(step)?,
+                }
                 arrived(self.motion_line);
                 index += 1;
             }
@@ -267,6 +278,7 @@ impl<'a> Poster<'a> {
         self.dialect.close(&mut self.lines)?;
         self.state_role(step)?;
         let target = self.target(index, step.end.tip)?;
+        self.stand_upright(index, step)?;
         match (step.kind, step.arc) {
             (MoveKind::Rapid, _) => self.rapid(target)?,
             (MoveKind::Feed, None) => {

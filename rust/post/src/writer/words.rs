@@ -38,6 +38,9 @@ pub(super) struct Words<'m> {
     stated: Stated,
     /// A length offset to be named in the next block that moves Z.
     length: Option<(&'m LengthRules, u32)>,
+    angle_format: NumberFormat,
+    /// Angles to be stated in the next block.
+    angles: [Option<i64>; 2],
 }
 
 impl<'m> Words<'m> {
@@ -51,6 +54,8 @@ impl<'m> Words<'m> {
             rapid_feed: feed_format.count(rate).filter(|_| machine.motion.rapid_feed),
             stated: Stated::default(),
             length: None,
+            angle_format: machine.angle_format(),
+            angles: [None; 2],
         }
     }
 
@@ -71,6 +76,16 @@ impl<'m> Words<'m> {
                 self.length_before(lines, axis);
                 lines.number(AXES[axis], &self.linear, count);
                 self.length_number(lines, axis);
+            }
+        }
+    }
+
+    /// Words of the rotary axes that turn.
+    fn angles(&mut self, lines: &mut Lines) {
+        let Some(rules) = &self.machine.rotary else { return };
+        for (axis, count) in rules.axes.iter().zip(std::mem::take(&mut self.angles)) {
+            if let Some(count) = count {
+                lines.number(axis.letter.encode_utf8(&mut [0; 4]), &self.angle_format, count);
             }
         }
     }
@@ -184,9 +199,14 @@ impl Dialect for Words<'_> {
         lines.block(if self.calls_cycles() { mcall::END } else { CANCEL })
     }
 
+    fn turn(&mut self, angles: [Option<i64>; 2]) {
+        self.angles = angles;
+    }
+
     fn rapid(&mut self, lines: &mut Lines, from: Position, to: Position) -> Result<(), PostError> {
         self.begin_motion(lines, RAPID);
         self.axes(lines, from, to);
+        self.angles(lines);
         if let Some(feed) = self.rapid_feed {
             self.changed_feed(lines, feed);
         }
@@ -196,6 +216,7 @@ impl Dialect for Words<'_> {
     fn feed(&mut self, lines: &mut Lines, from: Position, to: Position, feed: Feed) -> Result<(), PostError> {
         self.begin_motion(lines, LINE);
         self.axes(lines, from, to);
+        self.angles(lines);
         self.changed_feed(lines, feed);
         lines.end()
     }

@@ -1,6 +1,6 @@
 //! Canned cycles: a block's words, the hole that they make, and its moves.
 
-use styluscam_motion::{Cycle, CycleKind, CycleStart, CycleStep, MoveKind, Plane};
+use styluscam_motion::{Cycle, CycleKind, CycleStart, CycleStep, Move, MoveKind, Plane};
 
 use super::{Interpreter, Z};
 use crate::block::{CycleWords, Motion};
@@ -24,6 +24,8 @@ impl Interpreter<'_> {
         if self.modes.plane != Plane::Xy {
             return Err((ReadFault::NotRead { what: "canned cycles outside G17" }, Some(first)));
         }
+        self.allow_hole(block, first)?;
+        self.require_angles(first)?;
         self.load_only_tool(first)?;
         self.allow_motion(first)?;
         let start = self.tip();
@@ -154,7 +156,7 @@ impl Interpreter<'_> {
                 CycleStep::Move(kind, position) => {
                     self.axes[Z].position = position[2] + self.height;
                     let feed = if kind == MoveKind::Feed { cycle.feed } else { 0.0 };
-                    self.push_move_to(position, kind, None, feed, line);
+                    self.push_move_to(Move::new(kind, position, feed).on_line(line), None);
                 }
                 CycleStep::Event(kind) => self.event(kind),
             }

@@ -17,6 +17,7 @@ impl Interpreter<'_> {
         self.load_only_tool(code)?;
         self.series = None;
         let feed = self.feed_of(block, 1.0, code)?;
+        self.note_probe(block, code)?;
         let mut end = [None; 3];
         for (axis, word) in block.axes().iter().enumerate() {
             let Some(word) = *word else { continue };
@@ -40,6 +41,7 @@ impl Interpreter<'_> {
         }
         let coordinates = std::array::from_fn(|axis| block.axes()[axis].map(|_| home[axis]));
         self.series = None;
+        self.forget_turned(block);
         self.leave_work("G28, work position unknown".into(), coordinates, line);
         Ok(())
     }
@@ -61,6 +63,7 @@ impl Interpreter<'_> {
             text.push_str(&format!(" {name}{position} mm"));
             coordinates[index] = Some(position);
         }
+        self.forget_turned(block);
         self.leave_work(text, coordinates, line);
         Ok(())
     }

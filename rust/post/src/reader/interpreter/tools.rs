@@ -36,6 +36,7 @@ impl Interpreter<'_> {
         self.record.load(index);
         self.height = self.record.program.tools.get(index as usize).map_or(0.0, |t| t.reference_height);
         self.forget(Z);
+        self.note_change();
     }
 
     /// A job with one tool may run it without calling it; without any tool from the job, the tool is unknown.
