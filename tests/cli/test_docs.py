@@ -87,7 +87,7 @@ def as_console(text: str, line: int, page: str) -> None:
 
 def as_toml(text: str) -> None:
     """A machine file's end, keys of a job, or its tools."""
-    if "[templates]" in text:
+    if "[templates]" in text or "[rotary]" in text:
         Path("shop.toml").write_text(Path("shop.toml").read_text() + text)
         assert sc.Machine.read("shop.toml").check()
         return

@@ -302,12 +302,14 @@ impl<'m> Interpreter<'m> {
         if let Some(Motion::Arc(_)) = self.motion {
             self.require_positions(first)?;
         }
+        if kind == MoveKind::Feed {
+            self.require_angles(first)?;
+        }
         self.position_axes(block)?;
         self.turn_to(block)?;
         self.turn_axes(block)?;
         if kind == MoveKind::Feed {
             self.require_positions(first)?;
-            self.require_angles(first)?;
             if self.halted {
                 return Err((ReadFault::Halted, Some(first)));
             }

@@ -24,6 +24,7 @@ impl Poster<'_> {
         let index = self.moves;
         if let Some(first) = moves.first() {
             self.start_operation(first.operation)?;
+            self.stand_upright(index, first)?;
         }
         for (number, step) in moves.iter().enumerate() {
             self.inspector.step(index + number, self.tip, step)?;

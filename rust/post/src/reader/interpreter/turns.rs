@@ -155,8 +155,12 @@ impl Interpreter<'_> {
         self.note_start();
     }
 
-    /// A changer has taken the tool away from what a probe has touched.
+    /// A changer has moved Z, and where the control tracks the tip, all of its coordinates; no probe touches anything any more.
     pub(super) fn note_change(&mut self) {
-        self.rotary.iter_mut().for_each(|rotary| rotary.has_probed = false);
+        let Some(rotary) = &mut self.rotary else { return };
+        rotary.has_probed = false;
+        if rotary.is_tracking && !rotary.is_at_zero() {
+            (0..3).for_each(|axis| self.forget(axis));
+        }
     }
 }
