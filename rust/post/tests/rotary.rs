@@ -1,6 +1,8 @@
 //! Machines with rotary axes: what is posted, what is refused, and what texts mean.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
+#![allow(clippy::disallowed_methods)] // what tests expect may come from std
+#![allow(clippy::single_range_in_vec_init)] // a run of moves
 
 mod support;
 
