@@ -206,6 +206,113 @@ def test_no_other_method_is_better() -> None:
         assert swept <= max(min(left.values()), 1e-6)
 
 
+def beziers(first: list[Any], second: list[Any]) -> Rails:
+    return {"poles": first}, {"poles": second}
+
+
+# of bench/flank.py: numbers 81 and 169, where chords of the movement count most; 98 and 115, where no position touches both
+# rails at equal parameters
+MEMBERS: dict[int, tuple[Rails, float, Any]] = {
+    81: (
+        beziers(
+            [(-41.41, 0.32, 0.4), (-11.68, -3.57, -0.42), (14.18, 8.81, -0.66), (40.8, 2.14, -0.37)],
+            [(-43.42, 8.55, 28.47), (-15.53, 6.58, 27.99), (8.5, 15.31, 29.23), (37.16, 7.63, 28.47)],
+        ),
+        4.44135,
+        "right",
+    ),
+    169: (
+        beziers(
+            [(-29.45, -1.52, -0.38), (0.66, -5.13, -0.26), (30.97, -1.08, -0.21)],
+            [(-36.01, -5.4, 13.84), (-4.89, -8.97, 13.49), (26.67, -2.17, 13.35)],
+        ),
+        11.50539,
+        "left",
+    ),
+    98: (
+        beziers(
+            [(-37.79, -0.78, -0.35), (-1.64, -3.28, 0.7), (41.43, -0.96, -0.45)],
+            [(-27.36, -10.91, 13.41), (8.98, -2.43, 13.23), (40.65, 23.88, 13.82)],
+        ),
+        9.99197,
+        "right",
+    ),
+    115: (
+        beziers(
+            [(-24.03, 1.1, -0.26), (-0.96, -6.24, -0.2), (24.98, -0.88, -0.16)],
+            [(-18.46, -10.37, 12.68), (3.55, 0.04, 12.0), (21.04, 19.19, 12.3)],
+        ),
+        9.75874,
+        "right",
+    ),
+}
+
+
+@pytest.mark.parametrize("number", MEMBERS)
+def test_the_axis_does_not_jump_where_little_depends_on_it(number: int) -> None:
+    rails, radius, side = MEMBERS[number]
+    found = placed(rails, radius, count=120, side=side)
+    turns = np.linalg.norm(np.diff(found.axes, axis=0), axis=1)
+    assert turns.max() < 4.0 * turns.mean()
+    swept = max(found.error.over, found.error.under)
+    for method in OTHERS:
+        try:
+            error = placed(rails, radius, method, 120, side=side).error
+        except sc.GeometryError as refusal:
+            assert refusal.code in ("no-three-points", "no-position")
+            continue
+        assert swept <= max(error.over, error.under), method
+
+
+def test_where_no_position_touches_both_rails() -> None:
+    rails, radius, side = MEMBERS[115]
+    with pytest.raises(sc.GeometryError, match=r"u = 0\.1.* method swept") as caught:
+        placed(rails, radius, "rails", 120, side=side)
+    assert caught.value.code == "no-position"
+    assert max(micrometres(placed(rails, radius, count=120, side=side).error)) < 30.0
+
+
+def positions_beside(twist: float, height: float, radius: float, u: float, spread: float) -> int:
+    """How many positions of a cylinder touch two straight rails 40 mm long, by Newton's steps from a grid of all angles."""
+    t = np.radians(twist)
+    tangents = np.array([[1.0, 0.0, 0.0], [np.cos(t), np.sin(t), 0.0]])
+    contacts = [40.0 * (u + sign * spread - 0.5) * tangents[i] for i, sign in enumerate((-1, 1))]
+    contacts[1] = contacts[1] + [0.0, 0.0, height]
+    rulings = [40.0 * (u + sign * spread - 0.5) * (tangents[1] - tangents[0]) + [0.0, 0.0, height] for sign in (-1, 1)]
+    normals = [np.cross(ruling, tangent) for ruling, tangent in zip(rulings, tangents, strict=True)]
+    normals = [normal / np.linalg.norm(normal) for normal in normals]
+    around = [np.cross(tangent, normal) for tangent, normal in zip(tangents, normals, strict=True)]
+    grid = np.linspace(-np.pi / 2, np.pi / 2, 25)
+    angles = np.stack(np.meshgrid(grid, grid)).reshape(2, -1)
+    for _ in range(40):
+        q = [np.outer(np.cos(x), n) + np.outer(np.sin(x), b) for x, n, b in zip(angles, normals, around, strict=True)]
+        d = [np.outer(np.cos(x), b) - np.outer(np.sin(x), n) for x, n, b in zip(angles, normals, around, strict=True)]
+        axis = contacts[1] - contacts[0] + radius * (q[1] - q[0])
+        f = [(axis * side).sum(axis=1) for side in q]
+        slopes = (axis * d[0]).sum(axis=1), radius * (d[1] * q[0]).sum(axis=1)
+        slopes += -radius * (d[0] * q[1]).sum(axis=1), (axis * d[1]).sum(axis=1)
+        determinant = slopes[0] * slopes[3] - slopes[1] * slopes[2]
+        determinant = np.where(np.abs(determinant) < 1e-9, 1e-9, determinant)
+        step = [slopes[3] * f[0] - slopes[1] * f[1], slopes[0] * f[1] - slopes[2] * f[0]]
+        angles = angles - np.clip(np.stack(step) / determinant, -0.2, 0.2)
+    return int(((np.hypot(*f) < 1e-8) & (np.abs(angles) < np.pi / 2).all(axis=0)).sum())
+
+
+def test_a_strip_that_is_twisted_too_much_has_no_position_at_all() -> None:
+    t = np.radians(40.0)
+    end = 20.0 * np.array([np.cos(t), np.sin(t), 0.0])
+    rails: Rails = ([(-20, 0, 0), (20, 0, 0)], [(-end[0], -end[1], 4.0), (end[0], end[1], 4.0)])
+    with pytest.raises(sc.GeometryError, match="up to a ruling's length apart") as caught:
+        placed(rails, 12.0, count=60)
+    assert caught.value.code == "no-position"
+    u = float(str(caught.value).split("u = ")[1].split(",")[0])
+    most = float(str(caught.value).split("at most ")[1].split(" mm")[0])
+    widest = np.hypot(4.0, 40.0 * (u - 0.5) * 2.0 * np.sin(0.5 * t)) / 80.0
+    for radius, does in ((12.0, False), (1.02 * most, False), (0.98 * most, True)):
+        found = [positions_beside(40.0, 4.0, radius, u, apart) for apart in np.linspace(-widest, widest, 65)]
+        assert (max(found) > 0) == does, (radius, most)
+
+
 CONES: list[dict[str, Any]] = [
     {"kind": "tapered-ball", "tip_radius": 3.0, "half_angle_deg": 5.0, "diameter": 16.0},
     {"kind": "v", "tip_diameter": 6.0, "angle_deg": 16.0, "diameter": 20.0},

@@ -31,6 +31,11 @@ impl Flank {
         Ok(Self { radius: radius / cosine, sine, cosine })
     }
 
+    /// A smaller one of the same taper.
+    pub(super) fn of_share(&self, share: f64) -> Self {
+        Self { radius: self.radius * share, ..*self }
+    }
+
     /// Radius of the ball that touches where the first rail is touched, mm.
     #[must_use]
     pub fn radius(&self) -> f64 {

@@ -37,13 +37,23 @@ pub enum FlankError {
         /// The tool's radius, mm.
         radius: f64,
     },
-    /// No line lies beside both rails at the tool's radius there.
-    #[error("no position touches both rails at u = {u:.4}: the surface is twisted too much for a tool of radius {radius} mm; take a smaller one")]
+    /// No line lies beside both rails at the tool's radius there, with the contacts where the method has them.
+    #[error("no position of a tool of radius {radius:.3} mm touches both rails at u = {u:.4} with the contacts where the method has them: the surface is twisted too much; take a smaller tool, or method swept, which spreads them")]
     NoPosition {
         /// Share of the way along the rails, 0 to 1.
         u: f64,
         /// The tool's radius, mm.
         radius: f64,
+    },
+    /// The same with the contacts up to a ruling's length apart.
+    #[error("no position of a tool of radius {radius:.3} mm touches both rails at u = {u:.4}, its contacts up to a ruling's length apart along them: the surface is twisted too much; take a tool of at most {most:.3} mm radius there, or offset points of the ruling instead (methods two-points, one-point)")]
+    Nowhere {
+        /// Share of the way along the rails, 0 to 1.
+        u: f64,
+        /// The tool's radius, mm.
+        radius: f64,
+        /// The largest of a tool that touches both there, mm.
+        most: f64,
     },
     /// The ruling cannot be touched as well as both rails.
     #[error("no position touches both rails and the ruling at u = {u:.4}: place the tool by another method, as swept")]
@@ -82,7 +92,7 @@ impl FlankError {
             Self::Cusp { .. } => "rail-cusp",
             Self::NoNormal { .. } => "no-normal",
             Self::TooLarge { .. } => "tool-too-large",
-            Self::NoPosition { .. } => "no-position",
+            Self::NoPosition { .. } | Self::Nowhere { .. } => "no-position",
             Self::NoThreePoints { .. } => "no-three-points",
             Self::Count(_) => "count",
             Self::Tolerance(_) | Self::TooFine { .. } => "tolerance",

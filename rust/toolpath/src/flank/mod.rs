@@ -7,6 +7,8 @@
 mod course;
 mod cutter;
 mod error;
+mod fit;
+mod heights;
 mod method;
 mod movement;
 mod pass;

@@ -1,18 +1,29 @@
 //! Where a tool is at any share of the way along a strip.
 
 use rayon::prelude::*;
+use styluscam_geometry::Vector;
 
-use super::course::{Course, STRAIGHT_MOVES};
+use super::course::Course;
 use super::cutter::Flank;
+use super::fit::fitted;
+use super::heights::{largest_of, STRAIGHT_MOVES};
 use super::method::{beside_middle, offset, QUARTERS};
 use super::stand::Stand;
 use super::touch::{on_rails, touching};
 use super::{FlankError, Method, RuledStrip};
 
 /// Of more positions than straight moves count, so many are compared.
-const COMPARED: usize = 161;
+const COMPARED: usize = 97;
 /// A change of the spread so many times that of the contacts, or of its mean, is a jump.
 const STEADY: f64 = 2.0;
+
+/// How much bends of a course count beside heights, the more the less steady it is.
+const STIFFNESSES: [f64; 4] = [1e-7, 1e-5, 1e-4, 1e-3];
+/// A turn of the axis so many times the mean is a jump, or so many times the largest turn of the rulings beside theirs.
+const JUMP: f64 = 4.0;
+const NATURAL: f64 = 1.5;
+/// Turns that are none, rad.
+const NO_TURN: f64 = 1e-9;
 
 /// A tool on its way along a strip.
 pub struct Movement<'a> {
@@ -75,7 +86,7 @@ impl<'a> Movement<'a> {
         match &self.way {
             Way::Spread(course) => on_rails(strip, flank, u, course.spread(u)),
             Way::Touching(which) => {
-                let spread = which.of(touching(strip, flank, u)?).ok_or(FlankError::NoThreePoints { u })?;
+                let spread = which.of(touching(strip, flank, u)).ok_or(FlankError::NoThreePoints { u })?;
                 on_rails(strip, flank, u, spread)
             }
             Way::TwoPoints => Ok(offset(strip, flank, u, QUARTERS)),
@@ -84,28 +95,90 @@ impl<'a> Movement<'a> {
     }
 }
 
-/// The way that leaves least: a smooth course, or that which touches the ruling all along where the largest height is smaller so.
+/// The way that leaves least of those on which the axis does not jump: a smooth course, the stiffer the more it would, or one that
+/// touches the ruling all along.
 fn least_left(strip: &RuledStrip, flank: &Flank, count: usize) -> Result<Way, FlankError> {
-    let course = Course::fitted(strip, flank, count)?;
-    let is_straight = count <= STRAIGHT_MOVES;
-    let compared = if is_straight { count } else { COMPARED };
-    let largest = |spreads: &[f64]| Course::largest_of(strip, flank, spreads, is_straight);
-    let least = largest(&course.spreads(compared))?;
-    let found = touched(strip, flank, compared);
-    let left = |which: Touched| {
-        let spreads = steady(&found, which)?;
-        largest(&spreads).ok().filter(|left| *left < least)
-    };
-    let lefts = [Touched::Above, Touched::Below, Touched::Least].map(|which| (which, left(which)));
-    let better = lefts.into_iter().filter_map(|(which, left)| Some((which, left?)));
-    let best = better.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(which, _)| which);
-    let all_along = best.filter(|which| compared == count || steady(&touched(strip, flank, count), *which).is_some());
-    Ok(all_along.map_or_else(|| Way::Spread(course), Way::Touching))
+    let choice = Choice::of(strip, flank, count);
+    let mut best: Option<(Judged, Way)> = None;
+    let mut refused = None;
+    for stiffness in STIFFNESSES {
+        let course = match fitted(strip, flank, count, stiffness) {
+            Ok(course) => course,
+            Err(error) => {
+                refused = Some(error);
+                continue;
+            }
+        };
+        if let Some(judged) = choice.better(&best, &course.spreads(choice.compared)) {
+            best = Some((judged, Way::Spread(course)));
+            if judged.is_steady {
+                break;
+            }
+        }
+    }
+    let found = touched(strip, flank, choice.compared);
+    for which in [Touched::Above, Touched::Below, Touched::Least] {
+        let Some(spreads) = steady(&found, which) else { continue };
+        let better = choice.better(&best, &spreads);
+        let is_all_along = || choice.compared == count || steady(&touched(strip, flank, count), which).is_some();
+        if let Some(judged) = better.filter(|_| is_all_along()) {
+            best = Some((judged, Way::Touching(which)));
+        }
+    }
+    best.map(|(_, way)| way).ok_or(refused.unwrap_or(FlankError::NoPosition { u: 0.5, radius: flank.radius() }))
+}
+
+/// What a way comes to.
+#[derive(Clone, Copy)]
+struct Judged {
+    is_steady: bool,
+    largest: f64,
+}
+
+/// How ways are compared.
+struct Choice<'a> {
+    strip: &'a RuledStrip,
+    flank: &'a Flank,
+    compared: usize,
+    is_straight: bool,
+    /// The largest turn of the axis that is no jump, beside the mean.
+    jump: f64,
+}
+
+impl<'a> Choice<'a> {
+    fn of(strip: &'a RuledStrip, flank: &'a Flank, count: usize) -> Self {
+        let is_straight = count <= STRAIGHT_MOVES;
+        let compared = if is_straight { count } else { COMPARED };
+        let share = |i: usize| i as f64 / (compared - 1) as f64;
+        // as the surface itself turns
+        let rulings = (0..compared).map(|i| (strip.point([share(i), 1.0]) - strip.point([share(i), 0.0])).normalize());
+        let jump = JUMP.max(NATURAL * largest_turn(&rulings.collect::<Vec<_>>()));
+        Self { strip, flank, compared, is_straight, jump }
+    }
+
+    /// What a way comes to that is better than the best so far.
+    fn better(&self, best: &Option<(Judged, Way)>, spreads: &[f64]) -> Option<Judged> {
+        let (largest, positions) = largest_of(self.strip, self.flank, spreads, self.is_straight).ok()?;
+        let axes: Vec<_> = positions.iter().map(|station| (station.axis[1] - station.axis[0]).normalize()).collect();
+        let judged = Judged { is_steady: largest_turn(&axes) <= self.jump, largest };
+        let is_better = best.as_ref().is_none_or(|(so_far, _)| {
+            (judged.is_steady && !so_far.is_steady)
+                || (judged.is_steady == so_far.is_steady && largest < so_far.largest)
+        });
+        is_better.then_some(judged)
+    }
+}
+
+/// The largest turn from one direction to the next beside the mean.
+fn largest_turn(directions: &[Vector]) -> f64 {
+    let turns = directions.windows(2).map(|pair| (pair[1] - pair[0]).norm());
+    let mean = turns.clone().sum::<f64>() / (directions.len() - 1).max(1) as f64;
+    turns.fold(0.0, f64::max) / mean.max(NO_TURN)
 }
 
 /// The spreads at which the ruling is touched on either side.
 fn touched(strip: &RuledStrip, flank: &Flank, count: usize) -> Vec<[Option<f64>; 2]> {
-    let at = |i: usize| touching(strip, flank, i as f64 / (count - 1) as f64).unwrap_or_default();
+    let at = |i: usize| touching(strip, flank, i as f64 / (count - 1) as f64);
     (0..count).into_par_iter().map(at).collect()
 }
 

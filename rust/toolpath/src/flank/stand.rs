@@ -20,6 +20,8 @@ const STEPS: usize = 40;
 const FARTHEST: f64 = 0.3;
 /// A turn below this ends the search, rad: what is left after it is its square.
 const SETTLED: f64 = 1e-9;
+/// A radius is grown in so many steps where one is too much; a tenth of them is too small.
+const FOLLOWED: f64 = 8.0;
 /// What may be left of the equations, as a share of the axis' length.
 const RESIDUAL: f64 = 1e-13;
 
@@ -103,37 +105,76 @@ impl Trial {
     }
 }
 
+/// What a position is looked for beside: the rails at the contacts, and the surface's normals there.
+struct Contacts {
+    rails: [Rail; 2],
+    normals: [Vector; 2],
+    ruling: f64,
+}
+
+impl Contacts {
+    fn at(strip: &RuledStrip, u: [f64; 2]) -> Self {
+        let ends = u.map(|u| strip.ends(u));
+        let rails = [0, 1].map(|i| Rail::of(&ends[i][i]));
+        let normals = [0, 1].map(|i| strip.normal_between(&ends[i], i as f64));
+        let ruling = (rails[1].point - rails[0].point).norm();
+        Self { rails, normals, ruling }
+    }
+
+    /// The position that Newton's steps reach; none where they reach none beside the surface. As a radius grows, positions vanish
+    /// in pairs, where the determinant is 0: the other of a pair, in which it is below 0, is none either.
+    fn solved(&self, from: [Vector; 2], flank: &Flank) -> Option<Trial> {
+        let Self { rails, normals, ruling } = self;
+        let (radius, growth) = (flank.radius(), flank.growth());
+        let mut trial = Trial { q: from, radii: [radius, flank.radius_at(*ruling, 1.0)] };
+        for _ in 0..STEPS {
+            let step = trial.slopes(rails, growth).try_inverse()? * -trial.equations(rails, growth);
+            let aside = trial.aside(rails);
+            let turns = [step[0], step[1]].map(|angle| angle.clamp(-FARTHEST, FARTHEST));
+            for i in 0..2 {
+                let (sin, cos) = libm::sincos(turns[i]);
+                trial.q[i] = (trial.q[i] * cos + aside[i] * sin).normalize();
+            }
+            trial.radii[1] = (trial.radii[1] + step[2]).max(0.5 * radius);
+            if step[0].abs().max(step[1].abs()).max(step[2].abs() / ruling) <= SETTLED {
+                break;
+            }
+        }
+        let [m1, m2] = trial.axis(rails);
+        let is_beside = (0..2).all(|i| trial.q[i].dot(&normals[i]) > 0.0);
+        let is_first = trial.slopes(rails, growth).determinant() > 0.0;
+        let left = trial.equations(rails, growth).amax();
+        (left <= RESIDUAL * (m2 - m1).norm().max(radius) && is_beside && is_first).then_some(trial)
+    }
+
+    /// The same where Newton's steps from the normals do not lead: from small radii on.
+    fn followed(&self, flank: &Flank) -> Option<Trial> {
+        let mut from = self.normals;
+        let (mut share, mut step) = (0.0_f64, 1.0 / FOLLOWED);
+        while share < 1.0 {
+            let next = (share + step).min(1.0);
+            match self.solved(from, &flank.of_share(next)) {
+                Some(trial) if next >= 1.0 => return Some(trial),
+                Some(trial) => (share, from) = (next, trial.q),
+                None if step * FOLLOWED < 0.1 => return None,
+                None => step *= 0.5,
+            }
+        }
+        None
+    }
+}
+
 /// The position with contacts at shares `u` of both rails, and how its axis moves when the contacts move at `rates`, mm per unit.
 ///
 /// # Errors
 /// [`FlankError::NoPosition`].
 pub fn stand(strip: &RuledStrip, flank: &Flank, u: [f64; 2], rates: [f64; 2]) -> Result<(Stand, Station), FlankError> {
-    let (radius, growth) = (flank.radius(), flank.growth());
-    let none = || FlankError::NoPosition { u: 0.5 * (u[0] + u[1]), radius };
-    let ends = u.map(|u| strip.ends(u));
-    let rails = [0, 1].map(|i| Rail::of(&ends[i][i]));
-    let normals = [0, 1].map(|i| strip.normal_between(&ends[i], i as f64));
-    let ruling = (rails[1].point - rails[0].point).norm();
-    let mut trial = Trial { q: normals, radii: [radius, flank.radius_at(ruling, 1.0)] };
-    for _ in 0..STEPS {
-        let step = trial.slopes(&rails, growth).try_inverse().ok_or_else(none)? * -trial.equations(&rails, growth);
-        let aside = trial.aside(&rails);
-        let turns = [step[0], step[1]].map(|angle| angle.clamp(-FARTHEST, FARTHEST));
-        for i in 0..2 {
-            let (sin, cos) = libm::sincos(turns[i]);
-            trial.q[i] = (trial.q[i] * cos + aside[i] * sin).normalize();
-        }
-        trial.radii[1] = (trial.radii[1] + step[2]).max(0.5 * radius);
-        if step[0].abs().max(step[1].abs()).max(step[2].abs() / ruling) <= SETTLED {
-            break;
-        }
-    }
-    let [m1, m2] = trial.axis(&rails);
-    let is_beside = (0..2).all(|i| trial.q[i].dot(&normals[i]) > 0.0);
-    let left = trial.equations(&rails, growth).amax();
-    if !(left <= RESIDUAL * (m2 - m1).norm().max(radius) && is_beside) {
-        return Err(none());
-    }
+    let none = || FlankError::NoPosition { u: 0.5 * (u[0] + u[1]), radius: flank.radius() };
+    let contacts = Contacts::at(strip, u);
+    let found = contacts.solved(contacts.normals, flank).or_else(|| contacts.followed(flank));
+    let trial = found.ok_or_else(none)?;
+    let (rails, growth) = (&contacts.rails, flank.growth());
+    let [m1, m2] = trial.axis(rails);
     // both contacts move, each q is carried along across its rail, and turns as the equations ask
     let carried = [0, 1].map(|i| -rails[i].tangent * trial.q[i].dot(&rails[i].turn) * rates[i]);
     let moved = [0, 1].map(|i| rails[i].rate * rates[i] + carried[i] * trial.radii[i]);
@@ -141,10 +182,10 @@ pub fn stand(strip: &RuledStrip, flank: &Flank, u: [f64; 2], rates: [f64; 2]) ->
     let grown = growth * apart.dot(&(m2 - m1).normalize());
     let [change1, change2] = [0, 1].map(|i| apart.dot(&trial.q[i]) + (m2 - m1).dot(&carried[i]) - grown);
     let change = Vector3::new(change1, change2, -grown);
-    let answer = trial.slopes(&rails, growth).try_inverse().ok_or_else(none)? * -change;
-    let aside = trial.aside(&rails);
+    let answer = trial.slopes(rails, growth).try_inverse().ok_or_else(none)? * -change;
+    let aside = trial.aside(rails);
     let turned = [0, 1].map(|i| moved[i] + aside[i] * (trial.radii[i] * answer[i]));
     let rates = [turned[0], turned[1] + trial.q[1] * answer[2]];
     let stand = Stand { axis: [m1, m2], contacts: [rails[0].point, rails[1].point] };
-    Ok((stand, Station { axis: stand.axis, rates, swell: answer[2] }))
+    Ok((stand, Station { axis: stand.axis, direction: stand.direction(), rates, swell: answer[2] }))
 }

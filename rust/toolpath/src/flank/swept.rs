@@ -5,10 +5,15 @@ use styluscam_geometry::Vector;
 
 use super::cutter::Flank;
 
+/// Parts of a straight move by which the nearest of it may lie aside.
+const ASIDE: f64 = 0.1;
+
 /// A position of the axis, two points of it, mm, and how they move with the free parameter.
 #[derive(Clone, Copy, Debug)]
 pub struct Station {
     pub axis: [Vector; 2],
+    /// Unit vector along it.
+    pub direction: Vector,
     pub rates: [Vector; 2],
     /// How the radius at the second grows with it.
     pub swell: f64,
@@ -24,8 +29,10 @@ impl Station {
         let turned = there / (here + there);
         let first = [between(self.axis[0], next.axis[0], share), between(self.rates[0], next.rates[0], share)];
         let faster = |station: &Self| station.rates[1] - station.rates[0];
+        let over = between(over(self), over(next), turned);
         Self {
-            axis: [first[0], first[0] + between(over(self), over(next), turned)],
+            axis: [first[0], first[0] + over],
+            direction: over.normalize(),
             rates: [first[1], first[1] + between(faster(self), faster(next), turned)],
             swell: self.swell + (next.swell - self.swell) * share,
         }
@@ -53,9 +60,9 @@ pub struct Left {
 }
 
 /// How far over the strip's point the flank is met along the normal, mm; infinite where it is not.
-fn met(sample: &Sample, axis: &[Vector; 2], flank: &Flank) -> f64 {
-    let direction = (axis[1] - axis[0]).normalize();
-    let from = sample.point - axis[0];
+fn met(sample: &Sample, station: &Station, flank: &Flank) -> f64 {
+    let direction = station.direction;
+    let from = sample.point - station.axis[0];
     let along = [from.dot(&direction), sample.normal.dot(&direction)];
     let (beside, normal) = (from - direction * along[0], sample.normal - direction * along[1]);
     flank.met(along, [beside.norm_squared(), beside.dot(&normal), normal.norm_squared()])
@@ -64,25 +71,32 @@ fn met(sample: &Sample, axis: &[Vector; 2], flank: &Flank) -> f64 {
 /// What stands over a sample; none where the nearest station is the first or the last, for what lies beyond is not known.
 /// Straight moves of `parts` stations each leave a ripple, in which the lowest lies within one of them.
 pub fn left(sample: &Sample, stations: &[Station], flank: &Flank, parts: usize) -> Option<Left> {
-    let height = |i: usize| met(sample, &stations[i].axis, flank);
-    let (mut at, mut least) = (sample.near, height(sample.near));
+    let height = |i: usize| stations.get(i).map_or(f64::INFINITY, |station| met(sample, station, flank));
+    let below = |i: usize| i.checked_sub(1).map_or(f64::INFINITY, height);
+    let mut at = sample.near;
+    let [mut before, mut least, mut after] = [below(at), height(at), height(at + 1)];
     // downhill from station to station
     loop {
-        let beside = [at.checked_sub(1), Some(at + 1).filter(|i| *i < stations.len())];
-        let lower = beside.into_iter().flatten().map(|i| (i, height(i))).find(|(_, height)| *height < least);
-        let Some((next, lower)) = lower else { break };
-        (at, least) = (next, lower);
+        if before < least {
+            at -= 1;
+            (before, least, after) = (below(at), before, least);
+        } else if after < least {
+            at += 1;
+            (before, least, after) = (least, after, height(at + 1));
+        } else {
+            break;
+        }
     }
     if parts > 1 {
         let about = at.saturating_sub(parts)..=(at + parts).min(stations.len() - 1);
         (at, least) =
             about.map(|i| (i, height(i))).fold((at, least), |best, next| if next.1 < best.1 { next } else { best });
+        (before, after) = (below(at), height(at + 1));
     }
     if at == 0 || at + 1 >= stations.len() || !least.is_finite() {
         return None;
     }
     // the lowest point of the parabola through it and its neighbours
-    let [before, after] = [height(at - 1), height(at + 1)];
     let bend = before - 2.0 * least + after;
     let (offset, lowest) = if bend > 0.0 && bend.is_finite() {
         let offset = (0.5 * (before - after) / bend).clamp(-0.5, 0.5);
@@ -90,7 +104,7 @@ pub fn left(sample: &Sample, stations: &[Station], flank: &Flank, parts: usize) 
     } else {
         (0.0, least)
     };
-    let Station { axis: [first, second], rates, swell } = stations[at];
+    let Station { axis: [first, second], rates, swell, .. } = stations[at];
     let met = sample.point + sample.normal * least;
     let (along, growth) = (second - first, flank.growth());
     let length = along.norm();
@@ -102,4 +116,18 @@ pub fn left(sample: &Sample, stations: &[Station], flank: &Flank, parts: usize) 
     let swollen = swell * share * flank.radius_at(length, share);
     let rate = (outwards.dot(&moved) + swollen) / outwards.dot(&sample.normal);
     Some(Left { height: lowest, rate, station: at as f64 + offset })
+}
+
+/// The same of a straight move of `parts` ways between stations, whose middle comes nearest to the sample where the continuous
+/// movement does, which leaves this.
+pub fn left_by_move(sample: &Sample, continuous: &Left, stations: &[Station], flank: &Flank, parts: usize) -> Left {
+    let last = stations.len() - 1;
+    let first = ((continuous.station.round() as usize).saturating_sub(parts / 2)).min(last - parts.min(last));
+    let ends = [&stations[first], &stations[(first + parts).min(last)]];
+    let middle = (continuous.station - first as f64) / parts as f64;
+    let height = |share: f64| met(sample, &ends[0].towards(ends[1], share), flank);
+    let [before, here, after] = [middle - ASIDE, middle, middle + ASIDE].map(height);
+    let bend = before - 2.0 * here + after;
+    let lower = if bend > 0.0 && bend.is_finite() { 0.125 * (before - after) * (before - after) / bend } else { 0.0 };
+    Left { height: if here.is_finite() { here - lower } else { continuous.height }, ..*continuous }
 }

@@ -23,30 +23,32 @@ pub fn on_rails(strip: &RuledStrip, flank: &Flank, u: f64, spread: f64) -> Resul
 }
 
 /// The least spread above and that below 0 at which the flank touches both rails and the ruling.
-///
-/// # Errors
-/// No position touches the rails where their ruling does.
-pub fn touching(strip: &RuledStrip, flank: &Flank, u: f64) -> Result<[Option<f64>; 2], FlankError> {
+pub fn touching(strip: &RuledStrip, flank: &Flank, u: f64) -> [Option<f64>; 2] {
     let ends = [0, 1].map(|rail| strip.rail(rail, u).point);
     let gap = |spread: f64| on_rails(strip, flank, u, spread).map(|stand| gap(&stand, flank, ends));
-    let straight = gap(0.0)?;
-    if straight.abs() < TOUCHING * flank.radius() {
-        return Ok([Some(0.0); 2]);
+    let straight = gap(0.0).ok();
+    if straight.is_some_and(|gap| gap.abs() < TOUCHING * flank.radius()) {
+        return [Some(0.0); 2];
     }
     // the flank comes nearer to the ruling or goes away from it with the spread: towards where they touch
-    Ok([1.0, -1.0].map(|sign| {
-        let mut low = (0.0, straight);
+    [1.0, -1.0].map(|sign| {
+        let mut low = straight.map(|gap| (0.0, gap));
         let mut spread = NARROWEST;
         while spread <= WIDEST {
-            let high = (sign * spread, gap(sign * spread).ok()?);
-            if high.1 * straight <= 0.0 {
-                return root(low, high, &gap, TOUCHING * flank.radius());
+            let high = gap(sign * spread).ok().map(|gap| (sign * spread, gap));
+            match (low, high) {
+                (Some(low), Some(high)) if high.1 * low.1 <= 0.0 => {
+                    return root(low, high, &gap, TOUCHING * flank.radius());
+                }
+                // positions end there
+                (Some(_), None) => return None,
+                _ => {}
             }
             low = high;
             spread *= 2.0;
         }
         None
-    }))
+    })
 }
 
 /// Where a function is 0 between two places of opposite sign: false position, whose end that stays counts half each time
