@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import ClassVar, Protocol, TypeAlias, runtime_checkable
 
@@ -211,6 +211,10 @@ class Parametric:
     # Directions off a pole that are tried.
     SIDES = 33
 
+    def __getstate__(self) -> dict[str, object]:
+        """For pickle and copy: without what is kept of the engine."""
+        return {one.name: getattr(self, one.name) for one in fields(self)}
+
     def distance(self, points: Floats) -> Floats:
         """See ExactSurface; right for points nearer to the surface than its smallest radius of curvature."""
         return self.distance_from(points, self.nearest_seed(points))
@@ -368,6 +372,10 @@ class Nurbs:
             float(self.knots_v[self.degree_v]),
             float(self.knots_v[-self.degree_v - 1]),
         )
+
+    def __getstate__(self) -> dict[str, object]:
+        """For pickle and copy: without what is kept of the engine."""
+        return {one.name: getattr(self, one.name) for one in fields(self)}
 
     def __call__(self, uv: Floats) -> tuple[Floats, Floats, Floats]:
         """Return points and derivatives along u and v, each (N,3), at parameters (N,2)."""

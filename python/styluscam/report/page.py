@@ -10,7 +10,6 @@ import numpy as np
 from styluscam.drawing.decimation import thinned
 from styluscam.drawing.shapes import OTHER_TOOL, TOOL, Look, Shape
 from styluscam.drawing.toolplot import tool_svg
-from styluscam.errors import VerifyError
 from styluscam.programs.contents import ToolRecord
 from styluscam.programs.program import SAG
 from styluscam.report import clearing, plots, tables
@@ -27,8 +26,8 @@ from styluscam.types import Document, FloatArray, Progress
 SCRIPTS = ("data", "colours", "stage", "part", "path", "tool", "shapes", "layers", "player", "findings", "main")
 """In the order in which they build upon each other."""
 
-UPRIGHT = 1e-9
-"""Sine of the angle by which a tool's axis may differ from +Z: rounding only."""
+AXIS_STEP = 1e-5
+"""To which the coordinates of the tool's axis are rounded for the drawing."""
 
 SEGMENTS = 200_000
 """Of the path as it is drawn."""
@@ -58,9 +57,7 @@ def report_page(subject: Subject, progress: Progress | None = None) -> str:
     Raises:
         StylusError: jinja2 or matplotlib are missing.
         GeometryError: a part that keeps no triangles to draw, or a program without moves.
-        VerifyError: a program that turns the tool's axis, which the page would draw upright.
     """
-    _require_upright(subject)
     shown = _shown(subject, progress)
     verdict = verdict_of(subject.report, subject.gaps is not None)
     return str(
@@ -87,19 +84,6 @@ def report_page(subject: Subject, progress: Progress | None = None) -> str:
             data=_json(_data(subject, shown)),
         )
     )
-
-
-def _require_upright(subject: Subject) -> None:
-    """Refuses a program with a tool axis that is not +Z."""
-    off = np.abs(subject.program.moves["axis"] - [0.0, 0.0, 1.0]).max(axis=1, initial=0.0)
-    tilted = np.flatnonzero(off > UPRIGHT)
-    if len(tilted):
-        raise VerifyError(
-            f"the tool axis of move {tilted[0]} is not +Z: the page draws upright tools only",
-            code="tool-axis",
-            where=f"moves[{tilted[0]}]",
-            hint="show a program for three axes",
-        )
 
 
 def _json(data: Document) -> str:
@@ -199,6 +183,7 @@ def _path(subject: Subject) -> Document:
     drawn = thinned(subject.positions, changes, SEGMENTS)
     return {
         "places": packed(subject.positions),
+        "axes": packed(moves["axis"], AXIS_STEP) if subject.leans else None,
         "times": packed(subject.times),
         "kinds": packed(subject.kinds),
         "moves": packed(subject.owners),

@@ -23,6 +23,9 @@ from styluscam.report.surface import Surface
 from styluscam.tools.tool import Tool
 from styluscam.types import Document, FloatArray, IntArray
 
+LEANS = 1e-9
+"""Sine of the angle by which a tool's axis may differ from +Z: rounding only."""
+
 RAPIDS, UPRIGHT, CUT = 0, 1, 2
 """What moves are for, as a page colours them: rapids; straight down or up at a feed; any other at a feed."""
 
@@ -136,6 +139,11 @@ class Subject:
     def moves(self) -> npt.NDArray[np.void]:
         """The program's record of that move, (N,)."""
         return self.program.moves[self.owners]
+
+    @property
+    def leans(self) -> bool:
+        """Whether the tool's axis is anywhere another than +Z."""
+        return bool((np.abs(self.program.moves["axis"][:, :2]) > LEANS).any())
 
     @cached_property
     def times(self) -> FloatArray:

@@ -278,7 +278,8 @@ pub fn coverage(
 ) -> Result<Vec<FaceCoverage>, JobError> {
     let against = Against::new(job, scene)?;
     let mut faces = Vec::new();
-    for (index, section) in job.operations_of(scene.channel) {
+    // what leaning tools leave is measured along their surfaces
+    for (index, section) in job.operations_of(scene.channel).filter(|(_, section)| !section.kind().leans()) {
         faces.extend(faces_of(job, scene, section, index)?);
     }
     let subject = against.subject(&judgement.unknown_positions);

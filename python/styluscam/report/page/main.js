@@ -34,7 +34,7 @@ async function start() {
   const player = new Player(path);
   player.show = ({ index, tip, share }) => {
     lines.done(index);
-    tool.stand(player.toolAt(index), tip);
+    tool.stand(player.toolAt(index), tip, path.axis(index, share));
     opposite?.stand(index, share);
     shapes.stand(index);
   };

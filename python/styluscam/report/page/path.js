@@ -6,6 +6,7 @@ class Path {
     const columns = await Promise.all(names.map((name) => unpacked(given[name])));
     const path = new Path();
     names.forEach((name, k) => (path[name] = name === "places" ? columns[k] : columns[k][0]));
+    path.axes = given.axes ? await unpacked(given.axes) : null;
     return Object.assign(path, { count: given.count, known: path.times.length });
   }
 
@@ -15,6 +16,13 @@ class Path {
 
   place(index) {
     return this.places.map((column) => column[index]);
+  }
+
+  /** The tool's axis at a share of the way to a place: up where no tool leans. */
+  axis(index, share) {
+    if (!this.axes) return [0, 0, 1];
+    const before = Math.max(index - 1, 0);
+    return this.axes.map((column) => column[before] + (column[index] - column[before]) * share);
   }
 
   /** The index of a move's end. */

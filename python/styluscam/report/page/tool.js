@@ -2,6 +2,7 @@
 
 const CORNER = Math.cos(0.35);
 const SIDES = 96;
+const UP = new THREE.Vector3(0, 0, 1);
 
 class ToolView {
   constructor(stage, tools) {
@@ -13,11 +14,12 @@ class ToolView {
     stage.scene.add(this.pointer);
   }
 
-  /** Puts a tool's tip at a place; the pointer where none is loaded. */
-  stand(tool, tip) {
+  /** Puts a tool's tip at a place, its axis along a direction; the pointer where none is loaded. */
+  stand(tool, tip, axis) {
     const active = this.shapes[tool] ?? this.pointer;
     this.active = active;
     active.position.copy(this.stage.place(tip));
+    active.quaternion.setFromUnitVectors(UP, new THREE.Vector3(...axis).normalize());
     this.show(this.on);
   }
 

@@ -33,6 +33,9 @@ impl Before<'_> {
         let mut end = None;
         for pair in self.moves.windows(2) {
             let [before, step] = pair else { continue };
+            if !(before.end.axis.is_up() && step.end.axis.is_up()) {
+                continue; // what a leaning tool sweeps is no area in plan
+            }
             let Some((points, highest)) = low(before.end.tip, step, floor) else { continue };
             let Some(tool) = self.tools.get(step.operation as usize) else { continue };
             let radius = tool.cutter().at_height(top - highest).0;

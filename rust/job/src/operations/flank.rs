@@ -15,6 +15,7 @@ use super::{
     About, Areas, Context, Direction, Effort, Fact, Fit, LeadForm, LinkHeight, OperationKind, PassContext, PassSpacing,
     Planned, Serves,
 };
+use crate::numbers::shown;
 use crate::{JobError, OperationKeys};
 
 /// Mills ruled surfaces, such as blades and twisted walls, with the side of a tool that leans: on machines with two rotary axes. The tool
@@ -50,7 +51,7 @@ pub struct Flank {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "mm", "minimum" = 0.1, "maximum" = 1000.0))]
     pub pass_depth: Option<f64>,
-    /// How far the tool goes on beyond both ends of the surface, mm, as it stands there.
+    /// How far the tool goes on beyond both ends of the surface, mm: the curves go on as they end.
     #[serde(default = "extension")]
     #[schemars(extend("x-unit" = "mm", "minimum" = 0.0, "maximum" = 1000.0))]
     pub extension: f64,
@@ -136,13 +137,17 @@ impl Flank {
         };
         let tool = context.tool.flank().map_err(JobError::geometry(format!("tools.{}", context.common.tool)))?;
         let strip = self.strip(surface).map_err(refused)?;
+        let strip = strip.extended(self.extension).map_err(|error| {
+            let message = format!("{}: it cannot be continued by {} mm: {error}", surface.name, shown(self.extension));
+            JobError::document(error.code(), format!("{path}.extension"), message, "lower extension")
+        })?;
         let side = self.side_of(&tool).map_err(refused)?;
         let stands = positions_within(&strip, &side, CHORDS * context.common.tolerance, self.method.method())
             .map_err(refused)?;
         check_lean(&stands, &surface.name, path)?;
         let down = tool.rise() + self.overreach;
         let ways = FlankWays {
-            extension: self.extension,
+            extension: 0.0, // the strip is longer by it
             lead: self.lead_length,
             cut: context.common.feeds.cut,
             plunge: context.common.feeds.plunge,
@@ -265,6 +270,11 @@ impl OperationKind for Flank {
         if context.region.check.is_some() {
             let message = "part.check_faces are not kept away from by flank milling: all other faces are watched";
             return Err(JobError::document("conflict", context.path.clone(), message, "remove part.check_faces"));
+        }
+        if context.machine.rotary.is_none() {
+            let message = format!("{} has three axes, and flank milling leans the tool", context.machine.name);
+            let hint = "take a machine file with [rotary], such as linuxcnc-trunnion, or extend yours by one";
+            return Err(JobError::document("no-rotary-axes", "machine", message, hint));
         }
         let surfaces = context.ruled_surfaces(self.rails.as_ref(), self.side)?;
         let mut moves = Vec::new();

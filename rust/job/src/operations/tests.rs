@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 use styluscam_motion::Watch;
+use styluscam_post::Machine;
 use styluscam_verify::Passes;
 
 use super::{Operation, PassContext, Serves, StarterPasses};
@@ -59,12 +60,13 @@ fn every_key_of_every_kind_has_a_help_text() {
 #[test]
 fn every_kind_plans_and_says_what_it_planned() {
     let (part, watch) = (frustum(), Watch::default());
-    let machine = machine();
+    let (upright, turning) = (machine(), Machine::shipped("linuxcnc-trunnion").unwrap());
     // a pocket takes a minute with a tool this small: tests/python/test_pocket_operation.py plans a smaller one
     for kind in kinds().filter(|kind| Operation::NAMES[*kind] != "pocket") {
         let job = job(kind).unwrap();
         let scene = Scene::new(&job, crate::MAIN_CHANNEL, &part).unwrap();
-        let plan = crate::plan(&job, &[Setting { scene: &scene, machine: &machine }], &watch).unwrap();
+        let machine = if job.operations[0].kind().leans() { &turning } else { &upright };
+        let plan = crate::plan(&job, &[Setting { scene: &scene, machine }], &watch).unwrap();
         let channel = &plan.channels[crate::MAIN_CHANNEL];
         let (name, summary): (&str, _) = (Operation::NAMES[kind], &channel.operations[0]);
         assert_eq!(summary.kind, name);

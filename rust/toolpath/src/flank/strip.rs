@@ -26,6 +26,8 @@ pub enum Side {
 pub struct RuledStrip {
     rails: [NurbsCurve; 2],
     side: Side,
+    /// Where it begins and ends, as shares of the rails: beyond 0 and 1 their end polynomials go on.
+    ends: [f64; 2],
 }
 
 impl RuledStrip {
@@ -34,7 +36,24 @@ impl RuledStrip {
     /// # Errors
     /// Rails that meet, cusps, rulings along a rail.
     pub fn new(rails: [NurbsCurve; 2], side: Side) -> Result<Self, FlankError> {
-        let strip = Self { rails, side };
+        Self { rails, side, ends: [0.0, 1.0] }.checked()
+    }
+
+    /// The same strip, longer at both ends by about a length, mm: its rails go on as they end.
+    ///
+    /// # Errors
+    /// As those of a strip, of what is longer.
+    pub fn extended(self, length: f64) -> Result<Self, FlankError> {
+        let share = |u: f64| {
+            let speed = 0.5 * (0..2).map(|rail| self.rail(rail, u).first.norm()).sum::<f64>();
+            length / speed.max(NONE)
+        };
+        let ends = [-share(0.0), 1.0 + share(1.0)];
+        Self { ends, ..self }.checked()
+    }
+
+    fn checked(self) -> Result<Self, FlankError> {
+        let strip = self;
         let at = |i: usize| i as f64 / LOOKED_AT as f64;
         let longest = |of: &dyn Fn(f64) -> f64| (0..=LOOKED_AT).map(|i| of(at(i))).fold(0.0, f64::max);
         let ruling = |u: f64| (strip.rail(1, u).point - strip.rail(0, u).point).norm();
@@ -66,7 +85,10 @@ impl RuledStrip {
     pub fn rail(&self, number: usize, u: f64) -> CurvePoint {
         let [first, last] = self.rails[number].domain();
         let length = last - first;
-        let CurvePoint { point, first: rate, second } = self.rails[number].at(first + u * length);
+        let longer = self.ends[1] - self.ends[0];
+        let share = self.ends[0] + u * longer;
+        let CurvePoint { point, first: rate, second } = self.rails[number].at(first + share * length);
+        let length = length * longer;
         CurvePoint { point, first: rate * length, second: second * (length * length) }
     }
 

@@ -4,7 +4,7 @@
 //! the edges around them, feeds may enter by the error that is allowed.
 
 use rayon::prelude::*;
-use styluscam_geometry::{Tool, ToolPart, Vector};
+use styluscam_geometry::{Bvh, Mesh, Tool, ToolPart, Vector};
 use styluscam_motion::{Cancelled, MoveKind, Watch};
 
 use super::found::Judged;
@@ -23,6 +23,8 @@ const STEP: f64 = 0.125;
 const MOST: usize = 512;
 /// A tool that is nearer to the part than this, mm, may touch it between two positions.
 const NEAR: f64 = 0.1;
+/// Clearances that differ by less are the same, mm.
+const LEVEL: f64 = 1e-5;
 /// Parts of the golden section between positions: to 1e-4 of their distance.
 const SECTIONS: usize = 18;
 const RATIO: f64 = 0.618_033_988_749_894_9;
@@ -36,7 +38,8 @@ struct Solid {
 /// The triangles of the surfaces that an operation mills.
 struct Own {
     is_own: Vec<bool>,
-    corners: Vec<[Vector; 3]>,
+    /// They alone, with their index; none where stated rails are milled.
+    alone: Option<(Mesh, Bvh)>,
     max_error: f64,
 }
 
@@ -96,15 +99,20 @@ impl Own {
         let passes = subject.expected.get(number)?.expectation.flank()?;
         let faces: Vec<u32> = passes.faces.iter().filter_map(|face| face.face).collect();
         let is_own: Vec<bool> = subject.mesh.faces().iter().map(|face| faces.contains(face)).collect();
-        let corners =
-            (0..is_own.len()).filter(|triangle| is_own[*triangle]).map(|triangle| subject.mesh.corners(triangle));
-        Some(Self { corners: corners.collect(), is_own, max_error: passes.max_error })
+        let own = (0..is_own.len()).filter(|triangle| is_own[*triangle]);
+        let triangles: Vec<[i64; 3]> = own.map(|triangle| subject.mesh.triangles()[triangle].map(i64::from)).collect();
+        let mesh = Mesh::new(subject.mesh.vertices().to_vec(), &triangles, &[]).ok();
+        let alone = mesh.map(|mesh| {
+            let bvh = Bvh::new(&mesh);
+            (mesh, bvh)
+        });
+        Some(Self { is_own, alone, max_error: passes.max_error })
     }
 
     /// Whether a point lies on the surfaces or at their edges: within the error that is allowed there.
     fn is_beside(&self, point: Vector) -> bool {
-        let reach = 2.0 * self.max_error + SLACK;
-        self.corners.iter().any(|corners| distance_squared(point, corners) <= reach * reach)
+        let Some((mesh, bvh)) = &self.alone else { return false };
+        (bvh.nearest(mesh, point).0 - point).norm() <= 2.0 * self.max_error + SLACK
     }
 }
 
@@ -132,30 +140,19 @@ impl Search<'_> {
         let first = usize::from(self.step.kind == MoveKind::Rapid);
         let value = |i: f64| self.clearance(&at(i)).unwrap_or(f64::INFINITY);
         let values: Vec<f64> = (0..=count).map(|i| value(i as f64)).collect();
-        let mut best = (f64::INFINITY, to.tip);
-        for i in first..=count {
+        let lowest = (first..=count).map(|i| {
             let beside = [i.checked_sub(1), Some(i + 1)].map(|j| j.and_then(|j| values.get(j)).copied());
-            let is_lowest = beside.into_iter().flatten().all(|other| values[i] <= other);
-            if !(is_lowest && values[i] < self.limit + NEAR) {
-                continue;
+            let changes = || beside.into_iter().flatten().map(|other| other - values[i]);
+            // the distance of a convex body is convex: where it stays the same there is nothing lower in between
+            let is_lowest = changes().all(|change| change >= 0.0) && changes().any(|change| change > LEVEL);
+            if is_lowest && values[i] < self.limit + NEAR {
+                let [low, high] = [i.saturating_sub(1).max(first), (i + 1).min(count)].map(|i| i as f64);
+                return about((values[i], i as f64), [low, high], &value);
             }
-            let (mut low, mut upper) = ((i as f64 - 1.0).max(0.0), (i as f64 + 1.0).min(count as f64));
-            let mut found = (values[i], i as f64);
-            for _ in 0..SECTIONS {
-                let [p, q] = [upper - RATIO * (upper - low), low + RATIO * (upper - low)];
-                let [at_p, at_q] = [value(p), value(q)];
-                found = [(at_p, p), (at_q, q)].into_iter().fold(found, |a, b| if b.0 < a.0 { b } else { a });
-                if at_p < at_q {
-                    upper = q;
-                } else {
-                    low = p;
-                }
-            }
-            if found.0 < best.0 {
-                best = (found.0, at(found.1).tip);
-            }
-        }
-        (best.0 < self.limit - SLACK).then_some(best)
+            (values[i], i as f64)
+        });
+        let (found, share) = lowest.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        (found < self.limit - SLACK).then(|| (found, at(share).tip))
     }
 
     /// How high up the tool the part may reach, mm.
@@ -198,19 +195,17 @@ impl Search<'_> {
     }
 }
 
-/// Of a point from a triangle (C. Ericson: Real-Time Collision Detection, 5.1.5).
-fn distance_squared(p: Vector, [a, b, c]: &[Vector; 3]) -> f64 {
-    let normal = (b - a).cross(&(c - a));
-    let inside =
-        [(a, b), (b, c), (c, a)].into_iter().all(|(from, to)| normal.cross(&(to - from)).dot(&(p - from)) >= 0.0);
-    if inside {
-        let over = normal.dot(&(p - a));
-        return over * over / normal.norm_squared();
+/// The least of a function about where it is known, by golden sections between two places.
+fn about(mut found: (f64, f64), [mut low, mut high]: [f64; 2], value: &dyn Fn(f64) -> f64) -> (f64, f64) {
+    for _ in 0..SECTIONS {
+        let [p, q] = [high - RATIO * (high - low), low + RATIO * (high - low)];
+        let [at_p, at_q] = [value(p), value(q)];
+        found = [(at_p, p), (at_q, q)].into_iter().fold(found, |a, b| if b.0 < a.0 { b } else { a });
+        if at_p < at_q {
+            high = q;
+        } else {
+            low = p;
+        }
     }
-    let to_edge = |from: &Vector, to: &Vector| {
-        let along = to - from;
-        let share = ((p - from).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
-        (from + along * share - p).norm_squared()
-    };
-    to_edge(a, b).min(to_edge(b, c)).min(to_edge(c, a))
+    found
 }

@@ -42,11 +42,17 @@ pub(crate) fn judged(
         let Some(passes) = operation.expectation.flank() else { continue };
         let Some(tool) = subject.tools.get(operation.tool) else { continue };
         let of_operation: Vec<&LeaningMove> = moves.iter().filter(|step| step.expected == Some(number)).collect();
-        let errors = swept::judge(&of_operation, passes, tool, watch, &mut judged)?;
+        let errors = swept::judge(&of_operation, passes, (tool, height(subject)), watch, &mut judged)?;
         let turning = turning::judge(&of_operation, &mut judged);
         judged.flanks.push(OperationFlank { operation: operation.id.clone(), faces: errors, turning });
     }
     Ok(judged)
+}
+
+/// How high up a tool the part may reach, mm.
+fn height(subject: &Subject) -> f64 {
+    let (low, high) = subject.mesh.bounds();
+    (high - low).norm()
 }
 
 /// The moves of leaning tools among those of upright ones, for what is checked of all alike: feeds, spindle, coolant.

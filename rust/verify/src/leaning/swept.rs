@@ -24,19 +24,19 @@ const STEPS: usize = 40;
 /// A tool that comes so near to the end of a normal, mm, cuts there: rims end on rails, and coordinates are rounded.
 const TOUCH: f64 = 3e-3;
 
-/// Checks all surfaces of an operation.
+/// Checks all surfaces of an operation; `high` is how high up the tool the part may reach, mm.
 ///
 /// # Errors
 /// `Cancelled`.
 pub(super) fn judge(
     moves: &[&LeaningMove],
     passes: &FlankPasses,
-    tool: &Tool,
+    (tool, high): (&Tool, f64),
     watch: &Watch,
     judged: &mut Judged,
 ) -> Result<Vec<FlankFaceError>, Cancelled> {
     let body = Body::new(tool, None);
-    let feeds: Vec<Feed> = moves.iter().filter_map(|step| Feed::of(step)).collect();
+    let feeds: Vec<Feed> = moves.iter().filter_map(|step| Feed::of(step, high)).collect();
     let parts = LOOKED_AT.div_ceil(feeds.len().max(1));
     watch.begin("measuring ruled surfaces", passes.faces.len());
     let mut errors = Vec::new();
@@ -51,11 +51,15 @@ pub(super) fn judge(
 struct Feed<'a> {
     step: &'a LeaningMove,
     from: Pose,
+    /// How far any point of the tool that is beside the surface goes on it, mm at most.
+    reach: f64,
 }
 
 impl<'a> Feed<'a> {
-    fn of(step: &'a LeaningMove) -> Option<Self> {
-        step.from.filter(|_| step.kind == MoveKind::Feed).map(|from| Self { step, from })
+    /// `high` is how high up the tool the part may reach, mm.
+    fn of(step: &'a LeaningMove, high: f64) -> Option<Self> {
+        let from = step.from.filter(|_| step.kind == MoveKind::Feed)?;
+        Some(Self { step, from, reach: from.apart(&step.to, high) })
     }
 
     fn at(&self, share: f64) -> Pose {
@@ -117,80 +121,111 @@ fn of_face(
 }
 
 /// The lowest that any position cuts over a point, and in which move and where on it; infinite where none comes there.
+///
+/// A tool is no lower over a point than it is near: moves that stay farther off than the lowest found so far are passed over.
 fn lowest(point: Vector, normal: Vector, feeds: &[Feed<'_>], parts: usize, body: &Body) -> (f64, Option<(usize, f64)>) {
-    let height = |number: usize, share: f64| over(point, normal, &feeds[number].at(share), body);
+    let near = |number: usize| feeds[number].nearest(point, body.radius());
     let mut best = (f64::INFINITY, None);
-    for number in 0..feeds.len() {
-        for part in 0..=parts {
-            let share = part as f64 / parts as f64;
-            let found = height(number, share);
-            if found < best.0 {
-                best = (found, Some((number, share)));
+    let Some(first) = (0..feeds.len()).min_by(|a, b| near(*a).total_cmp(&near(*b))) else { return best };
+    let mut looked_at = Vec::new();
+    for number in std::iter::once(first).chain((0..feeds.len()).filter(|number| *number != first)) {
+        if near(number) < best.0 {
+            let found = feeds[number].lowest_of_parts(point, normal, parts, body);
+            looked_at.push((number, found));
+            if found.0 < best.0 {
+                best = (found.0, Some((number, found.1)));
             }
         }
     }
-    let (_, Some((number, share))) = best else { return best };
-    // on both sides of it, in its own move and beyond its ends in the neighbours
-    let wide = 1.0 / parts as f64;
-    let mut intervals = vec![(number, (share - wide).max(0.0), (share + wide).min(1.0))];
-    if share <= 0.0 && number > 0 {
-        intervals.push((number - 1, 1.0 - wide, 1.0));
-    }
-    if share >= 1.0 && number + 1 < feeds.len() {
-        intervals.push((number + 1, 0.0, wide));
-    }
-    for (number, mut low, mut high) in intervals {
-        for _ in 0..SECTIONS {
-            let [p, q] = [high - RATIO * (high - low), low + RATIO * (high - low)];
-            let [at_p, at_q] = [height(number, p), height(number, q)];
-            let (share, found) = if at_p < at_q { (p, at_p) } else { (q, at_q) };
-            if found < best.0 {
-                best = (found, Some((number, share)));
-            }
-            if at_p < at_q {
-                high = q;
-            } else {
-                low = p;
+    // between the positions that were looked at a round tool is lower by no more than its bend over their distance
+    let bend = |number: usize| {
+        let apart = feeds[number].reach / parts as f64;
+        BENDS * apart * apart / body.radius() + SPARE
+    };
+    for (number, found) in looked_at {
+        if found.0 - bend(number) < best.0 {
+            let found = feeds[number].lowest_about(found, (point, normal), parts, body);
+            if found.0 < best.0 {
+                best = (found.0, Some((number, found.1)));
             }
         }
     }
     best
 }
 
-/// How far over a point, along its normal, a tool begins, mm: below 0 where it is entered; infinite where the normal passes beside it.
+impl Feed<'_> {
+    /// The tool is nowhere on the move nearer to a point than this, mm.
+    fn nearest(&self, point: Vector, radius: f64) -> f64 {
+        let from = point - self.from.tip;
+        let along = from.dot(&self.from.axis);
+        let aside = (from - self.from.axis * along).norm();
+        (aside - radius).max(-along) - self.reach
+    }
+
+    /// The lowest that it cuts over a point at the ends of its parts, and at which share of the move.
+    fn lowest_of_parts(&self, point: Vector, normal: Vector, parts: usize, body: &Body) -> (f64, f64) {
+        let share = |part: usize| part as f64 / parts as f64;
+        let positions = (0..=parts).map(|part| (over(point, normal, &self.at(share(part)), body), share(part)));
+        positions.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0.0))
+    }
+
+    /// The lowest about there.
+    fn lowest_about(
+        &self,
+        mut best: (f64, f64),
+        (point, normal): (Vector, Vector),
+        parts: usize,
+        body: &Body,
+    ) -> (f64, f64) {
+        if !best.0.is_finite() {
+            return best;
+        }
+        let height = |share: f64| over(point, normal, &self.at(share), body);
+        let wide = 1.0 / parts as f64;
+        let (mut low, mut high) = ((best.1 - wide).max(0.0), (best.1 + wide).min(1.0));
+        for _ in 0..SECTIONS {
+            let [p, q] = [high - RATIO * (high - low), low + RATIO * (high - low)];
+            let [at_p, at_q] = [height(p), height(q)];
+            best = [(at_p, p), (at_q, q)].into_iter().fold(best, |a, b| if b.0 < a.0 { b } else { a });
+            if at_p < at_q {
+                high = q;
+            } else {
+                low = p;
+            }
+        }
+        best
+    }
+}
+
+/// How far over a point, along its normal, a tool begins, mm; infinite where the normal passes beside it. Below 0 how deep the point is in
+/// the tool.
 ///
 /// Along a line the distance from a convex body is convex: Newton's steps from outside never pass the first place where it is 0.
 fn over(point: Vector, normal: Vector, pose: &Pose, body: &Body) -> f64 {
     let frame = pose.frame();
     let (from, way) = (frame.turned(point - pose.tip), frame.turned(normal));
-    let distance = |along: f64| {
-        let found = body.distance(from + way * along);
-        (found.value - TOUCH, found.away.dot(&way))
-    };
     let mut along = 0.0;
-    let mut back = TOUCH;
-    while distance(along).0 < 0.0 {
-        if back > 4.0 * body.radius() {
-            return f64::INFINITY;
-        }
-        along -= back;
-        back *= 4.0;
-    }
     for _ in 0..STEPS {
-        let (gap, slope) = distance(along);
-        if gap <= 1e-9 {
-            return along + TOUCH;
+        let found = body.distance(from + way * along);
+        if along <= 0.0 && found.value <= 0.0 {
+            return found.value;
         }
-        if slope >= 0.0 {
+        let (gap, slope) = (found.value - TOUCH, found.away.dot(&way));
+        if gap <= SETTLED {
+            return along + TOUCH.min(found.value);
+        }
+        if slope >= 0.0 || along > FAR {
             return f64::INFINITY;
         }
         along -= gap / slope;
-        if along.abs() > FAR {
-            return f64::INFINITY;
-        }
     }
     along + TOUCH
 }
 
+/// Of a bend by the tool's radius, for axes that turn on the way, and what is added to it, mm.
+const BENDS: f64 = 0.5;
+const SPARE: f64 = 1e-4;
+/// What is left of a gap to the tool is none, mm.
+const SETTLED: f64 = 1e-9;
 /// Farther off nothing is left of a surface, mm.
 const FAR: f64 = 1e4;

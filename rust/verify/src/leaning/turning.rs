@@ -14,7 +14,21 @@ const LEAST: f64 = 2e-3;
 
 /// Measures the turns of an operation's passes, and finds jumps.
 pub(super) fn judge(moves: &[&LeaningMove], judged: &mut Judged) -> AxisTurning {
-    let cuts: Vec<Turn> = moves.iter().filter_map(|step| Turn::of(step)).collect();
+    let mut cuts: Vec<Turn> = Vec::new();
+    for turn in moves.iter().filter_map(|step| Turn::of(step)) {
+        // what a reader gives as several moves is one in the text
+        match cuts.last_mut().filter(|last| last.goes_on(&turn)) {
+            Some(last) => {
+                *last = Turn {
+                    angle: last.angle + turn.angle,
+                    length: last.length + turn.length,
+                    first: last.first,
+                    ..turn
+                }
+            }
+            None => cuts.push(turn),
+        }
+    }
     let (turned, length) = cuts.iter().fold((0.0, 0.0), |sum, turn| (sum.0 + turn.angle, sum.1 + turn.length));
     let mean = if length > 0.0 { turned / length } else { 0.0 };
     let rate = |turn: &Turn| turn.angle / turn.length;
@@ -24,8 +38,7 @@ pub(super) fn judge(moves: &[&LeaningMove], judged: &mut Judged) -> AxisTurning 
         judged.faults.push(fault.measured(rate(worst).to_degrees(), JUMP * mean.to_degrees()).warning());
     }
     let speeds: Vec<f64> = cuts.iter().map(|turn| turn.angle.to_degrees() / turn.time()).collect();
-    let changes =
-        cuts.windows(2).zip(speeds.windows(2)).filter(|(pair, _)| pair[1].step.index == pair[0].step.index + 1);
+    let changes = cuts.windows(2).zip(speeds.windows(2)).filter(|(pair, _)| pair[1].first == pair[0].step.index + 1);
     let acceleration =
         changes.map(|(pair, speeds)| (speeds[1] - speeds[0]).abs() / (0.5 * (pair[0].time() + pair[1].time())));
     let significant = cuts.iter().filter(|turn| turn.angle > LEAST).map(rate).fold(mean, f64::max);
@@ -37,7 +50,9 @@ pub(super) fn judge(moves: &[&LeaningMove], judged: &mut Judged) -> AxisTurning 
 }
 
 struct Turn<'a> {
+    /// The last of the moves of its line, and the number of the first.
     step: &'a LeaningMove,
+    first: usize,
     /// rad
     angle: f64,
     /// Of the tip's way, mm.
@@ -49,7 +64,12 @@ impl<'a> Turn<'a> {
         let from = step.from.filter(|_| step.is_along_pass && step.kind == MoveKind::Feed && step.feed > 0.0)?;
         let angle = libm::atan2(from.axis.cross(&step.to.axis).norm(), from.axis.dot(&step.to.axis));
         let length = (step.to.tip - from.tip).norm();
-        (length > 0.0).then_some(Self { step, angle, length })
+        (length > 0.0).then_some(Self { step, first: step.index, angle, length })
+    }
+
+    /// Whether another is a further part of its line.
+    fn goes_on(&self, next: &Self) -> bool {
+        self.step.line > 0 && self.step.line == next.step.line && next.first == self.step.index + 1
     }
 
     /// s
