@@ -234,6 +234,9 @@ class Judgement:
         self, job: Job, scene: Scene, count: int, progress: _Progress | None = None, cancel: CancelToken | None = None
     ) -> list[tuple[str, _F, _F, _F, _F]]: ...
     def engagement(self) -> list[tuple[str, float, float, _F, _F, npt.NDArray[np.uint32], _F]]: ...
+    def flanks(
+        self,
+    ) -> list[tuple[str, float, float, float, list[tuple[str, float, float, float, list[int], _F, _F]]]]: ...
     def needs(
         self,
         job: Job,

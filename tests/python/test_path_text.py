@@ -154,12 +154,17 @@ def test_an_arc_from_nowhere_is_refused() -> None:
     assert (caught.value.code, caught.value.hint) == ("path-arc-start", "begin with a rapid move or a line")
 
 
-def test_a_tilted_tool_is_refused() -> None:
+def test_a_line_of_a_tool_that_leans_states_its_axis_and_an_arc_is_refused() -> None:
     def tilt(moves: list[Any]) -> None:
         moves[1]["axis"] = [0.6, 0.0, 0.8]
 
-    with pytest.raises(sc.JobError, match="move 2 tilts the tool"):
-        changed(QUARTER, tilt).path_text()
+    def tilt_arc(moves: list[Any]) -> None:
+        moves[2]["axis"] = [0.6, 0.0, 0.8]
+
+    found = changed(QUARTER, tilt).path_text().splitlines()
+    assert [line for line in found if " K" in line] == ["G1 X10 Y0 Z0 I0.6 J0 K0.8 F10"]
+    with pytest.raises(sc.JobError, match="move 3 is an arc of a tool that leans"):
+        changed(QUARTER, tilt_arc).path_text()
 
 
 def test_numbers_have_six_decimals_and_zero_no_sign() -> None:

@@ -13,8 +13,8 @@ from styluscam import _engine
 from styluscam.arguments import A_FILE, FileName, channel_of, file_of, refused
 from styluscam.errors import GeometryError, JobError, PlanError, VerifyError
 from styluscam.files import read_gcode_text
+from styluscam.judging import clearing, flanks
 from styluscam.judging.brep import recheck
-from styluscam.judging.clearing import OperationEngagement, of_arrays
 from styluscam.judging.results import FaceCoverage, Finding, Group, Scallops
 from styluscam.programs.job import MAIN_CHANNEL, Job, JobLike
 from styluscam.programs.machine import Machine, MachineLike
@@ -192,13 +192,22 @@ class Report:
         return [Scallops(*arrays) for arrays in found]
 
     @cached_property
-    def engagement(self) -> list[OperationEngagement]:
+    def engagement(self) -> list[clearing.OperationEngagement]:
         """What each operation that clears stock (``pocket``) engages and removes along its feed moves, in the order of the job.
 
         It is what the findings ``engagement`` and ``removal-rate`` were looked for in: measured layer by layer on the moves of
         the text, as :func:`styluscam.engagement` does, with the job's stock. Other operations have none.
         """
-        return [of_arrays(arrays) for arrays in self.judgement.engagement()]
+        return [clearing.of_arrays(arrays) for arrays in self.judgement.engagement()]
+
+    @cached_property
+    def flanks(self) -> list[flanks.OperationFlank]:
+        """What each operation that mills with the side of a leaning tool (``flank``) leaves of its surfaces, in the job's order.
+
+        It is measured along the surfaces' normals of all that the tool sweeps on the feed moves of the text. Other operations
+        have none.
+        """
+        return [flanks.of_arrays(arrays) for arrays in self.judgement.flanks()]
 
     @property
     def scallop(self) -> float:

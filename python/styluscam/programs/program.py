@@ -150,10 +150,11 @@ class Program:
     def path_text(self) -> str:
         """The moves as FreeCAD's path commands, one a line, for its ``Path.Path(text)`` (mm, mm/s, six decimals).
 
-        Arcs are G2 and G3, with G18 and G19 where they turn in another plane. What happens between the moves is left out.
+        Arcs are G2 and G3, with G18 and G19 where they turn in another plane. Where the tool leans, straight moves state its axis
+        by the unit vector I, J, K. What happens between the moves is left out.
 
         Raises:
-            JobError: a tilted tool axis, a feed that is not in mm/min, or an arc with an unknown start.
+            JobError: an arc of a tool that leans, or with an unknown start, or a feed that is not in mm/min.
         """
         return _engine.path_text(self.engine)
 

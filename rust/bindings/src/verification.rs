@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 use styluscam_job::Text;
-use styluscam_verify::{ClearingKind, FindingKind, Need, OperationEngagement, Scallop};
+use styluscam_verify::{
+    AxisTurning, ClearingKind, FindingKind, FlankFaceError, Need, OperationEngagement, OperationFlank, Scallop,
+};
 
 use crate::{
     arrays,
@@ -39,6 +41,13 @@ type EngagementArrays<'py> = (
     Bound<'py, PyArray2<u32>>,
     Bound<'py, PyArray2<f64>>,
 );
+
+/// A surface's name, what the tool enters of it, leaves on it (mm) and misses (share); how many points it was measured at along the rails
+/// and along the rulings; what is left there (N,) and where they are (N, 3).
+type FlankFace<'py> = (String, f64, f64, f64, [usize; 2], Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>);
+
+/// An operation's id, its tool's axis' greatest speed (deg/s), acceleration (deg/s^2) and unevenness, and its surfaces.
+type FlankArrays<'py> = (String, f64, f64, f64, Vec<FlankFace<'py>>);
 
 /// A text that was checked.
 #[pyclass(frozen, module = "styluscam._engine")]
@@ -141,6 +150,18 @@ impl Judgement {
         self.judgement.report.engagement.iter().map(|found| engagement_arrays(py, found)).collect()
     }
 
+    /// What each operation that mills with the side of a leaning tool leaves of its surfaces: its id; how its tool's axis turns (at most
+    /// deg/s and deg/s^2, and unevenness); each surface's name, over, under (mm), the share that is missed, (U, V), what is left
+    /// at evenly spaced shares of rails and rulings (U V,), and these points in work coordinates (U V, 3).
+    fn flanks<'py>(&self, py: Python<'py>) -> PyResult<Vec<FlankArrays<'py>>> {
+        let of_operation = |found: &OperationFlank| {
+            let AxisTurning { speed_max, acceleration_max, unevenness } = found.turning;
+            let faces = found.faces.iter().map(|face| flank_face(py, face)).collect::<PyResult<_>>()?;
+            Ok((found.operation.clone(), speed_max, acceleration_max, unevenness, faces))
+        };
+        self.judgement.report.flanks.iter().map(of_operation).collect()
+    }
+
     /// The material after the program; `face` of the sheet is "tool", "mid" or "back".
     #[pyo3(signature = (job, scene, spacing, face=None, progress=None, cancel=None))]
     #[allow(clippy::too_many_arguments)] // Python's keywords
@@ -205,6 +226,14 @@ fn engagement_arrays<'py>(py: Python<'py>, found: &OperationEngagement) -> PyRes
         arrays::matrix(py, codes)?,
         arrays::matrix(py, positions.into_iter())?,
     ))
+}
+
+fn flank_face<'py>(py: Python<'py>, face: &FlankFaceError) -> PyResult<FlankFace<'py>> {
+    let shape = [face.left.len(), face.left.first().map_or(0, Vec::len)];
+    let left = PyArray1::from_iter(py, face.left.iter().flatten().copied());
+    let points: Vec<[f64; 3]> = face.points.iter().flatten().copied().collect();
+    let points = arrays::matrix(py, points.into_iter())?;
+    Ok((face.name.clone(), face.over, face.under, face.missed, shape, left, points))
 }
 
 /// The kinds of findings, as JSON: their words for people by their codes, in the order in which a report lists them.

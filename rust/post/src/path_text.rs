@@ -1,11 +1,14 @@
 //! Motion to FreeCAD's path commands: G0, G1, G2, G3, and the plane of arcs.
 //!
-//! FreeCAD reads I, J, K as the centre relative to an arc's start, and an arc that ends where it starts as a full circle; it
+//! A tool that leans states its axis in straight commands by the unit vector I, J, K, from the tip up: FreeCAD draws such commands as lines to
+//! X, Y, Z, while it would turn the drawing by angles A, B, C; and no control takes these words for a move of an upright tool.
+//!
+//! FreeCAD reads I, J, K of arcs as the centre relative to an arc's start, and an arc that ends where it starts as a full circle; it
 //! has no word for further turns (FreeCAD src/Mod/CAM/App/PathSegmentWalker.cpp, Path/Geom.py). Lengths mm, feeds mm/s.
 
 use std::f64::consts::{PI, TAU};
 
-use styluscam_motion::{Arc, FeedMode, Move, MoveKind, Plane, Program, Role};
+use styluscam_motion::{Arc, FeedMode, Move, MoveKind, Plane, Pose, Program, Role};
 
 use crate::faults::faults;
 use crate::number::write_integer;
@@ -26,11 +29,12 @@ faults! {
         /// Which move.
         number: usize,
     } = "path-arc-start", ("move {number} is an arc with an unknown start"), "begin with a rapid move or a line";
-    /// A tool axis that is not +Z.
+    /// An arc of a tool that leans.
     Axis {
         /// Which move.
         number: usize,
-    } = "path-axis", ("move {number} tilts the tool: a path for FreeCAD has three axes"), "plan with an upright tool";
+    } = "path-axis", ("move {number} is an arc of a tool that leans: a path for FreeCAD has straight ones only"),
+        "plan with fit = \"lines\"";
     /// A feed in another unit than mm/min.
     FeedMode {
         /// Which move.
@@ -52,7 +56,7 @@ pub fn path_text(program: &Program) -> Result<String, PathTextError> {
     let mut out = Text { out: String::with_capacity(program.moves.len() * USUAL), plane: Plane::Xy, role: None };
     for (index, (start, step)) in program.segments().enumerate() {
         let number = index + 1;
-        if !step.end.axis.is_up() {
+        if step.arc.is_some() && !step.end.axis.is_up() {
             return Err(PathTextError::Axis { number });
         }
         if step.kind == MoveKind::Feed && step.feed_mode != FeedMode::PerMinute {
@@ -62,8 +66,8 @@ pub fn path_text(program: &Program) -> Result<String, PathTextError> {
             out.state_role(step.role);
         }
         match (step.kind, step.arc, start) {
-            (MoveKind::Rapid, ..) => out.line("G0", step.end.tip, None),
-            (MoveKind::Feed, None, _) => out.line("G1", step.end.tip, Some(step.feed)),
+            (MoveKind::Rapid, ..) => out.line("G0", step.end, None),
+            (MoveKind::Feed, None, _) => out.line("G1", step.end, Some(step.feed)),
             (MoveKind::Feed, Some(arc), Some(start)) => out.arc(start, step, arc),
             (MoveKind::Feed, Some(_), None) => return Err(PathTextError::Start { number }),
         }
@@ -91,8 +95,13 @@ impl Text {
     }
 
     /// A straight command.
-    fn line(&mut self, name: &str, end: [f64; 3], feed: Option<f64>) {
-        self.begin(name, end);
+    fn line(&mut self, name: &str, end: Pose, feed: Option<f64>) {
+        self.begin(name, end.tip);
+        if !end.axis.is_up() {
+            self.word(" I", end.axis.vector()[0]);
+            self.word(" J", end.axis.vector()[1]);
+            self.word(" K", end.axis.vector()[2]);
+        }
         self.finish(feed);
     }
 
@@ -114,7 +123,7 @@ impl Text {
             (end[first], end[second]) = (start[first], start[second]); // FreeCAD closes a circle where they are equal
         } else if apart < WRITTEN && all - f64::from(arc.turns) * TAU < PI {
             self.change_to(arc.plane);
-            self.line("G1", end, Some(step.feed));
+            self.line("G1", Pose { tip: end, ..step.end }, Some(step.feed));
             return;
         }
         self.turn(at, end, arc, step.feed);
@@ -226,10 +235,23 @@ mod tests {
     }
 
     #[test]
-    fn a_tilted_tool_another_feed_and_a_start_that_is_not_known_are_refused() {
+    fn straight_moves_of_a_tool_that_leans_state_its_axis() {
         let axis = UnitAxis::new([0.6, 0.0, 0.8]).unwrap();
-        let error = text(vec![Move::rapid([0.0; 3]).with_axis(axis)]).unwrap_err();
-        assert_eq!(error, PathTextError::Axis { number: 1 });
+        let moves = vec![
+            Move::rapid([1.0, 2.0, 3.0]).with_axis(axis),
+            Move::feed([2.0; 3], 60.0).with_axis(axis),
+            Move::rapid([0.0; 3]),
+        ];
+        let expected = "G0 X1 Y2 Z3 I0.6 J0 K0.8\nG1 X2 Y2 Z2 I0.6 J0 K0.8 F1\nG0 X0 Y0 Z0\n";
+        assert_eq!(text(moves).unwrap(), expected);
+    }
+
+    #[test]
+    fn an_arc_of_a_tilted_tool_another_feed_and_a_start_that_is_not_known_are_refused() {
+        let axis = UnitAxis::new([0.6, 0.0, 0.8]).unwrap();
+        let around = Arc { centre: [1.0, 0.0, 0.0], plane: Plane::Xy, clockwise: true, turns: 0 };
+        let moves = vec![Move::rapid([0.0; 3]), Move::feed([2.0, 0.0, 0.0], 1.0).arc(around).with_axis(axis)];
+        assert_eq!(text(moves).unwrap_err(), PathTextError::Axis { number: 2 });
         let error = text(vec![Move::feed([0.0; 3], 1.0).with_feed(0.1, FeedMode::PerRevolution)]).unwrap_err();
         assert_eq!(error, PathTextError::FeedMode { number: 1 });
         let arc = Arc { centre: [1.0, 0.0, 0.0], plane: Plane::Xy, clockwise: true, turns: 0 };

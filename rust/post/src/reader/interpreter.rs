@@ -11,7 +11,7 @@ mod turns;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use styluscam_motion::{Arc, EventKind, MachineMove, Move, MoveKind, Plane, ToolRecord};
+use styluscam_motion::{Arc, EventKind, MachineMove, Move, MoveKind, Plane, ToolRecord, UnitAxis};
 
 use super::block::Block;
 use super::called::Called;
@@ -153,6 +153,20 @@ impl<'m> Interpreter<'m> {
     /// What follows is an operation of its own.
     pub(crate) fn start_operation(&mut self, id: &str, kind: &str) {
         self.record.start_operation(id, kind);
+    }
+
+    /// How many moves were read.
+    pub(crate) fn moves(&self) -> usize {
+        self.record.program.moves.len()
+    }
+
+    /// Sets the tool's axis at the ends of moves from the `first` on, by their lines.
+    pub(crate) fn lean(&mut self, first: usize, axes: &BTreeMap<u32, UnitAxis>) {
+        for step in self.record.program.moves.iter_mut().skip(first) {
+            if let Some(axis) = axes.get(&step.line) {
+                step.end.axis = *axis;
+            }
+        }
     }
 
     /// Something that happens beside the text.

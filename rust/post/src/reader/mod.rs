@@ -15,7 +15,9 @@ mod rotary;
 mod siemens;
 mod turned;
 
-use styluscam_motion::{EventKind, ToolRecord};
+use std::collections::BTreeMap;
+
+use styluscam_motion::{EventKind, ToolRecord, UnitAxis};
 
 use crate::block::{Comments, Misfit, Number};
 use crate::machine::{AfterEnd, BlockDelete, Family, Machine, Turns};
@@ -65,6 +67,8 @@ pub(crate) struct Section<'t> {
     /// Coolant that is on around it.
     pub coolant: Option<&'t EventKind>,
     pub text: &'t str,
+    /// Axes of tools that lean at the ends of the moves of lines; those of others stand upright.
+    pub axes: &'t BTreeMap<u32, UnitAxis>,
 }
 
 /// Reads sections of commands one after the other, loosely: the work offset may change, codes that are not known are
@@ -83,9 +87,11 @@ pub(crate) fn read_sections(
             reader.interpreter.start_operation(id, kind);
         }
         reader.interpreter.hand_on(section.coolant);
+        let first = reader.interpreter.moves();
         for (line, number) in section.text.lines().zip(1..) {
             reader.read_line(line, number).map_err(|error| (index, error))?;
         }
+        reader.interpreter.lean(first, section.axes);
         reader.interpreter.hand_on(section.coolant.and_then(switched_off).as_ref());
     }
     reader.finish(0).map_err(|error| (sections.len(), error))
