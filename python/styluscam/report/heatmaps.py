@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from styluscam.judging.verification import Report
+from styluscam.report.flank import face_of, left_on
 from styluscam.report.surface import Mask, Surface, Vertices, vertices_of
 from styluscam.types import Document, FloatArray, IntArray, Progress
 
@@ -84,13 +85,17 @@ def shown_plain(surface: Surface) -> Shown:
 def shown_judged(surface: Surface, report: Report, progress: Progress | None = None, limit: int = LIMIT) -> Shown:
     """A part and what a verified program leaves on it, refined so that the passes show; at most ``limit`` points."""
     surface, merged = surface.coarsened(limit)
+    flanked = [number for one in report.flanks for face in one.faces if (number := face_of(face)) is not None]
     selected = np.isin(surface.faces, [face.face for face in report.coverage(progress=progress)]) & surface.looks_up
+    selected |= np.isin(surface.faces, flanked)
     area = float(surface.areas[selected].sum())
     between = area / max(report.path.length, 1e-9)
     spacing = max(between / PER_PASS, float(np.sqrt(2.0 * area / limit)))
     borders = surface.borders()
     surface, selected = surface.refined(selected, spacing, limit)
     left = report.left(surface.points, progress=progress)
+    beside = left_on(surface.points, surface.faces, surface.triangles, report.flanks)
+    left = np.where(np.isnan(beside), left, beside)
     vertices = vertices_of(surface)
     asked = np.zeros(len(vertices.at), dtype=bool)
     asked[vertices.triangles[selected]] = True

@@ -12,7 +12,7 @@ from styluscam.drawing.shapes import OTHER_TOOL, TOOL, Look, Shape
 from styluscam.drawing.toolplot import tool_svg
 from styluscam.programs.contents import ToolRecord
 from styluscam.programs.program import SAG
-from styluscam.report import clearing, plots, tables
+from styluscam.report import clearing, flank, plots, tables
 from styluscam.report.columns import packed
 from styluscam.report.findings import grouped, measured, spoken, verdict_of
 from styluscam.report.heatmaps import HeatMap, Shown, shown_judged, shown_plain
@@ -74,6 +74,7 @@ def report_page(subject: Subject, progress: Progress | None = None) -> str:
             layers=_layers(subject),
             plots=_plots(subject, shown),
             pockets=_pockets(subject),
+            flanks=_flanks(subject),
             tools=_tool_pictures(subject),
             still=_still(subject),
             job=tables.job_rows(subject.job.document) if subject.job is not None else {},
@@ -111,6 +112,15 @@ def _pockets(subject: Subject) -> list[tuple[str, list[plots.Plot]]]:
     """Each operation that clears stock, by its id, with its plots."""
     found = subject.report.engagement if subject.report is not None else []
     return [(one.operation, clearing.over_length(one)) for one in found if len(one.distances)]
+
+
+def _flanks(subject: Subject) -> list[tuple[str, list[plots.Plot]]]:
+    """Each operation that mills with the side of its tool, by its id, with the maps of its surfaces."""
+    if subject.report is None:
+        return []
+    documents = subject.report.to_dict().get("flanks", [])
+    found = zip(subject.report.flanks, documents, strict=True)
+    return [(one.operation, flank.surfaces(one, document["faces"])) for one, document in found]
 
 
 def _tool_pictures(subject: Subject) -> list[tuple[str, str]]:

@@ -42,6 +42,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     faults.extend(cleared.faults);
     let leaning = leaning::judged(program, &assignment, subject, limits, watch)?;
     faults.extend(leaning.faults);
+    tally.samples += leaning.samples;
     leaning.gouge.into_iter().for_each(|(depth, at)| tally.gouge.take(depth, at));
     leaning.excess.into_iter().for_each(|(left, at)| tally.excess.take(left, at));
     let pair = pair::judged(program, &segments, subject, limits, watch)?;

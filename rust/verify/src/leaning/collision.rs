@@ -55,6 +55,7 @@ pub(super) fn judge(
     judged: &mut Judged,
 ) -> Result<(), Cancelled> {
     watch.begin("verifying leaning tools", moves.len());
+    judged.samples += moves.len();
     let solids: Vec<Vec<Solid>> = subject.tools.iter().map(solids).collect();
     let owns: Vec<Option<Own>> = (0..subject.expected.len()).map(|number| Own::of(subject, number)).collect();
     let limit = gouge_level(subject, limits);

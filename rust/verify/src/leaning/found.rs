@@ -9,6 +9,8 @@ use crate::place::Place;
 pub(crate) struct Judged {
     pub faults: Vec<Fault>,
     pub flanks: Vec<OperationFlank>,
+    /// Positions at which the clearance was measured, and points of surfaces.
+    pub samples: usize,
     /// Deepest entry into the part, mm, and where.
     pub gouge: Option<(f64, Place)>,
     /// Most that is left of a surface that is milled, mm, and where.

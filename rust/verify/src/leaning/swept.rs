@@ -78,6 +78,7 @@ fn of_face(
     let points = samples(face);
     let left: Vec<(f64, Option<(usize, f64)>)> =
         points.par_iter().with_min_len(8).map(|(point, normal)| lowest(*point, *normal, feeds, parts, body)).collect();
+    judged.samples += points.len();
     let place = |at: Option<(usize, f64)>| {
         at.and_then(|(number, share)| feeds.get(number).map(|feed| (feed, feed.at(share).tip)))
             .map(|(feed, tip)| (feed.step, Place { line: feed.step.line, position: tip.into() }))
