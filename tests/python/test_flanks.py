@@ -11,10 +11,10 @@ import pytest
 
 import styluscam as sc
 
-PART = Path(__file__).parents[2] / "fixtures" / "pyramid.step"
+PART = Path(__file__).parents[2] / "fixtures" / "blade.step"
 
-LOW, HIGH = ([80.0, 0.0, -40.0], [80.0, 50.0, -40.0]), ([80.0, 0.0, 0.0], [80.0, 50.0, 0.0])
-"""The rails of a wall beside the part."""
+RAILS = ("Edge1", "Edge3")
+"""The lower and the upper edge of its Face1."""
 
 
 @pytest.fixture(scope="module")
@@ -25,40 +25,37 @@ def report() -> sc.Report:
             "part": {"file": str(PART), "tolerance": 0.01},
             "setup": {"zero": "model"},
             "process": {"kind": "milling"},
-            "tools": {"mill": {"number": 1, "length": 60.0, "profile": {"kind": "flat", "diameter": 10.0}}},
-            "operations": [
-                {
-                    "id": "wall",
-                    "kind": "flank",
-                    "tool": "mill",
-                    "side": "right",
-                    "rails": {"curves": [{"poles": list(rail)} for rail in (LOW, HIGH)]},
-                }
-            ],
-            "machine": {"name": "linuxcnc"},
+            "tools": {"mill": {"number": 1, "length": 60.0, "profile": {"kind": "flat", "diameter": 8.0}}},
+            "operations": [{"id": "blade", "kind": "flank", "tool": "mill", "faces": ["Face1"]}],
+            "machine": {"name": "linuxcnc-trunnion"},
         }
     )
     return sc.verify(sc.post(sc.plan(job)).text, job)
 
 
 def test_the_points_lie_evenly_between_the_rails(report: sc.Report) -> None:
-    (wall,) = report.flanks
-    (surface,) = wall.faces
-    assert (wall.operation, surface.name) == ("wall", "the stated rails")
+    (blade,) = report.flanks
+    (surface,) = blade.faces
+    assert (blade.operation, surface.name) == ("blade", "Face1")
     u, v = (np.linspace(0.0, 1.0, count) for count in surface.left.shape)
-    low, high = (np.array(rail[0]) + u[:, None] * np.subtract(rail[1], rail[0]) for rail in (LOW, HIGH))
+    edges = report.job.part().arrays.edges
+    rails = [edges[int(name.removeprefix("Edge")) - 1] for name in RAILS]
+    low, high = (rail.at(u) for rail in rails if rail is not None)
     expected = low[:, None] + (high - low)[:, None] * v[:, None]
     assert surface.points.shape == (*surface.left.shape, 3)
     np.testing.assert_allclose(surface.points, expected, atol=1e-9)
 
 
 def test_the_figures_are_those_of_the_document(report: sc.Report) -> None:
-    (wall,), (stated,) = report.flanks, report.to_dict()["flanks"]
-    (surface,), (face,) = wall.faces, stated["faces"]
+    (blade,), (stated,) = report.flanks, report.to_dict()["flanks"]
+    (surface,), (face,) = blade.faces, stated["faces"]
     assert [surface.over, surface.under, surface.missed] == [face["over"], face["under"], face["missed"]]
     assert surface.missed == np.mean(np.isinf(surface.left))
+    known = surface.left[np.isfinite(surface.left)]
+    assert 1e-4 < surface.over == pytest.approx(-known.min(), abs=1e-9) and blade.speed_max > 1.0
+    assert 1e-4 < surface.under == pytest.approx(known.max(), abs=1e-9)
     turning = stated["turning"]
-    assert [wall.speed_max, wall.acceleration_max, wall.unevenness] == list(turning.values())
+    assert [blade.speed_max, blade.acceleration_max, blade.unevenness] == list(turning.values())
 
 
 def test_copies_measure_again(report: sc.Report) -> None:
