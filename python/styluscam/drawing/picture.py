@@ -143,10 +143,11 @@ def _program_figure(
     if part is not None:
         solid = Solid.of(arrays_of(part), None if frame is None else np.asarray(frame, dtype=np.float64))
     view = View(-62.0, 54.0, SIZE[0] - 120, SIZE[1] - 80)
-    box, tip = _path_box(program) if part is None else solid.box, _halfway(program, view)
+    box, stands = _path_box(program) if part is None else solid.box, _halfway(program, view)
     view = view.framed(_corners(box), 62.0)
-    if tool is not None and tip is not None:
-        solid += Solid.of_tool(tool, tip, _tool_height(tool, tip, box))
+    if tool is not None and stands is not None:
+        tip, axis = stands
+        solid += Solid.of_tool(tool, tip, _tool_height(tool, tip, box), axis=axis)
     raster = rasterise(view.finer(FINER), solid.vertices, solid.triangles)
 
     figure = new_figure()
@@ -384,17 +385,18 @@ def _path_box(program: Program) -> FloatArray:
 # --- the path ------------------------------------------------------------------------------------------------------
 
 
-def _halfway(program: Program, view: View) -> FloatArray | None:
-    """Halfway along the path, and at that depth where the tool hides least: at the back."""
-    ends, kinds = _places(program)
-    ends = ends[kinds != RAPID]
-    ends = ends[np.isfinite(ends).all(axis=1)]
+def _halfway(program: Program, view: View) -> tuple[FloatArray, FloatArray] | None:
+    """Tip and axis halfway along the path, and at that depth where the tool hides least: at the back."""
+    ends, moves = program.polyline
+    kept = (program.moves["kind"][moves] != RAPID) & np.isfinite(ends).all(axis=1)
+    ends, axes = ends[kept], program.moves["axis"][moves][kept]
     if not len(ends):
         return None
     level = ends[len(ends) // 3]
     same = ends[np.abs(ends[:, 2] - level[2]) < 1e-6]
     right, _, towards = view.axes
-    return np.asarray(same[int(np.argmax(same @ (0.6 * right - towards)))])
+    tip = np.asarray(same[int(np.argmax(same @ (0.6 * right - towards)))])
+    return tip, axes[int(np.argmin(np.linalg.norm(ends - tip, axis=1)))]
 
 
 def _corners(box: FloatArray) -> FloatArray:

@@ -18,6 +18,12 @@ TOOL, OTHER_TOOL, DIE = 0, -1, -2
 SIDES = 96
 """Of a tool."""
 
+UPRIGHT = 1e-12
+"""By which the Z of a unit vector that is +Z may differ from 1."""
+
+HALF = 0.5
+"""An axis whose X is smaller is not near X."""
+
 
 @dataclass(frozen=True, eq=False)
 class Solid:
@@ -49,15 +55,17 @@ class Solid:
         return cls(np.zeros((0, 3)), none, np.zeros((0, 3, 3)), none[:, 0])
 
     @classmethod
-    def of_tool(cls, tool: Tool, tip: FloatArray, height: float, *, down: bool = False) -> Solid:
+    def of_tool(
+        cls, tool: Tool, tip: FloatArray, height: float, *, axis: FloatArray | None = None, down: bool = False
+    ) -> Solid:
         """A tool standing at ``tip`` (3,), with its shank and holder; ``height`` mm high where it has no length.
 
-        ``down``: it comes from below.
+        ``axis`` (3,) is its direction from there up, +Z when left out; ``down``: it comes from below.
         """
-        turn = np.array([1.0, -1.0, -1.0]) if down else np.ones(3)
+        turn = np.diag([1.0, -1.0, -1.0]) if down else _leaning(axis)
         vertices, triangles, normals = revolved(silhouette(tool, tool.to_dict(), height))
         face = np.full(len(triangles), OTHER_TOOL if down else TOOL, dtype=np.int64)
-        return cls(vertices * turn + tip, triangles, normals * turn, face)
+        return cls(vertices @ turn + tip, triangles, normals @ turn, face)
 
     def __add__(self, other: Solid) -> Solid:
         """Both."""
@@ -72,6 +80,16 @@ class Solid:
     def box(self) -> FloatArray:
         """Lower and upper corner, (2, 3)."""
         return np.array([self.vertices.min(axis=0), self.vertices.max(axis=0)])
+
+
+def _leaning(axis: FloatArray | None) -> FloatArray:
+    """What a row is multiplied by so that +Z becomes an axis, (3, 3)."""
+    if axis is None or abs(axis[2] - 1.0) < UPRIGHT:
+        return np.eye(3)
+    aside = np.array([1.0, 0.0, 0.0]) if abs(axis[0]) < HALF else np.array([0.0, 1.0, 0.0])
+    first = aside - axis * (aside @ axis)
+    first /= np.linalg.norm(first)
+    return np.array([first, np.cross(axis, first), axis])
 
 
 def revolved(meridian: FloatArray) -> tuple[FloatArray, IntArray, FloatArray]:
