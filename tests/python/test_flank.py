@@ -402,6 +402,10 @@ def test_rails_of_every_form_are_one() -> None:
     assert ends == pytest.approx(points[[0, -1]], abs=1e-9)
 
 
+CORNER = [(0, 0, 0), (10, 0, 0), (20, 0, 0), (20, 10, 0), (20, 20, 0)]
+GAP = [(0, 0, 0), (10, 0, 0), (15, 0, 0), (20, 0, 0), (30, 0, 0), (40, 0, 0)]
+
+
 @pytest.mark.parametrize(
     ("rails", "code"),
     [
@@ -413,13 +417,49 @@ def test_rails_of_every_form_are_one() -> None:
         (([(0, 0, 0)], [(0, 0, 20), (40, 0, 20)]), "argument"),
         ((lambda u: np.full((len(u), 3), np.nan), [(0, 0, 20), (40, 0, 20)]), "not-finite"),
         ((lambda u: np.column_stack([u, np.abs(u - 0.3), 0 * u]) * 40, [(0, 0, 20), (40, 0, 20)]), "not-smooth"),
-        (({"poles": [(0, 0, 0), (40, 0, 0)], "weights": [1, -1]}, [(0, 0, 20), (40, 0, 20)]), "not-finite"),
+        (({"poles": [(0, 0, 0), (40, 0, 0)], "weights": [1, -1]}, [(0, 0, 20), (40, 0, 20)]), "argument"),
+        (({"poles": [(0, 0, 0), (40, 0, 0)], "weights": [1, 0]}, [(0, 0, 20), (40, 0, 20)]), "argument"),
+        (({"poles": [(0, 0, 0), (40, 0, 0)], "weights": [1, np.nan]}, [(0, 0, 20), (40, 0, 20)]), "argument"),
+        (({"poles": [(0, 0, 0), (40, 0, 0)], "knots": [1, 1, 0, 0]}, [(0, 0, 20), (40, 0, 20)]), "argument"),
+        (({"poles": [(0, 0, 0), (40, 0, 0)], "knots": [0, 0, 0, 0]}, [(0, 0, 20), (40, 0, 20)]), "not-finite"),
+        (({"poles": [(i, 0, 0) for i in range(41)]}, [(0, 0, 20), (40, 0, 20)]), "out-of-range"),
+        ((lambda u: 1 / np.zeros(0)[0], [(0, 0, 20), (40, 0, 20)]), "rail-function"),
+        ((lambda u: np.zeros((len(u), 2)), [(0, 0, 20), (40, 0, 20)]), "shape"),
+        ((lambda u: None, [(0, 0, 20), (40, 0, 20)]), "shape"),
+        (([(0, 0, 0), (40, 0, 0)], [(40, 0, 20), (0, 0, 20)]), "rails-opposite"),
+        (
+            ({"poles": [(0, 0, 0), (20, 3, 0), (40, 0, 0)]}, {"poles": [(40, 0, 20), (20, 5, 20), (0, 0, 20)]}),
+            "rails-opposite",
+        ),
+        (([(0, 0, 0), (4e8, 0, 0)], [(0, 0, 2e8), (4e8, 0, 2e8)]), "rail-size"),
+        (([(0, 0, 0), (4e200, 0, 0)], [(0, 0, 20), (40, 0, 20)]), "argument"),
+        (([(0, 0, 0), (4e-8, 0, 0)], [(0, 0, 2e-8), (4e-8, 0, 2e-8)]), "rail-size"),
+        (
+            ({"poles": CORNER, "degree": 2, "knots": [0, 0, 0, 0.5, 0.5, 1, 1, 1]}, [(0, 0, 20), (20, 20, 20)]),
+            "rail-corner",
+        ),
+        (
+            ({"poles": GAP, "degree": 2, "knots": [0, 0, 0, 0.3, 0.3, 0.3, 1, 1, 1]}, [(0, 0, 20), (40, 0, 20)]),
+            "rail-corner",
+        ),
     ],
 )
 def test_what_is_no_strip_is_refused(rails: Rails, code: str) -> None:
     with pytest.raises(sc.GeometryError) as caught:
         placed(rails, 3.0, count=5)
     assert caught.value.code == code
+
+
+def test_what_is_not_known_is_not_nothing() -> None:
+    # two positions so far apart that the first or the last of them comes nearest to every point
+    rails: Rails = ([(0, 0, 0), (40, 0, 0)], [(0, 0, 20), (40, 0, 20)])
+    unknown = placed(rails, 3.0, count=2).error.between(0.0, 0.0)
+    assert np.isnan(unknown.left).all() and np.isnan(unknown.over) and np.isnan(unknown.under)
+    # sharp bends are no corners
+    bent: Rails = tuple({"poles": [(0, 0, z), (19.9, 0, z), (20, 0, z), (20, 0.1, z), (20, 20, z)]} for z in (0, 20))  # type: ignore[assignment]
+    assert len(placed(bent, 3.0, "rails", 50, side="right").tips) == 50
+    with pytest.raises(sc.GeometryError, match="100000 at most"):
+        placed(rails, 3.0, count=10**9)
 
 
 def test_a_hollow_and_a_taper_are_refused() -> None:

@@ -36,13 +36,17 @@ class FlankError:
 
     @property
     def over(self) -> float:
-        """How deep the tool enters the surface at the worst, mm."""
-        return max(0.0, -float(np.nanmin(self.left)))
+        """How deep the tool enters the surface at the worst, mm; NaN where that is known nowhere."""
+        return self._worst(-1.0)
 
     @property
     def under(self) -> float:
-        """How much is left at the worst, mm."""
-        return max(0.0, float(np.nanmax(self.left)))
+        """How much is left at the worst, mm; NaN where that is known nowhere."""
+        return self._worst(1.0)
+
+    def _worst(self, sign: float) -> float:
+        known = sign * self.left[np.isfinite(self.left)]
+        return max(0.0, float(known.max())) if known.size else math.nan
 
     def between(self, first: float, last: float) -> FlankError:
         """The same of a part of the strip, by shares of the rails."""

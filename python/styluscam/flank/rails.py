@@ -79,14 +79,21 @@ class Rail:
             raise refused(f"{name}.degree", degree, "a whole number from 1 on", GeometryError)
         knots = rail.get("knots")
         flat = _clamped(len(poles), degree) if knots is None else numbers(knots, f"{name}.knots").ravel()
+        if (np.diff(flat) < 0.0).any():
+            raise refused(f"{name}.knots", flat, "knots that never fall", GeometryError)
         weights = numbers(rail.get("weights", np.ones(len(poles))), f"{name}.weights")
+        if not (weights > 0.0).all():
+            raise refused(f"{name}.weights", weights, "numbers above 0", GeometryError)
         return cls(degree, flat, poles, shaped(weights, (len(poles),), f"{name}.weights"))
 
     @classmethod
     def _through(cls, given: FloatArray, name: str) -> Rail:
         if len(given) < 2 or not np.isfinite(given).all():
             raise refused(name, given, "two points at least, of finite numbers", GeometryError)
-        chords = np.linalg.norm(np.diff(given, axis=0), axis=1)
+        with np.errstate(over="ignore"):
+            chords = np.linalg.norm(np.diff(given, axis=0), axis=1)
+        if not np.isfinite(chords).all():
+            raise refused(name, given, "points a finite distance apart", GeometryError)
         if not (chords > 0.0).all():
             number = int(np.argmin(chords))
             message = f"{name}: points {number} and {number + 1} are the same; leave one out"
@@ -180,7 +187,13 @@ def basis(at: FloatArray, knots: FloatArray, degree: int, count: int) -> FloatAr
 
 
 def _asked(function: Callable[[FloatArray], npt.ArrayLike], shares: FloatArray, name: str) -> FloatArray:
-    found = shaped(numbers(function(shares.copy()), name), (len(shares), 3), name)
+    try:
+        given = function(shares.copy())
+    except Exception as error:
+        message = f"{name}: the function fails: {type(error).__name__}: {error}"
+        hint = "it is given an array of shares from 0 to 1, (N,), and returns points (N, 3)"
+        raise GeometryError(message, code="rail-function", where=name, hint=hint) from error
+    found = shaped(numbers(given, name), (len(shares), 3), name)
     if not np.isfinite(found).all():
         share = shares[~np.isfinite(found).all(axis=1)][0]
         message = f"{name}: the function gives no finite point at u = {share:.4f}"

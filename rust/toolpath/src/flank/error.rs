@@ -19,6 +19,29 @@ pub enum FlankError {
         /// Share of the way along it, 0 to 1.
         u: f64,
     },
+    /// A rail turns in a point, or goes on elsewhere.
+    #[error(
+        "rail{rail} has a corner or a gap at u = {u:.4}: the axis would have to jump there; part the surface there"
+    )]
+    Corner {
+        /// Which rail, 0 or 1.
+        rail: usize,
+        /// Share of the way along it, 0 to 1.
+        u: f64,
+    },
+    /// The rulings cross one another.
+    #[error("the rails run in opposite directions: reverse one of them")]
+    Opposite,
+    /// Rails that no part has.
+    #[error("rail{rail} is {length:.3e} mm long and reaches to {farthest:.3e} mm from the zero point: 0.001 mm to 1e6 mm are allowed")]
+    Size {
+        /// Which rail, 0 or 1.
+        rail: usize,
+        /// Its length, mm.
+        length: f64,
+        /// Its largest coordinate, mm.
+        farthest: f64,
+    },
     /// A ruling runs along a rail: the surface has no normal.
     #[error("the ruling at u = {u:.4} runs along rail{rail}: the surface has no normal there; part it there")]
     NoNormal {
@@ -61,8 +84,8 @@ pub enum FlankError {
         /// Share of the way along the rails, 0 to 1.
         u: f64,
     },
-    /// Fewer positions than make a movement.
-    #[error("count = {0}: two positions at least")]
+    /// Fewer positions than make a movement, or more than any program has.
+    #[error("count = {0}: two positions at least, and 100000 at most")]
     Count(usize),
     /// No distance by which straight moves may lie off.
     #[error("tolerance = {0} mm: a length from 1e-6 mm on is needed")]
@@ -90,6 +113,9 @@ impl FlankError {
         match self {
             Self::NoRuling { .. } => "rails-meet",
             Self::Cusp { .. } => "rail-cusp",
+            Self::Corner { .. } => "rail-corner",
+            Self::Opposite => "rails-opposite",
+            Self::Size { .. } => "rail-size",
             Self::NoNormal { .. } => "no-normal",
             Self::TooLarge { .. } => "tool-too-large",
             Self::NoPosition { .. } | Self::Nowhere { .. } => "no-position",

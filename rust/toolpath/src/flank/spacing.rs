@@ -38,7 +38,7 @@ const EVENINGS: usize = 4;
 /// # Errors
 /// The tool does not fit, or no position touches both rails.
 pub fn positions(strip: &RuledStrip, flank: &Flank, count: usize, method: Method) -> Result<Vec<Stand>, FlankError> {
-    if count < 2 {
+    if !(2..=MOST).contains(&count) {
         return Err(FlankError::Count(count));
     }
     let movement = Movement::of(strip, flank, count, method)?;

@@ -12,6 +12,15 @@ const ACROSS: usize = 5;
 /// Lengths below this, beside the longest of their kind, are none.
 const NONE: f64 = 1e-9;
 
+/// Coordinates and rails at most, and rails at least, mm.
+const FARTHEST: f64 = 1e6;
+const SHORTEST: f64 = 1e-3;
+/// A corner turns by more than 1 deg: its cosine; a gap is so many times as long as the speed makes it. Both stay where the rail
+/// is halved so often.
+const CORNER: f64 = 0.999_847_7;
+const GAP: f64 = 3.0;
+const HALVINGS: usize = 26;
+
 /// The side of the strip on which the tool moves, seen from its second rail down to the first, looking along the rails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
@@ -55,6 +64,7 @@ impl RuledStrip {
     fn checked(self) -> Result<Self, FlankError> {
         let strip = self;
         let at = |i: usize| i as f64 / LOOKED_AT as f64;
+        strip.is_of_this_world()?;
         let longest = |of: &dyn Fn(f64) -> f64| (0..=LOOKED_AT).map(|i| of(at(i))).fold(0.0, f64::max);
         let ruling = |u: f64| (strip.rail(1, u).point - strip.rail(0, u).point).norm();
         let widest = longest(&ruling);
@@ -71,13 +81,53 @@ impl RuledStrip {
                 if speed(u) <= NONE * fastest.max(NONE) || turns_back {
                     return Err(FlankError::Cusp { rail, u });
                 }
+                strip.follows(rail, [at(i.saturating_sub(1)), u])?;
                 let across = first.cross(&(strip.rail(1, u).point - strip.rail(0, u).point)).norm();
                 if across <= 1e-6 * first.norm() * ruling(u) {
                     return Err(FlankError::NoNormal { rail, u });
                 }
             }
         }
+        let is_back = |i: &usize| strip.rail(0, at(*i)).first.dot(&strip.rail(1, at(*i)).first) < 0.0;
+        if (0..=LOOKED_AT).filter(is_back).count() > LOOKED_AT / 2 {
+            return Err(FlankError::Opposite);
+        }
         Ok(strip)
+    }
+
+    /// Whether the rails are of a size that parts have.
+    fn is_of_this_world(&self) -> Result<(), FlankError> {
+        for rail in 0..2 {
+            let points: Vec<_> = (0..=16).map(|i| self.rail(rail, f64::from(i) / 16.0).point).collect();
+            let length: f64 = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+            let farthest = points.iter().map(Vector::amax).fold(0.0, f64::max);
+            if !(farthest <= FARTHEST && length <= FARTHEST && (length >= SHORTEST || length == 0.0)) {
+                return Err(FlankError::Size { rail, length, farthest });
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a rail goes on from one share to another without a corner or a gap: where its direction changes much, or its point
+    /// more than by its speed, it is looked at more closely.
+    fn follows(&self, rail: usize, [mut low, mut high]: [f64; 2]) -> Result<(), FlankError> {
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            let is_broken = |from: f64, to: f64| {
+                let [a, b] = [from, to].map(|u| self.rail(rail, u));
+                let moved = a.first.norm().max(b.first.norm()) * (to - from);
+                let turned = a.first.normalize().dot(&b.first.normalize());
+                turned < CORNER || (b.point - a.point).norm() > GAP * moved
+            };
+            if is_broken(low, middle) {
+                high = middle;
+            } else if is_broken(middle, high) {
+                low = middle;
+            } else {
+                return Ok(());
+            }
+        }
+        Err(FlankError::Corner { rail, u: low })
     }
 
     /// A rail at a share of the way along it, 0 to 1; derivatives are per that share.
