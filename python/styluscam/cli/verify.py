@@ -19,7 +19,7 @@ from styluscam.cli.options import (
     SimulationFile,
 )
 from styluscam.errors import VerifyError
-from styluscam.judging import clearing, coverage, simulation, verification
+from styluscam.judging import clearing, coverage, flanks, simulation, verification
 from styluscam.programs.job import MAIN_CHANNEL, Job
 from styluscam.report.findings import verdict_of
 from styluscam.report.subject import Subject
@@ -79,6 +79,7 @@ def _print(report: verification.Report, file: Path) -> None:
             ("probed", f"{document['samples']} points, {document['brep_checked']} compared with the exact model"),
             *(("coverage", line) for line in coverage.lines(report.coverage())),
             *(("engagement", line) for line in clearing.lines(report.engagement)),
+            *(("flank", line) for line in flanks.lines(report.flanks)),
         ]
     )
 

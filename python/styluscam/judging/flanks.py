@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -64,3 +65,12 @@ def of_arrays(arrays: Arrays) -> OperationFlank:
 def _surface(surface: Surface) -> FlankSurface:
     name, over, under, missed, (rows, columns), left, points = surface
     return FlankSurface(name, over, under, missed, left.reshape(rows, columns), points.reshape(rows, columns, 3))
+
+
+def lines(found: list[OperationFlank]) -> Iterator[str]:
+    """Each surface of some operations in a line."""
+    for one in found:
+        for face in one.faces:
+            missed = f", {100.0 * face.missed:.2f} % not reached" if face.missed > 0.0 else ""
+            errors = f"entered by {1e3 * face.over:.2f} um, left {1e3 * face.under:.2f} um at most"
+            yield f"{one.operation}, {face.name}: {errors}{missed}; the axis turns by {one.speed_max:.1f} deg/s at most"
