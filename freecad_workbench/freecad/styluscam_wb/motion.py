@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 COOLANTS = ("None", "Flood", "Mist")
 
+UPRIGHT = 1e-9
+"""A tool whose axis is less off +Z stands upright."""
+
 _MOTION = re.compile(r"^G0?[0-3] ", re.MULTILINE)
 """A line of FreeCAD's that moves the tool."""
 
@@ -45,19 +48,28 @@ def path_of(comments: list[str], program: Program, last: list[Any]) -> Any:
     Raises:
         styluscam.JobError: a move that has no command.
     """
-    lines = [*map(comment, comments), begun_upwards(program.path_text()), *(command.toGCode() for command in last)]
-    return Path.Path("\n".join(lines))
+    ended = [command.toGCode() + _axis(program, -1) for command in last]
+    return Path.Path("\n".join([*map(comment, comments), _begun_upwards(program), *ended]))
 
 
-def begun_upwards(text: str) -> str:
+def _begun_upwards(program: Program) -> str:
     """The commands after a rapid straight up to the height of the first, as FreeCAD's own operations begin.
 
     Its dressups take the first command that names X and Y for the first move of the path: without this one, the
     boundary's would cut from the origin.
     """
+    text = program.path_text()
     name, *words = text.partition("\n")[0].split(" ")
     height = [word for word in words if word.startswith("Z")]
-    return f"{name} {height[0]}\n{text}" if height else text
+    return f"{name} {height[0]}{_axis(program, 0)}\n{text}" if height else text
+
+
+def _axis(program: Program, index: int) -> str:
+    """The words of a straight command that keep the tool as a move leaves it; none where that stands upright."""
+    if not len(program.moves):
+        return ""
+    x, y, z = (float(part) for part in program.moves["axis"][index])
+    return "" if max(abs(x), abs(y)) <= UPRIGHT else f" I{x:.6f} J{y:.6f} K{z:.6f}"
 
 
 @dataclass

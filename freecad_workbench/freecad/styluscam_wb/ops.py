@@ -29,6 +29,9 @@ setup_sheet.register()
 MODEL = "PlannedModel"
 """The property through which FreeCAD knows that a path depends on its model, whether faces are selected or not."""
 
+NO_ROTARY_AXES = "no-rotary-axes"
+"""The engine's code for an operation whose tool leans on a machine that cannot turn it."""
+
 WHOLE_MODEL = "All faces that face up, when no face is selected"
 """Tool tip."""
 
@@ -154,11 +157,22 @@ class ObjectStylus(PathOp.ObjectOp):
             part = engine_part(obj, run)
             document = documents.job_document(self.job, [obj], part, documents.machine_of(self.job))
             job = sc.Job.from_dict(document, part=part)
-            plan = run(lambda report: sc.plan(job, progress=report))
+            try:
+                plan = run(lambda report: sc.plan(job, progress=report))
+            except sc.JobError as error:
+                raise self._without_rotary_axes() if error.code == NO_ROTARY_AXES else error from None
         self._program = plan.programs["main"]
         self._seconds = float(self._program.times(plan.machines["main"])[-1])
         notes = map(in_labels, plan.summary()[1][:-1])  # the last line is for a verified text
         obj.Notes = [*notes, *documents.notes_on_feeds(obj.ToolController)]
+
+    def _without_rotary_axes(self) -> OperationError:
+        """A tool that leans, where the post's machine cannot turn it."""
+        post = str(self.job.PostProcessor or "") or "none"
+        return OperationError(
+            f"the tool leans, and the machine of the job's post ({post}) has no rotary axes: choose that of a machine "
+            "with them on the job's page Output, such as styluscam_linuxcnc-trunnion"
+        )
 
     def _insert_moves(self, obj: Any) -> None:
         """Puts the planned moves before FreeCAD's last retract, and its comments before them."""

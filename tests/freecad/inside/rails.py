@@ -22,7 +22,7 @@ def rails_as_in_the_file(step: Path) -> dict[str, Any]:
     arrays = part.arrays_of(shape, 0.01, "blade")
     return {
         "count": [len(shape.Edges), len(arrays.edges)],
-        "ends": [[list(vertex.Point) for vertex in edge.Vertexes] for edge in shape.Edges],
+        "ends": [[list(end.Point) for end in (edge.firstVertex(), edge.lastVertex())] for edge in shape.Edges],
         "edges": [None if rail is None else columns(rail) for rail in arrays.edges],
         "ruled": {str(face): [columns(rail) for rail in rails] for face, rails in ruled_faces(arrays).items()},
     }

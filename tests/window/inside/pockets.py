@@ -11,6 +11,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 import driver
 import FreeCAD
 import FreeCADGui
+import milled_steps as steps
 import picture_stage as drawn
 import stage
 from driver import QtCore, QtWidgets, until
@@ -67,31 +68,6 @@ def floors(job: Any) -> list[str]:
     ]
 
 
-def pressed(command: str) -> Any:
-    """Presses a button of ours as soon as it can be pressed."""
-    yield until(lambda: driver.tool_button(f"StylusCAM_{command}").isEnabled(), f"{command} enabled")
-    driver.click(driver.tool_button(f"StylusCAM_{command}"))
-
-
-def scroll_to(widget: Any) -> None:
-    """Brings a widget of a panel into view."""
-    parent = widget.parentWidget()
-    while parent is not None:
-        if isinstance(parent, QtWidgets.QScrollArea):
-            parent.ensureWidgetVisible(widget)
-        parent = parent.parentWidget()
-
-
-def rows() -> dict[str, list[str]]:
-    """Labels of the form's rows that are seen, and their tool tips."""
-    labels = driver.visible(QtWidgets.QLabel)
-    return {
-        label.objectName().removesuffix("_label"): [label.text(), label.toolTip()]
-        for label in labels
-        if label.objectName().endswith("_label")
-    }
-
-
 def risks() -> list[str]:
     """The risks whose boxes are seen."""
     boxes = [box.objectName() for box in driver.visible(QtWidgets.QCheckBox)]
@@ -118,10 +94,6 @@ def map_seen() -> dict[str, Any] | None:
     }
 
 
-def computed(operation: Any) -> bool:
-    return "Touched" not in operation.State and "Invalid" not in operation.State and stage.motions(operation) > 0
-
-
 def designed() -> Any:
     """As a designer goes: faces, button, angle, map, Apply, OK; the map off and on by its command; verified and posted."""
     job = job_on_bracket()
@@ -138,12 +110,12 @@ def designed() -> Any:
     yield from stage.typed(operation, "Step", "4 mm", 4.0)  # one level in each pocket: quick
     driver.click(driver.one(QtWidgets.QToolButton, name="Advanced"))
     yield driver.settled()
-    result |= {"rows": rows(), "risks": risks(), "panel": driver.shot("panel")}
+    result |= {"rows": steps.rows(), "risks": risks(), "panel": driver.shot("panel")}
     box = driver.one(QtWidgets.QCheckBox, name="EngagementMap")
-    scroll_to(box)
+    steps.scroll_to(box)
     driver.click(box, QtCore.QPoint(8, box.height() // 2))
     driver.click(driver.panel_button(QtWidgets.QDialogButtonBox.Apply))
-    yield until(lambda: computed(operation), "a path", 120)
+    yield until(lambda: steps.computed(operation), "a path", 120)
     yield until(map_seen, "the map", 120)
     yield driver.settled(6)
     result |= {"preview": map_seen(), "preview shot": driver.shot("preview")}
@@ -154,13 +126,13 @@ def designed() -> Any:
     stage.show_all()
     yield driver.settled(10)
     result |= {"path": stage.seen(operation), "path shot": driver.shot("path")}
-    yield from pressed("EngagementMap")
+    yield from steps.pressed("EngagementMap")
     yield until(map_seen, "the map", 120)
     yield driver.settled(6)
     result |= {"map": map_seen(), "map shot": driver.shot("map")}
-    yield from pressed("EngagementMap")
+    yield from steps.pressed("EngagementMap")
     yield until(lambda: map_seen() is None, "no map")
-    yield from pressed("Verify")
+    yield from steps.pressed("Verify")
     yield until(lambda: driver.visible(QtWidgets.QWidget, name="StylusCAM_Findings"), "findings", 120)
     panel = driver.one(QtWidgets.QWidget, name="StylusCAM_Findings")
     result["findings"] = [label.text() for label in panel.findChildren(QtWidgets.QLabel)]
@@ -217,7 +189,7 @@ def not_a_pocket() -> Any:
     """The command without a pocket states what to select."""
     stage.computed()
     yield from stage.workbench("StylusCamWorkbench")
-    yield from pressed("EngagementMap")
+    yield from steps.pressed("EngagementMap")
     yield until(lambda: driver.visible(QtWidgets.QMessageBox), "a message")
     box = driver.one(QtWidgets.QMessageBox)
     text = box.text()

@@ -7,9 +7,11 @@ from functools import lru_cache
 from typing import Any
 
 from . import (
+    axes_view,
     contact_track,
     engagement_view,
     example_commands,
+    flank_view,
     heat_map,
     job_commands,
     operation_commands,
@@ -23,7 +25,17 @@ from . import (
 )
 from .command import PREFIX, Command
 
-CHECKS = (verify_command, heat_map, contact_track, engagement_view, sheet_picture, path_colours, tool_motion)
+CHECKS = (
+    verify_command,
+    heat_map,
+    contact_track,
+    engagement_view,
+    axes_view,
+    flank_view,
+    sheet_picture,
+    path_colours,
+    tool_motion,
+)
 """Modules whose commands look at a computed path, in their order in the bar."""
 
 SEPARATOR = "Separator"

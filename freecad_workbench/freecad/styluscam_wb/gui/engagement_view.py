@@ -16,6 +16,7 @@ from .command import Command
 from .heat_colours import short
 from .messages import translated
 from .picture_command import PictureCommand
+from .picture_switch import Shown
 
 if TYPE_CHECKING:
     from styluscam.types import IntArray
@@ -59,7 +60,7 @@ def show(job: Any, obj: Any, shown: Engaged) -> None:
     def path_legend() -> None:
         path_colours.show_legend(name)
 
-    pictures.show(pictures.Picture(name, KEY, node, _card(obj, shown), [obj], path_legend))
+    pictures.show(pictures.Picture(name, KEY, node, _card(obj, shown), [obj], path_legend, obj))
 
 
 def _card(obj: Any, shown: Engaged) -> legend.Card:
@@ -117,6 +118,23 @@ class ShowEngagement(PictureCommand):
     def draw(self, job: Any) -> None:
         """Measures, then draws."""
         draw(job, _chosen(job))
+
+
+class EngagementPreview(Shown):
+    """The map in a pocket's panel."""
+
+    key = KEY
+    name = ShowEngagement.name
+    menu_text = ShowEngagement.menu_text
+    tool_tip = "Colours the path by its engagement angle, from 0 to the bound; Apply computes the path"
+
+    def applies(self, obj: Any) -> bool:
+        """To pockets."""
+        return engaged.is_pocket(obj)
+
+    def draw(self, job: Any, obj: Any) -> None:
+        """Measures, then draws."""
+        draw(job, obj)
 
 
 def commands() -> list[Command]:

@@ -8,10 +8,11 @@ from typing import Any
 
 from PySide import QtCore, QtWidgets
 
-from .. import ops, properties
+from .. import ops, properties, rails
 from ..fields import JOB, OPERATION, PART, PROCESS, SETUP, SHEET, Field
 from .editors import Editor, editor_of
 from .messages import ERROR, translated
+from .rails_editor import Rails
 
 GROUPS = {OPERATION: "Path", PROCESS: "Process", SHEET: "Sheet", PART: "Model", SETUP: "Set-up", JOB: "Job"}
 """Titles of the groups, by section."""
@@ -30,7 +31,7 @@ class Form:
         self._rows: list[tuple[Field, Editor, _Group]] = []
         for field in properties.fields():
             group = self._advanced.group if field.is_advanced else self._group(field.section, layout)
-            editor = editor_of(field, obj, group.widget)
+            editor = _editor(field, obj, group.widget)
             group.add(field, editor)
             self._rows.append((field, editor, group))
         layout.addWidget(self._advanced.widget)
@@ -82,6 +83,10 @@ class Form:
         """Why the last computation failed, at the field that it concerns."""
         where = getattr(self._obj.Proxy, "failed_key", "")
         return ops.failure(self._obj) if where and field.is_at(where) else ""
+
+
+def _editor(field: Field, obj: Any, parent: Any) -> Editor:
+    return Rails(field, obj, parent) if field.key == rails.KEY else editor_of(field, obj, parent)
 
 
 class _Group:

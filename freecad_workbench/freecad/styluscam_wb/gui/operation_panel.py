@@ -10,10 +10,13 @@ from PySide import QtWidgets
 
 from .. import defaults, ops
 from . import faces
-from .engagement_preview import EngagementPreview
+from .axes_view import AxesPreview
+from .engagement_view import EngagementPreview
+from .flank_view import FlankPreview
 from .form import Form
 from .messages import translated
 from .notes import Notes
+from .picture_switch import PictureSwitch
 
 
 class OperationPage(PathOpGui.TaskPanelPage):
@@ -43,8 +46,10 @@ class OperationPage(PathOpGui.TaskPanelPage):
             rows.addWidget(editor, row, 1)
         widget.wholeModel.setObjectName("WholeModel")
         rows.addWidget(widget.wholeModel, len(texts), 1)
-        self._preview = EngagementPreview(self.obj, self.job)
-        rows.addWidget(self._preview.widget, len(texts) + 1, 1)
+        shown = (EngagementPreview(), AxesPreview(), FlankPreview())
+        self._previews = [PictureSwitch(self.obj, self.job, one) for one in shown]
+        for row, preview in enumerate(self._previews, len(texts) + 1):
+            rows.addWidget(preview.widget, row, 1)
         layout.addLayout(rows)
         self._fields = Form(self.obj, layout)
         self._notes = Notes()
@@ -59,7 +64,7 @@ class OperationPage(PathOpGui.TaskPanelPage):
         self.form.wholeModel.setChecked(bool(obj.WholeModel))
         self._fields.read()
         self._notes.show(obj)
-        self._preview.follow()
+        self._follow()
 
     def getFields(self, obj: Any) -> None:
         """From the form to the properties."""
@@ -87,7 +92,8 @@ class OperationPage(PathOpGui.TaskPanelPage):
         super().onDirtyChanged(callback)
         if callback is None:
             self._fields.release()
-            self._preview.release()
+            for preview in self._previews:
+                preview.release()
 
     def getSignalsForUpdate(self, obj: Any) -> list[Any]:
         """What is stored as soon as it is changed."""
@@ -99,12 +105,17 @@ class OperationPage(PathOpGui.TaskPanelPage):
         if prop in ("Path", "Notes"):
             self._notes.show(obj)
             self._fields.show_owned()
-            self._preview.follow()
+            self._follow()
             faces.show(obj)
         elif prop == "Base" and obj.Base and obj.WholeModel:
             obj.WholeModel = False  # who selects faces means these
         elif prop == "WholeModel":
             self.form.wholeModel.setChecked(bool(obj.WholeModel))
-        elif hasattr(self, "_preview"):
+        elif hasattr(self, "_previews"):
             self._fields.read([prop])
-            self._preview.follow()
+            self._follow()
+
+    def _follow(self) -> None:
+        """What is shown of the path follows it."""
+        for preview in self._previews:
+            preview.follow()

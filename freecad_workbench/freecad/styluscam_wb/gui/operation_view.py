@@ -10,25 +10,29 @@ from typing import Any
 import FreeCADGui
 import Path.Op.Gui.Base as PathOpGui
 
-from .. import defaults, ops, properties
+from .. import defaults, ops, properties, rails
 from ..fields import OPERATION, kind_field
-from . import labels, operation_panel, path_colours
+from . import edges, labels, operation_panel, path_colours
 from .command import ICONS
 
 GENERIC = "operation"
 """The icon of kinds that have none of their own."""
 
 
-class FaceGate:
-    """Lets faces alone be selected."""
+class ElementGate:
+    """Lets faces be selected, and edges for an operation that takes them; nothing else."""
+
+    def __init__(self, obj: Any) -> None:
+        self._obj = obj
 
     def allow(self, document: Any, obj: Any, sub: str) -> bool:
         """Whether an element may be selected."""
-        return bool(sub) and sub.rpartition(".")[2].startswith("Face")
+        kinds = ("Face",) if rails.field_of(self._obj) is None else ("Face", "Edge")
+        return sub.rpartition(".")[2].startswith(kinds)
 
 
 class ViewProviderStylus(PathOpGui.ViewProvider):
-    """CAM's view provider of operations with our icon, our page and a selection of faces."""
+    """CAM's view provider of operations with our icon, our page and a selection of faces and edges."""
 
     _colours: Any = None
     """There while FreeCAD shows the operation."""
@@ -57,8 +61,8 @@ class ViewProviderStylus(PathOpGui.ViewProvider):
         return icon_of(self.Object)
 
     def getSelectionFactory(self) -> Any:
-        """What begins the selection of faces when the panel opens."""
-        return lambda: FreeCADGui.Selection.addSelectionGate(FaceGate())
+        """What begins the selection of faces and edges when the panel opens."""
+        return lambda: FreeCADGui.Selection.addSelectionGate(ElementGate(self.Object))
 
     def setEdit(self, vobj: Any = None, mode: int = 0) -> bool:
         """Opens the panel; what is wrong with it is shown, and the panel stays closed."""
@@ -107,6 +111,8 @@ def create(kind: str, title: str, job: Any) -> Any:
         obj = ops.Create(title.replace(" ", ""), parentJob=job)
         obj.Label = labels.unique(title, document, obj)
         defaults.fill(obj, kind)
+        if edges.take(obj, job):
+            FreeCADGui.Selection.clearSelection()  # CAM's page of base geometry takes faces only
     except BaseException:
         document.abortTransaction()
         raise

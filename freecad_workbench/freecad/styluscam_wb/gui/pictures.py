@@ -32,6 +32,8 @@ class Picture:
     """Objects that it stands for: not drawn meanwhile; their property Visibility stays."""
     after: Callable[[], None] | None = None
     """Called when it was shown, and when it was taken away."""
+    operation: Any = None
+    """What it is of, if that is one operation."""
     _places: list[Any] = field(default_factory=list)
     _switched_off: list[tuple[Any, int]] = field(default_factory=list)
 

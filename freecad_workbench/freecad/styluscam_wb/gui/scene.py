@@ -75,9 +75,18 @@ def _line_set(points: FloatArray, index: IntArray, width: float) -> list[Any]:
 
 
 def faces(
-    points: FloatArray, triangles: IntArray, normals: FloatArray, colours: IntArray, transparency: float = 0.0
+    points: FloatArray,
+    triangles: IntArray,
+    normals: FloatArray,
+    colours: IntArray,
+    transparency: float = 0.0,
+    *,
+    covers: bool = False,
 ) -> list[Any]:
-    """Triangles (T, 3) of vertices (V, 3) with unit normals (V, 3) and colours (V, 3) of their own; 1: nothing is seen."""
+    """Triangles (T, 3) of vertices (V, 3) with unit normals (V, 3) and colours (V, 3) of their own; 1: nothing is seen.
+
+    With `covers` they are seen where they lie on faces of the model.
+    """
     hints = coin.SoShapeHints()
     hints.vertexOrdering = coin.SoShapeHints.COUNTERCLOCKWISE
     hints.shapeType = coin.SoShapeHints.UNKNOWN_SHAPE_TYPE  # both sides are lit
@@ -87,7 +96,7 @@ def faces(
     by_vertex.value = coin.SoNormalBinding.PER_VERTEX_INDEXED
     of_vertex.value = coin.SoMaterialBinding.PER_VERTEX_INDEXED
     behind = coin.SoPolygonOffset()  # lines on the faces are drawn over them, and what one looks through before them
-    behind.factor, behind.units = (1.0, 2.0) if transparency == 0.0 else (-1.0, -2.0)
+    behind.factor, behind.units = (1.0, 2.0) if transparency == 0.0 and not covers else (-1.0, -2.0)
     return [
         behind,
         hints,

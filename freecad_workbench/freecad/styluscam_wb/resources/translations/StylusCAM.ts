@@ -140,6 +140,17 @@ Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>How far the side of the tool goes on below the lower rail, mm; a round end lies below that. Below 0 the side ends above the rail, where a
+floor is in the way, and what is lower stays.
+Range: -100 to 100 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far the tool goes on beyond both ends of the surface, mm: the curves go on as they end.
+Range: 0 to 1000 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>How far the tool is lifted off the floor on links at depth, mm.
 Range: 0 to 10 mm</source>
         <translation type="unfinished"></translation>
@@ -181,6 +192,15 @@ vertical: An arc tangent to the pass in the vertical plane, from above.</source>
 auto: A helix; a ramp where there is room for a small helix only, and more along a line.
 helix: Helices.
 ramp: Zig-zag ramps: to and fro along a line, both ways going down.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How the tool is placed along the surface.
+swept: It touches both rails, and what its movement leaves of the surface between them is least.
+rails: It touches both rails at equal parameters.
+three-points: It touches both rails and the line between them.
+two-points: Two points of its axis lie beside two points of the line.
+one-point: Its axis is parallel to the line.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -234,8 +254,19 @@ Range: above 0 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Length of the way in from the free side and out to it, mm.
+Range: 0 to 1000 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Lower feeds before and behind sharp turns and on small arcs, as far as the machine's acceleration asks for them
 (`limits.acceleration` and `limits.corner_tolerance` of its file).</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Most that a pass cuts along the tool, mm; all at once, as far as the tool's length allows it, when left out. Cylinders only.
+Range: 0.1 to 1000 mm
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -243,6 +274,11 @@ Range: above 0 to 100 mm
 out.
 Range: 0 to 1000 mm
 0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Most that the tool may enter the surface or leave on it when it moves, mm: twisted surfaces cannot be milled exactly.
+Range: 0.0001 to 10 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -274,7 +310,9 @@ meridian: The path along the part's meridian, from the axis outwards, in X and Z
 surfaces of revolution about X = Y = 0, which is measured, with a tool that stands parallel to that axis. `feeds.cut` follows from
 the feed per revolution and the spindle's speed.
 pocket: Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
-Stock is the part's box, as high as the part, or what the operations before leave of it.</source>
+Stock is the part's box, as high as the part, or what the operations before leave of it.
+flank: Mills ruled surfaces, such as blades and twisted walls, with the side of a tool that leans: on machines with two rotary axes. The tool
+is a cylinder or a cone, with a flat end or a round one.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -330,6 +368,11 @@ Range: 1 to 90 deg
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Stock that stays on the surface, mm along its normals.
+Range: 0 to 100 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Stock that stays on walls, mm, measured across them in plan; with `finish` the last pass along them takes it.
 Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
@@ -346,8 +389,21 @@ Range: 1 to 3000 MPa
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>The curves between which the surface is ruled; when left out, the selected faces are milled, each of which must be ruled.
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>The engagement angle that the path keeps to, degrees: of the arc along which the tool's rim is in the material.
 Range: 10 to 90 deg</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The side of stated rails on which the tool moves, seen along them with the upper one above the lower one; of faces, it is outside.
+0 or empty: not stated
+left: To the left, seen along the rails with the second above the first.
+right: To the right.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -722,6 +778,10 @@ Stock is the part's box, as high as the part, or what the operations before leav
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Colours ruled surfaces by what the side of the moving tool leaves of them or cuts too deep; again to take it away</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Colours the job's paths by the kind of move, with a legend; again for FreeCAD's own two colours</source>
         <translation type="unfinished"></translation>
     </message>
@@ -735,6 +795,10 @@ Stock is the part's box, as high as the part, or what the operations before leav
     </message>
     <message>
         <source>Colours the path by the kind of move; else rapids have one colour and feed moves another</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Colours the surfaces by what the moving tool leaves of them or cuts too deep; Apply computes the path</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -871,7 +935,15 @@ other face of the sheet, block by block; its machine is in `[machines.support]`.
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Draws the axis of a leaning tool at each position of its path; again to take it away</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Draws the job's blank, formed sheet and die instead of the block of stock; again to take them away</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Draws the tool's axis at each position of the path; Apply computes the path</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -939,6 +1011,10 @@ other face of the sheet, block by block; its machine is in `[machines.support]`.
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Error map</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Every other one in the other direction: counters the twist of a formed sheet.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -948,6 +1024,10 @@ other face of the sheet, block by block; its machine is in `[machines.support]`.
     </message>
     <message>
         <source>Exponent</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Extension</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1004,6 +1084,10 @@ Range: 0.001 to 20 mm/rev</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Flank</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Flat</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1021,6 +1105,10 @@ Range: 0.001 to 20 mm/rev</source>
     </message>
     <message>
         <source>Formula</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>From selection</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1083,6 +1171,17 @@ Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>How far the side of the tool goes on below the lower rail, mm; a round end lies below that. Below 0 the side ends above the rail, where a
+floor is in the way, and what is lower stays.
+Range: -100 to 100 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far the tool goes on beyond both ends of the surface, mm: the curves go on as they end.
+Range: 0 to 1000 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>How far the tool is lifted off the floor on links at depth, mm.
 Range: 0 to 10 mm</source>
         <translation type="unfinished"></translation>
@@ -1127,6 +1226,15 @@ ramp: Zig-zag ramps: to and fro along a line, both ways going down.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>How the tool is placed along the surface.
+swept: It touches both rails, and what its movement leaves of the surface between them is least.
+rails: It touches both rails at equal parameters.
+three-points: It touches both rails and the line between them.
+two-points: Two points of its axis lie beside two points of the line.
+one-point: Its axis is parallel to the line.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>How the tool turns from a row to the next.
 straight: A line along the surface.
 rounded: Without a corner, along arcs of half the distance between the rows; where none fits, straight.
@@ -1164,6 +1272,22 @@ are no steeper, and for the part at last; for walls that the sheet does not with
 Range: 1 to 89
 As JSON
 0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>It touches both rails and the line between them.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>It touches both rails at equal parameters.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>It touches both rails, and what its movement leaves of the surface between them is least.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Its axis is parallel to the line.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1209,6 +1333,10 @@ Range: above 0 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Lead length</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Lead radius</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1222,6 +1350,11 @@ Range: above 0 to 100 mm
     </message>
     <message>
         <source>Length from tip to holder, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Length of the way in from the free side and out to it, mm.
+Range: 0 to 1000 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1286,6 +1419,10 @@ Range: above 0 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Max error</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Max feed</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1302,6 +1439,10 @@ Range: above 0 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Method</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Milled dome</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1311,6 +1452,11 @@ Range: above 0 to 100 mm
     </message>
     <message>
         <source>Milling: no sheet.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Mills ruled surfaces, such as blades and twisted walls, with the side of a tool that leans: on machines with two rotary axes. The tool
+is a cylinder or a cone, with a flat end or a round one.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1326,10 +1472,21 @@ Range: above 0 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Most that a pass cuts along the tool, mm; all at once, as far as the tool's length allows it, when left out. Cylinders only.
+Range: 0.1 to 1000 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Most that may be left on the faces where the tool cannot get, mm; 1 mm of a sheet, and not checked in milling, when left
 out.
 Range: 0 to 1000 mm
 0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Most that the tool may enter the surface or leave on it when it moves, mm: twisted surfaces cannot be milled exactly.
+Range: 0.0001 to 10 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1398,7 +1555,9 @@ meridian: The path along the part's meridian, from the axis outwards, in X and Z
 surfaces of revolution about X = Y = 0, which is measured, with a tool that stands parallel to that axis. `feeds.cut` follows from
 the feed per revolution and the spindle's speed.
 pocket: Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
-Stock is the part's box, as high as the part, or what the operations before leave of it.</source>
+Stock is the part's box, as high as the part, or what the operations before leave of it.
+flank: Mills ruled surfaces, such as blades and twisted walls, with the side of a tool that leans: on machines with two rotary axes. The tool
+is a cylinder or a cone, with a flat end or a round one.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1407,6 +1566,10 @@ Stock is the part's box, as high as the part, or what the operations before leav
     </message>
     <message>
         <source>Order</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Overreach</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1431,6 +1594,10 @@ Stock is the part's box, as high as the part, or what the operations before leav
     </message>
     <message>
         <source>Part of the end, which is flat as a whole: at most half the diameter, and without effect.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Pass depth</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1557,6 +1724,10 @@ Range: above 0 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Rails</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Ramp angle</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1614,6 +1785,10 @@ Range: above 0 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Select two edges of the model in the view, then press this</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Semi-axis across the tool's axis, mm.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1665,6 +1840,10 @@ the centre outwards, once. X is the distance from the axis, Y stays 0. Parts tha
     </message>
     <message>
         <source>Sheet thickness</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Side</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1783,6 +1962,11 @@ Range: 1 to 90 deg
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Stock that stays on the surface, mm along its normals.
+Range: 0 to 100 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Stock that stays on walls, mm, measured across them in plan; with `finish` the last pass along them takes it.
 Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
@@ -1790,6 +1974,10 @@ Range: 0 to 100 mm</source>
     <message>
         <source>Stock that stays under the tool, on floors and slopes, mm in height; with `finish` a last layer over each level floor takes it.
 Range: 0 to 100 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Stock to leave</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1852,6 +2040,12 @@ Range: 1 to 3000 MPa
     </message>
     <message>
         <source>The curve from tip to base; this or `library`.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The curves between which the surface is ruled; when left out, the selected faces are milled, each of which must be ruled.
+As JSON
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1926,6 +2120,13 @@ the feed per revolution and the spindle's speed.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>The side of stated rails on which the tool moves, seen along them with the upper one above the lower one; of faces, it is outside.
+0 or empty: not stated
+left: To the left, seen along the rails with the second above the first.
+right: To the right.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>The tool bridges faces by more than it may: it is less curved than they are.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1981,6 +2182,14 @@ Range: above 0 to 50 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>To the left, seen along the rails with the second above the first.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>To the right.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Tolerance</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1990,6 +2199,10 @@ Range: above 0 to 50 mm
     </message>
     <message>
         <source>Tool along</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Tool axes</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2022,6 +2235,10 @@ Range: above 0 to 50 mm
     </message>
     <message>
         <source>Turns</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Two points of its axis lie beside two points of the line.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2193,6 +2410,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>allowed</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>alternate</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2305,6 +2526,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>error along the normals</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>female</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2325,6 +2550,14 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>flank</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>from the tip up</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>helix</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2338,6 +2571,18 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>largest</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>leans by</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>left</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>left over</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2381,6 +2626,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>measuring ruled surfaces</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>measuring the engagement</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2398,6 +2647,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>milling</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>missed</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2433,6 +2686,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>one-point</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>ordering</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2441,7 +2698,15 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>planning</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>pocket</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>positions</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2473,6 +2738,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>rails</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>ramp</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2486,6 +2755,14 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>reading</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>red: cut too deep, blue: left over</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>right</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2510,6 +2787,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>scallops</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>select two edges of the model and nothing else; selected now: {}</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2573,11 +2854,19 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>swept</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>tangent</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
         <source>the horizontal feed of the tool controller</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>the tool does not come there</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2593,7 +2882,27 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>those of the faces</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>three-points</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>to</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>too deep</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>tool</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>tool axes</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2602,6 +2911,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>turns</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>two-points</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2614,6 +2927,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>verifying</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>verifying leaning tools</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
