@@ -135,7 +135,8 @@ pub fn judge(
         styluscam_verify::judge(&prepared.reading.program, &prepared.subject(pairing), &prepared.limits, watch)?;
     let report = with_stages(job, text.scene, text.machine, &prepared.reading, report, watch)?;
     let Prepared { reading: Reading { program, unknown_positions, axes, .. }, limits, .. } = prepared;
-    let (program, turned) = match axes {
+    // rotary axes lead back to the moves in the part, a spindle does not
+    let (program, turned) = match axes.filter(|_| job.process.process.as_kind().turns_part()) {
         Some((of_axes, _)) => (of_axes, Some(program)),
         None => (program, None),
     };
@@ -220,7 +221,8 @@ struct Reading {
     program: Program,
     unknown_positions: Vec<Range<usize>>,
     facts: TextFacts,
-    /// The moves of the axes, with those of unknown positions, where the others are what these are to a part that turns.
+    /// The moves of the axes, with those of unknown positions, where the others are what these are to a part that turns, by a spindle or
+    /// by rotary axes.
     axes: Option<(Program, Vec<Range<usize>>)>,
 }
 
@@ -263,7 +265,8 @@ fn reading(text: &str, machine: &Machine, records: &[ToolRecord]) -> Result<Read
         tool_calls,
         frame_levels: clamp::stated(&read.program),
     };
-    Ok(Reading { program: read.program, unknown_positions: read.unknown_positions, facts, axes: None })
+    let axes = read.axes.map(|axes| (axes, read.unknown_positions.clone()));
+    Ok(Reading { program: read.program, unknown_positions: read.unknown_positions, facts, axes })
 }
 
 /// What a checked program leaves on the faces that its operations are for, face by face.

@@ -255,3 +255,22 @@ fn holes_of_a_turned_table_are_plain_moves() {
     let tracked = reading(&code.replace("G81", "M128\nG81"), &machine).unwrap_err();
     assert!(matches!(tracked, ReadFault::NotRead { .. }), "{tracked:?}");
 }
+
+#[test]
+fn the_linear_axes_stand_elsewhere_than_the_tip() {
+    let code = "G0 A90 C0\nZ50\nX10 Y20\nG1 X11 F100\nM128\nG1 A60 X12\n";
+    let reading = reading(code, &tracking()).unwrap();
+    let (axes, program) = (reading.axes.unwrap(), reading.program);
+    assert_eq!(axes.moves.len(), program.moves.len());
+    assert!(near(axes.moves[1].end.tip, [10.0, 20.0, 50.0]) && near(axes.moves[2].end.tip, [11.0, 20.0, 50.0]));
+    // the part's Y50 Z-20 when it is turned by 60 deg
+    let (sin, cos) = 60.0_f64.to_radians().sin_cos();
+    let last = axes.moves.last().unwrap();
+    assert!(near(last.end.tip, [12.0, 50.0 * cos + 20.0 * sin, 50.0 * sin - 20.0 * cos]), "{last:?}");
+    assert!(near(program.moves.last().unwrap().end.tip, [12.0, 50.0, -20.0]) && program.moves.len() > 6);
+}
+
+#[test]
+fn without_a_turn_they_are_one() {
+    assert!(reading("G0 A0 C0\nZ50\nX10 Y20\nG1 X11 F100\n", &tracking()).unwrap().axes.is_none());
+}

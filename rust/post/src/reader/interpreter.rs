@@ -428,6 +428,7 @@ impl<'m> Interpreter<'m> {
             lines,
             ended,
             program: self.record.program,
+            axes: None,
         };
         match &self.rotary {
             Some(rotary) => turned(reading, &rotary.axes, &rotary.stretches, self.machine),

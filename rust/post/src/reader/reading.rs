@@ -9,6 +9,9 @@ use styluscam_motion::{MachineMove, Program};
 pub struct Reading {
     /// The program; positions are those of the tips, mm. The set-up holds the work offset only.
     pub program: Program,
+    /// The moves of the linear axes, one for each of the program, where rotary axes are turned: these are then not those of the tip in
+    /// the part.
+    pub axes: Option<Program>,
     /// Index of the first move at whose end all three axes have been commanded; the number of moves when none is.
     pub first_known_move: usize,
     /// Moves at whose end the position of Z is not known, in runs.

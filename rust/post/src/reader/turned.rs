@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use styluscam_motion::{ArcPath, Move, UnitAxis};
+use styluscam_motion::{ArcPath, Move, Program, UnitAxis};
 
 use super::reading::Reading;
 use crate::machine::Machine;
@@ -24,8 +24,30 @@ const HALVINGS: u32 = 16;
 const MOST: usize = 4_000_000;
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 
-/// The tip, mm, and the tool's axis in the part.
-type TipAndAxis = ([f64; 3], [f64; 3]);
+/// Where the tool is.
+#[derive(Clone, Copy, Debug)]
+struct At {
+    /// The tip in the part, mm.
+    tip: [f64; 3],
+    /// The tool's axis in the part.
+    direction: [f64; 3],
+    /// Where the linear axes stand, mm: where the tip is with all angles 0.
+    stand: [f64; 3],
+}
+
+/// The moves in the part, and where the linear axes stand at their ends.
+#[derive(Default)]
+struct Path {
+    moves: Vec<Move>,
+    stands: Vec<[f64; 3]>,
+}
+
+impl Path {
+    fn push(&mut self, step: Move, at: At) {
+        self.moves.push(step);
+        self.stands.push(at.stand);
+    }
+}
 
 /// What belongs to a move of the text beside its record.
 #[derive(Clone, Copy, Debug)]
@@ -70,23 +92,25 @@ impl Place {
         larger_turn(self.angles, [0.0; 2]) == 0.0
     }
 
-    fn pose(&self, axes: &RotaryAxes) -> TipAndAxis {
+    fn at(&self, axes: &RotaryAxes) -> At {
         let direction = axes.direction(self.angles);
         let tip = match self.is_tracked {
             _ if self.is_at_zero() => self.stated,
             true => [0, 1, 2].map(|i| self.stated[i] + self.height * (UP[i] - direction[i])),
             false => axes.tip(self.stated, self.angles),
         };
-        (tip, direction)
+        let is_tip = self.is_tracked && !self.is_at_zero();
+        let stand = if is_tip { axes.linear(tip, self.angles) } else { self.stated };
+        At { tip, direction, stand }
     }
 
     /// The same position in coordinates that are the tip's, or not.
     pub fn in_frame(&self, axes: &RotaryAxes, is_tracked: bool) -> Self {
-        let (tip, direction) = self.pose(axes);
+        let At { tip, direction, stand } = self.at(axes);
         let stated = match is_tracked {
             _ if is_tracked == self.is_tracked || self.is_at_zero() => self.stated,
             true => [0, 1, 2].map(|i| tip[i] - self.height * (UP[i] - direction[i])),
-            false => axes.linear(tip, self.angles),
+            false => stand,
         };
         Self { stated, is_tracked, ..*self }
     }
@@ -101,10 +125,10 @@ struct Way<'a> {
 }
 
 impl Way<'_> {
-    fn at(&self, share: f64) -> TipAndAxis {
+    fn at(&self, share: f64) -> At {
         let stated = self.arc.map_or_else(|| between(self.from.stated, self.to.stated, share), |arc| arc.at(share));
         let angles = between(self.from.angles, self.to.angles, share);
-        Place { stated, angles, ..self.to }.pose(self.axes)
+        Place { stated, angles, ..self.to }.at(self.axes)
     }
 
     /// Whether it is one move in the part: rotary axes stand, and so does what turns the path.
@@ -115,25 +139,25 @@ impl Way<'_> {
     }
 
     /// The moves that it makes in the part; `feed` is that of a path so long, mm, in which an axis turns so far, deg.
-    fn append(&self, step: &Move, ends: [TipAndAxis; 2], feed: impl Fn(f64, f64) -> Option<f64>, out: &mut Vec<Move>) {
+    fn append(&self, step: &Move, ends: [At; 2], feed: impl Fn(f64, f64) -> Option<f64>, out: &mut Path) {
         if self.is_one() {
-            out.push(Move { arc: step.arc, ..at_end(step, ends[1]) });
+            out.push(Move { arc: step.arc, ..at_end(step, ends[1]) }, ends[1]);
             return;
         }
         let mut poses = Vec::new();
         self.split([0.0, 1.0], ends, HALVINGS, &mut poses);
         let starts = std::iter::once(&ends[0]).chain(&poses);
-        let length = starts.zip(&poses).map(|(from, to)| norm(difference(to.0, from.0))).sum();
+        let length = starts.zip(&poses).map(|(from, to)| norm(difference(to.tip, from.tip))).sum();
         let feed = feed(length, larger_turn(self.from.angles, self.to.angles)).unwrap_or(step.feed);
-        out.extend(poses.into_iter().map(|pose| Move { feed, ..at_end(step, pose) }));
+        poses.into_iter().for_each(|at| out.push(Move { feed, ..at_end(step, at) }, at));
     }
 
     /// Poses from one share to another, behind the first.
-    fn split(&self, [from, to]: [f64; 2], ends: [TipAndAxis; 2], halvings: u32, out: &mut Vec<TipAndAxis>) {
+    fn split(&self, [from, to]: [f64; 2], ends: [At; 2], halvings: u32, out: &mut Vec<At>) {
         let is_off = |share: &f64| {
-            let (tip, direction) = self.at(from + share * (to - from));
-            let wanted = between(ends[0].0, ends[1].0, *share);
-            let lean = unit(between(ends[0].1, ends[1].1, *share));
+            let At { tip, direction, .. } = self.at(from + share * (to - from));
+            let wanted = between(ends[0].tip, ends[1].tip, *share);
+            let lean = unit(between(ends[0].direction, ends[1].direction, *share));
             norm(difference(tip, wanted)) > TIP || norm(difference(direction, lean)) > LEAN
         };
         if halvings == 0 || !SHARES.iter().any(is_off) {
@@ -157,13 +181,13 @@ pub(super) fn turned(
     let moves = std::mem::take(&mut reading.program.moves);
     let places: Vec<Place> = moves.iter().zip(stretches).map(Place::of).collect();
     let ends = ends(axes, &places, stretches);
-    let (mut first, mut out) = (Vec::with_capacity(moves.len() + 1), Vec::with_capacity(moves.len()));
-    let mut last: Option<(Place, TipAndAxis)> = None;
+    let (mut first, mut out) = (Vec::with_capacity(moves.len() + 1), Path::default());
+    let mut last: Option<(Place, At)> = None;
     for (((step, stretch), place), end) in moves.iter().zip(stretches).zip(&places).zip(&ends) {
-        first.push(out.len());
+        first.push(out.moves.len());
         let before = last.replace((*place, *end)).filter(|_| stretch.is_start_known && stretch.is_known());
         match before {
-            None => out.push(at_end(step, *end)),
+            None => out.push(at_end(step, *end), *end),
             Some((from, start)) => {
                 let from = from.in_frame(axes, place.is_tracked);
                 let way = Way { axes, from, to: *place, arc: step.path(from.stated) };
@@ -171,26 +195,38 @@ pub(super) fn turned(
                 way.append(step, [start, *end], feed, &mut out);
             }
         }
-        if out.len() > MOST {
+        if out.moves.len() > MOST {
             return Err(ReadFault::PathTooLong { most: MOST });
         }
     }
-    first.push(out.len());
-    reading.program.moves = out;
+    first.push(out.moves.len());
+    reading.program.moves = out.moves;
     reading.unknown_positions = runs(stretches, |stretch| !stretch.is_known());
     reading.unknown_heights = runs(stretches, |stretch| !(stretch.known[2] && stretch.are_angles_known));
     renumber(&mut reading, &first, &places);
+    if !places.iter().all(Place::is_at_zero) {
+        reading.axes = Some(of_axes(&reading.program, &out.stands));
+    }
     Ok(reading)
 }
 
+/// The moves of the linear axes, straight where they are not those of the tip.
+fn of_axes(program: &Program, stands: &[[f64; 3]]) -> Program {
+    let stand = |(step, stand): (&Move, &[f64; 3])| {
+        let arc = step.arc.filter(|_| norm(difference(*stand, step.end.tip)) == 0.0);
+        step.to(*stand).with_axis(UnitAxis::UP).arc(arc)
+    };
+    Program { moves: program.moves.iter().zip(stands).map(stand).collect(), cycles: Vec::new(), ..program.clone() }
+}
+
 /// A straight move to a pose.
-fn at_end(step: &Move, (tip, direction): TipAndAxis) -> Move {
+fn at_end(step: &Move, At { tip, direction, .. }: At) -> Move {
     // turned by rotations only, it is a unit vector
     step.arc(None).to(tip).with_axis(UnitAxis::new(direction).unwrap_or_default())
 }
 
 /// Where moves end. One whose height or angles are not known ends where the next one does that is known, or the last one.
-fn ends(axes: &RotaryAxes, places: &[Place], stretches: &[Stretch]) -> Vec<TipAndAxis> {
+fn ends(axes: &RotaryAxes, places: &[Place], stretches: &[Stretch]) -> Vec<At> {
     let known = |index: &usize| stretches.get(*index).is_some_and(Stretch::is_known);
     let last = (0..stretches.len()).rev().find(known);
     let mut next = None;
@@ -205,7 +241,7 @@ fn ends(axes: &RotaryAxes, places: &[Place], stretches: &[Stretch]) -> Vec<TipAn
             && stretch.are_angles_known
             && other.is_none_or(|other| other.is_tracked == place.is_tracked || place.is_at_zero());
         let own = stretch.is_known() || is_sound;
-        ends.push(other.filter(|_| !own).unwrap_or(place).pose(axes));
+        ends.push(other.filter(|_| !own).unwrap_or(place).at(axes));
     }
     ends.reverse();
     ends
