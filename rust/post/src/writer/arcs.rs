@@ -52,7 +52,7 @@ impl Poster<'_> {
         let count = path.chords(self.machine.resolution_mm());
         for chord in 1..=count {
             let target = self.target(index, path.at(chord as f64 / count as f64))?;
-            self.feed(index, target, feed, path.length() / count as f64)?;
+            self.feed(index, target, feed)?;
         }
         Ok(())
     }

@@ -60,11 +60,11 @@ impl Poster<'_> {
     }
 
     fn pose(&mut self, step: &Move, pose: &Pose) -> Result<(), PostError> {
-        let from = self.rotary.as_mut().and_then(|rotary| rotary.last.replace(*pose)).filter(|_| !pose.is_fresh);
-        let Some(from) = from else { return self.begin(step, pose) };
-        let Some(rotary) = &self.rotary else { return Ok(()) };
-        let (angles, turns) = (rotary.counts(pose)?, rotary.stated != Some(rotary.counts(pose)?));
-        let target = self.stand(pose)?;
+        let last = self.rotary.as_mut().and_then(|rotary| rotary.last.replace(*pose)).filter(|_| !pose.is_fresh);
+        let Some(rotary) = self.rotary.as_ref().filter(|_| last.is_some()) else { return self.begin(step, pose) };
+        let (angles, before) = (rotary.counts(pose)?, rotary.stated.unwrap_or_default());
+        let turns = angles != before;
+        let (from, target) = (self.position(pose.index)?, self.stand(pose)?);
         if !turns && self.position == target.map(Some) {
             return Ok(());
         }
@@ -77,9 +77,12 @@ impl Poster<'_> {
             self.motion_line = self.lines.line;
             self.dialect.rapid(&mut self.lines, self.position, target.map(Some))?;
         } else {
-            let length = norm(difference(pose.tip, from.tip));
-            let turned = larger_turn(from.angles, pose.angles);
-            let feed = self.feed_count(pose.index, step.feed, self.machine.way(length, turned))?;
+            // as it is rounded: a short way is another
+            let [start, end] =
+                [(from, before), (target, angles)].map(|(at, angles)| rotary.stands_for(self.mm(at), angles));
+            let length = norm(difference(end.0, start.0));
+            let way = self.machine.way(length, larger_turn(start.1, end.1));
+            let feed = self.feed_count(pose.index, step.feed, way)?;
             self.turn(angles, false);
             self.motion_line = self.lines.line;
             self.dialect.feed(&mut self.lines, self.position, target.map(Some), feed)?;

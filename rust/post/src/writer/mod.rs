@@ -281,9 +281,7 @@ impl<'a> Poster<'a> {
         self.stand_upright(index, step)?;
         match (step.kind, step.arc) {
             (MoveKind::Rapid, _) => self.rapid(target)?,
-            (MoveKind::Feed, None) => {
-                self.feed(index, target, step.feed, step.length(self.tip.unwrap_or(step.end.tip)))?;
-            }
+            (MoveKind::Feed, None) => self.feed(index, target, step.feed)?,
             (MoveKind::Feed, Some(arc)) => self.arc(index, step, arc)?,
         }
         self.tip = Some(step.end.tip);
@@ -302,6 +300,12 @@ impl<'a> Poster<'a> {
     fn count(&self, index: usize, what: &'static str, mm: f64) -> Result<i64, PostError> {
         let count = self.linear.count(mm * self.per_mm);
         count.ok_or_else(|| PostError::Number { what, place: format!("moves[{index}]"), value: mm })
+    }
+
+    /// A position in units of the last decimal, mm.
+    fn mm(&self, count: [i64; 3]) -> [f64; 3] {
+        let unit = self.machine.resolution_mm();
+        [count[0] as f64 * unit / self.x_scale, count[1] as f64 * unit, count[2] as f64 * unit]
     }
 
     fn rapid(&mut self, target: [i64; 3]) -> Result<(), PostError> {
@@ -335,12 +339,14 @@ impl<'a> Poster<'a> {
         [Some(between), Some(goal)]
     }
 
-    fn feed(&mut self, index: usize, target: [i64; 3], feed: f64, length: f64) -> Result<(), PostError> {
+    fn feed(&mut self, index: usize, target: [i64; 3], feed: f64) -> Result<(), PostError> {
         let from = self.position(index)?;
         if from == target {
             return Ok(());
         }
-        let feed = self.feed_count(index, feed, length)?;
+        // the length of what is posted decides how long it takes: a short line is another once rounded
+        let [from, to] = [from, target].map(|count| self.mm(count));
+        let feed = self.feed_count(index, feed, Move::rapid(to).length(from))?;
         self.motion_line = self.lines.line;
         self.dialect.feed(&mut self.lines, self.position, target.map(Some), feed)?;
         self.position = target.map(Some);

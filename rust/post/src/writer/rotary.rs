@@ -64,6 +64,12 @@ impl<'m> Rotary<'m> {
         Ok([first.ok_or_else(|| number(pose.angles[0]))?, second.ok_or_else(|| number(pose.angles[1]))?])
     }
 
+    /// The tip, mm, and the angles, deg, that words stand for.
+    pub fn stands_for(&self, stated: [f64; 3], angles: Angles) -> ([f64; 3], [f64; 2]) {
+        let angles = angles.map(|count| count as f64 / self.format.per_one());
+        (if self.is_tracking { stated } else { self.axes.tip(stated, angles) }, angles)
+    }
+
     /// Where the linear axes stand on the way to poses, mm.
     pub fn stands(&self, poses: &[Pose]) -> Vec<[f64; 3]> {
         let mut last = self.last;
