@@ -3,10 +3,12 @@
 
 mod common;
 
+use std::sync::Arc;
+
 use common::{expected, limits, Part, Path};
 use styluscam_geometry::{Bvh, Mesh, NurbsCurve, Tool, Vector};
 use styluscam_motion::{Move, Program, Role, UnitAxis, Watch};
-use styluscam_verify::{judge, Contact, FindingKind, FlankFace, FlankPasses, Passes, Report, Subject};
+use styluscam_verify::{judge, CheckFaces, Contact, FindingKind, FlankFace, FlankPasses, Passes, Report, Subject};
 
 const LENGTH: f64 = 40.0;
 const HEIGHT: f64 = 20.0;
@@ -161,6 +163,46 @@ fn a_rapid_through_the_block_is_found() {
     program.moves.extend([through, last]);
     let report = judged(&part, &tool, &program, 0.0);
     assert!(kinds(&report).contains(&FindingKind::RapidIntoMaterial), "{:?}", report.findings);
+}
+
+#[test]
+fn triangles_between_stated_rails_are_the_surface_s_own() {
+    let (part, tool) = (block(false), tool(""));
+    let report = |y: f64, max_error: f64| {
+        let stated = FlankFace { face: None, name: "the stated rails".into(), ..wall() };
+        let passes = Passes::Flank(FlankPasses { faces: vec![stated], left: 0.0, max_error });
+        let mut expected = expected(&part, Contact::Clear, [f64::NEG_INFINITY, f64::INFINITY], passes);
+        expected[0].expectation.selected.fill(false);
+        let tools = [tool.clone()];
+        let subject = Subject { expected: &expected, ..part.subject(&tools) };
+        judge(&pass(&tool, [y, -5.0], 3), &subject, &limits(), &Watch::default()).unwrap()
+    };
+    assert!(report(RADIUS - 0.004, 0.005).ok, "{:?}", report(RADIUS - 0.004, 0.005).findings);
+    assert!(!report(RADIUS - 0.006, 0.005).ok);
+}
+
+#[test]
+fn check_faces_are_kept_away_from() {
+    let (part, tool) = (block(true), tool(""));
+    let plate: Vec<[i64; 3]> = vec![[6, 7, 8], [6, 8, 9]];
+    let mesh = Mesh::new(part.mesh.vertices().to_vec(), &plate, &[]).unwrap();
+    let bvh = Bvh::new(&mesh);
+    let check = CheckFaces { mesh, bvh, clearance: 1.5 };
+    let passes = Passes::Flank(FlankPasses { faces: vec![wall()], left: 0.0, max_error: 0.005 });
+    let mut expected = expected(&part, Contact::Clear, [f64::NEG_INFINITY, f64::INFINITY], passes);
+    expected[0].expectation.selected.fill(false);
+    expected[0].expectation.region.check = Some(Arc::new(check));
+    let tools = [tool.clone()];
+    let subject = Subject { expected: &expected, ..part.subject(&tools) };
+    // the rim is this far over the plate
+    for (over, is_near) in [(1.0, true), (1.6, false)] {
+        let program = pass(&tool, [RADIUS, RADIUS * LEAN.sin() + over], 3);
+        let report = judge(&program, &subject, &limits(), &Watch::default()).unwrap();
+        assert_eq!(kinds(&report).contains(&FindingKind::CheckClearance), is_near, "{:?}", report.findings);
+        if is_near {
+            assert!((value(&report, FindingKind::CheckClearance) - over).abs() < 1e-6);
+        }
+    }
 }
 
 #[test]

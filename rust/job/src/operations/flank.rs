@@ -231,8 +231,6 @@ impl OperationKind for Flank {
     fn check(&self, common: &OperationKeys, path: &str) -> Result<(), JobError> {
         let refused = [
             ("boundary", common.boundary.is_some()),
-            ("check_faces", common.check_faces.is_some()),
-            ("check_clearance", common.check_clearance.is_some()),
             ("max_corner_deg", common.max_corner_deg.is_some()),
             ("edges", common.edges.is_some()),
             ("lead", common.lead != LeadForm::None),
@@ -266,10 +264,6 @@ impl OperationKind for Flank {
         if context.scene.sheet.is_some() {
             let message = "the side of a tool mills, and this job forms a sheet";
             return Err(JobError::document("conflict", context.path.clone(), message, "remove setup.sheet"));
-        }
-        if context.region.check.is_some() {
-            let message = "part.check_faces are not kept away from by flank milling: all other faces are watched";
-            return Err(JobError::document("conflict", context.path.clone(), message, "remove part.check_faces"));
         }
         if context.machine.rotary.is_none() {
             let message = format!("{} has three axes, and flank milling leans the tool", context.machine.name);

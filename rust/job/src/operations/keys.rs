@@ -23,11 +23,11 @@ pub struct OperationKeys {
     /// Faces that the tool keeps away from: "rest" (all others that face up, or stand upright where faces = "all" takes upright
     /// walls), or names; the part's when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-not-of" = ["pocket", "flank"]))]
+    #[schemars(extend("x-not-of" = ["pocket"]))]
     pub check_faces: Option<CheckSelection>,
     /// How far tool, shank and holder, with the sheet under them, stay away from those faces, mm; the part's when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-not-of" = ["pocket", "flank"], "x-unit" = "mm", "minimum" = 0.0, "maximum" = 1000.0))]
+    #[schemars(extend("x-not-of" = ["pocket"], "x-unit" = "mm", "minimum" = 0.0, "maximum" = 1000.0))]
     pub check_clearance: Option<f64>,
     /// Where passes may run: inside edges in plan, and on contacts of some slopes.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -9,8 +9,10 @@ use styluscam_motion::{Cancelled, MoveKind, Watch};
 
 use super::found::Judged;
 use super::moves::{LeaningMove, Pose};
+use super::surface::{samples, POINTS};
 use crate::body::Body;
 use crate::clearance::nearest;
+use crate::expectation::FlankFace;
 use crate::faults::{self, Fault, FaultKind};
 use crate::measure::gouge_level;
 use crate::place::Place;
@@ -20,7 +22,7 @@ use crate::tolerances::SLACK;
 /// Distance between positions that are looked at, as a share of the tool's radius.
 const STEP: f64 = 0.125;
 /// Positions of a move at most.
-const MOST: usize = 512;
+const MOST: usize = 4096;
 /// A tool that is nearer to the part than this, mm, may touch it between two positions.
 const NEAR: f64 = 0.1;
 /// Clearances that differ by less are the same, mm.
@@ -63,25 +65,62 @@ pub(super) fn judge(
         watch.advance(1)?;
         let Some(solids) = step.tool.and_then(|tool| solids.get(tool)) else { return Ok(Vec::new()) };
         let own = step.expected.and_then(|number| owns.get(number)?.as_ref()).filter(|_| step.kind == MoveKind::Feed);
-        let of_solid = |solid: &Solid| {
-            let search = Search { step, body: &solid.body, subject, own, limit };
-            search.deepest().map(|(clearance, tip)| (step, solid.kind, clearance, tip))
-        };
-        Ok(solids.iter().filter_map(of_solid).collect())
+        let part = Target { mesh: subject.mesh, bvh: subject.bvh, own, limit };
+        let at_part = solids.iter().filter_map(|solid| {
+            let (clearance, tip) = Search { step, body: &solid.body, target: part }.deepest()?;
+            Some(Struck { step, kind: solid.kind, clearance, tip, least: None })
+        });
+        let at_check = check_of(step, subject).into_iter().flat_map(|(target, least)| {
+            solids.iter().filter_map(move |solid| {
+                let (clearance, tip) = Search { step, body: &solid.body, target }.deepest()?;
+                Some(Struck { step, kind: Some(&faults::CHECK_CLEARANCE), clearance, tip, least: Some(least) })
+            })
+        });
+        Ok(at_part.chain(at_check).collect())
     });
-    for (step, kind, clearance, tip) in found.collect::<Result<Vec<Vec<_>>, Cancelled>>()?.into_iter().flatten() {
-        let depth = subject.deviation_inward - clearance;
-        let kind = kind.unwrap_or(match step.kind {
+    for struck in found.collect::<Result<Vec<Vec<_>>, Cancelled>>()?.into_iter().flatten() {
+        struck.report(subject, limits, judged);
+    }
+    Ok(())
+}
+
+/// The faces that a move's operation keeps away from, with the clearance that is asked for, mm.
+fn check_of<'a>(step: &LeaningMove, subject: &Subject<'a>) -> Option<(Target<'a>, f64)> {
+    let check = subject.expected.get(step.expected?)?.expectation.region.check.as_deref()?;
+    let limit = check.clearance + subject.deviation_inward;
+    Some((Target { mesh: &check.mesh, bvh: &check.bvh, own: None, limit }, check.clearance))
+}
+
+/// Where a move comes too near to something.
+struct Struck<'a> {
+    step: &'a LeaningMove,
+    /// None of the profile in the part: a gouge, or a rapid into it.
+    kind: Option<&'static FaultKind>,
+    clearance: f64,
+    tip: Vector,
+    /// What was asked for of check faces, mm.
+    least: Option<f64>,
+}
+
+impl Struck<'_> {
+    fn report(&self, subject: &Subject, limits: &Limits, judged: &mut Judged) {
+        let Self { step, clearance, .. } = *self;
+        let kind = self.kind.unwrap_or(match step.kind {
             MoveKind::Rapid => &faults::RAPID_INTO_MATERIAL,
             MoveKind::Feed => &faults::GOUGE,
         });
-        let at = Place { line: step.line, position: tip.into() };
-        judged.faults.push(Fault::new(kind, step.index, step.line, at.position).measured(depth, limits.gouge));
+        let at = Place { line: step.line, position: self.tip.into() };
+        let fault = Fault::new(kind, step.index, step.line, at.position);
+        let depth = subject.deviation_inward - clearance;
+        if let Some(least) = self.least {
+            judged.faults.push(fault.measured(-depth, least));
+            return;
+        }
+        judged.faults.push(fault.measured(depth, limits.gouge));
         if judged.gouge.is_none_or(|(known, _)| depth > known) {
             judged.gouge = Some((depth, at));
         }
     }
-    Ok(())
 }
 
 fn solids(tool: &Tool) -> Vec<Solid> {
@@ -99,7 +138,12 @@ impl Own {
     fn of(subject: &Subject, number: usize) -> Option<Self> {
         let passes = subject.expected.get(number)?.expectation.flank()?;
         let faces: Vec<u32> = passes.faces.iter().filter_map(|face| face.face).collect();
-        let is_own: Vec<bool> = subject.mesh.faces().iter().map(|face| faces.contains(face)).collect();
+        let stated: Vec<Stated> = passes.faces.iter().filter(|face| face.face.is_none()).map(Stated::of).collect();
+        let reach = passes.max_error + subject.deviation_inward.max(subject.deviation_outward);
+        let is_own = |(triangle, face): (usize, &u32)| {
+            faces.contains(face) || stated.iter().any(|surface| surface.holds(subject.mesh.corners(triangle), reach))
+        };
+        let is_own: Vec<bool> = subject.mesh.faces().iter().enumerate().map(is_own).collect();
         let own = (0..is_own.len()).filter(|triangle| is_own[*triangle]);
         let triangles: Vec<[i64; 3]> = own.map(|triangle| subject.mesh.triangles()[triangle].map(i64::from)).collect();
         let mesh = Mesh::new(subject.mesh.vertices().to_vec(), &triangles, &[]).ok();
@@ -117,22 +161,68 @@ impl Own {
     }
 }
 
+/// A surface between stated rails, for the triangles of the part that lie on it.
+struct Stated {
+    samples: Vec<(Vector, Vector)>,
+    /// Of neighbouring samples, mm at most.
+    apart: f64,
+}
+
+impl Stated {
+    fn of(face: &FlankFace) -> Self {
+        let samples = samples(face);
+        let apart = |i: usize, j: usize| match (samples.get(i), samples.get(j)) {
+            (Some(a), Some(b)) => (a.0 - b.0).norm(),
+            _ => 0.0,
+        };
+        let widest = (0..samples.len()).map(|i| {
+            let along = if (i + 1) % POINTS == 0 { 0.0 } else { apart(i, i + 1) };
+            apart(i, i + POINTS).max(along)
+        });
+        let apart = widest.fold(0.0, f64::max);
+        Self { samples, apart }
+    }
+
+    /// Whether a triangle lies on it, within `reach` mm of the planes that touch it beside the corners.
+    fn holds(&self, corners: [Vector; 3], reach: f64) -> bool {
+        corners.into_iter().all(|corner| {
+            let beside = |sample: &&(Vector, Vector)| (sample.0 - corner).norm_squared();
+            let nearest = self.samples.iter().min_by(|a, b| beside(a).total_cmp(&beside(b)));
+            nearest.is_some_and(|(point, normal)| {
+                let from = corner - point;
+                normal.dot(&from).abs() <= reach + BENT * self.apart && from.norm() <= self.apart
+            })
+        })
+    }
+}
+
+/// How far a surface may bend away from the planes between which it is known, as a share of their distance.
+const BENT: f64 = 0.02;
+
+/// What a body must not come near.
+#[derive(Clone, Copy)]
+struct Target<'a> {
+    mesh: &'a Mesh,
+    bvh: &'a Bvh,
+    /// Of which a feed may enter these.
+    own: Option<&'a Own>,
+    /// The clearance below which it is too near, mm.
+    limit: f64,
+}
+
 /// Looks for the deepest entry of a body on a move.
 struct Search<'a> {
     step: &'a LeaningMove,
     body: &'a Body,
-    subject: &'a Subject<'a>,
-    own: Option<&'a Own>,
-    /// The clearance at and below which a position counts as a gouge, mm.
-    limit: f64,
+    target: Target<'a>,
 }
 
 impl Search<'_> {
-    /// The least clearance, mm, if it is a gouge, and the tip there.
+    /// The least clearance, mm, if it is too little, and the tip there.
     fn deepest(&self) -> Option<(f64, Vector)> {
         let to = self.step.to;
         let Some(from) = self.step.from else {
-            return self.clearance(&to).filter(|found| *found < self.limit - SLACK).map(|found| (found, to.tip));
+            return self.clearance(&to).filter(|found| *found < self.target.limit - SLACK).map(|found| (found, to.tip));
         };
         let high = self.height();
         let count = (from.apart(&to, high) / (STEP * self.body.radius())).ceil().clamp(1.0, MOST as f64) as usize;
@@ -146,25 +236,25 @@ impl Search<'_> {
             let changes = || beside.into_iter().flatten().map(|other| other - values[i]);
             // the distance of a convex body is convex: where it stays the same there is nothing lower in between
             let is_lowest = changes().all(|change| change >= 0.0) && changes().any(|change| change > LEVEL);
-            if is_lowest && values[i] < self.limit + NEAR {
+            if is_lowest && values[i] < self.target.limit + NEAR {
                 let [low, high] = [i.saturating_sub(1).max(first), (i + 1).min(count)].map(|i| i as f64);
                 return about((values[i], i as f64), [low, high], &value);
             }
             (values[i], i as f64)
         });
         let (found, share) = lowest.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        (found < self.limit - SLACK).then(|| (found, at(share).tip))
+        (found < self.target.limit - SLACK).then(|| (found, at(share).tip))
     }
 
     /// How high up the tool the part may reach, mm.
     fn height(&self) -> f64 {
-        let (low, high) = self.subject.mesh.bounds();
+        let (low, high) = self.target.mesh.bounds();
         (high - low).norm()
     }
 
     /// Of the body from the part, where it is nearly a gouge; deep or beside the tool's own surfaces, as far as that is none.
     fn clearance(&self, pose: &Pose) -> Option<f64> {
-        let Self { body, subject, own, .. } = *self;
+        let Self { body, target: Target { mesh, bvh, own, .. }, .. } = *self;
         let frame = pose.frame();
         let radius = body.radius();
         let origin = body.position([0.0; 3]);
@@ -178,20 +268,20 @@ impl Search<'_> {
             if is_own {
                 return best;
             }
-            let corners = subject.mesh.corners(triangle as usize);
+            let corners = mesh.corners(triangle as usize);
             let in_tool = corners.map(|corner| frame.turned(corner - pose.tip) - origin);
             let Some((value, point)) = nearest(body, in_tool, -best) else { return best };
             let at = || frame.back(point + origin) + pose.tip;
-            let is_allowed =
-                value < self.limit && own.is_some_and(|own| value >= self.limit - own.max_error && own.is_beside(at()));
+            let is_allowed = value < self.target.limit
+                && own.is_some_and(|own| value >= self.target.limit - own.max_error && own.is_beside(at()));
             if is_allowed {
                 best
             } else {
                 -value
             }
         };
-        let nothing = -(self.limit + NEAR);
-        let found = subject.bvh.maximise(nothing, bound, visit);
+        let nothing = -(self.target.limit + NEAR);
+        let found = bvh.maximise(nothing, bound, visit);
         (found > nothing).then_some(-found)
     }
 }
