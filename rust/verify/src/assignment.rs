@@ -36,6 +36,11 @@ impl<'a> Assignment<'a> {
         self.of.get(index as usize).copied().flatten()
     }
 
+    /// Whether the tool of one of the program's operations may lean, by its index.
+    pub fn leans(&self, index: u32) -> bool {
+        self.of(index).is_some_and(|of| of.expectation.flank().is_some())
+    }
+
     /// The job's number of one of the program's operations, by its index.
     pub fn number_of(&self, index: u32) -> Option<usize> {
         let of = self.of(index)?;

@@ -150,7 +150,7 @@ pub(crate) fn last_before(segments: &[Segment], index: usize) -> Option<&Segment
     segments.get(segments.partition_point(|segment| segment.index < index).checked_sub(1)?)
 }
 
-/// The moves whose position is known, in order.
+/// The moves of upright tools whose position is known, in order.
 pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> Vec<Segment> {
     let mut upcoming = program.upcoming();
     // until a tool is called the first one is taken to be loaded: the check for a missing change reports it
@@ -170,6 +170,8 @@ pub(crate) fn placed(program: &Program, subject: &Subject, limits: &Limits) -> V
             }
         }
         let known = subject.is_known(index) && is_in_range(step.end.tip) && step.end.axis.is_up();
+        // what tools that may lean do is checked by itself: `leaning`
+        let known = known && !assignment.leans(step.operation);
         if known {
             let path = start.and_then(|start| step.path(start));
             let kind = if path.is_some() { SegmentKind::Lateral } else { kind(step.kind, start, step.end.tip) };

@@ -21,7 +21,7 @@ pub(crate) fn faults(
 ) -> Vec<Fault> {
     let mut faults = Vec::new();
     for (index, step) in program.moves.iter().enumerate() {
-        let leans = assignment.of(step.operation).is_some_and(|of| of.expectation.flank().is_some());
+        let leans = assignment.leans(step.operation);
         faults.extend(text_faults(index, step, subject, leans));
     }
     // those that the job allows are checked with what stands under them

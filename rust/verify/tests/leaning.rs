@@ -107,6 +107,20 @@ fn a_leaning_cylinder_along_a_flat_wall_leaves_nothing() {
 }
 
 #[test]
+fn an_upright_tool_in_an_operation_whose_tool_may_lean_is_measured_likewise() {
+    let (part, tool) = (block(false), tool(""));
+    let upright = |y: f64| {
+        let mut program = pass(&tool, [y, -5.0], 3);
+        program.moves.iter_mut().for_each(|step| *step = step.with_axis(UnitAxis::UP));
+        judged(&part, &tool, &program, 0.0)
+    };
+    let report = upright(RADIUS - 0.004);
+    assert!(report.ok && report.flanks[0].faces[0].missed == 0.0, "{:?}", report.findings);
+    assert!((report.flanks[0].faces[0].over - 0.004).abs() < 1e-6);
+    assert_eq!(kinds(&upright(RADIUS - 0.03)), [FindingKind::Gouge]);
+}
+
+#[test]
 fn what_is_entered_and_left_is_measured() {
     let (part, tool) = (block(false), tool(""));
     let entered = judged(&part, &tool, &pass(&tool, [RADIUS - 0.03, -5.0], 3), 0.0);

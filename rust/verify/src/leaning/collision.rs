@@ -37,12 +37,28 @@ struct Solid {
     kind: Option<&'static FaultKind>,
 }
 
-/// The triangles of the surfaces that an operation mills.
+/// The part of an operation in two: the triangles of the surfaces that it mills, and all others.
 struct Own {
-    is_own: Vec<bool>,
-    /// They alone, with their index; none where stated rails are milled.
-    alone: Option<(Mesh, Bvh)>,
+    surfaces: Option<Indexed>,
+    others: Option<Indexed>,
     max_error: f64,
+}
+
+/// Triangles with their index.
+struct Indexed {
+    mesh: Mesh,
+    bvh: Bvh,
+}
+
+impl Indexed {
+    /// Some triangles of a mesh; none of none.
+    fn of(mesh: &Mesh, chosen: impl Fn(usize) -> bool) -> Option<Self> {
+        let chosen = (0..mesh.triangles().len()).filter(|triangle| chosen(*triangle));
+        let triangles: Vec<[i64; 3]> = chosen.map(|triangle| mesh.triangles()[triangle].map(i64::from)).collect();
+        let mesh = Mesh::new(mesh.vertices().to_vec(), &triangles, &[]).ok()?;
+        let bvh = Bvh::new(&mesh);
+        Some(Self { mesh, bvh })
+    }
 }
 
 /// Checks every move.
@@ -65,9 +81,10 @@ pub(super) fn judge(
         watch.advance(1)?;
         let Some(solids) = step.tool.and_then(|tool| solids.get(tool)) else { return Ok(Vec::new()) };
         let own = step.expected.and_then(|number| owns.get(number)?.as_ref()).filter(|_| step.kind == MoveKind::Feed);
-        let part = Target { mesh: subject.mesh, bvh: subject.bvh, own, limit };
+        let whole = Some(Target { mesh: subject.mesh, bvh: subject.bvh, own: None, limit });
+        let part = own.map_or(whole, |own| own.others(limit));
         let at_part = solids.iter().filter_map(|solid| {
-            let (clearance, tip) = Search { step, body: &solid.body, target: part }.deepest()?;
+            let (clearance, tip) = Search { step, body: &solid.body, target: part? }.deepest()?;
             Some(Struck { step, kind: solid.kind, clearance, tip, least: None })
         });
         let at_check = check_of(step, subject).into_iter().flat_map(|(target, least)| {
@@ -144,19 +161,18 @@ impl Own {
             faces.contains(face) || stated.iter().any(|surface| surface.holds(subject.mesh.corners(triangle), reach))
         };
         let is_own: Vec<bool> = subject.mesh.faces().iter().enumerate().map(is_own).collect();
-        let own = (0..is_own.len()).filter(|triangle| is_own[*triangle]);
-        let triangles: Vec<[i64; 3]> = own.map(|triangle| subject.mesh.triangles()[triangle].map(i64::from)).collect();
-        let mesh = Mesh::new(subject.mesh.vertices().to_vec(), &triangles, &[]).ok();
-        let alone = mesh.map(|mesh| {
-            let bvh = Bvh::new(&mesh);
-            (mesh, bvh)
-        });
-        Some(Self { is_own, alone, max_error: passes.max_error })
+        let of = |own: bool| Indexed::of(subject.mesh, |triangle| is_own.get(triangle) == Some(&own));
+        Some(Self { surfaces: of(true), others: of(false), max_error: passes.max_error })
+    }
+
+    /// All but the surfaces, as what feeds must not come nearer to than `limit`, mm.
+    fn others(&self, limit: f64) -> Option<Target<'_>> {
+        self.others.as_ref().map(|Indexed { mesh, bvh }| Target { mesh, bvh, own: Some(self), limit })
     }
 
     /// Whether a point lies on the surfaces or at their edges: within the error that is allowed there.
     fn is_beside(&self, point: Vector) -> bool {
-        let Some((mesh, bvh)) = &self.alone else { return false };
+        let Some(Indexed { mesh, bvh }) = &self.surfaces else { return false };
         (bvh.nearest(mesh, point).0 - point).norm() <= 2.0 * self.max_error + SLACK
     }
 }
@@ -166,6 +182,8 @@ struct Stated {
     samples: Vec<(Vector, Vector)>,
     /// Of neighbouring samples, mm at most.
     apart: f64,
+    /// The box around it.
+    around: [Vector; 2],
 }
 
 impl Stated {
@@ -180,19 +198,25 @@ impl Stated {
             apart(i, i + POINTS).max(along)
         });
         let apart = widest.fold(0.0, f64::max);
-        Self { samples, apart }
+        let beyond = Vector::repeat(apart);
+        let first = samples.first().map_or_else(Vector::zeros, |(point, _)| *point);
+        let around = samples.iter().fold([first; 2], |[low, high], (point, _)| [low.inf(point), high.sup(point)]);
+        Self { samples, apart, around: [around[0] - beyond, around[1] + beyond] }
     }
 
     /// Whether a triangle lies on it, within `reach` mm of the planes that touch it beside the corners.
     fn holds(&self, corners: [Vector; 3], reach: f64) -> bool {
-        corners.into_iter().all(|corner| {
-            let beside = |sample: &&(Vector, Vector)| (sample.0 - corner).norm_squared();
-            let nearest = self.samples.iter().min_by(|a, b| beside(a).total_cmp(&beside(b)));
-            nearest.is_some_and(|(point, normal)| {
-                let from = corner - point;
-                normal.dot(&from).abs() <= reach + BENT * self.apart && from.norm() <= self.apart
+        let [low, high] = self.around;
+        let is_near = |corner: &Vector| (0..3).all(|i| (low[i]..=high[i]).contains(&corner[i]));
+        corners.iter().all(is_near)
+            && corners.into_iter().all(|corner| {
+                let beside = |sample: &&(Vector, Vector)| (sample.0 - corner).norm_squared();
+                let nearest = self.samples.iter().min_by(|a, b| beside(a).total_cmp(&beside(b)));
+                nearest.is_some_and(|(point, normal)| {
+                    let from = corner - point;
+                    normal.dot(&from).abs() <= reach + BENT * self.apart && from.norm() <= self.apart
+                })
             })
-        })
     }
 }
 
@@ -204,7 +228,7 @@ const BENT: f64 = 0.02;
 struct Target<'a> {
     mesh: &'a Mesh,
     bvh: &'a Bvh,
-    /// Of which a feed may enter these.
+    /// Beside whose surfaces it may be entered by the error that is allowed there.
     own: Option<&'a Own>,
     /// The clearance below which it is too near, mm.
     limit: f64,
@@ -236,7 +260,8 @@ impl Search<'_> {
             let changes = || beside.into_iter().flatten().map(|other| other - values[i]);
             // the distance of a convex body is convex: where it stays the same there is nothing lower in between
             let is_lowest = changes().all(|change| change >= 0.0) && changes().any(|change| change > LEVEL);
-            if is_lowest && values[i] < self.target.limit + NEAR {
+            // what is far in is deep enough to be reported
+            if is_lowest && (values[i] - self.target.limit).abs() < NEAR {
                 let [low, high] = [i.saturating_sub(1).max(first), (i + 1).min(count)].map(|i| i as f64);
                 return about((values[i], i as f64), [low, high], &value);
             }
@@ -264,10 +289,6 @@ impl Search<'_> {
             half - (libm::hypot(middle.x, middle.y) - radius).max(-middle.z)
         };
         let visit = |triangle: u32, best: f64| {
-            let is_own = own.is_some_and(|own| own.is_own.get(triangle as usize) == Some(&true));
-            if is_own {
-                return best;
-            }
             let corners = mesh.corners(triangle as usize);
             let in_tool = corners.map(|corner| frame.turned(corner - pose.tip) - origin);
             let Some((value, point)) = nearest(body, in_tool, -best) else { return best };

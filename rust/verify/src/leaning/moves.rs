@@ -59,7 +59,7 @@ impl ToolFrame {
     }
 }
 
-/// A move that begins or ends with a tool that leans.
+/// A move that begins or ends with a tool that leans, or that of an operation whose tool may.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LeaningMove {
     /// Its number in the program.
@@ -113,7 +113,7 @@ impl LeaningMove {
 /// The sine of the angle between a way and an axis along it: coordinates are rounded.
 const STRAIGHT: f64 = 1e-2;
 
-/// The moves that begin or end with a tool that leans, in order.
+/// The moves that begin or end with a tool that leans, and all of operations whose tool may lean, in order.
 pub(crate) fn leaning_moves(program: &Program, assignment: &Assignment, subject: &Subject) -> Vec<LeaningMove> {
     let mut upcoming = program.upcoming();
     let known_tool = |tool: usize| Some(tool).filter(|tool| *tool < subject.tools.len());
@@ -128,7 +128,7 @@ pub(crate) fn leaning_moves(program: &Program, assignment: &Assignment, subject:
         }
         let known = subject.is_known(index) && is_in_range(step.end.tip);
         let leans = !step.end.axis.is_up() || before.is_some_and(|before| !before.axis.is_up());
-        if known && leans {
+        if known && (leans || assignment.leans(step.operation)) {
             moves.push(LeaningMove {
                 index,
                 line: step.line,
