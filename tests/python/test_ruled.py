@@ -158,10 +158,15 @@ def test_arcs_are_the_rails_of_cylinders_and_cones(semi_angle: float) -> None:
         assert abs(length - (10.0 + np.tan(semi_angle) * height) * np.radians(270.0)) < 1e-3
 
 
-def test_what_goes_all_around_has_no_ends() -> None:
+def test_what_goes_all_around_begins_where_it_ends() -> None:
     angles, heights = np.meshgrid(np.radians(np.arange(0.0, 360.0, 10.0)), [0.0, 9.0])
     points = np.stack([5.0 * np.cos(angles), 5.0 * np.sin(angles), heights], axis=-1).reshape(-1, 3)
-    assert rails_of(Cylinder((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 5.0), points) is None
+    rails = rails_of(Cylinder((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 5.0), points)
+    assert rails is not None
+    for rail in rails:
+        around = rail.at(np.linspace(0.0, 1.0, 721))
+        np.testing.assert_allclose(around[0], around[-1], atol=1e-9)
+        assert abs(np.linalg.norm(np.diff(around, axis=0), axis=1).sum() - 10.0 * np.pi) < 1e-3
 
 
 def test_surfaces_that_bend_both_ways_and_planes_have_none() -> None:

@@ -17,7 +17,7 @@ SAME_AREA = 0.01
 """By what share a face's area may differ from that of its strip: a face that is cut out of the strip is none."""
 
 CLOSED = np.radians(20.0)
-"""A face around an axis whose widest gap is less is closed: it has no ends."""
+"""A face around an axis whose widest gap is less goes all around: it begins and ends where one of its points is."""
 
 Rails = tuple[Rail, Rail]
 
@@ -89,10 +89,11 @@ def _of_revolution(surface: Cylinder | Cone, points: Floats) -> Rails | None:
     angles = np.sort(np.arctan2(across @ second, across @ first))
     gaps = np.diff(np.concatenate([angles, angles[:1] + 2.0 * np.pi]))
     widest = int(np.argmax(gaps))
-    start = angles[(widest + 1) % len(angles)]
-    sweep = 2.0 * np.pi - gaps[widest]
-    if gaps[widest] < CLOSED or np.ptp(heights) < STRAIGHT:
+    if np.ptp(heights) < STRAIGHT:
         return None
+    is_closed = gaps[widest] < CLOSED
+    start = 0.0 if is_closed else angles[(widest + 1) % len(angles)]
+    sweep = 2.0 * np.pi if is_closed else 2.0 * np.pi - gaps[widest]
     growth = np.tan(surface.semi_angle) if isinstance(surface, Cone) else 0.0
 
     def arc(height: float) -> Rail:

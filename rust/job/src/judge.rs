@@ -17,7 +17,7 @@ use styluscam_verify::{
 use crate::limits::{GOUGE, NO_ROOM};
 use crate::numbers::shown;
 use crate::operations::{LeadForm, LinkHeight};
-use crate::resolve::{faces_of, heights_of, layers_of, passes_of, region_of, tools_in_order};
+use crate::resolve::{check_part, faces_of, heights_of, layers_of, passes_of, region_of, tools_in_order};
 use crate::{
     clamp, forming, materials, model, plates, portion, spindle, Coolant, JobDocument, JobError, OperationSection,
     Scene, SheetSection,
@@ -428,6 +428,7 @@ fn expectation(
 ) -> Result<Expectation, JobError> {
     let heights = heights_of(job, scene, section);
     let faces = faces_of(job, scene, section, index)?;
+    check_part(job, (scene, &faces), tool, section, index)?;
     Ok(Expectation {
         contact: section.kind().contact(),
         // what leaning tools owe their faces is measured along them

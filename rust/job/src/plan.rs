@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use styluscam_motion::Watch;
 
 use crate::operations::{Before, Context};
-use crate::resolve::{descent_of, faces_of, heights_of, region_of, selection_of, tools};
+use crate::resolve::{check_part, descent_of, faces_of, heights_of, region_of, selection_of, tools};
 use crate::{check, clamp, die, forming, shaping, spindle, JobDocument, JobError, Selection, MAIN_CHANNEL};
 
 mod channel;
@@ -55,6 +55,7 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
         let (tool, record) =
             tools.get(&section.common.tool).ok_or_else(|| check::no_tool(job, &path, &section.common.tool))?;
         let faces = faces_of(job, scene, section, index)?;
+        check_part(job, (scene, &faces), tool, section, index)?;
         let context = Context {
             scene,
             machine,

@@ -5,9 +5,24 @@ use crate::{Arc, Cycle, Event, EventKind, FeedMode, Move, MoveKind, Plane, Pose,
 /// Heights of a level are compared with this slack, mm.
 const SAME_HEIGHT: f64 = 1e-6;
 
+/// A way down along the axis may miss it by so much, mm: the texts' coordinates are rounded.
+const SAME_PLAN: f64 = 0.05;
+/// A tool that leans by more is not drawn up along its axis: its rise, the cosine of 85 deg.
+const LEAST_RISE: f64 = 0.087;
+
+/// The tip up along the tool's axis at a height, mm; straight up where the tool lies.
+fn above(pose: &Pose, height: f64) -> [f64; 3] {
+    let ([x, y, z], [across, aside, rise]) = (pose.tip, pose.axis.vector());
+    if rise < LEAST_RISE || height <= z {
+        return [x, y, height];
+    }
+    let length = (height - z) / rise;
+    [x + across * length, y + aside * length, height]
+}
+
 impl Program {
     /// The program from one of its moves on: tool, spindle, coolant and work offset as they are there, the approach to its start
-    /// at the clearance height and then straight down at the feed of its operation's plunges.
+    /// at the clearance height and then down along the tool's axis at the feed of its operation's plunges.
     ///
     /// None when there is no such move, when it is the first (nothing comes before it), or when it lies in a canned cycle
     /// that began before it.
@@ -29,8 +44,7 @@ impl Program {
         }
         let mut moves = Vec::new();
         if !anew {
-            let [x, y, _] = start.tip;
-            moves.push(approach(Move::rapid([x, y, highest])));
+            moves.push(approach(Move::rapid(above(&start, highest))));
         }
         if !anew && step.kind == MoveKind::Feed && highest > start.tip[2] {
             let (feed, mode) = self.plunge_feed(start, step);
@@ -60,7 +74,10 @@ impl Program {
         let (own, mode) = lasting_feed(start.tip, step);
         let plunges = self.segments().filter_map(|(start, plunge)| {
             let (start, end) = (start?, plunge.end.tip);
-            let down = end[2] < start[2] && libm::hypot(end[0] - start[0], end[1] - start[1]) <= SAME_HEIGHT;
+            let foot = above(&plunge.end, start[2]);
+            let down = end[2] < start[2]
+                && libm::hypot(foot[0] - start[0], foot[1] - start[1])
+                    <= if plunge.end.axis.is_up() { SAME_HEIGHT } else { SAME_PLAN };
             let (feed, of) = lasting_feed(start, plunge);
             (down && plunge.kind == MoveKind::Feed && plunge.operation == step.operation && of == mode).then_some(feed)
         });

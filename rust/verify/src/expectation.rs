@@ -116,6 +116,8 @@ pub struct FlankPasses {
     pub faces: Vec<FlankFace>,
     /// Stock that is to stay on them, mm along their normals.
     pub left: f64,
+    /// How high up from the first curve, mm along the straight lines, the tool is not to come.
+    pub foot: f64,
     /// Most that may be entered, or left beyond that, mm.
     pub max_error: f64,
 }

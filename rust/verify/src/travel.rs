@@ -143,7 +143,7 @@ fn text_faults(index: usize, step: &Move, subject: &Subject, leans: bool) -> imp
         (feeds && !(step.feed > 0.0 && step.feed.is_finite())).then(|| fault(&faults::MISSING_FEED)),
         (feeds && !(placed && from_a_place)).then(|| fault(&faults::UNPLACED_FEED)),
         (absurd && placed).then(|| fault(&faults::NOT_FINITE)),
-        (!step.end.axis.is_up() && !leans).then(|| fault(&faults::TOOL_AXIS)),
+        (!step.end.axis.is_up() && !leans && feeds).then(|| fault(&faults::TOOL_AXIS)),
         (feeds && step.feed_mode != FeedMode::PerMinute).then(|| fault(&faults::FEED_MODE)),
     ]
     .into_iter()

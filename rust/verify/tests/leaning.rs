@@ -55,6 +55,11 @@ fn tool(more: &str) -> Tool {
         .unwrap()
 }
 
+fn tool_of(diameter: f64) -> Tool {
+    let text = format!(r#"{{"profile": {{"kind": "flat", "diameter": {diameter:?}}}}}"#);
+    Tool::new(serde_json::from_str(&text).unwrap()).unwrap()
+}
+
 fn leaning(angle: f64) -> UnitAxis {
     UnitAxis::new([angle.sin(), 0.0, angle.cos()]).unwrap()
 }
@@ -78,7 +83,7 @@ fn pass(tool: &Tool, [y, z]: [f64; 2], moves: usize) -> Program {
 }
 
 fn judged(part: &Part, tool: &Tool, program: &Program, left: f64) -> Report {
-    let passes = Passes::Flank(FlankPasses { faces: vec![wall()], left, max_error: 0.005 });
+    let passes = Passes::Flank(FlankPasses { faces: vec![wall()], left, foot: 0.0, max_error: 0.005 });
     let mut expected = expected(part, Contact::Clear, [f64::NEG_INFINITY, f64::INFINITY], passes);
     expected[0].expectation.selected.fill(false);
     let tools = [tool.clone()];
@@ -184,7 +189,7 @@ fn triangles_between_stated_rails_are_the_surface_s_own() {
     let (part, tool) = (block(false), tool(""));
     let report = |y: f64, max_error: f64| {
         let stated = FlankFace { face: None, name: "the stated rails".into(), ..wall() };
-        let passes = Passes::Flank(FlankPasses { faces: vec![stated], left: 0.0, max_error });
+        let passes = Passes::Flank(FlankPasses { faces: vec![stated], left: 0.0, foot: 0.0, max_error });
         let mut expected = expected(&part, Contact::Clear, [f64::NEG_INFINITY, f64::INFINITY], passes);
         expected[0].expectation.selected.fill(false);
         let tools = [tool.clone()];
@@ -202,7 +207,7 @@ fn check_faces_are_kept_away_from() {
     let mesh = Mesh::new(part.mesh.vertices().to_vec(), &plate, &[]).unwrap();
     let bvh = Bvh::new(&mesh);
     let check = CheckFaces { mesh, bvh, clearance: 1.5 };
-    let passes = Passes::Flank(FlankPasses { faces: vec![wall()], left: 0.0, max_error: 0.005 });
+    let passes = Passes::Flank(FlankPasses { faces: vec![wall()], left: 0.0, foot: 0.0, max_error: 0.005 });
     let mut expected = expected(&part, Contact::Clear, [f64::NEG_INFINITY, f64::INFINITY], passes);
     expected[0].expectation.selected.fill(false);
     expected[0].expectation.region.check = Some(Arc::new(check));
@@ -217,6 +222,38 @@ fn check_faces_are_kept_away_from() {
             assert!((value(&report, FindingKind::CheckClearance) - over).abs() < 1e-6);
         }
     }
+}
+
+#[test]
+fn a_move_into_the_surface_between_its_samples_is_found() {
+    let (part, tool) = (block(false), tool(""));
+    let mut program = pass(&tool, [RADIUS, -5.0], 30);
+    // samples are 0.62 mm apart along the wall and 1.25 mm up: in between, the rim of a slender tool that leans away pokes in
+    let needle = tool_of(0.4);
+    let away = UnitAxis::new([0.0, 0.3_f64.sin(), 0.3_f64.cos()]).unwrap();
+    let at = program.moves.len() - 1;
+    let poke = |depth: f64| {
+        let tip = [20.31, 0.2 * 0.3_f64.cos() - depth, 9.3];
+        Move::feed(tip, 600.0).role(Role::Cut).on_line(99).with_axis(away)
+    };
+    program.moves.splice(at..at, [poke(-1.0), poke(0.15), poke(-1.0)]);
+    let report = judged(&part, &needle, &program, 0.0);
+    assert!((value(&report, FindingKind::Gouge) - 0.15).abs() < 1e-3, "{:?}", report.findings);
+}
+
+#[test]
+fn below_the_foot_nothing_is_owed() {
+    let (part, tool) = (block(false), tool(""));
+    let report = |foot: f64| {
+        let passes = Passes::Flank(FlankPasses { faces: vec![wall()], left: 0.0, foot, max_error: 0.005 });
+        let mut expected = expected(&part, Contact::Clear, [f64::NEG_INFINITY, f64::INFINITY], passes);
+        expected[0].expectation.selected.fill(false);
+        let tools = [tool.clone()];
+        let subject = Subject { expected: &expected, ..part.subject(&tools) };
+        judge(&pass(&tool, [RADIUS, 5.0], 3), &subject, &limits(), &Watch::default()).unwrap()
+    };
+    assert_eq!(kinds(&report(3.0)), [FindingKind::MissingPass]);
+    assert!(report(6.0).ok, "{:?}", report(6.0).findings);
 }
 
 #[test]
@@ -271,7 +308,7 @@ fn a_chord_enters_a_round_boss_by_its_sagitta() {
     };
     let part = block(false);
     let face = FlankFace { name: "boss".into(), face: None, rails: [arc(0.0), arc(10.0)], is_left: false };
-    let passes = Passes::Flank(FlankPasses { faces: vec![face], left: 0.0, max_error: 0.005 });
+    let passes = Passes::Flank(FlankPasses { faces: vec![face], left: 0.0, foot: 0.0, max_error: 0.005 });
     let mut expected = expected(&part, Contact::Clear, [f64::NEG_INFINITY, f64::INFINITY], passes);
     expected[0].expectation.selected.fill(false);
     let tools = [tool];

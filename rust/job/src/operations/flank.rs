@@ -118,8 +118,21 @@ impl Flank {
         let wide = tool.radius / libm::cos(tool.half_angle) + longest * sine;
         let needed = self.overreach + tool.radius * tool.growth() + longest - wide * sine;
         let available = tool.top - tool.height;
+        if available < LEAST_FLANK {
+            let message = format!(
+                "the side of the tool is {:.3} mm long: its length, or the shank above its profile, ends it",
+                available.max(0.0)
+            );
+            let hint = "give the tool its true length, and a base of the height at which its shank begins";
+            return Err(JobError::document("short-flank", path, message, hint));
+        }
         let most = self.pass_depth.unwrap_or(f64::INFINITY).min(available);
         let count = (needed / most - 1e-9).ceil().max(1.0);
+        if count > MOST_PASSES {
+            let message =
+                format!("{needed:.2} mm along the tool take {count} passes of {most:.3} mm: at most {MOST_PASSES}");
+            return Err(JobError::document("out-of-range", format!("{path}.pass_depth"), message, "raise pass_depth"));
+        }
         if count > 1.0 && tool.half_angle > 0.0 {
             let message = format!(
                 "the side of the tool is {available:.2} mm long, {needed:.2} mm are needed, and a cone cannot mill in several depths"
@@ -172,6 +185,10 @@ impl Flank {
     }
 }
 
+/// A side of a tool that is shorter is none, mm.
+const LEAST_FLANK: f64 = 0.01;
+/// Passes over a surface at most.
+const MOST_PASSES: f64 = 100.0;
 /// A tool that leans by more cannot come down to the part from above, degrees.
 const MOST_LEAN_DEG: f64 = 85.0;
 
@@ -281,11 +298,6 @@ impl OperationKind for Flank {
             passes += milled.passes;
             context.watch.advance(1)?;
         }
-        if moves.is_empty() {
-            let message = "none of the faces is known to be ruled between two curves, and no rails are stated";
-            let hint = "select ruled faces, or state rails = { edges = [\"Edge3\", \"Edge7\"] }";
-            return Err(JobError::document("nothing-reached", format!("{}.faces", context.path), message, hint));
-        }
         let words =
             format!("{} over {}", counted(passes, "pass", "passes"), counted(surfaces.len(), "surface", "surfaces"));
         Ok(Planned {
@@ -306,6 +318,16 @@ impl OperationKind for Flank {
         Contact::Clear
     }
 
+    fn check_part(&self, given: &PassContext<'_>, are_named: bool, path: &str) -> Result<(), JobError> {
+        let found = RuledSurface::all(self.rails.as_ref(), self.side, (given.scene, given.faces, are_named), path)?;
+        if found.is_empty() {
+            let message = "none of the faces is known to be ruled between two curves, and no rails are stated";
+            let hint = "select ruled faces, or state rails = { edges = [\"Edge3\", \"Edge7\"] }";
+            return Err(JobError::document("nothing-reached", format!("{path}.faces"), message, hint));
+        }
+        Ok(())
+    }
+
     fn passes(&self, given: &PassContext<'_>) -> Passes {
         let surfaces = RuledSurface::all(self.rails.as_ref(), self.side, (given.scene, given.faces, false), "");
         let face = |surface: RuledSurface| FlankFace {
@@ -318,6 +340,7 @@ impl OperationKind for Flank {
             // planning refuses named faces that are not ruled
             faces: surfaces.unwrap_or_default().into_iter().map(face).collect(),
             left: self.stock_to_leave,
+            foot: (-self.overreach).max(0.0),
             max_error: self.max_error,
         })
     }

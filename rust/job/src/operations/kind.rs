@@ -54,6 +54,14 @@ pub trait OperationKind {
     /// What its lateral feeds owe the part.
     fn contact(&self) -> Contact;
 
+    /// Checks that the part has what its passes follow beyond faces, for planning and for the verifier; `path` is the operation's.
+    ///
+    /// # Errors
+    /// It has not.
+    fn check_part(&self, _given: &PassContext<'_>, _are_named: bool, _path: &str) -> Result<(), JobError> {
+        Ok(())
+    }
+
     /// How its passes lie, for the verifier.
     fn passes(&self, given: &PassContext<'_>) -> Passes;
 

@@ -392,7 +392,8 @@ impl Pocket {
         let air = box_around(scene, BEYOND * tool.diameter());
         let all: Vec<Vec<[f64; 3]>> = outlines.iter().cloned().chain([air]).collect();
         let direction = sense(common, true);
-        let arcs = common.fit == Fit::Arcs && machine.arc.is_some();
+        // in programs that lean arcs become lines, and their chords turn the heading
+        let arcs = common.fit == Fit::Arcs && machine.arc.is_some() && machine.rotary.is_none();
         let before = if self.rest_machining { context.before.cleared([top, floor]) } else { Vec::new() };
         for area in CentreArea::parted(&all).iter().filter(|area| is_over_selected(surface, area, floor, radius)) {
             let asked = Asked {

@@ -94,8 +94,8 @@ impl RuledSurface {
     fn of_face(scene: &Scene, face: u32, path: &str) -> Result<Self, JobError> {
         let Some(rails) = scene.curves.ruled.get(&face) else {
             let message = format!(
-                "Face{face} is not known to be ruled between two curves: planes, meshes, surfaces that bend both ways and faces \
-                 that are cut out of a ruled one are not"
+                "Face{face} is not known to be ruled between two curves: planes, meshes, cones to their apex, surfaces that bend both \
+                 ways and faces that are cut out of a ruled one are not"
             );
             let hint = "select ruled faces, or state two edges: rails = { edges = [\"Edge3\", \"Edge7\"] }";
             return Err(JobError::document("not-ruled", format!("{path}.faces"), message, hint));

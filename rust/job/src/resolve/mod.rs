@@ -7,6 +7,6 @@ mod scene;
 mod tools;
 
 pub use channels::check as check_channels;
-pub use operation::{descent_of, faces_in, faces_of, heights_of, layers_of, passes_of, selection_of};
+pub use operation::{check_part, descent_of, faces_in, faces_of, heights_of, layers_of, passes_of, selection_of};
 pub use region::region_of;
 pub use tools::{tools, tools_in_order};

@@ -60,6 +60,22 @@ pub fn passes_of(
     with_passes(job, (scene, faces), tool, section, |given| section.kind().passes(given))
 }
 
+/// Checks that the part has what an operation's passes follow beyond faces; `index` is its number in the job.
+///
+/// # Errors
+/// It has not.
+pub fn check_part(
+    job: &JobDocument,
+    (scene, faces): (&Scene, &[u32]),
+    tool: &Tool,
+    section: &OperationSection,
+    index: usize,
+) -> Result<(), JobError> {
+    let are_named = matches!(selection_of(job, section, index).0, Selection::Named(_));
+    let path = format!("operations[{index}]");
+    with_passes(job, (scene, faces), tool, section, |given| section.kind().check_part(given, are_named, &path))
+}
+
 /// The layers in which they form a sheet, if any.
 pub fn layers_of(job: &JobDocument, scene: &Scene, tool: &Tool, section: &OperationSection) -> Option<Layers> {
     with_passes(job, (scene, &[]), tool, section, |given| section.kind().layers(given))

@@ -31,6 +31,8 @@ use crate::role;
 
 const AXES: [char; 3] = ['X', 'Y', 'Z'];
 const Z: usize = 2;
+/// How remarks begin that name what follows.
+const OPERATION: &str = "operation ";
 
 /// Typical length of a line, to reserve memory.
 const TYPICAL_LINE: usize = 20;
@@ -134,7 +136,10 @@ impl<'m> Interpreter<'m> {
             self.record.set_role(role);
             return;
         }
-        if let Some((id, kind)) = text.strip_prefix("operation ").and_then(|t| t.split_once(": ")) {
+        // a machine without lower case or a colon has them otherwise
+        let named = text.get(..OPERATION.len()).filter(|start| start.eq_ignore_ascii_case(OPERATION));
+        let rest = named.and_then(|_| text.get(OPERATION.len()..));
+        if let Some((id, kind)) = rest.and_then(|rest| rest.split_once(": ").or_else(|| rest.split_once("= "))) {
             self.record.start_operation(id, kind);
         }
         self.event(EventKind::Comment { text: text.into() });

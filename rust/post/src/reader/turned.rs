@@ -18,6 +18,8 @@ const TIP: f64 = 1e-4;
 const LEAN: f64 = TIP / 50.0;
 /// Shares of a part at which it is looked how far the tool leaves it.
 const SHARES: [f64; 3] = [0.25, 0.5, 0.75];
+/// A turn by more is halved before it is looked at, deg.
+const LOOKED_AT_DEG: f64 = 30.0;
 /// A move is halved so often at most.
 const HALVINGS: u32 = 16;
 /// Moves in the part at most; a few hundred bytes each.
@@ -160,7 +162,9 @@ impl Way<'_> {
             let lean = unit(between(ends[0].direction, ends[1].direction, *share));
             norm(difference(tip, wanted)) > TIP || norm(difference(direction, lean)) > LEAN
         };
-        if halvings == 0 || !SHARES.iter().any(is_off) {
+        // whole turns are back where they began at every share that is looked at
+        let turned = (to - from) * larger_turn(self.from.angles, self.to.angles);
+        if halvings == 0 || turned <= LOOKED_AT_DEG && !SHARES.iter().any(is_off) {
             out.push(ends[1]);
             return;
         }

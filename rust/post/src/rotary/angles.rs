@@ -7,6 +7,8 @@ use crate::machine::Carrier;
 
 /// A direction this near to an axis' own leaves its angle free, as a sine.
 const ALONG: f64 = 1e-9;
+/// What a turn counts there, beside one of an upright tool.
+const DEARER: f64 = 1.001;
 /// By so much a direction may miss the reach of the axes: rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -27,15 +29,21 @@ impl RotaryAxes {
     /// # Errors
     /// [`RotaryError::Unreachable`], [`RotaryError::Limit`].
     pub fn angles(&self, directions: &[[f64; 3]]) -> Result<Vec<[f64; 2]>, RotaryError> {
+        let found: Vec<Vec<Free>> = directions.iter().map(|direction| self.pairs(*direction)).collect();
+        let ahead = ahead(&found);
         let mut levels: Vec<Vec<State>> = Vec::with_capacity(directions.len());
-        for (index, direction) in directions.iter().enumerate() {
-            let pairs = self.pairs(*direction);
+        for (index, pairs) in found.iter().enumerate() {
             if pairs.is_empty() {
                 return Err(RotaryError::Unreachable { index });
             }
             let level = match levels.last() {
-                None => pairs.iter().flat_map(|pair| self.first(*pair)).collect(),
-                Some(before) => self.next(before, &pairs),
+                None => pairs.iter().flat_map(|pair| self.first(*pair, &ahead[index])).collect(),
+                Some(before) => {
+                    // where it is free before as well it may turn to what comes
+                    let free = [0, 1].map(|i| found[index - 1].iter().all(|pair| pair[i].is_none()));
+                    let ahead = [0, 1].map(|i| free[i].then_some(ahead[index][i].as_slice()));
+                    self.next(before, pairs, ahead)
+                }
             };
             if level.is_empty() {
                 return Err(RotaryError::Limit { index });
@@ -58,35 +66,46 @@ impl RotaryAxes {
         Ok(())
     }
 
-    /// Where a path may start: every whole turn within the limits, nearer to 0 cheaper.
-    fn first(&self, pair: Free) -> Vec<State> {
+    /// Where a path may start: every whole turn within the limits, nearer to 0 cheaper; where an angle is free, at 0 or at what comes.
+    fn first(&self, pair: Free, ahead: &[Vec<f64>; 2]) -> Vec<State> {
         let [first, second] = [0, 1].map(|i| match pair[i] {
             Some(angle) => self.wraps(i, angle),
-            None => vec![0.0_f64.clamp(self.axes()[i].limits_deg[0], self.axes()[i].limits_deg[1])],
+            None => {
+                let [low, high] = self.axes()[i].limits_deg;
+                let coming = ahead[i].iter().flat_map(|angle| self.wraps(i, *angle));
+                std::iter::once(0.0_f64.clamp(low, high)).chain(coming).collect()
+            }
         });
         let both = first.iter().flat_map(|a| second.iter().map(move |b| [*a, *b]));
         both.map(|angles| State { angles, cost: 1e-9 * square(angles), before: 0 }).collect()
     }
 
-    /// The cheapest ways on, one from every state before for every pair of angles.
-    fn next(&self, before: &[State], pairs: &[Free]) -> Vec<State> {
+    /// The cheapest ways on, one from every state before for every pair of angles; where one is free it stays, or turns to what comes
+    /// (`ahead`, of an angle that was free before as well): where the tool begins to lean a turn is dearer.
+    fn next(&self, before: &[State], pairs: &[Free], ahead: [Option<&[f64]>; 2]) -> Vec<State> {
         let mut found: Vec<State> = Vec::new();
         for (number, state) in before.iter().enumerate() {
             for pair in pairs {
-                let nearest = |i: usize| match pair[i] {
-                    None => Some(state.angles[i]),
-                    Some(angle) => {
-                        let apart = |angle: &f64| (angle - state.angles[i]).abs();
-                        self.wraps(i, angle).into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))
-                    }
+                let nearest = |i: usize, angle: f64| {
+                    let apart = |angle: &f64| (angle - state.angles[i]).abs();
+                    self.wraps(i, angle).into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))
                 };
-                let (Some(first), Some(second)) = (nearest(0), nearest(1)) else { continue };
-                let turned = [first - state.angles[0], second - state.angles[1]];
-                let new = State { angles: [first, second], cost: state.cost + square(turned), before: number };
-                match found.iter_mut().find(|known| near(known.angles, new.angles)) {
-                    Some(known) if known.cost <= new.cost => {}
-                    Some(known) => *known = new,
-                    None => found.push(new),
+                let [first, second] = [0, 1].map(|i| match pair[i] {
+                    None => {
+                        let coming = ahead[i].into_iter().flatten().filter_map(|angle| nearest(i, *angle));
+                        std::iter::once(state.angles[i]).chain(coming).collect()
+                    }
+                    Some(angle) => nearest(i, angle).into_iter().collect::<Vec<f64>>(),
+                });
+                for angles in first.iter().flat_map(|a| second.iter().map(move |b| [*a, *b])) {
+                    let dearer = |i: usize| if ahead[i].is_some() && pair[i].is_some() { DEARER } else { 1.0 };
+                    let turned = [0, 1].map(|i| (angles[i] - state.angles[i]) * dearer(i));
+                    let new = State { angles, cost: state.cost + square(turned), before: number };
+                    match found.iter_mut().find(|known| near(known.angles, new.angles)) {
+                        Some(known) if known.cost <= new.cost => {}
+                        Some(known) => *known = new,
+                        None => found.push(new),
+                    }
                 }
             }
         }
@@ -141,6 +160,23 @@ impl RotaryAxes {
             vec![pair(aside), pair(-aside)]
         }
     }
+}
+
+/// For every direction and axis the angles that the next direction at which it is not free may have.
+fn ahead(found: &[Vec<Free>]) -> Vec<[Vec<f64>; 2]> {
+    let mut coming: [Vec<f64>; 2] = [Vec::new(), Vec::new()];
+    let mut ahead: Vec<[Vec<f64>; 2]> = Vec::with_capacity(found.len());
+    for pairs in found.iter().rev() {
+        ahead.push(coming.clone());
+        for i in 0..2 {
+            let fixed: Vec<f64> = pairs.iter().filter_map(|pair| pair[i]).collect();
+            if !fixed.is_empty() {
+                coming[i] = fixed;
+            }
+        }
+    }
+    ahead.reverse();
+    ahead
 }
 
 /// The angle, deg, by which one vector is turned to another about a unit vector; none where it lies along that.
@@ -220,6 +256,25 @@ mod tests {
             let largest = angles.windows(2).flat_map(|p| [p[1][0] - p[0][0], p[1][1] - p[0][1]]);
             assert!(largest.map(f64::abs).fold(0.0, f64::max) < 4.0, "{machine:?}");
         }
+    }
+
+    #[test]
+    fn a_free_angle_turns_where_nothing_leans() {
+        let axes = [
+            axis('A', Carrier::Table, [1.0, 0.0, 0.0], [-120.0, 120.0]),
+            axis('C', Carrier::Table, [0.0, 0.0, 1.0], [-360.0, 360.0]),
+        ];
+        let machine = RotaryAxes::new(axes).unwrap();
+        let lean = |degrees: f64| {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            [0.6 * sin, 0.6 * cos, 0.8]
+        };
+        // leaning, upright for three positions, leaning to another side
+        let directions = [lean(0.0), UP, UP, UP, lean(70.0)];
+        let angles = machine.angles(&directions).unwrap();
+        let turned = |i: usize| (angles[i][1] - angles[i - 1][1]).abs();
+        assert!(turned(1) < 1e-9 && turned(4) < 1e-9, "{angles:?}");
+        assert!((turned(2) + turned(3) - 70.0).abs() < 1e-9, "{angles:?}");
     }
 
     #[test]

@@ -25,6 +25,8 @@ const STEP: f64 = 0.125;
 const MOST: usize = 4096;
 /// A tool that is nearer to the part than this, mm, may touch it between two positions.
 const NEAR: f64 = 0.1;
+/// The same on the surfaces that it mills, where it is always near.
+const AT_SURFACE: f64 = 2e-3;
 /// Clearances that differ by less are the same, mm.
 const LEVEL: f64 = 1e-5;
 /// Parts of the golden section between positions: to 1e-4 of their distance.
@@ -81,11 +83,13 @@ pub(super) fn judge(
         watch.advance(1)?;
         let Some(solids) = step.tool.and_then(|tool| solids.get(tool)) else { return Ok(Vec::new()) };
         let own = step.expected.and_then(|number| owns.get(number)?.as_ref()).filter(|_| step.kind == MoveKind::Feed);
-        let whole = Some(Target { mesh: subject.mesh, bvh: subject.bvh, own: None, limit });
-        let part = own.map_or(whole, |own| own.others(limit));
-        let at_part = solids.iter().filter_map(|solid| {
-            let (clearance, tip) = Search { step, body: &solid.body, target: part? }.deepest()?;
-            Some(Struck { step, kind: solid.kind, clearance, tip, least: None })
+        let whole = Target { mesh: subject.mesh, bvh: subject.bvh, own: None, limit, near: NEAR };
+        let of_part = own.map_or([Some(whole), None], |own| [own.others(limit), own.surfaces(limit)]);
+        let at_part = of_part.into_iter().flatten().flat_map(|target| {
+            solids.iter().filter_map(move |solid| {
+                let (clearance, tip) = Search { step, body: &solid.body, target }.deepest()?;
+                Some(Struck { step, kind: solid.kind, clearance, tip, least: None })
+            })
         });
         let at_check = check_of(step, subject).into_iter().flat_map(|(target, least)| {
             solids.iter().filter_map(move |solid| {
@@ -105,7 +109,7 @@ pub(super) fn judge(
 fn check_of<'a>(step: &LeaningMove, subject: &Subject<'a>) -> Option<(Target<'a>, f64)> {
     let check = subject.expected.get(step.expected?)?.expectation.region.check.as_deref()?;
     let limit = check.clearance + subject.deviation_inward;
-    Some((Target { mesh: &check.mesh, bvh: &check.bvh, own: None, limit }, check.clearance))
+    Some((Target { mesh: &check.mesh, bvh: &check.bvh, own: None, limit, near: NEAR }, check.clearance))
 }
 
 /// Where a move comes too near to something.
@@ -167,7 +171,14 @@ impl Own {
 
     /// All but the surfaces, as what feeds must not come nearer to than `limit`, mm.
     fn others(&self, limit: f64) -> Option<Target<'_>> {
-        self.others.as_ref().map(|Indexed { mesh, bvh }| Target { mesh, bvh, own: Some(self), limit })
+        self.others.as_ref().map(|Indexed { mesh, bvh }| Target { mesh, bvh, own: Some(self), limit, near: NEAR })
+    }
+
+    /// The surfaces, which feeds may enter by the error that is allowed: all of them, for what is measured along their normals is
+    /// measured at some of their points.
+    fn surfaces(&self, limit: f64) -> Option<Target<'_>> {
+        let limit = limit - self.max_error;
+        self.surfaces.as_ref().map(|Indexed { mesh, bvh }| Target { mesh, bvh, own: None, limit, near: AT_SURFACE })
     }
 
     /// Whether a point lies on the surfaces or at their edges: within the error that is allowed there.
@@ -232,6 +243,8 @@ struct Target<'a> {
     own: Option<&'a Own>,
     /// The clearance below which it is too near, mm.
     limit: f64,
+    /// How near to that, mm, it is looked for between positions.
+    near: f64,
 }
 
 /// Looks for the deepest entry of a body on a move.
@@ -261,7 +274,7 @@ impl Search<'_> {
             // the distance of a convex body is convex: where it stays the same there is nothing lower in between
             let is_lowest = changes().all(|change| change >= 0.0) && changes().any(|change| change > LEVEL);
             // what is far in is deep enough to be reported
-            if is_lowest && (values[i] - self.target.limit).abs() < NEAR {
+            if is_lowest && (values[i] - self.target.limit).abs() < self.target.near {
                 let [low, high] = [i.saturating_sub(1).max(first), (i + 1).min(count)].map(|i| i as f64);
                 return about((values[i], i as f64), [low, high], &value);
             }
@@ -301,7 +314,7 @@ impl Search<'_> {
                 -value
             }
         };
-        let nothing = -(self.target.limit + NEAR);
+        let nothing = -(self.target.limit + self.target.near);
         let found = bvh.maximise(nothing, bound, visit);
         (found > nothing).then_some(-found)
     }

@@ -76,6 +76,15 @@ fn of_face(
     judged: &mut Judged,
 ) -> FlankFaceError {
     let points = samples(face);
+    // where the tool is not to come nothing is owed
+    let owed: Vec<bool> = points
+        .iter()
+        .enumerate()
+        .map(|(i, (point, _))| {
+            let foot = points.get(i - i % POINTS).map_or(0.0, |(foot, _)| (point - foot).norm());
+            passes.foot <= 0.0 || foot > FOOT * passes.foot + BESIDE_FOOT
+        })
+        .collect();
     let left: Vec<(f64, Option<(usize, f64)>)> =
         points.par_iter().with_min_len(8).map(|(point, normal)| lowest(*point, *normal, feeds, parts, body)).collect();
     judged.samples += points.len();
@@ -84,10 +93,12 @@ fn of_face(
             .map(|(feed, tip)| (feed.step, Place { line: feed.step.line, position: tip.into() }))
     };
     let beyond = |value: f64| value - passes.left;
-    let met = || left.iter().filter(|(value, _)| value.is_finite());
-    let deepest = met().min_by(|a, b| a.0.total_cmp(&b.0));
-    let highest = met().max_by(|a, b| a.0.total_cmp(&b.0));
-    let missed = left.iter().filter(|(value, _)| !value.is_finite()).count();
+    let deepest = left.iter().min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(value, _)| value.is_finite());
+    let reached = left.iter().zip(&owed).filter(|((value, _), owed)| **owed && value.is_finite());
+    let highest = reached.map(|(found, _)| found).max_by(|a, b| a.0.total_cmp(&b.0));
+    let is_missed = |(value, owed): (f64, bool)| owed && !value.is_finite();
+    let found = || left.iter().map(|(value, _)| *value).zip(owed.iter().copied());
+    let missed = found().filter(|one| is_missed(*one)).count();
     let over = deepest.map_or(0.0, |(value, _)| (-beyond(*value)).max(0.0));
     let under = highest.map_or(0.0, |(value, _)| beyond(*value).max(0.0));
     let over_at = deepest.filter(|_| over > 0.0).and_then(|(_, at)| place(*at));
@@ -98,7 +109,7 @@ fn of_face(
         judged.faults.push(fault.measured(value, passes.max_error));
     }
     if missed > 0 {
-        let number = left.iter().position(|(value, _)| !value.is_finite()).unwrap_or(0);
+        let number = found().position(is_missed).unwrap_or(0);
         let (index, line) = feeds.first().map_or((0, 0), |feed| (feed.step.index, feed.step.line));
         let at = points.get(number).map_or([0.0; 3], |(point, _)| <[f64; 3]>::from(*point));
         let share = 100.0 * missed as f64 / left.len() as f64;
@@ -226,6 +237,9 @@ fn over(point: Vector, normal: Vector, pose: &Pose, body: &Body) -> f64 {
 /// Of a bend by the tool's radius, for axes that turn on the way, and what is added to it, mm.
 const BENDS: f64 = 0.5;
 const SPARE: f64 = 1e-4;
+/// Where the tool is not to come: so many times as high as asked, for it leans to the rulings, and so much more, mm.
+const FOOT: f64 = 1.05;
+const BESIDE_FOOT: f64 = 0.05;
 /// What is left of a gap to the tool is none, mm.
 const SETTLED: f64 = 1e-9;
 /// Farther off nothing is left of a surface, mm.
