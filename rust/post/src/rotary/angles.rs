@@ -8,12 +8,21 @@ use crate::machine::Carrier;
 /// A direction this near to an axis' own leaves its angle free, as a sine.
 const ALONG: f64 = 1e-9;
 /// What a turn counts there, beside one of an upright tool.
-const DEARER: f64 = 1.001;
+const DEARER: f64 = 4.0;
 /// By so much a direction may miss the reach of the axes: rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// Angles of both axes, deg; none where it is free.
 type Free = [Option<f64>; 2];
+
+/// What else counts of a pose.
+#[derive(Clone, Copy, Default)]
+struct Step {
+    /// How far below the highest, 0 to 1 for the lowest.
+    deep: f64,
+    /// Whether it is gone to from wherever the machine stands.
+    is_fresh: bool,
+}
 
 /// A pair of angles at a pose, and how it was come to.
 struct State {
@@ -30,8 +39,13 @@ impl RotaryAxes {
     /// [`RotaryError::Unreachable`], [`RotaryError::Limit`].
     pub fn angles(&self, directions: &[[f64; 3]]) -> Result<Vec<[f64; 2]>, RotaryError> {
         let found: Vec<Vec<Free>> = directions.iter().map(|direction| self.pairs(*direction)).collect();
-        let ahead = ahead(&found);
-        let mut levels: Vec<Vec<State>> = Vec::with_capacity(directions.len());
+        self.chosen(&found, &vec![Step::default(); found.len()])
+    }
+
+    /// The cheapest of the pairs that may be taken along a path; free axes turn where it is least deep.
+    fn chosen(&self, found: &[Vec<Free>], steps: &[Step]) -> Result<Vec<[f64; 2]>, RotaryError> {
+        let ahead = ahead(found);
+        let mut levels: Vec<Vec<State>> = Vec::with_capacity(found.len());
         for (index, pairs) in found.iter().enumerate() {
             if pairs.is_empty() {
                 return Err(RotaryError::Unreachable { index });
@@ -40,9 +54,11 @@ impl RotaryAxes {
                 None => pairs.iter().flat_map(|pair| self.first(*pair, &ahead[index])).collect(),
                 Some(before) => {
                     // where it is free before as well it may turn to what comes
-                    let free = [0, 1].map(|i| found[index - 1].iter().all(|pair| pair[i].is_none()));
+                    let is_free = |i: usize| found[index - 1].iter().all(|pair| pair[i].is_none());
+                    let free = [0, 1].map(|i| steps[index].is_fresh || is_free(i));
                     let ahead = [0, 1].map(|i| free[i].then_some(ahead[index][i].as_slice()));
-                    self.next(before, pairs, ahead)
+                    let deepest = steps[index - 1].deep.max(steps[index].deep);
+                    self.next(before, pairs, ahead, 1.0 + deepest)
                 }
             };
             if level.is_empty() {
@@ -55,14 +71,26 @@ impl RotaryAxes {
 
     /// Gives poses their angles.
     pub(crate) fn turn_to(&self, poses: &mut [Pose]) -> Result<(), RotaryError> {
-        let directions: Vec<_> = poses.iter().map(|pose| pose.direction).collect();
+        let pairs: Vec<Vec<Free>> = poses.iter().map(|pose| self.pairs(pose.direction)).collect();
+        let held = |(pairs, pose): (&Vec<Free>, &Pose)| -> Vec<Free> {
+            pairs.iter().map(|pair| [0, 1].map(|i| pair[i].or(pose.held[i]))).collect()
+        };
+        let known: Vec<Vec<Free>> = pairs.iter().zip(poses.iter()).map(held).collect();
+        let heights = || poses.iter().map(|pose| pose.tip[2]);
+        let (low, high) = (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
+        let deep = |z: f64| (high - z) / (high - low).max(f64::MIN_POSITIVE);
+        let steps: Vec<Step> =
+            poses.iter().map(|pose| Step { deep: deep(pose.tip[2]), is_fresh: pose.is_fresh }).collect();
         let of_move = |index: usize| poses.get(index).map_or(index, |pose| pose.index);
-        let angles = self.angles(&directions).map_err(|error| match error {
+        let angles = self.chosen(&known, &steps).map_err(|error| match error {
             RotaryError::Unreachable { index } => RotaryError::Unreachable { index: of_move(index) },
             RotaryError::Limit { index } => RotaryError::Limit { index: of_move(index) },
             turn @ RotaryError::Turn { .. } => turn,
         })?;
-        poses.iter_mut().zip(angles).for_each(|(pose, angles)| pose.angles = angles);
+        for ((pose, angles), pairs) in poses.iter_mut().zip(angles).zip(&pairs) {
+            pose.angles = angles;
+            pose.held = [0, 1].map(|i| pairs.iter().all(|pair| pair[i].is_none()).then_some(angles[i]));
+        }
         Ok(())
     }
 
@@ -82,7 +110,7 @@ impl RotaryAxes {
 
     /// The cheapest ways on, one from every state before for every pair of angles; where one is free it stays, or turns to what comes
     /// (`ahead`, of an angle that was free before as well): where the tool begins to lean a turn is dearer.
-    fn next(&self, before: &[State], pairs: &[Free], ahead: [Option<&[f64]>; 2]) -> Vec<State> {
+    fn next(&self, before: &[State], pairs: &[Free], ahead: [Option<&[f64]>; 2], deep: f64) -> Vec<State> {
         let mut found: Vec<State> = Vec::new();
         for (number, state) in before.iter().enumerate() {
             for pair in pairs {
@@ -98,7 +126,11 @@ impl RotaryAxes {
                     Some(angle) => nearest(i, angle).into_iter().collect::<Vec<f64>>(),
                 });
                 for angles in first.iter().flat_map(|a| second.iter().map(move |b| [*a, *b])) {
-                    let dearer = |i: usize| if ahead[i].is_some() && pair[i].is_some() { DEARER } else { 1.0 };
+                    let dearer = |i: usize| match (ahead[i].is_some(), pair[i]) {
+                        (true, Some(_)) => DEARER,
+                        (true, None) => deep,
+                        (false, _) => 1.0,
+                    };
                     let turned = [0, 1].map(|i| (angles[i] - state.angles[i]) * dearer(i));
                     let new = State { angles, cost: state.cost + square(turned), before: number };
                     match found.iter_mut().find(|known| near(known.angles, new.angles)) {

@@ -1,7 +1,7 @@
 //! The poses along a program: those at the ends of its moves, and so many between that the tool keeps to its moves where all axes go
 //! evenly from pose to pose.
 
-use styluscam_motion::{EventKind, Move, Program};
+use styluscam_motion::{EventKind, Move, MoveKind, Program};
 
 use super::error::RotaryError;
 use super::kinematics::{between, difference, dot, norm, unit, RotaryAxes};
@@ -10,6 +10,8 @@ use super::kinematics::{between, difference, dot, norm, unit, RotaryAxes};
 const REACH: f64 = 50.0;
 /// Shares of a move at which it is looked how far the tool leaves it.
 const SHARES: [f64; 3] = [0.25, 0.5, 0.75];
+/// By so much the rise of an upright axis may differ from 1.
+const UPRIGHT: f64 = 1e-15;
 /// A move is halved so often at most.
 const HALVINGS: usize = 10;
 /// Directions whose cosine is less lie opposite: no turn leads from one to the other.
@@ -26,6 +28,8 @@ pub(crate) struct Pose {
     pub direction: [f64; 3],
     /// Of both axes, deg.
     pub angles: [f64; 2],
+    /// What an angle is where the direction leaves it free, once that is chosen, deg.
+    pub held: [Option<f64>; 2],
     /// Whether it is gone to from wherever the machine stands: the first one, and those after a tool change.
     pub is_fresh: bool,
 }
@@ -88,14 +92,23 @@ fn corners(program: &Program, sag: f64) -> Vec<Pose> {
             tip: step.end.tip,
             direction: unit(step.end.axis.vector()),
             angles: [0.0; 2],
+            held: [None; 2],
             is_fresh: changed || index == 0,
         };
         if let Some(from) = poses.last().copied().filter(|_| !end.is_fresh) {
             poses.extend(along_arc(step, &from, &end, sag));
+            // where a rapid sets the tool upright, a table that is free may turn on the spot
+            if step.kind == MoveKind::Rapid && is_upright(&end) && !is_upright(&from) {
+                poses.push(end);
+            }
         }
         poses.push(end);
     }
     poses
+}
+
+fn is_upright(pose: &Pose) -> bool {
+    pose.direction[2] >= 1.0 - UPRIGHT
 }
 
 /// The poses along a move's arc, without its ends.
@@ -117,7 +130,10 @@ fn refined(axes: &RotaryAxes, poses: &[Pose], limits: Limits) -> Vec<Pose> {
     for pair in poses.windows(2) {
         if is_off(axes, [&pair[0], &pair[1]], limits) {
             let direction = unit(between(pair[0].direction, pair[1].direction, 0.5));
-            refined.push(Pose { tip: between(pair[0].tip, pair[1].tip, 0.5), direction, ..pair[1] });
+            // a free axis turns evenly over the move
+            let middle = |i: usize| Some(f64::midpoint(pair[0].held[i]?, pair[1].held[i]?));
+            let held = [middle(0), middle(1)];
+            refined.push(Pose { tip: between(pair[0].tip, pair[1].tip, 0.5), direction, held, ..pair[1] });
         }
         refined.push(pair[1]);
     }

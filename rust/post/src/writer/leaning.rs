@@ -41,6 +41,7 @@ impl Poster<'_> {
             tip: step.end.tip,
             direction: UnitAxis::UP.vector(),
             angles: [0.0; 2],
+            held: [None; 2],
             is_fresh: true,
         })
     }
